@@ -784,6 +784,24 @@ DELAM_API int32_t delam_problem_pattern_count(const delam_problem *problem, int6
 /* Returns the name of a pattern; NULL on error.
  * [null result; owns result the problem; status argument; since 0.1] */
 DELAM_API const char *delam_problem_pattern_name(const delam_problem *problem, int64_t pattern);
+/* Returns the value of an option of the problem, as text, e.g. "energetic" for `solution`. NULL for an unknown key.
+ * [null result; owns result until the next call with this problem; status argument; since 0.1] */
+DELAM_API const char *delam_problem_option(const delam_problem *problem, const char *key);
+/* Returns the number of values that a solver of this problem has in *count, as delam_solver_value_count does.
+ * [null none; status argument; since 0.1] */
+DELAM_API int32_t delam_problem_value_count(const delam_problem *problem, int64_t *count);
+/* Returns the key and the alias of one of these values, by index from 0. alias "": none.
+ * [null key, alias; owns key until the next call with this problem, alias static; status argument; since 0.1] */
+DELAM_API int32_t delam_problem_value_info(const delam_problem *problem, int64_t index, const char **key,
+                                           const char **alias);
+/* Plans an analysis without beginning it: checks the problem, chooses the operator as delam_solver_create would,
+ * assembles and analyses the bodies, but factors nothing. This takes a small part of the time and of the memory of
+ * delam_solver_create in large scenes. *plan: the text of delam_solver_plan; with FETI the sizes in it are predictions.
+ * *setup: seconds of the factorisations before the first step, at the nominal rate that the plan states. *memory: bytes
+ * at the predicted peak of an analysis.
+ * [unit setup 1, memory 1; null plan, setup, memory; owns plan until the next call with this problem; status
+ * cancelled, mesh, problem, numerical; source src/reduction/README.md; since 0.1] */
+DELAM_API int32_t delam_problem_plan(delam_problem *problem, const char **plan, double *setup, double *memory);
 
 /* ---- solver: operator, state, history ---------------------------------------------------------------------------- */
 

@@ -92,6 +92,9 @@ struct delam_problem : delam::Handle<delam::magic_problem, delam::Problem> {
         delam::SparseMatrix matrix;
     };
     mutable BodyMatrix assembled;
+    // Texts that delam_problem_option, delam_problem_value_info and delam_problem_plan return.
+    mutable std::string option, value_key;
+    std::string plan_words;
 };
 struct delam_solver : delam::Handle<delam::magic_solver, delam::Solver> {
     std::vector<std::string> value_names;  // texts returned by delam_solver_value_name and delam_solver_plan

@@ -19,8 +19,17 @@ constexpr const char* left_out = "left out";
 // Operations of Go and Gc at a mixity: two interaction criteria, each a few exponentials and logarithms of about 20.
 constexpr double mixity_operations = 200.0;
 
-void add_realisations(std::vector<PlanItem>& items, const Solver& solver) {
-    const ReductionChoice& choice = solver.reduction();
+// What the items are made from.
+struct Basis {
+    const Problem& problem;
+    const ReductionChoice& choice;
+    std::string description;  // of the operator
+    std::span<const std::uint8_t> prescribed;
+    const std::vector<std::shared_ptr<const GradientTerm>>& gradient;
+};
+
+void add_realisations(std::vector<PlanItem>& items, const Basis& basis) {
+    const ReductionChoice& choice = basis.choice;
     const std::string words = text(choice.forced ? "set by " : "chosen by predicted cost and memory: ", choice.reason);
     const struct {
         Realisation realisation;
@@ -40,8 +49,8 @@ void add_realisations(std::vector<PlanItem>& items, const Solver& solver) {
     const bool both = rival != nullptr && choice.own().setup > 0.0;
     for (const auto& [realisation, subject, name, cost] : all) {
         const bool own = realisation == choice.realisation;
-        const std::string built = text(words, "; ", solver.jump_operator().description(), "; cost of an analysis of ",
-                                       nominal_steps, " steps");
+        const std::string built =
+            text(words, "; ", basis.description, "; cost of an analysis of ", nominal_steps, " steps");
         const std::string left = text(other, " is used instead, ", words,
                                       cost.setup > 0.0 ? "" : "; the cost of this one was not predicted");
         items.push_back({subject, own ? used : left_out, own ? built : left, own ? cost.analysis() : 0.0,
@@ -60,20 +69,20 @@ void add_realisations(std::vector<PlanItem>& items, const Solver& solver) {
                      bytes, both ? rival->bytes - bytes : 0.0, "byte"});
 }
 
-void add_reduction(std::vector<PlanItem>& items, const Solver& solver) {
-    add_realisations(items, solver);
-    const ReductionChoice& choice = solver.reduction();
+void add_reduction(std::vector<PlanItem>& items, const Basis& basis) {
+    add_realisations(items, basis);
+    const ReductionChoice& choice = basis.choice;
     const bool feti = choice.realisation == Realisation::feti;
     const std::string name = choice.condensed() ? "the condensed operator" : "the iterated operator";
     if (feti)
         items.push_back(
             {"subdomains", used,
-             text(choice.subdomains, solver.problem().options.subdomains > 0 ? " asked for" : " chosen by size",
+             text(choice.subdomains, basis.problem.options.subdomains > 0 ? " asked for" : " chosen by size",
                   ", predicted boundary ", std::round(choice.boundary), " DOFs each"),
              0.0, 0.0, "-"});
     else
         items.push_back({"subdomains", left_out, text(name, " factors all bodies at once"), 0.0, 0.0, "-"});
-    const std::int64_t own = solver.problem().options.threads, blas = blas_threads();
+    const std::int64_t own = basis.problem.options.threads, blas = blas_threads();
     const std::string of_blas = blas > 0 ? text(blas) : std::string("an unknown number");
     items.push_back({"threads", own > 1 && feti ? used : left_out,
                      !feti ? text(name, " uses those of the BLAS alone, ", of_blas,
@@ -92,23 +101,24 @@ void add_reduction(std::vector<PlanItem>& items, const Solver& solver) {
 }
 
 // Pairs of an interface whose normal jump is determined by the constraints alone.
-std::int64_t prescribed_pairs(const Solver& solver, std::int64_t first, std::int64_t pairs) {
-    const auto rows = solver.jump_operator().prescribed_rows();
-    const std::int64_t dim = solver.problem().mesh->dimension();
+std::int64_t prescribed_pairs(const Basis& basis, std::int64_t first, std::int64_t pairs) {
+    const auto rows = basis.prescribed;
+    const std::int64_t dim = basis.problem.mesh->dimension();
     std::int64_t found = 0;
-    for (std::int64_t p = first; p < first + pairs; ++p) found += rows[static_cast<std::size_t>(p * dim)] != 0 ? 1 : 0;
+    for (std::int64_t p = first; p < first + pairs; ++p)
+        found += basis.prescribed[static_cast<std::size_t>(p * dim)] != 0 ? 1 : 0;
     return found;
 }
 
 // Nothing else proves in advance that a pair stays open: whether it closes depends on the load path and on the damage.
-PlanItem contact_of(const Solver& solver, std::size_t interface, std::int64_t first) {
-    const Problem& problem = solver.problem();
+PlanItem contact_of(const Basis& basis, std::size_t interface, std::int64_t first) {
+    const Problem& problem = basis.problem;
     const std::int64_t pairs = problem.mesh->interfaces()[interface].pair_count();
     const auto all = static_cast<double>(pairs);
     const std::string subject = text("contact of interface ", interface);
     if (problem.interfaces[interface].bonded)
         return {subject, left_out, "bonded permanently: it neither opens nor closes", 0.0, all, "comparison/solve"};
-    const std::int64_t prescribed = prescribed_pairs(solver, first, pairs);
+    const std::int64_t prescribed = prescribed_pairs(basis, first, pairs);
     if (problem.options.contact == "always")
         return {
             subject, used, text("option contact = always: all ", pairs, " pairs are tested in every active-set step"),
@@ -126,8 +136,8 @@ PlanItem contact_of(const Solver& solver, std::size_t interface, std::int64_t fi
             "comparison/solve"};
 }
 
-PlanItem mixity_of(const Solver& solver, std::size_t interface) {
-    const Problem& problem = solver.problem();
+PlanItem mixity_of(const Basis& basis, std::size_t interface) {
+    const Problem& problem = basis.problem;
     const double work = mixity_operations * static_cast<double>(problem.mesh->interfaces()[interface].pair_count());
     const std::string subject = text("mixity of interface ", interface);
     const char* unit = "flop/step";
@@ -150,9 +160,9 @@ PlanItem mixity_of(const Solver& solver, std::size_t interface) {
 // Factorisations of a coupled damage step, as counted in analyses.
 constexpr double nominal_factorisations = 5.0;
 
-PlanItem gradient_term(const Solver& solver) {
+PlanItem gradient_term(const Basis& basis) {
     const char* unit = "flop/damage step";
-    const auto& terms = solver.pairs().gradient;
+    const auto& terms = basis.gradient;
     if (terms.empty())
         return {"gradient term", left_out, "no law has kappa > 0: the damage step is pointwise", 0.0, 0.0, unit};
     std::string reason =
@@ -168,33 +178,29 @@ PlanItem gradient_term(const Solver& solver) {
     return {"gradient term", used, reason, work, 0.0, unit};
 }
 
-std::string figure(double value, const std::string& unit) { return unit == "-" ? text(value) : text(value, " ", unit); }
-
-}  // namespace
-
-std::vector<PlanItem> Solver::plan() const {
+std::vector<PlanItem> items_of(const Basis& basis) {
     std::vector<PlanItem> items;
-    add_reduction(items, *this);
+    add_reduction(items, basis);
     std::int64_t first = 0;
-    for (std::size_t i = 0; i < problem_.interfaces.size(); ++i) {
-        items.push_back(contact_of(*this, i, first));
-        items.push_back(mixity_of(*this, i));
-        first += problem_.mesh->interfaces()[i].pair_count();
+    for (std::size_t i = 0; i < basis.problem.interfaces.size(); ++i) {
+        items.push_back(contact_of(basis, i, first));
+        items.push_back(mixity_of(basis, i));
+        first += basis.problem.mesh->interfaces()[i].pair_count();
     }
-    items.push_back(gradient_term(*this));
-    const Options& options = problem_.options;
+    items.push_back(gradient_term(basis));
+    const Options& options = basis.problem.options;
     const bool plain = options.minimisation == "alternate";
     items.push_back({"acceleration of the minimisation", plain ? left_out : used,
                      text(plain ? "option minimisation = alternate"
-                          : pairs().gradient.empty()
+                          : basis.gradient.empty()
                               ? "Newton steps and debonding moves in the process zone, each checked by the energy"
                               : "extrapolated alternate minimisation, each step checked by the energy",
                           "; same stopping test: delta = ", options.damage_tolerance, ", at most ",
                           options.minimisation_limit, " iterations per step"),
                      0.0, 0.0, "-"});
-    const double dofs = static_cast<double>(problem_.mesh->node_count() * problem_.mesh->dimension());
+    const double dofs = static_cast<double>(basis.problem.mesh->node_count() * basis.problem.mesh->dimension());
     const double recovery =
-        4.0 * (reduction().factor_entries > 0.0 ? reduction().factor_entries : dofs * std::log2(dofs + 2.0));
+        4.0 * (basis.choice.factor_entries > 0.0 ? basis.choice.factor_entries : dofs * std::log2(dofs + 2.0));
     items.push_back({"displacements and stresses inside the bodies", left_out,
                      "recovered on request only: the fields displacement and stress and the kkt_ values ask for them",
                      0.0, recovery, "flop/step"});
@@ -205,12 +211,30 @@ std::vector<PlanItem> Solver::plan() const {
                          : std::string("option solution = local: critical points reached from the state before"),
                      0.0, 0.0, "-"});
     items.push_back(
-        {"backtracking", keeps_past() ? used : left_out,
-         keeps_past() ? text("option backtracking = ", options.backtracking, ", eta = ", options.backtracking_tolerance,
-                             ", at most ", options.backtracking_limit, " returns per step")
-                      : std::string("the two-sided energy estimate is reported, but causes no return to earlier steps"),
+        {"backtracking", keeps_past(options) ? used : left_out,
+         keeps_past(options)
+             ? text("option backtracking = ", options.backtracking, ", eta = ", options.backtracking_tolerance,
+                    ", at most ", options.backtracking_limit, " returns per step")
+             : std::string("the two-sided energy estimate is reported, but causes no return to earlier steps"),
          0.0, 0.0, "-"});
     return items;
+}
+
+std::string figure(double value, const std::string& unit) { return unit == "-" ? text(value) : text(value, " ", unit); }
+
+}  // namespace
+
+std::vector<PlanItem> Solver::plan() const {
+    return items_of(
+        {problem_, reduction(), jump_operator().description(), jump_operator().prescribed_rows(), pairs().gradient});
+}
+
+Forecast forecast(const Problem& problem, Monitor& monitor) {
+    validate(problem, [&monitor] { monitor.progress("check", 0, 0); });
+    const Design design = design_operator(problem, monitor);
+    const ReductionCost& cost = design.choice.own();
+    return {items_of({problem, design.choice, design.description, design.prescribed, gradient_terms(problem)}),
+            cost.setup / nominal_rate, cost.bytes};
 }
 
 std::string plan_in_words(const std::vector<PlanItem>& items) {

@@ -5,6 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "base/monitor.hpp"
+#include "scene/problem.hpp"
+
 namespace delam {
 
 struct PlanItem {
@@ -15,6 +18,15 @@ struct PlanItem {
     double saving = 0.0;  // predicted, compared with the other decision
     std::string unit;     // of both
 };
+
+// Of an analysis that has not begun.
+struct Forecast {
+    std::vector<PlanItem> plan;
+    double setup = 0.0;   // s, nominal, of the factorisations before the first step
+    double memory = 0.0;  // bytes at the peak of an analysis
+};
+// Checks, assembles and analyses, but factors nothing.
+Forecast forecast(const Problem& problem, Monitor& monitor);
 
 // One line each: subject: decision, reason (cost ..., saves ...)
 std::string plan_in_words(const std::vector<PlanItem>& items);

@@ -102,8 +102,7 @@ void Solver::require_nothing_pending(double time) const {
     if (!std::isfinite(time)) fail(DELAM_ERROR_ARGUMENT, "time = ", time, " must be finite");
 }
 
-bool Solver::keeps_past() const {
-    const Options& options = problem_.options;
+bool keeps_past(const Options& options) {
     return options.backtracking == "on" || (options.backtracking == "auto" && options.solution == "energetic");
 }
 

@@ -24,6 +24,9 @@ struct Outcome {
     std::string text;
 };
 
+// Whether an analysis keeps earlier steps to return to.
+bool keeps_past(const Options& options);
+
 class Solver {
 public:
     // The monitor must outlive the solver.
@@ -65,7 +68,7 @@ public:
                  Record record);
     // The scene at the solver's creation.
     const std::vector<Pattern>& first_patterns() const { return first_patterns_; }
-    bool keeps_past() const;
+    bool keeps_past() const { return delam::keeps_past(problem_.options); }
     const PairLaws& pairs() const { return stepper_.pairs(); }
     const ContactScene& contact() const { return stepper_.contact(); }
     // Recovered on request, [mesh DOFs]; kept until the state changes.

@@ -99,6 +99,14 @@ SparseMatrix BodySystem::transformed(const Poll& poll) const {
     return with_diagonal(congruence(stiffness_, variables_.transform, poll), variables_.leading);
 }
 
+AssembledBodies assemble_bodies(const Problem& problem, Monitor& monitor) {
+    const Poll assembling = [&monitor] { monitor.progress("assemble", 0, 0); };
+    call_if_set(assembling);
+    AssembledBodies bodies{std::make_unique<BodySystem>(problem, assembling), {}};
+    bodies.transformed = bodies.system->transformed(assembling);
+    return bodies;
+}
+
 StrainLoads BodySystem::find_loads() {
     StrainLoads strained = strain_loads(problem_);
     const std::size_t patterns = problem_.patterns.size();

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -52,5 +53,12 @@ private:
     JumpVariables variables_;
     std::vector<std::vector<double>> force_;
 };
+
+// The bodies and T^T K T, which the realisations that keep the bodies whole begin with.
+struct AssembledBodies {
+    std::unique_ptr<BodySystem> system;
+    SparseMatrix transformed;
+};
+AssembledBodies assemble_bodies(const Problem& problem, Monitor& monitor);
 
 }  // namespace delam

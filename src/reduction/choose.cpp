@@ -212,20 +212,41 @@ void choose(ReductionChoice& choice) {
 
 namespace {
 
-ChosenOperator make_iterated(ChosenOperator chosen, const Problem& problem, Monitor& monitor) {
-    auto iterated = std::make_unique<Iterated>(problem, monitor);
-    chosen.choice.iteration = predict_iterated(iterated->size());
-    chosen.choice.factor_entries = iterated->size().factor.entries;
-    chosen.op = std::move(iterated);
-    return chosen;
+Design of_iterated(Design design, std::unique_ptr<Iterated> iterated) {
+    design.choice.iteration = predict_iterated(iterated->size());
+    design.choice.factor_entries = iterated->size().factor.entries;
+    design.description = iterated->description();
+    design.prescribed.assign(iterated->prescribed_rows().begin(), iterated->prescribed_rows().end());
+    design.op = std::move(iterated);
+    return design;
+}
+
+Design of_feti(Design design, const Problem& problem, Monitor& monitor) {
+    design.description = text("total FETI: ", design.choice.subdomains, " subdomains, ", problem.jump_count(),
+                              " jump multipliers, preconditioner ", problem.options.preconditioner);
+    design.prescribed =
+        prescribed_rows(make_jump_variables(problem, [&monitor] { monitor.progress("assemble", 0, 0); }));
+    return design;
+}
+
+Design of_condensed(Design design, std::unique_ptr<Bulk> bulk) {
+    design.description = Condensed::description_of(*bulk);
+    design.prescribed = prescribed_rows(bulk->system().variables());
+    design.bulk = std::move(bulk);
+    return design;
 }
 
 }  // namespace
 
-ChosenOperator choose_operator(const Problem& problem, Monitor& monitor) {
+Design::Design() = default;
+Design::Design(Design&&) noexcept = default;
+Design& Design::operator=(Design&&) noexcept = default;
+Design::~Design() = default;
+
+Design design_operator(const Problem& problem, Monitor& monitor) {
     const Options& options = problem.options;
-    ChosenOperator chosen;
-    ReductionChoice& choice = chosen.choice;
+    Design design;
+    ReductionChoice& choice = design.choice;
     choice.unknowns = problem.jump_count();
     choice.subdomains = feti_subdomains(problem);
     choice.feti = predict_feti(problem, choice.subdomains, choice.boundary);
@@ -239,19 +260,18 @@ ChosenOperator choose_operator(const Problem& problem, Monitor& monitor) {
     if (options.reduction == "feti" || (options.reduction == "auto" && options.subdomains > 0)) {
         force(Realisation::feti, options.reduction == "feti" ? "option reduction = feti"
                                                              : text("option subdomains = ", options.subdomains));
-        chosen.op = std::make_unique<Feti>(problem, monitor);
-        return chosen;
+        return of_feti(std::move(design), problem, monitor);
     }
     if (options.reduction == "iterated") {
         force(Realisation::iterated, "option reduction = iterated");
-        return make_iterated(std::move(chosen), problem, monitor);
+        return of_iterated(std::move(design), std::make_unique<Iterated>(problem, monitor));
     }
     if (!choice.condensation.possible) {
         if (options.reduction == "condensed")
             fail(DELAM_ERROR_PROBLEM, "option 'reduction' = 'condensed': the condensed operator would have ",
                  choice.unknowns, " rows, allowed: up to ", dense_limit, "; iterated and feti have no such limit");
         choose(choice);
-        return make_iterated(std::move(chosen), problem, monitor);
+        return of_iterated(std::move(design), std::make_unique<Iterated>(problem, monitor));
     }
     auto bulk = std::make_unique<Bulk>(problem, monitor);
     choice.unknowns = bulk->trailing();
@@ -263,13 +283,17 @@ ChosenOperator choose_operator(const Problem& problem, Monitor& monitor) {
     if (options.reduction == "condensed")
         force(Realisation::condensed, choice.condensed() ? "option reduction = condensed"
                                                          : "option reduction = condensed, although " + choice.reason);
-    if (!choice.condensed()) {
-        bulk.reset();
-        return make_iterated(std::move(chosen), problem, monitor);
-    }
-    bulk->condense(monitor);
-    chosen.op = std::make_unique<Condensed>(std::move(bulk), problem, monitor);
-    return chosen;
+    if (choice.condensed()) return of_condensed(std::move(design), std::move(bulk));
+    AssembledBodies assembled = std::move(*bulk).release();
+    bulk.reset();  // its analysis is of another order of elimination
+    return of_iterated(std::move(design), std::make_unique<Iterated>(problem, std::move(assembled), monitor));
+}
+
+std::unique_ptr<JumpOperator> build_operator(Design& design, const Problem& problem, Monitor& monitor) {
+    if (design.op != nullptr) return std::move(design.op);
+    if (design.bulk == nullptr) return std::make_unique<Feti>(problem, monitor);
+    design.bulk->condense(monitor);
+    return std::make_unique<Condensed>(std::move(design.bulk), problem, monitor);
 }
 
 }  // namespace delam

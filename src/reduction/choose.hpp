@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "base/monitor.hpp"
 #include "reduction/jump_operator.hpp"
@@ -69,10 +70,21 @@ ReductionCost predict_feti(const Problem& problem, std::int64_t subdomains, doub
 // What the predictions of the condensed and the iterated operator say. Pure: for tests.
 void choose(ReductionChoice& choice);
 
-struct ChosenOperator {
-    std::unique_ptr<JumpOperator> op;
+// The operator of a scene before anything is factored: its choice, and what has been assembled and analysed for it.
+struct Design {
     ReductionChoice choice;
+    std::string description;               // of the operator, for people
+    std::vector<std::uint8_t> prescribed;  // [jump rows] 1: the constraints alone determine the jump
+    std::unique_ptr<Bulk> bulk;            // of the condensed operator
+    std::unique_ptr<JumpOperator> op;      // the iterated operator, which factors nothing before its first solve
+
+    Design();
+    Design(Design&&) noexcept;
+    Design& operator=(Design&&) noexcept;
+    ~Design();
 };
-ChosenOperator choose_operator(const Problem& problem, Monitor& monitor);
+Design design_operator(const Problem& problem, Monitor& monitor);
+// Factors what must be factored beforehand. Consumes what the design holds; its choice stays.
+std::unique_ptr<JumpOperator> build_operator(Design& design, const Problem& problem, Monitor& monitor);
 
 }  // namespace delam

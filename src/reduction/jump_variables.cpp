@@ -365,4 +365,45 @@ std::vector<SolvedEquation> solve_equations(const JumpVariables& variables) {
     return solved;
 }
 
+std::vector<JumpRow> express_rows(const JumpVariables& variables, std::span<const SolvedEquation> solved) {
+    const std::size_t patterns = variables.lift.size();
+    std::map<std::int64_t, const SolvedEquation*> of_jump;
+    for (const SolvedEquation& equation : solved)
+        if (equation.pivot >= variables.kept) of_jump.emplace(equation.pivot - variables.kept, &equation);
+    std::vector<JumpRow> rows;
+    rows.reserve(variables.row.size());
+    std::map<std::int64_t, double> terms;
+    for (std::size_t r = 0; r < variables.row.size(); ++r) {
+        JumpRow row{{}, variables.row_offset[r]};
+        terms.clear();
+        for (const auto& [jump, n] : variables.row[r]) {
+            const auto at = of_jump.find(jump);
+            if (at == of_jump.end()) {
+                terms[variables.leading + variables.kept + jump] += n;
+                continue;
+            }
+            for (const auto& [t, c] : at->second->entries) terms[variables.leading + t] += n * c;
+            row.offset.resize(patterns, 0.0);
+            for (std::size_t p = 0; p < patterns; ++p) row.offset[p] += n * at->second->prescribed[p];
+        }
+        for (const auto& [i, n] : terms)
+            if (std::abs(n) > dependent_equation) row.unknowns.emplace_back(i, n);
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+std::int64_t free_jumps(const JumpVariables& variables) {
+    const std::vector<SolvedEquation> solved = solve_equations(variables);
+    return variables.jumps - std::count_if(solved.begin(), solved.end(),
+                                           [&](const SolvedEquation& e) { return e.pivot >= variables.kept; });
+}
+
+std::vector<std::uint8_t> prescribed_rows(const JumpVariables& variables) {
+    std::vector<std::uint8_t> prescribed;
+    for (const JumpRow& row : express_rows(variables, solve_equations(variables)))
+        prescribed.push_back(row.prescribed() ? 1 : 0);
+    return prescribed;
+}
+
 }  // namespace delam

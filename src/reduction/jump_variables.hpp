@@ -13,6 +13,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -60,5 +61,12 @@ struct SolvedEquation {
 };
 // Drops dependent equations.
 std::vector<SolvedEquation> solve_equations(const JumpVariables& variables);
+// All jump rows in variables v, with the jumps that these equations determine replaced, so that a row which the
+// constraints prescribe has none.
+std::vector<JumpRow> express_rows(const JumpVariables& variables, std::span<const SolvedEquation> solved);
+// Jumps that no equation determines.
+std::int64_t free_jumps(const JumpVariables& variables);
+// [jump rows] 1: the constraints alone determine the jump.
+std::vector<std::uint8_t> prescribed_rows(const JumpVariables& variables);
 
 }  // namespace delam

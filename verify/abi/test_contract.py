@@ -326,6 +326,9 @@ CALLS = {
     "problem_eigenstrain_energy": (full, lambda s: [s.problem, 9, room(c_double, 9)]),
     "problem_factors": (full, lambda s: [s.problem, 0.5, 3, room(c_double, 3)]),
     "problem_pattern_count": (full, lambda s: [s.problem, whole(0)]),
+    "problem_value_count": (full, lambda s: [s.problem, whole(0)]),
+    "problem_value_info": (full, lambda s: [s.problem, 0, c_void_p(), c_void_p()]),
+    "problem_plan": (full, lambda s: [s.problem, c_void_p(), real(0), real(0)]),
     "solver_create": (full, lambda s: [s.problem, 0.0, c_void_p()]),
     "solver_advance": (full, lambda s: [s.solver, 0.5]),
     "solver_commit": (lambda: full().marched(), lambda s: [s.solver]),
@@ -369,7 +372,7 @@ TEXTS = {
     "version": lambda: [], "commit": lambda: [], "status_name": lambda: [99], "abi": lambda: [],
     "option_count": lambda: [], "cell_type_count": lambda: [], "blas_threads": lambda: [],
     "law_parameter_count": lambda: [None], "law_kind_count": lambda: [], "context_message": None,
-    "problem_pattern_name": None, "solver_value_name": None, "solver_plan": None, "solver_option": None,
+    "problem_pattern_name": None, "problem_option": None, "solver_value_name": None, "solver_plan": None, "solver_option": None,
     "solver_searched": None,
 }
 

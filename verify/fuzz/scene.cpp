@@ -56,12 +56,12 @@ void check(const std::string& file) {
     const cli::Model model = cli::build(cli::new_context(), scene);
     bool converged = true;
     const cli::Solver solver = cli::new_solver(model, scene, converged);
-    const cli::History history(model, solver.get(), scene);
+    const cli::History history(model, scene);
     expect(!history.header().empty(), "a history has a header", "history");
     (void)history.row(solver.get());
     (void)cli::process_zones(model);
     (void)cli::notes_of(scene);
-    (void)cli::resolution_warnings(model, solver.get());
+    (void)cli::resolution_warnings(model);
     (void)cli::warnings_of(model, scene);
     expect(*delam_solver_plan(solver.get()) != '\0', "a plan", "delam_solver_plan");
 }

@@ -19,7 +19,7 @@ Closing closing_of(const Model& model, const delam_solver* solver, const Scene& 
     out.estimate_tolerance = option_number(solver, "backtracking_tolerance");
     out.estimate_violated = violated_steps(rows, out.estimate_tolerance);
     out.estimate_hollow = hollow_steps(rows);
-    out.front_unresolved = unresolved_steps(rows, model, solver, scene);
+    out.front_unresolved = unresolved_steps(rows, model, scene);
     out.rotation_max = rotation_max;
     return out;
 }

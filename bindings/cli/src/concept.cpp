@@ -7,11 +7,11 @@
 
 namespace cli {
 
-Concept concept_of(const delam_solver* solver) {
+Concept concept_of(const delam_problem* problem) {
     Concept out;
     for (const char* key : {"solution", "mixity_rule", "backtracking", "backtracking_tolerance", "jump_tolerance",
                             "step_control", "mixity_step_tolerance"})
-        if (const char* value = delam_solver_option(solver, key)) out.emplace_back(key, value);
+        if (const char* value = delam_problem_option(problem, key)) out.emplace_back(key, value);
     return out;
 }
 

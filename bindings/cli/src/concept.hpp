@@ -14,8 +14,8 @@ namespace cli {
 
 using Concept = std::vector<std::pair<std::string, std::string>>;  // option, value
 
-// The options that decide which solution is computed, as the solver has them; `solution` and `mixity_rule` come first.
-Concept concept_of(const delam_solver* solver);
+// The options that decide which solution is computed, as the problem has them; `solution` and `mixity_rule` come first.
+Concept concept_of(const delam_problem* problem);
 // "solution = local, mixity_rule = frozen, ..."
 std::string concept_text(const Concept& named);
 

@@ -30,16 +30,14 @@ std::string title_of(const std::string& value, const Scene& scene, std::size_t p
 std::string load_title(const Scene& scene, std::size_t pattern) { return title_of("load", scene, pattern); }
 std::string reaction_title(const Scene& scene, std::size_t pattern) { return title_of("reaction", scene, pattern); }
 
-History::History(const Model& model, const delam_solver* solver, const Scene& scene)
-    : model_(model), scene_(scene), context_(model.context.get()) {
+History::History(const Model& model, const Scene& scene) : model_(model), scene_(scene), context_(model.context.get()) {
     std::int64_t count = 0;
-    call(context_, delam_solver_value_count(solver, &count), std::string("history"));
+    call(context_, delam_problem_value_count(model.problem.get(), &count), std::string("history"));
     std::vector<std::string> known, aliases;
     for (std::int64_t i = 0; i < count; ++i) {
-        if (const char* name = delam_solver_value_name(solver, i)) known.emplace_back(name);
-        const char* alias = "";
-        call(context_, delam_solver_value_info(solver, i, &alias, nullptr, nullptr, nullptr, nullptr, nullptr),
-             std::string("history"));
+        const char *name = "", *alias = "";
+        call(context_, delam_problem_value_info(model.problem.get(), i, &name, &alias), std::string("history"));
+        known.emplace_back(name);
         if (*alias != '\0') aliases.emplace_back(alias);
     }
     const auto knows = [&](const std::string& key) {
@@ -84,7 +82,7 @@ History::History(const Model& model, const delam_solver* solver, const Scene& sc
         if (std::none_of(columns_.begin(), columns_.end(), same_key)) add(key, key);
     }
     // Words after the numbers: a row that is copied elsewhere still states its solution concept.
-    for (const auto& [key, value] : concept_of(solver))
+    for (const auto& [key, value] : concept_of(model.problem.get()))
         if (key == "solution" || key == "mixity_rule") add(key, "", value);
 }
 

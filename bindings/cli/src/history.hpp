@@ -19,8 +19,8 @@ std::string reaction_title(const Scene& scene, std::size_t pattern);
 
 class History {
 public:
-    // Throws SceneFailure if [output] columns names a value that the solver does not have.
-    History(const Model& model, const delam_solver* solver, const Scene& scene);
+    // Throws SceneFailure if [output] columns names a value that a solver of the problem does not have.
+    History(const Model& model, const Scene& scene);
 
     [[nodiscard]] std::string header() const;
     // Row of the committed state, or of the earlier step being read. Numbers have 17 significant digits, so that

@@ -39,8 +39,8 @@ bool has_onset(const std::string& kind) {
     return false;
 }
 
-bool energetic(const delam_solver* solver) {
-    const char* solution = delam_solver_option(solver, "solution");
+bool energetic(const Model& model) {
+    const char* solution = delam_problem_option(model.problem.get(), "solution");
     return solution != nullptr && std::string_view(solution) == "energetic";
 }
 
@@ -57,9 +57,9 @@ std::vector<std::string> process_zones(const Model& model) {
     return out;
 }
 
-std::vector<std::string> resolution_warnings(const Model& model, const delam_solver* solver) {
+std::vector<std::string> resolution_warnings(const Model& model) {
     std::vector<std::string> out;
-    if (energetic(solver)) return out;
+    if (energetic(model)) return out;
     for (std::size_t i = 0; i < model.interfaces.size(); ++i) {
         const Prediction zone = prediction(model, i);
         if (!(zone.length > 0) || zone.length >= resolving_pairs * zone.spacing) continue;
@@ -72,13 +72,12 @@ std::vector<std::string> resolution_warnings(const Model& model, const delam_sol
     return out;
 }
 
-std::vector<std::int64_t> unresolved_steps(const Rows& rows, const Model& model, const delam_solver* solver,
-                                           const Scene& scene) {
+std::vector<std::int64_t> unresolved_steps(const Rows& rows, const Model& model, const Scene& scene) {
     std::vector<std::int64_t> out;
     const auto softens = [&scene](const InterfaceData& data) {
         return !data.bonded && !data.contact && has_onset(scene.laws[data.law].kind);
     };
-    if (energetic(solver) || std::none_of(model.interfaces.begin(), model.interfaces.end(), softens)) return out;
+    if (energetic(model) || std::none_of(model.interfaces.begin(), model.interfaces.end(), softens)) return out;
     for (std::size_t i = 1; i < rows.size(); ++i) {
         const auto best = [&](const char* key) {
             return std::max(number_of(rows[i - 1], key), number_of(rows[i], key));

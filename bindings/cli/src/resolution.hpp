@@ -15,11 +15,10 @@ namespace cli {
 // One line for each interface with a softening law: predicted process zone and the pairs in it.
 std::vector<std::string> process_zones(const Model& model);
 // Interfaces with fewer than 3 pairs, with the required spacing. None for energetic solutions.
-std::vector<std::string> resolution_warnings(const Model& model, const delam_solver* solver);
+std::vector<std::string> resolution_warnings(const Model& model);
 // Steps in which a crack grew with fewer than 3 pairs in its process zone, before and after. None for energetic
 // solutions and for scenes whose laws do not soften.
-std::vector<std::int64_t> unresolved_steps(const Rows& rows, const Model& model, const delam_solver* solver,
-                                           const Scene& scene);
+std::vector<std::int64_t> unresolved_steps(const Rows& rows, const Model& model, const Scene& scene);
 std::string unresolved_line(const std::vector<std::int64_t>& steps);
 // "" below 0.1 rad.
 std::string rotation_line(double largest);

@@ -63,7 +63,7 @@ public:
           model_(model),
           solver_(std::move(solver)),
           folder_(folder),
-          history_(model, solver_.get(), scene),
+          history_(model, scene),
           fields_(folder.running(), scene),
           running_history_(folder.running() + "/history.csv"),
           running_state_(folder.running() + "/state.bin"),
@@ -136,7 +136,7 @@ public:
         outcome.started = origin_.started;
         outcome.problem_hash = state_.problem_hash;
         const double rotation_max = fields_.assemble(model_, scene_, static_cast<std::size_t>(state_.step),
-                                                     state_.problem_hash, concept_of(solver_.get()));
+                                                     state_.problem_hash, concept_of(model_.problem.get()));
         outcome.closing = closing_of(model_, solver_.get(), scene_, rows_->text(), rotation_max);
         outcome.closing_lines = closing_lines(outcome.closing, scene_);
         outcome.has_jumps = writes_jumps(outcome.closing.jumps, solver_.get());

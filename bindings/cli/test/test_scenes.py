@@ -14,6 +14,14 @@ scene = write(SCENE)
 code, out, _ = answer = start("check", scene)
 expect(code == 0 and "unknowns" in out and "left out" in out, "check prints the plan")
 expect(delam("check", scene) == answer, "a program that is already loaded prints the same")
+expect("initial state" not in out, "check solves a small scene")
+# Dense blocks of 2000 rows, more than 2 s at the nominal rate: planned, not factored.
+code, out, error = delam("check", scene, "--set", "geometry.h=120e-6", "--set", "solver.reduction=feti", "--set", "solver.subdomains=1")
+expect(code == 0 and re.search(r"\nFETI: used, .*total FETI: 2 subdomains.*\n(.*\n)*initial state: left out, .*predicted to take [\d.]+ s", out),
+       "check plans a large scene: " + out + error)
+code, _, error = delam("check", scene, "--set", "geometry.h=120e-6", "--set", "solver.reduction=feti", "--set", "solver.subdomains=1",
+                       "--set", "output.columns=[\"frnt\"]")
+expect(code == 2 and "did you mean" in error, "with its columns: " + error)
 code, out, _ = start("--version")
 expect(code == 0 and out.startswith("delam "), "--version")
 code, out, _ = start("--help")

@@ -822,6 +822,35 @@ module delam_raw
       integer(c_int64_t), value :: pattern
       type(c_ptr) :: text
     end function delam_problem_pattern_name
+    function delam_problem_option(problem, key) bind(c, name="delam_problem_option") result(text)
+      import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
+      type(c_ptr), value :: problem
+      character(kind=c_char), intent(in) :: key(*)
+      type(c_ptr) :: text
+    end function delam_problem_option
+    function delam_problem_value_count(problem, count) bind(c, name="delam_problem_value_count") result(status)
+      import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
+      type(c_ptr), value :: problem
+      integer(c_int64_t), intent(inout), optional :: count
+      integer(c_int32_t) :: status
+    end function delam_problem_value_count
+    function delam_problem_value_info(problem, index, key, alias) bind(c, name="delam_problem_value_info") &
+        result(status)
+      import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
+      type(c_ptr), value :: problem
+      integer(c_int64_t), value :: index
+      type(c_ptr), intent(inout), optional :: key
+      type(c_ptr), intent(inout), optional :: alias
+      integer(c_int32_t) :: status
+    end function delam_problem_value_info
+    function delam_problem_plan(problem, plan, setup, memory) bind(c, name="delam_problem_plan") result(status)
+      import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
+      type(c_ptr), value :: problem
+      type(c_ptr), intent(inout), optional :: plan
+      real(c_double), intent(inout), optional :: setup
+      real(c_double), intent(inout), optional :: memory
+      integer(c_int32_t) :: status
+    end function delam_problem_plan
     function delam_solver_create(problem, time, out) bind(c, name="delam_solver_create") result(status)
       import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
       type(c_ptr), value :: problem

@@ -155,6 +155,19 @@ class Interfaces(unittest.TestCase):
         self.assertGreater(length, 0.0)
 
 
+    def test_plan(self):
+        problem = support.double_cantilever()
+        plan = problem.plan()
+        solver = delam.Solver(problem)
+        self.assertEqual(plan.plan, solver.plan)
+        self.assertEqual(plan.memory, next(item.cost for item in solver.plan_items if item.subject == "memory"))
+        self.assertGreater(plan.setup, 0.0)
+        self.assertEqual(problem.option("solution"), solver.option("solution"))
+        self.assertEqual(problem.value_keys, list(solver.values))
+        with self.assertRaises(delam.ArgumentError):
+            problem.option("solutoin")
+
+
 class Scene(unittest.TestCase):
     def test_adhesion_by_mask_and_by_index(self):
         hashes = set()

@@ -55,6 +55,21 @@ bool within_zone(std::span<const double> candidate, std::span<const double> from
 
 }  // namespace
 
+std::vector<std::shared_ptr<const GradientTerm>> gradient_terms(const Problem& problem) {
+    std::vector<std::shared_ptr<const GradientTerm>> terms;
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < problem.interfaces.size(); ++i) {
+        const InterfaceGeometry& face = problem.mesh->interfaces()[i];
+        const InterfaceProperties& properties = problem.interfaces[i];
+        if (properties.law && properties.law->gradient > 0.0)
+            terms.push_back(std::make_shared<const GradientTerm>(
+                properties.law->gradient, surface_stiffness(*problem.mesh, face, properties.adhesion), face.weight,
+                first));
+        first += face.weight.size();
+    }
+    return terms;
+}
+
 Stepper::Stepper(const Problem& problem, Monitor& monitor) : problem_(problem), monitor_(monitor) {
     const Poll checking = [this] { monitor_.progress("check", 0, 0); };
     validate(problem_, checking);
@@ -68,10 +83,6 @@ Stepper::Stepper(const Problem& problem, Monitor& monitor) : problem_(problem), 
         const Law* law = properties.law ? &*properties.law : nullptr;  // none: bonded permanently, or contact alone
         if (law != nullptr && problem_.options.mixity == "auto" && !law->depends_on_mixity())
             fixed = law->toughness(0.0);
-        if (law != nullptr && law->gradient > 0.0)
-            pairs_.gradient.push_back(std::make_shared<const GradientTerm>(
-                law->gradient, surface_stiffness(mesh, mesh.interfaces()[i], properties.adhesion),
-                mesh.interfaces()[i].weight, pairs_.weight.size()));
         for (const double weight : mesh.interfaces()[i].weight) {
             pairs_.weight.push_back(weight);
             pairs_.law.push_back(law);
@@ -80,6 +91,7 @@ Stepper::Stepper(const Problem& problem, Monitor& monitor) : problem_(problem), 
         }
         initial_adhesion_.insert(initial_adhesion_.end(), properties.adhesion.begin(), properties.adhesion.end());
     }
+    pairs_.gradient = gradient_terms(problem_);
     graph_ = PairGraph(mesh.interfaces());
     contact_.level = contact_levels(mesh.interfaces());
     if (!problem_.eigenstrains.empty()) {
@@ -89,9 +101,8 @@ Stepper::Stepper(const Problem& problem, Monitor& monitor) : problem_(problem), 
     }
     rule_.emplace(pairs_, problem_.options.mixity_rule);
     call_if_set(checking);
-    ChosenOperator chosen = choose_operator(problem_, monitor_);
-    operator_ = std::move(chosen.op);
-    reduction_ = std::move(chosen.choice);
+    design_ = design_operator(problem_, monitor_);
+    operator_ = build_operator(design_, problem_, monitor_);
     std::vector<std::uint8_t> bonded_rows;
     for (const std::uint8_t b : contact_.bonded)
         bonded_rows.insert(bonded_rows.end(), static_cast<std::size_t>(mesh.dimension()), b);

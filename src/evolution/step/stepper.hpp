@@ -23,6 +23,9 @@
 
 namespace delam {
 
+// Of interfaces whose law has kappa > 0.
+std::vector<std::shared_ptr<const GradientTerm>> gradient_terms(const Problem& problem);
+
 class Stepper {
 public:
     // problem and monitor must outlive it. Checks the problem, and cuts and factors the bodies.
@@ -67,7 +70,9 @@ public:
     const JumpOperator& op() const { return *operator_; }
     // Gives the operator the memory that it had at a state.
     void recall(const State& state) { operator_->recall(state.memory); }
-    const ReductionChoice& reduction() const { return reduction_; }
+    const ReductionChoice& reduction() const { return design_.choice; }
+    // Its operators have been taken out.
+    const Design& design() const { return design_; }
     const std::vector<double>& initial_adhesion() const { return initial_adhesion_; }
     // Warns the host about the mixity of a step; true if it did.
     bool warn(const State& state) const { return rule_->warn_of_mixity_error(monitor_, state); }
@@ -108,7 +113,7 @@ private:
     PairGraph graph_;
     std::vector<double> initial_adhesion_;
     std::unique_ptr<JumpOperator> operator_;
-    ReductionChoice reduction_;
+    Design design_;
     Lift lift_;
     std::unique_ptr<JumpOperator> twin_;  // for the search, so that its zone does not disturb that of the analysis
     std::optional<Search> search_;

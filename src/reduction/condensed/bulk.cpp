@@ -16,15 +16,16 @@
 namespace delam {
 
 Bulk::Bulk(const Problem& problem, Monitor& monitor) : problem_(problem) {
-    const Poll assembling = [&monitor] { monitor.progress("assemble", 0, 0); },
-               analysing = [&monitor] { monitor.progress("analyse", 0, 0); };
-    call_if_set(assembling);
-    system_ = std::make_unique<BodySystem>(problem_, assembling);
-    transformed_ = system_->transformed(assembling);
+    const Poll analysing = [&monitor] { monitor.progress("analyse", 0, 0); };
+    AssembledBodies bodies = assemble_bodies(problem_, monitor);
+    system_ = std::move(bodies.system);
+    transformed_ = std::move(bodies.transformed);
     call_if_set(analysing);
     factor_ = std::make_unique<SparseCholesky>(transformed_, variables().trailing(), analysing);
     size_ = factor_->size();
 }
+
+AssembledBodies Bulk::release() && { return {std::move(system_), std::move(transformed_)}; }
 
 void Bulk::condense(Monitor& monitor) {
     const Poll condensing = [&monitor] { monitor.progress("condense", 0, 0); };

@@ -31,6 +31,8 @@ public:
     // Assembles and analyses; condense() computes the numbers.
     Bulk(const Problem& problem, Monitor& monitor);
     void condense(Monitor& monitor);
+    // Before condense(): what another realisation can go on with.
+    AssembledBodies release() &&;
 
     const std::vector<JumpRow>& rows() const { return rows_; }
     // The first jump row that equals unknown i. Others may equal it too (on opposite faces of a periodic cell).

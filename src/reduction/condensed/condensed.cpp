@@ -463,9 +463,10 @@ double Condensed::rounding_energy(std::span<const double> theta, const Response&
     return std::numeric_limits<double>::epsilon() * sum + bulk_->rounding_energy(theta);
 }
 
-std::string Condensed::description() const {
-    const double unknowns = static_cast<double>(always_.size());
-    return text("condensed: ", always_.size(), " unknown jumps, sparse factor with ", bulk_->size().entries,
+std::string Condensed::description_of(const Bulk& bulk) {
+    const std::int64_t jumps = free_jumps(bulk.system().variables());
+    const double unknowns = static_cast<double>(jumps);
+    return text("condensed: ", jumps, " unknown jumps, sparse factor with ", bulk.size().entries,
                 " entries, dense operator ", 8.0 * unknowns * unknowns / 1048576.0, " MiB");
 }
 

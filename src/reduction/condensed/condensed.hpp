@@ -31,7 +31,8 @@ public:
     std::unique_ptr<JumpOperator> twin() const override {
         return std::make_unique<Condensed>(bulk_, problem_, monitor_);
     }
-    std::string description() const override;
+    std::string description() const override { return description_of(*bulk_); }
+    static std::string description_of(const Bulk& bulk);
     std::vector<double> memory() const override;
     void recall(std::span<const double> memory) override;
     void require_memory(std::span<const double> memory) const override {

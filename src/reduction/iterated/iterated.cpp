@@ -25,11 +25,15 @@ bool any_of(std::span<const double> values) {
 }  // namespace
 
 Iterated::Iterated(const Problem& problem, Monitor& monitor)
+    : Iterated(problem, assemble_bodies(problem, monitor), monitor) {}
+
+Iterated::Iterated(const Problem& problem, AssembledBodies bodies, Monitor& monitor)
     : problem_(problem),
       monitor_(monitor),
-      bodies_(problem_, [&monitor] { monitor.progress("assemble", 0, 0); }),
+      system_(std::move(bodies.system)),
+      bodies_(*system_),
       strain_energy_(bodies_.find_loads().energy),
-      reanalysis_(bodies_, monitor) {}
+      reanalysis_(bodies_, std::move(bodies.transformed), monitor) {}
 
 // Loads of any size: what is solved has its largest force between 1/2 and 1.
 void Iterated::solve(const Springs& springs, std::span<const double> theta, Response& response) {

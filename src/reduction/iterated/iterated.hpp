@@ -23,7 +23,9 @@ struct IteratedSize {
 
 class Iterated final : public JumpOperator {
 public:
+    // `problem` must outlive the operator. Nothing is factored before the first solve.
     Iterated(const Problem& problem, Monitor& monitor);
+    Iterated(const Problem& problem, AssembledBodies bodies, Monitor& monitor);
     void solve(const Springs& springs, std::span<const double> theta, Response& response) override;
     std::vector<double> displacement(std::span<const double> theta, const Response& response) const override;
     std::vector<double> reaction(std::span<const double> theta, const Response& response) const override;
@@ -50,9 +52,10 @@ private:
     void respond(const Springs& springs, std::span<const double> theta, Response& response) const;
     void find_energies(std::span<const double> theta, std::span<const double> mu, Response& response) const;
 
-    const Problem problem_;
+    const Problem& problem_;
     Monitor& monitor_;
-    BodySystem bodies_;
+    std::unique_ptr<BodySystem> system_;
+    BodySystem& bodies_;
     std::vector<double> strain_energy_;  // [patterns][patterns] W of the eigenstrains
     Reanalysis reanalysis_;
     std::unique_ptr<IteratedZone> zone_;  // once it is asked for

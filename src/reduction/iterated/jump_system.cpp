@@ -66,30 +66,10 @@ SparseMatrix pair_links(const std::vector<JumpRow>& rows, std::size_t dim, std::
     return from_triplets(count, count, std::move(links));
 }
 
-// A row after all jumps that constraints express are replaced.
-JumpRow expressed_row(const JumpVariables& variables, std::size_t r,
-                      const std::map<std::int64_t, SolvedEquation>& of_jump, std::size_t patterns) {
-    JumpRow row{{}, variables.row_offset[r]};
-    std::map<std::int64_t, double> terms;
-    for (const auto& [jump, n] : variables.row[r]) {
-        const auto solved = of_jump.find(jump);
-        if (solved == of_jump.end()) {
-            terms[variables.kept + jump] += n;
-            continue;
-        }
-        for (const auto& [t, c] : solved->second.entries) terms[t] += n * c;
-        row.offset.resize(patterns, 0.0);
-        for (std::size_t p = 0; p < patterns; ++p) row.offset[p] += n * solved->second.prescribed[p];
-    }
-    for (const auto& [t, n] : terms)
-        if (std::abs(n) > dependent_equation) row.unknowns.emplace_back(variables.leading + t, n);
-    return row;
-}
-
 }  // namespace
 
-JumpSystem::JumpSystem(const BodySystem& bodies, const Poll& poll)
-    : patterns_(bodies.problem().patterns.size()), matrix_(bodies.transformed(poll)) {
+JumpSystem::JumpSystem(const BodySystem& bodies, SparseMatrix transformed, const Poll& poll)
+    : patterns_(bodies.problem().patterns.size()), matrix_(std::move(transformed)) {
     express_rows(bodies);
     call_if_set(poll);
     matrix_ =
@@ -105,21 +85,20 @@ JumpSystem::JumpSystem(const BodySystem& bodies, const Poll& poll)
 // others of an interface, they would fill the matrix.
 void JumpSystem::express_rows(const BodySystem& bodies) {
     const JumpVariables& variables = bodies.variables();
-    std::map<std::int64_t, SolvedEquation> of_jump;
-    for (const SolvedEquation& solved : solve_equations(variables)) {
+    const std::vector<SolvedEquation> equations = solve_equations(variables);
+    for (const SolvedEquation& solved : equations) {
         SparseVector& equation = equations_.emplace_back();
         equation.emplace_back(variables.leading + solved.pivot, 1.0);
         for (const auto& [t, c] : solved.entries) equation.emplace_back(variables.leading + t, -c);
         equation_right_.push_back(solved.prescribed);
-        if (solved.pivot >= variables.kept) of_jump.emplace(solved.pivot - variables.kept, solved);
     }
     row_of_.assign(index(variables.count()), -1);
-    for (std::size_t r = 0; r < variables.row.size(); ++r) {
+    std::vector<JumpRow> expressed = delam::express_rows(variables, equations);
+    for (std::size_t r = 0; r < expressed.size(); ++r) {
         JumpRow row{{}, variables.row_offset[r]};
         for (const auto& [jump, n] : variables.row[r])
             row.unknowns.emplace_back(variables.leading + variables.kept + jump, n);
-        if (JumpRow expressed = expressed_row(variables, r, of_jump, patterns_); expressed.prescribed())
-            row = std::move(expressed);
+        if (expressed[r].prescribed()) row = std::move(expressed[r]);
         const bool plain = row.offset.empty() && row.unknowns.size() == 1 && row.unknowns.front().second == 1.0 &&
                            row_of_[index(row.unknowns.front().first)] < 0;
         if (plain) row_of_[index(row.unknowns.front().first)] = static_cast<std::int64_t>(r);

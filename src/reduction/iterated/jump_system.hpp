@@ -25,7 +25,8 @@ namespace delam {
 
 class JumpSystem {
 public:
-    JumpSystem(const BodySystem& bodies, const Poll& poll);
+    // transformed: T^T K T of the bodies
+    JumpSystem(const BodySystem& bodies, SparseMatrix transformed, const Poll& poll);
 
     std::int64_t count() const { return matrix_.rows; }
     // T^T K T; entries exist for all variables that a pair's rows connect.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "base/error.hpp"
 #include "base/numbers.hpp"
@@ -32,10 +33,10 @@ constexpr double spread_out = 100.0;
 
 }  // namespace
 
-Reanalysis::Reanalysis(const BodySystem& bodies, Monitor& monitor)
+Reanalysis::Reanalysis(const BodySystem& bodies, SparseMatrix transformed, Monitor& monitor)
     : bodies_(bodies),
       monitor_(monitor),
-      system_(bodies, [&monitor] { monitor.progress("assemble", 0, 0); }),
+      system_(bodies, std::move(transformed), [&monitor] { monitor.progress("assemble", 0, 0); }),
       floating_(bodies, system_),
       patches_(system_, 5) {
     const std::size_t patterns = bodies_.problem().patterns.size();

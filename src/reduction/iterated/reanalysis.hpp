@@ -24,7 +24,8 @@ namespace delam {
 
 class Reanalysis {
 public:
-    Reanalysis(const BodySystem& bodies, Monitor& monitor);
+    // transformed: T^T K T of the bodies
+    Reanalysis(const BodySystem& bodies, SparseMatrix transformed, Monitor& monitor);
 
     // What acts from now on. False: a patch is not positive definite, and nothing can be solved.
     bool set(std::vector<Zone::Coupling> couplings, std::span<const std::uint8_t> held);

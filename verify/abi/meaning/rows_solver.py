@@ -292,6 +292,19 @@ def numbers(host, see):
                                                      if decision == "left out"))
 
 
+@row("a plan beforehand", tells=["problem_plan setup", "problem_plan memory", "problem_value_count count"])
+def plan_beforehand(host, see):
+    """What the solver says once it exists."""
+    bar = scenes.Bar(host, scenes.strong(host, 10.0, 1.0), bulk=10.0)
+    _, setup, memory = host("problem_plan", bar.problem, Out(), Out(), Out())
+    items = {item[0]: item for item in (host("solver_plan_item", bar.solver, k, Out(), Out(), None, Out(), Out(), Out())
+                                        for k in range(host("solver_plan_count", bar.solver, Out())))}
+    see.equal("memory is the item of the plan", memory, items["memory"][3])
+    see.that("the longest factorisation is part of the set-up, and the set-up of the analysis",
+             0 < items["longest uninterruptible factorisation"][3] <= setup < items["condensed operator"][3] / 20e9)
+    see.equal("values", host("problem_value_count", bar.problem, Out()), host("solver_value_count", bar.solver, Out()))
+
+
 @row("looking back", says=["solver_look: step -1 selects"])
 def look(host, see):
     bar = scenes.Bar(host, scenes.strong(host, 10.0, 1.0), bulk=10.0, options=[("backtracking", "on")])

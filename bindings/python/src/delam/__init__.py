@@ -19,12 +19,12 @@ from .history import History
 from .law import Bounds, Law, Parameter
 from .mesh import CELLS, Cells, Interface, Mesh, Ties
 from .options import Options, options
-from .problem import Pattern, Problem, Sparse
+from .problem import Forecast, Pattern, Problem, Sparse
 from .solver import Average, Condensed, Fronts, Jump, PlanItem, Solver, ValueInfo, Values
 
 __version__ = "0.1.0"
 
-__all__ = ["ArgumentError", "Average", "Bounds", "CELLS", "Cancelled", "Cells", "Condensed", "DelamError", "FileError", "Fronts",
+__all__ = ["ArgumentError", "Average", "Bounds", "CELLS", "Cancelled", "Cells", "Condensed", "DelamError", "FileError", "Forecast", "Fronts",
            "HandleError", "History", "Interface", "InternalError", "Jump", "Law", "LimitReached", "Mesh", "MeshError",
            "NotConverged", "NotConvergedWarning", "NumericalError", "Options", "OutOfMemory", "Outcome", "Parameter",
            "Pattern", "PlanItem", "Problem", "ProblemError", "SnapshotError", "Solver", "Sparse", "StateError", "Ties",

@@ -255,6 +255,14 @@ FUNCTIONS = {
     )),
     "delam_problem_pattern_count": (c_int32, (("problem", POINTER(delam_problem)), ("count", POINTER(c_int64)))),
     "delam_problem_pattern_name": (c_char_p, (("problem", POINTER(delam_problem)), ("pattern", c_int64))),
+    "delam_problem_option": (c_char_p, (("problem", POINTER(delam_problem)), ("key", c_char_p))),
+    "delam_problem_value_count": (c_int32, (("problem", POINTER(delam_problem)), ("count", POINTER(c_int64)))),
+    "delam_problem_value_info": (c_int32, (
+        ("problem", POINTER(delam_problem)), ("index", c_int64), ("key", POINTER(c_char_p)),
+        ("alias", POINTER(c_char_p)))),
+    "delam_problem_plan": (c_int32, (
+        ("problem", POINTER(delam_problem)), ("plan", POINTER(c_char_p)), ("setup", POINTER(c_double)),
+        ("memory", POINTER(c_double)))),
     "delam_solver_create": (c_int32, (
         ("problem", POINTER(delam_problem)), ("time", c_double), ("out", POINTER(POINTER(delam_solver))))),
     "delam_solver_destroy": (None, (("solver", POINTER(POINTER(delam_solver))),)),

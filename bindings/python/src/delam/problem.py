@@ -25,6 +25,14 @@ if TYPE_CHECKING:
     from .mesh import Interface
 
 
+class Forecast(NamedTuple):
+    """Of an analysis that has not begun: setup in s at a nominal rate, memory in bytes."""
+
+    plan: str
+    setup: float
+    memory: float
+
+
 class Sparse(NamedTuple):
     """A matrix by rows: the entries of row i are row_starts[i] .. row_starts[i+1]-1 of columns and values. For SciPy:
     csr_matrix((m.values, m.columns, m.row_starts), m.shape)."""
@@ -339,6 +347,30 @@ class Problem(Object):
         length, spacing = ctypes.c_double(), ctypes.c_double()
         self._call(library.delam_problem_process_zone, interface_index(interface, self.mesh), length, spacing, long=True)
         return length.value, spacing.value
+
+    def plan(self) -> Forecast:
+        """Plans an analysis without beginning it: nothing is factored."""
+        plan, setup, memory = ctypes.c_char_p(), ctypes.c_double(), ctypes.c_double()
+        self._call(library.delam_problem_plan, plan, setup, memory, long=True)
+        return Forecast((plan.value or b"").decode(), setup.value, memory.value)
+
+    def option(self, key: str) -> str:
+        """Value of an option as text."""
+        value = self.context.text(library.delam_problem_option, self._handle, text("key", key))
+        if value is None:
+            raise ArgumentError(f"option '{key}' is not known")
+        return value
+
+    @property
+    def value_keys(self) -> list[str]:
+        """Keys of the values that a solver of this problem has."""
+        count, key = ctypes.c_int64(), ctypes.c_char_p()
+        self._call(library.delam_problem_value_count, count)
+        keys = []
+        for i in range(count.value):
+            self._call(library.delam_problem_value_info, i, key, None)
+            keys.append((key.value or b"").decode())
+        return keys
 
     def body_matrix(self, body: int) -> Sparse:
         """Stiffness of a body over its nodes in ascending order, both triangles."""

@@ -184,6 +184,11 @@ DELAM_API int32_t delam_problem_eigenstrain_energy(const delam_problem *problem,
 DELAM_API int32_t delam_problem_factors(const delam_problem *problem, double time, int64_t capacity, double *factors);
 DELAM_API int32_t delam_problem_pattern_count(const delam_problem *problem, int64_t *count);
 DELAM_API const char *delam_problem_pattern_name(const delam_problem *problem, int64_t pattern);
+DELAM_API const char *delam_problem_option(const delam_problem *problem, const char *key);
+DELAM_API int32_t delam_problem_value_count(const delam_problem *problem, int64_t *count);
+DELAM_API int32_t delam_problem_value_info(const delam_problem *problem, int64_t index, const char **key,
+                                           const char **alias);
+DELAM_API int32_t delam_problem_plan(delam_problem *problem, const char **plan, double *setup, double *memory);
 DELAM_API int32_t delam_solver_create(const delam_problem *problem, double time, delam_solver **out);
 DELAM_API void delam_solver_destroy(delam_solver **solver);
 DELAM_API int32_t delam_solver_advance(delam_solver *solver, double time);
