@@ -24,6 +24,7 @@ struct Basis {
     const Problem& problem;
     const ReductionChoice& choice;
     std::string description;  // of the operator
+    std::string refusal;      // why it does not fit into the memory, "": it may
     std::span<const std::uint8_t> prescribed;
     const std::vector<std::shared_ptr<const GradientTerm>>& gradient;
 };
@@ -59,13 +60,17 @@ void add_realisations(std::vector<PlanItem>& items, const Basis& basis) {
                                                     : cost.analysis() - choice.own().analysis(),
                          "flop"});
     }
-    const double bytes = choice.own().bytes;
+    const double bytes = choice.own().bytes, most = choice.own().most;
+    const std::string limits = text(
+        most > bytes ? text("; with as many directions and as large patches as iterations may have, ", most, " byte")
+                     : std::string(),
+        basis.refusal.empty() ? "" : "; ", basis.refusal);
     items.push_back({"memory", used,
                      choice.monolithic > 0.0
                          ? text("predicted peak of an analysis, ", std::round(10.0 * bytes / choice.monolithic) / 10.0,
                                 " times that of one monolithic factorisation; saved against ",
-                                choice.condensed() ? "FETI" : "the condensed operator")
-                         : std::string("predicted peak of an analysis"),
+                                choice.condensed() ? "FETI" : "the condensed operator", limits)
+                         : text("predicted peak of an analysis", limits),
                      bytes, both ? rival->bytes - bytes : 0.0, "byte"});
 }
 
@@ -225,15 +230,17 @@ std::string figure(double value, const std::string& unit) { return unit == "-" ?
 }  // namespace
 
 std::vector<PlanItem> Solver::plan() const {
-    return items_of(
-        {problem_, reduction(), jump_operator().description(), jump_operator().prescribed_rows(), pairs().gradient});
+    return items_of({problem_, reduction(), jump_operator().description(), "", jump_operator().prescribed_rows(),
+                     pairs().gradient});
 }
 
 Forecast forecast(const Problem& problem, Monitor& monitor) {
     validate(problem, [&monitor] { monitor.progress("check", 0, 0); });
     const Design design = design_operator(problem, monitor);
     const ReductionCost& cost = design.choice.own();
-    return {items_of({problem, design.choice, design.description, design.prescribed, gradient_terms(problem)}),
+    if (!design.refusal.empty()) monitor.log(1, design.refusal);
+    return {items_of({problem, design.choice, design.description, design.refusal, design.prescribed,
+                      gradient_terms(problem)}),
             cost.setup / nominal_rate, cost.bytes};
 }
 

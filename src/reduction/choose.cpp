@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <set>
+#include <utility>
 
 #include "base/error.hpp"
+#include "base/numbers.hpp"
 #include "delam/delam.h"
 #include "reduction/condensed/condensed.hpp"
 #include "reduction/feti/feti.hpp"
@@ -42,6 +45,8 @@ constexpr double patch_operations = 2e6;
 constexpr double patch_variables = 25e3;
 constexpr double iterated_renewals = 0.5;
 constexpr double iterated_vectors = 46.0;   // states and directions of an iteration
+constexpr double most_vectors = 156.0;      // with the 60 pairs that conjugate gradients keep at most
+constexpr double largest_patch = 0.25;      // of all variables, as of reanalysis.cpp
 constexpr double relaxed_supernodes = 1.6;  // numbers stored per entry of its factor
 // Operations of a factor, times variables over the square of its entries (1: all columns alike).
 constexpr double column_spread = 6.0;
@@ -89,6 +94,7 @@ ReductionCost predict_condensed(const Bulk& bulk) {
     cost.step = condensed_step * cube(m);
     // During the factorisation, T^T K T and CHOLMOD's permuted copy of it; during the analysis, the dense matrices.
     cost.bytes = stiffness + factor + std::max(2.0 * transformed, 8.0 * dense_copies * m * m);
+    cost.least = stiffness + factor + 8.0 * m * m;
     return cost;
 }
 
@@ -100,8 +106,11 @@ ReductionCost predict_iterated(const IteratedSize& size) {
                 patch_operations * std::min(size.variables, patch_variables) + iterated_renewals * size.factor.flops;
     // K, T^T K T, CHOLMOD's permuted copy of half of it, the factor, some states and the directions of an
     // iteration.
-    cost.bytes =
-        16.0 * (size.stiffness + 1.5 * size.transformed) + 8.0 * size.stored + 8.0 * iterated_vectors * size.variables;
+    cost.bytes = 16.0 * (size.stiffness + 1.5 * size.transformed) + 8.0 * size.stored +
+                 8.0 * (iterated_vectors + size.columns) * size.variables;
+    cost.least = 16.0 * (size.stiffness + size.transformed) + 8.0 * size.stored + 8.0 * size.columns * size.variables;
+    cost.most = cost.bytes + 8.0 * (most_vectors - iterated_vectors) * size.variables +
+                largest_patch * (16.0 * size.transformed + 8.0 * size.stored);
     return cost;
 }
 
@@ -113,6 +122,7 @@ IteratedSize iterated_size(const Bulk& bulk) {
     size.factor.entries = predict_monolithic_entries(bulk);
     size.factor.flops = column_spread * square(size.factor.entries) / std::max(size.variables, 1.0);
     size.stored = relaxed_supernodes * size.factor.entries;
+    size.columns = number(static_cast<std::int64_t>(bulk.system().variables().equations.size()));
     return size;
 }
 
@@ -185,7 +195,30 @@ ReductionCost predict_feti(const Problem& problem, std::int64_t subdomains, doub
     cost.bytes =
         16.0 * 0.5 * element_entries + parts * 8.0 * (supernodes * entries + (schur ? 3.0 : 2.0) * boundary * boundary);
     if (series) cost.bytes += parts * series_bytes * jumps * jumps;
+    cost.least = 0.5 * cost.bytes;  // predicted by counts alone
     return cost;
+}
+
+std::string does_not_fit(const ReductionChoice& choice) {
+    const ReductionCost& own = choice.own();
+    if (!(own.least > choice.memory.bytes)) return {};
+    const struct {
+        Realisation realisation;
+        const char *name, *option;
+        const ReductionCost& cost;
+    } all[] = {{Realisation::condensed, "the condensed operator", "condensed", choice.condensation},
+               {Realisation::iterated, "the iterated operator", "iterated", choice.iteration},
+               {Realisation::feti, "FETI", "feti", choice.feti}};
+    std::string name, others;
+    for (const auto& one : all) {
+        if (one.realisation == choice.realisation)
+            name = one.name;
+        else if (one.cost.setup > 0.0 && one.cost.possible && one.cost.bytes < choice.memory.bytes)
+            others += text("reduction = ", one.option, ", predicted to take ", mebibytes(one.cost.bytes), ", ");
+    }
+    return text(name, " takes at least ", mebibytes(own.least), ", at its peak ", mebibytes(own.bytes),
+                " are predicted, but there are ", mebibytes(choice.memory.bytes), " (", choice.memory.what, "): use ",
+                others, "coarser cells, or a machine with more memory");
 }
 
 void choose(ReductionChoice& choice) {
@@ -197,6 +230,11 @@ void choose(ReductionChoice& choice) {
     if (!c.possible)
         return decide(Realisation::iterated, text("the condensed operator would have ", choice.unknowns,
                                                   " rows, allowed: up to ", dense_limit, " (LAPACK)"));
+    const double limit = choice.memory.bytes;
+    if ((c.bytes > limit) != (i.bytes > limit))
+        return decide(c.bytes > limit ? Realisation::iterated : Realisation::condensed,
+                      text("the condensed operator is predicted to take ", mebibytes(c.bytes), ", the iterated one ",
+                           mebibytes(i.bytes), "; there are ", mebibytes(limit), " (", choice.memory.what, ")"));
     const double ratio = choice.monolithic > 0.0 ? c.bytes / choice.monolithic : 0.0;
     const std::string memory =
         text("the condensed operator needs ", mebibytes(c.bytes), ", ", std::round(10.0 * ratio) / 10.0,
@@ -211,6 +249,48 @@ void choose(ReductionChoice& choice) {
 }
 
 namespace {
+
+MemoryLimit memory_for(const Problem& problem) {
+    MemoryLimit limit = memory_limit();
+    const double own = problem.options.memory_limit * 1024.0 * 1048576.0;
+    if (own > 0.0 && own < limit.bytes) limit = {own, "option memory_limit"};
+    return limit;
+}
+
+// Entries of the stiffness of all bodies, counted without it.
+double stiffness_entries(const Problem& problem) {
+    const Mesh& mesh = *problem.mesh;
+    std::vector<std::int64_t> start(index(mesh.node_count()) + 1, 0), seen(index(mesh.node_count()), -1);
+    for (std::int64_t c = 0; c < mesh.cell_count(); ++c)
+        for (const std::int64_t node : mesh.cell(c)) ++start[index(node) + 1];
+    std::partial_sum(start.begin(), start.end(), start.begin());
+    std::vector<std::int64_t> cells(index(start.back())), next(start.begin(), start.end() - 1);
+    for (std::int64_t c = 0; c < mesh.cell_count(); ++c)
+        for (const std::int64_t node : mesh.cell(c)) cells[index(next[index(node)]++)] = c;
+    double neighbours = 0.0, given = 0.0;
+    for (std::int64_t node = 0; node < mesh.node_count(); ++node)
+        for (std::int64_t k = start[index(node)]; k < start[index(node) + 1]; ++k)
+            for (const std::int64_t other : mesh.cell(cells[index(k)]))
+                neighbours += std::exchange(seen[index(other)], node) != node ? 1.0 : 0.0;
+    for (const auto& own : problem.stiffness)
+        if (own != nullptr) given += number(own->matrix.entries());
+    return square(mesh.dimension()) * neighbours + given;
+}
+
+// Refuses what could not even be assembled and analysed: per entry of K, 16 bytes in K, 16 in T^T K T and 9.6 in the
+// ordering by minimum degree, which only the free displacements have.
+void require_memory_to_analyse(const Problem& problem, const MemoryLimit& limit) {
+    const double dofs = number(problem.mesh->node_count() * problem.mesh->dimension());
+    if (1e4 * dofs < limit.bytes) return;  // no cells have so many neighbours
+    const double bound = number(static_cast<std::int64_t>(problem.constraints.size()));
+    const double free = std::max(0.0, 1.0 - 2.0 * bound / std::max(dofs, 1.0));
+    const double bytes = (16.0 + 25.6 * free) * stiffness_entries(problem);
+    if (bytes > limit.bytes)
+        fail(DELAM_ERROR_MEMORY, "the stiffness of the bodies, ",
+             problem.mesh->node_count() * problem.mesh->dimension(), " displacements, and its analysis take at least ",
+             mebibytes(bytes), ", but there are ", mebibytes(limit.bytes), " (", limit.what,
+             "): use coarser cells, or a machine with more memory");
+}
 
 Design of_iterated(Design design, std::unique_ptr<Iterated> iterated) {
     design.choice.iteration = predict_iterated(iterated->size());
@@ -243,10 +323,13 @@ Design::Design(Design&&) noexcept = default;
 Design& Design::operator=(Design&&) noexcept = default;
 Design::~Design() = default;
 
-Design design_operator(const Problem& problem, Monitor& monitor) {
+namespace {
+
+Design chosen(const Problem& problem, Monitor& monitor) {
     const Options& options = problem.options;
     Design design;
     ReductionChoice& choice = design.choice;
+    choice.memory = memory_for(problem);
     choice.unknowns = problem.jump_count();
     choice.subdomains = feti_subdomains(problem);
     choice.feti = predict_feti(problem, choice.subdomains, choice.boundary);
@@ -262,6 +345,7 @@ Design design_operator(const Problem& problem, Monitor& monitor) {
                                                              : text("option subdomains = ", options.subdomains));
         return of_feti(std::move(design), problem, monitor);
     }
+    require_memory_to_analyse(problem, choice.memory);
     if (options.reduction == "iterated") {
         force(Realisation::iterated, "option reduction = iterated");
         return of_iterated(std::move(design), std::make_unique<Iterated>(problem, monitor));
@@ -289,7 +373,20 @@ Design design_operator(const Problem& problem, Monitor& monitor) {
     return of_iterated(std::move(design), std::make_unique<Iterated>(problem, std::move(assembled), monitor));
 }
 
+}  // namespace
+
+Design design_operator(const Problem& problem, Monitor& monitor) {
+    Design design = chosen(problem, monitor);
+    design.refusal = does_not_fit(design.choice);
+    const double bytes = design.choice.own().bytes, limit = design.choice.memory.bytes;
+    if (design.refusal.empty() && bytes > limit)
+        monitor.log(1, text("the analysis is predicted to take ", mebibytes(bytes), ", but there are ",
+                            mebibytes(limit), " (", design.choice.memory.what, "): it may not fit"));
+    return design;
+}
+
 std::unique_ptr<JumpOperator> build_operator(Design& design, const Problem& problem, Monitor& monitor) {
+    if (!design.refusal.empty()) fail(DELAM_ERROR_MEMORY, design.refusal);
     if (design.op != nullptr) return std::move(design.op);
     if (design.bulk == nullptr) return std::make_unique<Feti>(problem, monitor);
     design.bulk->condense(monitor);

@@ -7,10 +7,12 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "base/memory_limit.hpp"
 #include "base/monitor.hpp"
 #include "reduction/jump_operator.hpp"
 #include "scene/problem.hpp"
@@ -33,6 +35,8 @@ struct ReductionCost {
     double longest = 0.0;  // operations of the longest factorisation, which cannot be interrupted
     double step = 0.0;     // operations of a load step
     double bytes = 0.0;    // peak of the analysis, mesh and scene not counted
+    double least = 0.0;    // bytes without which it is impossible
+    double most = 0.0;     // bytes at the peak where its iterations are many; 0: it does not iterate with vectors
     bool possible = true;  // LAPACK's integers hold its largest dense matrix
     double analysis() const { return setup + nominal_steps * step; }
 };
@@ -54,6 +58,7 @@ struct ReductionChoice {
     std::int64_t unknowns = 0;    // dense rows of the condensed operator
     std::int64_t subdomains = 0;  // FETI's
     double boundary = 0.0;        // DOFs of a subdomain's boundary, mean
+    MemoryLimit memory{std::numeric_limits<double>::infinity(), ""};  // that the analysis may take
 };
 
 class Bulk;
@@ -67,6 +72,8 @@ double predict_monolithic_entries(const Bulk& bulk);
 double predict_monolithic_bytes(const Bulk& bulk);
 // boundary: out, DOFs, mean over the subdomains.
 ReductionCost predict_feti(const Problem& problem, std::int64_t subdomains, double& boundary);
+// Why an operator of this cost cannot be built, "": it can.
+std::string does_not_fit(const ReductionChoice& choice);
 // What the predictions of the condensed and the iterated operator say. Pure: for tests.
 void choose(ReductionChoice& choice);
 
@@ -74,6 +81,7 @@ void choose(ReductionChoice& choice);
 struct Design {
     ReductionChoice choice;
     std::string description;               // of the operator, for people
+    std::string refusal;                   // why it does not fit into the memory, "": it may
     std::vector<std::uint8_t> prescribed;  // [jump rows] 1: the constraints alone determine the jump
     std::unique_ptr<Bulk> bulk;            // of the condensed operator
     std::unique_ptr<JumpOperator> op;      // the iterated operator, which factors nothing before its first solve
@@ -84,7 +92,8 @@ struct Design {
     ~Design();
 };
 Design design_operator(const Problem& problem, Monitor& monitor);
-// Factors what must be factored beforehand. Consumes what the design holds; its choice stays.
+// Factors what must be factored beforehand. Consumes what the design holds; its choice stays. Throws
+// Error(DELAM_ERROR_MEMORY) with the design's refusal.
 std::unique_ptr<JumpOperator> build_operator(Design& design, const Problem& problem, Monitor& monitor);
 
 }  // namespace delam

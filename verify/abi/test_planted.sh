@@ -574,7 +574,7 @@ lying() {
 }
 more=()
 accepted lying -DNONE
-refused '^option threads: in the baseline, gone' lying -DFEWER_OPTIONS
+refused '^option memory_limit: in the baseline, gone' lying -DFEWER_OPTIONS
 if [[ $tier == all ]]; then
     refused '^option contact_limit: type real, in the baseline integer' \
         lying '-DOPTION="contact_limit"' -DPLACE=type '-DTEXT="real"'

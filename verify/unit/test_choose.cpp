@@ -2,9 +2,13 @@
 // The predictions behind the choice of the jump operator against counts: bytes within a factor of 1.5, operations of
 // the sparse factor exactly, the entries of the monolithic factor against its own symbolic analysis; and the choice
 // itself.
+#include <sys/resource.h>
+
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <string>
+#include <vector>
 
 #include "base/error.hpp"
 #include "counting_allocator.hpp"
@@ -174,11 +178,92 @@ START_TEST(iterated_size_is_what_was_predicted) {
 }
 END_TEST
 
+void note_stage(std::vector<std::string>& stages, Monitor& monitor) {
+    monitor.progress_user = &stages;
+    monitor.progress_callback = [](const char* stage, std::int64_t, std::int64_t, void* user) {
+        static_cast<std::vector<std::string>*>(user)->emplace_back(stage);
+        return 0;
+    };
+}
+
+// The message with which a solver is refused, "": it is not.
+std::string refused(const Problem& problem, Monitor& monitor) {
+    try {
+        const Solver solver(problem, monitor, 0.0);
+    } catch (const Error& e) {
+        ck_assert_int_eq(e.status(), DELAM_ERROR_MEMORY);
+        return e.what();
+    }
+    return {};
+}
+
+constexpr double gibibyte = 1073741824.0;
+
+// loop: realisation
+START_TEST(what_does_not_fit_is_refused_before_it_is_factored) {
+    Problem problem = unit::make_flexure(scene(_i == 2 ? 0 : _i + 1));
+    constexpr const char* ways[] = {"condensed", "iterated", "feti"};
+    problem.options.reduction = ways[_i];
+    std::vector<std::string> stages;
+    Monitor monitor;
+    note_stage(stages, monitor);
+    const double least = design_operator(problem, monitor).choice.own().least;
+    ck_assert(least > 0.0);
+    problem.options.memory_limit = 0.99 * least / gibibyte;
+    stages.clear();
+    const std::string words = refused(problem, monitor);
+    for (const char* part : {"takes at least", "option memory_limit", "coarser cells"})
+        ck_assert_msg(words.find(part) != std::string::npos, "%s", words.c_str());
+    for (const char* stage : {"factor", "condense", "subdomain"}) ck_assert(std::ranges::count(stages, stage) == 0);
+    // Another realisation that was predicted and fits is named: six layers have many jumps.
+    ck_assert((words.find("use reduction = iterated") != std::string::npos) == (_i == 0));
+    problem.options.memory_limit = 1.01 * least / gibibyte;
+    ck_assert_str_eq(refused(problem, monitor).c_str(), "");
+    if (_i == 2) return;
+    // Not even the matrices fit: refused before they are assembled.
+    problem.options.memory_limit = 1e-4;
+    stages.clear();
+    ck_assert(refused(problem, monitor).find("stiffness of the bodies") != std::string::npos);
+    ck_assert(std::ranges::count(stages, "assemble") == 0);
+}
+END_TEST
+
+START_TEST(auto_takes_what_fits) {
+    Problem problem = unit::make_flexure(scene(1));
+    Monitor monitor;
+    ReductionChoice free = design_operator(problem, monitor).choice;
+    ck_assert(free.condensed() && free.iteration.bytes < free.condensation.least);
+    problem.options.memory_limit = 0.5 * (free.iteration.bytes + free.condensation.least) / gibibyte;
+    const ReductionChoice bound = design_operator(problem, monitor).choice;
+    ck_assert(bound.realisation == Realisation::iterated &&
+              bound.reason.find("option memory_limit") != std::string::npos);
+    free.iteration.bytes = 2.0 * free.condensation.bytes;
+    free.iteration.step = 0.0;
+    free.memory = {1.5 * free.condensation.bytes, "planted"};
+    choose(free);
+    ck_assert(free.condensed());
+}
+END_TEST
+
+START_TEST(limits_of_the_process_are_seen) {
+    const MemoryLimit machine = memory_limit();
+    ck_assert(machine.bytes > 1e8 && !machine.what.empty());
+    rlimit before{};
+    ck_assert_int_eq(getrlimit(RLIMIT_AS, &before), 0);
+    const double planted = 0.5 * std::min(machine.bytes, 1e15);
+    const rlimit less{static_cast<rlim_t>(planted), before.rlim_max};
+    ck_assert_int_eq(setrlimit(RLIMIT_AS, &less), 0);
+    const MemoryLimit limited = memory_limit();
+    ck_assert_int_eq(setrlimit(RLIMIT_AS, &before), 0);
+    ck_assert(limited.bytes == std::floor(planted) && limited.what.find("address space") != std::string::npos);
+}
+END_TEST
+
 START_TEST(size_memory_and_time_decide) {
     ReductionChoice c;
     const auto iterated = [&] { return c.realisation == Realisation::iterated; };
-    c.condensation = {1e9, 1e9, 1e8, 1e10, true};
-    c.iteration = {1e9, 1e9, 1e9, 5e9, true};
+    c.condensation = {1e9, 1e9, 1e8, 1e10};
+    c.iteration = {1e9, 1e9, 1e9, 5e9};
     c.monolithic = 5e9;
     choose(c);
     ck_assert(c.condensed() && c.reason.find("2 times") != std::string::npos);
@@ -214,6 +299,9 @@ int main() {
     TCase* choice = tcase_create("choice");
     tcase_add_test(choice, options_force_and_say_so);
     tcase_add_test(choice, size_memory_and_time_decide);
+    tcase_add_loop_test(choice, what_does_not_fit_is_refused_before_it_is_factored, 0, 3);
+    tcase_add_test(choice, auto_takes_what_fits);
+    tcase_add_test(choice, limits_of_the_process_are_seen);
     suite_add_tcase(suite, choice);
     SRunner* runner = srunner_create(suite);
     srunner_run_all(runner, CK_ENV);

@@ -183,8 +183,12 @@ double Iterated::rounding_energy(std::span<const double>, const Response& respon
 
 IteratedSize Iterated::size() const {
     const WholeFactor& whole = *reanalysis_.whole();
-    return {static_cast<double>(reanalysis_.system().count()), static_cast<double>(bodies_.stiffness().entries()),
-            static_cast<double>(reanalysis_.system().matrix().entries()), whole.size(), whole.entries()};
+    return {static_cast<double>(reanalysis_.system().count()),
+            static_cast<double>(bodies_.stiffness().entries()),
+            static_cast<double>(reanalysis_.system().matrix().entries()),
+            whole.size(),
+            whole.entries(),
+            static_cast<double>(reanalysis_.system().equations().size())};
 }
 
 std::string Iterated::description() const {

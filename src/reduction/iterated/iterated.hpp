@@ -19,6 +19,7 @@ struct IteratedSize {
     double transformed = 0.0;  // of T^T K T
     FactorSize factor;         // of the whole
     double stored = 0.0;       // numbers that the factor stores
+    double columns = 0.0;      // stored for constraints on many variables
 };
 
 class Iterated final : public JumpOperator {

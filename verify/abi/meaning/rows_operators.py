@@ -5,7 +5,7 @@ import os
 
 import forms
 import scenes
-from host import Out
+from host import Out, Refused
 from rows_options import observe
 from scenes import TYPES, value
 from table import row
@@ -237,6 +237,19 @@ def threads(host, see):
         return [most[0] - before]
 
     observe(see, "threads", run, [2] if len(os.sched_getaffinity(0)) > 1 else [], [0])
+
+
+@row("memory_limit", options=["memory_limit"])
+def memory_limit(host, see):
+    """The status of a solver for which there are 107 bytes, and of one for which there is what the machine has."""
+    def run(options):
+        try:
+            scenes.Bar(host, scenes.strong(host, 10.0, 1.0), bulk=10.0, options=options)
+        except Refused as refused:
+            return [refused.status]
+        return [0]
+
+    observe(see, "memory_limit", run, [1e-7], [0])
 
 
 @row("linear_limit", options=["linear_limit"])

@@ -19,9 +19,9 @@ DEFAULTS = {
     "minimisation_limit": 5000, "backtracking_tolerance": 1e-3, "minimisation": "auto", "reduction": "auto",
     "contact": "auto", "mixity": "auto", "mixity_rule": "converged", "path_step": 0.15, "contact_limit": 200,
     "subdomains": 0, "gluing": "orthonormal", "preconditioner": "series", "scaling": "stiffness",
-    "linear_tolerance": 1e-13, "linear_limit": 2000, "threads": 1,
+    "linear_tolerance": 1e-13, "linear_limit": 2000, "threads": 1, "memory_limit": 0,
 }
-OUTSIDE_THE_HASH = ("threads",)
+OUTSIDE_THE_HASH = ("threads", "memory_limit")
 
 
 def observe(see, key, run, others, expected=None, unit="-", rel=1e-9):

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The memory that this process can have at all, whoever uses it now.
+#pragma once
+
+#include <string>
+
+namespace delam {
+
+struct MemoryLimit {
+    double bytes;      // infinite where the system tells none
+    std::string what;  // sets it, for people
+};
+
+// The smallest of physical memory and the limits of the process' control groups, each with the swap space, and the
+// limit of its address space.
+MemoryLimit memory_limit();
+
+}  // namespace delam
