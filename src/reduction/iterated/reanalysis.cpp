@@ -25,6 +25,8 @@ constexpr double fresh_iterations = 2.0;
 constexpr double slower = 5.0;
 // Residuals below this part of the state are not asked for: it is what a decision about contact can still use.
 constexpr double finest = 1e-12;
+// Of the work of all tangents along a rigid motion: what may be rounding of a sum that cancels.
+constexpr double cancelled = 1e-13;
 // Multiple of the residual below which a jump or force is in doubt, and how much farther than a node an error reaches.
 constexpr double in_doubt = 4.0;
 // Rounding units, of the terms of a component, by which a residual from a recursion may differ from the true one.
@@ -173,15 +175,20 @@ std::vector<double> Reanalysis::right_side(std::span<const double> theta, std::s
     return b;
 }
 
+// Sum of the magnitudes of what springs and tangents do along x.
+double Reanalysis::work_of_couplings(std::span<const double> x) const {
+    double work = 0.0;
+    for (const Zone::Coupling& c : system_.couplings())
+        work += std::abs(system_.row_value(index(c.row), x) * c.value * system_.row_value(index(c.column), x));
+    return work;
+}
+
 // sqrt of u^T K u and the work of the springs.
 double Reanalysis::size_of(std::span<const double> theta, std::span<const double> x) const {
     std::vector<double> u = bodies_.lift(theta), force(u.size());
     bodies_.add_variables(x, u);
     multiply(bodies_.stiffness(), u, force);
-    double energy = std::abs(dot(u, force));
-    for (const Zone::Coupling& c : system_.couplings())
-        energy += std::abs(system_.row_value(index(c.row), x) * c.value * system_.row_value(index(c.column), x));
-    return std::sqrt(energy);
+    return std::sqrt(std::abs(dot(u, force)) + work_of_couplings(x));
 }
 
 // As a part of the largest; but no more than what the residual's energy can do to a node, which matters where the state
@@ -339,6 +346,7 @@ Reanalysis::Answer Reanalysis::solve(std::span<const double> theta, std::span<co
     for (const std::vector<double>& motion : floating_.weak()) {
         Direction d{motion, std::vector<double>(motion.size(), 0.0), 0.0};
         system_.add_couplings(d.p, d.ap);  // the bodies do not resist
+        const double size = work_of_couplings(d.p);
         system_.gather(d.ap);
         for (int pass = 0; pass < 2; ++pass)
             for (const Direction& other : cg.given) {
@@ -347,8 +355,10 @@ Reanalysis::Answer Reanalysis::solve(std::span<const double> theta, std::span<co
                 add_scaled(-share, other.ap, d.ap);
             }
         d.pap = dot(d.p, d.ap);
+        answer.definite = answer.definite && d.pap >= -cancelled * size;
         if (d.pap > 0.0) cg.given.push_back(std::move(d));
     }
+    if (!answer.definite) return answer;
     cg.restart = [&](std::span<double> at, std::span<double> r) {
         system_.spread(at, theta);
         std::vector<double> springs(at.size(), 0.0);

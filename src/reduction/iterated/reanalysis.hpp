@@ -68,6 +68,7 @@ private:
     void renew(std::vector<double> springs);
     void factorise_whole();
     std::vector<double> right_side(std::span<const double> theta, std::span<const double> row_force) const;
+    double work_of_couplings(std::span<const double> x) const;
     double size_of(std::span<const double> theta, std::span<const double> x) const;
     std::vector<double> term_sizes(std::span<const double> right, std::span<const double> x) const;
     CgSystem::Confirmed confirm(std::span<const double> right, std::span<const double> theta, std::span<const double> x,
