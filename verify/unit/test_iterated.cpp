@@ -134,9 +134,15 @@ void expect_alike(const Response& a, const Response& b, double tolerance, const 
 // Answers that are off by this part of the largest, and say so.
 class Disturbed final : public JumpOperator {
 public:
-    Disturbed(JumpOperator& op, double by) : op_(op), by_(by) {}
+    Disturbed(JumpOperator& op, double by, bool willing = false) : op_(op), by_(by), willing_(willing) {}
+    bool tighten(bool on) override {
+        tight_ = on && willing_;
+        return willing_;
+    }
     void solve(const Springs& springs, std::span<const double> theta, Response& r) override {
         op_.solve(springs, theta, r);
+        r.error = {};
+        if (tight_) return;
         const double jump = by_ * max_abs(r.jump), force = by_ * max_abs(r.force);
         for (std::size_t i = 0; i < r.jump.size(); ++i) {
             seed_ = seed_ * 6364136223846793005u + 1442695040888963407u;
@@ -161,6 +167,7 @@ public:
 private:
     JumpOperator& op_;
     double by_;
+    bool willing_, tight_ = false;
     std::uint64_t seed_ = 1;
 };
 
@@ -229,7 +236,8 @@ START_TEST(zone_answers_as_the_dense_one) {
 
     int indefinite = 0, definite = 0;
     // Along a motion in which a layer floats, tangents of any size leave no minimum.
-    for (const double share : {-1e-15, -1e-12, -1e-10, -1e-8, -1e-6, -1e-4, -1e-3, -3e-3, -1e-2, -3e-2, -0.1, -0.3, -1.0, -3.0}) {
+    for (const double share :
+         {-1e-15, -1e-12, -1e-10, -1e-8, -1e-6, -1e-4, -1e-3, -3e-3, -1e-2, -3e-2, -0.1, -0.3, -1.0, -3.0}) {
         const auto has_minimum = [&](Zone& zone, const std::vector<double>& theta) {
             std::vector<Zone::Coupling> couplings;
             std::vector<std::uint8_t> held(zone.jump_rows().size());
@@ -296,15 +304,49 @@ START_TEST(iterations_do_not_depend_on_the_stiffness) {
 END_TEST
 
 // The mean opening of an interface is prescribed: one row more, and no more entries of the matrix, nor iterations.
+// Where a solve ends early, what it leaves open of jumps and forces is what it says, and not a thousand times more.
+START_TEST(errors_are_estimated) {
+    const unit::LayerCase& c = cases[_i];
+    const unit::LayerState scene(c, static_cast<unsigned>(_i) + 1U);
+    Monitor monitor;
+    Iterated exact(scene.problem, monitor);
+    for (const double tolerance : {1e-2, 1e-4, 1e-6}) {
+        Problem problem = scene.problem;
+        problem.options.linear_tolerance = tolerance;
+        Iterated iterated(problem, monitor);
+        for (const double x : {0.0, 0.06, 0.07, 0.075}) {
+            const Springs springs = advanced(scene, x);
+            Response a, b;
+            iterated.solve(springs, scene.theta, a);
+            exact.solve(springs, scene.theta, b);
+            if (!b.balanced) continue;
+            double jump = 0.0, force = 0.0;
+            for (std::size_t r = 0; r < a.jump.size(); ++r) {
+                jump = std::max(jump, std::abs(a.jump[r] - b.jump[r]));
+                if (springs.held[r] != 0) force = std::max(force, std::abs(a.force[r] - b.force[r]));
+            }
+            std::printf("%s, %g: jumps %.1e of %.1e, forces %.1e of %.1e\n", c.name, tolerance, jump, a.error.jump,
+                        force, a.error.force);
+            // The finer one has an error of its own.
+            const double rounding = 1e-9, own_jump = b.error.jump + rounding * max_abs(b.jump),
+                         own_force = b.error.force + rounding * max_abs(b.force);
+            ck_assert(jump <= a.error.jump + own_jump && force <= a.error.force + own_force);
+            ck_assert(a.error.jump <= 1e3 * jump + 10.0 * own_jump && a.error.force <= 1e3 * force + 10.0 * own_force);
+        }
+    }
+}
+END_TEST
+
 START_TEST(constraints_on_many_jumps_fill_nothing) {
     for (const std::int64_t along : {200, 400}) {
         unit::Flexure f;
         f.along = along;
         f.length = 1e-3 * static_cast<double>(along);
-        Problem problem = unit::make_flexure(f);
+        const Problem plain = unit::make_flexure(f);
         Monitor monitor;
-        Iterated without(problem, monitor);
-        const std::int64_t a = most_iterations(without, problem, f);
+        Iterated without(plain, monitor);
+        const std::int64_t a = most_iterations(without, plain, f);
+        Problem problem = plain;
         unit::bind_opening(problem, unit::LayerCase::Opening::prescribed);
         Iterated with(problem, monitor);
         ck_assert(with.size().transformed == without.size().transformed);
@@ -412,6 +454,7 @@ START_TEST(numbers_that_are_not_finite_are_not_negative) {
             return 1.0;
         };
         system.rounding = [](std::span<const double>) { return 0.0; };
+        system.confirm = [](std::span<const double>, std::span<const double>) { return CgSystem::Confirmed{}; };
         system.each_iteration = [](std::int64_t) {};
         std::vector<double> x(2, 0.0);
         const CgOutcome outcome = conjugate_gradients(system, x, 1e-12, 100);
@@ -443,17 +486,74 @@ START_TEST(contact_settles_on_answers_of_any_accuracy) {
 }
 END_TEST
 
+// What such answers leave in doubt is solved again, and the contact sets are those of exact ones.
+START_TEST(doubtful_contact_is_solved_again) {
+    int wrong = 0;
+    for (const unit::LayerCase& c : cases) {
+        if (c.floating || c.touching || c.clamped || c.opening != unit::LayerCase::Opening::none) continue;
+        const unit::LayerState scene(c, 3);
+        Monitor monitor;
+        auto bulk = std::make_shared<Bulk>(scene.problem, monitor);
+        bulk->condense(monitor);
+        Condensed condensed(bulk, scene.problem, monitor);
+        ContactScene contact;
+        contact.dimension = c.dimension;
+        contact.bonded.assign(scene.springs.held.size() / scene.dim, 0);
+        contact.level.assign(contact.bonded.size(), 0);
+        const auto set_of = [&](JumpOperator& op, std::int64_t& doubts) {
+            std::vector<std::uint8_t> closed(contact.bonded.size(), 0);
+            Response response;
+            const ContactResult result =
+                solve_contact(op, contact, scene.springs.stiffness, scene.theta, closed, response, false);
+            ck_assert(result.converged);
+            doubts += result.doubts;
+            return closed;
+        };
+        Disturbed stubborn(condensed, 1e-3), willing(condensed, 1e-3, true);
+        std::int64_t none = 0, doubts = 0, solved = 0;
+        const std::vector<std::uint8_t> exact = set_of(condensed, none);
+        wrong += set_of(stubborn, doubts) != exact ? 1 : 0;
+        ck_assert_msg(set_of(willing, solved) == exact, "%s: another contact set", c.name);
+        std::printf("%s: %d doubts\n", c.name, static_cast<int>(doubts));
+        ck_assert(none == 0 && doubts == 1);
+    }
+    ck_assert_msg(wrong > 0, "no decision was in doubt");
+}
+END_TEST
+
+START_TEST(tightens_at_request) {
+    unit::LayerState scene(cases[1], 3);
+    scene.problem.options.linear_tolerance = 0.1;
+    Monitor monitor;
+    Iterated iterated(scene.problem, monitor);
+    Response first, second;
+    for (const double x : {0.0, 0.06, 0.075}) {
+        iterated.solve(advanced(scene, x), scene.theta, first);
+        second = first;
+        ck_assert(iterated.tighten(true));
+        iterated.solve(advanced(scene, x), scene.theta, second);
+        iterated.tighten(false);
+        ck_assert(second.converged && second.residual <= 1e-11);
+        ck_assert(second.error.jump <= 1e-8 * max_abs(second.jump));
+    }
+    ck_assert(first.residual > 1e-10);
+}
+END_TEST
+
 int main() {
     Suite* suite = suite_create("iterated");
     TCase* tests = tcase_create("operator");
     tcase_add_loop_test(tests, answers_as_the_condensed_operator, 0, static_cast<int>(std::size(cases)));
     tcase_add_loop_test(tests, zone_answers_as_the_dense_one, 0, static_cast<int>(std::size(cases)));
     tcase_add_test(tests, iterations_do_not_depend_on_the_stiffness);
+    tcase_add_loop_test(tests, errors_are_estimated, 0, static_cast<int>(std::size(cases)));
     tcase_add_test(tests, constraints_on_many_jumps_fill_nothing);
     tcase_add_test(tests, constraints_come_before_held_rows);
     tcase_add_loop_test(tests, continues_bit_for_bit, 0, static_cast<int>(std::size(cases)));
     tcase_add_test(tests, numbers_that_are_not_finite_are_not_negative);
     tcase_add_test(tests, contact_settles_on_answers_of_any_accuracy);
+    tcase_add_test(tests, tightens_at_request);
+    tcase_add_test(tests, doubtful_contact_is_solved_again);
     suite_add_tcase(suite, tests);
     SRunner* runner = srunner_create(suite);
     srunner_run_all(runner, CK_NORMAL);

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "base/numbers.hpp"
+#include "reduction/zone/zone.hpp"
 
 namespace delam {
 
@@ -50,23 +51,39 @@ struct ActiveSet {
     bool settled = false;                      // no row violates its side
     bool exchanged = false;                    // least-index exchanges were needed
     std::int64_t solves = 0;
+    std::int64_t doubts = 0;  // sets of which a solve left open whether a row violates its side
 };
 
 // Violations below this part of the largest jump or force are rounding of the solve.
 inline constexpr double contact_rounding = 1e-11;
 
-// For jump_floor() and force_floor(): what a solve has left open says nothing about contact. (Measured on an ENF in
-// space with answers off by 1e-6: 153,000 active-set steps without it in the first five load steps, one for each solve
-// with it.)
-inline double unresolved(double error) { return error / contact_rounding; }
+// Answers of an iteration: error() is what the last one leaves open. tighten(): the next ones leave less open; false:
+// they cannot.
+template <class S>
+concept InexactSystem = requires(S system) {
+    { system.error() } -> std::same_as<SolveError>;
+    { system.tighten() } -> std::same_as<bool>;
+};
 
-// Contact rows on the wrong side, as positions in `rows`; only those on this level or above.
+// What a solve has left open says nothing about contact. (Measured on an ENF in space with answers off by 1e-6: 153,000
+// active-set steps in the first five load steps where it was taken to say something, one for each solve otherwise.)
+template <ContactSystem S>
+SolveError left_open(const S& system) {
+    if constexpr (InexactSystem<S>)
+        return system.error();
+    else
+        return {};
+}
+
+// Contact rows on the wrong side by more than `open` and rounding, as positions in `rows`; only those on this level or
+// above.
 template <ContactSystem S>
 std::vector<std::size_t> contact_violators(const S& system, const ContactRows& rows,
-                                           const std::vector<std::uint8_t>& closed, std::uint8_t level) {
+                                           const std::vector<std::uint8_t>& closed, std::uint8_t level,
+                                           const SolveError& open = {}) {
     const std::span<const double> jump = system.jump(), force = system.force();
-    const double least_jump = contact_rounding * std::max(max_abs(jump), system.jump_floor());
-    const double least_force = contact_rounding * std::max(max_abs(force), system.force_floor());
+    const double least_jump = std::max(open.jump, contact_rounding * std::max(max_abs(jump), system.jump_floor()));
+    const double least_force = std::max(open.force, contact_rounding * std::max(max_abs(force), system.force_floor()));
     std::vector<std::size_t> found;
     for (std::size_t i = 0; i < rows.row.size(); ++i) {
         if (!rows.on(i, level)) continue;
@@ -95,11 +112,17 @@ ActiveSet find_active_set(S& system, const ContactRows& rows, std::vector<std::u
             continue;
         }
         if (result.last != ContactSolve::solved) return result;
-        std::vector<std::size_t> wrong = contact_violators(system, rows, closed, level);
+        const SolveError open = left_open(system);
+        std::vector<std::size_t> wrong = contact_violators(system, rows, closed, level, open);
         while (wrong.empty() && level > rows.least) {
-            wrong = contact_violators(system, rows, closed, --level);
+            wrong = contact_violators(system, rows, closed, --level, open);
             seen.clear();
             exchange = false;
+        }
+        if constexpr (InexactSystem<S>) {
+            const bool doubtful = wrong.empty() && !contact_violators(system, rows, closed, level).empty();
+            if (doubtful) ++result.doubts;
+            if (doubtful && result.solves < limit && system.tighten()) continue;
         }
         result.settled = wrong.empty();
         if (result.settled || result.solves >= limit) return result;

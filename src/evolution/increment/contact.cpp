@@ -2,6 +2,7 @@
 #include "evolution/increment/contact.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/error.hpp"
 #include "base/numbers.hpp"
@@ -51,6 +52,11 @@ public:
           theta_(theta),
           response_(response),
           result_(result) {}
+    OperatorSystem(const OperatorSystem&) = delete;
+    OperatorSystem& operator=(const OperatorSystem&) = delete;
+    ~OperatorSystem() {
+        if (tight_) op_.tighten(false);
+    }
 
     ContactSolve solve(const std::vector<std::uint8_t>& closed) {
         for (std::size_t i = 0; i < closed.size(); ++i) springs_.held[rows_.row[i]] = closed[i];
@@ -64,8 +70,10 @@ public:
     }
     std::span<const double> jump() const { return response_.jump; }
     std::span<const double> force() const { return response_.force; }
-    double jump_floor() const { return std::max(scene_.jump_floor(theta_), unresolved(response_.error.jump)); }
-    double force_floor() const { return std::max(scene_.force_floor(theta_), unresolved(response_.error.force)); }
+    double jump_floor() const { return scene_.jump_floor(theta_); }
+    double force_floor() const { return scene_.force_floor(theta_); }
+    SolveError error() const { return response_.error; }
+    bool tighten() { return !std::exchange(tight_, true) && op_.tighten(true); }
 
 private:
     JumpOperator& op_;
@@ -75,6 +83,7 @@ private:
     std::span<const double> theta_;
     Response& response_;
     ContactResult& result_;
+    bool tight_ = false;
 };
 
 }  // namespace
@@ -103,6 +112,7 @@ ContactResult solve_contact(JumpOperator& op, const ContactScene& scene, std::sp
         response, result);
     const ActiveSet found = find_active_set(system, rows, set, scene.limit, true);
     result.solves = found.solves;
+    result.doubts = found.doubts;
     result.fallback = found.exchanged;
     if (found.last != ContactSolve::solved)
         fail(DELAM_LIMIT,

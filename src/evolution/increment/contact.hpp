@@ -14,6 +14,7 @@ namespace delam {
 
 struct ContactResult {
     std::int64_t solves = 0;  // active-set steps
+    std::int64_t doubts = 0;  // sets of which a solve left open whether they are right
     std::int64_t linear_iterations = 0;
     double linear_residual = 0.0;  // worst of the solves
     bool converged = true;

@@ -41,8 +41,11 @@ public:
     ContactSolve solve(const std::vector<std::uint8_t>& closed);
     std::span<const double> jump() const { return jump_; }
     std::span<const double> force() const { return force_; }
-    double jump_floor() const { return std::max(scene_.jump_floor(theta_), unresolved(error_.jump)); }
-    double force_floor() const { return std::max(scene_.force_floor(theta_), unresolved(error_.force)); }
+    double jump_floor() const { return scene_.jump_floor(theta_); }
+    double force_floor() const { return scene_.force_floor(theta_); }
+    SolveError error() const { return error_; }
+    // What is in doubt here is decided by the operator, which checks the end of a minimiser.
+    bool tighten() { return false; }
     // Of the last solve.
     const std::vector<double>& unknowns() const { return unknowns_; }
     // Krylov iterations of all solves.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/numbers.hpp"
 #include "linalg/dense.hpp"
@@ -73,6 +74,7 @@ CgOutcome conjugate_gradients(const CgSystem& system, std::span<double> x, doubl
             outcome.residual = relative;
             outcome.norm = norm;
             best.assign(x.begin(), x.end());
+            outcome.correction = z;
         }
         if (reached) {
             outcome.converged = true;
@@ -91,8 +93,10 @@ CgOutcome conjugate_gradients(const CgSystem& system, std::span<double> x, doubl
         if (!(outcome.rounded > 0.0) || left > goal) continue;
         const CgSystem::Confirmed confirmed = system.confirm(x, r);
         if (!confirmed.agrees) continue;
-        left = std::hypot(left, outcome.rounded * confirmed.size);
+        const double recursion = std::exchange(left, std::hypot(left, outcome.rounded * confirmed.size));
         if (left > std::max(tolerance, at_rounding * outcome.rounded) * confirmed.size) continue;
+        outcome.correction = z;
+        for (double& c : outcome.correction) c *= recursion > 0.0 ? left / recursion : 0.0;
         outcome.norm = left;
         outcome.residual = left / confirmed.size;
         outcome.converged = true;

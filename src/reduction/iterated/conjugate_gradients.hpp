@@ -37,11 +37,12 @@ struct CgSystem {
 
 struct CgOutcome {
     std::int64_t iterations = 0;
-    double residual = 0.0;   // sqrt(r^T z) over the size of the state, of the true residual
-    double norm = 0.0;       // sqrt(r^T z)
-    double rounded = 0.0;    // what rounding leaves, as a part of the size of the state; 0: it was not needed
-    bool converged = false;  // to the tolerance, or to what rounding allows
-    bool definite = true;    // false: a direction of negative curvature was met; x is where it was met
+    double residual = 0.0;           // sqrt(r^T z) over the size of the state, of the true residual
+    double norm = 0.0;               // sqrt(r^T z)
+    double rounded = 0.0;            // what rounding leaves, as a part of the size of the state; 0: it was not needed
+    std::vector<double> correction;  // M r there, no less than rounding leaves: about what is missing
+    bool converged = false;          // to the tolerance, or to what rounding allows
+    bool definite = true;            // false: a direction of negative curvature was met; x is where it was met
 };
 
 CgOutcome conjugate_gradients(const CgSystem& system, std::span<double> x, double tolerance, std::int64_t limit);

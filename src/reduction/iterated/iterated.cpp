@@ -72,7 +72,8 @@ void Iterated::solve(const Springs& springs, std::span<const double> theta, Resp
     scale_by_power(pulled, -power);
     if (exponent(max_abs(x)) - power > largest_start_power) x.clear();
     scale_by_power(x, -power);
-    const Reanalysis::Answer answer = reanalysis_.solve(unit, pulled, problem_.options.linear_tolerance, x);
+    const Reanalysis::Answer answer =
+        reanalysis_.solve(unit, pulled, tight_ ? 0.0 : problem_.options.linear_tolerance, x);
     response.balanced = answer.balanced;
     response.iterations = answer.iterations;
     response.residual = answer.residual;
@@ -82,9 +83,12 @@ void Iterated::solve(const Springs& springs, std::span<const double> theta, Resp
     response.error = {};
     if (!response.balanced) return;
     respond(springs, theta, response);
-    Reanalysis::Answer sized = answer;
-    sized.norm = std::ldexp(sized.norm, power);
-    response.error = reanalysis_.error(sized, response.jump, response.force);
+    response.error = {std::ldexp(answer.error.jump, power), std::ldexp(answer.error.force, power)};
+}
+
+bool Iterated::tighten(bool on) {
+    tight_ = on;
+    return problem_.options.linear_tolerance > Reanalysis::finest;
 }
 
 void Iterated::rest(const Springs& springs, std::span<const double> theta, Response& response) const {

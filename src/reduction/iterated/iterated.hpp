@@ -28,6 +28,7 @@ public:
     Iterated(const Problem& problem, Monitor& monitor);
     Iterated(const Problem& problem, AssembledBodies bodies, Monitor& monitor);
     void solve(const Springs& springs, std::span<const double> theta, Response& response) override;
+    bool tighten(bool on) override;
     std::vector<double> displacement(std::span<const double> theta, const Response& response) const override;
     std::vector<double> reaction(std::span<const double> theta, const Response& response) const override;
     double equilibrium_defect(std::span<const double> theta, const Response& response) const override;
@@ -60,6 +61,7 @@ private:
     std::vector<double> strain_energy_;  // [patterns][patterns] W of the eigenstrains
     Reanalysis reanalysis_;
     std::unique_ptr<IteratedZone> zone_;  // once it is asked for
+    bool tight_ = false;
     mutable std::int64_t recoveries_ = 0;
 };
 

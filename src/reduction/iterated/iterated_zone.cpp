@@ -54,7 +54,7 @@ Zone::Solution IteratedZone::solve(std::span<const double> theta, std::span<cons
     solution.multiplier.assign(force.size(), 0.0);
     for (std::size_t r = 0; r < force.size(); ++r)
         if (reanalysis_.system().held()[r] != 0) solution.multiplier[r] = force[r];
-    solution.error = reanalysis_.error(answer, jump, force);
+    solution.error = answer.error;
     start_ = solution.unknowns;
     return solution;
 }

@@ -23,15 +23,12 @@ constexpr double largest_patch = 0.25;
 constexpr double fresh_iterations = 2.0;
 // A triangular solve waits for memory: its operations are this many times slower than a factorisation's.
 constexpr double slower = 5.0;
-// Residuals below this part of the state are not asked for: it is what a decision about contact can still use.
-constexpr double finest = 1e-12;
 // Of the work of all tangents along a rigid motion: what may be rounding of a sum that cancels.
 constexpr double cancelled = 1e-13;
-// Multiple of the residual below which a jump or force is in doubt, and how much farther than a node an error reaches.
-constexpr double in_doubt = 4.0;
+// Multiple of the estimated error below which a jump or force is in doubt.
+constexpr double in_doubt = 10.0;
 // Rounding units, of the terms of a component, by which a residual from a recursion may differ from the true one.
 constexpr double rounding_units = 16.0;
-constexpr double spread_out = 100.0;
 
 }  // namespace
 
@@ -191,15 +188,18 @@ double Reanalysis::size_of(std::span<const double> theta, std::span<const double
     return std::sqrt(std::abs(dot(u, force)) + work_of_couplings(x));
 }
 
-// As a part of the largest; but no more than what the residual's energy can do to a node, which matters where the state
-// has hardly any energy.
-SolveError Reanalysis::error(const Answer& answer, std::span<const double> jump, std::span<const double> force) const {
-    double diagonal = 0.0;
-    for (const double d : system_.diagonal()) diagonal += d / static_cast<double>(system_.count());
-    const double share = in_doubt * answer.residual, energy = in_doubt * spread_out * answer.norm;
-    if (!(diagonal > 0.0)) return {};
-    return {std::min(share * max_abs(jump), energy / std::sqrt(diagonal)),
-            std::min(share * max_abs(force), energy * std::sqrt(diagonal))};
+// What is missing is A^-1 r, and the preconditioner is nearly A^-1: jumps and forces of M r. An estimate: it is too
+// small by as much as a vector's share in r belongs to eigenvalues of M A below 1, which the patches keep near 1. (The
+// energy of M r would give bounds, |force| <= sqrt(stiffness of the row) |error| and |jump| <= sqrt(flexibility of the
+// row) |error|, but those of a row at the tip of an arm are useless, by the flexibility of the whole arm.)
+SolveError Reanalysis::error_of(std::span<const double> correction) const {
+    SolveError error;
+    std::vector<double> left(correction.size()), force(system_.rows().size(), 0.0);
+    system_.apply(correction, left);
+    system_.multipliers(left, force);
+    for (std::size_t r = 0; r < force.size(); ++r)
+        if (system_.held()[r] == 0) error.jump = std::max(error.jump, std::abs(system_.row_value(r, correction)));
+    return {in_doubt * error.jump, in_doubt * max_abs(force)};
 }
 
 std::vector<double> Reanalysis::held_forces(std::span<const double> theta, std::span<const double> x,
@@ -389,7 +389,7 @@ Reanalysis::Answer Reanalysis::solve(std::span<const double> theta, std::span<co
     floating_.settle(x);
     answer.iterations = outcome.iterations;
     answer.residual = outcome.residual;
-    answer.norm = outcome.norm;
+    if (!outcome.correction.empty()) answer.error = error_of(outcome.correction);
     answer.converged = outcome.converged;
     answer.definite = outcome.definite;
     debt_ += iteration_cost() * std::max(0.0, static_cast<double>(outcome.iterations) - fresh_iterations);

@@ -24,6 +24,9 @@ namespace delam {
 
 class Reanalysis {
 public:
+    // Residuals below this part of the state are not asked for: it is what a decision about contact can still use.
+    static constexpr double finest = 1e-12;
+
     // transformed: T^T K T of the bodies
     Reanalysis(const BodySystem& bodies, SparseMatrix transformed, Monitor& monitor);
 
@@ -32,7 +35,7 @@ public:
     struct Answer {
         std::int64_t iterations = 0;
         double residual = 0.0;  // relative, in the energy norm
-        double norm = 0.0;      // the same, absolute: square root of an energy
+        SolveError error;       // of jumps and forces: ten times what a further step of the iteration would change
         bool converged = true;
         bool balanced = true;  // false: a free motion carries a load; x is then not set
         bool definite = true;  // false: negative curvature was met; x is then of no use
@@ -41,8 +44,6 @@ public:
     // of the residual, at best `finest`.
     Answer solve(std::span<const double> theta, std::span<const double> row_force, double tolerance,
                  std::vector<double>& x);
-    // What such an answer leaves open of these jumps and forces.
-    SolveError error(const Answer& answer, std::span<const double> jump, std::span<const double> force) const;
     // Adds the forces of held rows to those of the others. Returns the multipliers of constraints on many variables.
     std::vector<double> held_forces(std::span<const double> theta, std::span<const double> x,
                                     std::span<double> force) const;
@@ -76,6 +77,7 @@ private:
     double rounding_at(std::span<const double> right, std::span<const double> x);
     void precondition(std::span<const double> r, std::span<double> z);
     void start_from(std::span<const double> right, std::span<const double> theta, std::span<double> x) const;
+    SolveError error_of(std::span<const double> correction) const;
     double iteration_cost() const;
 
     const BodySystem& bodies_;

@@ -19,7 +19,7 @@ void WholeFactor::factorise(std::span<const Triplet> springs, const Poll& poll) 
     for (const SparseVector& row : system_.equations())
         for (const auto& [i, c] : row) {
             const double d = system_.diagonal()[index(i)];
-            added.push_back({i, i, d > 0.0 ? constraint_shift * d : largest});
+            added.push_back({i, i, constraint_shift * (d > 0.0 ? d : largest)});
         }
     bool definite = false;
     system_.with_added(added, [&](const SparseMatrix& matrix) { definite = factor_.factorise(matrix); });
