@@ -125,7 +125,7 @@ OPTIONS = {
     "damage_tolerance": 1e-4, "minimisation_limit": 4000, "backtracking_tolerance": 1e-2, "minimisation": "alternate",
     "reduction": "feti", "contact": "always", "mixity": "always", "mixity_rule": "frozen", "path_step": 0.2,
     "contact_limit": 100, "subdomains": 4, "gluing": "redundant", "preconditioner": "dirichlet",
-    "scaling": "multiplicity", "linear_tolerance": 1e-12, "linear_limit": 1000, "threads": 2,
+    "scaling": "multiplicity", "linear_tolerance": 1e-12, "linear_limit": 1000, "threads": 2, "memory_limit": 1e-7,
 }
 ROW_OF = {"backtracking": "solution", "smallest_step": "step_control", "search_limit": HASH, "linear_limit": HASH}
 

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A march on the iterated operator that is cancelled in each of its stages goes on with the same bits: in the solver
+// that was cancelled, and in a new one that loads its saved state.
+#include <cstring>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "delam/delam.h"
+#include "evolution/snapshot.hpp"
+#include "evolution/solver.hpp"
+#include "evolution/values.hpp"
+#include "flexure.hpp"
+
+// Last: its macro fail() would break delam::fail().
+#include "quiet_check.hpp"
+
+using namespace delam;
+
+namespace {
+
+constexpr int steps = 4;
+constexpr const char* of_setup[] = {"assemble", "analyse"};
+constexpr const char* of_steps[] = {"factor", "patch", "linear solve"};
+
+// Counts how often each stage polls, and cancels at one of these polls.
+struct Watch {
+    std::map<std::string, int> polls;
+    std::string stage;
+    int stop_at = 0;
+
+    static std::int32_t poll(const char* stage, std::int64_t, std::int64_t, void* user) {
+        auto& w = *static_cast<Watch*>(user);
+        return ++w.polls[stage] == w.stop_at && w.stage == stage ? 1 : 0;
+    }
+    void stop(const std::string& in, int at) {
+        polls.clear();
+        stage = in;
+        stop_at = at;
+    }
+};
+
+struct March {
+    Watch watch;
+    Monitor monitor;
+
+    March() {
+        monitor.progress_user = &watch;
+        monitor.progress_callback = &Watch::poll;
+    }
+};
+
+Problem scene() {
+    unit::Flexure f;
+    f.dimension = 3;
+    f.along = 80;
+    f.across = 1;
+    f.through = 1;
+    Problem problem = unit::make_flexure(f);
+    problem.options.reduction = "iterated";
+    return problem;
+}
+
+std::int32_t advance(Solver& solver, int step) {
+    try {
+        return solver.advance(static_cast<double>(step) / steps).status;
+    } catch (const Error& e) {
+        return e.status();
+    }
+}
+
+void finish(Solver& solver) {
+    for (int k = static_cast<int>(solver.committed().step) + 1; k <= steps; ++k) {
+        ck_assert_int_eq(advance(solver, k), DELAM_OK);
+        solver.commit();
+    }
+}
+
+// Computed once, before the tests, in which check reports.
+struct Reference {
+    std::vector<std::uint8_t> end;
+    std::vector<std::map<std::string, int>> polls;  // of the step to each state
+
+    Reference() {
+        March march;
+        const Problem problem = scene();
+        Solver solver(problem, march.monitor, 0.0);
+        polls.push_back(march.watch.polls);
+        for (int k = 1; k <= steps; ++k) {
+            march.watch.stop("", 0);
+            if (advance(solver, k) != DELAM_OK) throw Error(DELAM_ERROR_INTERNAL, "a step fails undisturbed");
+            solver.commit();
+            polls.push_back(march.watch.polls);
+        }
+        if (!(value(solver, "dissipated") > 0.0)) throw Error(DELAM_ERROR_INTERNAL, "nothing is damaged");
+        end = save(solver);
+    }
+};
+
+const Reference* undisturbed = nullptr;
+
+void expect_same(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
+    ck_assert_uint_eq(a.size(), b.size());
+    ck_assert_int_eq(std::memcmp(a.data(), b.data(), a.size()), 0);
+}
+
+}  // namespace
+
+// loop: stage. At the first, the middle and the last poll of it.
+START_TEST(cancelled_while_it_is_set_up) {
+    const Problem problem = scene();
+    const Reference& reference = *undisturbed;
+    const int polls = reference.polls[0].at(of_setup[_i]);
+    for (const int at : {1, (polls + 1) / 2, polls}) {
+        March march;
+        march.watch.stop(of_setup[_i], at);
+        std::int32_t status = DELAM_OK;
+        try {
+            const Solver solver(problem, march.monitor, 0.0);
+        } catch (const Error& e) {
+            status = e.status();
+        }
+        ck_assert_int_eq(status, DELAM_CANCELLED);
+        if (at != polls) continue;
+        march.watch.stop("", 0);
+        Solver solver(problem, march.monitor, 0.0);
+        finish(solver);
+        expect_same(save(solver), reference.end);
+    }
+}
+END_TEST
+
+// loop: stage
+START_TEST(cancelled_in_a_step) {
+    const Problem problem = scene();
+    const Reference& reference = *undisturbed;
+    const std::string stage = of_steps[_i];
+    int cancelled = 0;
+    for (int k = 2; k <= steps && cancelled < 2; ++k) {
+        const auto found = reference.polls[static_cast<std::size_t>(k)].find(stage);
+        if (found == reference.polls[static_cast<std::size_t>(k)].end()) continue;
+        March march;
+        Solver solver(problem, march.monitor, 0.0);
+        for (int j = 1; j < k; ++j) {
+            ck_assert_int_eq(advance(solver, j), DELAM_OK);
+            solver.commit();
+        }
+        const std::vector<std::uint8_t> before = save(solver);
+        march.watch.stop(stage, (found->second + 1) / 2);
+        ck_assert_int_eq(advance(solver, k), DELAM_CANCELLED);
+        march.watch.stop("", 0);
+        const std::vector<std::uint8_t> kept = save(solver);
+        expect_same(kept, before);
+        Solver other(problem, march.monitor, 0.0);
+        load(other, kept);
+        finish(other);
+        expect_same(save(other), reference.end);
+        finish(solver);
+        expect_same(save(solver), reference.end);
+        ++cancelled;
+    }
+    ck_assert_int_gt(cancelled, 0);
+}
+END_TEST
+
+int main() {
+    const Reference reference;
+    undisturbed = &reference;
+    Suite* suite = suite_create("interrupted");
+    TCase* iterated = tcase_create("iterated");
+    tcase_add_loop_test(iterated, cancelled_while_it_is_set_up, 0, 2);
+    tcase_add_loop_test(iterated, cancelled_in_a_step, 0, 3);
+    suite_add_tcase(suite, iterated);
+    SRunner* runner = srunner_create(suite);
+    srunner_run_all(runner, CK_ENV);
+    const int failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return failed == 0 ? 0 : 1;
+}
