@@ -74,6 +74,8 @@ void add_realisations(std::vector<PlanItem>& items, const Basis& basis) {
                      bytes, both ? rival->bytes - bytes : 0.0, "byte"});
 }
 
+constexpr double noticed = 0.5;  // s, of a wait for a cancellation
+
 void add_reduction(std::vector<PlanItem>& items, const Basis& basis) {
     add_realisations(items, basis);
     const ReductionChoice& choice = basis.choice;
@@ -98,10 +100,13 @@ void add_reduction(std::vector<PlanItem>& items, const Basis& basis) {
                                       : std::string(),
                                   "); the BLAS uses ", of_blas),
                      0.0, 0.0, "-"});
-    const double longest = choice.own().longest;
+    const double longest = choice.own().longest, ordering = choice.own().ordering / nominal_rate;
+    const std::string before = ordering < noticed ? ""
+                                                  : text("; also for an ordering by METIS before it, about ",
+                                                         std::round(10.0 * ordering) / 10.0, " s");
     items.push_back(
         {"longest uninterruptible factorisation", used,
-         text(longest, " operations at a nominal ", nominal_rate * 1e-9, " GF/s; a cancellation waits for it"),
+         text(longest, " operations at a nominal ", nominal_rate * 1e-9, " GF/s; a cancellation waits for it", before),
          longest / nominal_rate, 0.0, "s"});
 }
 

@@ -44,8 +44,10 @@ constexpr double iterated_products = 6.4;
 constexpr double patch_operations = 2e6;
 constexpr double patch_variables = 25e3;
 constexpr double iterated_renewals = 0.5;
-constexpr double iterated_vectors = 46.0;   // states and directions of an iteration
-constexpr double most_vectors = 156.0;      // with the 60 pairs that conjugate gradients keep at most
+constexpr double iterated_vectors = 46.0;  // states and directions of an iteration
+constexpr double most_vectors = 156.0;     // with the 60 pairs that conjugate gradients keep at most
+// Per variable: METIS takes 1.1 s for 354,000 displacements, 3 s for a million.
+constexpr double ordering_operations = 6e4;
 constexpr double largest_patch = 0.25;      // of all variables, as of reanalysis.cpp
 constexpr double relaxed_supernodes = 1.6;  // numbers stored per entry of its factor
 // Operations of a factor, times variables over the square of its entries (1: all columns alike).
@@ -91,6 +93,7 @@ ReductionCost predict_condensed(const Bulk& bulk) {
     cost.possible = bulk.trailing() <= dense_limit;
     cost.setup = bulk.size().flops + (2.0 / 3.0 + condensed_start) * cube(m);
     cost.longest = std::max(bulk.size().flops, 2.0 / 3.0 * cube(m));
+    cost.ordering = ordering_operations * (number(bulk.transformed().rows) - m);
     cost.step = condensed_step * cube(m);
     // During the factorisation, T^T K T and CHOLMOD's permuted copy of it; during the analysis, the dense matrices.
     cost.bytes = stiffness + factor + std::max(2.0 * transformed, 8.0 * dense_copies * m * m);
@@ -102,6 +105,7 @@ ReductionCost predict_iterated(const IteratedSize& size) {
     const double product = from_memory * (4.0 * size.stored + 6.0 * size.transformed);
     ReductionCost cost;
     cost.setup = cost.longest = size.factor.flops;
+    cost.ordering = ordering_operations * size.variables;
     cost.step = iterated_solves * iterated_products * product +
                 patch_operations * std::min(size.variables, patch_variables) + iterated_renewals * size.factor.flops;
     // K, T^T K T, CHOLMOD's permuted copy of half of it, the factor, some states and the directions of an

@@ -31,13 +31,14 @@ inline constexpr double memory_floor = 4096.0 * 1048576.0;
 inline constexpr std::int64_t dense_limit = 46340;
 
 struct ReductionCost {
-    double setup = 0.0;    // operations before the first step
-    double longest = 0.0;  // operations of the longest factorisation, which cannot be interrupted
-    double step = 0.0;     // operations of a load step
-    double bytes = 0.0;    // peak of the analysis, mesh and scene not counted
-    double least = 0.0;    // bytes without which it is impossible
-    double most = 0.0;     // bytes at the peak where its iterations are many; 0: it does not iterate with vectors
-    bool possible = true;  // LAPACK's integers hold its largest dense matrix
+    double setup = 0.0;     // operations before the first step
+    double longest = 0.0;   // operations of the longest factorisation, which cannot be interrupted
+    double step = 0.0;      // operations of a load step
+    double bytes = 0.0;     // peak of the analysis, mesh and scene not counted
+    double least = 0.0;     // bytes without which it is impossible
+    double ordering = 0.0;  // operations of METIS, which cannot be interrupted, before a factorisation of all bodies
+    double most = 0.0;      // bytes at the peak where its iterations are many; 0: it does not iterate with vectors
+    bool possible = true;   // LAPACK's integers hold its largest dense matrix
     double analysis() const { return setup + nominal_steps * step; }
 };
 

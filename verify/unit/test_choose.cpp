@@ -259,6 +259,21 @@ START_TEST(limits_of_the_process_are_seen) {
 }
 END_TEST
 
+// METIS took 3.3 s for a million displacements.
+START_TEST(waits_for_orderings_are_predicted) {
+    IteratedSize size;
+    size.variables = 1.05e6;
+    const double ordering = predict_iterated(size).ordering / nominal_rate;
+    ck_assert(ordering > 2.0 && ordering < 5.0);
+    Monitor monitor;
+    const Problem problem = unit::make_flexure({});
+    const Bulk bulk(problem, monitor);
+    const double all = static_cast<double>(bulk.transformed().rows), jumps = static_cast<double>(bulk.trailing());
+    const double expected = ordering * nominal_rate * (all - jumps) / 1.05e6;  // jumps are not ordered
+    ck_assert(std::abs(predict_condensed(bulk).ordering - expected) < 1e-9 * expected);
+}
+END_TEST
+
 START_TEST(size_memory_and_time_decide) {
     ReductionChoice c;
     const auto iterated = [&] { return c.realisation == Realisation::iterated; };
@@ -301,6 +316,7 @@ int main() {
     tcase_add_test(choice, size_memory_and_time_decide);
     tcase_add_loop_test(choice, what_does_not_fit_is_refused_before_it_is_factored, 0, 3);
     tcase_add_test(choice, auto_takes_what_fits);
+    tcase_add_test(choice, waits_for_orderings_are_predicted);
     tcase_add_test(choice, limits_of_the_process_are_seen);
     suite_add_tcase(suite, choice);
     SRunner* runner = srunner_create(suite);
