@@ -15,6 +15,7 @@
 #include "linalg/dense.hpp"
 #include "reduction/condensed/condensed.hpp"
 #include "reduction/iterated/conjugate_gradients.hpp"
+#include "reduction/iterated/floating.hpp"
 #include "reduction/iterated/iterated.hpp"
 #include "reduction/zone/dense_zone.hpp"
 #include "reduction/zone/rigid_jumps.hpp"
@@ -285,6 +286,45 @@ static std::int64_t most_iterations(Iterated& iterated, const Problem& problem, 
     return most;
 }
 
+// While a front advances, a look at what has become softer mostly shows that nothing floats; and what floats is found.
+START_TEST(floating_parts_are_found) {
+    const unit::LayerCase c{.name = "", .dimension = 3, .layers = 4, .subdomains = 0, .stiffness = 125e9};
+    const unit::LayerState scene(c, 1);
+    const BodySystem bodies(scene.problem, {});
+    JumpSystem system(bodies, bodies.transformed({}), {});
+    Floating kept(bodies, system);
+    const std::vector<std::uint8_t> held(scene.springs.stiffness.size(), 0);
+    std::int64_t states = 0, afloat = 0;
+    for (const double weak : {1.0, 1e-10, 0.0, 1.0})
+        for (double front = 0.0; front < 0.13; front += 0.01, ++states) {
+            std::vector<Zone::Coupling> couplings;
+            std::size_t row = 0;
+            for (const InterfaceGeometry& face : scene.problem.mesh->interfaces())
+                for (const std::int64_t node : face.node_a) {
+                    const double at = scene.problem.mesh->node(node)[0];
+                    const double spring = (at < front ? weak : 1.0) * 1e12 * face.weight.front();
+                    for (std::size_t k = 0; k < scene.dim && spring > 0.0; ++k)
+                        couplings.push_back(
+                            {static_cast<std::int64_t>(row + k), static_cast<std::int64_t>(row + k), spring});
+                    row += scene.dim;
+                }
+            system.set(std::move(couplings), held);
+            kept.update();
+            Floating fresh(bodies, system);
+            fresh.update();
+            ck_assert_uint_eq(kept.free().size(), fresh.free().size());
+            ck_assert_uint_eq(kept.weak().size(), fresh.weak().size());
+            afloat += kept.free().size() + kept.weak().size() > 0 ? 1 : 0;
+            // Nothing is held where all interfaces have separated, and all is where little has.
+            if (front > 0.12 + 1e-9 && weak < 1e-3) ck_assert_uint_gt(kept.free().size() + kept.weak().size(), 0);
+            if (front < 0.06) ck_assert_uint_eq(kept.free().size() + kept.weak().size(), 0);
+        }
+    std::printf("%d states, %d with floating parts: %d examinations\n", static_cast<int>(states),
+                static_cast<int>(afloat), static_cast<int>(kept.examinations()));
+    ck_assert(afloat > 0 && kept.examinations() < states / 2);
+}
+END_TEST
+
 START_TEST(iterations_do_not_depend_on_the_stiffness) {
     for (const double stiffness : {1e9, 1e11, 1e13, 1e15, 1e17}) {
         unit::Flexure f;
@@ -545,6 +585,7 @@ int main() {
     TCase* tests = tcase_create("operator");
     tcase_add_loop_test(tests, answers_as_the_condensed_operator, 0, static_cast<int>(std::size(cases)));
     tcase_add_loop_test(tests, zone_answers_as_the_dense_one, 0, static_cast<int>(std::size(cases)));
+    tcase_add_test(tests, floating_parts_are_found);
     tcase_add_test(tests, iterations_do_not_depend_on_the_stiffness);
     tcase_add_loop_test(tests, errors_are_estimated, 0, static_cast<int>(std::size(cases)));
     tcase_add_test(tests, constraints_on_many_jumps_fill_nothing);

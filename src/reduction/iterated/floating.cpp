@@ -19,6 +19,23 @@ constexpr double anchored = 1e-2;  // of the bodies' stiffness: a spring that re
 constexpr double unbalanced_load = 1e-8;
 constexpr double rounded_load = 1e-11;
 
+// Of Z^T W Z with a diagonal W, block by block of its rows.
+Eigen weighted_gram(const DenseMatrix& z, std::span<const double> weight) {
+    constexpr std::int64_t most = 4096;
+    DenseMatrix gram(z.columns, z.columns);
+    for (std::int64_t first = 0; first < z.rows; first += most) {
+        DenseMatrix plain(std::min(most, z.rows - first), z.columns), scaled = plain;
+        for (std::int64_t c = 0; c < z.columns; ++c)
+            for (std::int64_t r = 0; r < plain.rows; ++r) {
+                plain(r, c) = z(first + r, c);
+                scaled(r, c) = plain(r, c) * weight[index(first + r)];
+            }
+        const DenseMatrix part = multiply_transposed(plain, scaled);
+        add_scaled(1.0, part.value, gram.value);
+    }
+    return eigen_symmetric(std::move(gram));
+}
+
 }  // namespace
 
 Floating::Floating(const BodySystem& bodies, const JumpSystem& system)
@@ -63,9 +80,50 @@ void Floating::update() {
     held_ = system_.held();
     active_ = std::move(active);
     spring_ = std::move(spring);
+    if (!all_resisted()) examine();
+    known_ = true;
+}
+
+// Z^T C Z, where held rows and stiffer springs are as stiff as the bodies, has no small eigenvalue. Springs that become
+// softer take at most their share of its trace (Weyl): a state is compared with the last one whose eigenvalues are
+// known, row by row.
+bool Floating::all_resisted() {
+    const DenseMatrix& z = rigid_.jumps();
+    const std::size_t rows = spring_.size();
+    std::vector<double> body(rows), now(rows);
+    for (std::size_t r = 0; r < rows; ++r) {
+        body[r] = row_diagonal(system_, r);
+        now[r] = held_[r] != 0 ? body[r] : std::min(body[r], spring_[r]);
+    }
+    if (reach_.empty()) {
+        enough_ = 1.001 * weakly * weighted_gram(z, body).value.back();
+        reach_.assign(rows, 0.0);
+        for (std::int64_t c = 0; c < z.columns; ++c)
+            for (std::size_t r = 0; r < rows; ++r) {
+                const double length = z(static_cast<std::int64_t>(r), c);
+                reach_[r] += length * length;
+            }
+    }
+    if (!firm_.empty()) {
+        double softened = 0.0;
+        for (std::size_t r = 0; r < rows; ++r) softened += std::max(0.0, firm_[r] - now[r]) * reach_[r];
+        if (resisted_ - softened >= enough_) return true;
+    }
+    ++examinations_;
+    const std::vector<double> eigen = weighted_gram(z, now).value;
+    const double rounding = rounded_load * std::max(-eigen.front(), eigen.back());
+    firm_.clear();
+    if (eigen.front() - rounding < enough_) return false;
+    resisted_ = eigen.front() - rounding;
+    firm_ = std::move(now);
+    return true;
+}
+
+void Floating::examine() {
+    const DenseMatrix& z = rigid_.jumps();
+    const std::size_t rows = spring_.size();
     const DenseMatrix loose = split_motions(z, held_).free;  // held rows do not resist them
-    known_ = loose.columns == 0;
-    if (known_) return;
+    if (loose.columns == 0) return;
     const DenseMatrix jumps = multiply(z, loose);
     const Combinations parts = split_motions(jumps, active_);
     const DenseMatrix resisted = multiply(jumps, parts.held);
@@ -96,7 +154,6 @@ void Floating::update() {
             .push_back(in_variables(std::span<const double>(combinations.value)
                                         .subspan(index(c * combinations.rows), index(combinations.rows))));
     anchor(multiply(z, combinations));
-    known_ = true;
 }
 
 void Floating::anchor(const DenseMatrix& jumps) {

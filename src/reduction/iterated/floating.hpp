@@ -20,6 +20,8 @@ public:
 
     // Finds both kinds at what acts on the system now.
     void update();
+    // How often that took more than a look at what has become softer.
+    std::int64_t examinations() const { return examinations_; }
     // In variables; they open no held row.
     const std::vector<std::vector<double>>& free() const { return free_; }
     const std::vector<std::vector<double>>& weak() const { return weak_; }
@@ -33,6 +35,8 @@ public:
 private:
     std::vector<double> in_variables(std::span<const double> combination) const;
     void anchor(const DenseMatrix& jumps);
+    bool all_resisted();
+    void examine();
 
     const BodySystem& bodies_;
     const JumpSystem& system_;
@@ -42,6 +46,13 @@ private:
     std::vector<std::uint8_t> held_, active_;
     std::vector<double> spring_;  // [rows] for which weak_ was found
     std::vector<std::vector<double>> free_, weak_;
+    // The last state in which springs were found to resist all motions: its springs, and the least eigenvalue of
+    // Z^T C Z there.
+    std::vector<double> firm_;
+    double resisted_ = 0.0;
+    std::vector<double> reach_;  // [rows] squared length of the row of Z
+    double enough_ = 0.0;        // such an eigenvalue, for which no motion is weakly held
+    std::int64_t examinations_ = 0;
     std::vector<Zone::Coupling> anchors_;
 };
 
