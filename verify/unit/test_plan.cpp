@@ -164,7 +164,8 @@ START_TEST(the_plan_is_known_beforehand) {
     ck_assert(before.memory == solver.reduction().own().bytes);
     for (std::size_t i = 0; i < after.size(); ++i) {
         if (ways[_i % 4] == std::string("feti") && after[i].subject == "FETI") continue;  // its partition is not known
-        ck_assert_str_eq(plan_in_words({before.plan[i]}).c_str(), plan_in_words({after[i]}).c_str());
+        const std::string forecast_words = plan_in_words({before.plan[i]}), words = plan_in_words({after[i]});
+        ck_assert_str_eq(forecast_words.c_str(), words.c_str());
     }
 }
 END_TEST
