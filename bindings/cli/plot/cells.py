@@ -3,6 +3,8 @@
 import matplotlib.colors
 import numpy as np
 
+from section import CORNERS, FACES
+
 # Pale tones of the bodies, by turns; fibre-1 and fibre-2 have the same.
 BODIES = ["#f4f1e8", "#dde5ee", "#e6ebdf"]
 ZETA = matplotlib.colors.LinearSegmentedColormap.from_list(
@@ -30,9 +32,10 @@ def ring_edges(cells):
 
 
 def body_tones(file):
-    """The tone of each body, by its name without numbers."""
+    """The tone of each body, by its name without numbers; names that are numbers differ."""
     number = file["mesh/body"][()].max() + 1
-    stems = [text_of(file["mesh"].attrs[f"body_{b}"]).rstrip("-0123456789") for b in range(number)]
+    names = [text_of(file["mesh"].attrs[f"body_{b}"]) for b in range(number)]
+    stems = [name.rstrip("-0123456789") or name for name in names]
     return [list(dict.fromkeys(stems)).index(stem) % len(BODIES) for stem in stems]
 
 
@@ -55,10 +58,8 @@ def boundary_edges(blocks):
 
 def cell_faces(cells):
     """The faces of each solid cell by their corners; the last corner of a triangle is there twice."""
-    cells = cells[:, :{4: 4, 8: 8, 10: 4, 20: 8}[cells.shape[1]]]
-    local = {8: [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]],
-             4: [[0, 2, 1, 1], [0, 1, 3, 3], [1, 2, 3, 3], [2, 0, 3, 3]]}[cells.shape[1]]
-    return np.concatenate([cells[:, f] for f in local])
+    faces = FACES[CORNERS[cells.shape[1]]]
+    return np.concatenate([cells[:, face if len(face) == 4 else [*face, face[2]]] for face in faces])
 
 
 def boundary_faces(blocks):

@@ -4,11 +4,9 @@ import numpy as np
 from matplotlib.collections import LineCollection
 
 from result import axis, plt
+from section import PIECES
 
-LARGEST = 6  # interfaces in one picture
-
-PIECES = {3: [[0, 1, 2]], 4: [[0, 1, 2], [0, 2, 3]], 6: [[0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]],
-          8: [[0, 4, 7], [4, 1, 5], [5, 2, 6], [6, 3, 7], [4, 5, 6], [4, 6, 7]]}
+LARGEST = 8  # interfaces in one picture
 
 
 def chosen_interfaces(file):
@@ -19,18 +17,28 @@ def chosen_interfaces(file):
     return names
 
 
+def main_axes(points):
+    """Their middle, and the directions of their largest, second and least extent."""
+    middle = points.mean(0)
+    return middle, np.linalg.svd(points - middle, full_matrices=False)[2]
+
+
+def seen_from_above(points):
+    """Whether an interface lies rather than stands."""
+    return abs(main_axes(points)[1][2, 2]) > 0.5
+
+
 def plan_of(points):
     """A function from places [n][3] to plan [n][2]: from above, or along the normal of an interface that does not lie."""
-    middle = points.mean(0)
-    spread = np.linalg.svd(points - middle, full_matrices=False)[2]
-    if abs(spread[2, 2]) > 0.5:
+    if seen_from_above(points):
         return lambda at: at[:, :2]
+    middle, spread = main_axes(points)
     return lambda at: (at - middle) @ spread[:2].T
 
 
 def triangles_of(faces):
     """Faces as triangles; a corner that is there twice leaves none."""
-    triangles = np.concatenate([faces[:, piece] for piece in PIECES[faces.shape[1]]])
+    triangles = faces[:, PIECES[faces.shape[1]]].reshape(-1, 3)
     return triangles[[len(set(t)) == 3 for t in triangles]]
 
 
@@ -61,13 +69,17 @@ def plot_fronts(result, file, title_of, colours):
             panels.append((name, plan, fronts))
     if not panels:
         return None
+    columns = 1 if len(panels) < 3 else 2
+    rows = -(-len(panels) // columns)
+    width = 10.0 if columns == 1 else 6.5
     shapes = [np.ptp(plan(file["interfaces"][name]["points"][()]), axis=0) for name, plan, _ in panels]
-    heights = [min(max(8.0 * shape[1] / shape[0], 1.2), 6.0) for shape in shapes]
-    figure, axes = plt.subplots(len(panels), 1, figsize=(10.0, sum(heights) + 0.5 * len(panels) + 1.2), squeeze=False,
+    heights = [min(max(0.8 * width * shape[1] / shape[0], 1.2), 6.0) for shape in shapes]
+    heights = [max(heights[r:r + columns]) for r in range(0, len(panels), columns)]
+    figure, axes = plt.subplots(rows, columns, figsize=(columns * width, sum(heights) + 0.8 * rows + 0.9), squeeze=False,
                                 height_ratios=heights, layout="constrained")
     shades = plt.get_cmap("gray")
     scale = plt.Normalize(times[0], times[-1])
-    for ax, (name, plan, fronts) in zip(axes[:, 0], panels):
+    for ax, (name, plan, fronts) in zip(axes.flat, panels):
         interface = file["interfaces"][name]
         at = plan(interface["points"][()])
         drawn = ax.tripcolor(at[:, 0], at[:, 1], triangles_of(interface["faces"][()]), steps[-1][name]["zeta"][()],
@@ -77,9 +89,12 @@ def plot_fronts(result, file, title_of, colours):
         ax.set_aspect("equal")
         ax.grid(False)
         ax.set_title(title_of(interface), fontsize=9, loc="left")
-        ax.set_xlabel(axis("along the first direction" if len(panels) > 1 else "x", result.length))
-        ax.set_ylabel(axis("across" if len(panels) > 1 else "y", result.length))
-    bar = figure.colorbar(drawn, ax=axes, shrink=0.7, aspect=25, pad=0.01)
+        above = seen_from_above(interface["points"][()])
+        ax.set_xlabel(axis("x" if above else "along the first direction", result.length))
+        ax.set_ylabel(axis("y" if above else "across", result.length))
+    for ax in axes.flat[len(panels):]:
+        ax.axis("off")
+    bar = figure.colorbar(drawn, ax=axes, shrink=0.7, aspect=25 * rows, pad=0.01)
     bar.set_label("adhesion ζ at the end")
     bar.outline.set_visible(False)
     figure.suptitle(result.title(f"fronts in plan, black to white: t = {times[0]:.4g} to {times[-1]:.4g}"), fontsize=11)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Pictures of a result of `delam run`: plot.py DIR writes DIR/load-displacement.png, energies.png and snapshots.png,
 stress-strain.png where the history has averages of both, stresses.png of plane scenes with prescribed strains,
-fronts.png of fronts in space.
+fronts.png of fronts in space, cut.png of bodies in space. --cut y=0.01 says where to cut.
 
 Reads DIR/history.csv, fields.h5 and result.json. Needs Debian's python3-numpy, python3-matplotlib and python3-h5py.
 """
@@ -13,6 +13,7 @@ import h5py
 
 from cells import ZETA, text_of
 from curves import plot_averages, plot_energies, plot_load
+from cut import plane_of, plot_cut
 from fronts import plot_fronts
 from result import Result
 from snapshots import plot_snapshots
@@ -31,10 +32,16 @@ def plot_plan(result):
 
 
 def main():
-    if len(sys.argv) != 2 or sys.argv[1] in ("-h", "--help"):
-        print("usage: plot.py DIR", file=sys.stderr)
+    words = sys.argv[1:]
+    if len(words) not in (1, 3) or words[0].startswith("-") or words[1:2] not in ([], ["--cut"]):
+        print("usage: plot.py DIR [--cut x=PLACE | --cut y=PLACE | --cut z=PLACE]", file=sys.stderr)
         return 2
-    folder = sys.argv[1]
+    folder = words[0]
+    try:
+        plane = plane_of(words[2]) if len(words) == 3 else None
+    except ValueError:
+        print(f"plot.py: --cut {words[2]}: it takes x, y or z, =, and a number, like y=0.01", file=sys.stderr)
+        return 2
     try:
         result = Result(folder)
     except FileNotFoundError as error:
@@ -46,6 +53,7 @@ def main():
     plot_snapshots(result)
     plot_stresses(result)
     plot_plan(result)
+    plot_cut(result, plane)
     return 0
 
 

@@ -69,33 +69,50 @@ def draw_plane(ax, file, step, scale, light_mesh):
     return drawn
 
 
-def plot_plane(result, file, shots, scale):
-    columns = 2 if len(shots) > 1 else 1
+def plane_axes(result, shots, boxes, columns=2, width=5.6):
+    """A figure with axes for each shot, on one scale, of what lies in its box (lower corner, upper corner)."""
+    columns = min(columns, len(shots))
     rows = -(-len(shots) // columns)
-    points = file["mesh/points"][:, :2]
-    light_mesh = len(file["mesh/cells"]) <= 20000
-    boxes = [(points + scale * s["displacement"][:, :2]) for _, s in shots]
-    left = min(b[:, 0].min() for b in boxes)
-    right = max(b[:, 0].max() for b in boxes)
+    left = min(low[0] for low, _ in boxes)
+    right = max(high[0] for _, high in boxes)
     pad = 0.02 * (right - left)
-    # One scale for all; every row only as high as what it shows.
-    spans = [(min(b[:, 1].min() for b in boxes[r:r + columns]), max(b[:, 1].max() for b in boxes[r:r + columns]))
+    # Every row only as high as what it shows.
+    spans = [(min(low[1] for low, _ in boxes[r:r + columns]), max(high[1] for _, high in boxes[r:r + columns]))
              for r in range(0, len(boxes), columns)]
-    width = 5.6
     heights = [max(width * (high - low + 2 * pad) / (right - left + 2 * pad), 0.4) + 0.3 for low, high in spans]
     figure, axes = plt.subplots(rows, columns, squeeze=False, layout="constrained", height_ratios=heights,
                                 figsize=(columns * width, sum(heights) + 1.3))
-    drawn = None
-    for i, (ax, (time, step)) in enumerate(zip(axes.flat, shots)):
-        drawn = draw_plane(ax, file, step, scale, light_mesh) or drawn
+    for i, (ax, (time, _)) in enumerate(zip(axes.flat, shots)):
         ax.set_xlim(left - pad, right + pad)
         ax.set_ylim(spans[i // columns][0] - pad, spans[i // columns][1] + pad)
         ax.set_aspect("equal")
-        ax.axis("off")
         unit = f" {result.time}" if result.time else ""
         ax.set_title(f"t = {time:.6g}{unit}   {load_text(result, time)}", fontsize=9, loc="left")
-    for ax in axes.flat[len(shots):]:
+    for ax in axes.flat:
         ax.axis("off")
+    return figure, axes
+
+
+def adhesion_bar(figure, drawn, axes):
+    bar = figure.colorbar(drawn, ax=axes, orientation="horizontal", shrink=0.4, aspect=45, pad=0.02)
+    bar.set_label("adhesion ζ (1 intact, 0 debonded)")
+    bar.outline.set_visible(False)
+
+
+def stamp_scale(result, figure, scale):
+    """Rotations are linear and magnified too."""
+    result.stamp(figure, "magnified linear kinematics: free ends may seem to overlap although the gap is ≥ 0"
+                 if scale > 1 else "")
+
+
+def plot_plane(result, file, shots, scale):
+    points = file["mesh/points"][:, :2]
+    light_mesh = len(file["mesh/cells"]) <= 20000
+    moved = [points + scale * step["displacement"][:, :2] for _, step in shots]
+    figure, axes = plane_axes(result, shots, [(at.min(0), at.max(0)) for at in moved])
+    drawn = None
+    for ax, (_, step) in zip(axes.flat, shots):
+        drawn = draw_plane(ax, file, step, scale, light_mesh) or drawn
     return figure, axes, drawn
 
 
@@ -133,7 +150,7 @@ def draw_solid(ax, file, step, scale, hidden):
     low, high = moved[of >= 0].min(0), moved[of >= 0].max(0)
     for setter, a in ((ax.set_xlim, 0), (ax.set_ylim, 1), (ax.set_zlim, 2)):
         setter(low[a], high[a])
-    ax.set_box_aspect(np.maximum(high - low, 0.05 * (high - low).max()), zoom=1.15)
+    ax.set_box_aspect(np.maximum(high - low, 0.05 * (high - low).max()), zoom=1.6 if len(hidden) else 1.15)
     ax.view_init(elev=35 if len(hidden) else 18, azim=-62)
     ax.set_axis_off()
 
@@ -185,13 +202,7 @@ def plot_snapshots(result):
         draw = plot_plane if result.about["scene"]["dimension"] == 2 else plot_solid
         figure, axes, drawn = draw(result, file, shots, scale)
         if drawn is not None:
-            bar = figure.colorbar(drawn, ax=axes, orientation="horizontal", shrink=0.4, aspect=45, pad=0.02)
-            bar.set_label("adhesion ζ (1 intact, 0 debonded)")
-            bar.outline.set_visible(False)
+            adhesion_bar(figure, drawn, axes)
         figure.suptitle(result.title(f"displacements × {scale:g}"), fontsize=11)
-        if scale > 1:
-            # Rotations are linear and magnified too.
-            result.stamp(figure, "magnified linear kinematics: free ends may seem to overlap although the gap is ≥ 0")
-        else:
-            result.stamp(figure)
+        stamp_scale(result, figure, scale)
         result.save(figure, "snapshots.png")

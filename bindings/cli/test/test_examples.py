@@ -15,8 +15,8 @@ FAMILIES = ("enf-ductile", "enf-brittle-local", "enf-brittle-energetic", "mmf-du
 
 
 # Scenes whose pictures are drawn here, with those beyond the usual ones: each kind once.
-PICTURES = {"fibre": ["stress-strain.png"], "laminate-thermal": ["stresses.png"], "dcb-3d": ["fronts.png"],
-            "weave": ["stress-strain.png", "fronts.png"]}
+PICTURES = {"fibre": ["stress-strain.png"], "laminate-thermal": ["stresses.png"], "dcb-3d": ["fronts.png", "cut.png"],
+            "weave": ["stress-strain.png", "fronts.png", "cut.png"]}
 WHOLE = sys.argv[1:] == ["whole"]
 # What takes a second each; the others are checked. test_plot draws fronts.
 SHORT = {"dcb-3d", "enf-3d", "mmb", "fibre", "laminate-thermal"}

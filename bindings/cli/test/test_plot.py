@@ -62,6 +62,34 @@ solid = changed("point = [0.060, 0.006]\ndirection = [0.0, -1.0]",
                 "box = { lower = [0.06, 0, 0.006], upper = [0.06, 0.006, 0.006] }\ndirection = [0, 0, -1]", solid)
 out = draws(changed("steps = 20", "steps = 4", solid), "3D")
 expect("fronts.png" in os.listdir(out) and read(os.path.join(out, "fronts.png")).startswith(b"\x89PNG"), "3D: fronts in plan")
+expect("cut.png" in os.listdir(out) and read(os.path.join(out, "cut.png")).startswith(b"\x89PNG"), "3D: a cut view")
+for words, said in (((out, "--cut", "y=7"), "the cut at y = 7 m meets no cell"), ((out, "--cut", "y=inf"), "takes x, y or z"),
+                    ((out, "--cut", "u=1"), "takes x, y or z"), ((out, "--cut"), "usage")):
+    code, error = draw("plot", *words)
+    expect(said in error and (code == 2 or "meets no cell" in said), f"plot.py {' '.join(words[1:])}: {error.strip()[-100:]}")
+
+import h5py  # noqa: E402
+import numpy as np  # noqa: E402
+
+from cut import Plane, box_of, chosen_plane, draw_cut  # noqa: E402
+from result import plt  # noqa: E402
+from section import Section  # noqa: E402
+
+with h5py.File(os.path.join(out, "fields.h5"), "r") as file:
+    last = file["steps"][sorted(file["steps"])[-1]]
+    plane = chosen_plane(file, last)
+    expect((plane.normal, round(plane.place, 12)) == (1, 0.003), "the cut runs along the beam in its middle, across the front")
+    section = Section(file["mesh/cells"][()], file["mesh/body"][()], plane.distance(file["mesh/points"][()]))
+    expect(np.allclose(box_of(file, last, 0.0, plane, section), [[0, 0], [0.12, 0.006]]), "and shows its whole side")
+    figure, ax = plt.subplots()
+    lines = draw_cut(ax, file, last, 0.0, plane, section)
+    middle = np.array([line.mean(0) for line in lines.get_segments()])
+    zeta = lines.get_array()
+    expect(np.allclose(middle[:, 1], 0.003) and np.all(zeta[middle[:, 0] < 0.029] < 1e-12) and zeta[middle[:, 0] > 0.11].min() > 0.9,
+           "on it the notch is open and the far end holds")
+    colours = [c.get_facecolors() for c in ax.collections][0]
+    expect(len(np.unique(colours, axis=0)) == 2, "in the tones of both arms")
+    plt.close(figure)
 
 
 def compare(out, *results, plot=draw):
