@@ -42,16 +42,43 @@ def triangles_of(faces):
     return triangles[[len(set(t)) == 3 for t in triangles]]
 
 
-def lines_of(group, plan):
-    """The fronts of one interface at one step, each [points][2] in plan."""
+def sides_of(group):
+    """The sides of an interface around a body, upper and lower: name, which nodes, which triangles. One side with all of them
+    where it does not fold."""
+    points, weights, triangles = group["points"][()], group["weights"][()], triangles_of(group["faces"][()])
+    up = np.array([0.0, 0.0, 1.0]) if seen_from_above(points) else main_axes(points)[1][2]
+    nodes = group["frames"][()].reshape(-1, 3, 3)[:, 0] @ up > 0
+    corners = points[triangles]
+    faces = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]) @ up > 0
+    if min(weights[nodes].sum(), weights[~nodes].sum()) < 0.1 * weights.sum():
+        return [("", np.ones(len(points), bool), np.ones(len(triangles), bool))]
+    height = points @ up
+    if np.average(height[nodes], weights=weights[nodes]) < np.average(height[~nodes], weights=weights[~nodes]):
+        nodes, faces = ~nodes, ~faces
+    return [(", upper side", nodes, faces), (", lower side", ~nodes, ~faces)]
+
+
+def nearest(points, places):
+    """The number of the nearest point to each place."""
+    size = (points ** 2).sum(1)
+    parts = [np.argmin(size - 2 * places[i:i + 1000] @ points.T, axis=1) for i in range(0, len(places), 1000)]
+    return np.concatenate(parts) if parts else np.empty(0, int)
+
+
+def lines_of(group, plan, points, side):
+    """The fronts of one interface at one step as far as they lie on a side of it, each [points][2] in plan."""
     if "front_points" not in group:
         return []
-    at = plan(group["front_points"][()])
+    places = group["front_points"][()]
+    at = plan(places)
     starts, closed = group["front_starts"][()], group["front_closed"][()]
+    on_side = np.ones(len(places), bool) if side.all() else side[nearest(points, places)]
     lines = []
     for f in range(len(starts) - 1):
-        line = at[starts[f]:starts[f + 1]]
-        lines.append(np.concatenate([line, line[:1]]) if closed[f] else line)
+        order = np.arange(starts[f], starts[f + 1])
+        if closed[f] and len(order):
+            order = np.append(order, order[0])
+        lines += [at[part] for part in np.split(order, np.flatnonzero(np.diff(on_side[order])) + 1) if on_side[part[:1]].all()]
     return [line for line in lines if len(line) > 1]
 
 
@@ -63,32 +90,34 @@ def plot_fronts(result, file, title_of, colours):
     for name in chosen_interfaces(file):
         if name not in steps[-1] or "zeta" not in steps[-1][name]:
             continue
-        plan = plan_of(file["interfaces"][name]["points"][()])
-        fronts = [lines_of(step[name], plan) for step in steps]
-        if any(fronts):
-            panels.append((name, plan, fronts))
+        points = file["interfaces"][name]["points"][()]
+        plan = plan_of(points)
+        sides = [(title, faces, [lines_of(step[name], plan, points, nodes) for step in steps])
+                 for title, nodes, faces in sides_of(file["interfaces"][name])]
+        if any(any(fronts) for _, _, fronts in sides):
+            panels += [(name, plan, *side) for side in sides]
     if not panels:
         return None
     columns = 1 if len(panels) < 3 else 2
     rows = -(-len(panels) // columns)
     width = 10.0 if columns == 1 else 6.5
-    shapes = [np.ptp(plan(file["interfaces"][name]["points"][()]), axis=0) for name, plan, _ in panels]
+    shapes = [np.ptp(plan(file["interfaces"][name]["points"][()]), axis=0) for name, plan, *_ in panels]
     heights = [min(max(0.8 * width * shape[1] / shape[0], 1.2), 6.0) for shape in shapes]
     heights = [max(heights[r:r + columns]) for r in range(0, len(panels), columns)]
     figure, axes = plt.subplots(rows, columns, figsize=(columns * width, sum(heights) + 0.8 * rows + 0.9), squeeze=False,
                                 height_ratios=heights, layout="constrained")
     shades = plt.get_cmap("gray")
     scale = plt.Normalize(times[0], times[-1])
-    for ax, (name, plan, fronts) in zip(axes.flat, panels):
+    for ax, (name, plan, title, seen, fronts) in zip(axes.flat, panels):
         interface = file["interfaces"][name]
         at = plan(interface["points"][()])
-        drawn = ax.tripcolor(at[:, 0], at[:, 1], triangles_of(interface["faces"][()]), steps[-1][name]["zeta"][()],
-                             cmap=colours, vmin=0, vmax=1, shading="gouraud")
+        drawn = ax.tripcolor(at[:, 0], at[:, 1], triangles_of(interface["faces"][()])[seen],
+                             steps[-1][name]["zeta"][()], cmap=colours, vmin=0, vmax=1, shading="gouraud")
         for time, lines in zip(times, fronts):
             ax.add_collection(LineCollection(lines, colors=[shades(scale(time))], linewidths=1.3))
         ax.set_aspect("equal")
         ax.grid(False)
-        ax.set_title(title_of(interface), fontsize=9, loc="left")
+        ax.set_title(title_of(interface) + title, fontsize=9, loc="left")
         above = seen_from_above(interface["points"][()])
         ax.set_xlabel(axis("x" if above else "along the first direction", result.length))
         ax.set_ylabel(axis("y" if above else "across", result.length))

@@ -71,7 +71,8 @@ for words, said in (((out, "--cut", "y=7"), "the cut at y = 7 m meets no cell"),
 import h5py  # noqa: E402
 import numpy as np  # noqa: E402
 
-from cut import Plane, box_of, chosen_plane, draw_cut  # noqa: E402
+from cut import box_of, chosen_plane, draw_cut  # noqa: E402
+from fronts import lines_of, plan_of, sides_of  # noqa: E402
 from result import plt  # noqa: E402
 from section import Section  # noqa: E402
 
@@ -90,6 +91,30 @@ with h5py.File(os.path.join(out, "fields.h5"), "r") as file:
     colours = [c.get_facecolors() for c in ax.collections][0]
     expect(len(np.unique(colours, axis=0)) == 2, "in the tones of both arms")
     plt.close(figure)
+
+# An interface around a yarn along x: its sides apart, and of a front around it half on each.
+along, around = (values.ravel() for values in np.meshgrid(np.arange(5.0), (np.arange(16) + 0.5) * np.pi / 8, indexing="ij"))
+points = np.column_stack([along, np.cos(around), 0.4 * np.sin(around)])
+normals = np.column_stack([0 * along, 0.4 * np.cos(around), np.sin(around)])
+ring = 16 * np.arange(4)[:, None] + np.arange(16)
+after = 16 * np.arange(4)[:, None] + (np.arange(16) + 1) % 16
+faces = np.stack([ring, after, after + 16, ring + 16], -1).reshape(-1, 4)
+yarn = {"points": points, "weights": np.ones(80), "faces": faces,
+        "frames": np.concatenate([normals, np.tile([1.0, 0, 0], (80, 1)), np.cross(normals, [1.0, 0, 0])], 1)}
+front = {"front_points": points[32:48] + [0.1, 0, 0], "front_starts": np.array([0, 16]), "front_closed": np.array([1])}
+for inward in (1, -1):
+    yarn["frames"][:, :3] *= inward
+    yarn["faces"] = faces[:, ::inward]
+    sides = sides_of(yarn)
+    expect([name for name, _, _ in sides] == [", upper side", ", lower side"], "a yarn has two sides")
+    for sign, (_, nodes, seen) in zip((1, -1), sides):
+        expect(np.array_equal(nodes, sign * points[:, 2] > 0), "nodes above or below")
+        high = points[np.concatenate([yarn["faces"][:, [0, 1, 2]], yarn["faces"][:, [0, 2, 3]]], 1).reshape(-1, 3)].mean(1)[:, 2]
+        expect(np.array_equal(seen[np.abs(high) > 0.05], sign * high[np.abs(high) > 0.05] > 0), "triangles above or below")
+        lines = lines_of(front, plan_of(points), points, nodes)
+        expect(np.ptp(np.concatenate(lines)[:, 1]) > 1.9 and sum(map(len, lines)) in (8, 9), "half of it on each side")
+expect([len(side[1]) for side in sides_of({**yarn, "points": points * [1, 1, 0] + [0, 0, 1], "frames":
+                                           np.tile(np.eye(3)[[2, 0, 1]].ravel(), (80, 1))})] == [80], "a level interface has one")
 
 
 def compare(out, *results, plot=draw):
