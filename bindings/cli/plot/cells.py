@@ -62,16 +62,27 @@ def cell_faces(cells):
     return np.concatenate([cells[:, face if len(face) == 4 else [*face, face[2]]] for face in faces])
 
 
-def boundary_faces(blocks):
-    """Faces of solid cells that belong to one cell only, by their corners."""
-    faces = np.concatenate([cell_faces(cells) for cells in blocks])
-    # A triangle is found again whichever of its corners is there twice.
+def face_keys(faces):
+    """The same numbers for the same corners [n][4], however they are turned, and whichever of a triangle's is there twice."""
     key = np.sort(faces, 1)
     triangle = faces[:, 2] == faces[:, 3]
     if triangle.any():
         key[triangle] = np.concatenate([np.full((triangle.sum(), 1), -1), np.sort(faces[triangle][:, :3], 1)], 1)
-    _, index, count = np.unique(key, axis=0, return_index=True, return_counts=True)
+    return key
+
+
+def boundary_faces(blocks):
+    """Faces of solid cells that belong to one cell only, by their corners."""
+    faces = np.concatenate([cell_faces(cells) for cells in blocks])
+    _, index, count = np.unique(face_keys(faces), axis=0, return_index=True, return_counts=True)
     return faces[index[count == 1]]
+
+
+def without(faces, others):
+    """Faces that are none of the others, by their corners."""
+    _, inverse = np.unique(face_keys(np.concatenate([others, faces])), axis=0, return_inverse=True)
+    inverse = inverse.ravel()
+    return ~np.isin(inverse[len(others):], inverse[:len(others)])
 
 
 def body_of_nodes(file):

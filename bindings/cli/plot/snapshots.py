@@ -10,7 +10,7 @@ from matplotlib.collections import LineCollection, PolyCollection
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 from cells import (BODIES, ZETA, body_of_nodes, body_tones, boundary_edges, boundary_faces, cell_blocks, cell_outlines,
-                   hidden_bodies, text_of)
+                   hidden_bodies, text_of, without)
 from fronts import chosen_interfaces, plan_of, triangles_of
 from result import plt
 
@@ -137,7 +137,8 @@ def draw_solid(ax, file, step, scale, hidden):
         group = file["interfaces"][name]
         on_b = group.attrs["body_b"] in hidden
         side = group["nodes_b" if on_b else "nodes_a"][()]
-        others = ~np.isin(skin, side).all(1)
+        corners = group["faces"][()][:, [0, 1, 2, 2] if group["faces"].shape[1] in (3, 6) else [0, 1, 2, 3]]
+        others = without(skin, side[corners])
         faces = triangles_of(group["faces"][()])
         zeta = step[name]["zeta"][()] if "zeta" in step[name] else np.ones(len(side))
         # The faces' normals point from a to b; here they are to point out of the body that is seen.

@@ -8,6 +8,7 @@ import numpy as np
 from support import expect, finish
 
 sys.path.insert(0, os.path.dirname(os.environ["DELAM_PLOT"]))
+from cells import boundary_faces, without  # noqa: E402
 from section import Section  # noqa: E402
 
 KUHN = [[0, 1, 3, 7], [0, 5, 1, 7], [0, 3, 2, 7], [0, 2, 6, 7], [0, 4, 5, 7], [0, 6, 4, 7]]  # corners by bits x, y, z
@@ -61,6 +62,14 @@ for kind in ("tet4", "tet10", "hex8", "hex20"):
     grid = 6.5 * np.sqrt(2)
     expect(abs(inner - grid) < 1e-12 if kind.startswith("hex") else inner > 1.5 * grid,
            f"{kind}: the cells have lines between them, {inner:.6g}; those of the grid are {grid:.6g} long")
+
+    # The skins without the interface, whatever corner its faces begin with; a face that only shares its corners with others stays.
+    skin = boundary_faces([cells])
+    inside = np.all(np.isclose(points[skin, 2], 0.5), axis=1)
+    turned = skin[inside][:, [1, 2, 0, 0] if skin[0, 2] == skin[0, 3] else [2, 1, 0, 3]]
+    left = without(skin, turned)
+    expect(np.array_equal(left, ~inside) and abs(areas(points[skin[left]]).sum() - 6) < 1e-12, f"{kind}: skins without the interface")
+    expect(np.flatnonzero(without(skin, np.delete(skin, 5, axis=0))).tolist() == [5], f"{kind}: a face between others")
 
     # A plane of nodes whose places are rounded.
     noise = 1e-16 * np.sin(1e3 * np.arange(len(points)))
