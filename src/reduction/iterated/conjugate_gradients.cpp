@@ -19,8 +19,31 @@ constexpr double gained = 0.5;               // a restart that leaves more of th
 constexpr double largest_residual = 1e-5;    // that rounding may excuse: an error of 1e-10 of the energy
 constexpr double rounding_slack = 30.0;      // the estimate of rounding is one of its size, not a bound
 constexpr double at_rounding = 3.0;          // times that estimate: another restart would gain nothing
+constexpr std::size_t judged = 5;            // iterations, before their gain says anything about the others
+constexpr double accelerates = 1.5;          // conjugate gradients become faster
 // Of r^T z: below it a curvature is zero but for rounding.
 constexpr double flat = 1e-13;
+
+// Whether what the iterations so far have gained says that the limit will not do.
+bool hopeless(double gained_by_now, double needed, std::size_t iterations, std::int64_t limit) {
+    if (iterations < judged) return false;
+    const double per_iteration = std::log(gained_by_now) / static_cast<double>(iterations);
+    return !(per_iteration < 0.0) || std::log(needed) / per_iteration > accelerates * static_cast<double>(limit);
+}
+
+// Of the tridiagonal matrix that the recursion implies (Lanczos; G. Golub, C. Van Loan, Matrix Computations, 10.2).
+double least_eigenvalue(std::span<const double> steps, std::span<const double> shares) {
+    const std::size_t n = std::min(steps.size(), most_directions);
+    if (n == 0) return 1.0;
+    DenseMatrix t(static_cast<std::int64_t>(n), static_cast<std::int64_t>(n));
+    for (std::size_t j = 0; j < n; ++j) {
+        const auto at = static_cast<std::int64_t>(j);
+        t(at, at) = 1.0 / steps[j] + (j > 0 ? shares[j - 1] / steps[j - 1] : 0.0);
+        if (j + 1 < n) t(at, at + 1) = t(at + 1, at) = std::sqrt(std::abs(shares[j])) / steps[j];
+    }
+    const double least = eigen_symmetric(std::move(t)).value.front();
+    return least > 0.0 ? least : 1.0;
+}
 
 // One run of the recursion from the residual r to the target; leaves the residual that the recursion has reached in r
 // and its norm in `reached`. False: negative curvature.
@@ -28,8 +51,10 @@ bool descend(const CgSystem& system, std::span<double> x, std::vector<double>& r
              std::int64_t limit, CgOutcome& outcome, double& reached) {
     std::vector<Direction> directions;
     std::vector<double> ap(r.size());
-    double lowest = infinite;
+    double lowest = infinite, first = 0.0;
+    std::vector<double> steps, shares;  // alpha and beta of the recursion
     int idle = 0;
+    double rz_before = 0.0;
     const auto conjugate = [&](const Direction& d) { add_scaled(-dot(d.ap, z) / d.pap, d.p, z); };
     while (true) {
         for (int pass = 0; pass < 2; ++pass) {
@@ -40,11 +65,22 @@ bool descend(const CgSystem& system, std::span<double> x, std::vector<double>& r
         idle = norm < 0.9 * lowest ? 0 : idle + 1;
         lowest = std::min(lowest, norm);
         reached = norm;
-        if (norm <= target || outcome.iterations >= limit || idle > 20) return true;
+        if (steps.empty())
+            first = norm;
+        else
+            shares.push_back(rz / rz_before);
+        rz_before = rz;
+        const bool over = outcome.iterations >= limit || idle > 20 ||
+                          (system.attempt && hopeless(norm / first, target / first, steps.size(), limit));
+        if (norm <= target || over) {
+            outcome.least = std::min(outcome.least, least_eigenvalue(steps, shares));
+            return true;
+        }
         system.apply(z, ap);
         const double pap = dot(z, ap);
         if (!(pap > 0.0)) return !(pap <= -flat * std::abs(rz));  // what is not finite has no sign
         const double step = rz / pap;
+        steps.push_back(step);
         add_scaled(step, z, x);
         add_scaled(-step, ap, r);
         if (directions.size() == most_directions) directions.erase(directions.begin());

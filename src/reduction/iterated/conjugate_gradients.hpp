@@ -32,6 +32,7 @@ struct CgSystem {
     };
     std::function<Confirmed(std::span<const double> x, std::span<const double> residual)> confirm;
     std::function<void(std::int64_t)> each_iteration;
+    bool attempt = false;          // the limit is how many iterations are worth while: ends as soon as they will not do
     std::vector<Direction> given;  // conjugate to each other; the residual of restart() is orthogonal to them
 };
 
@@ -41,6 +42,7 @@ struct CgOutcome {
     double norm = 0.0;               // sqrt(r^T z)
     double rounded = 0.0;            // what rounding leaves, as a part of the size of the state; 0: it was not needed
     std::vector<double> correction;  // M r there, no less than rounding leaves: about what is missing
+    double least = 1.0;              // least eigenvalue of M A that the iteration has met, at most 1
     bool converged = false;          // to the tolerance, or to what rounding allows
     bool definite = true;            // false: a direction of negative curvature was met; x is where it was met
 };

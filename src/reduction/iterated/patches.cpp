@@ -32,8 +32,13 @@ std::vector<Triplet> stiffened(std::span<const Triplet> springs) {
 
 }  // namespace
 
-Patches::Patches(const JumpSystem& system, std::int64_t margin)
-    : system_(system), margin_(margin), barred_(index(system.count()), 0), inner_(barred_), member_(barred_) {
+Patches::Patches(const JumpSystem& system, std::int64_t margin, double share)
+    : system_(system),
+      margin_(margin),
+      share_(share),
+      barred_(index(system.count()), 0),
+      inner_(barred_),
+      member_(barred_) {
     const SparseMatrix& a = system.matrix();
     const double mean = static_cast<double>(a.entries()) / static_cast<double>(std::max<std::int64_t>(1, a.rows));
     for (const SparseVector& equation : system.equations())
@@ -64,14 +69,26 @@ std::vector<std::int64_t> Patches::rings(std::span<const std::int64_t> seeds) co
     return ring;
 }
 
-std::int64_t Patches::variables_about(std::span<const std::int64_t> seeds) const {
-    const std::vector<std::int64_t> ring = rings(seeds);
-    return std::count_if(ring.begin(), ring.end(), [&](std::int64_t r) { return r <= margin_; });
+// The widest margin, of 5, 2 and 1 rings, whose patches have no more than the share; 0: none.
+std::int64_t Patches::margin_within_share(std::span<const std::int64_t> ring) const {
+    std::vector<std::int64_t> within(index(margin_) + 2, 0);
+    for (const std::int64_t r : ring) ++within[index(r)];
+    for (std::size_t r = 1; r < within.size(); ++r) within[r] += within[r - 1];
+    std::int64_t margin = margin_;
+    while (margin > 0 && static_cast<double>(within[index(margin)]) > share_ * static_cast<double>(ring.size()))
+        margin /= 2;
+    return margin;
 }
 
 std::int64_t Patches::variables() const {
     std::int64_t sum = 0;
     for (const Patch& p : patches_) sum += static_cast<std::int64_t>(p.variables.size());
+    return sum;
+}
+
+double Patches::flops() const {
+    double sum = 0.0;
+    for (const Patch& p : patches_) sum += p.factor->size().flops;
     return sum;
 }
 
@@ -84,19 +101,22 @@ double Patches::entries() const {
 void Patches::forget() {
     patches_.clear();
     seeds_.clear();
+    narrow_ = false;
     std::fill(inner_.begin(), inner_.end(), std::uint8_t{0});
     std::fill(member_.begin(), member_.end(), std::uint8_t{0});
 }
 
-bool Patches::cover(std::span<const std::int64_t> seeds, const Poll& poll) {
+bool Patches::cover(std::span<const std::int64_t> seeds, bool any_size, const Poll& poll) {
     if (std::all_of(seeds.begin(), seeds.end(),
                     [&](std::int64_t i) { return inner_[index(i)] != 0 || barred_[index(i)] != 0; }))
-        return false;
+        return true;
     std::vector<std::int64_t> ring = rings(seeds);
+    const std::int64_t fitting = margin_within_share(ring), margin = std::max<std::int64_t>(1, fitting);
+    if (fitting == 0 && !any_size) return false;
     std::vector<std::uint8_t> inner(ring.size()), member(ring.size());
     for (std::size_t i = 0; i < ring.size(); ++i) {
-        inner[i] = 2 * ring[i] <= margin_ ? 1 : 0;
-        member[i] = ring[i] <= margin_ ? 1 : 0;
+        inner[i] = 2 * ring[i] <= margin ? 1 : 0;
+        member[i] = ring[i] <= margin ? 1 : 0;
     }
     // Connected parts; a visited variable is marked as beyond the margin.
     const SparseMatrix& a = system_.matrix();
@@ -104,7 +124,7 @@ bool Patches::cover(std::span<const std::int64_t> seeds, const Poll& poll) {
     std::vector<std::size_t> stay;
     std::vector<std::int64_t> stack;
     for (std::size_t first = 0; first < ring.size(); ++first) {
-        if (ring[first] > margin_) continue;
+        if (ring[first] > margin) continue;
         std::vector<std::int64_t> part;
         stack.assign(1, static_cast<std::int64_t>(first));
         ring[first] = margin_ + 1;
@@ -114,7 +134,7 @@ bool Patches::cover(std::span<const std::int64_t> seeds, const Poll& poll) {
             part.push_back(i);
             for (std::int64_t e = a.start[index(i)]; e < a.start[index(i) + 1]; ++e) {
                 const std::int64_t j = a.column[index(e)];
-                if (ring[index(j)] > margin_) continue;
+                if (ring[index(j)] > margin) continue;
                 ring[index(j)] = margin_ + 1;
                 stack.push_back(j);
             }
@@ -135,6 +155,7 @@ bool Patches::cover(std::span<const std::int64_t> seeds, const Poll& poll) {
     seeds_ = std::move(chosen_for);
     inner_ = std::move(inner);
     member_ = std::move(member);
+    narrow_ = margin < margin_;
     return true;
 }
 
@@ -195,7 +216,6 @@ bool Patches::factorise(Patch& patch, std::span<const Triplet> springs) {
                    end = matrix.column.begin() + matrix.start[index(t.row) + 1];
         matrix.value[index(std::lower_bound(begin, end, t.column) - matrix.column.begin())] += t.value;
     }
-    cost_ += patch.factor->size().flops;
     return patch.factor->factorise(matrix);
 }
 

@@ -18,28 +18,30 @@ namespace delam {
 
 class Patches {
 public:
-    // margin: rings of elements about the variables that differ.
-    Patches(const JumpSystem& system, std::int64_t margin);
+    // margin: rings of elements about the variables that differ, fewer where the patches would otherwise have more than
+    // `share` of all variables.
+    Patches(const JumpSystem& system, std::int64_t margin, double share);
 
-    // seeds: variables whose springs differ, ascending. True: the patches at hand do not cover them and were chosen
-    // again.
-    bool cover(std::span<const std::int64_t> seeds, const Poll& poll);
+    // Chooses patches where those at hand do not cover the seeds, variables whose springs differ, ascending. False:
+    // they would have more than that share with a single ring, and are only chosen if any size will do.
+    bool cover(std::span<const std::int64_t> seeds, bool any_size, const Poll& poll);
     // Factors the patches at these springs where they are others than at the last time. False: one is not positive
-    // definite. Adds the operations to cost().
+    // definite.
     bool factorise(std::span<const Triplet> springs, const Poll& poll);
     // z += P r
     void add(std::span<const double> r, std::span<double> z) const;
 
-    // Variables within the margin of these seeds, those of patches that cover() would choose.
-    std::int64_t variables_about(std::span<const std::int64_t> seeds) const;
     std::int64_t variables() const;
     // [variables] whether a patch has it
     std::span<const std::uint8_t> members() const { return member_; }
     std::int64_t count() const { return static_cast<std::int64_t>(patches_.size()); }
-    double cost() const { return cost_; }  // operations since the beginning
+    double cost() const { return cost_; }  // operations of choosing patches, since the beginning
+    double flops() const;                  // of factoring all of them
     double entries() const;                // of all factors
     // The seeds of the present choice, on which alone it depends.
     const std::vector<std::int64_t>& seeds() const { return seeds_; }
+    // The margin of the present choice is less than that asked for.
+    bool narrow() const { return narrow_; }
     void forget();
 
 private:
@@ -52,14 +54,17 @@ private:
         ConstraintColumns constraints;
         bool factored = false;
     };
-    // Number of rings to the nearest seed, margin + 1: beyond.
+    // Number of rings to the nearest seed, margin_ + 1: beyond.
     std::vector<std::int64_t> rings(std::span<const std::int64_t> seeds) const;
+    std::int64_t margin_within_share(std::span<const std::int64_t> ring) const;
     Patch make(std::vector<std::int64_t> variables, const Poll& poll);
     void take_equations(Patch& patch) const;
     bool factorise(Patch& patch, std::span<const Triplet> springs);
 
     const JumpSystem& system_;
     std::int64_t margin_;
+    double share_;
+    bool narrow_ = false;
     std::vector<std::uint8_t> barred_;  // variables of constraints on many that are large parts' own: control nodes
     std::vector<std::int64_t> seeds_;
     std::vector<std::uint8_t> inner_;  // [variables] at most half the margin from a seed of the choice

@@ -17,16 +17,20 @@ namespace {
 
 // A spring differs if bodies and spring together are stiffer or softer than in the factor by this share.
 constexpr double differs = 0.1;
-// A patch of more than this share of all variables costs as much as a new factor of the whole.
+// Patches of more than this share of all variables cost as much as a new factor of the whole.
 constexpr double largest_patch = 0.25;
-// Iterations that a fresh factor needs.
-constexpr double fresh_iterations = 2.0;
+// Iterations that a fresh factor and young patches need.
+constexpr double fresh_iterations = 4.0;
 // A triangular solve waits for memory: its operations are this many times slower than a factorisation's.
-constexpr double slower = 5.0;
+constexpr double slower = 20.0;
+// Iterations, before a factor is given up for a new one.
+constexpr std::int64_t least_attempt = 8, longest_attempt = 16;
 // Of the work of all tangents along a rigid motion: what may be rounding of a sum that cancels.
 constexpr double cancelled = 1e-13;
 // Multiple of the estimated error below which a jump or force is in doubt.
 constexpr double in_doubt = 10.0;
+constexpr double cautious = 1e-3;  // of the tolerance, without wide patches
+constexpr double softest = 0.01;   // least eigenvalue of M A that the estimate takes for true
 // Rounding units, of the terms of a component, by which a residual from a recursion may differ from the true one.
 constexpr double rounding_units = 16.0;
 
@@ -37,7 +41,7 @@ Reanalysis::Reanalysis(const BodySystem& bodies, SparseMatrix transformed, Monit
       monitor_(monitor),
       system_(bodies, std::move(transformed), [&monitor] { monitor.progress("assemble", 0, 0); }),
       floating_(bodies, system_),
-      patches_(system_, 5) {
+      patches_(system_, 5, largest_patch) {
     const std::size_t patterns = bodies_.problem().patterns.size();
     std::vector<double> nodal(index(bodies_.dofs()));
     for (std::size_t p = 0; p < patterns; ++p) {
@@ -73,7 +77,8 @@ bool Reanalysis::plain() const {
                        [](const Zone::Coupling& c) { return c.row == c.column && c.value >= 0.0; });
 }
 
-std::vector<std::int64_t> Reanalysis::changed(std::span<const double> now) const {
+std::vector<std::int64_t> Reanalysis::changed() const {
+    const std::vector<double> now = springs_now();
     std::vector<std::uint8_t> row(now.size(), 0);
     for (std::size_t r = 0; r < now.size(); ++r) {
         if (system_.prescribed()[r] != 0 || now[r] == lagged_[r]) continue;
@@ -101,6 +106,11 @@ double Reanalysis::iteration_cost() const {
     return slower * (4.0 * whole_->entries() + 6.0 * matrix + 8.0 * patches_.entries());
 }
 
+std::int64_t Reanalysis::affordable() const {
+    const double worth = (whole_->size().flops - debt_) / iteration_cost();
+    return std::clamp(static_cast<std::int64_t>(worth), least_attempt, longest_attempt);
+}
+
 void Reanalysis::factorise_whole() {
     monitor_.progress("factor", factorisations_, 0);
     std::vector<Zone::Coupling> springs;
@@ -126,29 +136,43 @@ void Reanalysis::renew(std::vector<double> springs) {
     debt_ = rounded_ = 0.0;
 }
 
-bool Reanalysis::set(std::vector<Zone::Coupling> couplings, std::span<const std::uint8_t> held) {
-    const Poll poll = [this] { monitor_.progress("patch", patches_.count(), 0); };
-    system_.set(std::move(couplings), held);
-    floating_.update();
-    const std::vector<double> now = springs_now();
-    std::vector<std::int64_t> seeds;
-    if (!lagged_.empty()) seeds = changed(now);
-    const bool large =
-        static_cast<double>(patches_.variables_about(seeds)) > largest_patch * static_cast<double>(system_.count());
-    if (lagged_.empty() || (!seeds.empty() && ((large && plain()) || debt_ > whole_->size().flops))) {
-        std::vector<double> springs = now;
-        for (double& s : springs) s = std::max(0.0, s);
-        for (const Zone::Coupling& c : floating_.anchors()) springs[index(c.row)] += c.value;
-        renew(std::move(springs));
-        seeds = changed(now);
-    }
+void Reanalysis::renew_now() {
+    std::vector<double> springs = springs_now();
+    for (double& s : springs) s = std::max(0.0, s);
+    for (const Zone::Coupling& c : floating_.anchors()) springs[index(c.row)] += c.value;
+    renew(std::move(springs));
+}
+
+// Patches about what differs. False: without any_size they would have too many variables.
+bool Reanalysis::cover(bool any_size) {
     const double before = patches_.cost();
-    patches_.cover(seeds, poll);
+    const bool covered =
+        patches_.cover(changed(), any_size, [this] { monitor_.progress("patch", patches_.count(), 0); });
+    attempt_ = patches_.narrow();
+    debt_ += patches_.cost() - before;
+    return covered;
+}
+
+// At the springs that act. False: a patch is not positive definite.
+bool Reanalysis::factorise_patches() {
     std::vector<Zone::Coupling> acting = system_.couplings();
     acting.insert(acting.end(), floating_.anchors().begin(), floating_.anchors().end());
-    const std::vector<Triplet> entries = spring_entries(system_, acting, system_.held());
-    const bool definite = patches_.factorise(entries, poll);
-    debt_ += patches_.cost() - before;
+    debt_ += patches_.flops();  // also of those whose springs are as before: a saved state does not know
+    return patches_.factorise(spring_entries(system_, acting, system_.held()),
+                              [this] { monitor_.progress("patch", patches_.count(), 0); });
+}
+
+bool Reanalysis::set(std::vector<Zone::Coupling> couplings, std::span<const std::uint8_t> held) {
+    system_.set(std::move(couplings), held);
+    floating_.update();
+    const bool fresh = lagged_.empty() || (debt_ > whole_->size().flops && !changed().empty());
+    if (fresh) renew_now();
+    // A factor of the whole cannot have tangents: those of some pairs are negative.
+    if (!cover(fresh || !plain())) {
+        renew_now();
+        cover(true);
+    }
+    const bool definite = factorise_patches();
     null_.clear();
     for (std::vector<double> motion : floating_.free()) {
         system_.reduce(motion);
@@ -188,18 +212,19 @@ double Reanalysis::size_of(std::span<const double> theta, std::span<const double
     return std::sqrt(std::abs(dot(u, force)) + work_of_couplings(x));
 }
 
-// What is missing is A^-1 r, and the preconditioner is nearly A^-1: jumps and forces of M r. An estimate: it is too
-// small by as much as a vector's share in r belongs to eigenvalues of M A below 1, which the patches keep near 1. (The
+// What is missing is A^-1 r, and the preconditioner is nearly A^-1: jumps and forces of M r, over the root of the
+// least eigenvalue of M A that the iteration has met: sqrt(r^T A^-1 r) <= sqrt(r^T M r / least). An estimate. (The
 // energy of M r would give bounds, |force| <= sqrt(stiffness of the row) |error| and |jump| <= sqrt(flexibility of the
 // row) |error|, but those of a row at the tip of an arm are useless, by the flexibility of the whole arm.)
-SolveError Reanalysis::error_of(std::span<const double> correction) const {
+SolveError Reanalysis::error_of(std::span<const double> correction, double least) const {
     SolveError error;
     std::vector<double> left(correction.size()), force(system_.rows().size(), 0.0);
     system_.apply(correction, left);
     system_.multipliers(left, force);
     for (std::size_t r = 0; r < force.size(); ++r)
         if (system_.held()[r] == 0) error.jump = std::max(error.jump, std::abs(system_.row_value(r, correction)));
-    return {in_doubt * error.jump, in_doubt * max_abs(force)};
+    const double factor = in_doubt / std::sqrt(std::max(least, softest));
+    return {factor * error.jump, factor * max_abs(force)};
 }
 
 std::vector<double> Reanalysis::held_forces(std::span<const double> theta, std::span<const double> x,
@@ -319,6 +344,57 @@ void Reanalysis::start_from(std::span<const double> right, std::span<const doubl
     for (std::size_t i = 0; i < x.size(); ++i) x[i] = scale * y[i];
 }
 
+// Directions of weakly held rigid motions, conjugate to each other. False: tangents along one are negative.
+bool Reanalysis::weak_directions(std::vector<Direction>& given) const {
+    bool definite = true;
+    for (const std::vector<double>& motion : floating_.weak()) {
+        Direction d{motion, std::vector<double>(motion.size(), 0.0), 0.0};
+        system_.add_couplings(d.p, d.ap);  // the bodies do not resist
+        const double size = work_of_couplings(d.p);
+        system_.gather(d.ap);
+        for (int pass = 0; pass < 2; ++pass)
+            for (const Direction& other : given) {
+                const double share = dot(other.ap, d.p) / other.pap;
+                add_scaled(-share, other.p, d.p);
+                add_scaled(-share, other.ap, d.ap);
+            }
+        d.pap = dot(d.p, d.ap);
+        definite = definite && d.pap >= -cancelled * size;
+        if (d.pap > 0.0) given.push_back(std::move(d));
+    }
+    return definite;
+}
+
+// With the factor at hand or, where that was an attempt that failed, with a new one.
+CgOutcome Reanalysis::iterate(CgSystem& cg, double tolerance, std::span<double> x) {
+    const std::int64_t limit = bodies_.problem().options.linear_limit;
+    const auto owe = [this](std::int64_t iterations) {
+        debt_ += iteration_cost() * std::max(0.0, static_cast<double>(iterations) - fresh_iterations);
+    };
+    cg.rounded = rounded_;
+    cg.attempt = attempt_;
+    // Residuals weigh less what the factor takes for stiffer than it is.
+    const double target = attempt_ ? std::max(finest, cautious * tolerance) : tolerance;
+    CgOutcome outcome = conjugate_gradients(cg, x, target, attempt_ ? std::min(limit, affordable()) : limit);
+    if (attempt_ && outcome.definite && !outcome.converged && outcome.iterations < limit) {
+        const std::int64_t before = outcome.iterations;
+        renew_now();
+        cg.rounded = 0.0;
+        cg.attempt = false;
+        cover(true);
+        if (factorise_patches())
+            outcome = conjugate_gradients(cg, x, tolerance, limit);
+        else
+            outcome.definite = false;
+        owe(outcome.iterations);
+        outcome.iterations += before;
+    } else {
+        owe(outcome.iterations);
+    }
+    rounded_ = outcome.rounded;
+    return outcome;
+}
+
 Reanalysis::Answer Reanalysis::solve(std::span<const double> theta, std::span<const double> row_force, double tolerance,
                                      std::vector<double>& x) {
     Answer answer;
@@ -343,21 +419,7 @@ Reanalysis::Answer Reanalysis::solve(std::span<const double> theta, std::span<co
         for (const std::vector<double>& motion : null_) add_scaled(-dot(motion, z), motion, z);
         system_.spread(z);
     };
-    for (const std::vector<double>& motion : floating_.weak()) {
-        Direction d{motion, std::vector<double>(motion.size(), 0.0), 0.0};
-        system_.add_couplings(d.p, d.ap);  // the bodies do not resist
-        const double size = work_of_couplings(d.p);
-        system_.gather(d.ap);
-        for (int pass = 0; pass < 2; ++pass)
-            for (const Direction& other : cg.given) {
-                const double share = dot(other.ap, d.p) / other.pap;
-                add_scaled(-share, other.p, d.p);
-                add_scaled(-share, other.ap, d.ap);
-            }
-        d.pap = dot(d.p, d.ap);
-        answer.definite = answer.definite && d.pap >= -cancelled * size;
-        if (d.pap > 0.0) cg.given.push_back(std::move(d));
-    }
+    answer.definite = weak_directions(cg.given);
     if (!answer.definite) return answer;
     cg.restart = [&](std::span<double> at, std::span<double> r) {
         system_.spread(at, theta);
@@ -377,22 +439,18 @@ Reanalysis::Answer Reanalysis::solve(std::span<const double> theta, std::span<co
         return size_of(theta, at);
     };
     cg.rounding = [&](std::span<const double> at) { return rounding_at(right, at); };
-    cg.rounded = rounded_;
     cg.confirm = [&](std::span<const double> at, std::span<const double> residual) {
         return confirm(right, theta, at, residual);
     };
     cg.each_iteration = [&](std::int64_t iteration) { monitor_.progress("linear solve", iteration, 0); };
-    const CgOutcome outcome =
-        conjugate_gradients(cg, x, std::max(tolerance, finest), bodies_.problem().options.linear_limit);
-    rounded_ = outcome.rounded;
+    const CgOutcome outcome = iterate(cg, std::max(tolerance, finest), x);
     system_.spread(x, theta);
     floating_.settle(x);
     answer.iterations = outcome.iterations;
     answer.residual = outcome.residual;
-    if (!outcome.correction.empty()) answer.error = error_of(outcome.correction);
+    if (!outcome.correction.empty()) answer.error = error_of(outcome.correction, outcome.least);
     answer.converged = outcome.converged;
     answer.definite = outcome.definite;
-    debt_ += iteration_cost() * std::max(0.0, static_cast<double>(outcome.iterations) - fresh_iterations);
     return answer;
 }
 

@@ -64,9 +64,13 @@ public:
 
 private:
     std::vector<double> springs_now() const;
-    std::vector<std::int64_t> changed(std::span<const double> now) const;
+    // Variables of rows whose springs differ from those of the factor.
+    std::vector<std::int64_t> changed() const;
     bool plain() const;
+    bool cover(bool any_size);
+    bool factorise_patches();
     void renew(std::vector<double> springs);
+    void renew_now();  // at the springs that act
     void factorise_whole();
     std::vector<double> right_side(std::span<const double> theta, std::span<const double> row_force) const;
     double work_of_couplings(std::span<const double> x) const;
@@ -77,8 +81,11 @@ private:
     double rounding_at(std::span<const double> right, std::span<const double> x);
     void precondition(std::span<const double> r, std::span<double> z);
     void start_from(std::span<const double> right, std::span<const double> theta, std::span<double> x) const;
-    SolveError error_of(std::span<const double> correction) const;
+    SolveError error_of(std::span<const double> correction, double least) const;
     double iteration_cost() const;
+    bool weak_directions(std::vector<Direction>& given) const;
+    CgOutcome iterate(CgSystem& cg, double tolerance, std::span<double> x);
+    std::int64_t affordable() const;  // iterations that cost less than a new factor
 
     const BodySystem& bodies_;
     Monitor& monitor_;
@@ -89,6 +96,7 @@ private:
     std::unique_ptr<WholeFactor> whole_;
     std::vector<double> lagged_;  // [rows] springs of the factor; held ones as springs. Empty: there is none
     double debt_ = 0.0;           // operations since then that a fresh factor would have saved
+    bool attempt_ = false;        // too much differs for wide patches, but the factor is still the one before
     double rounded_ = 0.0;        // what rounding leaves of a residual, relative; 0: not yet met with this factor
     std::int64_t factorisations_ = 0;
     std::vector<std::vector<double>> null_;  // free motions in the reduced space, orthonormal

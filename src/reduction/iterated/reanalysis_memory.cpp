@@ -49,7 +49,7 @@ void Reanalysis::recall(std::span<const double> memory) {
     for (std::size_t i = rows + 2; i < memory.size(); ++i) seeds.push_back(static_cast<std::int64_t>(memory[i]));
     if (springs != lagged_) renew(std::move(springs));
     patches_.forget();
-    patches_.cover(seeds, [this] { monitor_.progress("patch", 0, 0); });
+    patches_.cover(seeds, true, [this] { monitor_.progress("patch", 0, 0); });
     debt_ = memory[rows] + 0.0;
     rounded_ = memory[rows + 1] + 0.0;
 }
