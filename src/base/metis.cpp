@@ -16,16 +16,22 @@ namespace delam {
 namespace {
 
 // METIS 5 reseeds rand() and installs handlers for SIGABRT and SIGTERM while it runs. Both belong to the host: its
-// random sequence continues where it was, and its handlers are restored. This is process-wide state, hence one call at
-// a time.
+// random sequence continues where it was, and its handlers are restored. A SIGTERM waits until then: METIS would take
+// it for an error of its own, and leave whatever it is doing by a jump. This is process-wide state, hence one call at a
+// time.
 class Visit {
 public:
     Visit() : lock_(mutex()) {
         sequence_ = initstate(1, buffer_.data(), buffer_.size());
         for (std::size_t i = 0; i < signals.size(); ++i) sigaction(signals[i], nullptr, &handlers_[i]);
+        sigset_t asked_to_end;
+        sigemptyset(&asked_to_end);
+        sigaddset(&asked_to_end, SIGTERM);
+        pthread_sigmask(SIG_BLOCK, &asked_to_end, &mask_);
     }
     ~Visit() {
         for (std::size_t i = 0; i < signals.size(); ++i) sigaction(signals[i], &handlers_[i], nullptr);
+        pthread_sigmask(SIG_SETMASK, &mask_, nullptr);
         setstate(sequence_);
     }
     Visit(const Visit&) = delete;
@@ -41,6 +47,7 @@ private:
     std::array<char, 128> buffer_{};
     char* sequence_ = nullptr;
     std::array<struct sigaction, 2> handlers_{};
+    sigset_t mask_{};
 };
 
 // METIS prints a message if an allocation fails. Its maximal memory was measured on grids: up to 43 bytes per vertex or
