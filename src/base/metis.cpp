@@ -16,18 +16,20 @@ namespace delam {
 namespace {
 
 // METIS 5 reseeds rand() and installs handlers for SIGABRT and SIGTERM while it runs. Both belong to the host: its
-// random sequence continues where it was, and its handlers are restored. A SIGTERM waits until then: METIS would take
-// it for an error of its own, and leave whatever it is doing by a jump. This is process-wide state, hence one call at a
-// time.
+// random sequence continues where it was, and its handlers are restored. This is process-wide state, hence one call at
+// a time. METIS takes a SIGTERM from outside for an error of its own and leaves by a jump, so that one should wait
+// until METIS has ended. It cannot wait while METIS cuts into parts: there METIS raises SIGTERM itself, where its
+// memory ends.
+enum class Terminate { waits, interrupts };
 class Visit {
 public:
-    Visit() : lock_(mutex()) {
+    explicit Visit(Terminate terminate) : lock_(mutex()) {
         sequence_ = initstate(1, buffer_.data(), buffer_.size());
         for (std::size_t i = 0; i < signals.size(); ++i) sigaction(signals[i], nullptr, &handlers_[i]);
-        sigset_t asked_to_end;
-        sigemptyset(&asked_to_end);
-        sigaddset(&asked_to_end, SIGTERM);
-        pthread_sigmask(SIG_BLOCK, &asked_to_end, &mask_);
+        sigset_t blocked;
+        sigemptyset(&blocked);
+        if (terminate == Terminate::waits) sigaddset(&blocked, SIGTERM);
+        pthread_sigmask(SIG_BLOCK, &blocked, &mask_);
     }
     ~Visit() {
         for (std::size_t i = 0; i < signals.size(); ++i) sigaction(signals[i], &handlers_[i], nullptr);
@@ -86,7 +88,7 @@ std::vector<idx_t> cut_with_metis(Graph& graph, idx_t parts) {
     std::vector<idx_t> part(graph.size(), 0);
     int status = METIS_OK;
     {
-        const Visit visit;
+        const Visit visit(Terminate::interrupts);
         status =
             METIS_PartGraphKway(&vertices, &constraints, graph.start.data(), graph.neighbour.data(), weights_of(graph),
                                 nullptr, nullptr, &parts, nullptr, nullptr, options.data(), &cut, part.data());
@@ -103,7 +105,7 @@ std::vector<idx_t> dissect_with_metis(Graph& graph) {
     std::vector<idx_t> order(graph.size()), position(graph.size());
     int status = METIS_OK;
     {
-        const Visit visit;
+        const Visit visit(Terminate::waits);
         status = METIS_NodeND(&vertices, graph.start.data(), graph.neighbour.data(), weights_of(graph), options.data(),
                               order.data(), position.data());
     }

@@ -2,8 +2,12 @@
 // The order of a sparse factor: nested dissection where it needs fewer operations than minimum degree, the trailing
 // variables last, the same bits whatever the host did before, and the host's signal handlers and random numbers left
 // alone.
+#include <pthread.h>
+
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <numeric>
@@ -75,7 +79,8 @@ std::vector<double> solution(const SparseMatrix& m) {
     return x;
 }
 
-void own_handler(int) {}
+volatile std::sig_atomic_t handled = 0;
+void own_handler(int) { handled = handled + 1; }
 
 }  // namespace
 
@@ -167,6 +172,29 @@ START_TEST(the_host_notices_nothing) {
 }
 END_TEST
 
+// METIS would take them for errors of its own.
+START_TEST(requests_to_end_wait_for_the_order) {
+    const SparseMatrix m = box(20, 20, 20);
+    const std::vector<std::int64_t> order = dissection_order(m, m.rows);
+    std::signal(SIGTERM, own_handler);
+    handled = 0;
+    std::atomic<bool> ordered = false;
+    const pthread_t host = pthread_self();
+    std::thread asks([&] {
+        while (!ordered) {
+            pthread_kill(host, SIGTERM);
+            std::this_thread::sleep_for(std::chrono::microseconds(50));
+        }
+    });
+    const std::vector<std::int64_t> asked = dissection_order(m, m.rows);
+    ordered = true;
+    asks.join();
+    ck_assert(asked == order);
+    ck_assert_int_gt(handled, 1);  // within the call and after it
+    ck_assert(std::signal(SIGTERM, SIG_DFL) == own_handler);
+}
+END_TEST
+
 START_TEST(solutions_have_equal_bits) {
     const SparseMatrix m = box(16, 16, 16);
     const std::vector<double> first = solution(m);
@@ -213,6 +241,7 @@ int main() {
     tcase_add_test(tests, dissection_is_taken_where_it_orders_better);
     tcase_add_test(tests, trailing_variables_stay_last);
     tcase_add_test(tests, the_host_notices_nothing);
+    tcase_add_test(tests, requests_to_end_wait_for_the_order);
     tcase_add_test(tests, solutions_have_equal_bits);
     tcase_add_test(tests, graphs_in_pieces);
     suite_add_tcase(suite, tests);

@@ -7,6 +7,7 @@ import importlib
 import io
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -82,7 +83,10 @@ def brittle():
 
 
 def folder():
-    return tempfile.mkdtemp(prefix="delam_cli_")
+    """A new folder, which goes with this process."""
+    path = tempfile.mkdtemp(prefix="delam_cli_")
+    atexit.register(shutil.rmtree, path, ignore_errors=True)
+    return path
 
 
 def write(text):
