@@ -52,6 +52,7 @@ struct DenseSystem {
     std::span<const double> force() const { return reaction; }
     double jump_floor() const { return 0.0; }
     double force_floor() const { return 0.0; }
+    bool softens() const { return true; }
 };
 
 // Nearly of rank 3: rows that are coupled as closely as these are what makes simultaneous moves cycle.
@@ -145,6 +146,24 @@ START_TEST(limits_and_failures_are_reported) {
 }
 END_TEST
 
+// Of two rows the first softens faster than the rest unloads: held it is pulled, free it penetrates. A search that
+// goes on has no end; two solves tell.
+START_TEST(negative_curvature_is_seen_in_two_sets) {
+    DenseSystem s;
+    s.stiffness = DenseMatrix(2, 2);
+    s.stiffness(0, 0) = -1.0;
+    s.stiffness(1, 1) = 2.0;
+    s.stiffness(0, 1) = s.stiffness(1, 0) = 0.1;
+    s.load = {1.0, 1.0};
+    for (const std::uint8_t first : {0, 1}) {
+        std::vector<std::uint8_t> closed{first, 0};
+        s.solves = 0;
+        const ActiveSet found = find_active_set(s, all_rows(2), closed, 1000, false);
+        ck_assert(!found.settled && found.last == ContactSolve::failed && found.solves == 2);
+    }
+}
+END_TEST
+
 // Nothing balances the load while all rows are open; contact does.
 START_TEST(contact_may_hold_what_floats) {
     std::mt19937 random(4);
@@ -181,6 +200,7 @@ int main() {
     Suite* suite = suite_create("active_set");
     TCase* tests = tcase_create("active_set");
     tcase_add_test(tests, the_set_is_the_only_one);
+    tcase_add_test(tests, negative_curvature_is_seen_in_two_sets);
     tcase_add_test(tests, limits_and_failures_are_reported);
     tcase_add_test(tests, contact_may_hold_what_floats);
     tcase_add_test(tests, levels_lead_to_the_same_set);

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <concepts>
 #include <cstdint>
 #include <set>
@@ -93,6 +94,48 @@ std::vector<std::size_t> contact_violators(const S& system, const ContactRows& r
     return found;
 }
 
+// Systems with tangents that may be negative say so: without `softens` a system is positive definite, or nearly so.
+template <class S>
+concept SofteningSystem = requires(const S& system) {
+    { system.softens() } -> std::same_as<bool>;
+};
+
+// Two equilibria of one system, A x + N^T lambda = b with lambda = 0 in free rows, differ by d with
+//
+//   d^T A d = -(u1 - u0) (lambda1 - lambda0),     summed over the contact rows.
+//
+// Where this is negative, A is not positive definite, and moving rows from one side to the other need not end. An
+// iteration does not see that if its preconditioner is as indefinite.
+class Curvature {
+public:
+    // Whether this equilibrium and the one seen before say that A is indefinite, by more than is left open of either.
+    template <ContactSystem S>
+    bool negative(const S& system, const ContactRows& rows, const std::vector<std::uint8_t>& closed,
+                  const SolveError& open) {
+        std::vector<double> jump, force;
+        for (std::size_t i = 0; i < rows.row.size(); ++i) {
+            jump.push_back(system.jump()[rows.row[i]]);
+            force.push_back(closed[i] != 0 ? system.force()[rows.row[i]] : 0.0);
+        }
+        const SolveError doubtful{open.jump + open_.jump, open.force + open_.force};
+        double work = 0.0, doubt = 0.0;
+        for (std::size_t i = 0; i < jump_.size(); ++i) {
+            const double u = jump[i] - jump_[i], f = force[i] - force_[i];
+            if (f == 0.0) continue;
+            work -= u * f;
+            doubt += doubtful.jump * std::abs(f) + doubtful.force * std::abs(u) + contact_rounding * std::abs(u * f);
+        }
+        jump_ = std::move(jump);
+        force_ = std::move(force);
+        open_ = open;
+        return work < -doubt;
+    }
+
+private:
+    std::vector<double> jump_, force_;  // of the equilibrium before; empty: none
+    SolveError open_;
+};
+
 // closed: [contact rows], on entry the starting set, on return the contact set. Where a loaded part floats, contact may
 // hold it: with close_once the search begins once more with everything closed.
 template <ContactSystem S>
@@ -100,6 +143,7 @@ ActiveSet find_active_set(S& system, const ContactRows& rows, std::vector<std::u
                           bool close_once) {
     ActiveSet result;
     std::set<std::string> seen;  // contact sets, as bytes
+    [[maybe_unused]] Curvature curvature;
     std::uint8_t level = rows.first;
     bool exchange = false;
     while (true) {
@@ -113,6 +157,12 @@ ActiveSet find_active_set(S& system, const ContactRows& rows, std::vector<std::u
         }
         if (result.last != ContactSolve::solved) return result;
         const SolveError open = left_open(system);
+        if constexpr (SofteningSystem<S>) {
+            if (system.softens() && curvature.negative(system, rows, closed, open)) {
+                result.last = ContactSolve::failed;
+                return result;
+            }
+        }
         std::vector<std::size_t> wrong = contact_violators(system, rows, closed, level, open);
         while (wrong.empty() && level > rows.least) {
             wrong = contact_violators(system, rows, closed, --level, open);

@@ -33,6 +33,11 @@ std::vector<std::uint8_t> ZoneSystem::held(const std::vector<std::uint8_t>& clos
     return held;
 }
 
+bool ZoneSystem::softens() const {
+    return std::any_of(couplings_.begin(), couplings_.end(),
+                       [](const Zone::Coupling& c) { return c.row != c.column || c.value < 0.0; });
+}
+
 ContactSolve ZoneSystem::solve(const std::vector<std::uint8_t>& closed) {
     call_if_set(poll_);
     held_ = held(closed);
@@ -47,7 +52,10 @@ ContactSolve ZoneSystem::solve(const std::vector<std::uint8_t>& closed) {
     force_.assign(jump_.size(), 0.0);
     for (std::size_t z = 0; z < row_force_.size(); ++z) force_[z] = -row_force_[z];
     for (const Zone::Coupling& c : couplings_) force_[index(c.row)] += c.value * jump_[index(c.column)];
+    const std::vector<double> acting = force_;
     zone_.complete_forces(theta_, solution, force_);
+    for (std::size_t i = 0; i < closed.size(); ++i)
+        if (closed[i] != 0) force_[contact_.row[i]] -= acting[contact_.row[i]];
     return ContactSolve::solved;
 }
 

@@ -40,9 +40,12 @@ public:
 
     ContactSolve solve(const std::vector<std::uint8_t>& closed);
     std::span<const double> jump() const { return jump_; }
+    // Of a closed contact row that of contact alone: where a model of a softening pair pulls at a jump of zero, the
+    // force of the pair would open it, and open it would penetrate.
     std::span<const double> force() const { return force_; }
     double jump_floor() const { return scene_.jump_floor(theta_); }
     double force_floor() const { return scene_.force_floor(theta_); }
+    bool softens() const;
     SolveError error() const { return error_; }
     // What is in doubt here is decided by the operator, which checks the end of a minimiser.
     bool tighten() { return false; }
