@@ -908,8 +908,9 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  *                          steps, displacement solves, and, summed over these solves, active-set steps and Krylov
  *                          iterations
  *   newton_solves, debond_moves   of the step, where the minimisation is accelerated and no law has a gradient term:
- *                          dense solves in the zone, i.e. for the pairs that a Newton step changes, and unstable pairs
- *                          that were moved directly to their debonded branch
+ *                          solves in the zone, i.e. for the pairs that a Newton step changes (with `reduction =
+ *                          iterated` of all bodies, or of those about the process zone alone), and unstable pairs that
+ *                          were moved directly to their debonded branch
  *   contact_iterations_first, contact_iterations_max   active-set steps of the first and of the worst displacement
  *                          solve
  *   contact_fallbacks      displacement solves in which the active sets cycled, so that pairs had to be exchanged one

@@ -214,7 +214,7 @@ constexpr Row table[] = {
         [](const State& s) { return count(s.effort.contact_fallbacks); }),
     row("linear_iterations", "-", "Krylov iterations of the step",
         [](const State& s) { return count(s.effort.linear_iterations); }),
-    row("newton_solves", "-", "dense solves of the step, for the pairs that a Newton step changes",
+    row("newton_solves", "-", "solves of the step in a zone, for the pairs that a Newton step changes",
         [](const State& s) { return count(s.effort.newton_solves); }),
     row(
         "debond_moves", "-", "unstable pairs that the step took straight to their debonded branch",

@@ -48,7 +48,7 @@ constexpr double iterated_vectors = 46.0;  // states and directions of an iterat
 constexpr double most_vectors = 156.0;     // with the 60 pairs that conjugate gradients keep at most
 // Per variable: METIS takes 1.1 s for 354,000 displacements, 3 s for a million.
 constexpr double ordering_operations = 6e4;
-constexpr double largest_patch = 0.25;      // of all variables, as of reanalysis.cpp
+constexpr double largest_patch = 0.25;      // of all variables, as of reanalysis.cpp and local_zone.cpp
 constexpr double relaxed_supernodes = 1.6;  // numbers stored per entry of its factor
 // Operations of a factor, times variables over the square of its entries (1: all columns alike).
 constexpr double column_spread = 6.0;
@@ -114,7 +114,7 @@ ReductionCost predict_iterated(const IteratedSize& size) {
                  8.0 * (iterated_vectors + size.columns) * size.variables;
     cost.least = 16.0 * (size.stiffness + size.transformed) + 8.0 * size.stored + 8.0 * size.columns * size.variables;
     cost.most = cost.bytes + 8.0 * (most_vectors - iterated_vectors) * size.variables +
-                largest_patch * (16.0 * size.transformed + 8.0 * size.stored);
+                2.0 * largest_patch * (16.0 * size.transformed + 8.0 * size.stored);
     return cost;
 }
 

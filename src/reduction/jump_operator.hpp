@@ -103,6 +103,12 @@ public:
     virtual Zone* zone(const Springs& /*springs*/, std::span<const std::uint8_t> /*wanted*/, bool /*tight*/) {
         return nullptr;
     }
+    // The same with only the bodies about the wanted rows free, and all else where the response has it: what lowers
+    // the energy there lowers that of the whole. Null: that is not much cheaper, or not offered.
+    virtual Zone* part(std::span<const double> /*theta*/, const Response& /*response*/,
+                       std::span<const std::uint8_t> /*wanted*/) {
+        return nullptr;
+    }
     // The bodies condensed onto the jumps; null: they are not.
     virtual const Bulk* bulk() const { return nullptr; }
     // Sparse factorisations of the bodies since the operator was made, and how often displacements were recovered.

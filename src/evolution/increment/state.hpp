@@ -60,7 +60,7 @@ struct Effort {
     std::int64_t contact_iterations_max = 0;
     std::int64_t contact_fallbacks = 0;
     std::int64_t linear_iterations = 0;
-    std::int64_t newton_solves = 0;      // dense solves within the process zone
+    std::int64_t newton_solves = 0;      // solves within the process zone
     std::int64_t debond_moves = 0;       // unstable pairs taken to their debonded branch
     std::int64_t search_candidates = 0;  // states whose energy a search has compared
     double linear_residual = 0.0;        // worst

@@ -19,6 +19,8 @@ constexpr double energy_rounding = 1e-11;
 constexpr std::int64_t longest_wait = 8;           // plain steps between two attempts of a failed method
 constexpr std::int64_t newton_contact_steps = 30;  // of the active set in one Newton step; beyond them it is rejected
 constexpr std::int64_t halvings = 7;               // of a line search, including the full step
+// A part of the bodies is brought to its end this much more finely than the whole has changed.
+constexpr double part_of_change = 1e-3;
 // A pair joins the zone if its driving energy exceeds this fraction of the one that damages it.
 constexpr double nearly_loaded = 0.7;
 
@@ -44,8 +46,13 @@ private:
 class Descent {
 public:
     Descent(const ZoneNewton& newton, State& state, Increment& increment, const Springs& springs, Zone& zone);
-    // Returns the energy added by new mixities alone.
-    double run();
+    // So many steps at most, until one changes the damage by less than the tolerance. Returns the energy added by new
+    // mixities alone.
+    double run(std::int64_t limit, double tolerance);
+    bool ended() const { return ended_; }                  // the last run did not meet its limit
+    bool newton() const { return newton_step_; }           // its last step was one of Newton's method
+    double first_change() const { return first_change_; }  // and last_change(): of the damage, in its steps
+    double last_change() const { return last_change_; }
 
 private:
     // An iterate: jumps of all zone rows, energy, adhesion of the members.
@@ -95,6 +102,8 @@ private:
     std::vector<double> spring_;             // [zone rows], of rows that belong to no member
     std::vector<std::uint8_t> closed_;       // [contact rows]
     double added_ = 0.0;
+    bool ended_ = false, newton_step_ = false;
+    double first_change_ = 0.0, last_change_ = 0.0;
     Extrapolation extrapolation_;
     std::vector<double> used_;  // adhesions from which the last extrapolation started
     Patience newton_patience_, move_patience_;
@@ -268,13 +277,15 @@ void Descent::hand_over(const Point& at) {
         state_.closed[index(zone_.jump_rows()[system_.contact_rows().row[i]]) / dim_] = closed_[i];
 }
 
-double Descent::run() {
-    if (members_.empty()) return 0.0;
+double Descent::run(std::int64_t limit, double tolerance) {
+    ended_ = members_.empty();
+    if (ended_) return 0.0;
     Point at = start();
     used_ = at.adhesion;
-    for (std::int64_t n = 0; n < newton_.limit; ++n) {
+    for (std::int64_t n = 0; n < limit && !ended_; ++n) {
         Move move = step(at);
-        if (!move.taken) break;
+        ended_ = !move.taken;
+        if (ended_) break;
         const bool renewed = observe(move.to, move.carried);
         double change = 0.0;
         for (std::size_t i = 0; i < members_.size(); ++i)
@@ -284,29 +295,58 @@ double Descent::run() {
                             driving_energy(*increment_.pairs().law[members_[i].pair], local(move.to, i)).total()));
         at = std::move(move.to);
         // Newton's method squares the error: the next one would be far below the tolerance.
-        if (move.newton && !renewed ? change * change <= 0.01 * newton_.tolerance : change <= newton_.tolerance) break;
+        if (n == 0) first_change_ = change;
+        last_change_ = change;
+        newton_step_ = move.newton;
+        ended_ = move.newton && !renewed ? change * change <= 0.01 * tolerance : change <= tolerance;
     }
     hand_over(at);
     state_.effort.linear_iterations += system_.iterations();
     return added_;
 }
 
-}  // namespace
-
-std::optional<double> ZoneNewton::run(State& state, Increment& increment) const {
-    const auto dim = static_cast<std::size_t>(contact.dimension);
+// Rows of the pairs that damage, or nearly do.
+std::vector<std::uint8_t> loaded_rows(const ZoneNewton& newton, const State& state, const Increment& increment) {
+    const auto dim = static_cast<std::size_t>(newton.contact.dimension);
     const PairLaws& pairs = increment.pairs();
-    const Springs springs{spring_stiffness(pairs, state.adhesion), held_rows(contact, state.closed)};
-    std::vector<std::uint8_t> wanted(springs.stiffness.size(), 0);
+    std::vector<std::uint8_t> wanted(state.adhesion.size() * dim, 0);
     for (std::size_t p = 0; p < state.adhesion.size(); ++p) {
-        if (contact.bonded[p] != 0 || pairs.law[p] == nullptr || increment.adhesion_before()[p] <= 0.0) continue;
+        if (newton.contact.bonded[p] != 0 || pairs.law[p] == nullptr || increment.adhesion_before()[p] <= 0.0) continue;
         const auto jump = std::span<const double>(state.response.jump).subspan(p * dim, dim);
         if (!increment.damages(p, state.adhesion[p], jump, nearly_loaded)) continue;
         std::fill_n(wanted.begin() + static_cast<std::ptrdiff_t>(p * dim), dim, std::uint8_t{1});
     }
-    Zone* zone = op.zone(springs, wanted, false);
-    if (zone == nullptr) return std::nullopt;
-    return Descent(*this, state, increment, springs, *zone).run();
+    return wanted;
+}
+
+}  // namespace
+
+std::optional<double> ZoneNewton::run(State& state, Increment& increment) const {
+    const auto springs = [&] {
+        return Springs{spring_stiffness(increment.pairs(), state.adhesion), held_rows(contact, state.closed)};
+    };
+    double added = 0.0, last_change = infinite;
+    bool newton = false;
+    for (std::int64_t n = 0; n < limit; ++n) {
+        const std::vector<std::uint8_t> wanted = loaded_rows(*this, state, increment);
+        // What softens is brought to its end with the rest of the bodies at rest, before these all move by a step.
+        Zone* part = op.part(state.theta, state.response, wanted);
+        if (part != nullptr) {
+            Descent descent(*this, state, increment, springs(), *part);
+            added += descent.run(limit, std::max(tolerance, part_of_change * std::min(1.0, last_change)));
+            // Nothing is left of a step of Newton's method but what it has linearised.
+            if (newton && descent.ended() && descent.first_change() <= tolerance) break;
+        }
+        const Springs acting = springs();
+        Zone* zone = op.zone(acting, wanted, false);
+        if (zone == nullptr) return std::nullopt;
+        Descent descent(*this, state, increment, acting, *zone);
+        added += descent.run(part != nullptr ? 1 : limit, tolerance);
+        if (part == nullptr || descent.ended()) break;
+        newton = descent.newton();
+        last_change = descent.last_change();
+    }
+    return added;
 }
 
 }  // namespace delam

@@ -159,6 +159,13 @@ Zone* Iterated::zone(const Springs&, std::span<const std::uint8_t>, bool) {
     return zone_.get();
 }
 
+Zone* Iterated::part(std::span<const double> theta, const Response& response, std::span<const std::uint8_t> wanted) {
+    if (part_ == nullptr)
+        part_ = std::make_unique<LocalZone>(reanalysis_.system(), bodies_.problem().mesh->dimension());
+    const auto poll = [this] { monitor_.progress("patch", 0, 0); };
+    return part_->enter(wanted, theta, reanalysis_.load(theta), response.multipliers, poll) ? part_.get() : nullptr;
+}
+
 std::vector<double> Iterated::displacement(std::span<const double> theta, const Response& response) const {
     poll_cancel("recover", bodies_.dofs() / 64);
     std::vector<double> u = bodies_.lift(theta);

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "reduction/iterated/iterated_zone.hpp"
+#include "reduction/iterated/local_zone.hpp"
 #include "reduction/iterated/reanalysis.hpp"
 #include "reduction/jump_operator.hpp"
 #include "scene/problem.hpp"
@@ -45,6 +46,7 @@ public:
     // Its steps are solved to a residual far below the tolerance of the damage.
     double zone_rounding() const override { return problem_.options.damage_tolerance; }
     Zone* zone(const Springs& springs, std::span<const std::uint8_t> wanted, bool tight) override;
+    Zone* part(std::span<const double> theta, const Response& response, std::span<const std::uint8_t> wanted) override;
 
     IteratedSize size() const;
 
@@ -60,7 +62,8 @@ private:
     BodySystem& bodies_;
     std::vector<double> strain_energy_;  // [patterns][patterns] W of the eigenstrains
     Reanalysis reanalysis_;
-    std::unique_ptr<IteratedZone> zone_;  // once it is asked for
+    std::unique_ptr<IteratedZone> zone_;  // once they are asked for
+    std::unique_ptr<LocalZone> part_;
     bool tight_ = false;
     mutable std::int64_t recoveries_ = 0;
 };

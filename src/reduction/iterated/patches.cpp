@@ -7,6 +7,7 @@
 
 #include "base/numbers.hpp"
 #include "linalg/sparse_elimination.hpp"
+#include "reduction/iterated/neighbourhood.hpp"
 #include "reduction/iterated/spring_entries.hpp"
 
 namespace delam {
@@ -45,28 +46,6 @@ Patches::Patches(const JumpSystem& system, std::int64_t margin, double share)
         for (const auto& [i, c] : equation)
             barred_[index(i)] = !(system.diagonal()[index(i)] > 0.0) ||
                                 static_cast<double>(a.start[index(i) + 1] - a.start[index(i)]) > crowded * mean;
-}
-
-std::vector<std::int64_t> Patches::rings(std::span<const std::int64_t> seeds) const {
-    const SparseMatrix& a = system_.matrix();
-    std::vector<std::int64_t> ring(index(system_.count()), margin_ + 1), front, next;
-    for (const std::int64_t i : seeds) {
-        if (barred_[index(i)] != 0) continue;
-        ring[index(i)] = 0;
-        front.push_back(i);
-    }
-    for (std::int64_t r = 1; r <= margin_ && !front.empty(); ++r) {
-        next.clear();
-        for (const std::int64_t i : front)
-            for (std::int64_t e = a.start[index(i)]; e < a.start[index(i) + 1]; ++e) {
-                const std::int64_t j = a.column[index(e)];
-                if (ring[index(j)] <= r || barred_[index(j)] != 0) continue;
-                ring[index(j)] = r;
-                next.push_back(j);
-            }
-        front.swap(next);
-    }
-    return ring;
 }
 
 // The widest margin, of 5, 2 and 1 rings, whose patches have no more than the share; 0: none.
@@ -110,7 +89,7 @@ bool Patches::cover(std::span<const std::int64_t> seeds, bool any_size, const Po
     if (std::all_of(seeds.begin(), seeds.end(),
                     [&](std::int64_t i) { return inner_[index(i)] != 0 || barred_[index(i)] != 0; }))
         return true;
-    std::vector<std::int64_t> ring = rings(seeds);
+    std::vector<std::int64_t> ring = rings(system_.matrix(), seeds, barred_, margin_);
     const std::int64_t fitting = margin_within_share(ring), margin = std::max<std::int64_t>(1, fitting);
     if (fitting == 0 && !any_size) return false;
     std::vector<std::uint8_t> inner(ring.size()), member(ring.size());
@@ -163,23 +142,10 @@ Patches::Patch Patches::make(std::vector<std::int64_t> variables, const Poll& po
     call_if_set(poll);
     Patch patch;
     patch.variables = std::move(variables);
-    const SparseMatrix& a = system_.matrix();
-    SparseMatrix& m = patch.matrix;
-    m.rows = m.columns = static_cast<std::int64_t>(patch.variables.size());
-    for (const std::int64_t i : patch.variables) {
-        auto from = patch.variables.begin();
-        for (std::int64_t e = a.start[index(i)]; e < a.start[index(i) + 1]; ++e) {
-            from = std::lower_bound(from, patch.variables.end(), a.column[index(e)]);
-            if (from == patch.variables.end()) break;
-            if (*from != a.column[index(e)]) continue;
-            m.column.push_back(from - patch.variables.begin());
-            m.value.push_back(a.value[index(e)]);
-        }
-        m.start.push_back(static_cast<std::int64_t>(m.column.size()));
-    }
+    patch.matrix = submatrix(system_.matrix(), patch.variables);
     take_equations(patch);
-    patch.factor = std::make_unique<SparseCholesky>(m, 0, poll);
-    cost_ += analysis_operations * static_cast<double>(m.entries());
+    patch.factor = std::make_unique<SparseCholesky>(patch.matrix, 0, poll);
+    cost_ += analysis_operations * static_cast<double>(patch.matrix.entries());
     return patch;
 }
 
@@ -211,11 +177,7 @@ void Patches::take_equations(Patch& patch) const {
 
 bool Patches::factorise(Patch& patch, std::span<const Triplet> springs) {
     SparseMatrix matrix = patch.matrix;
-    for (const Triplet& t : springs) {
-        const auto begin = matrix.column.begin() + matrix.start[index(t.row)],
-                   end = matrix.column.begin() + matrix.start[index(t.row) + 1];
-        matrix.value[index(std::lower_bound(begin, end, t.column) - matrix.column.begin())] += t.value;
-    }
+    add_entries(matrix, springs);
     return patch.factor->factorise(matrix);
 }
 

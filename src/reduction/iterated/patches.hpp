@@ -54,8 +54,6 @@ private:
         ConstraintColumns constraints;
         bool factored = false;
     };
-    // Number of rings to the nearest seed, margin_ + 1: beyond.
-    std::vector<std::int64_t> rings(std::span<const std::int64_t> seeds) const;
     std::int64_t margin_within_share(std::span<const std::int64_t> ring) const;
     Patch make(std::vector<std::int64_t> variables, const Poll& poll);
     void take_equations(Patch& patch) const;

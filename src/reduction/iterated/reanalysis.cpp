@@ -19,8 +19,9 @@ namespace {
 constexpr double differs = 0.1;
 // Patches of more than this share of all variables cost as much as a new factor of the whole.
 constexpr double largest_patch = 0.25;
-// Iterations that a fresh factor and young patches need.
-constexpr double fresh_iterations = 4.0;
+// Iterations that a solve with a fresh factor may always take, and those that a new one could not spare: tangents that
+// are negative or couple rows are in patches alone.
+constexpr double fresh_iterations = 4.0, most_fresh_iterations = 12.0;
 // A triangular solve waits for memory: its operations are this many times slower than a factorisation's.
 constexpr double slower = 20.0;
 // Iterations, before a factor is given up for a new one.
@@ -133,7 +134,7 @@ void Reanalysis::renew(std::vector<double> springs) {
         lagged_.clear();
         throw;
     }
-    debt_ = rounded_ = 0.0;
+    debt_ = rounded_ = fresh_ = 0.0;
 }
 
 void Reanalysis::renew_now() {
@@ -369,7 +370,9 @@ bool Reanalysis::weak_directions(std::vector<Direction>& given) const {
 CgOutcome Reanalysis::iterate(CgSystem& cg, double tolerance, std::span<double> x) {
     const std::int64_t limit = bodies_.problem().options.linear_limit;
     const auto owe = [this](std::int64_t iterations) {
-        debt_ += iteration_cost() * std::max(0.0, static_cast<double>(iterations) - fresh_iterations);
+        const auto n = static_cast<double>(iterations);
+        if (fresh_ == 0.0) fresh_ = std::clamp(n, fresh_iterations, most_fresh_iterations);
+        debt_ += iteration_cost() * std::max(0.0, n - fresh_);
     };
     cg.rounded = rounded_;
     cg.attempt = attempt_;

@@ -97,6 +97,7 @@ private:
     std::vector<double> lagged_;  // [rows] springs of the factor; held ones as springs. Empty: there is none
     double debt_ = 0.0;           // operations since then that a fresh factor would have saved
     bool attempt_ = false;        // too much differs for wide patches, but the factor is still the one before
+    double fresh_ = 0.0;          // iterations of the first solve with this factor; 0: there was none
     double rounded_ = 0.0;        // what rounding leaves of a residual, relative; 0: not yet met with this factor
     std::int64_t factorisations_ = 0;
     std::vector<std::vector<double>> null_;  // free motions in the reduced space, orthonormal
