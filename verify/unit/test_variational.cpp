@@ -202,6 +202,34 @@ START_TEST(swings_end) {
 }
 END_TEST
 
+// Where other pairs made a mixity swing at first, it goes the whole way once they rest: with the fraction that the
+// swings have left it would take 150 updates.
+START_TEST(what_swung_does_not_creep) {
+    Law law;
+    law.normal_stiffness = law.tangential_stiffness = 1e11;
+    law.normal_onset = law.tangential_onset = 100.0;
+    law.normal_toughness = law.tangential_toughness = 250.0;
+    PairLaws pairs;
+    pairs.law = {&law};
+    pairs.weight = {1.0};
+    const State before = whole(1);
+    ConvergedIncrement mixity(pairs, before, std::vector<double>{0.1}, 1e-6);
+    const auto observe = [&](double b) {
+        const std::vector<double> jump{std::sqrt(300.0 * (1.0 - b) / 1e11), std::sqrt(300.0 * b / 1e11)};
+        return mixity.observe(std::vector<double>{0.8}, jump);
+    };
+    for (int swing = 0; swing < 6; ++swing) ck_assert(observe(swing % 2 == 0 ? 0.45 : 0.05));
+    const double left = std::abs(mixity.memory().used[0] - 0.48);
+    ck_assert_double_gt(left, 0.05);
+    int updates = 0;
+    while (std::abs(mixity.memory().used[0] - 0.48) > 1e-8 * left && updates < 200) {
+        observe(0.48);
+        ++updates;
+    }
+    ck_assert_int_le(updates, 8);
+}
+END_TEST
+
 START_TEST(broken_pairs_keep_theirs) {
     Law law;
     law.normal_stiffness = law.tangential_stiffness = 1e11;
@@ -239,6 +267,7 @@ int main() {
     tcase_add_test(tests, proximal_spring_bounds_the_curvature);
     tcase_add_test(tests, small_jumps_and_contact);
     tcase_add_test(tests, swings_end);
+    tcase_add_test(tests, what_swung_does_not_creep);
     tcase_add_test(tests, broken_pairs_keep_theirs);
     suite_add_tcase(suite, tests);
     SRunner* runner = srunner_create(suite);
