@@ -17,9 +17,9 @@ namespace {
 
 // METIS 5 reseeds rand() and installs handlers for SIGABRT and SIGTERM while it runs. Both belong to the host: its
 // random sequence continues where it was, and its handlers are restored. This is process-wide state, hence one call at
-// a time. METIS takes a SIGTERM from outside for an error of its own and leaves by a jump, so that one should wait
-// until METIS has ended. It cannot wait while METIS cuts into parts: there METIS raises SIGTERM itself, where its
-// memory ends.
+// a time. METIS takes a SIGTERM from outside for an error of its own and leaves by a jump, so that one to this thread
+// should wait until METIS has ended. It cannot wait while METIS cuts into parts: there METIS raises SIGTERM itself,
+// where its memory ends.
 enum class Terminate { waits, interrupts };
 class Visit {
 public:

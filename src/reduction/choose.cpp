@@ -110,9 +110,10 @@ ReductionCost predict_iterated(const IteratedSize& size) {
                 patch_operations * std::min(size.variables, patch_variables) + iterated_renewals * size.factor.flops;
     // K, T^T K T, CHOLMOD's permuted copy of half of it, the factor, some states and the directions of an
     // iteration.
-    cost.bytes = 16.0 * (size.stiffness + 1.5 * size.transformed) + 8.0 * size.stored +
+    const double factors = 8.0 * size.factors * size.stored;
+    cost.bytes = 16.0 * (size.stiffness + 1.5 * size.transformed) + factors +
                  8.0 * (iterated_vectors + size.columns) * size.variables;
-    cost.least = 16.0 * (size.stiffness + size.transformed) + 8.0 * size.stored + 8.0 * size.columns * size.variables;
+    cost.least = 16.0 * (size.stiffness + size.transformed) + factors + 8.0 * size.columns * size.variables;
     cost.most = cost.bytes + 8.0 * (most_vectors - iterated_vectors) * size.variables +
                 2.0 * largest_patch * (16.0 * size.transformed + 8.0 * size.stored);
     return cost;
@@ -126,6 +127,7 @@ IteratedSize iterated_size(const Bulk& bulk) {
     size.factor.entries = predict_monolithic_entries(bulk);
     size.factor.flops = column_spread * square(size.factor.entries) / std::max(size.variables, 1.0);
     size.stored = relaxed_supernodes * size.factor.entries;
+    size.factors = Reanalysis::keeps_two_factors(bulk.system().problem()) ? 2.0 : 1.0;
     size.columns = number(static_cast<std::int64_t>(bulk.system().variables().equations.size()));
     return size;
 }

@@ -482,6 +482,35 @@ START_TEST(continues_bit_for_bit) {
 }
 END_TEST
 
+// A search looks at other states; the factor of the state that it came from is still there, with the same bits.
+START_TEST(comes_back_without_factoring) {
+    unit::LayerState scene(cases[_i], 7);
+    for (const bool energetic : {true, false}) {
+        scene.problem.options.solution = energetic ? "energetic" : "local";
+        Monitor monitor;
+        Iterated one(scene.problem, monitor), other(scene.problem, monitor);
+        Response first, second, elsewhere;
+        one.solve(advanced(scene, 0.0), scene.theta, first);
+        const std::vector<double> memory = one.memory();
+        for (const double x : {0.08, 0.11}) {
+            one.recall({});
+            one.solve(advanced(scene, x), scene.theta, elsewhere);
+        }
+        const std::int64_t factors = one.factorisations();
+        ck_assert_int_ge(factors, 3);
+        one.recall(memory);
+        ck_assert_int_eq(one.factorisations(), energetic ? factors : factors + 1);
+        ck_assert(one.memory() == memory);
+        other.recall(memory);
+        second = first;
+        one.solve(advanced(scene, 0.05), scene.theta, first);
+        other.solve(advanced(scene, 0.05), scene.theta, second);
+        ck_assert(first.jump == second.jump && first.multipliers == second.multipliers);
+        ck_assert(one.memory() == other.memory());
+    }
+}
+END_TEST
+
 // A curvature that is not finite has no sign: not converged, but not indefinite.
 START_TEST(numbers_that_are_not_finite_are_not_negative) {
     for (const double curvature : {std::nan(""), -2.0}) {
@@ -593,6 +622,7 @@ int main() {
     tcase_add_test(tests, constraints_on_many_jumps_fill_nothing);
     tcase_add_test(tests, constraints_come_before_held_rows);
     tcase_add_loop_test(tests, continues_bit_for_bit, 0, static_cast<int>(std::size(cases)));
+    tcase_add_loop_test(tests, comes_back_without_factoring, 0, static_cast<int>(std::size(cases)));
     tcase_add_test(tests, numbers_that_are_not_finite_are_not_negative);
     tcase_add_test(tests, contact_settles_on_answers_of_any_accuracy);
     tcase_add_test(tests, tightens_at_request);

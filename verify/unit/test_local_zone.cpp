@@ -218,7 +218,7 @@ March march(const char* reduction) {
 }  // namespace
 
 // The front of a slender laminate crosses some hundred pairs.
-START_TEST(most_of_newtons_method_happens_in_the_part) {
+START_TEST(parts_spare_solves_of_the_whole) {
     const March a = march("iterated"), b = march("condensed");
     ck_assert_double_gt(b.dissipated, 0.0);
     ck_assert_double_le(std::abs(a.dissipated - b.dissipated), 1e-6 * b.dissipated);
@@ -231,7 +231,7 @@ int main() {
     tcase_add_loop_test(tests, what_lowers_the_energy_there_lowers_that_of_the_whole, 0, scenes);
     tcase_add_loop_test(tests, tangents_without_a_minimum_are_seen, 0, scenes);
     tcase_add_loop_test(tests, only_small_parts_are_offered, 0, scenes);
-    tcase_add_test(tests, most_of_newtons_method_happens_in_the_part);
+    tcase_add_test(tests, parts_spare_solves_of_the_whole);
     Suite* suite = suite_create("local zone");
     suite_add_tcase(suite, tests);
     SRunner* runner = srunner_create(suite);

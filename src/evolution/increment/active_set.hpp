@@ -117,13 +117,15 @@ public:
             jump.push_back(system.jump()[rows.row[i]]);
             force.push_back(closed[i] != 0 ? system.force()[rows.row[i]] : 0.0);
         }
-        const SolveError doubtful{open.jump + open_.jump, open.force + open_.force};
+        const double rounded = contact_rounding;
+        const SolveError doubtful{open.jump + open_.jump + rounded * max_abs(system.jump()),
+                                  open.force + open_.force + rounded * max_abs(system.force())};
         double work = 0.0, doubt = 0.0;
         for (std::size_t i = 0; i < jump_.size(); ++i) {
             const double u = jump[i] - jump_[i], f = force[i] - force_[i];
             if (f == 0.0) continue;
             work -= u * f;
-            doubt += doubtful.jump * std::abs(f) + doubtful.force * std::abs(u) + contact_rounding * std::abs(u * f);
+            doubt += doubtful.jump * std::abs(f) + doubtful.force * std::abs(u);
         }
         jump_ = std::move(jump);
         force_ = std::move(force);
@@ -157,12 +159,6 @@ ActiveSet find_active_set(S& system, const ContactRows& rows, std::vector<std::u
         }
         if (result.last != ContactSolve::solved) return result;
         const SolveError open = left_open(system);
-        if constexpr (SofteningSystem<S>) {
-            if (system.softens() && curvature.negative(system, rows, closed, open)) {
-                result.last = ContactSolve::failed;
-                return result;
-            }
-        }
         std::vector<std::size_t> wrong = contact_violators(system, rows, closed, level, open);
         while (wrong.empty() && level > rows.least) {
             wrong = contact_violators(system, rows, closed, --level, open);
@@ -173,6 +169,12 @@ ActiveSet find_active_set(S& system, const ContactRows& rows, std::vector<std::u
             const bool doubtful = wrong.empty() && !contact_violators(system, rows, closed, level).empty();
             if (doubtful) ++result.doubts;
             if (doubtful && result.solves < limit && system.tighten()) continue;
+        }
+        if constexpr (SofteningSystem<S>) {
+            if (system.softens() && !wrong.empty() && curvature.negative(system, rows, closed, open)) {
+                result.last = ContactSolve::failed;
+                return result;
+            }
         }
         result.settled = wrong.empty();
         if (result.settled || result.solves >= limit) return result;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "law/adhesion_after.hpp"
 #include "law/mixity.hpp"
@@ -49,12 +50,17 @@ bool ConvergedIncrement::observe(std::size_t pair, const Driving& y) {
     Swing& swing = swing_[pair];
     if (change * swing.last < 0.0 && std::abs(change) > limits_.tolerance) {
         ++swing.turns;
-        if (std::abs(change) > 0.5 * std::abs(swing.last)) swing.share *= 0.5;
+        if (std::abs(change) > 0.5 * std::abs(swing.last)) {
+            swing.share *= 0.5;
+            if (std::exchange(swing.grown, false)) swing.most = swing.share;
+        }
         if (swing.share < least_share || swing.turns > most_turns) swing.share = 0.0;
     } else if (change * swing.last > 0.0) {
         // What creeps moves as far as a secant says, but no more than twice as far as before.
         const double left = 1.0 - change / swing.last;
-        swing.share = std::min({1.0, 2.0 * swing.share, left > 0.5 ? swing.share / left : 1.0});
+        const double share = std::min({swing.most, 2.0 * swing.share, left > 0.5 ? swing.share / left : 1.0});
+        swing.grown = swing.grown || share > swing.share;
+        swing.share = std::max(swing.share, share);
     }
     swing.last = change;
     swing.open = (1.0 - swing.share) * std::abs(change);

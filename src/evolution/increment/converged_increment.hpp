@@ -34,6 +34,8 @@ private:
     struct Swing {
         double last = 0.0;   // relative change of Gc or Go that the last iterate called for
         double share = 1.0;  // part of such a change that is made
+        double most = 1.0;   // that this part may become again
+        bool grown = false;  // since it was halved last
         double open = 0.0;   // what the last change left out
         std::int64_t turns = 0;
     };

@@ -21,6 +21,7 @@ constexpr std::int64_t newton_contact_steps = 30;  // of the active set in one N
 constexpr std::int64_t halvings = 7;               // of a line search, including the full step
 // A part of the bodies is brought to its end this much more finely than the whole has changed.
 constexpr double part_of_change = 1e-3;
+constexpr std::int64_t steps_in_part = 50;
 // A pair joins the zone if its driving energy exceeds this fraction of the one that damages it.
 constexpr double nearly_loaded = 0.7;
 
@@ -49,8 +50,8 @@ public:
     // So many steps at most, until one changes the damage by less than the tolerance. Returns the energy added by new
     // mixities alone.
     double run(std::int64_t limit, double tolerance);
-    bool ended() const { return ended_; }                  // the last run did not meet its limit
-    bool newton() const { return newton_step_; }           // its last step was one of Newton's method
+    bool ended() const { return ended_; }                  // it has settled, or no step lowers the energy
+    bool newton() const { return newton_step_; }           // its last step was a whole one of Newton's method
     double first_change() const { return first_change_; }  // and last_change(): of the damage, in its steps
     double last_change() const { return last_change_; }
 
@@ -103,7 +104,8 @@ private:
     std::vector<std::uint8_t> closed_;       // [contact rows]
     double added_ = 0.0;
     bool ended_ = false, newton_step_ = false;
-    double first_change_ = 0.0, last_change_ = 0.0;
+    double first_change_ = infinite, last_change_ = infinite;
+    mutable bool halved_ = false;  // descend() has gone a part of the way only
     Extrapolation extrapolation_;
     std::vector<double> used_;  // adhesions from which the last extrapolation started
     Patience newton_patience_, move_patience_;
@@ -183,6 +185,7 @@ bool Descent::minimise(const Point& at, std::span<const double> adhesion, double
 bool Descent::descend(const Point& at, Point& to) const {
     const double rounding = zone_.energy_rounding() * (std::abs(at.energy) + std::abs(to.energy));
     for (std::int64_t n = 0; n < halvings; ++n) {
+        halved_ = n > 0;
         if (n > 0) {
             std::vector<double> between(at.unknowns.size());
             for (std::size_t i = 0; i < between.size(); ++i)
@@ -297,7 +300,7 @@ double Descent::run(std::int64_t limit, double tolerance) {
         // Newton's method squares the error: the next one would be far below the tolerance.
         if (n == 0) first_change_ = change;
         last_change_ = change;
-        newton_step_ = move.newton;
+        newton_step_ = move.newton && !halved_;
         ended_ = move.newton && !renewed ? change * change <= 0.01 * tolerance : change <= tolerance;
     }
     hand_over(at);
@@ -333,7 +336,8 @@ std::optional<double> ZoneNewton::run(State& state, Increment& increment) const 
         Zone* part = op.part(state.theta, state.response, wanted);
         if (part != nullptr) {
             Descent descent(*this, state, increment, springs(), *part);
-            added += descent.run(limit, std::max(tolerance, part_of_change * std::min(1.0, last_change)));
+            added += descent.run(std::min(limit, steps_in_part),
+                                 std::max(tolerance, part_of_change * std::min(1.0, last_change)));
             // Nothing is left of a step of Newton's method but what it has linearised.
             if (newton && descent.ended() && descent.first_change() <= tolerance) break;
         }

@@ -160,6 +160,7 @@ Zone* Iterated::zone(const Springs&, std::span<const std::uint8_t>, bool) {
 }
 
 Zone* Iterated::part(std::span<const double> theta, const Response& response, std::span<const std::uint8_t> wanted) {
+    if (!reanalysis_.floating().free().empty()) return nullptr;  // the whole knows how to solve then
     if (part_ == nullptr)
         part_ = std::make_unique<LocalZone>(reanalysis_.system(), bodies_.problem().mesh->dimension());
     const auto poll = [this] { monitor_.progress("patch", 0, 0); };
@@ -199,7 +200,8 @@ IteratedSize Iterated::size() const {
             static_cast<double>(reanalysis_.system().matrix().entries()),
             whole.size(),
             whole.entries(),
-            static_cast<double>(reanalysis_.system().equations().size())};
+            static_cast<double>(reanalysis_.system().equations().size()),
+            Reanalysis::keeps_two_factors(problem_) ? 2.0 : 1.0};
 }
 
 std::string Iterated::description() const {

@@ -21,6 +21,7 @@ struct IteratedSize {
     FactorSize factor;         // of the whole
     double stored = 0.0;       // numbers that the factor stores
     double columns = 0.0;      // stored for constraints on many variables
+    double factors = 1.0;      // kept at a time
 };
 
 class Iterated final : public JumpOperator {

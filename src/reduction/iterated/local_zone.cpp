@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::int64_t margin = 5;     // rings of elements about the wanted rows
 constexpr double largest_part = 0.25;  // of all variables: beyond it the whole is as cheap
+constexpr double farthest = 1e4;       // times the largest variable of the state: no equilibrium lies beyond
 
 }  // namespace
 
@@ -48,6 +49,7 @@ void LocalZone::take_pairs(std::vector<std::uint8_t>& member) {
 
 bool LocalZone::enter(std::span<const std::uint8_t> wanted, std::span<const double> theta, std::span<const double> load,
                       std::span<const double> state, const Poll& poll) {
+    if (state.size() != index(system_.count())) return false;
     const std::vector<JumpRow>& rows = system_.rows();
     std::vector<std::int64_t> seeds;
     for (std::size_t r = 0; r < wanted.size(); ++r)
@@ -69,6 +71,7 @@ bool LocalZone::enter(std::span<const std::uint8_t> wanted, std::span<const doub
         variables_ = std::move(variables);
     }
     const SparseMatrix& a = system_.matrix();
+    largest_ = max_abs(state);
     state_.clear();
     left_.clear();
     for (const std::int64_t i : variables_) {
@@ -136,9 +139,15 @@ Zone::Solution LocalZone::solve(std::span<const double>, std::span<const double>
     for (const Coupling& c : couplings_) add_row(index(c.row), -c.value * jump_[index(c.column)], right);
     solution.unknowns.resize(right.size());
     factor_->solve(right, solution.unknowns);
+    // A part that nothing holds any more, which the factor has met by its rounding alone.
+    if (!(max_abs(solution.unknowns) <= farthest * std::max(largest_, max_abs(jump_)))) solution.definite = false;
     solution.multiplier.assign(rows_.size(), 0.0);
     for (std::size_t z = 0; z < rows_.size(); ++z)
         if (held_as_[z] != 0.0) solution.multiplier[z] = held_as_[z] * (jump_[z] + change(z, solution.unknowns));
+    // The springs that hold rows give way by 1e-8 of what the bodies would: the rows themselves do not.
+    for (std::size_t z = 0; z < rows_.size(); ++z)
+        if (held_as_[z] != 0.0 && rows_[z].size() == 1)
+            solution.unknowns[index(rows_[z][0].first)] = -jump_[z] / rows_[z][0].second;
     return solution;
 }
 

@@ -2,8 +2,9 @@
 // The bodies about some rows as a zone, with all else where a state has it. Its unknowns d are changes of their
 // variables from that state, v = v0 + P d:
 //
-//   minimise  1/2 d^T A d - r^T d + what acts on the rows j = j0 + N d,     A = P^T T^T K T P,   r = P^T (g - T^T K T
-//   v0)
+//   minimise  1/2 d^T A d - r^T d + what acts on the rows j = j0 + N d,
+//
+// where A = P^T T^T K T P and r = P^T (g - T^T K T v0).
 //
 // A minimiser that goes down here goes down for the whole (nonlinear relocalisation, Ph. Cresta, O. Allix, C. Rey,
 // S. Guinard, CMAME 196, 2007), for a factorisation of a small part.
@@ -55,6 +56,7 @@ private:
     std::vector<SparseVector> rows_;  // N, in the zone's own variables
     SparseMatrix matrix_;
     std::unique_ptr<SparseCholesky> factor_;
+    double largest_ = 0.0;       // variable of the state
     std::vector<double> state_;  // v0, [unknowns]
     std::vector<double> jump_;   // j0, [rows]
     std::vector<double> left_;   // r

@@ -19,9 +19,6 @@ namespace {
 constexpr double differs = 0.1;
 // Patches of more than this share of all variables cost as much as a new factor of the whole.
 constexpr double largest_patch = 0.25;
-// Iterations that a solve with a fresh factor may always take, and those that a new one could not spare: tangents that
-// are negative or couple rows are in patches alone.
-constexpr double fresh_iterations = 4.0, most_fresh_iterations = 12.0;
 // A triangular solve waits for memory: its operations are this many times slower than a factorisation's.
 constexpr double slower = 20.0;
 // Iterations, before a factor is given up for a new one.
@@ -37,12 +34,15 @@ constexpr double rounding_units = 16.0;
 
 }  // namespace
 
+bool Reanalysis::keeps_two_factors(const Problem& problem) { return problem.options.solution == "energetic"; }
+
 Reanalysis::Reanalysis(const BodySystem& bodies, SparseMatrix transformed, Monitor& monitor)
     : bodies_(bodies),
       monitor_(monitor),
       system_(bodies, std::move(transformed), [&monitor] { monitor.progress("assemble", 0, 0); }),
       floating_(bodies, system_),
-      patches_(system_, 5, largest_patch) {
+      patches_(system_, 5, largest_patch),
+      comes_back_(keeps_two_factors(bodies.problem())) {
     const std::size_t patterns = bodies_.problem().patterns.size();
     std::vector<double> nodal(index(bodies_.dofs()));
     for (std::size_t p = 0; p < patterns; ++p) {
@@ -123,7 +123,18 @@ void Reanalysis::factorise_whole() {
                       [this] { monitor_.progress("factor", factorisations_, 0); });
 }
 
+void Reanalysis::set_aside() {
+    if (!comes_back_ || !remembered_ || lagged_.empty()) return;
+    if (aside_ == nullptr)
+        aside_ = std::make_unique<WholeFactor>(system_, [this] { monitor_.progress("analyse", 0, 0); });
+    aside_.swap(whole_);
+    springs_aside_ = std::move(lagged_);
+    lagged_.clear();
+    remembered_ = false;
+}
+
 void Reanalysis::renew(std::vector<double> springs) {
+    set_aside();
     lagged_.clear();  // an interrupted factorisation is never taken for a valid one
     patches_.forget();
     std::vector<double> now = std::move(springs);
@@ -135,6 +146,7 @@ void Reanalysis::renew(std::vector<double> springs) {
         throw;
     }
     debt_ = rounded_ = fresh_ = 0.0;
+    remembered_ = false;
 }
 
 void Reanalysis::renew_now() {

@@ -56,6 +56,9 @@ public:
     const WholeFactor* whole() const { return whole_.get(); }
     const Patches& patches() const { return patches_; }
 
+    // Of an analysis that looks at other states and comes back.
+    static bool keeps_two_factors(const Problem& problem);
+
     // What the next solution's last digits depend on.
     std::vector<double> memory() const;
     void recall(std::span<const double> memory);
@@ -63,6 +66,10 @@ public:
     void require_memory(std::span<const double> memory) const;
 
 private:
+    // Iterations with a fresh factor for which no newer one is blamed: as many as its first solve has taken, within
+    // these bounds (tangents that are negative or couple rows are in patches alone).
+    static constexpr double fresh_iterations = 4.0, most_fresh_iterations = 12.0;
+
     std::vector<double> springs_now() const;
     // Variables of rows whose springs differ from those of the factor.
     std::vector<std::int64_t> changed() const;
@@ -70,6 +77,8 @@ private:
     bool cover(bool any_size);
     bool factorise_patches();
     void renew(std::vector<double> springs);
+    void set_aside();
+    std::vector<double> history() const;
     void renew_now();  // at the springs that act
     void factorise_whole();
     std::vector<double> right_side(std::span<const double> theta, std::span<const double> row_force) const;
@@ -99,6 +108,11 @@ private:
     bool attempt_ = false;        // too much differs for wide patches, but the factor is still the one before
     double fresh_ = 0.0;          // iterations of the first solve with this factor; 0: there was none
     double rounded_ = 0.0;        // what rounding leaves of a residual, relative; 0: not yet met with this factor
+    // A search looks at other states and comes back: the factor to come back to is kept beside the one in use.
+    bool comes_back_;
+    mutable bool remembered_ = false;  // memory() has told of the factor in use
+    std::unique_ptr<WholeFactor> aside_;
+    std::vector<double> springs_aside_;  // [rows]; empty: there is none
     std::int64_t factorisations_ = 0;
     std::vector<std::vector<double>> null_;  // free motions in the reduced space, orthonormal
     std::vector<double> work_, image_;
