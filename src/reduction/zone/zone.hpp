@@ -6,7 +6,7 @@
 //   rows
 //
 // Minimisers that change springs and contact work on it. It is dense and small (dense_zone.hpp), or all bodies, sparse
-// (iterated/iterated_zone.hpp).
+// (iterated/iterated_zone.hpp), or the bodies about a process zone with the rest at rest (iterated/local_zone.hpp).
 #pragma once
 
 #include <cstdint>
