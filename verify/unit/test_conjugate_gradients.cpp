@@ -113,6 +113,31 @@ START_TEST(stops_at_rounding) {
 }
 END_TEST
 
+// A residual that may stay: the iteration ends there, and its true residual is no larger. Less than the tolerance
+// allows is no reason to go on.
+START_TEST(ends_where_it_is_enough) {
+    std::int64_t before = 100;
+    for (const double part : {0.0, 0.03, 0.3}) {
+        Diagonal s;
+        double begun = 0.0;
+        s.cg.enough = [&](double first) { return part * (begun = first); };
+        std::vector<double> x(s.a.size(), 0.0);
+        const CgOutcome outcome = conjugate_gradients(s.cg, x, 1e-12, 100);
+        ck_assert(outcome.converged && begun > 0.0);
+        ck_assert_double_eq(outcome.first, begun);
+        ck_assert_double_le(outcome.norm, std::max(1e-11, part) * begun);
+        ck_assert_int_lt(outcome.iterations, before);
+        // No more than its recursion and one check of the true residual.
+        ck_assert_int_le(s.preconditioned, outcome.iterations + (part > 0.0 ? 1 : 3));
+        before = outcome.iterations;
+    }
+    Diagonal s;
+    s.cg.enough = [](double) { return 1e-30; };
+    std::vector<double> x(s.a.size(), 0.0);
+    ck_assert_double_le(conjugate_gradients(s.cg, x, 1e-3, 100).residual, 1e-3);
+}
+END_TEST
+
 START_TEST(negative_curvature_is_recognised) {
     Diagonal s;
     s.a[3] = -1.0;
@@ -127,6 +152,7 @@ int main() {
     tcase_add_test(tests, a_confirmed_recursion_is_not_preconditioned_again);
     tcase_add_test(tests, a_recursion_that_drifts_is_found_out);
     tcase_add_test(tests, stops_at_rounding);
+    tcase_add_test(tests, ends_where_it_is_enough);
     tcase_add_test(tests, negative_curvature_is_recognised);
     suite_add_tcase(suite, tests);
     SRunner* runner = srunner_create(suite);

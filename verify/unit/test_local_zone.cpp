@@ -187,7 +187,8 @@ END_TEST
 namespace {
 
 struct March {
-    std::int64_t whole = 0;  // solves of all bodies that iterate
+    std::int64_t whole = 0;       // solves of all bodies that iterate
+    std::int64_t iterations = 0;  // of all of them
     double dissipated = 0.0;
 };
 
@@ -203,7 +204,9 @@ March march(const char* reduction) {
     March m;
     monitor.progress_user = &m;
     monitor.progress_callback = [](const char* stage, std::int64_t done, std::int64_t, void* user) {
-        static_cast<March*>(user)->whole += std::strcmp(stage, "linear solve") == 0 && done == 1 ? 1 : 0;
+        if (std::strcmp(stage, "linear solve") != 0) return 0;
+        static_cast<March*>(user)->whole += done == 1 ? 1 : 0;
+        ++static_cast<March*>(user)->iterations;
         return 0;
     };
     Solver solver(problem, monitor, 0.0);
@@ -222,7 +225,9 @@ START_TEST(parts_spare_solves_of_the_whole) {
     const March a = march("iterated"), b = march("condensed");
     ck_assert_double_gt(b.dissipated, 0.0);
     ck_assert_double_le(std::abs(a.dissipated - b.dissipated), 1e-6 * b.dissipated);
-    ck_assert_int_le(a.whole, 305);  // 285; without parts 332
+    std::printf("%d solves, %d iterations\n", static_cast<int>(a.whole), static_cast<int>(a.iterations));
+    ck_assert_int_le(a.whole, 230);       // 198; 285 where each is solved to the tolerance, without parts 332
+    ck_assert_int_le(a.iterations, 650);  // 576
 }
 END_TEST
 

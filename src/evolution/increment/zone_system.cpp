@@ -23,6 +23,7 @@ ZoneSystem::ZoneSystem(Zone& zone, const ContactScene& scene, std::span<const st
 }
 
 void ZoneSystem::load(std::vector<Zone::Coupling> couplings, std::vector<double> row_force) {
+    zone_.begin_model();
     couplings_ = std::move(couplings);
     row_force_ = std::move(row_force);
 }
@@ -47,6 +48,7 @@ ContactSolve ZoneSystem::solve(const std::vector<std::uint8_t>& closed) {
     if (!solution.balanced) return ContactSolve::unbalanced;
     if (!solution.definite || !solution.converged) return ContactSolve::failed;
     error_ = solution.error;
+    left_ = solution.left;
     unknowns_ = solution.unknowns;
     jump_ = zone_.jumps(theta_, unknowns_);
     force_.assign(jump_.size(), 0.0);

@@ -51,6 +51,8 @@ public:
     bool tighten() { return false; }
     // Of the last solve.
     const std::vector<double>& unknowns() const { return unknowns_; }
+    // What it has left of the residual with which this load began, as a part of it.
+    double left() const { return left_; }
     // Krylov iterations of all solves.
     std::int64_t iterations() const { return iterations_; }
     // Zone rows that are held with this contact set.
@@ -69,6 +71,7 @@ private:
     std::vector<double> row_force_;
     std::vector<double> unknowns_, jump_, force_;
     SolveError error_;
+    double left_ = 0.0;
     std::int64_t iterations_ = 0;
 };
 

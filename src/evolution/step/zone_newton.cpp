@@ -297,11 +297,13 @@ double Descent::run(std::int64_t limit, double tolerance) {
                             members_[i].pair, at.adhesion[i], move.to.adhesion[i],
                             driving_energy(*increment_.pairs().law[members_[i].pair], local(move.to, i)).total()));
         at = std::move(move.to);
-        // Newton's method squares the error: the next one would be far below the tolerance.
+        // Newton's method squares the error, but for what its solve has left: the next change would be far below the
+        // tolerance.
         if (n == 0) first_change_ = change;
         last_change_ = change;
         newton_step_ = move.newton && !halved_;
-        ended_ = move.newton && !renewed ? change * change <= 0.01 * tolerance : change <= tolerance;
+        ended_ = move.newton && !renewed ? change * std::max(100.0 * change, system_.left()) <= tolerance
+                                         : change <= tolerance;
     }
     hand_over(at);
     state_.effort.linear_iterations += system_.iterations();

@@ -18,6 +18,7 @@ constexpr double recursion_goal = 0.3;       // of the target, so that the true 
 constexpr double gained = 0.5;               // a restart that leaves more of the residual has met rounding
 constexpr double largest_residual = 1e-5;    // that rounding may excuse: an error of 1e-10 of the energy
 constexpr double rounding_slack = 30.0;      // the estimate of rounding is one of its size, not a bound
+constexpr double far_from_rounding = 1e-8;   // a residual of which it need not be known
 constexpr double at_rounding = 3.0;          // times that estimate: another restart would gain nothing
 constexpr std::size_t judged = 5;            // iterations, before their gain says anything about the others
 constexpr double accelerates = 1.5;          // conjugate gradients become faster
@@ -102,10 +103,16 @@ CgOutcome conjugate_gradients(const CgSystem& system, std::span<double> x, doubl
         system.precondition(r, z);
         const double norm = std::sqrt(std::abs(dot(r, z)));
         const double relative = norm == 0.0 ? 0.0 : norm / std::max(size, norm);
+        if (round == 0) {
+            outcome.first = norm;
+            const double enough = system.enough ? system.enough(norm) : 0.0;
+            if (norm > 0.0) tolerance = std::max(tolerance, relative * enough / norm);
+        }
         bool reached = relative <= tolerance;
         if (!reached && round > 0 && !(outcome.rounded > 0.0) && size > 0.0)
             outcome.rounded = system.rounding(x) / size;
-        reached = reached || relative <= std::min(largest_residual, at_rounding * outcome.rounded);
+        const double excused = (round == 0 ? recursion_goal : at_rounding) * outcome.rounded;
+        reached = reached || relative <= std::min(largest_residual, excused);
         if (round == 0 || norm < before) {
             outcome.residual = relative;
             outcome.norm = norm;
@@ -126,7 +133,8 @@ CgOutcome conjugate_gradients(const CgSystem& system, std::span<double> x, doubl
         double left = infinite;
         outcome.definite = descend(system, x, r, z, goal, limit, outcome, left);
         if (!outcome.definite) return outcome;
-        if (!(outcome.rounded > 0.0) || left > goal) continue;
+        const bool rounding_matters = !(outcome.rounded > 0.0) && tolerance < far_from_rounding;
+        if (rounding_matters || left > goal) continue;
         const CgSystem::Confirmed confirmed = system.confirm(x, r);
         if (!confirmed.agrees) continue;
         const double recursion = std::exchange(left, std::hypot(left, outcome.rounded * confirmed.size));

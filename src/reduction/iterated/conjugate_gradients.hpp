@@ -32,6 +32,8 @@ struct CgSystem {
     };
     std::function<Confirmed(std::span<const double> x, std::span<const double> residual)> confirm;
     std::function<void(std::int64_t)> each_iteration;
+    // Given the norm of the first residual: a norm that may stay, where it is more than what the tolerance allows.
+    std::function<double(double first)> enough;  // or none
     bool attempt = false;          // the limit is how many iterations are worth while: ends as soon as they will not do
     std::vector<Direction> given;  // conjugate to each other; the residual of restart() is orthogonal to them
 };
@@ -40,6 +42,7 @@ struct CgOutcome {
     std::int64_t iterations = 0;
     double residual = 0.0;           // sqrt(r^T z) over the size of the state, of the true residual
     double norm = 0.0;               // sqrt(r^T z)
+    double first = 0.0;              // the same at the start
     double rounded = 0.0;            // what rounding leaves, as a part of the size of the state; 0: it was not needed
     std::vector<double> correction;  // M r there, no less than rounding leaves: about what is missing
     double least = 1.0;              // least eigenvalue of M A that the iteration has met, at most 1

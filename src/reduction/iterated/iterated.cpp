@@ -38,6 +38,7 @@ Iterated::Iterated(const Problem& problem, AssembledBodies bodies, Monitor& moni
 // Loads of any size: what is solved has its largest force between 1/2 and 1.
 void Iterated::solve(const Springs& springs, std::span<const double> theta, Response& response) {
     monitor_.progress("displacement", 0, 0);
+    if (zone_ != nullptr) zone_->forget_models();
     const JumpSystem& system = reanalysis_.system();
     std::vector<Zone::Coupling> couplings;
     std::vector<std::uint8_t> held(springs.held);

@@ -12,6 +12,7 @@ class IteratedZone final : public Zone {
 public:
     IteratedZone(const BodySystem& bodies, Reanalysis& reanalysis);
 
+    void begin_model() override;
     bool factor(std::span<const Coupling> couplings, std::span<const std::uint8_t> held) override;
     Solution solve(std::span<const double> theta, std::span<const double> row_force) override;
     const std::vector<std::int64_t>& jump_rows() const override { return jump_rows_; }
@@ -25,11 +26,20 @@ public:
     double energy_rounding() const override;
     // The next solve does not depend on those before.
     void start_anew();
+    // No model has come before the next one.
+    void forget_models();
 
 private:
     const BodySystem& bodies_;
     Reanalysis& reanalysis_;
     double tolerance_;  // of the relative residual
+    // Norms of residuals, of the present model and the one before: with which it began, and what its last solve left.
+    struct Model {
+        double begun = 0.0;  // negative: not solved yet; 0: there is no model
+        double left = 0.0;
+    };
+    Model model_, before_;
+    double part_ = 0.0;  // of the residual with which the model begins: what a solve may leave
     std::vector<std::int64_t> jump_rows_;
     mutable std::vector<double> start_;  // of the next solve
     mutable double rounding_ = -1.0;     // of energy_of(), relative; negative: not yet known

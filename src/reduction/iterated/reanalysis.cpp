@@ -389,13 +389,19 @@ CgOutcome Reanalysis::iterate(CgSystem& cg, double tolerance, std::span<double> 
     cg.rounded = rounded_;
     cg.attempt = attempt_;
     // Residuals weigh less what the factor takes for stiffer than it is.
-    const double target = attempt_ ? std::max(finest, cautious * tolerance) : tolerance;
+    const double careful = attempt_ ? cautious : 1.0;
+    const double target = std::max(finest, careful * tolerance);
+    double enough = 0.0;
+    if (const Forcing forcing = cg.enough)
+        cg.enough = [forcing, careful, &enough](double start) { return careful * (enough = forcing(start)); };
     CgOutcome outcome = conjugate_gradients(cg, x, target, attempt_ ? std::min(limit, affordable()) : limit);
     if (attempt_ && outcome.definite && !outcome.converged && outcome.iterations < limit) {
         const std::int64_t before = outcome.iterations;
+        const double first = outcome.first;
         renew_now();
         cg.rounded = 0.0;
         cg.attempt = false;
+        cg.enough = [enough](double) { return enough; };
         cover(true);
         if (factorise_patches())
             outcome = conjugate_gradients(cg, x, tolerance, limit);
@@ -403,6 +409,7 @@ CgOutcome Reanalysis::iterate(CgSystem& cg, double tolerance, std::span<double> 
             outcome.definite = false;
         owe(outcome.iterations);
         outcome.iterations += before;
+        outcome.first = first;
     } else {
         owe(outcome.iterations);
     }
@@ -411,7 +418,7 @@ CgOutcome Reanalysis::iterate(CgSystem& cg, double tolerance, std::span<double> 
 }
 
 Reanalysis::Answer Reanalysis::solve(std::span<const double> theta, std::span<const double> row_force, double tolerance,
-                                     std::vector<double>& x) {
+                                     std::vector<double>& x, const Forcing& forcing) {
     Answer answer;
     const std::vector<double> right = right_side(theta, row_force);
     answer.balanced = floating_.balances(right);
@@ -458,11 +465,14 @@ Reanalysis::Answer Reanalysis::solve(std::span<const double> theta, std::span<co
         return confirm(right, theta, at, residual);
     };
     cg.each_iteration = [&](std::int64_t iteration) { monitor_.progress("linear solve", iteration, 0); };
+    cg.enough = forcing;
     const CgOutcome outcome = iterate(cg, std::max(tolerance, finest), x);
     system_.spread(x, theta);
     floating_.settle(x);
     answer.iterations = outcome.iterations;
     answer.residual = outcome.residual;
+    answer.first = outcome.first;
+    answer.norm = outcome.norm;
     if (!outcome.correction.empty()) answer.error = error_of(outcome.correction, outcome.least);
     answer.converged = outcome.converged;
     answer.definite = outcome.definite;

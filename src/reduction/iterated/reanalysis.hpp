@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -32,18 +33,21 @@ public:
 
     // What acts from now on. False: a patch is not positive definite, and nothing can be solved.
     bool set(std::vector<Zone::Coupling> couplings, std::span<const std::uint8_t> held);
+    // What may stay of the norm of a residual, given the norm at the start: as much, or what the tolerance allows.
+    using Forcing = std::function<double(double first)>;
     struct Answer {
         std::int64_t iterations = 0;
-        double residual = 0.0;  // relative, in the energy norm
-        SolveError error;       // of jumps and forces: ten times what a further step of the iteration would change
+        double residual = 0.0;           // relative, in the energy norm
+        double first = 0.0, norm = 0.0;  // of the residual, at the start and at the end
+        SolveError error;  // of jumps and forces: ten times what a further step of the iteration would change
         bool converged = true;
         bool balanced = true;  // false: a free motion carries a load; x is then not set
         bool definite = true;  // false: negative curvature was met; x is then of no use
     };
     // x: [variables] in: where to start, empty: nowhere; out: the solution. row_force: h, [rows] or empty. tolerance:
-    // of the residual, at best `finest`.
+    // of the residual, relative to the size of the state, at best `finest`.
     Answer solve(std::span<const double> theta, std::span<const double> row_force, double tolerance,
-                 std::vector<double>& x);
+                 std::vector<double>& x, const Forcing& forcing = {});
     // Adds the forces of held rows to those of the others. Returns the multipliers of constraints on many variables.
     std::vector<double> held_forces(std::span<const double> theta, std::span<const double> x,
                                     std::span<double> force) const;

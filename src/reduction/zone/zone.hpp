@@ -31,6 +31,10 @@ public:
         std::int64_t row, column;  // of the zone; both (r, q) and (q, r) are given
         double value;
     };
+    // A model of the forces about an iterate of Newton's method begins: the solves up to the next one differ by contact
+    // alone, and may leave a part of the residual with which the first of them starts. Before the first model, solves
+    // are as exact as their tolerance.
+    virtual void begin_model() {}
     // False: not positive definite.
     virtual bool factor(std::span<const Coupling> couplings, std::span<const std::uint8_t> held) = 0;
 
@@ -42,6 +46,7 @@ public:
         bool definite = true;   // false: only the solution has shown that there is no minimum; the rest is not set
         bool converged = true;  // false: an iterative solve did not reach its tolerance; the rest is not set
         std::int64_t iterations = 0;  // of a Krylov method
+        double left = 0.0;  // of the residual with which the model began, as a part of it; 0: what the tolerance allows
         SolveError error;
     };
     // row_force: h, [rows] or empty.
