@@ -17,6 +17,9 @@ namespace {
 
 // A spring differs if bodies and spring together are stiffer or softer than in the factor by this share.
 constexpr double differs = 0.1;
+// The same for tangents that soften or couple rows, which no factor of the whole can have: small ones of many thin
+// cells together leave little of a soft motion.
+constexpr double differs_in_kind = 0.03;
 // Patches of more than this share of all variables cost as much as a new factor of the whole.
 constexpr double largest_patch = 0.25;
 // A triangular solve waits for memory: its operations are this many times slower than a factorisation's.
@@ -84,14 +87,15 @@ std::vector<std::int64_t> Reanalysis::changed() const {
     for (std::size_t r = 0; r < now.size(); ++r) {
         if (system_.prescribed()[r] != 0 || now[r] == lagged_[r]) continue;
         const double body = row_diagonal(system_, r), old = body + lagged_[r], fresh = body + now[r];
-        row[r] = fresh > (1.0 + differs) * old || old > (1.0 + differs) * fresh ? 1 : 0;
+        const double share = now[r] < 0.0 ? differs_in_kind : differs;
+        row[r] = fresh > (1.0 + share) * old || old > (1.0 + share) * fresh ? 1 : 0;
     }
     for (const Zone::Coupling& c : system_.couplings()) {
         const auto r = index(c.row), q = index(c.column);
         if (r == q || system_.prescribed()[r] != 0 || system_.prescribed()[q] != 0) continue;
         if (system_.held()[r] != 0 || system_.held()[q] != 0) continue;
         const double own = (row_diagonal(system_, r) + lagged_[r]) * (row_diagonal(system_, q) + lagged_[q]);
-        if (c.value * c.value > differs * differs * own) row[r] = row[q] = 1;
+        if (c.value * c.value > differs_in_kind * differs_in_kind * own) row[r] = row[q] = 1;
     }
     std::vector<std::int64_t> variables;
     for (std::size_t r = 0; r < row.size(); ++r)
