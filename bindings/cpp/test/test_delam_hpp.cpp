@@ -83,7 +83,11 @@ delam::Solver make_solver(const delam::Context& context, bool by_host, const boo
     problem.prescribe_nodes(mesh.find_nodes(1, {30e-3, 2e-3}, {30e-3, 2e-3}), {0.0, 1.0}, {opening}, {0.5});
     problem.set("solution", "local");
     problem.check();
-    return delam::Solver(problem, 0.0);
+    const auto forecast = problem.plan();
+    delam::Solver solver(problem, 0.0);
+    expect(forecast.plan == solver.plan(), "the plan beforehand");
+    expect(forecast.setup > 0.0 && forecast.memory > 0.0, "its time and memory");
+    return solver;
 }
 
 void test_errors() {

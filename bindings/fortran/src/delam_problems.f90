@@ -1,7 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 ! The problem: materials, laws, supports, loads, options.
 module delam_problems
-  use, intrinsic :: iso_c_binding, only: c_char, c_int32_t, c_int64_t, c_double, c_associated
+  use, intrinsic :: iso_c_binding, only: c_char, c_int32_t, c_int64_t, c_double, c_ptr, c_null_ptr, &
+                                         c_associated
   use delam_raw
   use delam_kinds, only: delam_real, delam_index
   use delam_texts, only: delam_text, zero_ended
@@ -41,6 +42,7 @@ module delam_problems
     procedure :: hash => problem_hash
     procedure :: dofs => problem_dofs
     procedure :: process_zone => problem_process_zone
+    procedure :: plan => problem_plan
     procedure :: body_matrix => problem_body_matrix
     procedure :: constraints => problem_constraints
     procedure :: forces => problem_forces
@@ -457,6 +459,22 @@ contains
     call settle(delam_problem_process_zone(self%handle(), interface - 1_c_int64_t, length, spacing), self, status, &
                 message)
   end subroutine problem_process_zone
+
+  ! What an analysis would do, before it begins; nothing is factored. setup: seconds of the factorisations before the
+  ! first step; memory: bytes at the peak.
+  subroutine problem_plan(self, plan, setup, memory, status, message)
+    class(delam_problem), intent(in) :: self
+    character(:), allocatable, intent(out), optional :: plan
+    real(delam_real), intent(out), optional :: setup, memory
+    integer, intent(out), optional :: status
+    character(*), intent(out), optional :: message
+    type(c_ptr) :: text
+    integer(c_int32_t) :: code
+    text = c_null_ptr
+    code = delam_problem_plan(self%handle(), text, setup, memory)
+    if (present(plan)) plan = delam_text(text)
+    call settle(code, self, status, message)
+  end subroutine problem_plan
 
   ! Stiffness of a body by rows: those of row r are columns(row_starts(r) : row_starts(r+1)-1).
   subroutine problem_body_matrix(self, body, row_starts, columns, values, status, message)

@@ -106,6 +106,8 @@ contains
     type(delam_problem) :: problem
     integer(delam_index), allocatable :: lower(:), upper(:), left(:)
     integer(delam_index) :: pattern
+    character(:), allocatable :: plan
+    real(dp) :: setup, memory
     call mesh%create_layers(context, [30e-3_dp], [60_delam_index], [1e-3_dp, 1e-3_dp], [2_delam_index, 2_delam_index], &
                             DELAM_QUAD4)
     call mesh%add_interface(0, 1)
@@ -124,7 +126,9 @@ contains
     call problem%prescribe_nodes(upper, [0.0_dp, 1.0_dp], [pattern], reshape([0.5_dp], [1, 1]))
     call problem%set('solution', 'local')
     call problem%check()
+    call problem%plan(plan, setup, memory)
     call solver%create(problem, 0.0_dp)
+    call expect(plan == solver%plan() .and. setup > 0 .and. memory > 0, 'the plan beforehand')
   end subroutine make_solver
 
   subroutine test_errors()

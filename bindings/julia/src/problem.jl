@@ -254,6 +254,21 @@ function process_zone(problem::Problem, interface)
     return length_[], spacing[]
 end
 
+"""
+What an analysis would do, before it begins; nothing is factored: `plan`, the text; `setup`, seconds of the
+factorisations before the first step; `memory`, bytes at the peak.
+"""
+function plan(problem::Problem)
+    text, setup, memory = Ref{Cstring}(C_NULL), Ref(0.0), Ref(0.0)
+    own = Ref("")
+    ask(problem) do handle
+        status = Raw.delam_problem_plan(handle, text, setup, memory)
+        status == Raw.DELAM_OK && (own[] = unsafe_string(text[]))
+        return status
+    end
+    return (plan=own[], setup=setup[], memory=memory[])
+end
+
 "Factors of all patterns at a time."
 function factors(problem::Problem, time)
     out = Vector{Float64}(undef, length(patterns(problem)))

@@ -20,6 +20,8 @@
     @test tangent(solver)[1, 1] > 0.0
     @test average(solver; body=0).volume ≈ 0.1 * 1.5e-3
     @test !isempty(plan(solver)) && !isempty(plan_items(solver))
+    forecast = plan(solver.problem)
+    @test forecast.plan == plan(solver) && forecast.setup > 0 && forecast.memory > 0
     @test option(solver, "solution") == "local"
     line = profile(solver, "adhesion")
     @test line.lines == [collect(1:51)] && line.values == adhesion

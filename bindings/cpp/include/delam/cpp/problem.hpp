@@ -32,6 +32,12 @@ struct Constraints {
 struct ProcessZone {
     double length, spacing;
 };
+// What an analysis would do, before it begins.
+struct Forecast {
+    std::string plan;
+    double setup;   // s, of the factorisations before the first step
+    double memory;  // bytes, at the peak
+};
 struct Dofs {
     std::int64_t primal, dual;
 };
@@ -167,6 +173,14 @@ public:
         ProcessZone zone{};
         shared_->check(delam_problem_process_zone(get(), interface_index, &zone.length, &zone.spacing));
         return zone;
+    }
+    // Nothing is factored.
+    Forecast plan() {
+        const char* plan = nullptr;
+        Forecast forecast{};
+        shared_->check(delam_problem_plan(get(), &plan, &forecast.setup, &forecast.memory));
+        forecast.plan = plan;
+        return forecast;
     }
     Matrix body_matrix(std::int32_t body) const {
         std::int64_t rows = 0;
