@@ -37,16 +37,19 @@ double number_in(const std::string& path) {
 // Of a group and of those around it; a container may see its own group as the root.
 double limit_of_group(const std::string& root, std::string group, const std::string& name) {
     double least = number_in(root + name);
-    while (group.size() > 1) {
+    while (group.size() > 1 && group.front() == '/') {
         least = std::min(least, number_in(root + group + name));
         group.erase(group.rfind('/'));
     }
     return least;
 }
 
-// Lines "0::PATH" (version 2) and "NUMBER:CONTROLLERS:PATH" (version 1) of Linux' control groups.
-double limit_of_groups() {
-    std::ifstream groups("/proc/self/cgroup");
+}  // namespace
+
+// Lines "0::PATH" (version 2) and "NUMBER:CONTROLLERS:PATH" (version 1).
+double control_group_limit(const std::string& top) {
+    const std::string tree = top + "/sys/fs/cgroup";
+    std::ifstream groups(top + "/proc/self/cgroup");
     double least = unlimited;
     for (std::string line; std::getline(groups, line);) {
         const std::size_t first = line.find(':'), second = line.find(':', first + 1);
@@ -54,14 +57,12 @@ double limit_of_groups() {
         const std::string controllers = "," + line.substr(first + 1, second - first - 1) + ",",
                           group = line.substr(second + 1);
         if (controllers == ",,")
-            least = std::min(least, limit_of_group("/sys/fs/cgroup", group, "/memory.max"));
+            least = std::min(least, limit_of_group(tree, group, "/memory.max"));
         else if (controllers.find(",memory,") != std::string::npos)
-            least = std::min(least, limit_of_group("/sys/fs/cgroup/memory", group, "/memory.limit_in_bytes"));
+            least = std::min(least, limit_of_group(tree + "/memory", group, "/memory.limit_in_bytes"));
     }
     return least;
 }
-
-}  // namespace
 
 MemoryLimit memory_limit() {
     MemoryLimit limit{unlimited, "no limit"};
@@ -72,7 +73,7 @@ MemoryLimit memory_limit() {
     const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
     if (pages > 0 && page > 0)
         take(static_cast<double>(pages) * static_cast<double>(page) + swap, "the memory of this machine");
-    take(limit_of_groups() + swap, "the limit of the control group of this process");
+    take(control_group_limit("") + swap, "the limit of the control group of this process");
     rlimit space{};
     if (getrlimit(RLIMIT_AS, &space) == 0 && space.rlim_cur != RLIM_INFINITY)
         take(static_cast<double>(space.rlim_cur), "the limit of the address space of this process");
