@@ -286,7 +286,6 @@ static std::int64_t most_iterations(Iterated& iterated, const Problem& problem, 
     return most;
 }
 
-// While a front advances, a look at what has become softer mostly shows that nothing floats; and what floats is found.
 // Within a model of Newton's method a tenth of what was wrong at its start may stay, whatever contact does meanwhile;
 // where one model foretells the start of the next, nearly nothing may.
 START_TEST(a_model_leaves_a_part) {
@@ -324,6 +323,7 @@ START_TEST(a_model_leaves_a_part) {
 }
 END_TEST
 
+// While a front advances, a look at what has become softer mostly shows that nothing floats; and what floats is found.
 START_TEST(floating_parts_are_found) {
     const unit::LayerCase c{.name = "", .dimension = 3, .layers = 4, .subdomains = 0, .stiffness = 125e9};
     const unit::LayerState scene(c, 1);
