@@ -175,12 +175,26 @@ START_TEST(small_jumps_and_contact) {
 }
 END_TEST
 
-// A pair whose shown mixity overshoots that in use, however much: a finite number of updates.
-START_TEST(swings_end) {
+namespace {
+
+Law alike_in_both_modes() {
     Law law;
     law.normal_stiffness = law.tangential_stiffness = 1e11;
     law.normal_onset = law.tangential_onset = 100.0;
     law.normal_toughness = law.tangential_toughness = 250.0;
+    return law;
+}
+
+// Jumps at which the pair shows the mixity b, with the driving energy y.
+std::vector<double> jump_of(double y, double b) {
+    return {std::sqrt(2.0 * y * (1.0 - b) / 1e11), std::sqrt(2.0 * y * b / 1e11)};
+}
+
+}  // namespace
+
+// A pair whose shown mixity overshoots that in use, however much: a finite number of updates.
+START_TEST(swings_end) {
+    const Law law = alike_in_both_modes();
     PairLaws pairs;
     pairs.law = {&law};
     pairs.weight = {1.0};
@@ -191,9 +205,7 @@ START_TEST(swings_end) {
         int updates = 0;
         for (; updates < 5000; ++updates) {
             const double b = std::clamp(0.3 + gain * (mixity.memory().used[0] - 0.3), 0.05, 0.45);
-            const double y = 150.0;
-            const std::vector<double> jump{std::sqrt(2.0 * y * (1.0 - b) / 1e11), std::sqrt(2.0 * y * b / 1e11)};
-            if (!mixity.observe(adhesion, jump)) break;
+            if (!mixity.observe(adhesion, jump_of(150.0, b))) break;
         }
         ck_assert_msg(updates < 5000, "gain %g: the mixity swings for ever", gain);
         if (gain > -10.0) ck_assert_double_eq_tol(mixity.memory().used[0], 0.3, 1e-4);
@@ -205,19 +217,13 @@ END_TEST
 // Where other pairs made a mixity swing at first, it goes the whole way once they rest: with the fraction that the
 // swings have left it would take 150 updates.
 START_TEST(what_swung_does_not_creep) {
-    Law law;
-    law.normal_stiffness = law.tangential_stiffness = 1e11;
-    law.normal_onset = law.tangential_onset = 100.0;
-    law.normal_toughness = law.tangential_toughness = 250.0;
+    const Law law = alike_in_both_modes();
     PairLaws pairs;
     pairs.law = {&law};
     pairs.weight = {1.0};
     const State before = whole(1);
     ConvergedIncrement mixity(pairs, before, std::vector<double>{0.1}, 1e-6);
-    const auto observe = [&](double b) {
-        const std::vector<double> jump{std::sqrt(300.0 * (1.0 - b) / 1e11), std::sqrt(300.0 * b / 1e11)};
-        return mixity.observe(std::vector<double>{0.8}, jump);
-    };
+    const auto observe = [&](double b) { return mixity.observe(std::vector<double>{0.8}, jump_of(150.0, b)); };
     for (int swing = 0; swing < 6; ++swing) ck_assert(observe(swing % 2 == 0 ? 0.45 : 0.05));
     const double left = std::abs(mixity.memory().used[0] - 0.48);
     ck_assert_double_gt(left, 0.05);
@@ -231,10 +237,7 @@ START_TEST(what_swung_does_not_creep) {
 END_TEST
 
 START_TEST(broken_pairs_keep_theirs) {
-    Law law;
-    law.normal_stiffness = law.tangential_stiffness = 1e11;
-    law.normal_onset = law.tangential_onset = 100.0;
-    law.normal_toughness = law.tangential_toughness = 250.0;
+    const Law law = alike_in_both_modes();
     PairLaws pairs;
     pairs.law = {&law, &law};
     pairs.weight = {1.0, 1.0};
