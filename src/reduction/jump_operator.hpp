@@ -97,6 +97,8 @@ public:
     // Null: none this time, or never (offers_zone() is false). tight: do not use an existing zone that is much larger
     // than necessary.
     virtual bool offers_zone() const { return false; }
+    // Every zone has all rows, and what it costs does not depend on those that are wanted.
+    virtual bool zone_is_whole() const { return false; }
     // The largest change of an adhesion that may be the rounding of the zone, whose minimiser is then not quite that of
     // solve(). 0: they are one.
     virtual double zone_rounding() const { return 0.0; }

@@ -323,6 +323,60 @@ START_TEST(a_model_leaves_a_part) {
 }
 END_TEST
 
+// Where only energies are asked for, they are too high by no more than what is allowed, and by about what is said; a
+// request for energies ends with the next zone.
+START_TEST(energies_within_what_is_allowed) {
+    const unit::LayerCase& c = cases[_i];
+    unit::LayerState scene(c, static_cast<unsigned>(_i) + 1U);
+    Monitor monitor;
+    Iterated iterated(scene.problem, monitor);
+    Zone* zone = iterated.zone(scene.springs, scene.wanted, false);
+    struct Outcome {
+        double energy, error;
+        std::int64_t iterations;
+    };
+    const auto solve = [&](double scale) -> Outcome {
+        std::vector<Zone::Coupling> couplings;
+        for (std::size_t r = 0; r < scene.wanted.size(); ++r) {
+            const auto at = static_cast<std::int64_t>(r);
+            const double spring = (scene.wanted[r] != 0 ? scale : 1.0) * scene.springs.stiffness[r];
+            if (scene.springs.held[r] == 0 && spring > 0.0) couplings.push_back({at, at, spring});
+        }
+        ck_assert(zone->factor(couplings, scene.springs.held));
+        const Zone::Solution solution = zone->solve(scene.theta, {});
+        ck_assert(solution.balanced && solution.definite && solution.converged);
+        const std::vector<double> jump = zone->jumps(scene.theta, solution.unknowns);
+        double energy = zone->energy_of(scene.theta, solution.unknowns);
+        for (const Zone::Coupling& s : couplings) energy += 0.5 * s.value * jump[index(s.row)] * jump[index(s.row)];
+        return {energy, solution.energy_error, solution.iterations};
+    };
+    const auto ask = [&](double scale, double allowed) {
+        zone = iterated.zone(scene.springs, scene.wanted, false);
+        zone->ask_for_energies(allowed);
+        return solve(scale);
+    };
+    std::int64_t saved = 0;
+    for (const double scale : {0.5, 0.1, 1e-3}) {
+        const Outcome exact = ask(scale, 0.0);
+        ck_assert_double_eq(exact.error, 0.0);
+        const double size = std::abs(exact.energy), rounding = 1e-6 * size;
+        for (const double part : {1e-2, 1e-4}) {
+            const Outcome rough = ask(scale, part * size);
+            const std::string where = std::string(c.name) + text(", scale ", scale, ", allowed ", part, ": ");
+            ck_assert_msg(rough.energy >= exact.energy - rounding, "%sbelow the least energy", where.c_str());
+            ck_assert_msg(rough.energy - exact.energy <= part * size + rounding, "%sabove by %.2e", where.c_str(),
+                          (rough.energy - exact.energy) / size);
+            ck_assert_msg(rough.error <= part * size, "%ssays %.2e", where.c_str(), rough.error / size);
+            if (part > 1e-3) saved += exact.iterations - rough.iterations;
+        }
+    }
+    std::printf("%s: %d iterations spared\n", c.name, static_cast<int>(saved));
+    ck_assert_int_ge(saved, 0);
+    zone = iterated.zone(scene.springs, scene.wanted, false);
+    ck_assert_double_eq(solve(0.5).error, 0.0);
+}
+END_TEST
+
 // While a front advances, a look at what has become softer mostly shows that nothing floats; and what floats is found.
 START_TEST(floating_parts_are_found) {
     const unit::LayerCase c{.name = "", .dimension = 3, .layers = 4, .subdomains = 0, .stiffness = 125e9};
@@ -654,6 +708,7 @@ int main() {
     tcase_add_loop_test(tests, answers_as_the_condensed_operator, 0, static_cast<int>(std::size(cases)));
     tcase_add_loop_test(tests, zone_answers_as_the_dense_one, 0, static_cast<int>(std::size(cases)));
     tcase_add_loop_test(tests, a_model_leaves_a_part, 0, static_cast<int>(std::size(cases)));
+    tcase_add_loop_test(tests, energies_within_what_is_allowed, 0, static_cast<int>(std::size(cases)));
     tcase_add_test(tests, floating_parts_are_found);
     tcase_add_test(tests, iterations_do_not_depend_on_the_stiffness);
     tcase_add_loop_test(tests, errors_are_estimated, 0, static_cast<int>(std::size(cases)));

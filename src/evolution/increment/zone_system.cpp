@@ -23,9 +23,13 @@ ZoneSystem::ZoneSystem(Zone& zone, const ContactScene& scene, std::span<const st
 }
 
 void ZoneSystem::load(std::vector<Zone::Coupling> couplings, std::vector<double> row_force) {
-    zone_.begin_model();
     couplings_ = std::move(couplings);
     row_force_ = std::move(row_force);
+}
+
+void ZoneSystem::load_model(std::vector<Zone::Coupling> couplings, std::vector<double> row_force) {
+    zone_.begin_model();
+    load(std::move(couplings), std::move(row_force));
 }
 
 std::vector<std::uint8_t> ZoneSystem::held(const std::vector<std::uint8_t>& closed) const {
@@ -48,6 +52,7 @@ ContactSolve ZoneSystem::solve(const std::vector<std::uint8_t>& closed) {
     if (!solution.balanced) return ContactSolve::unbalanced;
     if (!solution.definite || !solution.converged) return ContactSolve::failed;
     error_ = solution.error;
+    energy_error_ = solution.energy_error;
     left_ = solution.left;
     unknowns_ = solution.unknowns;
     jump_ = zone_.jumps(theta_, unknowns_);

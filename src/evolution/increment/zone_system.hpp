@@ -37,6 +37,8 @@ public:
     // What acts on the rows from now on: the force of a row is sum_q C_rq j_q - h_r. row_force: h, [zone rows] or
     // empty.
     void load(std::vector<Zone::Coupling> couplings, std::vector<double> row_force);
+    // The same about an iterate of Newton's method.
+    void load_model(std::vector<Zone::Coupling> couplings, std::vector<double> row_force);
 
     ContactSolve solve(const std::vector<std::uint8_t>& closed);
     std::span<const double> jump() const { return jump_; }
@@ -47,6 +49,7 @@ public:
     double force_floor() const { return scene_.force_floor(theta_); }
     bool softens() const;
     SolveError error() const { return error_; }
+    double energy_error() const { return energy_error_; }
     // What is in doubt here is decided by the operator, which checks the end of a minimiser.
     bool tighten() { return false; }
     // Of the last solve.
@@ -71,6 +74,7 @@ private:
     std::vector<double> row_force_;
     std::vector<double> unknowns_, jump_, force_;
     SolveError error_;
+    double energy_error_ = 0.0;
     double left_ = 0.0;
     std::int64_t iterations_ = 0;
 };

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "base/error.hpp"
@@ -14,6 +15,9 @@
 namespace delam {
 
 namespace {
+
+// Rows of a dense zone: beyond them whole displacement solves are cheaper.
+constexpr std::size_t largest_dense_zone = 1500;
 
 std::uint64_t key_of(std::span<const double> adhesion) {
     std::uint64_t h = 14695981039346656037ULL;
@@ -29,7 +33,7 @@ std::uint64_t key_of(std::span<const double> adhesion) {
 
 CandidateEnergies::CandidateEnergies(JumpOperator& op, const ContactScene& contact, Monitor& monitor,
                                      ZoneEnergies* zone, const PairGraph& graph, const Increment& increment,
-                                     const State& from)
+                                     const State& from, double allowed)
     : op_(op),
       contact_(contact),
       monitor_(monitor),
@@ -38,6 +42,7 @@ CandidateEnergies::CandidateEnergies(JumpOperator& op, const ContactScene& conta
       increment_(increment),
       from_(from),
       follow_mixity_(increment.follows_iterates()),
+      allowed_(allowed),
       size_(max_abs(from.theta)),
       direction_(from.theta),
       closed_(from.closed),
@@ -45,12 +50,17 @@ CandidateEnergies::CandidateEnergies(JumpOperator& op, const ContactScene& conta
     for (double& d : direction_) d /= size_ > 0.0 ? size_ : 1.0;
 }
 
+std::size_t CandidateEnergies::largest_zone() const {
+    const bool dense = zone_ != nullptr && !op_.zone_is_whole();
+    return dense ? largest_dense_zone : std::numeric_limits<std::size_t>::max();
+}
+
 void CandidateEnergies::focus(std::span<const std::uint8_t> wanted) {
     if (zone_ == nullptr) return;
     std::vector<std::uint8_t> pairs(wanted.begin(), wanted.end());
     for (std::size_t p = 0; p < pairs.size(); ++p)
         if (from_.adhesion[p] != increment_.adhesion_before()[p]) pairs[p] = 1;
-    focused_ = zone_->focus(from_, pairs);
+    focused_ = zone_->focus(from_, pairs, allowed_);
 }
 
 double CandidateEnergies::breaking_mixity(std::size_t pair, std::span<const double> adhesion, double known,
@@ -81,6 +91,7 @@ void CandidateEnergies::from_zone(std::span<const double> adhesion, std::span<co
     const std::optional<double> value = zone_->energy(adhesion);
     if (!value) return;
     e.value = *value / (size_ * size_);
+    e.error = zone_->error() / (size_ * size_);
     for (std::size_t i = 0; follow_mixity_ && i < e.next.size(); ++i) {
         const std::size_t p = index(e.next[i]);
         e.next_mixity.push_back(breaking_mixity(p, adhesion, known[p], [&](std::size_t q) {
@@ -117,7 +128,7 @@ const CandidateEnergy& CandidateEnergies::at(const std::vector<double>& adhesion
         it != known_.end() && (!follow_mixity_ || next.empty() || std::ranges::equal(it->second.next, next)))
         return it->second;
     monitor_.progress("search", candidates, 0);
-    CandidateEnergy e{infinite, {next.begin(), next.end()}, {}};
+    CandidateEnergy e{infinite, 0.0, {next.begin(), next.end()}, {}};
     if (within_zone(adhesion, next))
         from_zone(adhesion, known, e);
     else

@@ -15,24 +15,24 @@
 
 namespace delam {
 
-// Rows of the zones in which a search computes energies, at most.
-inline constexpr std::size_t largest_zone = 1500;
-
 struct CandidateEnergy {
     double value;                     // at the unit load; infinite: no equilibrium
+    double error;                     // by which it may be too high
     std::vector<std::int64_t> next;   // pairs that may break next
     std::vector<double> next_mixity;  // with which they would break; empty if the mixity does not follow the iterates
 };
 
 class CandidateEnergies {
 public:
-    // The load of `from`: a direction whose largest entry has size 1, and its size.
+    // The load of `from`: a direction whose largest entry has size 1, and its size. allowed: by how much an energy may
+    // be too high, F L.
     CandidateEnergies(JumpOperator& op, const ContactScene& contact, Monitor& monitor, ZoneEnergies* zone,
-                      const PairGraph& graph, const Increment& increment, const State& from);
+                      const PairGraph& graph, const Increment& increment, const State& from, double allowed);
 
     double size() const { return size_; }
     const std::vector<double>& direction() const { return direction_; }
-    bool has_zones() const { return zone_ != nullptr; }
+    // Rows of a zone in which energies are cheap, at most.
+    std::size_t largest_zone() const;
     // Allows energies to come from a zone about these pairs, [pairs], and those that the step has damaged.
     void focus(std::span<const std::uint8_t> wanted);
     void lose_focus() { focused_ = false; }
@@ -58,6 +58,7 @@ private:
     const State& from_;
     bool follow_mixity_;
     bool focused_ = false;
+    double allowed_;
     double size_ = 0.0;
     std::vector<double> direction_;
     std::vector<std::uint8_t> closed_;

@@ -18,6 +18,7 @@ namespace {
 constexpr std::size_t seeds = 2;              // places per interface for a new crack besides the ends of lines
 constexpr std::ptrdiff_t most_contacts = 64;  // of the bound E_all
 constexpr int rounds = 3;                     // of sweeps with the other fronts where they were best
+constexpr double of_tolerance = 0.01;         // by which a candidate's energy may be too high
 
 bool lower(const Candidate& a, const Candidate& b) { return a.incremental < b.incremental; }
 
@@ -136,7 +137,7 @@ void Trials::debond_interfaces() {
             static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), std::uint8_t{1}) * pairs.dimension);
         if (rows == 0 || search_.floor + search_.cost(all) >= search_.best) continue;
         search_.energies.lose_focus();
-        if (rows <= largest_zone) search_.energies.focus(wanted);
+        if (rows <= search_.energies.largest_zone()) search_.energies.focus(wanted);
         if (!std::isfinite(search_.compare(all, {}, nullptr))) continue;
         search_.result.words += text(i == interfaces ? "everything" : text("interface ", i), " debonded: energy ",
                                      all.incremental - level_, " above the step's\n");
@@ -198,7 +199,9 @@ double Search::debonded_energy(const State& from, std::span<const double> direct
 
 SearchResult Search::run(const Increment& increment, const State& from, std::span<const double> mixity) {
     SearchResult result;
-    CandidateEnergies energies(op_, contact_, monitor_, zone_ ? &*zone_ : nullptr, graph_, increment, from);
+    const double tolerance = problem_.options.search_tolerance * from.ledger.scale();
+    CandidateEnergies energies(op_, contact_, monitor_, zone_ ? &*zone_ : nullptr, graph_, increment, from,
+                               of_tolerance * tolerance);
     if (energies.direction() != floor_direction_) {
         floor_direction_.clear();
         unit_floor_ = energies.size() > 0.0 ? debonded_energy(from, energies.direction()) : 0.0;
@@ -214,11 +217,13 @@ SearchResult Search::run(const Increment& increment, const State& from, std::spa
                   result,
                   energies.size() * energies.size() * unit_floor_ - increment.energy_before(),
                   from.ledger.increment,
-                  problem_.options.search_tolerance * from.ledger.scale(),
+                  tolerance,
                   problem_.options.search_limit};
     Trials trials(run, from, {increment.adhesion_before(), {mixity.begin(), mixity.end()}, 0.0});
     trials.run();
     result.starts = trials.take_found();
+    if (result.error > 0.0)
+        result.words += text("energies of candidates come from an iteration: too high by at most ", result.error, "\n");
     return result;
 }
 

@@ -44,6 +44,7 @@ struct SearchResult {
     // Lowest I of all candidates, and what no candidate that was left out lies below; infinite: none.
     double lowest = std::numeric_limits<double>::infinity();
     double bound = std::numeric_limits<double>::infinity();
+    double error = 0.0;  // by which the energy of a candidate may be too high, F L; the bound takes it into account
     std::string words;
 };
 

@@ -25,6 +25,7 @@ double SearchRun::compare(Candidate& candidate, std::span<const std::int64_t> ne
     const CandidateEnergy& e = energies.at(candidate.adhesion, next, candidate.mixity, result.candidates);
     if (next_mixity != nullptr) *next_mixity = e.next_mixity;
     const double size = energies.size();
+    result.error = std::max(result.error, size * size * e.error);
     candidate.incremental = size * size * e.value - increment.energy_before() +
                             gradient_energy(pairs(), candidate.adhesion) + cost(candidate);
     result.lowest = std::min(result.lowest, candidate.incremental);
@@ -60,7 +61,7 @@ void Sweep::keep_rings() {
     std::size_t keep = 0;
     while (keep < ring_.size() && (keep < 2 || search_.floor + cost < search_.best)) {
         rows += ring_[keep].size();
-        if (keep > 0 && search_.energies.has_zones() && rows * index(pairs.dimension) > largest_zone) break;
+        if (keep > 0 && rows * index(pairs.dimension) > search_.energies.largest_zone()) break;
         if (nucleation_ && (keep == largest_crack || touches_debonded(ring_[keep]))) break;
         for (const std::int64_t i : ring_[keep]) {
             const std::size_t p = index(i);
@@ -115,7 +116,7 @@ double Sweep::between(std::size_t low, std::size_t high) const {
     // The gradient energy is not monotone along the front; between samples its lower bound is 0.
     const double gradient =
         search_.pairs().gradient.empty() ? 0.0 : gradient_energy(search_.pairs(), candidate(high).adhesion);
-    return value_.at(high).incremental - gradient - cost_.at(high) + first;
+    return value_.at(high).incremental - search_.result.error - gradient - cost_.at(high) + first;
 }
 
 double Sweep::bound() const {

@@ -13,7 +13,7 @@ constexpr std::int64_t energy_contact_steps = 200;  // beyond them the energy is
 
 }  // namespace
 
-bool ZoneEnergies::focus(const State& known, std::span<const std::uint8_t> wanted) {
+bool ZoneEnergies::focus(const State& known, std::span<const std::uint8_t> wanted, double allowed) {
     const auto dim = static_cast<std::size_t>(pairs_.dimension);
     Springs springs{spring_stiffness(pairs_, known.adhesion), held_rows(contact_, known.closed)};
     std::vector<std::uint8_t> rows;
@@ -24,8 +24,11 @@ bool ZoneEnergies::focus(const State& known, std::span<const std::uint8_t> wante
     closed_ = system_->entered_closed();
     place_.assign(wanted.size(), -1);
     for (const ZoneSystem::Pair& p : system_->pairs()) place_[p.pair] = static_cast<std::int64_t>(p.first);
+    zone->unknowns_at(known.response);
+    zone->ask_for_energies(0.0);
     const std::optional<double> energy = zone_energy(known.adhesion);
     if (!energy) return false;
+    zone->ask_for_energies(allowed);
     // The search itself handles the gradient term, which does not depend on displacements.
     offset_ = known.ledger.energy() - gradient_energy(pairs_, known.adhesion) - *energy;
     return true;

@@ -20,12 +20,15 @@ public:
     ZoneEnergies(JumpOperator& op, const PairLaws& pairs, const ContactScene& contact)
         : op_(op), pairs_(pairs), contact_(contact) {}
     // known: a state with displacements and booked energy, which must outlive the following calls. wanted: [pairs] that
-    // may differ. False: there is no zone for them, or no equilibrium under the known load in it.
-    bool focus(const State& known, std::span<const std::uint8_t> wanted);
+    // may differ. allowed: by how much an energy may be too high, F L. False: there is no zone for them, or no
+    // equilibrium under the known load in it.
+    bool focus(const State& known, std::span<const std::uint8_t> wanted, double allowed);
     // Whether this pair may differ.
     bool inside(std::size_t pair) const { return place_[pair] >= 0; }
     // E at the known state's load and another adhesion; none: no equilibrium.
     std::optional<double> energy(std::span<const double> adhesion);
+    // By how much the last energy() may be too high, F L.
+    double error() const { return system_->energy_error(); }
     // Local jump of a pair inside the zone, in the last energy().
     std::span<const double> jump(std::size_t pair) const {
         return system_->jump().subspan(static_cast<std::size_t>(place_[pair]),

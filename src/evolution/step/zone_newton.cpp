@@ -167,7 +167,7 @@ void Descent::model(const Point& at, std::span<const double> adhesion, double fr
                     add(members_[i].first + r, members_[i].first + q, c);
         }
     }
-    system_.load(std::move(couplings), std::move(row_force));
+    system_.load_model(std::move(couplings), std::move(row_force));
 }
 
 bool Descent::minimise(const Point& at, std::span<const double> adhesion, double fraction, std::int64_t debonded,

@@ -44,6 +44,7 @@ public:
     void require_memory(std::span<const double> memory) const override { reanalysis_.require_memory(memory); }
 
     bool offers_zone() const override { return true; }
+    bool zone_is_whole() const override { return true; }
     // Its steps are solved to a residual far below the tolerance of the damage.
     double zone_rounding() const override { return problem_.options.damage_tolerance; }
     Zone* zone(const Springs& springs, std::span<const std::uint8_t> wanted, bool tight) override;

@@ -22,6 +22,8 @@ constexpr double part_of_tolerance = 1e-3;
 // starts from there.
 constexpr double most_of_model = 0.1, least_of_model = 1e-4;
 constexpr double coarsest = 1e-6, finest_in_zone = 1e-11;
+// Of the energy that a solution may miss: what the preconditioner may say that it misses.
+constexpr double foreseen = 0.1;
 
 }  // namespace
 
@@ -40,6 +42,11 @@ void IteratedZone::begin_model() {
 
 void IteratedZone::forget_models() { model_ = before_ = {}; }
 
+void IteratedZone::ask_for_energies(double allowed) {
+    forget_models();
+    allowed_ = allowed;
+}
+
 bool IteratedZone::factor(std::span<const Coupling> couplings, std::span<const std::uint8_t> held) {
     const std::span<const std::uint8_t> prescribed = reanalysis_.system().prescribed();
     std::vector<Coupling> acting;
@@ -54,7 +61,7 @@ Zone::Solution IteratedZone::solve(std::span<const double> theta, std::span<cons
     // As much as the model before has missed of the bodies' answer (S. Eisenstat, H. Walker, SIAM J. Sci. Comput. 17,
     // 1996, choice 1).
     const Reanalysis::Forcing forcing = [this](double first) {
-        if (model_.begun == 0.0) return 0.0;
+        if (model_.begun == 0.0) return std::sqrt(2.0 * foreseen * allowed_);
         if (model_.begun < 0.0) {
             model_.begun = first;
             const double missed = before_.begun > 0.0 ? std::abs(first - before_.left) / before_.begun : most_of_model;
@@ -78,6 +85,7 @@ Zone::Solution IteratedZone::solve(std::span<const double> theta, std::span<cons
     for (std::size_t r = 0; r < force.size(); ++r)
         if (reanalysis_.system().held()[r] != 0) solution.multiplier[r] = force[r];
     solution.error = answer.error;
+    if (allowed_ > 0.0) solution.energy_error = answer.energy_error;
     start_ = solution.unknowns;
     return solution;
 }
@@ -85,6 +93,7 @@ Zone::Solution IteratedZone::solve(std::span<const double> theta, std::span<cons
 void IteratedZone::start_anew() {
     start_.clear();
     rounding_ = -1.0;
+    allowed_ = 0.0;
 }
 
 std::vector<double> IteratedZone::unknowns_at(const Response& response) const {

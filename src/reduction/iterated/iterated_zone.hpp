@@ -13,6 +13,7 @@ public:
     IteratedZone(const BodySystem& bodies, Reanalysis& reanalysis);
 
     void begin_model() override;
+    void ask_for_energies(double allowed) override;
     bool factor(std::span<const Coupling> couplings, std::span<const std::uint8_t> held) override;
     Solution solve(std::span<const double> theta, std::span<const double> row_force) override;
     const std::vector<std::int64_t>& jump_rows() const override { return jump_rows_; }
@@ -39,7 +40,8 @@ private:
         double left = 0.0;
     };
     Model model_, before_;
-    double part_ = 0.0;  // of the residual with which the model begins: what a solve may leave
+    double part_ = 0.0;     // of the residual with which the model begins: what a solve may leave
+    double allowed_ = 0.0;  // above the least energy, F L; 0: only the tolerance counts
     std::vector<std::int64_t> jump_rows_;
     mutable std::vector<double> start_;  // of the next solve
     mutable double rounding_ = -1.0;     // of energy_of(), relative; negative: not yet known

@@ -477,6 +477,7 @@ Reanalysis::Answer Reanalysis::solve(std::span<const double> theta, std::span<co
     answer.residual = outcome.residual;
     answer.first = outcome.first;
     answer.norm = outcome.norm;
+    answer.energy_error = 0.5 * outcome.norm * outcome.norm / std::max(outcome.least, softest);
     if (!outcome.correction.empty()) answer.error = error_of(outcome.correction, outcome.least);
     answer.converged = outcome.converged;
     answer.definite = outcome.definite;

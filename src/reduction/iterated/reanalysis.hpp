@@ -39,7 +39,8 @@ public:
         std::int64_t iterations = 0;
         double residual = 0.0;           // relative, in the energy norm
         double first = 0.0, norm = 0.0;  // of the residual, at the start and at the end
-        SolveError error;  // of jumps and forces: ten times what a further step of the iteration would change
+        SolveError error;           // of jumps and forces: ten times what a further step of the iteration would change
+        double energy_error = 0.0;  // 1/2 r^T A^-1 r, F L, as far as the iteration knows A
         bool converged = true;
         bool balanced = true;  // false: a free motion carries a load; x is then not set
         bool definite = true;  // false: negative curvature was met; x is then of no use

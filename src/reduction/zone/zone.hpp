@@ -35,6 +35,9 @@ public:
     // alone, and may leave a part of the residual with which the first of them starts. Before the first model, solves
     // are as exact as their tolerance.
     virtual void begin_model() {}
+    // Only the energy of what follows is wanted: solutions may lie above the least energy by so much, F L;
+    // 0: as little as the tolerance says. Models are over then.
+    virtual void ask_for_energies(double /*allowed*/) {}
     // False: not positive definite.
     virtual bool factor(std::span<const Coupling> couplings, std::span<const std::uint8_t> held) = 0;
 
@@ -48,14 +51,15 @@ public:
         std::int64_t iterations = 0;  // of a Krylov method
         double left = 0.0;  // of the residual with which the model began, as a part of it; 0: what the tolerance allows
         SolveError error;
+        double energy_error = 0.0;  // above the least energy by about this, F L; 0: no more than the tolerance allows
     };
     // row_force: h, [rows] or empty.
     virtual Solution solve(std::span<const double> theta, std::span<const double> row_force) = 0;
 
     // The operator's jump row of each row, ascending.
     virtual const std::vector<std::int64_t>& jump_rows() const = 0;
-    // Unknowns at the jumps of a response of the operator, and the other way round: jumps apart, what such a response
-    // keeps of them for the next solve.
+    // Unknowns at the jumps of a response of the operator, from which an iteration then starts; and the other way
+    // round: jumps apart, what such a response keeps of them for the next solve.
     virtual std::vector<double> unknowns_at(const Response& response) const = 0;
     virtual void keep(std::span<const double> unknowns, Response& response) const = 0;
     // j of all rows.
