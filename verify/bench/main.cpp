@@ -14,7 +14,8 @@ namespace {
 constexpr const char* usage =
     "usage: delam_bench [--json FILE] [--quick] [--scene NAME]... [--repeat N] [--cap SECONDS] [--threads N]... "
     "march | precision | methods | growth | energetic\n"
-    "       delam_bench [--json FILE] [--repeat N] [--cap SECONDS] --scene FILE... [--set KEY=VALUE]... scene-file\n";
+    "       delam_bench [--json FILE] [--repeat N] [--cap SECONDS] --scene FILE... [--set KEY=VALUE]... scene-file\n"
+    "       delam_bench [--json FILE] [--cap SECONDS] --scene FILE [--set KEY=VALUE]... [--size KEY=VALUE]... size\n";
 
 }  // namespace
 
@@ -41,6 +42,8 @@ int main(int argc, char** argv) {
             settings.scenes.push_back(next());
         } else if (word == "--set") {
             settings.settings.push_back(next());
+        } else if (word == "--size") {
+            settings.sizes.push_back(next());
         } else if (word == "--repeat") {
             settings.repeat = std::atoi(next().c_str());
         } else if (word == "--cap") {
@@ -59,7 +62,7 @@ int main(int argc, char** argv) {
     } tables[] = {{"march", bench::march_table},           {"precision", bench::precision_table},
                   {"methods", bench::methods_table},       {"growth", bench::growth_table},
 #ifdef DELAM_SCENE_FILES
-                  {"scene-file", bench::scene_file_table},
+                  {"scene-file", bench::scene_file_table}, {"size", bench::size_table},
 #endif
                   {"energetic", bench::energetic_table}};
     for (const auto& t : tables) {

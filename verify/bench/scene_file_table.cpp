@@ -2,8 +2,6 @@
 // Scene files run with the library's own choice of operator and with FETI: time in linear-solve equivalents, counts,
 // peak memory. Runs in this process, with its threads. The matrix of the LSE is the direct reference's at the undamaged
 // initial state, with all constraints eliminated.
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 
 #include "clock.hpp"
@@ -11,35 +9,12 @@
 #include "measure.hpp"
 #include "report.hpp"
 #include "scene_file.hpp"
-#include "sparse_factor.hpp"
+#include "scene_matrix.hpp"
 #include "tables.hpp"
 
 namespace bench {
 
 namespace {
-
-UpperMatrix upper_of(std::size_t n, const reference::Triplets& lower) {
-    // Upper triangle by columns: entry (i, j), i >= j, of the lower triangle is row j of column i.
-    std::vector<std::vector<std::pair<std::int32_t, double>>> columns(n);
-    for (std::size_t e = 0; e < lower.value.size(); ++e)
-        columns[static_cast<std::size_t>(lower.row[e])].emplace_back(static_cast<std::int32_t>(lower.column[e]),
-                                                                     lower.value[e]);
-    UpperMatrix out;
-    for (auto& column : columns) {
-        std::sort(column.begin(), column.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-        const std::size_t first = out.row.size();
-        for (const auto& [row, value] : column) {
-            if (out.row.size() > first && out.row.back() == row) {
-                out.value.back() += value;
-                continue;
-            }
-            out.row.push_back(row);
-            out.value.push_back(value);
-        }
-        out.start.push_back(static_cast<std::int32_t>(out.row.size()));
-    }
-    return out;
-}
 
 struct Outcome {
     double setup = 0.0, march = 0.0, peak = 0.0;  // s, s, bytes above the use before
@@ -80,14 +55,7 @@ Json scene_file_table(const Settings& settings) {
     for (const std::string& path : settings.scenes) {
         progress(path);
         reference::SceneFile file = reference::read_scene_file(path, settings.settings);
-        UpperMatrix matrix;
-        {
-            reference::DirectReference direct(file.scene);
-            direct.on_matrix = [&](std::size_t n, const reference::Triplets& lower) {
-                if (matrix.size() == 0) matrix = upper_of(n, lower);
-            };
-            direct.solve(file.times.front(), reference::Solver(file.scene, file.times.front()).field("adhesion"));
-        }
+        const UpperMatrix matrix = undamaged_matrix(file);
         const std::vector<double> right(matrix.size(), 1.0);
         double factor_bytes = 0.0, entries = 0.0;
         const auto lse = [&] {

@@ -16,6 +16,7 @@ struct Settings {
     std::vector<std::string> scenes;    // empty: the table's own
     std::vector<int> threads;           // empty: 1 and 2
     std::vector<std::string> settings;  // KEY=VALUE for scene files
+    std::vector<std::string> sizes;     // KEY=VALUE, one for each size of a scene file
 };
 
 Json march_table(const Settings& settings);
@@ -25,6 +26,7 @@ Json growth_table(const Settings& settings);
 Json energetic_table(const Settings& settings);
 #ifdef DELAM_SCENE_FILES
 Json scene_file_table(const Settings& settings);
+Json size_table(const Settings& settings);
 #endif
 
 }  // namespace bench
