@@ -5,15 +5,20 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <new>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 #include "base/cancel_scope.hpp"
 #include "base/error.hpp"
+#include "base/numbers.hpp"
 #include "base/room.hpp"
 #include "delam/delam.h"
 #include "linalg/dissection.hpp"
+#include "linalg/single_factor.hpp"
 
 // This file calls only LGPL modules by name (Core, Cholesky, Partition/CAMD; METIS is called by itself, metis.hpp). The
 // supernodal (GPL) kernels are reached through cholmod_l_factorize if the installed CHOLMOD has them, and never if
@@ -67,6 +72,9 @@ struct SparseCholesky::Impl {
     mutable cholmod_dense* x_buffer = nullptr;  // kept between solves
     mutable cholmod_dense* y_work = nullptr;
     mutable cholmod_dense* e_work = nullptr;
+    std::optional<SingleFactor> single;  // instead of the values in `factor`
+    void* single_values = nullptr;       // CHOLMOD's memory
+    std::size_t single_count = 0;
 
     Impl() {
         cholmod_l_start(&common);
@@ -87,6 +95,7 @@ struct SparseCholesky::Impl {
 #endif
     }
     ~Impl() {
+        forget_single();
         cholmod_l_free_factor(&factor, &common);
         cholmod_l_free_dense(&x_buffer, &common);
         cholmod_l_free_dense(&y_work, &common);
@@ -95,6 +104,28 @@ struct SparseCholesky::Impl {
     }
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
+
+    void forget_single() {
+        single.reset();
+        single_values = cholmod_l_free(single_count, sizeof(float), single_values, &common);
+    }
+
+    // The values change hands; the factor keeps its pattern, as after the analysis.
+    void take_single(int power) {
+        const std::size_t n = factor->nsuper;
+        const auto array = [](const void* data, std::size_t count) {
+            return std::span<const std::int64_t>(static_cast<const std::int64_t*>(data), count);
+        };
+        single_values = std::exchange(factor->x, nullptr);
+        factor->xtype = CHOLMOD_PATTERN;
+        std::size_t bytes = factor->xsize * sizeof(double);
+        round_in_place(static_cast<double*>(single_values), static_cast<std::int64_t>(factor->xsize), power);
+        single_values = cholmod_l_realloc(factor->xsize * sizeof(float), 1, single_values, &bytes, &common);
+        single_count = factor->xsize;
+        const Supernodes nodes{array(factor->super, n + 1), array(factor->pi, n + 1), array(factor->px, n),
+                               array(factor->s, factor->ssize), array(factor->Perm, factor->n)};
+        single.emplace(nodes, static_cast<const float*>(single_values), power);
+    }
 
     using Order = std::vector<SuiteSparse_long>;
 
@@ -253,15 +284,39 @@ bool SparseCholesky::factorise(const SparseMatrix& matrix) {
     Impl& impl = *impl_;
     if (impl.size == 0) return true;
     const AsManyThreadsAsIdleCores threads;
+    impl.forget_single();
     cholmod_sparse a = view(matrix);
     cholmod_l_factorize(&a, impl.factor, &impl.common);
     impl.check("factorisation");
     return impl.common.status == CHOLMOD_OK && impl.factor->minor == impl.factor->n;
 }
 
+namespace {
+
+// Of a pivot to the largest: solutions in single precision then stay far below 1e38.
+constexpr double single_range = 1e-24;
+// Powers of two by which a double can be scaled and stay one.
+constexpr int scalable = 1000;
+
+}  // namespace
+
+void SparseCholesky::keep_single() {
+    Impl& impl = *impl_;
+    if (impl.factor == nullptr || impl.factor->is_super == 0 || impl.single) return;
+    const Pivot pivot = smallest_pivot();
+    const int power = exponent(pivot.largest);
+    if (!(pivot.ratio >= single_range) || std::abs(power) > scalable) return;
+    impl.take_single(power);
+}
+
 void SparseCholesky::solve(std::span<const double> b, std::span<double> x) const {
     const Impl& impl = *impl_;
     if (impl.size == 0) return;
+    if (impl.single) {
+        const std::size_t n = index(impl.size);
+        for (std::size_t at = 0; at < b.size(); at += n) impl.single->solve(b.subspan(at, n), x.subspan(at, n));
+        return;
+    }
     const AsManyThreadsAsIdleCores threads;
     cholmod_dense rhs = view(b);
     rhs.nrow = rhs.d = static_cast<std::size_t>(impl.size);
@@ -302,7 +357,7 @@ SparseCholesky::Pivot SparseCholesky::smallest_pivot() const {
     const cholmod_factor* l = impl_->factor;
     if (l == nullptr) return {};
     const auto* order = static_cast<const std::int64_t*>(l->Perm);
-    if (l->minor < l->n) return {order[l->minor], 0.0};
+    if (l->minor < l->n) return {order[l->minor], 0.0, 0.0};
     const auto* x = static_cast<const double*>(l->x);
     std::int64_t smallest = 0;
     double least = 0.0, largest = 0.0;
@@ -324,7 +379,7 @@ SparseCholesky::Pivot SparseCholesky::smallest_pivot() const {
         const auto* start = static_cast<const std::int64_t*>(l->p);
         for (std::int64_t j = 0; j < impl_->size; ++j) check(j, x[start[j]]);
     }
-    return {order[smallest], least / largest * (least / largest)};
+    return {order[smallest], least / largest * (least / largest), largest};
 }
 
 DenseMatrix SparseCholesky::trailing_factor() const {

@@ -30,6 +30,9 @@ public:
 
     // Numeric factorisation of a matrix with the analysed pattern. False: not positive definite.
     bool factorise(const SparseMatrix& matrix);
+    // Rounds a factor in supernodes to single precision, in half the memory, until the next factorise(); not one whose
+    // pivots are too far apart for that. From then on there is solve() alone.
+    void keep_single();
     // One right-hand side after another, as many as fit into b.
     void solve(std::span<const double> b, std::span<double> x) const;
     // x = A_ll^-1 b for the leading variables only (all but the trailing ones): forward substitution, drop the trailing
@@ -38,10 +41,11 @@ public:
     // Lower factor L_tt of the trailing variables: L_tt L_tt^T is the Schur complement onto them.
     DenseMatrix trailing_factor() const;
     // After factorise(), whether it succeeded or not: the variable with the smallest pivot, and the ratio of that pivot
-    // to the largest; 0 if the factorisation broke down.
+    // to the largest; 0 if the factorisation broke down. largest: the root of the largest, a diagonal entry of L.
     struct Pivot {
         std::int64_t variable = -1;
         double ratio = 1.0;
+        double largest = 0.0;
     };
     Pivot smallest_pivot() const;
     // The variables in the order of elimination; without trailing ones a postorder of the elimination tree.

@@ -58,14 +58,18 @@ struct Response {
     bool converged = true;
 };
 
+// Of an iterative solve: enough for a first idea of contact, as the option linear_tolerance says, or all that this
+// operator can reach.
+enum class Accuracy { rough, usual, tight };
+
 class JumpOperator {
 public:
     virtual ~JumpOperator() = default;
     // theta: [patterns].
     virtual void solve(const Springs& springs, std::span<const double> theta, Response& response) = 0;
-    // on: solves from now on leave as little open as this operator can, whatever the option linear_tolerance says; off:
-    // as that says. True: that is a difference.
-    virtual bool tighten(bool /*on*/) { return false; }
+    // What solves from now on leave of their residual; without a call: usual. True: this operator can tell it from
+    // usual.
+    virtual bool aim(Accuracy /*accuracy*/) { return false; }
     // Reactions: forces of the constraints [constraints], F.
     virtual std::vector<double> reaction(std::span<const double> theta, const Response& response) const = 0;
     // Displacements [mesh DOFs] of a response of this operator.

@@ -11,6 +11,7 @@
 
 #include "base/numbers.hpp"
 #include "evolution/increment/contact.hpp"
+#include "evolution/increment/contact_levels.hpp"
 #include "layer_states.hpp"
 #include "linalg/dense.hpp"
 #include "reduction/condensed/condensed.hpp"
@@ -136,8 +137,8 @@ void expect_alike(const Response& a, const Response& b, double tolerance, const 
 class Disturbed final : public JumpOperator {
 public:
     Disturbed(JumpOperator& op, double by, bool willing = false) : op_(op), by_(by), willing_(willing) {}
-    bool tighten(bool on) override {
-        tight_ = on && willing_;
+    bool aim(Accuracy accuracy) override {
+        tight_ = accuracy == Accuracy::tight && willing_;
         return willing_;
     }
     void solve(const Springs& springs, std::span<const double> theta, Response& r) override {
@@ -683,6 +684,44 @@ START_TEST(doubtful_contact_is_solved_again) {
 }
 END_TEST
 
+// A cold search solves roughly until its set seems right, and ends with the set, and the residual, of accurate solves.
+START_TEST(first_contact_is_found_roughly) {
+    std::int64_t rough = 0, accurate = 0;
+    for (const unit::LayerCase& c : cases) {
+        if (c.floating || c.touching || c.opening != unit::LayerCase::Opening::none) continue;
+        const unit::LayerState scene(c, 3);
+        Monitor monitor;
+        auto bulk = std::make_shared<Bulk>(scene.problem, monitor);
+        bulk->condense(monitor);
+        Condensed condensed(bulk, scene.problem, monitor);
+        Iterated first(scene.problem, monitor), second(scene.problem, monitor);
+        Disturbed unable(second, 0.0);
+        ContactScene contact;
+        contact.dimension = c.dimension;
+        contact.bonded.assign(scene.springs.held.size() / scene.dim, 0);
+        contact.level = contact_levels(scene.problem.mesh->interfaces());
+        const auto set_of = [&](JumpOperator& op, std::int64_t& iterations) {
+            std::vector<std::uint8_t> closed(contact.bonded.size(), 0);
+            Response response;
+            const ContactResult result =
+                solve_contact(op, contact, scene.springs.stiffness, scene.theta, closed, response, true);
+            ck_assert_msg(result.converged && result.linear_residual <= 1e-10,
+                          "%s: converged %d, residual %.1e, %.1e at worst", c.name, result.converged ? 1 : 0,
+                          response.residual, result.linear_residual);
+            iterations += result.linear_iterations;
+            return closed;
+        };
+        std::int64_t none = 0;
+        const std::vector<std::uint8_t> exact = set_of(condensed, none);
+        ck_assert_msg(set_of(first, rough) == exact, "%s: another contact set", c.name);
+        ck_assert_msg(set_of(unable, accurate) == exact, "%s: another contact set", c.name);
+    }
+    std::printf("cold: %d iterations, accurate in every solve: %d\n", static_cast<int>(rough),
+                static_cast<int>(accurate));
+    ck_assert_double_lt(static_cast<double>(rough), 0.9 * static_cast<double>(accurate));
+}
+END_TEST
+
 START_TEST(tightens_at_request) {
     unit::LayerState scene(cases[1], 3);
     scene.problem.options.linear_tolerance = 0.1;
@@ -692,9 +731,9 @@ START_TEST(tightens_at_request) {
     for (const double x : {0.0, 0.06, 0.075}) {
         iterated.solve(advanced(scene, x), scene.theta, first);
         second = first;
-        ck_assert(iterated.tighten(true));
+        ck_assert(iterated.aim(Accuracy::tight));
         iterated.solve(advanced(scene, x), scene.theta, second);
-        iterated.tighten(false);
+        ck_assert(!iterated.aim(Accuracy::usual));
         ck_assert(second.converged && second.residual <= 1e-11);
         ck_assert(second.error.jump <= 1e-8 * max_abs(second.jump));
     }
@@ -718,6 +757,7 @@ int main() {
     tcase_add_loop_test(tests, comes_back_without_factoring, 0, static_cast<int>(std::size(cases)));
     tcase_add_test(tests, numbers_that_are_not_finite_are_not_negative);
     tcase_add_test(tests, contact_settles_on_answers_of_any_accuracy);
+    tcase_add_test(tests, first_contact_is_found_roughly);
     tcase_add_test(tests, tightens_at_request);
     tcase_add_test(tests, doubtful_contact_is_solved_again);
     suite_add_tcase(suite, tests);

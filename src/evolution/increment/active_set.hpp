@@ -58,11 +58,12 @@ struct ActiveSet {
 // Violations below this part of the largest jump or force are rounding of the solve.
 inline constexpr double contact_rounding = 1e-11;
 
-// Answers of an iteration: error() is what the last one leaves open. tighten(): the next ones leave less open; false:
-// they cannot.
+// Answers of an iteration: error() is what the last one leaves open. rough(): a set cannot end with such an answer.
+// tighten(): the next ones leave less open; false: they cannot.
 template <class S>
 concept InexactSystem = requires(S system) {
     { system.error() } -> std::same_as<SolveError>;
+    { system.rough() } -> std::same_as<bool>;
     { system.tighten() } -> std::same_as<bool>;
 };
 
@@ -166,6 +167,11 @@ ActiveSet find_active_set(S& system, const ContactRows& rows, std::vector<std::u
             exchange = false;
         }
         if constexpr (InexactSystem<S>) {
+            if (wrong.empty() && system.rough() && system.tighten()) {
+                seen.clear();
+                exchange = false;
+                continue;
+            }
             const bool doubtful = wrong.empty() && !contact_violators(system, rows, closed, level).empty();
             if (doubtful) ++result.doubts;
             if (doubtful && result.solves < limit && system.tighten()) continue;

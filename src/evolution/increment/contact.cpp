@@ -51,19 +51,20 @@ public:
           springs_(std::move(springs)),
           theta_(theta),
           response_(response),
-          result_(result) {}
+          result_(result) {
+        // Sets of coarse levels, and the first ones of all rows, change by hundreds of rows.
+        if (rows.first > rows.least && op_.aim(Accuracy::rough)) accuracy_ = Accuracy::rough;
+    }
     OperatorSystem(const OperatorSystem&) = delete;
     OperatorSystem& operator=(const OperatorSystem&) = delete;
-    ~OperatorSystem() {
-        if (tight_) op_.tighten(false);
-    }
+    ~OperatorSystem() { op_.aim(Accuracy::usual); }
 
     ContactSolve solve(const std::vector<std::uint8_t>& closed) {
         for (std::size_t i = 0; i < closed.size(); ++i) springs_.held[rows_.row[i]] = closed[i];
         op_.solve(springs_, theta_, response_);
         if (!response_.balanced) return ContactSolve::unbalanced;
         result_.linear_iterations += response_.iterations;
-        result_.linear_residual = std::max(result_.linear_residual, response_.residual);
+        if (!rough()) result_.linear_residual = std::max(result_.linear_residual, response_.residual);
         result_.converged = result_.converged && response_.converged;
         if (scene_.always) refuse_pressed(scene_, op_.prescribed_rows(), {}, response_, theta_);
         return ContactSolve::solved;
@@ -73,7 +74,13 @@ public:
     double jump_floor() const { return scene_.jump_floor(theta_); }
     double force_floor() const { return scene_.force_floor(theta_); }
     SolveError error() const { return response_.error; }
-    bool tighten() { return !std::exchange(tight_, true) && op_.tighten(true); }
+    bool rough() const { return accuracy_ == Accuracy::rough; }
+    bool tighten() {
+        if (accuracy_ == Accuracy::tight) return false;
+        const bool was_rough = rough();
+        accuracy_ = was_rough ? Accuracy::usual : Accuracy::tight;
+        return op_.aim(accuracy_) || was_rough;
+    }
 
 private:
     JumpOperator& op_;
@@ -83,7 +90,7 @@ private:
     std::span<const double> theta_;
     Response& response_;
     ContactResult& result_;
-    bool tight_ = false;
+    Accuracy accuracy_ = Accuracy::usual;
 };
 
 }  // namespace

@@ -50,6 +50,7 @@ public:
     bool softens() const;
     SolveError error() const { return error_; }
     double energy_error() const { return energy_error_; }
+    bool rough() const { return false; }
     // What is in doubt here is decided by the operator, which checks the end of a minimiser.
     bool tighten() { return false; }
     // Of the last solve.

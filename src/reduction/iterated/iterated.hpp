@@ -30,7 +30,7 @@ public:
     Iterated(const Problem& problem, Monitor& monitor);
     Iterated(const Problem& problem, AssembledBodies bodies, Monitor& monitor);
     void solve(const Springs& springs, std::span<const double> theta, Response& response) override;
-    bool tighten(bool on) override;
+    bool aim(Accuracy accuracy) override;
     std::vector<double> displacement(std::span<const double> theta, const Response& response) const override;
     std::vector<double> reaction(std::span<const double> theta, const Response& response) const override;
     double equilibrium_defect(std::span<const double> theta, const Response& response) const override;
@@ -53,6 +53,7 @@ public:
     IteratedSize size() const;
 
 private:
+    double tolerance() const;
     void rest(const Springs& springs, std::span<const double> theta, Response& response) const;
     // Jumps, forces and energies from the variables.
     void respond(const Springs& springs, std::span<const double> theta, Response& response) const;
@@ -66,7 +67,7 @@ private:
     Reanalysis reanalysis_;
     std::unique_ptr<IteratedZone> zone_;  // once they are asked for
     std::unique_ptr<LocalZone> part_;
-    bool tight_ = false;
+    Accuracy accuracy_ = Accuracy::usual;
     mutable std::int64_t recoveries_ = 0;
 };
 

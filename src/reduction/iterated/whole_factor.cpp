@@ -32,6 +32,7 @@ void WholeFactor::factorise(std::span<const Triplet> springs, const Poll& poll) 
     if (!constraints_.set(system_.equations(), system_.count(), solve, poll))
         fail(DELAM_ERROR_NUMERICAL, "the ", system_.equations().size(),
              " constraints on many displacements depend on each other");
+    factor_.keep_single();  // every iteration reads it twice
 }
 
 void WholeFactor::apply(std::span<const double> r, std::span<double> z) const {
