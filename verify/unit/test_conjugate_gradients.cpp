@@ -20,7 +20,7 @@ namespace {
 struct Diagonal {
     std::vector<double> a, m, right;
     double noise = 0.0;  // of A's products, relative
-    int preconditioned = 0, products = 0;
+    int preconditioned = 0, products = 0, sizes = 0;
     CgSystem cg;
 
     Diagonal() : a(40), m(40), right(40) {
@@ -37,8 +37,9 @@ struct Diagonal {
             ++preconditioned;
             for (std::size_t i = 0; i < m.size(); ++i) z[i] = r[i] / m[i];
         };
-        cg.restart = [this](std::span<double> x, std::span<double> r) {
-            residual(x, r);
+        cg.restart = [this](std::span<double> x, std::span<double> r) { residual(x, r); };
+        cg.size = [this](std::span<const double> x) {
+            ++sizes;
             return size(x);
         };
         cg.rounding = [this](std::span<const double> x) { return 1e-15 * size(x); };
@@ -48,7 +49,7 @@ struct Diagonal {
             bool agrees = true;
             for (std::size_t i = 0; i < r.size(); ++i)
                 agrees = agrees && std::abs(own[i] - r[i]) < 4e-15 * (std::abs(right[i]) + std::abs(a[i] * x[i]));
-            return CgSystem::Confirmed{agrees, size(x)};
+            return agrees;
         };
         cg.each_iteration = [](std::int64_t) {};
     }
@@ -79,6 +80,22 @@ START_TEST(a_confirmed_recursion_is_not_preconditioned_again) {
     ck_assert(outcome.converged && outcome.residual <= 1e-12);
     ck_assert_int_eq(outcome.iterations, 6);
     ck_assert_int_eq(s.preconditioned, 7);
+    ck_assert_double_le(s.off(x), 1e-11);
+}
+END_TEST
+
+// A state that hardly changes keeps its size; one that begins at rest has none before its end.
+START_TEST(the_size_is_found_once_where_it_stays) {
+    Diagonal s;
+    s.cg.rounded = 1e-15;
+    std::vector<double> x(s.a.size(), 0.0);
+    const CgOutcome cold = conjugate_gradients(s.cg, x, 1e-12, 100);
+    ck_assert_int_eq(s.sizes, 2);
+    for (double& v : s.right) v *= 1.01;
+    s.sizes = 0;
+    const CgOutcome warm = conjugate_gradients(s.cg, x, 1e-12, 100);
+    ck_assert(cold.converged && warm.converged && warm.iterations > 0);
+    ck_assert_int_eq(s.sizes, 1);
     ck_assert_double_le(s.off(x), 1e-11);
 }
 END_TEST
@@ -150,6 +167,7 @@ int main() {
     Suite* suite = suite_create("conjugate_gradients");
     TCase* tests = tcase_create("conjugate gradients");
     tcase_add_test(tests, a_confirmed_recursion_is_not_preconditioned_again);
+    tcase_add_test(tests, the_size_is_found_once_where_it_stays);
     tcase_add_test(tests, a_recursion_that_drifts_is_found_out);
     tcase_add_test(tests, stops_at_rounding);
     tcase_add_test(tests, ends_where_it_is_enough);

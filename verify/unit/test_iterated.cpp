@@ -360,7 +360,8 @@ START_TEST(energies_within_what_is_allowed) {
     for (const double scale : {0.5, 0.1, 1e-3}) {
         const Outcome exact = ask(scale, 0.0);
         ck_assert_double_eq(exact.error, 0.0);
-        const double size = std::abs(exact.energy), rounding = 1e-6 * size;
+        // Far larger forces of the bodies cancel where they hang on weak springs.
+        const double size = std::abs(exact.energy), rounding = std::max(1e-6, c.tolerance) * size;
         for (const double part : {1e-2, 1e-4}) {
             const Outcome rough = ask(scale, part * size);
             const std::string where = std::string(c.name) + text(", scale ", scale, ", allowed ", part, ": ");
@@ -614,10 +615,10 @@ START_TEST(numbers_that_are_not_finite_are_not_negative) {
         system.precondition = [](std::span<const double> r, std::span<double> z) { std::ranges::copy(r, z.begin()); };
         system.restart = [](std::span<double> x, std::span<double> r) {
             for (std::size_t i = 0; i < 2; ++i) r[i] = 1.0 - x[i];
-            return 1.0;
         };
+        system.size = [](std::span<const double>) { return 1.0; };
         system.rounding = [](std::span<const double>) { return 0.0; };
-        system.confirm = [](std::span<const double>, std::span<const double>) { return CgSystem::Confirmed{}; };
+        system.confirm = [](std::span<const double>, std::span<const double>) { return false; };
         system.each_iteration = [](std::int64_t) {};
         std::vector<double> x(2, 0.0);
         const CgOutcome outcome = conjugate_gradients(system, x, 1e-12, 100);

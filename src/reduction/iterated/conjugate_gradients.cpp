@@ -22,6 +22,8 @@ constexpr double far_from_rounding = 1e-8;   // a residual of which it need not 
 constexpr double at_rounding = 3.0;          // times that estimate: another restart would gain nothing
 constexpr std::size_t judged = 5;            // iterations, before their gain says anything about the others
 constexpr double accelerates = 1.5;          // conjugate gradients become faster
+// An error of less than this part of the size of the state leaves the size as it is.
+constexpr double same_size = 0.03;
 // Of r^T z: below it a curvature is zero but for rounding.
 constexpr double flat = 1e-13;
 
@@ -99,7 +101,8 @@ CgOutcome conjugate_gradients(const CgSystem& system, std::span<double> x, doubl
     double before = infinite;
     outcome.rounded = system.rounded;
     for (int round = 0;; ++round) {
-        const double size = system.restart(x, r);
+        system.restart(x, r);
+        double size = system.size(x);
         system.precondition(r, z);
         const double norm = std::sqrt(std::abs(dot(r, z)));
         const double relative = norm == 0.0 ? 0.0 : norm / std::max(size, norm);
@@ -135,14 +138,14 @@ CgOutcome conjugate_gradients(const CgSystem& system, std::span<double> x, doubl
         if (!outcome.definite) return outcome;
         const bool rounding_matters = !(outcome.rounded > 0.0) && tolerance < far_from_rounding;
         if (rounding_matters || left > goal) continue;
-        const CgSystem::Confirmed confirmed = system.confirm(x, r);
-        if (!confirmed.agrees) continue;
-        const double recursion = std::exchange(left, std::hypot(left, outcome.rounded * confirmed.size));
-        if (left > std::max(tolerance, at_rounding * outcome.rounded) * confirmed.size) continue;
+        if (!system.confirm(x, r)) continue;
+        if (norm > same_size * std::sqrt(outcome.least) * size) size = system.size(x);
+        const double recursion = std::exchange(left, std::hypot(left, outcome.rounded * size));
+        if (left > std::max(tolerance, at_rounding * outcome.rounded) * size) continue;
         outcome.correction = z;
         for (double& c : outcome.correction) c *= recursion > 0.0 ? left / recursion : 0.0;
         outcome.norm = left;
-        outcome.residual = left / confirmed.size;
+        outcome.residual = left / size;
         outcome.converged = true;
         return outcome;
     }

@@ -18,19 +18,16 @@ struct Direction {
 struct CgSystem {
     std::function<void(std::span<const double>, std::span<double>)> apply;
     std::function<void(std::span<const double>, std::span<double>)> precondition;  // symmetric, positive
-    // Restart: the true residual at x, corrected along directions that are solved for exactly. Returns the size of the
-    // state, sqrt(2 energy), in whose units the residual is measured.
-    std::function<double(std::span<double> x, std::span<double> residual)> restart;
+    // Restart: the true residual at x, corrected along directions that are solved for exactly.
+    std::function<void(std::span<double> x, std::span<double> residual)> restart;
+    // Of the state, sqrt(2 energy), in whose units the residual is measured.
+    std::function<double(std::span<const double> x)> size;
     // Norm, as that of the residual, of what rounding leaves of a residual at x.
     std::function<double(std::span<const double> x)> rounding;
     double rounded = 0.0;  // the same as a part of the size of the state, from an earlier solution; 0: unknown
-    // Whether this residual of a recursion is the true one at x but for rounding of its terms; and the size of the
-    // state. Spares the preconditioner once.
-    struct Confirmed {
-        bool agrees = false;
-        double size = 0.0;
-    };
-    std::function<Confirmed(std::span<const double> x, std::span<const double> residual)> confirm;
+    // Whether this residual of a recursion is the true one at x but for rounding of its terms. Spares the
+    // preconditioner once.
+    std::function<bool(std::span<const double> x, std::span<const double> residual)> confirm;
     std::function<void(std::int64_t)> each_iteration;
     // Given the norm of the first residual: a norm that may stay, where it is more than what the tolerance allows.
     std::function<double(double first)> enough;  // or none

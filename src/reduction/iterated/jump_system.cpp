@@ -289,17 +289,45 @@ void JumpSystem::apply_sparse(std::span<const double> x, std::span<double> y) co
 }
 
 void JumpSystem::apply(std::span<const double> x, std::span<double> y, std::span<const std::uint8_t> wanted) const {
-    const auto row = [&](std::size_t i) {
-        double sum = 0.0;
-        for (std::int64_t e = matrix_.start[i]; e < matrix_.start[i + 1]; ++e)
-            sum += matrix_.value[index(e)] * x[index(matrix_.column[index(e)])];
-        y[i] = sum;
-    };
     std::fill(y.begin(), y.end(), 0.0);
     for (std::size_t i = 0; i < wanted.size(); ++i)
-        if (wanted[i] != 0) row(i);
-    for (const Slave& slave : slaves_) row(index(slave.pivot));
+        if (wanted[i] != 0) y[i] = matrix_row(i, x);
+    for (const Slave& slave : slaves_) y[index(slave.pivot)] = matrix_row(index(slave.pivot), x);
     add_couplings(x, y);
+}
+
+void JumpSystem::apply(std::span<const double> x, std::span<double> y, std::span<double> size) const {
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        double sum = 0.0, terms = 0.0;
+        for (std::int64_t e = matrix_.start[i]; e < matrix_.start[i + 1]; ++e) {
+            const double term = matrix_.value[index(e)] * x[index(matrix_.column[index(e)])];
+            sum += term;
+            terms += std::abs(term);
+        }
+        y[i] = sum;
+        size[i] = terms;
+    }
+    for (const Zone::Coupling& c : couplings_) {
+        const double force = c.value * row_value(index(c.column), x);
+        for (const auto& [i, n] : rows_[index(c.row)].unknowns) {
+            y[index(i)] += n * force;
+            size[index(i)] += std::abs(n * force);
+        }
+    }
+}
+
+double JumpSystem::matrix_row(std::size_t i, std::span<const double> x) const {
+    double sum = 0.0;
+    for (std::int64_t e = matrix_.start[i]; e < matrix_.start[i + 1]; ++e)
+        sum += matrix_.value[index(e)] * x[index(matrix_.column[index(e)])];
+    return sum;
+}
+
+void JumpSystem::multiply_held(std::span<const double> x, std::span<double> y) const {
+    std::fill(y.begin(), y.end(), 0.0);
+    for (const std::int64_t i : removed_) y[index(i)] = matrix_row(index(i), x);
+    for (const SparseVector& terms : binding_terms_)
+        for (const auto& [i, c] : terms) y[index(i)] = matrix_row(index(i), x);
 }
 
 // The rows are independent and what is left over is theirs, so that the least-squares solution is the solution.

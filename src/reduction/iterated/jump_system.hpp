@@ -66,6 +66,10 @@ public:
     // The same in the variables that `wanted` marks and in those that gather() adds to them; elsewhere y is not
     // defined.
     void apply(std::span<const double> x, std::span<double> y, std::span<const std::uint8_t> wanted) const;
+    // The same, and the sizes of the terms of which each component is the sum.
+    void apply(std::span<const double> x, std::span<double> y, std::span<double> size) const;
+    // y = T^T K T x where multipliers() reads what is left over; elsewhere zero.
+    void multiply_held(std::span<const double> x, std::span<double> y) const;
     // y = C N x as forces on all variables, added to y; and N x of all rows.
     void add_couplings(std::span<const double> x, std::span<double> y) const;
     double row_value(std::size_t row, std::span<const double> x) const;
@@ -80,6 +84,7 @@ private:
         SparseVector masters;
         std::vector<double> right;  // [patterns]
     };
+    double matrix_row(std::size_t i, std::span<const double> x) const;
     void express_rows(const BodySystem& bodies);
     void hold();
     void bind(std::span<const std::int64_t> others, std::vector<std::uint8_t>& out);

@@ -236,7 +236,8 @@ double Reanalysis::size_of(std::span<const double> theta, std::span<const double
 SolveError Reanalysis::error_of(std::span<const double> correction, double least) const {
     SolveError error;
     std::vector<double> left(correction.size()), force(system_.rows().size(), 0.0);
-    system_.apply(correction, left);
+    system_.multiply_held(correction, left);
+    system_.add_couplings(correction, left);
     system_.multipliers(left, force);
     for (std::size_t r = 0; r < force.size(); ++r)
         if (system_.held()[r] == 0) error.jump = std::max(error.jump, std::abs(system_.row_value(r, correction)));
@@ -247,7 +248,7 @@ SolveError Reanalysis::error_of(std::span<const double> correction, double least
 std::vector<double> Reanalysis::held_forces(std::span<const double> theta, std::span<const double> x,
                                             std::span<double> force) const {
     std::vector<double> left = load(theta), image(left.size());
-    multiply(system_.matrix(), x, image);
+    system_.multiply_held(x, image);
     for (std::size_t i = 0; i < left.size(); ++i) left[i] -= image[i];
     for (std::size_t r = 0; r < force.size(); ++r) {
         if (system_.held()[r] != 0)
@@ -258,44 +259,33 @@ std::vector<double> Reanalysis::held_forces(std::span<const double> theta, std::
     return system_.multipliers(left, force);
 }
 
-// Sizes of the terms that cancel in right - A x.
-std::vector<double> Reanalysis::term_sizes(std::span<const double> right, std::span<const double> x) const {
-    const SparseMatrix& a = system_.matrix();
-    std::vector<double> sizes(x.size(), 0.0);
-    for (const Zone::Coupling& c : system_.couplings())
-        for (const auto& [i, n] : system_.rows()[index(c.row)].unknowns)
-            sizes[index(i)] += std::abs(n * c.value * system_.row_value(index(c.column), x));
-    for (std::size_t i = 0; i < x.size(); ++i) {
-        double sum = std::abs(right[i]) + sizes[i];
-        for (std::int64_t e = a.start[i]; e < a.start[i + 1]; ++e)
-            sum += std::abs(a.value[index(e)] * x[index(a.column[index(e)])]);
-        sizes[i] = sum;
-    }
-    return sizes;
-}
-
 // The recursion's residual against the true one, in units of what rounding does to each component.
-CgSystem::Confirmed Reanalysis::confirm(std::span<const double> right, std::span<const double> theta,
-                                        std::span<const double> x, std::span<const double> residual) const {
-    if (!null_.empty() || !floating_.weak().empty()) return {};
-    std::vector<double> at(x.begin(), x.end()), r(x.size());
+bool Reanalysis::confirm(std::span<const double> right, std::span<const double> theta, std::span<const double> x,
+                         std::span<const double> residual) const {
+    if (!null_.empty() || !floating_.weak().empty()) return false;
+    std::vector<double> at(x.begin(), x.end()), r(x.size()), sizes(x.size());
     system_.spread(at, theta);
-    system_.apply(at, r);
-    for (std::size_t i = 0; i < r.size(); ++i) r[i] = right[i] - r[i];
+    system_.apply(at, r, sizes);
+    for (std::size_t i = 0; i < r.size(); ++i) {
+        r[i] = right[i] - r[i];
+        sizes[i] += std::abs(right[i]);
+    }
     system_.gather(r);
-    std::vector<double> sizes = term_sizes(right, at);
     system_.gather_sizes(sizes);
     for (std::size_t i = 0; i < r.size(); ++i)
         if (!(std::abs(r[i] - residual[i]) <= rounding_units * std::numeric_limits<double>::epsilon() * sizes[i]))
-            return {};
-    return {true, size_of(theta, at)};
+            return false;
+    return true;
 }
 
 // Each component has an error of the size of its largest terms times the rounding unit, with a random sign.
 double Reanalysis::rounding_at(std::span<const double> right, std::span<const double> x) {
-    std::vector<double> delta = term_sizes(right, x), z(x.size());
+    std::vector<double> delta(x.size()), z(x.size());
+    system_.apply(x, z, delta);
     std::uint64_t seed = 1;
-    for (double& d : delta) {
+    for (std::size_t i = 0; i < delta.size(); ++i) {
+        double& d = delta[i];
+        d += std::abs(right[i]);
         seed = seed * 6364136223846793005u + 1442695040888963407u;
         if ((seed >> 63U) == 0) d = -d;
     }
@@ -343,22 +333,27 @@ void Reanalysis::precondition(std::span<const double> r, std::span<double> z) {
 }
 
 // The multiple of the start that has the least energy: a load that has only grown needs nothing else. A start so much
-// larger than the load that its energy is not finite is none.
-void Reanalysis::start_from(std::span<const double> right, std::span<const double> theta, std::span<double> x) const {
+// larger than the load that its energy is not finite is none. Returns A x there, with the rest of expressed variables.
+std::vector<double> Reanalysis::start_from(std::span<const double> right, std::span<const double> theta,
+                                           std::span<double> x) const {
     std::vector<double> y(x.begin(), x.end()), image(x.size());
     system_.spread(y);
-    std::vector<double> rest(x.size(), 0.0);
+    std::vector<double> rest(x.size(), 0.0), of_rest(x.size(), 0.0);
     system_.spread(rest, theta);
     double pull = dot(y, right);
     if (std::any_of(rest.begin(), rest.end(), [](double v) { return v != 0.0; })) {
-        system_.apply(rest, image);
-        pull -= dot(y, image);
+        system_.apply(rest, of_rest);
+        pull -= dot(y, of_rest);
     }
     system_.apply(y, image);
     const double curvature = dot(y, image);
     const bool usable = std::isfinite(curvature) && std::isfinite(pull);
     const double scale = !usable ? 0.0 : curvature > 0.0 ? pull / curvature : 1.0;
-    for (std::size_t i = 0; i < x.size(); ++i) x[i] = scale * y[i];
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        x[i] = scale * y[i];
+        of_rest[i] += scale == 0.0 ? 0.0 : scale * image[i];
+    }
+    return of_rest;
 }
 
 // Directions of weakly held rigid motions, conjugate to each other. False: tangents along one are negative.
@@ -427,10 +422,11 @@ Reanalysis::Answer Reanalysis::solve(std::span<const double> theta, std::span<co
     const std::vector<double> right = right_side(theta, row_force);
     answer.balanced = floating_.balances(right);
     if (!answer.balanced) return answer;
+    std::vector<double> image;  // A x at the start, where it is known
     if (x.size() != right.size())
         x.assign(right.size(), 0.0);
     else
-        start_from(right, theta, x);
+        image = start_from(right, theta, x);
 
     CgSystem cg;
     cg.apply = [&](std::span<const double> p, std::span<double> ap) {
@@ -457,12 +453,20 @@ Reanalysis::Answer Reanalysis::solve(std::span<const double> theta, std::span<co
             const double along = (dot(d.p, right) - dot(d.p, springs)) / d.pap;
             add_scaled(along, d.p, at);
         }
-        system_.apply(at, r);
+        if (image.empty() || !cg.given.empty())
+            system_.apply(at, r);
+        else
+            std::copy(image.begin(), image.end(), r.begin());
+        image.clear();
         for (std::size_t i = 0; i < r.size(); ++i) r[i] = right[i] - r[i];
         system_.gather(r);
         for (const std::vector<double>& motion : null_) add_scaled(-dot(motion, r), motion, r);
         for (const Direction& d : cg.given) add_scaled(-dot(d.p, r) / d.pap, d.ap, r);
-        return size_of(theta, at);
+    };
+    cg.size = [&](std::span<const double> at) {
+        std::vector<double> full(at.begin(), at.end());
+        system_.spread(full, theta);
+        return size_of(theta, full);
     };
     cg.rounding = [&](std::span<const double> at) { return rounding_at(right, at); };
     cg.confirm = [&](std::span<const double> at, std::span<const double> residual) {

@@ -89,12 +89,12 @@ private:
     std::vector<double> right_side(std::span<const double> theta, std::span<const double> row_force) const;
     double work_of_couplings(std::span<const double> x) const;
     double size_of(std::span<const double> theta, std::span<const double> x) const;
-    std::vector<double> term_sizes(std::span<const double> right, std::span<const double> x) const;
-    CgSystem::Confirmed confirm(std::span<const double> right, std::span<const double> theta, std::span<const double> x,
-                                std::span<const double> residual) const;
+    bool confirm(std::span<const double> right, std::span<const double> theta, std::span<const double> x,
+                 std::span<const double> residual) const;
     double rounding_at(std::span<const double> right, std::span<const double> x);
     void precondition(std::span<const double> r, std::span<double> z);
-    void start_from(std::span<const double> right, std::span<const double> theta, std::span<double> x) const;
+    std::vector<double> start_from(std::span<const double> right, std::span<const double> theta,
+                                   std::span<double> x) const;
     SolveError error_of(std::span<const double> correction, double least) const;
     double iteration_cost() const;
     bool weak_directions(std::vector<Direction>& given) const;
