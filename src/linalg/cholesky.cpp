@@ -302,7 +302,7 @@ constexpr int scalable = 1000;
 
 void SparseCholesky::keep_single() {
     Impl& impl = *impl_;
-    if (impl.factor == nullptr || impl.factor->is_super == 0 || impl.single) return;
+    if (impl.factor == nullptr || impl.factor->is_super == 0 || impl.factor->x == nullptr) return;
     const Pivot pivot = smallest_pivot();
     const int power = exponent(pivot.largest);
     if (!(pivot.ratio >= single_range) || std::abs(power) > scalable) return;

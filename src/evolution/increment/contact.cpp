@@ -52,7 +52,7 @@ public:
           theta_(theta),
           response_(response),
           result_(result) {
-        // Sets of coarse levels, and the first ones of all rows, change by hundreds of rows.
+        // From one of the first sets to the next, hundreds of rows change: rough answers tell which.
         if (rows.first > rows.least && op_.aim(Accuracy::rough)) accuracy_ = Accuracy::rough;
     }
     OperatorSystem(const OperatorSystem&) = delete;
