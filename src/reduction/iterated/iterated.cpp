@@ -18,8 +18,8 @@ namespace {
 // A start larger than the load by 2^900 is none: it would hardly be finite.
 constexpr int largest_start_power = 900;
 
-// A rough solve's. 3e-3 and 1e-2 need about the same iterations to find a first contact set, 3e-2 twice as many: pairs then
-// close and open again.
+// A rough solve's. 3e-3 and 1e-2 need about the same iterations to find a first contact set, 3e-2 twice as many: pairs
+// then close and open again.
 constexpr double rough_tolerance = 1e-2;
 
 bool any_of(std::span<const double> values) {
