@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// States of a scene file's analysis: condensed operator and FETI against the direct reference.
+// States of a scene file's analysis: each realisation of the jump operator against the direct reference.
 #include "scene_file.hpp"
 #include "table.hpp"
 
@@ -40,13 +40,13 @@ Table scene_direct(const Options& options) {
                      "kkt_complementarity",
                      "kkt_equilibrium"};
     for (const reference::Judged& row : reference::judge(file, judged, 0))
-        for (const bool feti : {false, true}) {
-            const reference::Comparison& c = feti ? row.feti : row.condensed;
-            const reference::Acceptance& kkt = feti ? row.kkt_feti : row.kkt_condensed;
-            table.rows.push_back({row.time, row.debonded, row.closed, feti ? "FETI" : "condensed", c.jump, c.traction,
+        for (const reference::Answer& answer : row.answers) {
+            const reference::Comparison& c = answer.difference;
+            const reference::Acceptance& kkt = answer.kkt;
+            table.rows.push_back({row.time, row.debonded, row.closed, answer.realisation, c.jump, c.traction,
                                   c.displacement, c.reaction, c.stored_bulk, c.stored_interface, c.contacts,
-                                  feti ? row.linear_iterations : 0.0, feti && row.stalled ? 1 : 0, kkt.worst(), kkt.gap,
-                                  kkt.pressure, kkt.complementarity, kkt.equilibrium});
+                                  answer.linear_iterations, answer.stalled ? 1 : 0, kkt.worst(), kkt.gap, kkt.pressure,
+                                  kkt.complementarity, kkt.equilibrium});
         }
     return table;
 }

@@ -9,6 +9,7 @@ INDIGO, ROSE, TEAL, OLIVE, WINE, FOREST = "#332288", "#CC6677", "#44AA99", "#999
 # role: colour, marker, line
 ROLES = {
     "condensed": (BLUE, "o", "-"),
+    "iterated": (GREEN, "^", "-"),
     "feti": (VERMILLION, "s", "-"),
     "direct": (BLACK, "x", "-"),
     "reference": (BLACK, "", "--"),

@@ -10,6 +10,10 @@ namespace reference {
 
 namespace {
 
+// Names in tables, and values of the option `reduction`.
+constexpr std::pair<const char*, const char*> realisations[] = {
+    {"condensed", "condensed"}, {"iterated", "iterated"}, {"FETI", "feti"}};
+
 double parameter(const cli::LawData& law, const std::string& key) {
     for (const auto& [name, value] : law.parameters)
         if (name == key) return value;
@@ -58,10 +62,12 @@ std::vector<Judged> judge(SceneFile& file, const std::vector<std::size_t>& steps
         }
         if (std::find(steps.begin(), steps.end(), k) != steps.end()) adhesion.push_back(march.field("adhesion"));
     }
-    Solver condensed(scene, file.times.front());
-    scene.text("reduction", "feti");
     if (subdomains > 0) scene.number("subdomains", static_cast<double>(subdomains));
-    Solver feti(scene, file.times.front());
+    std::vector<std::pair<std::string, Solver>> solvers;
+    for (const auto& [realisation, option] : realisations) {
+        scene.text("reduction", option);
+        solvers.emplace_back(realisation, Solver(scene, file.times.front()));
+    }
     DirectReference direct(scene);
     std::vector<Judged> out;
     for (std::size_t i = 0; i < steps.size(); ++i) {
@@ -73,19 +79,16 @@ std::vector<Judged> judge(SceneFile& file, const std::vector<std::size_t>& steps
                            std::count_if(adhesion[i].begin(), adhesion[i].end(), [](double z) { return z <= 1e-3; })) /
                        static_cast<double>(adhesion[i].size());
         row.closed = static_cast<int>(std::count(state.contact.begin(), state.contact.end(), true));
-        // A contact whose gap or pressure is of the size of rounding may be open or closed.
-        condensed.equilibrate(time, adhesion[i]);
-        row.condensed = compare(condensed, state, direct.exported(), 1e-9);
-        row.kkt_condensed = accept(condensed, direct.exported());
-        const std::int32_t status = delam_solver_equilibrate(feti.get(), time, adhesion[i].data());
-        row.stalled = status == DELAM_NOT_CONVERGED;
-        if (!row.stalled) scene.require(status, "delam_solver_equilibrate");
-        row.feti = compare(feti, state, direct.exported(), 1e-9);
-        row.kkt_feti = accept(feti, direct.exported());
-        row.linear_iterations = feti.value("linear_iterations");
+        for (auto& [realisation, solver] : solvers) {
+            const std::int32_t status = delam_solver_equilibrate(solver.get(), time, adhesion[i].data());
+            const bool stalled = status == DELAM_NOT_CONVERGED;
+            if (!stalled) scene.require(status, "delam_solver_equilibrate");
+            // A contact whose gap or pressure is of the size of rounding may be open or closed.
+            row.answers.push_back({realisation, compare(solver, state, direct.exported(), 1e-9),
+                                   accept(solver, direct.exported()), stalled, solver.value("linear_iterations")});
+            solver.commit();
+        }
         out.push_back(row);
-        condensed.commit();
-        feti.commit();
     }
     return out;
 }

@@ -19,15 +19,20 @@ struct SceneFile {
 // settings: KEY=VALUE, as for `delam run --set`. Throws Failure with the program's message.
 SceneFile read_scene_file(const std::string& path, const std::vector<std::string>& settings);
 
-// States of a condensed analysis of `file`, solved by both realisations of the library and by the direct solver.
+// One displacement step of a realisation of the jump operator, compared with the direct solution.
+struct Answer {
+    std::string realisation;  // its name in tables: condensed, iterated, FETI
+    Comparison difference;
+    Acceptance kkt;
+    bool stalled = false;  // the step did not meet its linear tolerance (DELAM_NOT_CONVERGED)
+    double linear_iterations = 0.0;
+};
+// A state of a condensed analysis, solved by each realisation and by the direct solver.
 struct Judged {
     double time = 0.0;
     double debonded = 0.0;  // fraction of the pairs
     int closed = 0;         // contacts, in the direct solution
-    Comparison condensed, feti;
-    Acceptance kkt_condensed, kkt_feti;
-    bool stalled = false;            // FETI did not meet its linear tolerance (DELAM_NOT_CONVERGED)
-    double linear_iterations = 0.0;  // of FETI's one displacement step
+    std::vector<Answer> answers;
 };
 // steps: which steps are compared; 0 is the initial state. subdomains: of FETI; 0: its own choice. Sets the options
 // reduction and subdomains of `file`.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Chapter (a): one displacement step by FETI and by the condensed interface beside CHOLMOD's factorisation of the whole system."""
+"""Chapter (a): one displacement step by each realisation of the jump operator beside CHOLMOD's factorisation of the whole system."""
 from case import Case, Failed, axis, check, column, figure, largest, plot, reference, result, series
 
 DIRECT = reference(
@@ -12,6 +12,8 @@ KKT_WHY = ("the primal KKT conditions (gap, sign of pressure, complementarity, e
 QUANTITIES = [("jump", "first"), ("traction", "second"), ("displacement", "third"), ("reaction", "fourth"), ("stored_bulk", "fifth"),
               ("stored_interface", "sixth")]
 WORDS = {"stored_bulk": "energy, bodies", "stored_interface": "energy, interface"}
+# Names in the harness's table, and roles in pictures.
+REALISATIONS = [("condensed", "condensed"), ("iterated", "iterated"), ("FETI", "feti")]
 # A difference that is plotted on a logarithmic axis: what is exactly zero would vanish.
 FLOOR = 1e-17
 
@@ -84,6 +86,12 @@ SCENES = [
     {"name": "laminate-thermal", "title": "Cured cross-ply laminate", "quick": False, "set": [], "limit": 1e-8, "expected": 15,
      "geometry": "[0/90/0], 30 mm x 1.5 mm (upper half), cells of 0.125 mm, plane stress", "materials": "AS4/3501-6 with its expansions; k = 1e14 N/m3, "
      "220 and 600 J/m2", "supports": "planes of symmetry; cooled by 150 degrees, then pulled"},
+    {"name": "laminate-enf", "title": "End-notched flexure of a cross-ply in space", "quick": False, "set": [], "limit": 1e-8, "expected": 90,
+     "geometry": "[0/90]s plate, cracked at mid-plane, 97 x 8 x 4 incompatible 8-node bricks", "materials": "IM7/8552; k = 1e14 N/m3, 6 and 16 MPa, 212 and 774 J/m2",
+     "supports": "edges on lines of support, plane of symmetry; mid-span pressed"},
+    {"name": "laminate-dcb", "title": "Double cantilever of a cross-ply in space", "quick": False, "set": [], "limit": 1e-8, "expected": 90, "close_calls": True,
+     "geometry": "[0/90]s plate, cracked at mid-plane, 97 x 8 x 4 incompatible 8-node bricks", "materials": "IM7/8552; k = 1e14 N/m3, 6 and 16 MPa, 212 and 774 J/m2",
+     "supports": "far end clamped, plane of symmetry; the edges of both arms pulled apart"},
     {"name": "4enf", "title": "Four-point end-notched flexure", "quick": False, "set": [], "limit": 1e-8, "expected": 20, "close_calls": True,
      "geometry": "two arms 100 mm x 2 mm, notch 35 mm, 400 x 4 incompatible 4-node cells an arm, plane strain",
      "materials": "IM7/8552; k = 1e15 N/m3, 212 and 774 J/m2", "supports": "rollers; two noses that share their load"},
@@ -108,7 +116,7 @@ def scene_case(scene):
                    *[column(n, "relative", past="rounding", **{"from": f"kkt_{n}"}) for n in ("gap", "pressure", "complementarity", "equilibrium")]]
         why = scene.get("why", "what the linear tolerances of the march leave; ten times less than any of the march's own tolerances")
         checks, curves, kkt = [], [], []
-        for name, role in (("condensed", "condensed"), ("FETI", "feti")):
+        for name, role in REALISATIONS:
             of = rows.where(realisation=name)
             worst = [max(max(of.column(q)[i] for q, _ in QUANTITIES), FLOOR) for i in range(len(of.rows))]
             curves.append(series(name, role, of.column("time"), worst))
@@ -124,8 +132,9 @@ def scene_case(scene):
         else:
             checks.append(check("contacts that differ", largest(rows.column("contacts")), 0, "the same pairs are closed wherever gap or pressure is above rounding"))
         losses = []
-        if scene.get("stalls") and sum(rows.column("stalled")):
-            losses.append(f"FETI stops above its linear tolerance in {sum(rows.column('stalled')):.0f} of {len(rows.rows) // 2} states, and says so")
+        stalled = rows.where(realisation="FETI").column("stalled")
+        if scene.get("stalls") and sum(stalled):
+            losses.append(f"FETI stops above its linear tolerance in {sum(stalled):.0f} of {len(stalled)} states, and says so")
         return result(
             DIRECT, tables=[rows.table("States of the march: relative differences to the direct solution, primal KKT", columns, rows.note)], checks=checks,
             plots=[plot("Largest difference to the direct solution", axis("time of the march"), axis("difference", "relative", "log"), curves,
@@ -137,8 +146,8 @@ def scene_case(scene):
             warnings=warnings, losses=losses)
 
     return Case(id=f"a-scene-{scene['name']}", chapter="a", title=scene["title"],
-                requirement="At states of the march, condensed and FETI give the jumps, tractions, displacements, reactions and energies of the direct "
-                            f"solution within {scene['limit']:.0e}, and meet the primal KKT conditions.",
+                requirement="At states of the march, each realisation of the jump operator gives the jumps, tractions, displacements, reactions and energies of the direct "
+                            f"solution within {scene['limit']:.0e}, and meets the primal KKT conditions.",
                 geometry=scene["geometry"], materials=scene["materials"], supports=scene["supports"], units="SI; differences are relative to the largest value",
                 run=run, quick=scene["quick"], seconds=900, expected=scene["expected"])
 
