@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The active set of unilateral contact on dense systems: it ends, also where all violators moved at once would cycle,
 // and its result is the one contact set that an exhaustive search finds.
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <random>
@@ -196,6 +197,47 @@ START_TEST(levels_lead_to_the_same_set) {
 }
 END_TEST
 
+// Answers are exact, and say that they may be off by ten times what they are: every sign is in doubt, none is wrong.
+template <std::int64_t N>
+struct CautiousSystem : DenseSystem {
+    static constexpr std::int64_t guesses = N;
+    bool tightened = false;
+
+    SolveError error() const { return {10.0 * max_abs(x), 10.0 * max_abs(reaction)}; }
+    bool rough() const { return false; }
+    bool tighten() {
+        const bool first = !tightened;
+        tightened = true;
+        return first;
+    }
+};
+
+// Once no tighter answer can be had, so many sets follow from signs in doubt, and the last of them is accepted.
+START_TEST(signs_in_doubt_are_followed_for_a_few_sets) {
+    std::mt19937 random(8);
+    int left_wrong = 0, found_right = 0;
+    for (int trial = 0; trial < 200; ++trial) {
+        const std::int64_t n = 4 + trial % 5;
+        const DenseSystem s = some_system(random, n);
+        const ContactRows rows = all_rows(n);
+        const std::vector<std::uint8_t> right = exhaustive(s, rows);
+        CautiousSystem<0> never{s};
+        std::vector<std::uint8_t> closed(index(n), 0);
+        const ActiveSet stayed = find_active_set(never, rows, closed, 10000, false);
+        ck_assert(stayed.settled && stayed.solves <= 2);
+        ck_assert(std::count(closed.begin(), closed.end(), 0) == n);
+        left_wrong += closed != right ? 1 : 0;
+        CautiousSystem<3> often{s};
+        const ActiveSet followed = find_active_set(often, rows, closed, 10000, false);
+        ck_assert(followed.settled && followed.solves <= 5);
+        ck_assert_int_ge(followed.doubts + 1, followed.solves);
+        found_right += closed == right ? 1 : 0;
+    }
+    ck_assert_int_ge(left_wrong, 150);
+    ck_assert_int_ge(found_right, 150);
+}
+END_TEST
+
 int main() {
     Suite* suite = suite_create("active_set");
     TCase* tests = tcase_create("active_set");
@@ -204,6 +246,7 @@ int main() {
     tcase_add_test(tests, limits_and_failures_are_reported);
     tcase_add_test(tests, contact_may_hold_what_floats);
     tcase_add_test(tests, levels_lead_to_the_same_set);
+    tcase_add_test(tests, signs_in_doubt_are_followed_for_a_few_sets);
     suite_add_tcase(suite, tests);
     SRunner* runner = srunner_create(suite);
     srunner_run_all(runner, CK_ENV);

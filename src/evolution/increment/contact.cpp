@@ -43,6 +43,8 @@ ContactRows contact_rows(const ContactScene& scene, std::span<const std::uint8_t
 
 class OperatorSystem {
 public:
+    static constexpr std::int64_t guesses = 3;
+
     OperatorSystem(JumpOperator& op, const ContactScene& scene, const ContactRows& rows, Springs springs,
                    std::span<const double> theta, Response& response, ContactResult& result)
         : op_(op),

@@ -52,6 +52,7 @@ public:
     double energy_error() const { return energy_error_; }
     bool rough() const { return false; }
     // What is in doubt here is decided by the operator, which checks the end of a minimiser.
+    static constexpr std::int64_t guesses = 0;
     bool tighten() { return false; }
     // Of the last solve.
     const std::vector<double>& unknowns() const { return unknowns_; }

@@ -86,7 +86,7 @@ SCENES = [
     {"name": "laminate-thermal", "title": "Cured cross-ply laminate", "quick": False, "set": [], "limit": 1e-8, "expected": 15,
      "geometry": "[0/90/0], 30 mm x 1.5 mm (upper half), cells of 0.125 mm, plane stress", "materials": "AS4/3501-6 with its expansions; k = 1e14 N/m3, "
      "220 and 600 J/m2", "supports": "planes of symmetry; cooled by 150 degrees, then pulled"},
-    {"name": "laminate-enf", "title": "End-notched flexure of a cross-ply in space", "quick": False, "set": [], "limit": 1e-8, "expected": 90,
+    {"name": "laminate-enf", "title": "End-notched flexure of a cross-ply in space", "quick": False, "set": [], "limit": 1e-8, "expected": 90, "close_calls": True,
      "geometry": "[0/90]s plate, cracked at mid-plane, 97 x 8 x 4 incompatible 8-node bricks", "materials": "IM7/8552; k = 1e14 N/m3, 6 and 16 MPa, 212 and 774 J/m2",
      "supports": "edges on lines of support, plane of symmetry; mid-span pressed"},
     {"name": "laminate-dcb", "title": "Double cantilever of a cross-ply in space", "quick": False, "set": [], "limit": 1e-8, "expected": 90, "close_calls": True,
