@@ -6,14 +6,17 @@ from __future__ import annotations
 import json
 import math
 import pathlib
+import re
 
 import orders
 
 PAST_RELATIVE = 1e-6
 PAST_ORDER = 1e-4        # a fitted order: differences of small errors
 COUNT_BAND = 0.20       # of counts of iterations
-ROUNDING_GROWTH = 10.0  # a value of the size of rounding may move below this multiple of the past one
+ROUNDING_GROWTH = 10.0  # a value of the size of rounding may move below this multiple of the largest past one of its kind
+ROUNDING_FLOOR = 1e-14  # the largest past one counts as at least this
 REFIT = 1e-6            # an order that is handed in with its data must be the one fitted to them
+NUMBER = re.compile(r"-?[0-9.]+(e[-+]?[0-9]+)?( \([0-9]+\))?")  # a key that is a number, with the count of rows that share it
 # Counts of what did not converge: more than 0 fails, unless the column says that it may.
 UNCONVERGED = ("not_converged", "not converged", "stalled", "limit", "diverged")
 
@@ -115,10 +118,25 @@ def numbers(data: dict) -> dict:
     return out
 
 
-def _excess(now: float, then: float, rule) -> float:
-    """Difference over what is allowed; above 1 is a violation."""
+def _kind(name: str) -> str:
+    """Names of one column whose rows differ in numbers alone (states of a march, sizes) are of one kind."""
+    parts = name.split(" | ")
+    if len(parts) == 3:
+        parts[1] = ", ".join(key for key in parts[1].split(", ") if not NUMBER.fullmatch(key))
+    return " | ".join(parts)
+
+
+def _largest_of_kind(accepted: dict) -> dict:
+    largest: dict[str, float] = {}
+    for name, value in accepted.items():
+        largest[_kind(name)] = max(largest.get(_kind(name), ROUNDING_FLOOR), abs(value))
+    return largest
+
+
+def _excess(now: float, then: float, rule, largest: float) -> float:
+    """Difference over what is allowed; above 1 is a violation. Of rounding, one value may be small by chance: the largest of its kind counts."""
     if rule == "rounding":
-        return abs(now) / max(ROUNDING_GROWTH * abs(then), 1e-13)
+        return abs(now) / (ROUNDING_GROWTH * largest)
     allowed = (COUNT_BAND if rule == "count" else float(rule)) * abs(then)
     if rule == "count":
         allowed = max(allowed, 2.0)
@@ -145,12 +163,15 @@ def against_past(data: dict, folder: pathlib.Path, quick: bool) -> dict:
         return {"verdict": "fail", "worst": None, "limit": 1.0,
                 "why": f"{len(lost)} numbers of the accepted run are missing, first: {lost[0]}"}
     worst, what = 0.0, "all equal"
+    largest = _largest_of_kind(then)
     for name, value in then.items():
         if now[name] is None:  # on a slower machine; the table says so
             continue
-        excess = _excess(now[name][0], value, now[name][1])
+        rule = now[name][1]
+        excess = _excess(now[name][0], value, rule, largest[_kind(name)])
         if excess > worst:
-            worst, what = excess, f"{name}: {now[name][0]:.9g}, accepted {value:.9g}"
+            of = f", of its kind at most {largest[_kind(name)]:.9g}" if rule == "rounding" else ""
+            worst, what = excess, f"{name}: {now[name][0]:.9g}, accepted {value:.9g}{of}"
     # Other kernels of BLAS round differently, and iterations multiply that: a difference is told, but is no verdict.
     here, there = data.get("kernels", ""), stored.get("kernels", "")
     verdict = "pass" if worst <= 1.0 else "fail" if here == there else "elsewhere"

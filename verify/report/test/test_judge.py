@@ -163,6 +163,15 @@ class Judged(unittest.TestCase):
         for value, verdict in ((0.0, "pass"), (3e-13, "pass"), (5e-11, "pass"), (2e-10, "fail")):
             self.assertEqual(self.judge(data(value))["judgement"]["past"]["verdict"], verdict, value)
 
+    def test_one_value_of_rounding_may_be_small_by_chance(self):
+        def data(one, other):
+            columns = [c.column("time", "", key=True), c.column("operator", "", key=True), c.column("difference", "", past="rounding")]
+            rows = [[0.1, "dense", 2e-12], [1.0, "dense", one], [0.1, "iterated", 3e-10], [1.0, "iterated", other]]
+            return planted.sound(tables=[c.table("Rounding", columns, rows)])
+        judge.accept(self.judge(data(6e-16, 1e-13)), self.past, False, "2000-01-01")
+        for one, other, verdict in ((2e-11, 3e-9, "pass"), (2.1e-11, 1e-13, "fail"), (6e-16, 3.1e-9, "fail")):
+            self.assertEqual(self.judge(data(one, other))["judgement"]["past"]["verdict"], verdict, (one, other))
+
     def test_a_column_or_row_that_is_gone(self):
         data = self.accepted()
         data["tables"][0]["columns"][1]["name"] = "other"
