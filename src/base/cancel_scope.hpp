@@ -61,6 +61,9 @@ inline void poll_cancel(const char* stage, std::int64_t work = 1) {
     if (cancel_scope != nullptr) cancel_scope->pass(stage, work);
 }
 
+// The same beside work that waits for memory: polls after some ten million numbers, every 10 to 20 ms.
+inline void poll_cancel_reading(const char* stage, std::int64_t numbers) { poll_cancel(stage, numbers / 50000); }
+
 // Polls at once: to be called between pieces of work each of which takes long.
 inline void poll_cancel_now(const char* stage) {
     if (cancel_scope != nullptr) cancel_scope->poll(stage);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "base/cancel_scope.hpp"
 #include "base/numbers.hpp"
 #include "linalg/blas_size.hpp"
 
@@ -40,6 +41,10 @@ Node node_at(const Supernodes& nodes, const float* values, std::size_t s) {
             blas_size(rows - columns)};
 }
 
+void poll(const Node& n) {
+    poll_cancel_reading("linear solve", static_cast<std::int64_t>(n.columns) * n.rows);
+}
+
 }  // namespace
 
 const float* round_in_place(double* value, std::int64_t count, int power) {
@@ -65,6 +70,7 @@ SingleFactor::SingleFactor(const Supernodes& nodes, const float* values, int pow
 void SingleFactor::forward(std::span<float> y) const {
     for (std::size_t s = 0; s + 1 < nodes_.first.size(); ++s) {
         const Node n = node_at(nodes_, values_, s);
+        poll(n);
         strsv_("L", "N", "N", &n.columns, n.value, &n.rows, y.data() + n.first, &step_one);
         if (n.below == 0) continue;
         sgemv_("N", &n.below, &n.columns, &plus, n.value + n.columns, &n.rows, y.data() + n.first, &step_one, &nothing,
@@ -76,6 +82,7 @@ void SingleFactor::forward(std::span<float> y) const {
 void SingleFactor::backward(std::span<float> y) const {
     for (std::size_t s = nodes_.first.size() - 1; s-- > 0;) {
         const Node n = node_at(nodes_, values_, s);
+        poll(n);
         for (std::size_t i = 0; i < index(n.below); ++i) below_[i] = y[index(n.others[i])];
         if (n.below > 0)
             sgemv_("T", &n.below, &n.columns, &minus, n.value + n.columns, &n.rows, below_.data(), &step_one, &plus,

@@ -3,7 +3,9 @@
 // are measured between the load steps of the same analysis; what refactoring in every solve would cost; whether the
 // last state fulfils the conditions of equilibrium and contact, computed outside the solver; and how cost and memory
 // grow. Processor time, so that other programs on the machine disturb little.
+#include <algorithm>
 #include <cstdio>
+#include <iterator>
 
 #include "acceptance.hpp"
 #include "clock.hpp"
@@ -12,18 +14,22 @@
 #include "report.hpp"
 #include "scene_matrix.hpp"
 #include "tables.hpp"
+#include "watch.hpp"
 
 namespace bench {
 
 namespace {
 
-constexpr std::size_t units = 4;  // linear solves measured during an analysis, besides the one before
+constexpr int usual_units = 4;  // linear solves measured during an analysis, besides the one before
+// Stages in which the library waits for one factorisation; the plan says how long that takes.
+constexpr const char* factoring[] = {"factor", "analyse"};
 
 // Linear solves of one matrix, [measured] seconds.
 struct Unit {
     const UpperMatrix& matrix;
     std::vector<double> whole, refactored;  // with the analysis of the pattern, and without
     double peak = 0.0, entries = 0.0;       // bytes, of L
+    std::string ordering;
 
     void measure() {
         std::vector<double> x;
@@ -36,6 +42,7 @@ struct Unit {
         refactored.push_back(whole.back() - analysed);
         peak = factor.peak_bytes();
         entries = factor.entries();
+        ordering = factor.ordering();
     }
 };
 
@@ -43,20 +50,32 @@ struct Analysis {
     double seconds = 0.0, setup = 0.0, peak = 0.0;  // s of processor time; bytes above the use before
     std::size_t steps = 0, not_converged = 0;
     double alternations = 0.0, iterations = 0.0, solves = 0.0, factors = 0.0, dissipated = 0.0, defect = 0.0;
+    double iterating = 0.0, most_iterations = 0.0;  // solves that iterate; iterations of the longest
+    std::map<std::string, double> silence;          // s of processor time without a look at cancellations, by stage
     double kkt = nan;
     std::string kkt_text;
+
+    double silent(bool factors) const {
+        double longest = 0.0;
+        for (const auto& [stage, seconds] : silence)
+            if ((std::find(std::begin(factoring), std::end(factoring), stage) != std::end(factoring)) == factors)
+                longest = std::max(longest, seconds);
+        return longest;
+    }
 };
 
-Analysis analyse(const reference::SceneFile& file, double cap, Unit& unit) {
+Analysis analyse(const reference::SceneFile& file, double cap, std::size_t units, Unit& unit) {
     Analysis out;
     reset_peak_memory();
     const double before = peak_memory();
+    Watch watch(file.scene.context());
     const ProcessorClock setup;
     reference::Solver solver(file.scene, file.times.front());
     out.seconds = out.setup = setup.seconds();
     double work = 0.0;
     const std::size_t steps = file.times.size() - 1;
     for (std::size_t k = 1; k <= steps && out.seconds < cap; ++k) {
+        watch.resume();
         const ProcessorClock clock;
         const std::int32_t status = solver.advance(file.times[k]);
         if (status == DELAM_NOT_CONVERGED)
@@ -77,6 +96,9 @@ Analysis analyse(const reference::SceneFile& file, double cap, Unit& unit) {
             reset_peak_memory();
         }
     }
+    out.iterating = watch.solves();
+    out.most_iterations = watch.most_iterations();
+    out.silence = watch.silence();
     out.factors = solver.value("bulk_factorisations");
     out.dissipated = solver.value("dissipated");
     if (work > 0.0) out.defect /= work;
@@ -90,6 +112,7 @@ Analysis analyse(const reference::SceneFile& file, double cap, Unit& unit) {
 
 Json size_table(const Settings& settings) {
     const double cap = settings.cap > 0.0 ? settings.cap : 1e9;
+    const auto units = static_cast<std::size_t>(settings.repeat > 0 ? settings.repeat - 1 : usual_units);
     if (settings.scenes.size() != 1) throw reference::Failure(0, "size: one --scene is needed");
     std::vector<std::string> sizes = settings.sizes;
     if (sizes.empty()) sizes.emplace_back();
@@ -104,7 +127,9 @@ Json size_table(const Settings& settings) {
         const UpperMatrix matrix = undamaged_matrix(file);
         Unit unit{matrix, {}, {}};
         unit.measure();
-        const Analysis a = analyse(file, cap, unit);
+        progress("LSE " + number(unit.whole.front()) + " s, factorisation and solve " +
+                 number(unit.refactored.front()) + " s, order " + unit.ordering);
+        const Analysis a = analyse(file, cap, units, unit);
         const double lse = median(unit.whole), refactored = a.solves * median(unit.refactored);
         const bool whole = a.steps + 1 == file.times.size();
         if (whole) {
@@ -118,6 +143,7 @@ Json size_table(const Settings& settings) {
                           {"pairs", file.scene.pair_count()},
                           {"unknowns", matrix.size()},
                           {"entries_L", unit.entries},
+                          {"lse_ordering", unit.ordering},
                           {"lse_s", spread(unit.whole)},
                           {"factor_and_solve_s", spread(unit.refactored)},
                           {"analysis_s", a.seconds},
@@ -128,6 +154,9 @@ Json size_table(const Settings& settings) {
                           {"alternations", a.alternations},
                           {"solves", a.solves},
                           {"linear_iterations", a.iterations},
+                          {"solves_that_iterate", a.iterating},
+                          {"iterations_at_worst", a.most_iterations},
+                          {"silence_s", a.silence},
                           {"factors", a.factors},
                           {"dissipated", a.dissipated},
                           {"defect_of_work", a.defect},
@@ -138,12 +167,13 @@ Json size_table(const Settings& settings) {
         rows.push_back({size, std::to_string(matrix.size()), std::to_string(a.steps) + (whole ? "" : " (cap)"),
                         std::to_string(a.not_converged), number(lse), number(a.seconds), number(a.seconds / lse),
                         number(a.setup / lse), number(refactored / a.seconds), number(a.alternations), number(a.solves),
-                        number(a.iterations), number(a.factors), number(1e-6 * a.peak), number(1e-6 * unit.peak),
-                        number(a.defect, "%.1e"), number(a.kkt, "%.1e")});
+                        number(a.iterations), number(a.iterations / a.iterating), number(a.most_iterations),
+                        number(a.factors), number(1e-6 * a.peak), number(1e-6 * unit.peak), number(a.defect, "%.1e"),
+                        number(a.kkt, "%.1e"), number(a.silent(true), "%.2g"), number(a.silent(false), "%.2g")});
     }
     print_rows({"size", "unknowns", "steps", "not_conv", "LSE_s", "analysis_s", "analysis/LSE", "setup/LSE",
-                "refactoring/analysis", "alternations", "solves", "iterations", "factors", "peak_MB", "LSE_MB",
-                "defect", "KKT"},
+                "refactoring/analysis", "alternations", "solves", "iterations", "mean", "worst", "factors",
+                "peak_MB", "LSE_MB", "defect", "KKT", "silent_factor_s", "silent_s"},
                rows);
     if (unknowns.size() > 1)
         std::printf("\nexponents of the unknowns: analysis %s, memory %s\n",

@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "base/cancel_scope.hpp"
 #include "base/error.hpp"
 #include "base/numbers.hpp"
 #include "linalg/cholesky.hpp"
@@ -257,6 +258,7 @@ void JumpSystem::add_couplings(std::span<const double> x, std::span<double> y) c
 }
 
 void JumpSystem::apply(std::span<const double> x, std::span<double> y) const {
+    poll_cancel_reading("linear solve", matrix_.entries());
     multiply(matrix_, x, y);
     add_couplings(x, y);
 }

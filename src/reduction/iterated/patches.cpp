@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/cancel_scope.hpp"
 #include "base/numbers.hpp"
 #include "linalg/sparse_elimination.hpp"
 #include "reduction/iterated/neighbourhood.hpp"
@@ -220,6 +221,7 @@ void Patches::add(std::span<const double> r, std::span<double> z) const {
         right.resize(patch.variables.size());
         x.resize(right.size());
         for (std::size_t k = 0; k < right.size(); ++k) right[k] = r[index(patch.variables[k])];
+        poll_cancel_reading("linear solve", static_cast<std::int64_t>(patch.factor->factor_entries()));
         patch.factor->solve(right, x);
         patch.constraints.apply(x);
         for (std::size_t k = 0; k < right.size(); ++k) z[index(patch.variables[k])] += x[k];
