@@ -1148,9 +1148,9 @@ DELAM_API int32_t delam_solver_condensed(const delam_solver *solver, int64_t cap
  * [owns result until the next call with this solver; status -; since 0.1] */
 DELAM_API const char *delam_solver_plan(delam_solver *solver);
 /* Returns the number of items of the plan in *count. The plan is fixed when the solver is created. Subjects: condensed
- * operator, iterated operator, FETI, memory, subdomains, threads, longest uninterruptible factorisation, contact of
- * interface I, mixity of interface I (for each I), gradient term, acceleration of the minimisation, displacements and
- * stresses inside the bodies, energetic search, backtracking.
+ * operator, iterated operator, FETI, time of a load step, memory, subdomains, threads, longest uninterruptible
+ * factorisation, contact of interface I, mixity of interface I (for each I), gradient term, acceleration of the
+ * minimisation, displacements and stresses inside the bodies, energetic search, backtracking.
  * [null none; status argument; since 0.1] */
 DELAM_API int32_t delam_solver_plan_count(const delam_solver *solver, int64_t *count);
 /* Returns one item of the plan. decision: "used" or "left out". *cost: predicted cost of what is used (0 if left out);

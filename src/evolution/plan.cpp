@@ -29,6 +29,13 @@ struct Basis {
     const std::vector<std::shared_ptr<const GradientTerm>>& gradient;
 };
 
+// Two digits: predictions are good to a factor of two.
+double rounded(double seconds) {
+    if (!(seconds > 0.0)) return 0.0;
+    const double unit = std::pow(10.0, std::floor(std::log10(seconds)) - 1.0);
+    return unit * std::round(seconds / unit);
+}
+
 void add_realisations(std::vector<PlanItem>& items, const Basis& basis) {
     const ReductionChoice& choice = basis.choice;
     const std::string words = text(choice.forced ? "set by " : "chosen by predicted cost and memory: ", choice.reason);
@@ -60,7 +67,13 @@ void add_realisations(std::vector<PlanItem>& items, const Basis& basis) {
                                                     : cost.analysis() - choice.own().analysis(),
                          "flop"});
     }
-    const double bytes = choice.own().bytes, most = choice.own().most;
+    const ReductionCost& own = choice.own();
+    items.push_back({"time of a load step", used,
+                     text("predicted at a nominal ", nominal_rate * 1e-9, " GF/s, after a set-up of ",
+                          rounded(own.setup / nominal_rate), " s; ", nominal_steps, " steps then end after ",
+                          rounded(own.analysis() / nominal_rate), " s"),
+                     own.step / nominal_rate, 0.0, "s"});
+    const double bytes = own.bytes, most = own.most;
     const std::string limits = text(
         most > bytes ? text("; with as many directions and as large patches as iterations may have, ", most, " byte")
                      : std::string(),

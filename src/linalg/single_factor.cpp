@@ -41,9 +41,7 @@ Node node_at(const Supernodes& nodes, const float* values, std::size_t s) {
             blas_size(rows - columns)};
 }
 
-void poll(const Node& n) {
-    poll_cancel_reading("linear solve", static_cast<std::int64_t>(n.columns) * n.rows);
-}
+void poll(const Node& n) { poll_cancel_reading("linear solve", static_cast<std::int64_t>(n.columns) * n.rows); }
 
 }  // namespace
 

@@ -40,6 +40,7 @@ constexpr double feti_iterations = 20.0;  // Krylov iterations per solve
 // operations of the patches of a load step per variable, up to so many variables (beyond them patches grow no more);
 // factors of the whole per load step.
 constexpr double iterated_solves = 12.0;
+constexpr double many_interfaces = 2.0;  // times as many where more than one interface may soften
 constexpr double iterated_products = 6.4;
 constexpr double patch_operations = 2e6;
 constexpr double patch_variables = 25e3;
@@ -102,12 +103,14 @@ ReductionCost predict_condensed(const Bulk& bulk) {
 }
 
 ReductionCost predict_iterated(const IteratedSize& size) {
-    const double product = from_memory * (4.0 * size.stored + 6.0 * size.transformed);
+    // Two passes over the factor in single precision, and three products with the matrix.
+    const double product = from_memory * (2.0 * size.stored + 6.0 * size.transformed);
+    const double solves = iterated_solves * (size.softening > 1.0 ? many_interfaces : 1.0);
     ReductionCost cost;
     cost.setup = cost.longest = size.factor.flops;
     cost.ordering = ordering_operations * size.variables;
-    cost.step = iterated_solves * iterated_products * product +
-                patch_operations * std::min(size.variables, patch_variables) + iterated_renewals * size.factor.flops;
+    cost.step = solves * iterated_products * product + patch_operations * std::min(size.variables, patch_variables) +
+                iterated_renewals * size.factor.flops;
     // K, T^T K T, CHOLMOD's permuted copy of half of it, the factor, some states and the directions of an
     // iteration.
     const double factors = 8.0 * size.factors * size.stored;
@@ -129,6 +132,7 @@ IteratedSize iterated_size(const Bulk& bulk) {
     size.stored = relaxed_supernodes * size.factor.entries;
     size.factors = Reanalysis::keeps_two_factors(bulk.system().problem()) ? 2.0 : 1.0;
     size.columns = number(static_cast<std::int64_t>(bulk.system().variables().equations.size()));
+    size.softening = number(bulk.system().problem().softening_count());
     return size;
 }
 
@@ -381,8 +385,25 @@ Design chosen(const Problem& problem, Monitor& monitor) {
 
 }  // namespace
 
+void prefer_what_fits(ReductionChoice& choice) {
+    const double limit = choice.memory.bytes, bytes = choice.own().bytes;
+    if (choice.forced || !choice.feti.possible || !(bytes > limit && choice.feti.bytes < limit)) return;
+    choice.reason =
+        text(choice.condensed() ? "the condensed" : "the iterated", " operator is predicted to take ", mebibytes(bytes),
+             ", FETI ", mebibytes(choice.feti.bytes), "; there are ", mebibytes(limit), " (", choice.memory.what, ")");
+    choice.realisation = Realisation::feti;
+}
+
 Design design_operator(const Problem& problem, Monitor& monitor) {
     Design design = chosen(problem, monitor);
+    const Realisation first = design.choice.realisation;
+    prefer_what_fits(design.choice);
+    if (design.choice.realisation != first) {
+        Design feti;
+        feti.choice = std::move(design.choice);
+        design = Design();  // its matrices go before FETI makes others
+        design = of_feti(std::move(feti), problem, monitor);
+    }
     design.refusal = does_not_fit(design.choice);
     const double bytes = design.choice.own().bytes, limit = design.choice.memory.bytes;
     if (design.refusal.empty() && bytes > limit)

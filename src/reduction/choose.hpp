@@ -78,6 +78,9 @@ std::string does_not_fit(const ReductionChoice& choice);
 // What the predictions of the condensed and the iterated operator say. Pure: for tests.
 void choose(ReductionChoice& choice);
 
+// FETI, if its subdomains and nothing else are predicted to fit into the memory. Pure: for tests.
+void prefer_what_fits(ReductionChoice& choice);
+
 // The operator of a scene before anything is factored: its choice, and what has been assembled and analysed for it.
 struct Design {
     ReductionChoice choice;

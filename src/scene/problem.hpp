@@ -2,6 +2,7 @@
 // The host's input, complete and checked: bodies, interfaces with laws, constraints, loads, options.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -81,6 +82,11 @@ struct Problem {
     // K of a body over its nodes in ascending order, both triangles.
     SparseMatrix body_stiffness(std::int32_t body, const Poll& poll = {}) const;
     std::int64_t jump_count() const { return pair_count() * mesh->dimension(); }
+    // Interfaces that may be damaged.
+    std::int64_t softening_count() const {
+        return std::count_if(interfaces.begin(), interfaces.end(),
+                             [](const InterfaceProperties& own) { return own.law.has_value() && !own.bonded; });
+    }
     std::vector<double> factors(double time) const;
     // Right-hand side coefficients [constraints][patterns], row-major.
     std::vector<double> prescribed_matrix() const;

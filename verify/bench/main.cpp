@@ -15,7 +15,8 @@ constexpr const char* usage =
     "usage: delam_bench [--json FILE] [--quick] [--scene NAME]... [--repeat N] [--cap SECONDS] [--threads N]... "
     "march | precision | methods | growth | energetic\n"
     "       delam_bench [--json FILE] [--repeat N] [--cap SECONDS] --scene FILE... [--set KEY=VALUE]... scene-file\n"
-    "       delam_bench [--json FILE] [--repeat N] [--cap SECONDS] --scene FILE [--set KEY=VALUE]... [--size KEY=VALUE]... size\n";
+    "       delam_bench [--json FILE] [--repeat N] [--cap SECONDS] --scene FILE [--set KEY=VALUE]... [--size "
+    "KEY=VALUE]... size\n";
 
 }  // namespace
 

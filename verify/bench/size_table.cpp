@@ -125,7 +125,7 @@ Json size_table(const Settings& settings) {
         if (!size.empty()) words.push_back(size);
         const reference::SceneFile file = reference::read_scene_file(settings.scenes.front(), words);
         const UpperMatrix matrix = undamaged_matrix(file);
-        Unit unit{matrix, {}, {}};
+        Unit unit{matrix, {}, {}, {}};
         unit.measure();
         progress("LSE " + number(unit.whole.front()) + " s, factorisation and solve " +
                  number(unit.refactored.front()) + " s, order " + unit.ordering);
@@ -164,16 +164,35 @@ Json size_table(const Settings& settings) {
                           {"kkt_text", a.kkt_text},
                           {"peak_MB", 1e-6 * a.peak},
                           {"lse_MB", 1e-6 * unit.peak}});
-        rows.push_back({size, std::to_string(matrix.size()), std::to_string(a.steps) + (whole ? "" : " (cap)"),
-                        std::to_string(a.not_converged), number(lse), number(a.seconds), number(a.seconds / lse),
-                        number(a.setup / lse), number(refactored / a.seconds), number(a.alternations), number(a.solves),
-                        number(a.iterations), number(a.iterations / a.iterating), number(a.most_iterations),
-                        number(a.factors), number(1e-6 * a.peak), number(1e-6 * unit.peak), number(a.defect, "%.1e"),
-                        number(a.kkt, "%.1e"), number(a.silent(true), "%.2g"), number(a.silent(false), "%.2g")});
+        rows.push_back({size,
+                        std::to_string(matrix.size()),
+                        std::to_string(a.steps) + (whole ? "" : " (cap)"),
+                        std::to_string(a.not_converged),
+                        number(lse),
+                        number(a.seconds),
+                        number(a.seconds / lse),
+                        number(a.setup / lse),
+                        number(refactored / a.seconds),
+                        number(a.alternations),
+                        number(a.solves),
+                        number(a.iterations),
+                        number(a.iterations / a.iterating),
+                        number(a.most_iterations),
+                        number(a.factors),
+                        number(1e-6 * a.peak),
+                        number(1e-6 * unit.peak),
+                        number(a.defect, "%.1e"),
+                        number(a.kkt, "%.1e"),
+                        number(a.silent(true), "%.2g"),
+                        number(a.silent(false), "%.2g")});
     }
-    print_rows({"size", "unknowns", "steps", "not_conv", "LSE_s", "analysis_s", "analysis/LSE", "setup/LSE",
-                "refactoring/analysis", "alternations", "solves", "iterations", "mean", "worst", "factors",
-                "peak_MB", "LSE_MB", "defect", "KKT", "silent_factor_s", "silent_s"},
+    print_rows({"size",         "unknowns",        "steps",
+                "not_conv",     "LSE_s",           "analysis_s",
+                "analysis/LSE", "setup/LSE",       "refactoring/analysis",
+                "alternations", "solves",          "iterations",
+                "mean",         "worst",           "factors",
+                "peak_MB",      "LSE_MB",          "defect",
+                "KKT",          "silent_factor_s", "silent_s"},
                rows);
     if (unknowns.size() > 1)
         std::printf("\nexponents of the unknowns: analysis %s, memory %s\n",

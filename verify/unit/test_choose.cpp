@@ -245,6 +245,26 @@ START_TEST(auto_takes_what_fits) {
 }
 END_TEST
 
+// FETI is taken where its subdomains alone fit, and only there.
+START_TEST(auto_takes_feti_where_nothing_else_fits) {
+    Monitor monitor;
+    const ReductionChoice free = design_operator(unit::make_flexure(scene(4)), monitor).choice;
+    ck_assert(free.realisation != Realisation::feti);
+    ReductionChoice planted = free;
+    planted.feti.bytes = 0.5 * planted.own().bytes;
+    planted.memory = {0.7 * planted.own().bytes, "planted"};
+    prefer_what_fits(planted);
+    ck_assert(planted.realisation == Realisation::feti && planted.reason.find("planted") != std::string::npos);
+    for (const double room : {0.4, 1.1}) {  // not even FETI fits; all do
+        ReductionChoice other = free;
+        other.feti.bytes = 0.5 * other.own().bytes;
+        other.memory = {room * other.own().bytes, "planted"};
+        prefer_what_fits(other);
+        ck_assert(other.realisation == free.realisation && other.reason == free.reason);
+    }
+}
+END_TEST
+
 START_TEST(limits_of_the_process_are_seen) {
     const MemoryLimit machine = memory_limit();
     ck_assert(machine.bytes > 1e8 && !machine.what.empty());
@@ -317,6 +337,7 @@ int main() {
     tcase_add_test(choice, size_memory_and_time_decide);
     tcase_add_loop_test(choice, what_does_not_fit_is_refused_before_it_is_factored, 0, 3);
     tcase_add_test(choice, auto_takes_what_fits);
+    tcase_add_test(choice, auto_takes_feti_where_nothing_else_fits);
     tcase_add_test(choice, waits_for_orderings_are_predicted);
     tcase_add_test(choice, limits_of_the_process_are_seen);
     suite_add_tcase(suite, choice);

@@ -211,7 +211,8 @@ IteratedSize Iterated::size() const {
             whole.size(),
             whole.entries(),
             static_cast<double>(reanalysis_.system().equations().size()),
-            Reanalysis::keeps_two_factors(problem_) ? 2.0 : 1.0};
+            Reanalysis::keeps_two_factors(problem_) ? 2.0 : 1.0,
+            static_cast<double>(problem_.softening_count())};
 }
 
 std::string Iterated::description() const {

@@ -22,6 +22,7 @@ struct IteratedSize {
     double stored = 0.0;       // numbers that the factor stores
     double columns = 0.0;      // stored for constraints on many variables
     double factors = 1.0;      // kept at a time
+    double softening = 1.0;    // interfaces that may be damaged
 };
 
 class Iterated final : public JumpOperator {
