@@ -262,6 +262,20 @@ START_TEST(auto_takes_feti_where_nothing_else_fits) {
         prefer_what_fits(other);
         ck_assert(other.realisation == free.realisation && other.reason == free.reason);
     }
+    // Solid blocks: subdomains have less fill than one factor.
+    unit::Flexure block;
+    block.dimension = 3;
+    block.along = block.across = 20;
+    block.through = 10;
+    Problem problem = unit::make_flexure(block);
+    const ReductionChoice of_block = design_operator(problem, monitor).choice;
+    const double others = std::min(of_block.condensation.bytes, of_block.iteration.bytes);
+    ck_assert(of_block.realisation != Realisation::feti && of_block.feti.bytes < others);
+    problem.options.memory_limit = 0.5 * (of_block.feti.bytes + others) / gibibyte;
+    const Design bound = design_operator(problem, monitor);
+    ck_assert(bound.choice.realisation == Realisation::feti && !bound.choice.forced && bound.refusal.empty());
+    ck_assert(bound.op == nullptr && bound.bulk == nullptr &&
+              bound.choice.reason.find("option memory_limit") != std::string::npos);
 }
 END_TEST
 
