@@ -11,6 +11,8 @@ using namespace cases;
 
 namespace {
 
+constexpr const char* realisations[] = {"condensed", "feti", "iterated"};
+
 constexpr double slope[3][3] = {{1e-3, 2e-3, -5e-4}, {3e-3, -2e-3, 1e-3}, {7e-4, 4e-4, 1.5e-3}};
 
 // Two stacked blocks, bonded, all nodes driven to u = G x times time.
@@ -58,7 +60,7 @@ std::int64_t scene_pattern(const reference::Scene& scene, const char* name) {
 }  // namespace
 
 // Affine displacements: averages and rotations are those of the gradient, stresses those of Hooke's law, in each body
-// and in all together.
+// and in all together. loop: scene, then realisation.
 CASE_TEST(affine_averages) {
     struct {
         int dimension;
@@ -70,8 +72,10 @@ CASE_TEST(affine_averages) {
                     {3, DELAM_HEX8, ""},
                     {3, DELAM_TET10, ""},
                     {3, DELAM_HEX20, ""}};
-    const int dim = of[loop].dimension;
-    const reference::Scene scene = affine(dim, of[loop].cell, of[loop].plane);
+    const auto& own = of[loop % 6];
+    const int dim = own.dimension;
+    reference::Scene scene = affine(dim, own.cell, own.plane);
+    scene.text("reduction", realisations[loop / 6]);
     reference::Solver solver(scene, 0.0);
     solver.step(1.0);
     const auto& g = slope;
@@ -82,7 +86,7 @@ CASE_TEST(affine_averages) {
                      lambda = young * nu / ((1 + nu) * (1 - 2 * nu));
         std::array<double, 6> exact{g[0][0], g[1][1], 0.0, g[0][1] + g[1][0], 0.0, 0.0};
         if (dim == 3) exact = {g[0][0], g[1][1], g[2][2], g[0][1] + g[1][0], g[1][2] + g[2][1], g[0][2] + g[2][0]};
-        if (of[loop].plane == std::string("plane-stress")) exact[2] = -nu / (1 - nu) * (g[0][0] + g[1][1]);
+        if (own.plane == std::string("plane-stress")) exact[2] = -nu / (1 - nu) * (g[0][0] + g[1][1]);
         std::array<double, 6> strain{}, stress{};
         double volume = 0.0;
         scene.require(delam_solver_average(solver.get(), body, &volume, strain.data(), stress.data()),
@@ -112,16 +116,16 @@ CASE_TEST(affine_averages) {
 }
 
 // A prescribed strain in a fixed body: the strain stays that of the displacements, the stress lacks C e*; the same out
-// of the plane.
+// of the plane. loop: scene, then realisation.
 CASE_TEST(eigenstrains) {
-    const bool stress = loop == 1;
-    const int dim = loop == 2 ? 3 : 2;
-    const reference::Scene scene =
-        affine(dim, dim == 3 ? DELAM_HEX8 : DELAM_QUAD4, stress ? "plane-stress" : "plane-strain");
+    const bool stress = loop % 3 == 1;
+    const int dim = loop % 3 == 2 ? 3 : 2;
+    reference::Scene scene = affine(dim, dim == 3 ? DELAM_HEX8 : DELAM_QUAD4, stress ? "plane-stress" : "plane-strain");
     const double warm = 2e-3, strain[] = {warm, warm, warm, 0.0, 0.0, 0.0};
     const auto heat = scene_pattern(scene, "heat");
     scene.require(delam_problem_add_eigenstrain(scene.problem(), heat, 0, strain), "delam_problem_add_eigenstrain");
     std::array<double, 6> with{}, without{}, cold{}, all{};
+    scene.text("reduction", realisations[loop / 3]);
     reference::Solver solver(scene, 0.0);
     solver.step(1.0);
     scene.require(delam_solver_average(solver.get(), 0, nullptr, all.data(), with.data()), "delam_solver_average");
@@ -142,7 +146,8 @@ CASE_TEST(eigenstrains) {
 // Warns once: of a rotation of more than 0.1, and only when it is read; of a front that grows over too few pairs.
 CASE_TEST(warnings) {
     const bool brittle = loop == 0;
-    const reference::Scene scene = make_mmf(1e-3, brittle ? mmf_brittle : mmf_ductile, "converged");
+    reference::Scene scene = make_mmf(1e-3, brittle ? mmf_brittle : mmf_ductile, "converged");
+    if (loop == 2) scene.text("reduction", "iterated");
     const Warnings heard(scene);
     reference::Solver solver(scene, 0.0);
     const auto count = [&](const char* word) {
@@ -169,9 +174,9 @@ CASE_TEST(warnings) {
 int main() {
     Suite* suite = suite_create("averages");
     TCase* all = tcase_create("averages");
-    tcase_add_loop_test(all, affine_averages, 0, 6);
-    tcase_add_loop_test(all, eigenstrains, 0, 3);
-    tcase_add_loop_test(all, warnings, 0, 2);
+    tcase_add_loop_test(all, affine_averages, 0, 18);
+    tcase_add_loop_test(all, eigenstrains, 0, 9);
+    tcase_add_loop_test(all, warnings, 0, 3);
     suite_add_tcase(suite, all);
     return run_suite(suite);
 }

@@ -69,7 +69,7 @@ Peak peak_of(const Scene& scene) {
 CASE_TEST(stiff_interfaces_stop_at_rest) {
     const int d = 2 + loop % 2;
     const double stiffness = loop / 2 % 2 == 0 ? 1e17 : 1e18;
-    const char* reduction = loop / 4 == 0 ? "condensed" : "feti";
+    const char* reduction = std::array{"condensed", "feti", "iterated"}[static_cast<std::size_t>(loop) / 4];
     const Peak exact = peak_of(cantilever(d, stiffness, reduction, 1e-9)),
                usual = peak_of(cantilever(d, stiffness, reduction, 0.0));
     std::printf("%dD, k %g, %s: peak %.8g N, with the default tolerance %.8g; dissipated %.8g, %.8g J\n", d, stiffness,
@@ -77,6 +77,13 @@ CASE_TEST(stiff_interfaces_stop_at_rest) {
     cases::expect(exact.dissipated > 0.0, "the front moves");
     cases::expect_near(usual.load, exact.load, 1e-4, exact.load, "peak");
     cases::expect_near(usual.dissipated, exact.dissipated, 1e-4, exact.dissipated, "dissipated");
+    if (loop / 4 == 0) return;
+    const Peak condensed = peak_of(cantilever(d, stiffness, "condensed", 1e-9));
+    std::printf("beside the condensed operator: peak %.1e, dissipated %.1e\n", exact.load / condensed.load - 1.0,
+                exact.dissipated / condensed.dissipated - 1.0);
+    cases::expect_near(exact.load, condensed.load, 1e-10, condensed.load, "peak beside the condensed operator");
+    cases::expect_near(exact.dissipated, condensed.dissipated, 1e-10, condensed.dissipated,
+                       "dissipated beside the condensed operator");
 }
 
 // ---- mixed mode ----------------------------------------------------------------------------------------------------
@@ -145,9 +152,11 @@ CASE_TEST(one_path_by_all_methods) {
     };
     same(march(data, steps, "condensed", "alternate"), 1e-4, "alternate");
     same(march(data, steps, "feti", "accelerated"), 1e-4, "feti");
+    same(march(data, steps, "iterated", "accelerated"), 1e-4, "iterated");
     same(march(data, steps, "condensed", "accelerated", 0.05), 2e-3, "parts half as long");
     if (!cases::whole()) return;
     same(march(data, steps, "feti", "alternate"), 1e-4, "feti, alternate");
+    same(march(data, steps, "iterated", "alternate"), 1e-4, "iterated, alternate");
     same(march(data, steps, "condensed", "accelerated", 0.02), 3e-3, "parts a fifth as long");
 }
 
@@ -182,7 +191,7 @@ CASE_TEST(coarse_and_fine_steps) {
 int main() {
     Suite* suite = suite_create("path");
     TCase* tests = tcase_create("path");
-    tcase_add_loop_test(tests, stiff_interfaces_stop_at_rest, 0, 8);
+    tcase_add_loop_test(tests, stiff_interfaces_stop_at_rest, 0, 12);
     tcase_add_test(tests, one_path_by_all_methods);
     tcase_add_loop_test(tests, ledger_of_a_jump, 0, 2);
     tcase_add_test(tests, coarse_and_fine_steps);
