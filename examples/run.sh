@@ -1,11 +1,16 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# bash examples/run.sh [--list | --dry-run] [NAME ...]: installs, builds, and runs scenes into out/NAME/, with pictures.
+# bash examples/run.sh [--list | --dry-run] [NAME [OPTION ...] ...]: installs, builds, and runs scenes into out/NAME/,
+# with pictures.
 #   NAME        examples/NAME/NAME.toml as it is (default: enf),
 #   FAMILY-hH   examples/FAMILY/FAMILY.toml with cells of H mm,
 #   FAMILY      all of its cell sizes, and pictures that compare them in out/FAMILY/
 #   --list      the names, nothing is run
 #   --dry-run   the commands, nothing is run
+# An OPTION belongs to the name before it:
+#   --set KEY=VALUE  a value instead of the scene file's, may be repeated
+#   --out FOLDER     instead of out/NAME/, for a scene of one size
+#   --resume         go on after an interruption
 # Exit code 1: all was computed, but some steps did not converge.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -62,7 +67,9 @@ dry=no
 step() {
     local status=0
     if [[ $dry == yes ]]; then
-        printf '%s\n' "$*"
+        printf '%q' "$1"
+        printf ' %q' "${@:2}"
+        printf '\n'
         return
     fi
     "$@" || status=$?
@@ -74,27 +81,29 @@ step() {
     fi
 }
 
-# scene NAME FAMILY [OPTION...]: one result and its pictures.
+# scene NAME FAMILY FOLDER [OPTION...]: one result and its pictures.
 scene() {
-    local name=$1 family=$2
-    shift 2
+    local name=$1 family=$2 folder=$3
+    shift 3
     printf '\n== %s\n' "$name"
-    step build/release/bin/delam run "examples/$family/$family.toml" --out "out/$name" "$@"
-    step /usr/bin/python3 bindings/cli/plot/plot.py "out/$name"
-    printf 'results: out/%s\n' "$name"
+    step build/release/bin/delam run "examples/$family/$family.toml" --out "$folder" "$@"
+    step /usr/bin/python3 bindings/cli/plot/plot.py "$folder"
+    printf 'results: %s\n' "$folder"
 }
 
+# sized FAMILY SIZE FOLDER [OPTION...]
 sized() {
-    scene "$1-h$2" "$1" --set "geometry.h=$2e-3"
+    scene "$1-h$2" "$1" "$3" --set "geometry.h=$2e-3" "${@:4}"
 }
 
-# run NAME: a known one.
+# run NAME FOLDER [OPTION...]: a known name; without a folder (empty) the usual one.
 run() {
-    local name=$1 family h folders=()
+    local name=$1 folder=$2 family h folders=()
+    shift 2
     if [[ -n ${sizes[$name]:-} ]]; then
         for h in ${sizes[$name]}; do
-            sized "$name" "$h"
-            folders+=("out/$name-h$h")
+            folders+=("${folder:-out/$name-h$h}")
+            sized "$name" "$h" "${folders[-1]}" "$@"
         done
         if ((${#folders[@]} == 1)); then
             return
@@ -105,30 +114,71 @@ run() {
     fi
     family=${name%-h*}
     if [[ $family != "$name" && -n ${sizes[$family]:-} ]]; then
-        sized "$family" "${name##*-h}"
+        sized "$family" "${name##*-h}" "${folder:-out/$name}" "$@"
     else
-        scene "$name" "$name"
+        scene "$name" "$name" "${folder:-out/$name}" "$@"
     fi
 }
 
+# The options of wanted[i] are options[first[i]] to options[first[i + 1] - 1], and its folder is folders_of[i].
 wanted=()
-for word in "$@"; do
+first=()
+options=()
+folders_of=()
+# belongs OPTION: there is a name before it.
+belongs() {
+    if ((${#wanted[@]} == 0)); then
+        printf '%s belongs to a scene: put it after the name of one\n' "$1" >&2
+        exit 2
+    fi
+}
+while (($# > 0)); do
+    word=$1
+    shift
     case $word in
         --list)
             names
             exit 0
             ;;
         --dry-run) dry=yes ;;
+        --set | --out)
+            belongs "$word"
+            if (($# == 0)) || [[ -z $1 ]]; then
+                printf '%s needs a value\n' "$word" >&2
+                exit 2
+            fi
+            if [[ $word == --set ]]; then
+                options+=(--set "$1")
+            elif [[ ${sizes[${wanted[-1]}]:-} == *" "* ]]; then
+                printf '%s has several sizes, each with a folder of its own: --out cannot be used\n' "${wanted[-1]}" >&2
+                exit 2
+            else
+                folders_of[-1]=$1
+            fi
+            shift
+            ;;
+        --resume)
+            belongs "$word"
+            options+=(--resume)
+            ;;
         -*)
-            printf 'unknown option "%s"; known are --list and --dry-run\n' "$word" >&2
+            printf 'unknown option "%s"; known are --list and --dry-run, after a name --set, --out and --resume\n' \
+                "$word" >&2
             exit 2
             ;;
-        *) wanted+=("$word") ;;
+        *)
+            first+=(${#options[@]})
+            wanted+=("$word")
+            folders_of+=("")
+            ;;
     esac
 done
 if ((${#wanted[@]} == 0)); then
     wanted=(enf)
+    first=(0)
+    folders_of=("")
 fi
+first+=(${#options[@]})
 mapfile -t known < <(names)
 for name in "${wanted[@]}"; do
     if [[ " ${known[*]} " != *" $name "* ]]; then
@@ -143,8 +193,8 @@ if [[ $dry == no ]]; then
     cmake --preset release
     cmake --build --preset release --target delam_cli
 fi
-for name in "${wanted[@]}"; do
-    run "$name"
+for i in "${!wanted[@]}"; do
+    run "${wanted[i]}" "${folders_of[i]}" "${options[@]:first[i]:first[i + 1] - first[i]}"
 done
 if [[ $not_converged == yes ]]; then
     exit 1

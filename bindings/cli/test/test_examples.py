@@ -2,6 +2,7 @@
 """examples/run.sh: which names it knows, what it would run for each; the families of PANM 15 are checked, the other scenes are
 run at a coarse size: those of SHORT here, all with the word "whole" (the long tier)."""
 import os
+import shlex
 import subprocess
 import sys
 
@@ -55,6 +56,22 @@ for name in ("fly", "enf-h1.0", "enf-ductile-h1", "enf-ductile-h2.0", "enf-modif
     expect(code == 2 and out == "" and f'unknown scene "{name}"' in error and
            "enf-ductile-h{1.0,0.75,0.5,0.25,0.1}" in error, f'"{name}" is refused, and the known ones are listed')
 expect(script("--fast")[0] == 2, "an unknown option is refused")
+code, out, _ = script("enf", "--set", "time.steps=2", "dcb-3d", "--set", "geometry.divisions=[194,300]", "--resume", "--set",
+                      "title=a b", "--out", "out/large", "mmf-ductile-h1.0", "--set", "time.end=1", "--dry-run")
+runs = [line for line in out.splitlines() if " run " in line]
+words = [shlex.split(line)[2:] for line in runs]
+expect(code == 0 and words == [
+    ["examples/enf/enf.toml", "--out", "out/enf", "--set", "time.steps=2"],
+    ["examples/dcb-3d/dcb-3d.toml", "--out", "out/large", "--set", "geometry.divisions=[194,300]", "--resume", "--set",
+     "title=a b"],
+    ["examples/mmf-ductile/mmf-ductile.toml", "--out", "out/mmf-ductile-h1.0", "--set", "geometry.h=1.0e-3", "--set",
+     "time.end=1"]], f"options belong to the name before them: {runs}")
+expect("plot.py out/large\n" in out, "pictures in the folder of --out")
+code, out, _ = script("--dry-run", "mmf-ductile", "--set", "time.steps=2")
+expect(code == 0 and out.count(" --set time.steps=2\n") == 5, "options of a family go to all of its sizes")
+for words in (["--set", "a=1"], ["enf", "--set"], ["enf", "--out", ""], ["mmf-ductile", "--out", "out/a"]):
+    code, out, error = script("--dry-run", *words)
+    expect(code == 2 and out == "" and error, f"{words} is refused")
 
 for family in (*FAMILIES, "enf-modified", "enf"):
     path = os.path.join(EXAMPLES, family, family + ".toml")
