@@ -7,6 +7,7 @@
 
 #include "base/cancel_scope.hpp"
 #include "base/error.hpp"
+#include "base/team.hpp"
 #include "body/cell_elasticity.hpp"
 #include "body/element.hpp"
 #include "delam/delam.h"
@@ -90,6 +91,7 @@ NodeGraph node_graph(const LocalCells& cells, std::size_t nodes) {
         graph.cell_start.push_back(places);
         places += n * n;
     }
+    graph.cell_start.push_back(places);
 
     std::vector<std::int32_t> met;  // the rows, unsorted
     std::vector<std::int32_t> mark(nodes, -1);
@@ -153,7 +155,8 @@ SparseMatrix empty_matrix(const NodeGraph& graph, std::size_t dim) {
     return k;
 }
 
-constexpr std::size_t cells_per_poll = 256;
+// A thread computes the matrices of so many cells at a time, and of a batch of them before they are added.
+constexpr std::size_t cells_at_a_time = 32, batch = 8 * cells_at_a_time;
 
 // The matrix of a cell and the positions of its nodes and pairs of nodes.
 struct Block {
@@ -181,9 +184,10 @@ void add(const Block& block, SparseMatrix& k) {
 
 // The pattern follows from the graph of nodes before any number is known: element matrices are added directly at their
 // positions, cell after cell, and no list of all their entries ever exists. Both triangles receive the same numbers in
-// the same order.
+// the same order, whatever the number of threads.
 SparseMatrix assemble_stiffness(const Mesh& mesh, std::span<const std::int64_t> cells,
-                                std::span<const std::int64_t> nodes, const BodyModel& model, const Poll& poll) {
+                                std::span<const std::int64_t> nodes, const BodyModel& model, std::int64_t threads,
+                                const Poll& poll) {
     if (std::max(nodes.size(), cells.size()) > index(std::numeric_limits<std::int32_t>::max()))
         fail(DELAM_ERROR_ARGUMENT, nodes.size(), " nodes, ", cells.size(),
              " cells in one part of a body: at most 2^31 - 1");
@@ -194,19 +198,36 @@ SparseMatrix assemble_stiffness(const Mesh& mesh, std::span<const std::int64_t> 
     call_if_set(poll);
     SparseMatrix k = empty_matrix(graph, dim);
 
-    CellElasticity elasticity(model, mesh.dimension());
-    std::vector<double> matrix(9 * most_cell_nodes * most_cell_nodes);
-    for (std::size_t c = 0; c < cells.size(); ++c) {
-        if (c % cells_per_poll == 0) call_if_set(poll);
-        const Coordinates x = cell_coordinates(mesh, cells[c]);
-        const std::span<const double> own = elasticity.matrix(cells[c]);
-        if (model.formulation == Formulation::mean_dilatation)
-            mean_dilatation_stiffness(mesh.cell_type(cells[c]), x.view(), own, elasticity.dilatation(cells[c]), matrix);
-        else
-            element_stiffness(mesh.cell_type(cells[c]), x.view(), own, model.formulation, matrix);
-        const Block block{std::span(local.node).subspan(local.start[c], local.start[c + 1] - local.start[c]),
-                          &graph.place[graph.cell_start[c]], matrix.data()};
-        dim == 2 ? add<2>(block, k) : add<3>(block, k);
+    Team team(std::min(useful_threads(threads), static_cast<std::int64_t>(cells.size() / batch + 1)));
+    const auto size_of = [&](std::size_t c) { return (graph.cell_start[c + 1] - graph.cell_start[c]) * dim * dim; };
+    std::vector<double> matrices;
+    std::vector<std::size_t> place;  // of the cells of a batch in `matrices`
+    for (std::size_t first = 0; first < cells.size(); first += batch) {
+        const std::size_t last = std::min(first + batch, cells.size());
+        place.assign(1, 0);
+        for (std::size_t c = first; c < last; ++c) place.push_back(place.back() + size_of(c));
+        matrices.resize(place.back());
+        const auto compute = [&](std::int64_t piece) {
+            CellElasticity elasticity(model, mesh.dimension());
+            const std::size_t begin = first + index(piece) * cells_at_a_time;
+            for (std::size_t c = begin; c < std::min(begin + cells_at_a_time, last); ++c) {
+                const Coordinates x = cell_coordinates(mesh, cells[c]);
+                const std::span<const double> own = elasticity.matrix(cells[c]);
+                const auto matrix = std::span<double>(matrices).subspan(place[c - first], size_of(c));
+                if (model.formulation == Formulation::mean_dilatation)
+                    mean_dilatation_stiffness(mesh.cell_type(cells[c]), x.view(), own, elasticity.dilatation(cells[c]),
+                                              matrix);
+                else
+                    element_stiffness(mesh.cell_type(cells[c]), x.view(), own, model.formulation, matrix);
+            }
+        };
+        team.run(static_cast<std::int64_t>((last - first + cells_at_a_time - 1) / cells_at_a_time), compute,
+                 [&](std::int64_t) { call_if_set(poll); });
+        for (std::size_t c = first; c < last; ++c) {
+            const Block block{std::span(local.node).subspan(local.start[c], local.start[c + 1] - local.start[c]),
+                              &graph.place[graph.cell_start[c]], &matrices[place[c - first]]};
+            dim == 2 ? add<2>(block, k) : add<3>(block, k);
+        }
     }
     return k;
 }

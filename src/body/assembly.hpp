@@ -15,9 +15,10 @@
 namespace delam {
 
 // Full symmetric stiffness (both triangles) of some cells of one body over the DOFs of `nodes` (ascending mesh nodes
-// that include all nodes of the cells): DOF dimension*i + component of nodes[i].
+// that include all nodes of the cells): DOF dimension*i + component of nodes[i]. No digit depends on the threads.
 SparseMatrix assemble_stiffness(const Mesh& mesh, std::span<const std::int64_t> cells,
-                                std::span<const std::int64_t> nodes, const BodyModel& model, const Poll& poll = {});
+                                std::span<const std::int64_t> nodes, const BodyModel& model, std::int64_t threads = 1,
+                                const Poll& poll = {});
 
 // Stresses at cell centres, [cells][4 or 6]: xx, yy, zz, xy (2D, zz from the plane assumption) or xx, yy, zz, xy, yz,
 // zx: C (eps - e*). displacement: [mesh nodes][dimension]; models by body index; eigenstrains e* by body index too, in

@@ -104,15 +104,14 @@ void add_reduction(std::vector<PlanItem>& items, const Basis& basis) {
         items.push_back({"subdomains", left_out, text(name, " factors all bodies at once"), 0.0, 0.0, "-"});
     const std::int64_t own = basis.problem.options.threads, blas = blas_threads();
     const std::string of_blas = blas > 0 ? text(blas) : std::string("an unknown number");
-    items.push_back({"threads", own > 1 && feti ? used : left_out,
-                     !feti ? text(name, " uses those of the BLAS alone, ", of_blas,
-                                  own > 1 ? text("; option threads = ", own, " has no effect") : std::string())
-                           : text(useful_threads(own), " of the library (option threads",
-                                  own > useful_threads(own)
-                                      ? text(" = ", own, ", of which this process has processors for ", processors())
-                                      : std::string(),
-                                  "); the BLAS uses ", of_blas),
-                     0.0, 0.0, "-"});
+    const std::int64_t useful = useful_threads(own);
+    items.push_back(
+        {"threads", useful > 1 ? used : left_out,
+         text(useful, " of the library (option threads",
+              own > useful ? text(" = ", own, ", of which this process has processors for ", processors()) : "",
+              feti ? ") assemble the bodies and treat the subdomains" : ") assemble the bodies", "; the BLAS uses ",
+              of_blas),
+         0.0, 0.0, "-"});
     const double longest = choice.own().longest, ordering = choice.own().ordering / nominal_rate;
     const std::string before = ordering < noticed ? ""
                                                   : text("; also for an ordering by METIS before it, about ",

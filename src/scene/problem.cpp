@@ -48,7 +48,8 @@ BodyModel Problem::model(std::int32_t body) const {
 
 SparseMatrix Problem::body_stiffness(std::int32_t body, const Poll& poll) const {
     if (const auto& own = stiffness[static_cast<std::size_t>(body)]) return own->matrix;
-    return assemble_stiffness(*mesh, mesh->body_cells(body), mesh->body_nodes(body), model(body), poll);
+    return assemble_stiffness(*mesh, mesh->body_cells(body), mesh->body_nodes(body), model(body), options.threads,
+                              poll);
 }
 
 std::vector<double> Problem::factors(double time) const {

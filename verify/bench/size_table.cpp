@@ -26,6 +26,8 @@ constexpr const char* factoring[] = {"factor", "analyse"};
 
 // Linear solves of one matrix, [measured] seconds.
 struct Unit {
+    explicit Unit(const UpperMatrix& a) : matrix(a) {}
+
     const UpperMatrix& matrix;
     std::vector<double> whole, refactored;  // with the analysis of the pattern, and without
     double peak = 0.0, entries = 0.0;       // bytes, of L
@@ -125,7 +127,7 @@ Json size_table(const Settings& settings) {
         if (!size.empty()) words.push_back(size);
         const reference::SceneFile file = reference::read_scene_file(settings.scenes.front(), words);
         const UpperMatrix matrix = undamaged_matrix(file);
-        Unit unit{matrix, {}, {}, {}};
+        Unit unit(matrix);
         unit.measure();
         progress("LSE " + number(unit.whole.front()) + " s, factorisation and solve " +
                  number(unit.refactored.front()) + " s, order " + unit.ordering);

@@ -28,13 +28,20 @@ std::size_t terminal_width() {
 
 }  // namespace
 
-Progress::Progress(std::int64_t total, std::int64_t first)
+Progress::Progress(std::int64_t total)
     : total_(total),
-      first_(first),
-      step_(first),
+      first_(0),
+      step_(0),
       terminal_(isatty(STDOUT_FILENO) == 1),
       start_(Clock::now()),
       redraw_(start_) {}
+
+void Progress::begin_after(std::int64_t first) {
+    first_ = step_ = first;
+    start_ = Clock::now();
+    if (terminal_ && drawn_) say("\r\033[K");
+    drawn_ = false;
+}
 
 std::string Progress::left() const {
     const std::int64_t done = step_ - first_;

@@ -10,8 +10,13 @@ namespace cli {
 
 class Progress {
 public:
-    // first: number of steps already done.
-    Progress(std::int64_t total, std::int64_t first);
+    explicit Progress(std::int64_t total);
+    ~Progress() { finish(); }  // so that the message of an error has a line of its own
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+
+    // So many steps were done before; the time that is left is that of the others.
+    void begin_after(std::int64_t first);
 
     void step(std::int64_t step, double time, double load, std::int64_t iterations, bool converged);
     // Called from inside the library; prints at most ten times a second, and only on a terminal.

@@ -289,15 +289,16 @@ int run(const std::string& scene_file, const std::vector<std::string>& settings,
     const std::string again = command_again(scene, folder_path);
     Context context = new_context();
     const Interrupt interrupt(context.get());
+    Progress progress(static_cast<std::int64_t>(scene.step_count()));
+    delam_context_set_progress(context.get(), on_progress, &progress);
     const Model model = build(std::move(context), scene);
     OutputFolder folder(folder_path);
     if (resume)
         if (const int code = already_complete(folder, scene); code >= 0) return code;
     const std::optional<StateFile> state = resume ? find_state(folder, scene, model) : std::nullopt;
     const std::int64_t first = state ? state->state.step : 0;
-    Progress progress(static_cast<std::int64_t>(scene.step_count()), first);
+    progress.begin_after(first);
     delam_context_set_log(model.context.get(), on_log, &progress);
-    delam_context_set_progress(model.context.get(), on_progress, &progress);
     say("delam {} ({}): {}{}\n", delam_version(), delam_commit(), scene_file,
         scene.title.empty() ? "" : ", " + scene.title);
     if (resume) say("{}\n", state ? fmt::format("resumed after step {}", first) : "nothing to resume: started anew");
