@@ -368,6 +368,31 @@ START_TEST(rigid_modes_are_orthonormal) {
 }
 END_TEST
 
+// With more cells than a batch and threads that share it, no bit changes.
+START_TEST(assembly_by_threads) {
+    for (const CellType type : all_types) {
+        const int dim = dimension_of(type);
+        const std::array<double, 2> lengths{1.3, 0.9};
+        const std::array<std::int64_t, 2> n{dim == 2 ? 30 : 9, 9};
+        const double thickness[] = {0.7};
+        const std::int64_t layers[] = {dim == 2 ? 20 : 8};
+        const auto across = static_cast<std::size_t>(dim) - 1;
+        const Mesh mesh =
+            make_layers(dim, std::span(lengths).first(across), std::span(n).first(across), thickness, layers, type);
+        ck_assert_int_gt(mesh.cell_count(), 512);
+        const BodyModel model{steel, Plane::strain, Formulation::standard};
+        const auto with = [&](std::int64_t threads) {
+            return assemble_stiffness(mesh, mesh.body_cells(0), mesh.body_nodes(0), model, threads);
+        };
+        const SparseMatrix one = with(1);
+        for (const std::int64_t threads : {2, 5}) {
+            const SparseMatrix more = with(threads);
+            ck_assert(more.start == one.start && more.column == one.column && more.value == one.value);
+        }
+    }
+}
+END_TEST
+
 // The stiffnesses of parts of a body sum to that of the body.
 START_TEST(assembly_of_parts) {
     for (const CellType type : all_types) {
@@ -479,6 +504,7 @@ int main() {
     tcase_add_test(cases, kernel_and_symmetry);
     tcase_add_test(cases, single_cells);
     tcase_add_test(cases, rigid_modes_are_orthonormal);
+    tcase_add_test(cases, assembly_by_threads);
     tcase_add_test(cases, assembly_of_parts);
     tcase_add_test(cases, jacobian_sign);
     tcase_add_test(cases, triplets);
