@@ -9,10 +9,11 @@
 #   --dry-run   the commands, nothing is run
 # An OPTION belongs to the name before it:
 #   --set KEY=VALUE  a value instead of the scene file's, may be repeated
-#   --out FOLDER     instead of out/NAME/, for a scene of one size
+#   --out FOLDER     instead of out/NAME/, for a scene of one size; a relative one is in the folder of the call
 #   --resume         go on after an interruption
 # Exit code 1: all was computed, but some steps did not converge.
 set -euo pipefail
+from=$PWD
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 # shellcheck source=verify/packages.sh
 source verify/packages.sh
@@ -141,19 +142,34 @@ while (($# > 0)); do
             exit 0
             ;;
         --dry-run) dry=yes ;;
+        -h | --help)
+            sed -n '3,/^set -/s/^# \{0,1\}//p' examples/run.sh
+            exit 0
+            ;;
         --set | --out)
             belongs "$word"
-            if (($# == 0)) || [[ -z $1 ]]; then
+            if (($# == 0)) || [[ -z $1 || $1 == -* ]]; then
                 printf '%s needs a value\n' "$word" >&2
                 exit 2
             fi
-            if [[ $word == --set ]]; then
+            if [[ $word == --set && $1 != ?*=* ]]; then
+                printf -- '--set %s: KEY=VALUE is expected\n' "$1" >&2
+                exit 2
+            elif [[ $word == --set ]]; then
                 options+=(--set "$1")
             elif [[ ${sizes[${wanted[-1]}]:-} == *" "* ]]; then
                 printf '%s has several sizes, each with a folder of its own: --out cannot be used\n' "${wanted[-1]}" >&2
                 exit 2
             else
-                folders_of[-1]=$1
+                folder=$1
+                if [[ $folder != /* ]]; then
+                    folder=$from/$folder
+                fi
+                if [[ " ${folders_of[*]} " == *" $folder "* ]]; then
+                    printf '%s is the folder of two scenes\n' "$1" >&2
+                    exit 2
+                fi
+                folders_of[-1]=$folder
             fi
             shift
             ;;

@@ -28,13 +28,18 @@ public:
     void pass(const char* stage, std::int64_t work) {
         if ((left_ -= work) <= 0) poll(stage);
     }
+    void pass_numbers(const char* stage, std::int64_t count) {
+        if ((numbers_left_ -= count) > 0) return;
+        numbers_left_ = numbers_interval;
+        poll(stage);
+    }
 
 private:
-    static constexpr std::int64_t interval = 256;
+    static constexpr std::int64_t interval = 256, numbers_interval = 10'000'000;
     Monitor& monitor_;
     Call call_;
     std::uint32_t before_;
-    std::int64_t left_ = interval;
+    std::int64_t left_ = interval, numbers_left_ = numbers_interval;
 };
 
 // The scope of this thread, if any. It lies in the static TLS block: reading it allocates no memory even when the
@@ -61,8 +66,10 @@ inline void poll_cancel(const char* stage, std::int64_t work = 1) {
     if (cancel_scope != nullptr) cancel_scope->pass(stage, work);
 }
 
-// The same beside work that waits for memory: polls after some ten million numbers, every 10 to 20 ms.
-inline void poll_cancel_reading(const char* stage, std::int64_t numbers) { poll_cancel(stage, numbers / 50000); }
+// The same beside work that waits for memory: polls once ten million numbers have been read, every 10 to 20 ms.
+inline void poll_cancel_reading(const char* stage, std::int64_t numbers) {
+    if (cancel_scope != nullptr) cancel_scope->pass_numbers(stage, numbers);
+}
 
 // Polls at once: to be called between pieces of work each of which takes long.
 inline void poll_cancel_now(const char* stage) {

@@ -107,10 +107,9 @@ void add_reduction(std::vector<PlanItem>& items, const Basis& basis) {
     const std::int64_t useful = useful_threads(own);
     items.push_back(
         {"threads", useful > 1 ? used : left_out,
-         text(useful, " of the library (option threads",
+         text(useful > 1 ? text(useful, " of the library") : std::string("the caller's alone"), " (option threads",
               own > useful ? text(" = ", own, ", of which this process has processors for ", processors()) : "",
-              feti ? ") assemble the bodies and treat the subdomains" : ") assemble the bodies", "; the BLAS uses ",
-              of_blas),
+              "): assembly of the bodies", feti ? ", subdomains" : "", "; the BLAS uses ", of_blas),
          0.0, 0.0, "-"});
     const double longest = choice.own().longest, ordering = choice.own().ordering / nominal_rate;
     const std::string before = ordering < noticed ? ""

@@ -70,7 +70,7 @@ Solver::Solver(const Problem& problem, Monitor& monitor, double time)
     require_sound(problem_, committed_, first.converged);
     judge_balance(committed_, initial_outcome_);
     const std::int64_t threads = problem_.options.threads;
-    if (reduction().realisation == Realisation::feti && threads > processors())
+    if (threads > processors())
         monitor_.log(1, text("option threads = ", threads, ": ", useful_threads(threads),
                              " are used, the number of processors of this process"));
 }

@@ -287,19 +287,14 @@ double stiffness_entries(const Problem& problem) {
     return square(mesh.dimension()) * neighbours + given;
 }
 
-// Refuses what could not even be assembled and analysed: per entry of K, 16 bytes in K, 16 in T^T K T and 9.6 in the
-// ordering by minimum degree, which only the free displacements have.
-void require_memory_to_analyse(const Problem& problem, const MemoryLimit& limit) {
+// Bytes without which the bodies cannot even be assembled and analysed, 0: too few to matter. Per entry of K, 16 bytes
+// in K, 16 in T^T K T and 9.6 in the ordering by minimum degree, which only the free displacements have.
+double least_to_analyse(const Problem& problem, const MemoryLimit& limit) {
     const double dofs = number(problem.mesh->node_count() * problem.mesh->dimension());
-    if (1e4 * dofs < limit.bytes) return;  // no cells have so many neighbours
+    if (1e4 * dofs < limit.bytes) return 0.0;  // no cells have so many neighbours
     const double bound = number(static_cast<std::int64_t>(problem.constraints.size()));
     const double free = std::max(0.0, 1.0 - 2.0 * bound / std::max(dofs, 1.0));
-    const double bytes = (16.0 + 25.6 * free) * stiffness_entries(problem);
-    if (bytes > limit.bytes)
-        fail(DELAM_ERROR_MEMORY, "the stiffness of the bodies, ",
-             problem.mesh->node_count() * problem.mesh->dimension(), " displacements, and its analysis take at least ",
-             mebibytes(bytes), ", but there are ", mebibytes(limit.bytes), " (", limit.what,
-             "): use coarser cells, or a machine with more memory");
+    return (16.0 + 25.6 * free) * stiffness_entries(problem);
 }
 
 Design of_iterated(Design design, std::unique_ptr<Iterated> iterated) {
@@ -335,6 +330,28 @@ Design::~Design() = default;
 
 namespace {
 
+bool feti_fits(const ReductionChoice& choice) {
+    return !choice.forced && choice.feti.possible && choice.feti.bytes < choice.memory.bytes;
+}
+
+void take_feti(ReductionChoice& choice, const std::string& instead) {
+    choice.reason = text(instead, ", FETI is predicted to take ", mebibytes(choice.feti.bytes), "; there are ",
+                         mebibytes(choice.memory.bytes), " (", choice.memory.what, "); an analysis of ", nominal_steps,
+                         " steps is predicted to take ", seconds(choice.feti.analysis()), " with it");
+    choice.realisation = Realisation::feti;
+}
+
+}  // namespace
+
+void prefer_what_fits(ReductionChoice& choice) {
+    const double least = choice.own().least;
+    if (!feti_fits(choice) || !(least > choice.memory.bytes)) return;
+    take_feti(choice, text(choice.condensed() ? "the condensed" : "the iterated", " operator takes at least ",
+                           mebibytes(least)));
+}
+
+namespace {
+
 Design chosen(const Problem& problem, Monitor& monitor) {
     const Options& options = problem.options;
     Design design;
@@ -355,7 +372,17 @@ Design chosen(const Problem& problem, Monitor& monitor) {
                                                              : text("option subdomains = ", options.subdomains));
         return of_feti(std::move(design), problem, monitor);
     }
-    require_memory_to_analyse(problem, choice.memory);
+    if (const double least = least_to_analyse(problem, choice.memory); least > choice.memory.bytes) {
+        const std::string words =
+            text("the stiffness of the bodies, ", problem.mesh->node_count() * problem.mesh->dimension(),
+                 " displacements, and its analysis take at least ", mebibytes(least));
+        if (options.reduction == "auto" && feti_fits(choice)) {
+            take_feti(choice, words);
+            return of_feti(std::move(design), problem, monitor);
+        }
+        fail(DELAM_ERROR_MEMORY, words, ", but there are ", mebibytes(choice.memory.bytes), " (", choice.memory.what,
+             "): use coarser cells, or a machine with more memory");
+    }
     if (options.reduction == "iterated") {
         force(Realisation::iterated, "option reduction = iterated");
         return of_iterated(std::move(design), std::make_unique<Iterated>(problem, monitor));
@@ -385,15 +412,6 @@ Design chosen(const Problem& problem, Monitor& monitor) {
 
 }  // namespace
 
-void prefer_what_fits(ReductionChoice& choice) {
-    const double limit = choice.memory.bytes, bytes = choice.own().bytes;
-    if (choice.forced || !choice.feti.possible || !(bytes > limit && choice.feti.bytes < limit)) return;
-    choice.reason =
-        text(choice.condensed() ? "the condensed" : "the iterated", " operator is predicted to take ", mebibytes(bytes),
-             ", FETI ", mebibytes(choice.feti.bytes), "; there are ", mebibytes(limit), " (", choice.memory.what, ")");
-    choice.realisation = Realisation::feti;
-}
-
 Design design_operator(const Problem& problem, Monitor& monitor) {
     Design design = chosen(problem, monitor);
     const Realisation first = design.choice.realisation;
@@ -404,6 +422,8 @@ Design design_operator(const Problem& problem, Monitor& monitor) {
         design = Design();  // its matrices go before FETI makes others
         design = of_feti(std::move(feti), problem, monitor);
     }
+    if (design.choice.realisation == Realisation::feti && !design.choice.forced)
+        monitor.log(1, text("FETI is used because nothing else fits: ", design.choice.reason));
     design.refusal = does_not_fit(design.choice);
     const double bytes = design.choice.own().bytes, limit = design.choice.memory.bytes;
     if (design.refusal.empty() && bytes > limit)

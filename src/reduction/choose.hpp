@@ -78,7 +78,7 @@ std::string does_not_fit(const ReductionChoice& choice);
 // What the predictions of the condensed and the iterated operator say. Pure: for tests.
 void choose(ReductionChoice& choice);
 
-// FETI, if its subdomains and nothing else are predicted to fit into the memory. Pure: for tests.
+// FETI, if the operator that was chosen cannot fit into the memory, and FETI's subdomains can. Pure: for tests.
 void prefer_what_fits(ReductionChoice& choice);
 
 // The operator of a scene before anything is factored: its choice, and what has been assembled and analysed for it.

@@ -114,7 +114,8 @@ CASE_TEST(patch) {
     double before = 1.0;
     std::string table;
     for (const std::int64_t n : {4, 5, 7}) {
-        const Stresses own = stresses(d, 3, n, reduction), other = stresses(d, 3, n, "condensed");
+        const bool itself = std::string(reduction) == "condensed";
+        const Stresses own = stresses(d, 3, n, reduction), other = itself ? own : stresses(d, 3, n, "condensed");
         const double error = own.error, size = max_abs(other.value);
         for (std::size_t i = 0; i < own.value.size(); ++i)
             cases::expect_near(own.value[i], other.value[i], 1e-9, size, where + ": stress beside the condensed one");

@@ -380,14 +380,18 @@ START_TEST(assembly_by_threads) {
         const Mesh mesh =
             make_layers(dim, std::span(lengths).first(across), std::span(n).first(across), thickness, layers, type);
         ck_assert_int_gt(mesh.cell_count(), 512);
-        const BodyModel model{steel, Plane::strain, Formulation::standard};
-        const auto with = [&](std::int64_t threads) {
-            return assemble_stiffness(mesh, mesh.body_cells(0), mesh.body_nodes(0), model, threads);
-        };
-        const SparseMatrix one = with(1);
-        for (const std::int64_t threads : {2, 5}) {
-            const SparseMatrix more = with(threads);
-            ck_assert(more.start == one.start && more.column == one.column && more.value == one.value);
+        for (const Formulation formulation :
+             {Formulation::standard, Formulation::incompatible, Formulation::mean_dilatation}) {
+            if (formulation == Formulation::incompatible && type != CellType::quad4 && type != CellType::hex8) continue;
+            const BodyModel model{steel, Plane::strain, formulation};
+            const auto with = [&](const Mesh& body, std::int64_t threads) {
+                return assemble_stiffness(body, body.body_cells(0), body.body_nodes(0), model, threads);
+            };
+            const SparseMatrix one = with(mesh, 1);
+            for (const std::int64_t threads : {2, 5}) {
+                const SparseMatrix more = with(mesh, threads);
+                ck_assert(more.start == one.start && more.column == one.column && more.value == one.value);
+            }
         }
     }
 }

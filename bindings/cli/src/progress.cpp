@@ -39,6 +39,10 @@ Progress::Progress(std::int64_t total)
 void Progress::begin_after(std::int64_t first) {
     first_ = step_ = first;
     start_ = Clock::now();
+    clear();
+}
+
+void Progress::clear() {
     if (terminal_ && drawn_) say("\r\033[K");
     drawn_ = false;
 }

@@ -292,6 +292,7 @@ int run(const std::string& scene_file, const std::vector<std::string>& settings,
     Progress progress(static_cast<std::int64_t>(scene.step_count()));
     delam_context_set_progress(context.get(), on_progress, &progress);
     const Model model = build(std::move(context), scene);
+    progress.clear();
     OutputFolder folder(folder_path);
     if (resume)
         if (const int code = already_complete(folder, scene); code >= 0) return code;

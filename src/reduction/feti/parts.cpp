@@ -84,11 +84,11 @@ void cut(const Problem& problem, FetiParts& parts_of_scene) {
     }
 }
 
-// Stiffness and rigid motions of a subdomain of bodies.
+// Stiffness and rigid motions of a subdomain of bodies, by one of the threads that share the subdomains.
 void assemble(const Problem& problem, const std::vector<std::int64_t>& cells, Subdomain& subdomain, const Poll& poll) {
     if (const auto& own = problem.stiffness[index(subdomain.body)]; own == nullptr) {
-        subdomain.stiffness = assemble_stiffness(*problem.mesh, cells, subdomain.nodes, problem.model(subdomain.body),
-                                                 problem.options.threads, poll);
+        subdomain.stiffness =
+            assemble_stiffness(*problem.mesh, cells, subdomain.nodes, problem.model(subdomain.body), 1, poll);
         subdomain.rigid = DenseMatrix(subdomain.stiffness.rows, problem.mesh->dimension() == 2 ? 3 : 6);
         subdomain.rigid.value = rigid_modes(*problem.mesh, subdomain.nodes);
     } else {
