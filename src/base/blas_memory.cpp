@@ -11,6 +11,8 @@
 #include <thread>
 #include <vector>
 
+#include "base/blas_threads.hpp"
+
 // Weak symbols: the process decides at its start which BLAS it has. OpenBLAS' own BLAS and LAPACK libraries take their
 // blocks with blas_memory_alloc().
 extern "C" {
@@ -78,7 +80,7 @@ void prepare_blas() {
     if (!is_openblas()) return;
     const std::lock_guard lock(mutex);
     const bool own_threads = openblas_get_parallel() == 1;  // 2: OpenMP's, whose blocks are mapped at the start
-    const int threads = own_threads ? openblas_get_num_threads() : 1;
+    const int threads = own_threads ? blas_threads() : 1;
     if (prepared >= threads) return;
     if (granted(threads) == threads) {
         if (callers == 0) map_blocks(1);
@@ -92,7 +94,7 @@ void prepare_blas() {
         if (granted(1) == 0) throw std::bad_alloc();
         map_blocks(1);
     }
-    if (threads > 1) openblas_set_num_threads(1);
+    if (threads > 1) leave_blas_one_thread();
     prepared = 1;
 }
 

@@ -6,12 +6,8 @@
 #include "base/error.hpp"
 #include "base/numbers.hpp"
 #include "delam/delam.h"
+#include "linalg/blas.hpp"
 #include "linalg/blas_size.hpp"
-
-extern "C" {
-void dgemm_(const char*, const char*, const int*, const int*, const int*, const double*, const double*, const int*,
-            const double*, const int*, const double*, double*, const int*);
-}
 
 namespace delam {
 
@@ -20,8 +16,8 @@ void multiply_rows(const DenseMatrix& s, const DenseMatrix& x, std::int64_t firs
               ldy = blas_size(y.rows);
     const double alpha = 1.0, beta = 0.0;
     if (n > 0 && columns > 0)
-        dgemm_("N", "N", &n, &columns, &n, &alpha, s.value.data(), &lds, x.value.data() + first, &ldx, &beta,
-               y.value.data() + first, &ldy);
+        blas::gemm("N", "N", &n, &columns, &n, &alpha, s.value.data(), &lds, x.value.data() + first, &ldx, &beta,
+                   y.value.data() + first, &ldy);
 }
 
 void multiply_columns(const SparseMatrix& a, const DenseMatrix& x, DenseMatrix& y) {

@@ -12,6 +12,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/blas_threads.hpp"
 #include "base/cancel_scope.hpp"
 #include "base/error.hpp"
 #include "base/numbers.hpp"
@@ -25,38 +26,50 @@
 // DELAM_CHOLMOD_SIMPLICIAL is defined.
 
 // CHOLMOD 3 requests four OpenMP threads on any machine; on fewer cores they wait for each other at every supernode
-// (measured: twice the time of one thread). The "dynamic" setting of the calling thread lets the runtime provide fewer:
-// GNU's provides as many as there are processors, less the load of the last 15 minutes. The threads share the
-// scattering of blocks, not sums, so that no digit depends on their number. Not where OpenBLAS has OpenMP's threads
-// (2): it waits for as many as it has asked for, and for ever if the runtime provides fewer. Weak symbols: a CHOLMOD
-// without OpenMP, and another BLAS, lack these functions.
+// (measured: twice the time of one thread). Small factorisations and all solves get one: no region of the calling
+// thread is parallel meanwhile. For large ones the "dynamic" setting of the calling thread lets the runtime provide
+// fewer than four: GNU's provides as many as there are processors, less the load of the last 15 minutes. The threads
+// share the scattering of blocks, not sums, so that no digit depends on their number. Not where OpenBLAS has OpenMP's
+// threads (2): it waits for as many as it has asked for, and for ever if the runtime provides fewer. Weak symbols: a
+// CHOLMOD without OpenMP, and another BLAS, lack these functions.
 extern "C" {
 int openblas_get_parallel() __attribute__((weak));
 int omp_get_dynamic() __attribute__((weak));
 void omp_set_dynamic(int) __attribute__((weak));
+int omp_get_max_active_levels() __attribute__((weak));
+void omp_set_max_active_levels(int) __attribute__((weak));
 }
 
 namespace delam {
 
 namespace {
 
-class AsManyThreadsAsIdleCores {
+// The threads of CHOLMOD and of the BLAS that it calls, for work of so many operations; 0: one thread.
+class FactorThreads {
 public:
-    AsManyThreadsAsIdleCores() {
+    explicit FactorThreads(double operations) : blas_(operations < large ? 0.0 : operations) {
         require_room(std::size_t{1} << 16);  // GNU's OpenMP ends the process if this memory is missing
         if (omp_get_dynamic == nullptr || omp_set_dynamic == nullptr) return;
         if (openblas_get_parallel != nullptr && openblas_get_parallel() == 2) return;
-        before_ = omp_get_dynamic();
+        dynamic_ = omp_get_dynamic();
         omp_set_dynamic(1);
+        if (operations < large && omp_get_max_active_levels != nullptr && omp_set_max_active_levels != nullptr) {
+            levels_ = omp_get_max_active_levels();
+            omp_set_max_active_levels(0);
+        }
     }
-    ~AsManyThreadsAsIdleCores() {
-        if (before_ >= 0) omp_set_dynamic(before_);
+    ~FactorThreads() {
+        if (levels_ >= 0) omp_set_max_active_levels(levels_);
+        if (dynamic_ >= 0) omp_set_dynamic(dynamic_);
     }
-    AsManyThreadsAsIdleCores(const AsManyThreadsAsIdleCores&) = delete;
-    AsManyThreadsAsIdleCores& operator=(const AsManyThreadsAsIdleCores&) = delete;
+    FactorThreads(const FactorThreads&) = delete;
+    FactorThreads& operator=(const FactorThreads&) = delete;
 
 private:
-    int before_ = -1;
+    // A second of one core, most of it in products of large supernodes.
+    static constexpr double large = 2e10;
+    BlasThreads blas_;
+    int dynamic_ = -1, levels_ = -1;
 };
 
 }  // namespace
@@ -283,7 +296,7 @@ SparseCholesky& SparseCholesky::operator=(SparseCholesky&&) noexcept = default;
 bool SparseCholesky::factorise(const SparseMatrix& matrix) {
     Impl& impl = *impl_;
     if (impl.size == 0) return true;
-    const AsManyThreadsAsIdleCores threads;
+    const FactorThreads threads(impl.size_of_factor.flops);
     impl.forget_single();
     cholmod_sparse a = view(matrix);
     cholmod_l_factorize(&a, impl.factor, &impl.common);
@@ -317,7 +330,7 @@ void SparseCholesky::solve(std::span<const double> b, std::span<double> x) const
         for (std::size_t at = 0; at < b.size(); at += n) impl.single->solve(b.subspan(at, n), x.subspan(at, n));
         return;
     }
-    const AsManyThreadsAsIdleCores threads;
+    const FactorThreads threads(0.0);
     cholmod_dense rhs = view(b);
     rhs.nrow = rhs.d = static_cast<std::size_t>(impl.size);
     rhs.ncol = b.size() / rhs.nrow;
@@ -328,7 +341,7 @@ void SparseCholesky::solve_leading(std::span<const double> b, std::span<double> 
     const Impl& impl = *impl_;
     const auto leading = static_cast<std::size_t>(impl.size - impl.trailing);
     if (leading == 0) return;
-    const AsManyThreadsAsIdleCores threads;
+    const FactorThreads threads(0.0);
     std::vector<double> v(static_cast<std::size_t>(impl.size), 0.0);
     std::copy(b.begin(), b.end(), v.begin());
     for (const int system : {CHOLMOD_P, CHOLMOD_L, CHOLMOD_Lt, CHOLMOD_Pt}) {

@@ -7,33 +7,8 @@
 
 #include "base/error.hpp"
 #include "delam/delam.h"
+#include "linalg/blas.hpp"
 #include "linalg/blas_size.hpp"
-
-extern "C" {
-double ddot_(const int*, const double*, const int*, const double*, const int*);
-void daxpy_(const int*, const double*, const double*, const int*, double*, const int*);
-void dsymv_(const char*, const int*, const double*, const double*, const int*, const double*, const int*, const double*,
-            double*, const int*);
-void dgemm_(const char*, const char*, const int*, const int*, const int*, const double*, const double*, const int*,
-            const double*, const int*, const double*, double*, const int*);
-void dsyrk_(const char*, const char*, const int*, const int*, const double*, const double*, const int*, const double*,
-            double*, const int*);
-void dtrsv_(const char*, const char*, const char*, const int*, const double*, const int*, double*, const int*);
-void dtrsm_(const char*, const char*, const char*, const char*, const int*, const int*, const double*, const double*,
-            const int*, double*, const int*);
-void dgemv_(const char*, const int*, const int*, const double*, const double*, const int*, const double*, const int*,
-            const double*, double*, const int*);
-void dpotrf_(const char*, const int*, double*, const int*, int*);
-void dpotri_(const char*, const int*, double*, const int*, int*);
-void dtrmm_(const char*, const char*, const char*, const char*, const int*, const int*, const double*, const double*,
-            const int*, double*, const int*);
-void dtrtri_(const char*, const char*, const int*, double*, const int*, int*);
-void dlauum_(const char*, const int*, double*, const int*, int*);
-void dgetrf_(const int*, const int*, double*, const int*, int*, int*);
-void dgetrs_(const char*, const int*, const int*, const double*, const int*, const int*, double*, const int*, int*);
-void dsyev_(const char*, const char*, const int*, double*, const int*, double*, double*, const int*, int*);
-void dgeqp3_(const int*, const int*, double*, const int*, int*, double*, double*, const int*, int*);
-}
 
 namespace delam {
 
@@ -76,7 +51,7 @@ void add_scaled(double a, std::span<const double> x, std::span<double> y) {
 void multiply_symmetric(const DenseMatrix& s, std::span<const double> x, std::span<double> y) {
     const int n = blas_size(s.rows), lda = leading(s);
     const double alpha = 1.0, beta = 0.0;
-    if (n > 0) dsymv_("L", &n, &alpha, s.value.data(), &lda, x.data(), &one, &beta, y.data(), &one);
+    if (n > 0) blas::symv("L", &n, &alpha, s.value.data(), &lda, x.data(), &one, &beta, y.data(), &one);
 }
 
 DenseMatrix multiply(const DenseMatrix& a, const DenseMatrix& b) {
@@ -85,7 +60,8 @@ DenseMatrix multiply(const DenseMatrix& a, const DenseMatrix& b) {
     const int lda = leading(a), ldb = leading(b), ldc = leading(c);
     const double alpha = 1.0, beta = 0.0;
     if (m > 0 && n > 0 && k > 0)
-        dgemm_("N", "N", &m, &n, &k, &alpha, a.value.data(), &lda, b.value.data(), &ldb, &beta, c.value.data(), &ldc);
+        blas::gemm("N", "N", &m, &n, &k, &alpha, a.value.data(), &lda, b.value.data(), &ldb, &beta, c.value.data(),
+                   &ldc);
     return c;
 }
 
@@ -95,8 +71,8 @@ DenseMatrix multiply_transposed(const DenseMatrix& a, const DenseMatrix& b, std:
     const int lda = leading(a), ldb = leading(b), ldc = leading(c);
     const double alpha = 1.0, beta = 0.0;
     if (m > 0 && n > 0 && k > 0)
-        dgemm_("T", "N", &m, &n, &k, &alpha, a.value.data() + first, &lda, b.value.data() + first, &ldb, &beta,
-               c.value.data(), &ldc);
+        blas::gemm("T", "N", &m, &n, &k, &alpha, a.value.data() + first, &lda, b.value.data() + first, &ldb, &beta,
+                   c.value.data(), &ldc);
     return c;
 }
 
@@ -118,8 +94,8 @@ DenseMatrix lower_times_transpose(const DenseMatrix& lower, const Poll& poll) {
     const double unit = 1.0;
     for (std::int64_t k = 0; k < lower.rows; k += narrower) {
         const int n = blas_size(lower.rows - k), panel = static_cast<int>(std::min(narrower, lower.rows - k));
-        dsyrk_("L", "N", &n, &panel, &unit, &lower.value[static_cast<std::size_t>(k + k * lower.rows)], &lda, &unit,
-               &product.value[static_cast<std::size_t>(k + k * lower.rows)], &lda);
+        blas::syrk("L", "N", &n, &panel, &unit, &lower.value[static_cast<std::size_t>(k + k * lower.rows)], &lda, &unit,
+                   &product.value[static_cast<std::size_t>(k + k * lower.rows)], &lda);
         call_if_set(poll);
     }
     mirror_lower(product);
@@ -130,7 +106,7 @@ void multiply(const DenseMatrix& a, std::span<const double> x, std::span<double>
     const int m = blas_size(a.rows), n = blas_size(a.columns), lda = leading(a);
     const double alpha = 1.0, beta = 0.0;
     if (m > 0 && n > 0)
-        dgemv_("N", &m, &n, &alpha, a.value.data(), &lda, x.data(), &one, &beta, y.data(), &one);
+        blas::gemv("N", &m, &n, &alpha, a.value.data(), &lda, x.data(), &one, &beta, y.data(), &one);
     else
         std::fill(y.begin(), y.end(), 0.0);
 }
@@ -139,7 +115,7 @@ void multiply_transposed(const DenseMatrix& a, std::span<const double> x, std::s
     const int m = blas_size(a.rows), n = blas_size(a.columns), lda = leading(a);
     const double alpha = 1.0, beta = 0.0;
     if (m > 0 && n > 0)
-        dgemv_("T", &m, &n, &alpha, a.value.data(), &lda, x.data(), &one, &beta, y.data(), &one);
+        blas::gemv("T", &m, &n, &alpha, a.value.data(), &lda, x.data(), &one, &beta, y.data(), &one);
     else
         std::fill(y.begin(), y.end(), 0.0);
 }
@@ -150,7 +126,7 @@ bool factor_definite(DenseMatrix& a, const Poll& poll) {
     const int n = blas_size(a.rows), lda = leading(a);
     int info = 0;
     if (n <= small) {
-        if (n > 0) dpotrf_("L", &n, a.value.data(), &lda, &info);
+        if (n > 0) blas::potrf("L", &n, a.value.data(), &lda, &info);
         return info == 0;
     }
     const double unit = 1.0, minus = -1.0;
@@ -158,19 +134,19 @@ bool factor_definite(DenseMatrix& a, const Poll& poll) {
     for (std::int64_t k = 0; k < n; k += width) {
         const int panel = static_cast<int>(std::min<std::int64_t>(width, n - k)),
                   below = static_cast<int>(n - k - panel);
-        dpotrf_("L", &panel, at(k, k), &lda, &info);
+        blas::potrf("L", &panel, at(k, k), &lda, &info);
         if (info != 0) return false;
         if (below == 0) break;
         const std::int64_t behind = k + panel;
-        dtrsm_("R", "L", "T", "N", &below, &panel, &unit, at(k, k), &lda, at(behind, k), &lda);
+        blas::trsm("R", "L", "T", "N", &below, &panel, &unit, at(k, k), &lda, at(behind, k), &lda);
         const std::int64_t step = columns_a_part(static_cast<double>(below) * panel, below);
         for (std::int64_t j = behind; j < n; j += step) {
             const int columns = static_cast<int>(std::min<std::int64_t>(step, n - j)),
                       rest = static_cast<int>(n - j - columns);
-            dsyrk_("L", "N", &columns, &panel, &minus, at(j, k), &lda, &unit, at(j, j), &lda);
+            blas::syrk("L", "N", &columns, &panel, &minus, at(j, k), &lda, &unit, at(j, j), &lda);
             if (rest > 0)
-                dgemm_("N", "T", &rest, &columns, &panel, &minus, at(j + columns, k), &lda, at(j, k), &lda, &unit,
-                       at(j + columns, j), &lda);
+                blas::gemm("N", "T", &rest, &columns, &panel, &minus, at(j + columns, k), &lda, at(j, k), &lda, &unit,
+                           at(j + columns, j), &lda);
             call_if_set(poll);
         }
     }
@@ -184,20 +160,20 @@ void solve_lower(const DenseMatrix& lower, DenseMatrix& b, std::int64_t first, c
     const std::int64_t step = columns_a_part(0.5 * m * m, b.columns);
     for (std::int64_t j = 0; j < b.columns; j += step) {
         const int columns = blas_size(std::min(step, b.columns - j));
-        dtrsm_("L", "L", "N", "N", &m, &columns, &alpha, lower.value.data() + first * (lower.rows + 1), &lda,
-               b.value.data() + first + j * b.rows, &ldb);
+        blas::trsm("L", "L", "N", "N", &m, &columns, &alpha, lower.value.data() + first * (lower.rows + 1), &lda,
+                   b.value.data() + first + j * b.rows, &ldb);
         call_if_set(poll);
     }
 }
 
 void solve_lower(const DenseMatrix& lower, std::span<double> x) {
     const int n = blas_size(lower.rows), lda = leading(lower);
-    if (n > 0) dtrsv_("L", "N", "N", &n, lower.value.data(), &lda, x.data(), &one);
+    if (n > 0) blas::trsv("L", "N", "N", &n, lower.value.data(), &lda, x.data(), &one);
 }
 
 void solve_lower_transposed(const DenseMatrix& lower, std::span<double> x) {
     const int n = blas_size(lower.rows), lda = leading(lower);
-    if (n > 0) dtrsv_("L", "T", "N", &n, lower.value.data(), &lda, x.data(), &one);
+    if (n > 0) blas::trsv("L", "T", "N", &n, lower.value.data(), &lda, x.data(), &one);
 }
 
 namespace {
@@ -212,10 +188,10 @@ void accumulate_gram(DenseMatrix& c, const DenseMatrix& v, double sign, const Po
         const int columns = static_cast<int>(std::min<std::int64_t>(step, n - j)),
                   rest = static_cast<int>(n - j - columns);
         double* corner = c.value.data() + j * (c.rows + 1);
-        dsyrk_("L", "T", &columns, &k, &sign, column(j), &ldv, &beta, corner, &ldc);
+        blas::syrk("L", "T", &columns, &k, &sign, column(j), &ldv, &beta, corner, &ldc);
         if (rest > 0)
-            dgemm_("T", "N", &rest, &columns, &k, &sign, column(j + columns), &ldv, column(j), &ldv, &beta,
-                   corner + columns, &ldc);
+            blas::gemm("T", "N", &rest, &columns, &k, &sign, column(j + columns), &ldv, column(j), &ldv, &beta,
+                       corner + columns, &ldc);
         call_if_set(poll);
     }
 }
@@ -231,7 +207,8 @@ void subtract_product(DenseMatrix& c, const DenseMatrix& v, const DenseMatrix& w
     const int ldv = leading(v), ldw = leading(w), ldc = leading(c);
     const double alpha = -1.0, beta = 1.0;
     if (m > 0 && n > 0 && k > 0)
-        dgemm_("T", "N", &m, &n, &k, &alpha, v.value.data(), &ldv, w.value.data(), &ldw, &beta, c.value.data(), &ldc);
+        blas::gemm("T", "N", &m, &n, &k, &alpha, v.value.data(), &ldv, w.value.data(), &ldw, &beta, c.value.data(),
+                   &ldc);
 }
 
 namespace {
@@ -245,11 +222,12 @@ int invert_lower(DenseMatrix& a, const Poll& poll) {
     for (std::int64_t k = (n - 1) / width * width; k >= 0; k -= width) {
         const int panel = static_cast<int>(std::min(width, n - k)), below = static_cast<int>(n - k - panel);
         if (below > 0) {
-            dtrmm_("L", "L", "N", "N", &below, &panel, &unit, at(k + panel, k + panel), &lda, at(k + panel, k), &lda);
-            dtrsm_("R", "L", "N", "N", &below, &panel, &minus, at(k, k), &lda, at(k + panel, k), &lda);
+            blas::trmm("L", "L", "N", "N", &below, &panel, &unit, at(k + panel, k + panel), &lda, at(k + panel, k),
+                       &lda);
+            blas::trsm("R", "L", "N", "N", &below, &panel, &minus, at(k, k), &lda, at(k + panel, k), &lda);
         }
         int info = 0;
-        dtrtri_("L", "N", &panel, at(k, k), &lda, &info);
+        blas::trtri("L", "N", &panel, at(k, k), &lda, &info);
         if (info != 0) return info;
         call_if_set(poll);
     }
@@ -266,13 +244,13 @@ void lower_transpose_times_lower(DenseMatrix& a, const Poll& poll) {
         const int panel = static_cast<int>(std::min(width, n - k)), below = static_cast<int>(n - k - panel),
                   before = static_cast<int>(k);
         int info = 0;
-        if (before > 0) dtrmm_("L", "L", "T", "N", &panel, &before, &unit, at(k, k), &lda, at(k, 0), &lda);
-        dlauum_("L", &panel, at(k, k), &lda, &info);
+        if (before > 0) blas::trmm("L", "L", "T", "N", &panel, &before, &unit, at(k, k), &lda, at(k, 0), &lda);
+        blas::lauum("L", &panel, at(k, k), &lda, &info);
         if (below > 0) {
             if (before > 0)
-                dgemm_("T", "N", &panel, &before, &below, &unit, at(k + panel, k), &lda, at(k + panel, 0), &lda, &unit,
-                       at(k, 0), &lda);
-            dsyrk_("L", "T", &panel, &below, &unit, at(k + panel, k), &lda, &unit, at(k, k), &lda);
+                blas::gemm("T", "N", &panel, &before, &below, &unit, at(k + panel, k), &lda, at(k + panel, 0), &lda,
+                           &unit, at(k, 0), &lda);
+            blas::syrk("L", "T", &panel, &below, &unit, at(k + panel, k), &lda, &unit, at(k, k), &lda);
         }
         call_if_set(poll);
     }
@@ -290,7 +268,7 @@ DenseMatrix inverse_definite(DenseMatrix a, const Poll& poll) {
         info = invert_lower(a, poll);
         if (info == 0) lower_transpose_times_lower(a, poll);
     } else if (n > 0) {
-        dpotri_("L", &n, a.value.data(), &lda, &info);
+        blas::potri("L", &n, a.value.data(), &lda, &info);
     }
     if (info != 0)
         fail(DELAM_ERROR_NUMERICAL, "a dense block of ", n, " rows is not positive definite (row ", info, ")");
@@ -319,10 +297,10 @@ Eigen eigen_symmetric(DenseMatrix a) {
     if (n == 0) return result;
     int info = 0, query = -1;
     double size = 0.0;
-    dsyev_("V", "L", &n, result.vector.value.data(), &lda, result.value.data(), &size, &query, &info);
+    blas::syev("V", "L", &n, result.vector.value.data(), &lda, result.value.data(), &size, &query, &info);
     const int lwork = static_cast<int>(size);
     std::vector<double> work(static_cast<std::size_t>(lwork));
-    dsyev_("V", "L", &n, result.vector.value.data(), &lda, result.value.data(), work.data(), &lwork, &info);
+    blas::syev("V", "L", &n, result.vector.value.data(), &lda, result.value.data(), work.data(), &lwork, &info);
     if (info != 0) fail(DELAM_ERROR_NUMERICAL, "the eigenvalues of a block of ", n, " rows did not converge");
     return result;
 }
@@ -341,10 +319,10 @@ PivotedColumns pivoted_columns(DenseMatrix a, double tolerance) {
     std::vector<double> tau(static_cast<std::size_t>(std::min(m, n)));
     int info = 0, query = -1;
     double size = 0.0;
-    dgeqp3_(&m, &n, a.value.data(), &lda, pivot.data(), tau.data(), &size, &query, &info);
+    blas::geqp3(&m, &n, a.value.data(), &lda, pivot.data(), tau.data(), &size, &query, &info);
     const int lwork = static_cast<int>(size);
     std::vector<double> work(static_cast<std::size_t>(lwork));
-    dgeqp3_(&m, &n, a.value.data(), &lda, pivot.data(), tau.data(), work.data(), &lwork, &info);
+    blas::geqp3(&m, &n, a.value.data(), &lda, pivot.data(), tau.data(), work.data(), &lwork, &info);
     for (int j = 0; j < n; ++j) result.order[static_cast<std::size_t>(j)] = pivot[static_cast<std::size_t>(j)] - 1;
     const double largest = std::abs(a(0, 0));
     for (int j = 0; j < std::min(m, n); ++j)
@@ -364,14 +342,14 @@ bool solve_general(DenseMatrix& a, DenseMatrix& b, double tolerance) {
     }
     std::vector<int> pivot(static_cast<std::size_t>(n));
     int info = 0;
-    dgetrf_(&n, &n, a.value.data(), &lda, pivot.data(), &info);
+    blas::getrf(&n, &n, a.value.data(), &lda, pivot.data(), &info);
     double least = std::numeric_limits<double>::infinity(), most = 0.0;
     for (std::int64_t i = 0; i < a.rows; ++i) {
         least = std::min(least, std::abs(a(i, i)));
         most = std::max(most, std::abs(a(i, i)));
     }
     if (info != 0 || !(least > tolerance * most)) return false;
-    dgetrs_("N", &n, &columns, a.value.data(), &lda, pivot.data(), b.value.data(), &lda, &info);
+    blas::getrs("N", &n, &columns, a.value.data(), &lda, pivot.data(), b.value.data(), &lda, &info);
     return true;
 }
 

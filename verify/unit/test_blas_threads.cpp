@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Small work has one thread of the BLAS, large work those of the host, and the host's number is restored, whatever
+// overlaps.
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <thread>
+
+#include "base/blas_threads.hpp"
+#include "base/monitor.hpp"
+#include "evolution/solver.hpp"
+#include "flexure.hpp"
+#include "linalg/dense.hpp"
+
+#include <check.h>  // last: it has a macro named fail
+
+extern "C" {
+int openblas_get_num_threads() __attribute__((weak));
+void openblas_set_num_threads(int) __attribute__((weak));
+}
+
+using namespace delam;
+
+namespace {
+
+constexpr double small = 1e6, large = 1e12;
+
+// False: another BLAS, or one without threads.
+bool host_wants(int threads) {
+    if (openblas_get_num_threads == nullptr || openblas_set_num_threads == nullptr) return false;
+    openblas_set_num_threads(threads);
+    return openblas_get_num_threads() == threads;
+}
+
+}  // namespace
+
+START_TEST(small_work_has_one_thread) {
+    if (!host_wants(3)) return;
+    {
+        const BlasThreads threads(small);
+        ck_assert_int_eq(openblas_get_num_threads(), 1);
+        ck_assert_int_eq(blas_threads(), 3);  // what the host has set
+        const BlasThreads inner(0.0);
+        ck_assert_int_eq(openblas_get_num_threads(), 1);
+    }
+    ck_assert_int_eq(openblas_get_num_threads(), 3);
+    for (const double work : {large, std::numeric_limits<double>::infinity(), std::nan("")}) {
+        const BlasThreads threads(work);
+        ck_assert_int_eq(openblas_get_num_threads(), 3);
+    }
+    ck_assert(host_wants(1));
+    {
+        const BlasThreads threads(small);
+        ck_assert_int_eq(openblas_get_num_threads(), 1);
+    }
+    ck_assert_int_eq(openblas_get_num_threads(), 1);
+}
+END_TEST
+
+// The first to come is the first to go: the other one still needs one thread.
+START_TEST(threads_that_overlap) {
+    if (!host_wants(2)) return;
+    std::atomic<int> stage{0};
+    std::thread other([&] {
+        const BlasThreads threads(small);
+        stage = 1;
+        while (stage != 2) std::this_thread::yield();
+    });
+    while (stage != 1) std::this_thread::yield();
+    {
+        const BlasThreads threads(small);
+        stage = 2;
+        other.join();
+        ck_assert_int_eq(openblas_get_num_threads(), 1);
+    }
+    ck_assert_int_eq(openblas_get_num_threads(), 2);
+}
+END_TEST
+
+START_TEST(one_thread_for_good) {
+    if (!host_wants(2)) return;
+    {
+        const BlasThreads threads(small);
+        leave_blas_one_thread();
+        ck_assert_int_eq(blas_threads(), 1);
+    }
+    ck_assert_int_eq(openblas_get_num_threads(), 1);
+    ck_assert(host_wants(2));
+    leave_blas_one_thread();
+    ck_assert_int_eq(openblas_get_num_threads(), 1);
+}
+END_TEST
+
+// An analysis whose dense work is small has the bits of one with one thread, and leaves the host's number.
+START_TEST(an_analysis_leaves_the_number) {
+    if (!host_wants(2)) return;
+    const Problem problem = unit::make_flexure({});
+    const auto march = [&] {
+        Monitor monitor;
+        Solver solver(problem, monitor, 0.0);
+        for (int k = 1; k <= 4; ++k) {
+            ck_assert_int_ge(solver.advance(k / 4.0).status, 0);
+            solver.commit();
+        }
+        return solver.state().adhesion;
+    };
+    const std::vector<double> two = march();
+    ck_assert_int_eq(openblas_get_num_threads(), 2);
+    ck_assert(host_wants(1));
+    ck_assert(march() == two);
+}
+END_TEST
+
+int main() {
+    Suite* suite = suite_create("threads of the BLAS");
+    TCase* cases = tcase_create("cases");
+    tcase_add_test(cases, small_work_has_one_thread);
+    tcase_add_test(cases, threads_that_overlap);
+    tcase_add_test(cases, one_thread_for_good);
+    tcase_add_test(cases, an_analysis_leaves_the_number);
+    suite_add_tcase(suite, cases);
+    SRunner* runner = srunner_create(suite);
+    srunner_run_all(runner, CK_ENV);
+    const int failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return failed == 0 ? 0 : 1;
+}
