@@ -118,10 +118,10 @@ DELAM_API int32_t delam_abi(void);
 /* Returns the name of a status, e.g. "DELAM_ERROR_MESH", or "unknown status" for other numbers.
  * [owns result static; status -; thread any; since 0.1] */
 DELAM_API const char *delam_status_name(int32_t status);
-/* Returns the number of threads that BLAS uses in this process; 0 if BLAS does not report it. The library does not
- * change this number (the option `threads` sets the library's own threads), except to 1 where a limit of the address
- * space leaves too little room for OpenBLAS' threads. Two runs give identical digits only with the same number of BLAS
- * threads.
+/* Returns the number of threads that the host has given to BLAS in this process; 0 if BLAS does not report it. The
+ * library uses one thread around small calls of BLAS and restores the number (src/capi/CONTRACT.md, "Threads"); it
+ * leaves 1 where a limit of the address space leaves too little room for OpenBLAS' threads. The option `threads` sets
+ * the library's own threads. Two runs give identical digits only with the same number of BLAS threads.
  * [status -; thread any; since 0.1] */
 DELAM_API int32_t delam_blas_threads(void);
 
