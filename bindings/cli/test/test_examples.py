@@ -59,17 +59,19 @@ expect(script("--fast")[0] == 2, "an unknown option is refused")
 code, out, _ = script("enf", "--set", "time.steps=2", "dcb-3d", "--set", "geometry.divisions=[194,300]", "--resume", "--set",
                       "title=a b", "--out", "out/large", "mmf-ductile-h1.0", "--set", "time.end=1", "--dry-run")
 runs = [line for line in out.splitlines() if " run " in line]
+here = os.path.join(os.getcwd(), "out/large")  # a relative folder is in that of the call
 words = [shlex.split(line)[2:] for line in runs]
 expect(code == 0 and words == [
     ["examples/enf/enf.toml", "--out", "out/enf", "--set", "time.steps=2"],
-    ["examples/dcb-3d/dcb-3d.toml", "--out", "out/large", "--set", "geometry.divisions=[194,300]", "--resume", "--set",
+    ["examples/dcb-3d/dcb-3d.toml", "--out", here, "--set", "geometry.divisions=[194,300]", "--resume", "--set",
      "title=a b"],
     ["examples/mmf-ductile/mmf-ductile.toml", "--out", "out/mmf-ductile-h1.0", "--set", "geometry.h=1.0e-3", "--set",
      "time.end=1"]], f"options belong to the name before them: {runs}")
-expect("plot.py out/large\n" in out, "pictures in the folder of --out")
+expect(f"plot.py {shlex.quote(here)}\n" in out, "pictures in the folder of --out")
 code, out, _ = script("--dry-run", "mmf-ductile", "--set", "time.steps=2")
 expect(code == 0 and out.count(" --set time.steps=2\n") == 5, "options of a family go to all of its sizes")
-for words in (["--set", "a=1"], ["enf", "--set"], ["enf", "--out", ""], ["mmf-ductile", "--out", "out/a"]):
+for words in (["--set", "a=1"], ["enf", "--set"], ["enf", "--set", "a"], ["enf", "--out", ""], ["enf", "--out", "--resume"],
+              ["mmf-ductile", "--out", "out/a"], ["enf", "--out", "a", "mmb", "--out", "a"]):
     code, out, error = script("--dry-run", *words)
     expect(code == 2 and out == "" and error, f"{words} is refused")
 
