@@ -156,7 +156,7 @@ START_TEST(negative_curvature_is_seen_in_two_sets) {
     s.stiffness(1, 1) = 2.0;
     s.stiffness(0, 1) = s.stiffness(1, 0) = 0.1;
     s.load = {1.0, 1.0};
-    for (const std::uint8_t first : {0, 1}) {
+    for (const std::uint8_t first : {std::uint8_t{0}, std::uint8_t{1}}) {
         std::vector<std::uint8_t> closed{first, 0};
         s.solves = 0;
         const ActiveSet found = find_active_set(s, all_rows(2), closed, 1000, false);
