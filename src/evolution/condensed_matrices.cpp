@@ -49,17 +49,16 @@ void copy_rows(const Bulk& bulk, std::size_t patterns, const CondensedMatrices& 
 
 CondensedSize condensed_size(const Solver& solver) {
     const Bulk& bulk = bulk_of(solver);
-    CondensedSize size{bulk.energy().rows(), 0};
+    CondensedSize size{bulk.unknowns(), 0};
     for (const JumpRow& row : bulk.rows()) size.entries += static_cast<std::int64_t>(row.unknowns.size());
     return size;
 }
 
 void copy_condensed(const Solver& solver, const CondensedMatrices& out) {
     const Bulk& bulk = bulk_of(solver);
-    const DenseEnergy& energy = bulk.energy();
     const std::vector<double>& constant = bulk.pattern_stiffness().value;
-    if (out.stiffness != nullptr) copy_stiffness(energy, out.stiffness);
-    if (out.load != nullptr) std::copy(energy.load.value.begin(), energy.load.value.end(), out.load);
+    if (out.stiffness != nullptr) copy_stiffness(bulk.dense([] { poll_cancel("condense", 1 << 20); }), out.stiffness);
+    if (out.load != nullptr) std::copy(bulk.load().value.begin(), bulk.load().value.end(), out.load);
     if (out.constant != nullptr) std::copy(constant.begin(), constant.end(), out.constant);
     copy_rows(bulk, solver.problem().patterns.size(), out);
 }

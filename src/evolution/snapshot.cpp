@@ -21,8 +21,8 @@ namespace {
 
 constexpr std::uint64_t magic = 0x31305453'4d4c4544;  // "DELMST01" in memory on a little-endian machine
 // 5: the first that was ever published. 6: histories of patterns that the host has changed. 7: recorded values. 8:
-// released energy in the ledger.
-constexpr std::uint32_t version = 9, oldest = 5;
+// released energy in the ledger. 10: another zone of the condensed operator, which begins anew after an older version.
+constexpr std::uint32_t version = 10, oldest = 5;
 constexpr std::int64_t most_steps = std::int64_t{1} << 53;
 // Of a larger file, hash and checksum are compared piece by piece, before there is memory for all of it.
 constexpr std::uint64_t largest_unchecked = std::uint64_t{1} << 20;
@@ -31,6 +31,11 @@ constexpr std::uint64_t checksum_start = 14695981039346656037ULL;
 std::uint64_t checksum(std::span<const std::uint8_t> bytes, std::uint64_t h = checksum_start) {
     for (const std::uint8_t b : bytes) h = (h ^ b) * 1099511628211ULL;
     return h;
+}
+
+void forget_zones(State& state) {
+    state.memory.clear();
+    state.search_memory.clear();
 }
 
 // Every member must be as its row says, and every number one that an analysis can produce.
@@ -226,6 +231,10 @@ void load(Solver& solver, std::span<const std::uint8_t> bytes) {
     std::vector<JumpEvent> jumps = read_list<JumpEvent>(r);
     Record record;
     if (found_version >= 7) record = read_record(r, solver);
+    if (found_version < 10 && solver.jump_operator().bulk() != nullptr) {
+        forget_zones(state);
+        for (State& earlier : past) forget_zones(earlier);
+    }
     if (r.left() != sizeof(std::uint64_t)) fail(DELAM_ERROR_SNAPSHOT, "snapshot has ", r.left(), " bytes too many");
     check(state, solver, found_version);
     std::int64_t step = state.step - static_cast<std::int64_t>(past.size());

@@ -25,14 +25,10 @@ double square(double x) { return x * x; }
 double cube(double x) { return x * x * x; }
 
 // Fitted constants; README.md describes the data.
-// m^2 matrices at the peak of a condensed analysis: S, its condensations, a release
-constexpr double dense_copies = 4.0;
-constexpr double condensed_start = 0.7;  // of m^3 operations until the first zone exists
-constexpr double condensed_step = 0.2;   // of m^3 operations per load step (0.06 to 0.4)
-// entries with a free ordering, relative to those left of the trailing triangle (0.38 to 0.84): the less, the larger
-// the share of this triangle
-constexpr double free_order = 0.85, free_order_share = 0.6;
-constexpr double supernodes = 1.25;    // numbers stored per entry of a factor
+// of the squares of all jumps: zones and what they take along to the root of the tree
+constexpr double zone_squares = 1.5;
+constexpr double condensed_step = 1.5;  // of the operations of a condensation of all of the skeleton, per load step
+constexpr double supernodes = 1.25;     // numbers stored per entry of a factor
 constexpr double series_bytes = 32.0;  // per square of a subdomain's jumps: the series preconditioner while it is built
 constexpr double feti_solves = 16.0;   // displacement solves per load step
 constexpr double feti_iterations = 20.0;  // Krylov iterations per solve
@@ -88,17 +84,20 @@ double cut_nodes(const std::array<double, 3>& side, int dimension, double nodes,
 }  // namespace
 
 ReductionCost predict_condensed(const Bulk& bulk) {
-    const double m = number(bulk.trailing()), stiffness = 16.0 * number(bulk.stiffness_entries());
-    const double transformed = 16.0 * number(bulk.transformed_entries()), factor = 8.0 * bulk.factor_entries();
+    const Superelements& pieces = bulk.superelements();
+    const CondensationSize once = pieces.condensation();
+    const double stiffness = 16.0 * number(bulk.stiffness_entries()),
+                 transformed = 16.0 * number(bulk.transformed_entries()), factor = 8.0 * pieces.factor_entries(),
+                 dense = 8.0 * (pieces.dense_entries() + once.numbers);
     ReductionCost cost;
-    cost.possible = bulk.trailing() <= dense_limit;
-    cost.setup = bulk.size().flops + (2.0 / 3.0 + condensed_start) * cube(m);
-    cost.longest = std::max(bulk.size().flops, 2.0 / 3.0 * cube(m));
-    cost.ordering = ordering_operations * (number(bulk.transformed().rows) - m);
-    cost.step = condensed_step * cube(m);
-    // During the factorisation, T^T K T and CHOLMOD's permuted copy of it; during the analysis, the dense matrices.
-    cost.bytes = stiffness + factor + std::max(2.0 * transformed, 8.0 * dense_copies * m * m);
-    cost.least = stiffness + factor + 8.0 * m * m;
+    cost.setup = pieces.size().flops + 2.0 * once.operations;
+    cost.longest = pieces.longest();
+    cost.ordering = ordering_operations * number(pieces.largest_inside());
+    cost.step = condensed_step * once.operations;
+    // T^T K T while the leaves are condensed; afterwards what is left of the skeleton.
+    cost.bytes = stiffness + factor + 8.0 * pieces.dense_entries() +
+                 std::max(transformed, 8.0 * (once.numbers + zone_squares * square(number(bulk.trailing()))));
+    cost.least = stiffness + factor + dense;
     return cost;
 }
 
@@ -140,11 +139,7 @@ const ReductionCost& ReductionChoice::own() const {
     return realisation == Realisation::condensed ? condensation : realisation == Realisation::feti ? feti : iteration;
 }
 
-double predict_monolithic_entries(const Bulk& bulk) {
-    const double m = number(bulk.trailing());
-    const double triangle = 0.5 * m * (m + 1.0), all = std::max(bulk.size().entries, 1.0);
-    return (free_order - free_order_share * triangle / all) * (all - triangle);
-}
+double predict_monolithic_entries(const Bulk& bulk) { return bulk.superelements().entries_in_order(); }
 
 double predict_monolithic_bytes(const Bulk& bulk) {
     return 40.0 * number(bulk.transformed_entries()) + 8.0 * supernodes * predict_monolithic_entries(bulk);
@@ -398,7 +393,7 @@ Design chosen(const Problem& problem, Monitor& monitor) {
     choice.unknowns = bulk->trailing();
     choice.condensation = predict_condensed(*bulk);
     choice.iteration = predict_iterated(iterated_size(*bulk));
-    choice.factor_entries = bulk->size().entries;
+    choice.factor_entries = bulk->superelements().size().entries;
     choice.monolithic = predict_monolithic_bytes(*bulk);
     choose(choice);
     if (options.reduction == "condensed")

@@ -246,8 +246,7 @@ START_TEST(zone_answers_as_the_dense_one) {
             for (std::size_t z = 0; z < held.size(); ++z) {
                 const std::size_t r = index(zone.jump_rows()[z]);
                 held[z] = scene.springs.held[r];
-                const double s =
-                    scene.wanted[r] != 0 ? share * bulk->energy().stiffness(0, 0) : scene.springs.stiffness[r];
+                const double s = scene.wanted[r] != 0 ? share * bulk->diagonal(0) : scene.springs.stiffness[r];
                 const auto at = static_cast<std::int64_t>(z);
                 if (held[z] == 0 && s != 0.0) couplings.push_back({at, at, s});
             }

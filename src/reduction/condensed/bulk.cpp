@@ -3,14 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <numeric>
 
 #include "base/cancel_scope.hpp"
 #include "base/error.hpp"
 #include "base/numbers.hpp"
 #include "reduction/zone/rigid_jumps.hpp"
-#include "scene/carriers.hpp"
 #include "scene/strain_loads.hpp"
 
 namespace delam {
@@ -21,8 +18,7 @@ Bulk::Bulk(const Problem& problem, Monitor& monitor) : problem_(problem) {
     system_ = std::move(bodies.system);
     transformed_ = std::move(bodies.transformed);
     call_if_set(analysing);
-    factor_ = std::make_unique<SparseCholesky>(transformed_, variables().trailing(), analysing);
-    size_ = factor_->size();
+    superelements_ = std::make_unique<Superelements>(transformed_, variables(), problem_, analysing);
 }
 
 AssembledBodies Bulk::release() && { return {std::move(system_), std::move(transformed_)}; }
@@ -30,72 +26,83 @@ AssembledBodies Bulk::release() && { return {std::move(system_), std::move(trans
 void Bulk::condense(Monitor& monitor) {
     const Poll condensing = [&monitor] { monitor.progress("condense", 0, 0); };
     monitor.progress("factor", 0, 0);
+    resolve_equations();
     factorise(condensing);
     const StrainLoads strained = system_->find_loads();
     std::vector<std::vector<double>> bonded = condense_loads(condensing);
-    resolve_equations(condensing);
     call_if_set(condensing);
     find_pattern_stiffness(std::move(bonded), strained, condensing);
     const DenseMatrix motions = rigid_jumps(problem_);
-    rigid_ = DenseMatrix(energy().rows(), motions.columns);
+    rigid_ = DenseMatrix(unknowns(), motions.columns);
     for (std::int64_t c = 0; c < motions.columns; ++c)
         for (std::int64_t i = 0; i < rigid_.rows; ++i) rigid_(i, c) = motions(row_of_unknown_[index(i)], c);
-    if (!base_) balance_strains();
+    if (kept_rest_ == 0) balance_strains();
+    if (variables().kept > 0 || !pivot_.empty()) {
+        resting_ = std::make_unique<Elimination>(*superelements_, trailing_load_);
+        resting_->update(states(std::vector<double>(index(unknowns()), Elimination::held)), condensing);
+        resting_energy_ = std::make_unique<ZoneEnergy>(*this, *resting_, condensing);
+    }
     recoveries_ = 0;
 }
 
-// Factors T^T K T with a shift on the trailing diagonal, which the Schur complement of the trailing variables loses
-// again.
 void Bulk::factorise(const Poll& poll) {
-    const std::int64_t leading = variables().leading, trailing = variables().trailing();
-    std::vector<double> shift(index(trailing), 0.0);
-    std::vector<std::int64_t> diagonal(index(trailing));
-    for (std::int64_t t = 0; t < trailing; ++t) {
-        const std::int64_t r = leading + t;
-        for (std::int64_t e = transformed_.start[index(r)]; e < transformed_.start[index(r) + 1]; ++e)
-            if (transformed_.column[index(e)] == r) diagonal[index(t)] = e;
-        shift[index(t)] = transformed_.value[index(diagonal[index(t)])];
-    }
-    const double largest = trailing > 0 ? *std::max_element(shift.begin(), shift.end()) : 0.0;
-    for (std::int64_t t = 0; t < trailing; ++t) {
-        if (!(shift[index(t)] > 0.0)) shift[index(t)] = largest > 0.0 ? largest : 1.0;
-        transformed_.value[index(diagonal[index(t)])] += shift[index(t)];
-    }
     ++factorisations_;
-    if (!factor_->factorise(transformed_))
+    transformed_ = SparseMatrix();
+    bool definite = superelements_->condense(poll);
+    const auto patterns = static_cast<std::int64_t>(problem_.patterns.size());
+    const auto places = static_cast<std::int64_t>(superelements_->variable().size());
+    trailing_load_ = DenseMatrix(places, patterns);
+    bonded_ = std::make_unique<Elimination>(*superelements_, DenseMatrix(places, 0));
+    try {
+        if (definite) bonded_->update(states(std::vector<double>(index(unknowns()), Elimination::held)), poll);
+    } catch (const Error& error) {
+        if (error.status() != DELAM_ERROR_NUMERICAL) throw;
+        definite = false;
+    }
+    if (!definite)
         fail(DELAM_ERROR_NUMERICAL,
              "the stiffness of the bonded structure is not positive definite: check supports, materials and the shapes "
              "of cells");
-    transformed_ = SparseMatrix();
-    call_if_set(poll);
-    energy_.stiffness = lower_times_transpose(factor_->trailing_factor(), poll);
-    for (std::int64_t t = 0; t < trailing; ++t) energy_.stiffness(t, t) -= shift[index(t)];
+    if (kept_rest_ == 0) return;
+    const Reduced reduced = reduce(*bonded_);
+    const DenseEnergy& energy = reduced.pivot.empty() ? bonded_->energy() : reduced.energy;
+    kept_factor_ = DenseMatrix(kept_rest_, kept_rest_);
+    for (std::int64_t j = 0; j < kept_rest_; ++j)
+        for (std::int64_t i = 0; i < kept_rest_; ++i) kept_factor_(i, j) = energy.stiffness(i, j);
+    if (!factor_definite(kept_factor_, poll))
+        fail(DELAM_ERROR_NUMERICAL, "the condensed stiffness of ", kept_rest_,
+             " displacements in long constraints is not positive definite");
+}
+
+// T^T (f theta - K u)
+std::vector<double> Bulk::carried(std::span<const double> theta, std::span<const double> displacement) const {
+    std::vector<double> nodal(displacement.size()), on_variables(index(variables().count()));
+    multiply(stiffness(), displacement, nodal);
+    for (double& f : nodal) f = -f;
+    for (std::size_t p = 0; p < theta.size(); ++p)
+        if (theta[p] != 0.0 && !system_->force()[p].empty()) add_scaled(theta[p], system_->force()[p], nodal);
+    multiply_transposed(variables().transform, nodal, on_variables);
+    return on_variables;
 }
 
 // With all trailing variables at zero each pattern has the displacements u_p, which are returned; the remaining forces
 // K u_p - f_p act on the trailing variables.
 std::vector<std::vector<double>> Bulk::condense_loads(const Poll& poll) {
-    const std::int64_t leading = variables().leading, trailing = variables().trailing();
+    const std::int64_t leading = variables().leading;
     const std::size_t patterns = problem_.patterns.size();
-    const std::vector<std::vector<double>>& force = system_->force();
-    energy_.load = DenseMatrix(trailing, static_cast<std::int64_t>(patterns));
-    std::vector<double> nodal(index(dofs())), carried(index(variables().count()));
     std::vector<std::vector<double>> bonded;
     for (std::size_t p = 0; p < patterns; ++p) {
+        std::vector<double> unit(patterns, 0.0);
+        unit[p] = 1.0;
         std::vector<double> u = variables().lift[p];
-        multiply(stiffness(), u, nodal);
-        for (std::size_t i = 0; i < nodal.size(); ++i) nodal[i] = (force[p].empty() ? 0.0 : force[p][i]) - nodal[i];
-        std::vector<double> v = leading_solve(nodal);
-        v.resize(carried.size(), 0.0);
+        const std::vector<double> v = solve_bonded(carried(unit, u));
         system_->add_variables(v, u);
-        multiply(stiffness(), u, nodal);
-        for (std::size_t i = 0; i < nodal.size(); ++i) nodal[i] = (force[p].empty() ? 0.0 : force[p][i]) - nodal[i];
-        multiply_transposed(variables().transform, nodal, carried);
+        const std::vector<double> left = carried(unit, u);
         double squares = 0.0;
-        for (std::size_t i = 0; i < index(leading); ++i) squares += carried[i] * carried[i] * v[i] * v[i];
+        for (std::size_t i = 0; i < index(leading); ++i) squares += left[i] * left[i] * v[i] * v[i];
         left_over_.push_back(std::sqrt(squares));
-        std::copy(carried.begin() + leading, carried.end(),
-                  energy_.load.value.begin() + static_cast<std::int64_t>(p) * trailing);
+        for (std::int64_t t = leading; t < variables().count(); ++t)
+            trailing_load_(superelements_->place(t), static_cast<std::int64_t>(p)) = left[index(t)];
         bonded.push_back(std::move(u));
         call_if_set(poll);
     }
@@ -103,22 +110,24 @@ std::vector<std::vector<double>> Bulk::condense_loads(const Poll& poll) {
 }
 
 // A_pq = u_p^T K u_q - f_p^T u_q - f_q^T u_p + W_pq, W of the eigenstrains: no difference of large numbers, whatever
-// the lift is.
+// the lift is. And L: the forces K u_p - f_p on the unknown jumps.
 void Bulk::find_pattern_stiffness(std::vector<std::vector<double>> bonded, const StrainLoads& strained,
                                   const Poll& poll) {
     const std::size_t patterns = problem_.patterns.size();
     const std::vector<std::vector<double>>& force = system_->force();
     std::vector<double> nodal(index(dofs()));
-    const std::vector<double> closed(index(energy().rows()), 0.0);
+    const std::vector<double> closed(index(unknowns()), 0.0);
+    load_ = DenseMatrix(unknowns(), static_cast<std::int64_t>(patterns));
     std::vector<std::vector<double>> stressed;
     for (std::size_t p = 0; p < patterns; ++p) {
-        if (variables().kept > 0 || !pivot_.empty()) {
-            std::vector<double> unit(patterns, 0.0);
-            unit[p] = 1.0;
-            bonded[p] = displacement(unit, closed);
-        }
+        std::vector<double> unit(patterns, 0.0);
+        unit[p] = 1.0;
+        if (variables().kept > 0 || !pivot_.empty()) bonded[p] = displacement(unit, closed);
         multiply(stiffness(), bonded[p], nodal);
         stressed.push_back(nodal);
+        const std::vector<double> left = carried(unit, bonded[p]);
+        for (std::int64_t i = 0; i < unknowns(); ++i)
+            load_(i, static_cast<std::int64_t>(p)) = on_rest(left, kept_rest_ + i);
         call_if_set(poll);
     }
     pattern_stiffness_ = DenseMatrix(static_cast<std::int64_t>(patterns), static_cast<std::int64_t>(patterns));
@@ -143,49 +152,118 @@ void Bulk::balance_strains() {
     const auto rows = index(rigid_.rows);
     for (std::size_t p = 0; p < problem_.patterns.size(); ++p) {
         if (problem_.patterns[p].drives != Pattern::Drives::strain) continue;
-        const auto load = std::span<double>(energy_.load.value).subspan(p * rows, rows);
+        const auto load = std::span<double>(load_.value).subspan(p * rows, rows);
+        const std::vector<double> before(load.begin(), load.end());
         for (int pass = 0; pass < 2; ++pass)
             for (std::int64_t c = 0; c < rigid_.columns; ++c) {
                 const auto motion = std::span<const double>(rigid_.value).subspan(index(c) * rows, rows);
                 add_scaled(-dot(motion, load), motion, load);
             }
+        for (std::int64_t i = 0; i < unknowns(); ++i)
+            trailing_load_(place(i), static_cast<std::int64_t>(p)) += load[index(i)] - before[index(i)];
     }
 }
 
-std::vector<double> Bulk::leading_solve(std::span<const double> nodal) const {
-    std::vector<double> carried(index(variables().count())), v(index(variables().leading), 0.0);
-    multiply_transposed(variables().transform, nodal, carried);
-    carried.resize(v.size());
-    if (std::any_of(carried.begin(), carried.end(), [](double x) { return x != 0.0; }))
-        factor_->solve_leading(carried, v);
+// The displacements under forces with all trailing variables at rest: leaves, cuts, leaves.
+std::vector<double> Bulk::solve_bonded(std::span<const double> forces) const {
+    std::vector<double> v(forces.size(), 0.0);
+    const auto leading = static_cast<std::ptrdiff_t>(variables().leading);
+    if (std::all_of(forces.begin(), forces.begin() + leading, [](double f) { return f == 0.0; })) return v;
+    superelements_->solve_inside(forces, v);
+    if (superelements_->nodes().size() == 1) return v;
+    std::vector<double> b(forces.begin(), forces.end()), skeleton;
+    superelements_->carry(v, b);
+    for (const std::int64_t variable : superelements_->variable()) skeleton.push_back(b[index(variable)]);
+    bonded_->solve_cuts(skeleton);
+    for (std::size_t p = 0; p < skeleton.size(); ++p) v[index(superelements_->variable()[p])] = skeleton[p];
+    superelements_->solve_inside(forces, v);
     return v;
 }
 
 std::vector<double> Bulk::displacement(std::span<const double> theta, std::span<const double> unknowns) const {
-    std::vector<double> rest(rest_.size());
-    if (base_)
-        base_->recover(theta, unknowns, rest);
-    else
-        std::copy(unknowns.begin(), unknowns.end(), rest.begin());
-    std::vector<double> v(index(variables().count()), 0.0), bound(pivot_.size()), driven(pivot_.size());
-    multiply(bound_, rest, bound);
-    multiply(prescribed_, theta, driven);
-    for (std::size_t i = 0; i < rest.size(); ++i) v[index(variables().leading + rest_[i])] = rest[i];
-    for (std::size_t i = 0; i < pivot_.size(); ++i) v[index(variables().leading + pivot_[i])] = bound[i] + driven[i];
-
-    std::vector<double> u = system_->lift(theta), nodal(u.size());
+    const std::int64_t leading = variables().leading;
+    std::vector<double> rest(rest_.size(), 0.0), v(index(variables().count()), 0.0);
+    std::copy(unknowns.begin(), unknowns.end(), rest.begin() + kept_rest_);
+    for (std::size_t i = 0; i < rest.size(); ++i) v[index(leading + rest_[i])] = rest[i];
+    for (std::size_t i = 0; i < pivot_.size(); ++i) {
+        double& value = v[index(leading + pivot_[i])];
+        for (const auto& [j, m] : bound_[i]) value += m * rest[index(j)];
+        for (std::size_t p = 0; p < theta.size(); ++p)
+            value += prescribed_(static_cast<std::int64_t>(i), static_cast<std::int64_t>(p)) * theta[p];
+    }
+    std::vector<double> u = system_->lift(theta);
     system_->add_variables(v, u);
-    multiply(stiffness(), u, nodal);
-    for (double& f : nodal) f = -f;
-    for (std::size_t p = 0; p < theta.size(); ++p)
-        if (!system_->force()[p].empty()) add_scaled(theta[p], system_->force()[p], nodal);
     poll_cancel("recover", dofs() / 64);
-    std::vector<double> inside = leading_solve(nodal);
+    system_->add_variables(solve_bonded(carried(theta, u)), u);
     poll_cancel("recover", dofs() / 64);
-    inside.resize(v.size(), 0.0);
-    system_->add_variables(inside, u);
+    if (kept_rest_ > 0) {
+        const std::vector<double> left = carried(theta, u);
+        std::vector<double> kept(index(kept_rest_));
+        for (std::int64_t k = 0; k < kept_rest_; ++k) kept[index(k)] = on_rest(left, k);
+        solve_lower(kept_factor_, kept);
+        solve_lower_transposed(kept_factor_, kept);
+        std::fill(v.begin(), v.end(), 0.0);
+        for (std::int64_t k = 0; k < kept_rest_; ++k) {
+            v[index(leading + rest_[index(k)])] = kept[index(k)];
+            for (const auto& [pivot, m] : binds_[index(k)])
+                v[index(leading + pivot_[index(pivot)])] += m * kept[index(k)];
+        }
+        system_->add_variables(v, u);
+        system_->add_variables(solve_bonded(carried(theta, u)), u);
+    }
     ++recoveries_;
     return u;
+}
+
+std::vector<double> Bulk::unknowns_at(std::span<const double> skeleton) const {
+    std::vector<double> x(index(unknowns()));
+    for (std::int64_t i = 0; i < unknowns(); ++i) x[index(i)] = skeleton[index(place(i))];
+    return x;
+}
+
+std::vector<double> Bulk::skeleton_at_rest(std::span<const double> theta) const {
+    std::vector<double> skeleton(superelements_->variable().size(), 0.0);
+    if (resting_ == nullptr) return skeleton;
+    const std::vector<double> closed(resting_energy_->unknowns().size(), 0.0);
+    resting_->recover(theta, resting_energy_->recover(theta, closed), skeleton);
+    return skeleton;
+}
+
+std::vector<double> Bulk::residual(std::span<const double> theta, std::span<const double> skeleton,
+                                   std::span<const std::uint8_t> wanted) const {
+    std::vector<double> left(skeleton.size());
+    std::vector<std::uint8_t> rows(skeleton.size(), 0);
+    const auto pivot_place = [this](std::int64_t pivot) {
+        return index(superelements_->place(variables().leading + pivot_[index(pivot)]));
+    };
+    for (std::int64_t i = 0; i < unknowns(); ++i) {
+        if (wanted[index(i)] == 0) continue;
+        rows[index(place(i))] = 1;
+        for (const auto& [pivot, m] : binds_[index(kept_rest_ + i)]) rows[pivot_place(pivot)] = 1;
+    }
+    multiply(trailing_load_, theta, left);
+    superelements_->subtract_image(skeleton, rows, left);
+    std::vector<double> of_unknown(index(unknowns()), 0.0);
+    for (std::int64_t i = 0; i < unknowns(); ++i) {
+        if (wanted[index(i)] == 0) continue;
+        of_unknown[index(i)] = left[index(place(i))];
+        for (const auto& [pivot, m] : binds_[index(kept_rest_ + i)])
+            of_unknown[index(i)] += m * left[pivot_place(pivot)];
+    }
+    return of_unknown;
+}
+
+DenseEnergy Bulk::dense(const Poll& poll) const {
+    Elimination whole = elimination();
+    whole.update(states(std::vector<double>(index(unknowns()), Elimination::in_zone)), poll);
+    const ZoneEnergy zone(*this, whole, poll);
+    DenseEnergy energy{DenseMatrix(unknowns(), unknowns()), load_};
+    const std::vector<std::int64_t>& at = zone.unknowns();
+    for (std::size_t j = 0; j < at.size(); ++j)
+        for (std::size_t i = 0; i < at.size(); ++i)
+            energy.stiffness(at[i], at[j]) =
+                zone.energy().stiffness(static_cast<std::int64_t>(i), static_cast<std::int64_t>(j));
+    return energy;
 }
 
 }  // namespace delam

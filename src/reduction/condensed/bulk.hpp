@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All bodies condensed onto the jumps, once.
+// All bodies condensed onto the skeleton of a tree of superelements, once.
 //
-// In the variables of jump_variables.hpp the stiffness is T^T K T. Its factor, with the jumps eliminated last, contains
-// the Schur complement in its trailing block: S = L_tt L_tt^T - tau, where a shift tau on the trailing diagonal keeps
-// the factor definite for floating bodies. Constraints that bind several unknowns are resolved in the dense stage. The
-// result is an energy of the unknown jumps x,
+// In the variables of jump_variables.hpp the stiffness is T^T K T. Every zone is what is left when all else of the
+// skeleton has been minimised out (elimination.hpp); constraints that bind several variables are resolved there. All
+// jumps together have an energy
 //
 //     E(theta, x) = 1/2 x^T S x - theta^T L^T x + 1/2 theta^T A theta,      jump rows  j = N x + O theta
 //
 // (N: the identity except for rows that close a ring of bodies or that a constraint binds; O: jumps that constraints
-// prescribe).
+// prescribe), whose S is made only if a host asks for it.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +17,10 @@
 #include <vector>
 
 #include "base/monitor.hpp"
-#include "linalg/cholesky.hpp"
+#include "base/numbers.hpp"
 #include "reduction/body_system.hpp"
+#include "reduction/condensed/elimination.hpp"
+#include "reduction/condensed/superelements.hpp"
 #include "reduction/zone/dense_energy.hpp"
 #include "reduction/zone/jump_row.hpp"
 #include "scene/problem.hpp"
@@ -35,66 +36,123 @@ public:
     AssembledBodies release() &&;
 
     const std::vector<JumpRow>& rows() const { return rows_; }
+    std::int64_t unknowns() const { return static_cast<std::int64_t>(row_of_unknown_.size()); }
     // The first jump row that equals unknown i. Others may equal it too (on opposite faces of a periodic cell).
     const std::vector<std::int64_t>& row_of_unknown() const { return row_of_unknown_; }
-    const DenseEnergy& energy() const { return base_ ? base_->energy() : energy_; }
+    const DenseMatrix& load() const { return load_; }  // L, [unknowns][patterns]
+    // An upper bound of the diagonal of S, of its size: with everything else at rest.
+    double diagonal(std::int64_t unknown) const { return superelements_->diagonal()[index(place(unknown))]; }
     const DenseMatrix& pattern_stiffness() const { return pattern_stiffness_; }
     // Jumps of the rigid motions that the supports leave free, [unknowns][motions], orthonormal.
     const DenseMatrix& rigid() const { return rigid_; }
+    // [unknowns] 1: a constraint binds it to other variables.
+    const std::vector<std::uint8_t>& bound() const { return bound_unknown_; }
 
+    // An elimination of this skeleton; its states of the unknowns, where in_zone is what a zone keeps.
+    Elimination elimination() const { return {*superelements_, trailing_load_}; }
+    std::vector<double> states(std::span<const double> of_unknowns) const;
+
+    // What the equations leave of an elimination's energy; without any, that energy itself.
+    struct Reduced {
+        DenseEnergy energy;                      // of [kept displacements | unknown jumps]
+        std::vector<std::int64_t> rest, pivot;   // rows of the elimination's energy: those of this one, and the others
+        std::vector<std::int64_t> rest_number;   // of each row among the trailing variables that no equation determines
+        std::vector<std::int64_t> pivot_number;  // of each pivot among the equations
+        DenseMatrix binding;                     // [pivots][rest]
+        std::int64_t kept = 0;
+    };
+    // The energy of the unknowns of a zone, equations resolved and kept displacements minimised out: of an elimination
+    // that must not be updated as long as this is used.
+    class ZoneEnergy {
+    public:
+        ZoneEnergy(const Bulk& bulk, const Elimination& elimination, const Poll& poll);
+        const DenseEnergy& energy() const {
+            return base_ ? base_->energy() : reduced_.pivot.empty() ? elimination_->energy() : reduced_.energy;
+        }
+        const std::vector<std::int64_t>& unknowns() const { return unknowns_; }  // of each row
+        // The unknowns of the elimination's energy().
+        std::vector<double> recover(std::span<const double> theta, std::span<const double> zone) const;
+
+    private:
+        const Bulk* bulk_;
+        const Elimination* elimination_;
+        Reduced reduced_;
+        std::unique_ptr<Condensation> base_;
+        std::vector<std::int64_t> unknowns_;
+    };
+
+    std::vector<double> unknowns_at(std::span<const double> skeleton) const;
+    // All unknowns at zero, kept displacements at their minimum.
+    std::vector<double> skeleton_at_rest(std::span<const double> theta) const;
+    // L theta - S x of the wanted unknowns at a point of the skeleton; 0 for the others.
+    std::vector<double> residual(std::span<const double> theta, std::span<const double> skeleton,
+                                 std::span<const std::uint8_t> wanted) const;
+    // From the unknowns alone.
     std::vector<double> displacement(std::span<const double> theta, std::span<const double> unknowns) const;
     // Reactions and unbalanced forces.
     const BodySystem& system() const { return *system_; }
+    // S and L of all unknowns: m^2 numbers.
+    DenseEnergy dense(const Poll& poll) const;
 
     // Energy error, F L, that the factor's rounding leaves in the displacements of the loads themselves, with the
     // unknowns at rest.
     double rounding_energy(std::span<const double> theta) const;
 
     std::int64_t dofs() const { return system_->dofs(); }
-    const FactorSize& size() const { return size_; }  // of the factor with the jumps last
-    // Before condense(): number of unknowns eliminated last, entries of K and T^T K T, numbers that the factor will
-    // store.
+    const Superelements& superelements() const { return *superelements_; }
+    // Before condense(): number of jumps and kept displacements, entries of K and T^T K T.
     std::int64_t trailing() const { return variables().trailing(); }
     std::int64_t stiffness_entries() const { return stiffness().entries(); }
     std::int64_t transformed_entries() const { return transformed_.entries(); }
-    double factor_entries() const { return factor_->factor_entries(); }
     const SparseMatrix& transformed() const { return transformed_; }
     std::int64_t factorisations() const { return factorisations_; }
     std::int64_t recoveries() const { return recoveries_; }  // of displacements, since condense()
 
 private:
     void factorise(const Poll& poll);
+    std::vector<double> solve_bonded(std::span<const double> forces) const;
+    std::vector<double> carried(std::span<const double> theta, std::span<const double> displacement) const;
+    double on_rest(std::span<const double> carried, std::int64_t rest) const;
     std::vector<std::vector<double>> condense_loads(const Poll& poll);
     void find_pattern_stiffness(std::vector<std::vector<double>> bonded, const StrainLoads& strained, const Poll& poll);
     // bulk_equations.cpp
-    void resolve_equations(const Poll& poll);
-    void substitute_pivots();
-    void express_rows(std::span<const std::int64_t> place);
+    void resolve_equations();
+    void express_rows();
+    Reduced reduce(const Elimination& elimination) const;
     void balance_strains();
-    std::vector<double> leading_solve(std::span<const double> nodal) const;
+    std::int64_t place(std::int64_t unknown) const {
+        return superelements_->place(variables().leading + rest_[index(kept_rest_ + unknown)]);
+    }
     const JumpVariables& variables() const { return system_->variables(); }
     const SparseMatrix& stiffness() const { return system_->stiffness(); }
 
     const Problem& problem_;
     std::unique_ptr<BodySystem> system_;
-    SparseMatrix transformed_;  // T^T K T, until it is factored
-    std::unique_ptr<SparseCholesky> factor_;
-    FactorSize size_;
+    SparseMatrix transformed_;  // T^T K T, until it is condensed
+    std::unique_ptr<Superelements> superelements_;
+    std::unique_ptr<Elimination> bonded_;  // all jumps at rest, those in equations left
+    // The same with the loads, where equations leave more than jumps; null: they do not.
+    std::unique_ptr<Elimination> resting_;
+    std::unique_ptr<ZoneEnergy> resting_energy_;
+    DenseMatrix kept_factor_;  // of the kept displacements that no equation determines, all jumps at rest
     std::int64_t factorisations_ = 0;
     mutable std::int64_t recoveries_ = 0;
     // Trailing variables: t = M r + d theta, r = [kept ones that no equation determines | unknown jumps].
     std::vector<std::int64_t> rest_;   // trailing index of r
     std::vector<std::int64_t> pivot_;  // trailing index of variables determined by equations
-    DenseMatrix bound_;                // [pivots][rest]
+    std::vector<std::int64_t> role_;   // [trailing] position in r, or -2 - position among the pivots
+    std::vector<SparseVector> bound_;  // rows of M, in r
+    std::vector<SparseVector> binds_;  // its columns: the pivots that each of r determines
     DenseMatrix prescribed_;           // [pivots][patterns]
     std::int64_t kept_rest_ = 0;       // number of displacements in r
 
-    DenseEnergy energy_;
-    std::unique_ptr<Condensation> base_;
+    DenseMatrix trailing_load_;  // [skeleton][patterns], with all trailing variables at rest
+    DenseMatrix load_;
     std::vector<JumpRow> rows_;
     std::vector<std::int64_t> row_of_unknown_;
+    std::vector<std::uint8_t> bound_unknown_;
     DenseMatrix pattern_stiffness_;
-    std::vector<double> left_over_;  // [patterns] work of the forces that leading_solve() left, with random signs
+    std::vector<double> left_over_;  // [patterns] work of the forces that solve_bonded() left, with random signs
     DenseMatrix rigid_;
 };
 

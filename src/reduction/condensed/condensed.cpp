@@ -15,8 +15,6 @@ namespace {
 // A spring weaker than this fraction of the bodies' stiffness cannot support a factorisation; such rows stay in the
 // zone.
 constexpr double weak = 1e-9;
-// A spring stiffer than this multiple of the bodies' own stiffness hides it.
-constexpr double stiff = 1e3;
 
 std::size_t count(const std::vector<std::uint8_t>& set) {
     return static_cast<std::size_t>(std::count_if(set.begin(), set.end(), [](std::uint8_t v) { return v != 0; }));
@@ -25,19 +23,19 @@ std::size_t count(const std::vector<std::uint8_t>& set) {
 }  // namespace
 
 Condensed::Condensed(std::shared_ptr<Bulk> bulk, const Problem& problem, Monitor& monitor)
-    : bulk_(std::move(bulk)), problem_(problem), monitor_(monitor) {
-    const std::size_t unknowns = index(bulk_->energy().rows());
-    rows_of_.resize(unknowns);
-    always_.assign(unknowns, 0);
+    : bulk_(std::move(bulk)),
+      problem_(problem),
+      monitor_(monitor),
+      always_(bulk_->bound()),
+      elimination_(bulk_->elimination()) {
+    const std::size_t unknowns = index(bulk_->unknowns());
     for (std::size_t r = 0; r < bulk_->rows().size(); ++r) {
         const JumpRow& row = bulk_->rows()[r];
         prescribed_.push_back(row.prescribed() ? 1 : 0);
         const bool own = row.unknowns.size() == 1 &&
                          bulk_->row_of_unknown()[index(row.unknowns.front().first)] == static_cast<std::int64_t>(r);
-        for (const auto& [i, n] : row.unknowns) {
-            rows_of_[index(i)].push_back(static_cast<std::int64_t>(r));
+        for (const auto& [i, n] : row.unknowns)
             if (!own) always_[index(i)] = 1;
-        }
     }
     // With as many well-chosen unknowns kept as there are rigid motions, the others can always be minimised out.
     const DenseMatrix& rigid = bulk_->rigid();
@@ -72,7 +70,6 @@ Condensed::Condensed(std::shared_ptr<Bulk> bulk, const Problem& problem, Monitor
     neighbour_start_ = std::move(graph.start);
     neighbour_ = std::move(graph.column);
     age_.assign(unknowns, forgotten);
-    near_.assign(unknowns, 1);
     inside_.assign(unknowns, 1);
     last_.assign(unknowns, 0.0);
 }
@@ -117,29 +114,6 @@ std::vector<std::uint8_t> Condensed::grown(std::vector<std::uint8_t> set, std::s
     return set;
 }
 
-// Number of rings of neighbours between each unknown and a set; unreachable unknowns are farthest.
-std::vector<std::int64_t> Condensed::distance(std::span<const std::uint8_t> set) const {
-    const auto farthest = static_cast<std::int64_t>(set.size());
-    std::vector<std::int64_t> away(set.size(), farthest), ring;
-    for (std::size_t i = 0; i < set.size(); ++i)
-        if (set[i] != 0) {
-            away[i] = 0;
-            ring.push_back(static_cast<std::int64_t>(i));
-        }
-    for (std::int64_t step = 1; !ring.empty(); ++step) {
-        std::vector<std::int64_t> next;
-        for (const std::int64_t i : ring)
-            for (std::int64_t e = neighbour_start_[index(i)]; e < neighbour_start_[index(i) + 1]; ++e) {
-                const std::int64_t j = neighbour_[index(e)];
-                if (away[index(j)] != farthest) continue;
-                away[index(j)] = step;
-                next.push_back(j);
-            }
-        ring = std::move(next);
-    }
-    return away;
-}
-
 // Margins, so that a front may advance for a while before the zone has to follow.
 void Condensed::choose(const Springs& springs, std::span<const std::uint8_t> wanted) {
     const std::size_t unknowns = always_.size();
@@ -149,108 +123,35 @@ void Condensed::choose(const Springs& springs, std::span<const std::uint8_t> wan
         now[i] = spring_of(springs, i);
         age_[i] = wanted[i] != 0 ? std::uint8_t{0}
                                  : std::min<std::uint8_t>(forgotten, static_cast<std::uint8_t>(age_[i] + 1));
-        const double body = bulk_->energy().stiffness(static_cast<std::int64_t>(i), static_cast<std::int64_t>(i));
+        const double body = bulk_->diagonal(static_cast<std::int64_t>(i));
         if (age_[i] < forgotten || (now[i] > 0.0 && now[i] < weak * body)) set[i] = 1;
     }
     const std::size_t needed = count(set);
     set = grown(std::move(set), needed + std::max<std::size_t>(16, needed / 5));
-
-    bool renew = outer_ == nullptr, far = false;
-    std::vector<std::int64_t> back;
-    for (std::size_t i = 0; i < unknowns && !renew; ++i)
-        far = far || (near_[i] == 0 && (set[i] != 0 || spring_[i] != now[i]));
-    const std::vector<std::uint8_t> ahead = far ? grown(set, count(set) + unknowns / 32) : std::vector<std::uint8_t>();
-    for (std::size_t i = 0; i < unknowns && far; ++i) {
-        if (near_[i] != 0 || (ahead[i] == 0 && spring_[i] == now[i])) continue;
-        back.push_back(static_cast<std::int64_t>(i));
-        // Subtracting a stiff spring cannot recover what it hides.
-        renew = renew || outer_spring_[i] > stiff * bulk_->energy().stiffness(static_cast<std::int64_t>(i),
-                                                                              static_cast<std::int64_t>(i));
-    }
-    // Releases, and second steps over the unknowns they have added, continue until they have cost as much as a new
-    // first step.
-    const std::vector<std::uint8_t> near = grown(set, count(set) + std::max<std::size_t>(64, unknowns / 10));
-    std::size_t far_ones = 0;
-    for (std::size_t i = 0; i < unknowns; ++i) far_ones += near[i] == 0 && now[i] >= 0.0 ? 1 : 0;
-    if (!renew)
-        renew = multiplications_ + (back.empty() ? 0.0 : outer_->release_cost(back)) >
-                Condensation::cost(far_ones, count(near));
-    // From here to the end of condense_inner there is no zone: an interrupted choice is never taken for a valid one.
+    // From here to the end of condense() there is no zone: an interrupted choice is never taken for a valid one.
     zone_.reset();
     spring_ = std::move(now);
     inside_ = std::move(set);
-    if (renew)
-        condense_outer(near);
-    else if (!back.empty())
-        release(std::move(back));
-    condense_inner();
+    condense();
 }
 
-void Condensed::condense_outer(std::span<const std::uint8_t> near) {
+// The zone at the present choice.
+void Condensed::condense() {
     monitor_.progress("zone", condensations_, 0);
     ++condensations_;
-    inner_.reset();
     zone_.reset();
-    outer_.reset();
-    near_.assign(near.begin(), near.end());
-    outer_spring_ = spring_;
-    released_.clear();
-    multiplications_ = 0.0;
-    std::vector<std::int64_t> kept, eliminated;
-    std::vector<double> stiffness(near_.size());
-    for (std::size_t i = 0; i < near_.size(); ++i) {
-        if (near_[i] != 0)
-            kept.push_back(static_cast<std::int64_t>(i));
-        else if (outer_spring_[i] >= 0.0)
-            eliminated.push_back(static_cast<std::int64_t>(i));
-        stiffness[i] = std::max(0.0, outer_spring_[i]);
-    }
-    // Far ones first: the unknowns that a front reaches next are then at the end of the factor, where a release is
-    // cheap.
-    const std::vector<std::int64_t> away = distance(near_);
-    std::stable_sort(eliminated.begin(), eliminated.end(),
-                     [&](std::int64_t a, std::int64_t b) { return away[index(a)] > away[index(b)]; });
-    outer_ = std::make_unique<Condensation>(bulk_->energy(), std::move(kept), std::move(eliminated), stiffness, poll());
-}
-
-void Condensed::release(std::vector<std::int64_t> unknowns) {
-    monitor_.progress("zone", condensations_, 0);
-    multiplications_ += outer_->release_cost(unknowns);
-    std::vector<double> stiffness(outer_spring_);
-    for (double& s : stiffness) s = std::max(0.0, s);
-    // A release that fails leaves nothing behind that could be used again.
-    std::unique_ptr<Condensation> outer = std::move(outer_);
-    inner_.reset();
-    zone_.reset();
-    outer->release(bulk_->energy(), unknowns, stiffness, poll());
-    released_.push_back(std::move(unknowns));
-    for (const std::int64_t i : released_.back()) near_[index(i)] = 1;
-    outer_ = std::move(outer);
-}
-
-void Condensed::condense_inner() {
-    const std::vector<std::int64_t>& near = outer_->kept();
-    std::vector<std::int64_t> kept, eliminated;
-    std::vector<double> stiffness(near.size());
-    zone_unknowns_.clear();
-    for (std::size_t m = 0; m < near.size(); ++m) {
-        const auto i = index(near[m]);
-        stiffness[m] = std::max(0.0, spring_[i]);
-        if (inside_[i] != 0)
-            kept.push_back(static_cast<std::int64_t>(m));
-        else if (spring_[i] >= 0.0)
-            eliminated.push_back(static_cast<std::int64_t>(m));
-    }
-    for (const std::int64_t k : kept) zone_unknowns_.push_back(near[index(k)]);
-    zone_.reset();
-    inner_ =
-        std::make_unique<Condensation>(outer_->energy(), std::move(kept), std::move(eliminated), stiffness, poll());
-    multiplications_ += Condensation::cost(near.size() - zone_unknowns_.size(), zone_unknowns_.size());
+    energy_.reset();
+    std::vector<double> state(spring_);
+    for (std::size_t i = 0; i < state.size(); ++i)
+        if (inside_[i] != 0) state[i] = Elimination::in_zone;
+    elimination_.update(bulk_->states(state), poll());
+    energy_ = std::make_unique<Bulk::ZoneEnergy>(*bulk_, elimination_, poll());
+    const std::vector<std::int64_t>& zone_unknowns = energy_->unknowns();
 
     const std::size_t unknowns = inside_.size();
     std::vector<std::int64_t> place(unknowns, -1);
-    for (std::size_t z = 0; z < zone_unknowns_.size(); ++z)
-        place[index(zone_unknowns_[z])] = static_cast<std::int64_t>(z);
+    for (std::size_t z = 0; z < zone_unknowns.size(); ++z)
+        place[index(zone_unknowns[z])] = static_cast<std::int64_t>(z);
     std::vector<std::int64_t> zone_rows;
     std::vector<JumpRow> rows;
     const auto dim = index(problem_.mesh->dimension());
@@ -272,17 +173,17 @@ void Condensed::condense_inner() {
     }
     // Rigid motions that no active row outside the zone resists.
     const DenseMatrix& rigid = bulk_->rigid();
-    DenseMatrix floating(static_cast<std::int64_t>(zone_unknowns_.size()), 0);
+    DenseMatrix floating(static_cast<std::int64_t>(zone_unknowns.size()), 0);
     if (rigid.columns > 0) {
         std::vector<std::uint8_t> active(unknowns, 0);
         for (std::size_t i = 0; i < unknowns; ++i) active[i] = place[i] < 0 && spring_[i] != 0.0 ? 1 : 0;
         const DenseMatrix free = multiply(rigid, split_motions(rigid, active).free);
         floating = DenseMatrix(floating.rows, free.columns);
         for (std::int64_t c = 0; c < free.columns; ++c)
-            for (std::int64_t z = 0; z < floating.rows; ++z) floating(z, c) = free(zone_unknowns_[index(z)], c);
+            for (std::int64_t z = 0; z < floating.rows; ++z) floating(z, c) = free(zone_unknowns[index(z)], c);
         floating = orthonormalised(std::move(floating));
     }
-    zone_ = std::make_unique<DenseZone>(inner_->energy(), std::move(rows), std::move(zone_rows), std::move(floating),
+    zone_ = std::make_unique<DenseZone>(energy_->energy(), std::move(rows), std::move(zone_rows), std::move(floating),
                                         poll());
 }
 
@@ -290,7 +191,7 @@ DenseZone* Condensed::zone(const Springs& springs, std::span<const std::uint8_t>
     std::vector<std::uint8_t> unknowns(always_.size(), 0);
     bool inside = covers(springs);
     const auto rows = static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), std::uint8_t{1}));
-    if (tight && inside && zone_unknowns_.size() > 2 * rows + 128) {
+    if (tight && inside && energy_->unknowns().size() > 2 * rows + 128) {
         age_.assign(age_.size(), forgotten);
         inside = false;
     }
@@ -320,7 +221,7 @@ void Condensed::solve(const Springs& springs, std::span<const double> theta, Res
     }
     // Without a load nothing moves, exactly.
     std::vector<double> load(now.size());
-    multiply(bulk_->energy().load, theta, load);
+    multiply(bulk_->load(), theta, load);
     bool loaded = std::any_of(load.begin(), load.end(), [](double v) { return v != 0.0; });
     for (std::size_t r = 0; r < springs.force.size(); ++r)
         loaded = loaded || (springs.force[r] != 0.0 && springs.held[r] == 0);
@@ -369,19 +270,17 @@ void Condensed::respond(const Springs& springs, std::span<const double> theta, c
                         Response& response) const {
     response.balanced = solution == nullptr || solution->balanced;
     if (!response.balanced) return;
-    const DenseEnergy& energy = bulk_->energy();
     const std::size_t unknowns = always_.size(), rows = bulk_->rows().size();
-    std::vector<double> x(unknowns, 0.0), load(unknowns, 0.0);
-    if (solution != nullptr) {
-        std::vector<double> near(outer_->kept().size(), 0.0);
-        inner_->recover(theta, solution->unknowns, near);
-        outer_->recover(theta, near, x);
-    }
-    multiply(energy.load, theta, load);
+    std::vector<double> load(unknowns, 0.0);
+    const std::vector<double> skeleton = skeleton_of(theta, solution), x = bulk_->unknowns_at(skeleton);
+    multiply(bulk_->load(), theta, load);
 
     response.jump.assign(rows, 0.0);
     response.force.assign(rows, 0.0);
-    std::vector<double> offset(rows, 0.0), left = load;
+    std::vector<double> offset(rows, 0.0);
+    std::vector<std::uint8_t> held(unknowns);
+    for (std::size_t i = 0; i < unknowns; ++i) held[i] = springs.held[index(bulk_->row_of_unknown()[i])];
+    std::vector<double> left = bulk_->residual(theta, skeleton, held);
     for (std::size_t z = 0; solution != nullptr && z < solution->multiplier.size(); ++z)
         response.force[index(zone_->jump_rows()[z])] = solution->multiplier[z];
     for (std::size_t r = 0; r < rows; ++r) {
@@ -402,16 +301,14 @@ void Condensed::respond(const Springs& springs, std::span<const double> theta, c
     }
     for (std::size_t i = 0; i < unknowns; ++i) {
         const auto r = index(bulk_->row_of_unknown()[i]);
-        if (springs.held[r] == 0) continue;
-        const auto column = std::span<const double>(energy.stiffness.value).subspan(i * unknowns, unknowns);
-        response.force[r] = left[i] - dot(column, x);
+        if (springs.held[r] != 0) response.force[r] = left[i];
     }
 
     double along = 0.0, potential = 0.0;
     for (std::size_t i = 0; i < unknowns; ++i) along -= 0.5 * x[i] * load[i];
     response.conjugate.assign(theta.size(), 0.0);
     for (std::size_t p = 0; p < theta.size(); ++p) {
-        const auto column = std::span<const double>(energy.load.value).subspan(p * unknowns, unknowns);
+        const auto column = std::span<const double>(bulk_->load().value).subspan(p * unknowns, unknowns);
         double q = -dot(column, x);
         for (std::size_t k = 0; k < theta.size(); ++k)
             q += bulk_->pattern_stiffness()(static_cast<std::int64_t>(p), static_cast<std::int64_t>(k)) * theta[k];
@@ -431,6 +328,14 @@ void Condensed::respond(const Springs& springs, std::span<const double> theta, c
     response.residual = 0.0;
     response.iterations = 0;
     response.converged = true;
+}
+
+// All else at its minimum for these unknowns of the zone; without a solution all unknowns are at zero.
+std::vector<double> Condensed::skeleton_of(std::span<const double> theta, const Zone::Solution* solution) const {
+    if (solution == nullptr) return bulk_->skeleton_at_rest(theta);
+    std::vector<double> skeleton(bulk_->superelements().variable().size());
+    elimination_.recover(theta, energy_->recover(theta, solution->unknowns), skeleton);
+    return skeleton;
 }
 
 std::vector<double> Condensed::unknowns_of(const Response& response) const {
@@ -456,18 +361,17 @@ double Condensed::equilibrium_defect(std::span<const double> theta, const Respon
 // of plies is (thickness/length)^2 of that of their cells. The factor's own losses inside the bodies appear where it is
 // used for the loads.
 double Condensed::rounding_energy(std::span<const double> theta, const Response& response) const {
-    const DenseMatrix& stiffness = bulk_->energy().stiffness;
     const std::vector<double> x = unknowns_of(response);
     double sum = 0.0;
-    for (std::size_t i = 0; i < x.size(); ++i) sum += stiffness.value[i * x.size() + i] * x[i] * x[i];
+    for (std::size_t i = 0; i < x.size(); ++i) sum += bulk_->diagonal(static_cast<std::int64_t>(i)) * x[i] * x[i];
     return std::numeric_limits<double>::epsilon() * sum + bulk_->rounding_energy(theta);
 }
 
 std::string Condensed::description_of(const Bulk& bulk) {
-    const std::int64_t jumps = free_jumps(bulk.system().variables());
-    const double unknowns = static_cast<double>(jumps);
-    return text("condensed: ", jumps, " unknown jumps, sparse factor with ", bulk.size().entries,
-                " entries, dense operator ", 8.0 * unknowns * unknowns / 1048576.0, " MiB");
+    const Superelements& pieces = bulk.superelements();
+    return text("condensed: ", free_jumps(bulk.system().variables()), " unknown jumps, ", pieces.leaves(),
+                " superelements, sparse factors with ", pieces.size().entries, " entries, dense matrices of ",
+                8.0 * pieces.dense_entries() / 1048576.0, " MiB");
 }
 
 }  // namespace delam

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The jump operator with the bodies condensed onto the jumps once, dense.
+// The jump operator with the bodies condensed, once.
 //
 // Between two solves only the process zone and the contact set change. Most unknowns are therefore minimised out at
-// their present springs (dense_energy.hpp), in two nested steps: far ones rarely, near ones more often. The rest, the
-// zone, is factored in each solve. If the spring of an unknown changes although it was minimised out, the zone is
-// chosen again; a far unknown is released by a low-rank update as long as that is cheaper than minimising all far ones
-// again.
+// their present springs (elimination.hpp); the rest, the zone, is factored in each solve. If the spring of an unknown
+// changes although it was minimised out, the zone is chosen again, which costs the path from its superelement to the
+// root.
 #pragma once
 
 #include <memory>
@@ -50,22 +49,17 @@ private:
     static constexpr std::uint8_t forgotten = 3;
     // The content of memory().
     struct Choice {
-        std::vector<std::uint8_t> age, inside, near;
-        std::vector<double> outer_spring, spring, last;
-        double multiplications = 0.0;
-        std::vector<std::vector<std::int64_t>> released;
+        std::vector<std::uint8_t> age, inside;
+        std::vector<double> spring, last;
     };
     // Throws Error(DELAM_ERROR_SNAPSHOT) if it contradicts itself or this operator.
     Choice parse(std::span<const double> memory) const;
     Poll poll();
     bool covers(const Springs& springs) const;
     void choose(const Springs& springs, std::span<const std::uint8_t> wanted);
-    void condense_outer(std::span<const std::uint8_t> near);
-    void release(std::vector<std::int64_t> unknowns);
-    void condense_inner();
-    std::vector<std::uint8_t> first_near() const;
+    void condense();
     std::vector<std::uint8_t> grown(std::vector<std::uint8_t> set, std::size_t count) const;
-    std::vector<std::int64_t> distance(std::span<const std::uint8_t> set) const;
+    std::vector<double> skeleton_of(std::span<const double> theta, const Zone::Solution* solution) const;
     std::vector<double> unknowns_of(const Response& response) const;
     double spring_of(const Springs& springs, std::size_t unknown) const;  // -1: held
 
@@ -76,20 +70,15 @@ private:
     std::vector<std::uint8_t>
         always_;  // [unknowns] stay in the zone: anchors of rigid motions, rows that share unknowns
     std::vector<std::int64_t> neighbour_start_, neighbour_;  // of unknowns
-    std::vector<std::vector<std::int64_t>> rows_of_;         // [unknowns]
 
     // The present choice, [unknowns]. Springs: -1 is held.
-    std::vector<std::uint8_t> near_;    // not minimised out in the first step
     std::vector<std::uint8_t> inside_;  // in the zone
-    std::vector<double> outer_spring_;  // at the time of the first step
-    std::vector<double> spring_;        // at which they are minimised out now
+    std::vector<double> spring_;        // at which the others are minimised out
     std::vector<double> last_;          // of the previous solve; all 0: there was none, or nothing was held
     std::vector<std::uint8_t> age_;     // number of choices since it last changed or was requested, up to `forgotten`
-    std::vector<std::vector<std::int64_t>> released_;  // from the first step, group after group
-    double multiplications_ = 0.0;                     // of the condensations since the first step
-    std::unique_ptr<Condensation> outer_, inner_;
+    Elimination elimination_;
+    std::unique_ptr<Bulk::ZoneEnergy> energy_;
     std::unique_ptr<DenseZone> zone_;
-    std::vector<std::int64_t> zone_unknowns_;
     std::int64_t condensations_ = 0;
 };
 

@@ -299,7 +299,7 @@ def plan_beforehand(host, see):
     _, setup, memory = host("problem_plan", bar.problem, Out(), Out(), Out())
     items = {item[0]: item for item in (host("solver_plan_item", bar.solver, k, Out(), Out(), None, Out(), Out(), Out())
                                         for k in range(host("solver_plan_count", bar.solver, Out())))}
-    see.equal("memory is the item of the plan", memory, items["memory"][3])
+    see.that("memory is the item of the plan, in bytes", 100.0 < memory == items["memory"][3] < 1e6)
     see.that("the longest factorisation is part of the set-up, and the set-up of the analysis",
              0 < items["longest uninterruptible factorisation"][3] <= setup < items["condensed operator"][3] / 20e9)
     see.equal("values", host("problem_value_count", bar.problem, Out()), host("solver_value_count", bar.solver, Out()))
