@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reduction/bound_rows.hpp"
 
-#include "reduction/jump_variables.hpp"
-
 namespace delam {
 
-std::vector<BoundRow> bound_rows(const Problem& problem) {
+std::vector<BoundRow> bound_rows(const JumpVariables& v) {
     std::vector<BoundRow> bound;
-    const JumpVariables v = make_jump_variables(problem);
     std::vector<std::int64_t> row_of(static_cast<std::size_t>(v.jumps), -1);
     for (std::size_t r = 0; r < v.row.size(); ++r)
         if (v.row[r].size() == 1 && v.row[r].front().second == 1.0 && v.row_offset[r].empty() &&
@@ -17,7 +14,7 @@ std::vector<BoundRow> bound_rows(const Problem& problem) {
         const auto at = static_cast<std::size_t>(r);
         if (v.row[at].empty()) continue;
         BoundRow row{r, {}, v.row_offset[at]};
-        row.offset.resize(problem.patterns.size(), 0.0);
+        row.offset.resize(v.lift.size(), 0.0);
         for (const auto& [jump, c] : v.row[at]) row.others.push_back(row_of[static_cast<std::size_t>(jump)]);
         bound.push_back(std::move(row));
     }

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "scene/problem.hpp"
+#include "reduction/jump_variables.hpp"
 
 namespace delam {
 
@@ -17,6 +17,6 @@ struct BoundRow {
 };
 
 // One row for each independent equation among the jumps alone; excludes rows that constraints prescribe completely.
-std::vector<BoundRow> bound_rows(const Problem& problem);
+std::vector<BoundRow> bound_rows(const JumpVariables& variables);
 
 }  // namespace delam

@@ -296,6 +296,7 @@ Design of_iterated(Design design, std::unique_ptr<Iterated> iterated) {
     design.choice.iteration = predict_iterated(iterated->size());
     design.choice.factor_entries = iterated->size().factor.entries;
     design.description = iterated->description();
+    design.bound = bound_rows(iterated->variables());
     design.prescribed.assign(iterated->prescribed_rows().begin(), iterated->prescribed_rows().end());
     design.op = std::move(iterated);
     return design;
@@ -304,13 +305,15 @@ Design of_iterated(Design design, std::unique_ptr<Iterated> iterated) {
 Design of_feti(Design design, const Problem& problem, Monitor& monitor) {
     design.description = text("total FETI: ", design.choice.subdomains, " subdomains, ", problem.jump_count(),
                               " jump multipliers, preconditioner ", problem.options.preconditioner);
-    design.prescribed =
-        prescribed_rows(make_jump_variables(problem, [&monitor] { monitor.progress("assemble", 0, 0); }));
+    const JumpVariables variables = make_jump_variables(problem, [&monitor] { monitor.progress("assemble", 0, 0); });
+    design.bound = bound_rows(variables);
+    design.prescribed = prescribed_rows(variables);
     return design;
 }
 
 Design of_condensed(Design design, std::unique_ptr<Bulk> bulk) {
     design.description = Condensed::description_of(*bulk);
+    design.bound = bound_rows(bulk->system().variables());
     design.prescribed = prescribed_rows(bulk->system().variables());
     design.bulk = std::move(bulk);
     return design;

@@ -14,6 +14,7 @@
 
 #include "base/memory_limit.hpp"
 #include "base/monitor.hpp"
+#include "reduction/bound_rows.hpp"
 #include "reduction/jump_operator.hpp"
 #include "scene/problem.hpp"
 
@@ -87,6 +88,7 @@ struct Design {
     std::string description;               // of the operator, for people
     std::string refusal;                   // why it does not fit into the memory, "": it may
     std::vector<std::uint8_t> prescribed;  // [jump rows] 1: the constraints alone determine the jump
+    std::vector<BoundRow> bound;           // jumps that supports bind to others
     std::unique_ptr<Bulk> bulk;            // of the condensed operator
     std::unique_ptr<JumpOperator> op;      // the iterated operator, which factors nothing before its first solve
 

@@ -15,7 +15,9 @@ std::vector<std::uint8_t> given_by_host(const Problem& problem) {
     return given;
 }
 
-Pieces rigid_pieces(const Problem& problem) {
+namespace {
+
+Pieces find_pieces(const Problem& problem) {
     const Mesh& mesh = *problem.mesh;
     const std::int64_t dim = mesh.dimension();
     const Partition parts = partition(mesh, 1, given_by_host(problem));
@@ -56,6 +58,22 @@ Pieces rigid_pieces(const Problem& problem) {
         }
     }
     return pieces;
+}
+
+}  // namespace
+
+struct KnownPieces {
+    std::shared_ptr<const Mesh> mesh;
+    std::vector<std::shared_ptr<const HostStiffness>> stiffness;
+    Pieces pieces;
+};
+
+const Pieces& rigid_pieces(const Problem& problem) {
+    const KnownPieces* known = problem.known_pieces.get();
+    if (known == nullptr || known->mesh != problem.mesh || known->stiffness != problem.stiffness)
+        problem.known_pieces =
+            std::make_shared<const KnownPieces>(KnownPieces{problem.mesh, problem.stiffness, find_pieces(problem)});
+    return problem.known_pieces->pieces;
 }
 
 }  // namespace delam

@@ -30,7 +30,8 @@ struct Pieces {
     std::size_t count() const { return body.size(); }
 };
 
-Pieces rigid_pieces(const Problem& problem);
+// Found once for the stiffness that the bodies have, and kept with the problem and its copies.
+const Pieces& rigid_pieces(const Problem& problem);
 
 // 1 for bodies whose stiffness the host has given, [bodies].
 std::vector<std::uint8_t> given_by_host(const Problem& problem);

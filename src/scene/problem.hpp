@@ -58,6 +58,8 @@ struct InterfaceProperties {
     std::vector<double> adhesion;  // initial, [pairs]
 };
 
+struct KnownPieces;
+
 struct Problem {
     explicit Problem(std::shared_ptr<const Mesh> mesh_);
 
@@ -90,6 +92,9 @@ struct Problem {
     std::vector<double> factors(double time) const;
     // Right-hand side coefficients [constraints][patterns], row-major.
     std::vector<double> prescribed_matrix() const;
+
+    // What pieces.hpp has found, for the thread that uses the problem.
+    mutable std::shared_ptr<const KnownPieces> known_pieces;
 };
 
 // Throws Error(DELAM_ERROR_PROBLEM) for the first thing that is missing or contradictory, including supports: every

@@ -123,7 +123,7 @@ private:
     Carriers carriers_;
     std::size_t dimension_;
     std::size_t modes_;
-    Pieces pieces_;
+    const Pieces& pieces_;
     Sets groups_;  // of the pieces, then of the control nodes
     std::vector<std::int64_t> node_piece_;
     std::vector<Tie> ties_;

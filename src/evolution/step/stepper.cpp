@@ -106,7 +106,7 @@ Stepper::Stepper(const Problem& problem, Monitor& monitor) : problem_(problem), 
     std::vector<std::uint8_t> bonded_rows;
     for (const std::uint8_t b : contact_.bonded)
         bonded_rows.insert(bonded_rows.end(), static_cast<std::size_t>(mesh.dimension()), b);
-    lift_ = Lift(*operator_, bonded_rows, bound_rows(problem_), problem_.patterns.size());
+    lift_ = Lift(*operator_, bonded_rows, design_.bound, problem_.patterns.size());
     const double largest = max_abs(problem_.prescribed_matrix());
     for (const std::size_t row : lift_.driven_rows(1e-9 * largest)) {
         const std::size_t pair = row / static_cast<std::size_t>(mesh.dimension());

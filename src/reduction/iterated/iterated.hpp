@@ -52,6 +52,7 @@ public:
     Zone* part(std::span<const double> theta, const Response& response, std::span<const std::uint8_t> wanted) override;
 
     IteratedSize size() const;
+    const JumpVariables& variables() const { return bodies_.variables(); }
 
 private:
     double tolerance() const;

@@ -86,7 +86,7 @@ class RigidMotions::Motions {
 public:
     explicit Motions(const Problem& problem)
         : mesh_(*problem.mesh), carriers_(problem), dim_(mesh_.dimension()), modes_(dim_ == 2 ? 3 : 6) {
-        const Pieces parts = rigid_pieces(problem);
+        const Pieces& parts = rigid_pieces(problem);
         pieces_.resize(parts.count());
         piece_of_ = parts.of_node;
         hinges_ = parts.hinges;
