@@ -31,6 +31,7 @@ bool in_process_zone(const CrackedInterface& interface, std::int64_t pair) {
 bool exhausted(const CrackedInterface& interface, std::int64_t pair) {
     const double adhesion = interface.adhesion[index(pair)];
     if (!(adhesion > 0.0)) return true;
+    if (!(adhesion < 1.0)) return false;
     const Toughness toughness = interface.law.toughness(mixity_of(interface, pair));
     return interface.law.dissipated(toughness, adhesion) >= (1.0 - zone_ends) * toughness.total;
 }

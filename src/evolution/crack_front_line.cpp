@@ -3,6 +3,7 @@
 // adhering side.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "evolution/crack_front.hpp"
 #include "mesh/faces.hpp"
@@ -20,41 +21,65 @@ struct EdgeChain {
 
 double distance(const Vector3& p, const Vector3& q) { return std::hypot(q[0] - p[0], q[1] - p[1], q[2] - p[2]); }
 
+// The edges of a line, which are taken one by one.
+class Edges {
+public:
+    explicit Edges(const CrackedInterface& interface) : begin_(interface.adhesion.size() + 1, 0) {
+        const std::vector<PairPiece> pieces = pair_pieces(interface.geometry, 2);
+        for (const PairPiece& piece : pieces)
+            for (const std::size_t end : {0, 1}) ++begin_[index(piece.pair[end]) + 1];
+        std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+        other_.resize(begin_.back());
+        std::vector<std::size_t> at(begin_.begin(), begin_.end() - 1);
+        for (const PairPiece& piece : pieces)
+            for (const std::size_t end : {0, 1}) other_[at[index(piece.pair[end])]++] = piece.pair[1 - end];
+    }
+    std::size_t degree(std::size_t pair) const { return begin_[pair + 1] - begin_[pair]; }
+    // Takes the first edge left at a pair and returns its other end; -1: none is left.
+    std::int64_t take(std::int64_t pair) {
+        const auto left = std::find_if(first(pair), last(pair), [](std::int64_t other) { return other != taken; });
+        if (left == last(pair)) return taken;
+        const std::int64_t other = *left;
+        std::replace(first(pair), last(pair), other, taken);
+        std::replace(first(other), last(other), pair, taken);
+        return other;
+    }
+
+private:
+    static constexpr std::int64_t taken = -1;
+    std::vector<std::int64_t>::iterator first(std::int64_t pair) {
+        return other_.begin() + static_cast<std::ptrdiff_t>(begin_[index(pair)]);
+    }
+    std::vector<std::int64_t>::iterator last(std::int64_t pair) { return first(pair + 1); }
+
+    std::vector<std::size_t> begin_;   // [pairs+1]
+    std::vector<std::int64_t> other_;  // ends of the edges of each pair
+};
+
 // Chains of edges, beginning at pairs that do not have two edges; the remaining edges are rings. A ring is cut where
 // the adhesion is largest.
 std::vector<EdgeChain> chains(const CrackedInterface& interface) {
-    const std::size_t count = interface.adhesion.size();
-    std::vector<std::vector<std::int64_t>> next(count);
-    for (const PairPiece& piece : pair_pieces(interface.geometry, 2)) {
-        next[index(piece.pair[0])].push_back(piece.pair[1]);
-        next[index(piece.pair[1])].push_back(piece.pair[0]);
-    }
-    const auto take = [&](std::int64_t from, std::int64_t to) {  // an edge, from either end
-        std::erase(next[index(from)], to);
-        std::erase(next[index(to)], from);
-    };
-    std::vector<std::size_t> degree(count);
-    for (std::size_t p = 0; p < count; ++p) degree[p] = next[p].size();
+    const auto count = static_cast<std::int64_t>(interface.adhesion.size());
+    Edges edges(interface);
     std::vector<EdgeChain> found;
     const auto walk = [&](std::int64_t first) {
         EdgeChain chain{{first}, {}, false};
-        for (std::int64_t p = first; !next[index(p)].empty();) {
-            const std::int64_t q = next[index(p)].front();
-            take(p, q);
-            chain.pair.push_back(q);
-            p = q;
-            if (degree[index(q)] != 2) break;
+        for (std::int64_t p = edges.take(first); p >= 0; p = edges.take(p)) {
+            chain.pair.push_back(p);
+            if (edges.degree(index(p)) != 2) break;
         }
+        if (chain.pair.size() == 1) return false;
         chain.ring = chain.pair.size() > 2 && chain.pair.back() == first;
         found.push_back(std::move(chain));
+        return true;
     };
-    for (std::size_t p = 0; p < count; ++p)
-        while (degree[p] != 2 && !next[p].empty()) walk(static_cast<std::int64_t>(p));
-    for (std::size_t p = 0; p < count; ++p)
-        if (!next[p].empty()) walk(static_cast<std::int64_t>(p));
+    for (std::int64_t p = 0; p < count; ++p)
+        while (edges.degree(index(p)) != 2 && walk(p)) {
+        }
+    for (std::int64_t p = 0; p < count; ++p) walk(p);
 
     for (EdgeChain& chain : found) {
-        if (chain.ring && degree[index(chain.pair.front())] == 2) {
+        if (chain.ring && edges.degree(index(chain.pair.front())) == 2) {
             chain.pair.pop_back();
             const auto less = [&](std::int64_t p, std::int64_t q) {
                 return interface.adhesion[index(p)] < interface.adhesion[index(q)];

@@ -319,14 +319,15 @@ void Solver::warn_of_unresolved_front(const State& before, const State& after) {
         const std::optional<CrackedInterface> then = cracked(before, i), now = cracked(after, i);
         if (!now || !now->law.softens()) continue;
         bool grown = false;
-        for (std::size_t p = 0; p < now->adhesion.size(); ++p)
-            grown = grown ||
-                    (!exhausted(*then, static_cast<std::int64_t>(p)) && exhausted(*now, static_cast<std::int64_t>(p)));
+        for (std::int64_t p = 0; p < static_cast<std::int64_t>(now->adhesion.size()) && !grown; ++p)
+            grown = exhausted(*now, p) && !exhausted(*then, p);
         if (!grown) continue;
         double pairs = -1.0;
-        for (const CrackedInterface* state : {&*then, &*now})
+        for (const CrackedInterface* state : {&*now, &*then}) {
+            if (pairs >= resolving_pairs) break;
             for (const CrackFront& front : delam::crack_fronts(*state))
                 for (const FrontPoint& point : front.points) pairs = std::max(pairs, point.zone_pairs);
+        }
         if (pairs < 0.0 || pairs >= resolving_pairs) continue;
         monitor_.log(1,
                      text("step ", after.step, " at time ", after.time, ": a front of interface ", i, " advanced with ",

@@ -24,14 +24,14 @@ constexpr double mixity_difference = 1e-6;  // of the derivative by B
 }  // namespace
 
 ConvergedIncrement::ConvergedIncrement(const PairLaws& pairs, const State& before, std::span<const double> mixity,
-                                       StepLimits limits)
-    : FrozenIncrement(pairs, before, mixity, limits),
+                                       StepLimits limits, const Increment* like)
+    : FrozenIncrement(pairs, before, mixity, limits, like),
       swing_(mixity.size()),
       mixity_begun_(mixity.begin(), mixity.end()),
       least_(mixity.size(), -1.0) {}
 
 std::unique_ptr<Increment> ConvergedIncrement::starting_at(std::span<const double> mixity) const {
-    return std::make_unique<ConvergedIncrement>(pairs_, before_, mixity, limits_);
+    return std::make_unique<ConvergedIncrement>(pairs_, before_, mixity, limits_, this);
 }
 
 // The mixity kept by a broken pair is final.

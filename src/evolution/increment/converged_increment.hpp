@@ -11,7 +11,8 @@ namespace delam {
 
 class ConvergedIncrement final : public FrozenIncrement {
 public:
-    ConvergedIncrement(const PairLaws& pairs, const State& before, std::span<const double> mixity, StepLimits limits);
+    ConvergedIncrement(const PairLaws& pairs, const State& before, std::span<const double> mixity, StepLimits limits,
+                       const Increment* like = nullptr);
     std::unique_ptr<Increment> starting_at(std::span<const double> mixity) const override;
 
     using Increment::observe;

@@ -109,21 +109,36 @@ double stored_energy(const PairLaws& pairs, std::span<const double> adhesion, st
 double stored_linear(const PairLaws& pairs, std::span<const double> mixity, std::span<const double> adhesion) {
     double sum = 0.0;
     for (std::size_t p = 0; p < adhesion.size(); ++p)
-        if (pairs.law[p] != nullptr)
+        if (pairs.law[p] != nullptr && adhesion[p] > 0.0 && adhesion[p] < 1.0)  // f(0) = f(1) = 0
             sum += pairs.weight[p] * pairs.law[p]->stored_linear(pairs.toughness(p, mixity[p]), adhesion[p]);
     return sum;
 }
 
-double dissipation(const PairLaws& pairs, std::span<const double> mixity, std::span<const double> adhesion_old,
-                   std::span<const double> adhesion) {
+namespace {
+
+double dissipation_with(const PairLaws& pairs, std::span<const double> adhesion_old, std::span<const double> adhesion,
+                        auto&& toughness_of) {
     double sum = 0.0;
     for (std::size_t p = 0; p < adhesion.size(); ++p) {
         if (pairs.law[p] == nullptr || adhesion[p] == adhesion_old[p]) continue;
-        const Toughness t = pairs.toughness(p, mixity[p]);
+        const Toughness t = toughness_of(p);
         sum +=
             pairs.weight[p] * (pairs.law[p]->dissipated(t, adhesion[p]) - pairs.law[p]->dissipated(t, adhesion_old[p]));
     }
     return sum;
+}
+
+}  // namespace
+
+double dissipation(const PairLaws& pairs, std::span<const double> mixity, std::span<const double> adhesion_old,
+                   std::span<const double> adhesion) {
+    return dissipation_with(pairs, adhesion_old, adhesion,
+                            [&](std::size_t p) { return pairs.toughness(p, mixity[p]); });
+}
+
+double dissipation(const PairLaws& pairs, std::span<const Toughness> toughness, std::span<const double> adhesion_old,
+                   std::span<const double> adhesion) {
+    return dissipation_with(pairs, adhesion_old, adhesion, [&](std::size_t p) { return toughness[p]; });
 }
 
 double dissipation_linear(const PairLaws& pairs, std::span<const double> mixity, std::span<const double> adhesion_old,

@@ -65,6 +65,9 @@ double stored_linear(const PairLaws& pairs, std::span<const double> mixity,
 // sum w (g(B, zeta) - g(B, zeta_old)), the ledger whose stored part does not depend on the mixity
 double dissipation(const PairLaws& pairs, std::span<const double> mixity, std::span<const double> adhesion_old,
                    std::span<const double> adhesion);
+// The same with Go and Gc given, [pairs].
+double dissipation(const PairLaws& pairs, std::span<const Toughness> toughness, std::span<const double> adhesion_old,
+                   std::span<const double> adhesion);
 // sum w Gc(B) (zeta_old - zeta)
 double dissipation_linear(const PairLaws& pairs, std::span<const double> mixity, std::span<const double> adhesion_old,
                           std::span<const double> adhesion);

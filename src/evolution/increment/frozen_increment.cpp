@@ -6,11 +6,11 @@
 namespace delam {
 
 std::unique_ptr<Increment> FrozenIncrement::starting_at(std::span<const double> mixity) const {
-    return std::make_unique<FrozenIncrement>(pairs_, before_, mixity, limits_);
+    return std::make_unique<FrozenIncrement>(pairs_, before_, mixity, limits_, this);
 }
 
 double FrozenIncrement::energy(std::span<const double> adhesion, std::span<const double> jump) const {
-    return stored_energy(pairs_, adhesion, jump) + cost(now_.used, adhesion);
+    return stored_energy(pairs_, adhesion, jump) + dissipation(pairs_, now_.toughness, before_.adhesion, adhesion);
 }
 
 std::vector<double> FrozenIncrement::damage_step(std::span<const double> adhesion, std::span<const double> jump) const {

@@ -8,11 +8,18 @@
 
 namespace delam {
 
-Increment::Increment(const PairLaws& pairs, const State& before, std::span<const double> mixity, StepLimits limits)
+Increment::Increment(const PairLaws& pairs, const State& before, std::span<const double> mixity, StepLimits limits,
+                     const Increment* like)
     : pairs_(pairs), before_(before), limits_(limits) {
     now_.used.assign(mixity.begin(), mixity.end());
     now_.own = now_.used;
-    now_.toughness = toughnesses(pairs, mixity);
+    if (like == nullptr) {
+        now_.toughness = toughnesses(pairs, mixity);
+        return;
+    }
+    now_.toughness = like->now_.toughness;
+    for (std::size_t p = 0; p < mixity.size(); ++p)
+        if (pairs.mixed(p) && mixity[p] != like->now_.used[p]) now_.toughness[p] = pairs.toughness(p, mixity[p]);
 }
 
 bool Increment::damages(std::size_t pair, double adhesion, std::span<const double> local_jump, double nearly) const {

@@ -150,8 +150,9 @@ public:
     virtual std::vector<PairDirection> directions(const State& state) const = 0;
 
 protected:
-    // mixity: [pairs].
-    Increment(const PairLaws& pairs, const State& before, std::span<const double> mixity, StepLimits limits);
+    // mixity: [pairs]. like: an increment of the same laws, from which toughnesses at equal mixities are taken.
+    Increment(const PairLaws& pairs, const State& before, std::span<const double> mixity, StepLimits limits,
+              const Increment* like = nullptr);
     virtual const std::vector<double>& recorded() const { return now_.used; }
     virtual void begin_observation() {}
     // In the split of PANM 15 (2010), at the mixities of the state.

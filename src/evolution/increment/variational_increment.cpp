@@ -18,7 +18,7 @@ constexpr double same_as_spring = 1e-12;
 }  // namespace
 
 std::unique_ptr<Increment> VariationalIncrement::starting_at(std::span<const double> mixity) const {
-    return std::make_unique<VariationalIncrement>(pairs_, before_, mixity, limits_);
+    return std::make_unique<VariationalIncrement>(pairs_, before_, mixity, limits_, this);
 }
 
 double VariationalIncrement::energy(std::span<const double> adhesion, std::span<const double> jump) const {

@@ -11,8 +11,9 @@ namespace delam {
 
 class VariationalIncrement final : public Increment {
 public:
-    VariationalIncrement(const PairLaws& pairs, const State& before, std::span<const double> mixity, StepLimits limits)
-        : Increment(pairs, before, mixity, limits) {}
+    VariationalIncrement(const PairLaws& pairs, const State& before, std::span<const double> mixity, StepLimits limits,
+                         const Increment* like = nullptr)
+        : Increment(pairs, before, mixity, limits, like) {}
     std::unique_ptr<Increment> starting_at(std::span<const double> mixity) const override;
 
     double energy(std::span<const double> adhesion, std::span<const double> jump) const override;
