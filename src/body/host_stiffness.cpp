@@ -292,7 +292,8 @@ HostStiffness host_stiffness(const Mesh& mesh, std::int32_t body, SparseMatrix m
         const std::string where = text("body ", mesh.body_label(body), ", the ", local.size(),
                                        " nodes connected with node ", piece.nodes.front());
         DenseMatrix q(dim * static_cast<std::int64_t>(local.size()), 0);
-        q.value = rigid_modes(mesh, piece.nodes);
+        const std::vector<double> modes = rigid_modes(mesh, piece.nodes);
+        q.value.assign(modes.begin(), modes.end());
         q.columns = static_cast<std::int64_t>(q.value.size()) / q.rows;
         const Split split = kernel.told ? told_split(judged, local, dim, q, kernel.motions, where)
                                         : found_split(judged, local, dim, q, where);

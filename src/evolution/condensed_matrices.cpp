@@ -56,7 +56,7 @@ CondensedSize condensed_size(const Solver& solver) {
 
 void copy_condensed(const Solver& solver, const CondensedMatrices& out) {
     const Bulk& bulk = bulk_of(solver);
-    const std::vector<double>& constant = bulk.pattern_stiffness().value;
+    const std::span<const double> constant = bulk.pattern_stiffness().value;
     if (out.stiffness != nullptr) copy_stiffness(bulk.dense([] { poll_cancel("condense", 1 << 20); }), out.stiffness);
     if (out.load != nullptr) std::copy(bulk.load().value.begin(), bulk.load().value.end(), out.load);
     if (out.constant != nullptr) std::copy(constant.begin(), constant.end(), out.constant);

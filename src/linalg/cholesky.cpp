@@ -15,6 +15,7 @@
 #include "base/blas_threads.hpp"
 #include "base/cancel_scope.hpp"
 #include "base/error.hpp"
+#include "base/large_pages.hpp"
 #include "base/numbers.hpp"
 #include "base/room.hpp"
 #include "delam/delam.h"
@@ -121,6 +122,14 @@ struct SparseCholesky::Impl {
     void forget_single() {
         single.reset();
         single_values = cholmod_l_free(single_count, sizeof(float), single_values, &common);
+    }
+
+    // CHOLMOD would allocate them itself, in small pages.
+    void make_room_for_values() {
+        if (factor->is_super == 0 || factor->xtype != CHOLMOD_PATTERN) return;
+        cholmod_l_change_factor(CHOLMOD_REAL, 1, 1, 1, 1, factor, &common);
+        check("factorisation");
+        prefer_large_pages(factor->x, factor->xsize * sizeof(double));
     }
 
     // The values change hands; the factor keeps its pattern, as after the analysis.
@@ -298,6 +307,7 @@ bool SparseCholesky::factorise(const SparseMatrix& matrix) {
     if (impl.size == 0) return true;
     const FactorThreads threads(impl.size_of_factor.flops);
     impl.forget_single();
+    impl.make_room_for_values();
     cholmod_sparse a = view(matrix);
     cholmod_l_factorize(&a, impl.factor, &impl.common);
     impl.check("factorisation");

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "base/large_pages.hpp"
 #include "base/monitor.hpp"
 
 namespace delam {
@@ -13,7 +14,7 @@ namespace delam {
 struct DenseMatrix {
     std::int64_t rows = 0;
     std::int64_t columns = 0;
-    std::vector<double> value;  // column-major
+    LargeVector<double> value;  // column-major
 
     DenseMatrix() = default;
     DenseMatrix(std::int64_t r, std::int64_t c) : rows(r), columns(c), value(static_cast<std::size_t>(r * c), 0.0) {}

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "base/large_pages.hpp"
 #include "base/monitor.hpp"
 
 namespace delam {
@@ -15,8 +16,8 @@ struct SparseMatrix {
     std::int64_t rows = 0;
     std::int64_t columns = 0;
     std::vector<std::int64_t> start{0};  // [rows+1]
-    std::vector<std::int64_t> column;    // sorted within a row
-    std::vector<double> value;
+    LargeVector<std::int64_t> column;    // sorted within a row
+    LargeVector<double> value;
 
     std::int64_t entries() const { return static_cast<std::int64_t>(column.size()); }
 };

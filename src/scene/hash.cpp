@@ -36,8 +36,8 @@ public:
         add(static_cast<std::int64_t>(list.size()));
         for (const T& item : list) add(item);
     }
-    template <class T>
-    void add_all(const std::vector<T>& list) {
+    template <class T, class Memory>
+    void add_all(const std::vector<T, Memory>& list) {
         add_all(std::span<const T>(list));
     }
 };

@@ -52,7 +52,8 @@ template <std::size_t n>
 std::vector<double> inverse(std::span<const double, n * n> a) {
     DenseMatrix m(n, n);
     std::copy(a.begin(), a.end(), m.value.begin());
-    return inverse_definite(std::move(m)).value;
+    const DenseMatrix inverse = inverse_definite(std::move(m));
+    return {inverse.value.begin(), inverse.value.end()};
 }
 
 void close(double found, double expected, double scale) {

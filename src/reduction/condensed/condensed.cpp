@@ -68,7 +68,7 @@ Condensed::Condensed(std::shared_ptr<Bulk> bulk, const Problem& problem, Monitor
     SparseMatrix graph =
         from_triplets(static_cast<std::int64_t>(unknowns), static_cast<std::int64_t>(unknowns), std::move(links));
     neighbour_start_ = std::move(graph.start);
-    neighbour_ = std::move(graph.column);
+    neighbour_.assign(graph.column.begin(), graph.column.end());
     age_.assign(unknowns, forgotten);
     inside_.assign(unknowns, 1);
     last_.assign(unknowns, 0.0);

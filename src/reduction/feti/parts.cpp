@@ -90,7 +90,8 @@ void assemble(const Problem& problem, const std::vector<std::int64_t>& cells, Su
         subdomain.stiffness =
             assemble_stiffness(*problem.mesh, cells, subdomain.nodes, problem.model(subdomain.body), 1, poll);
         subdomain.rigid = DenseMatrix(subdomain.stiffness.rows, problem.mesh->dimension() == 2 ? 3 : 6);
-        subdomain.rigid.value = rigid_modes(*problem.mesh, subdomain.nodes);
+        const std::vector<double> modes = rigid_modes(*problem.mesh, subdomain.nodes);
+        subdomain.rigid.value.assign(modes.begin(), modes.end());
     } else {
         const HostPiece& piece = piece_with(*own, subdomain.nodes);
         subdomain.stiffness =
