@@ -20,6 +20,7 @@
 #include "base/room.hpp"
 #include "delam/delam.h"
 #include "linalg/dissection.hpp"
+#include "linalg/equal_rows.hpp"
 #include "linalg/single_factor.hpp"
 
 // This file calls only LGPL modules by name (Core, Cholesky, Partition/CAMD; METIS is called by itself, metis.hpp). The
@@ -72,6 +73,36 @@ private:
     BlasThreads blas_;
     int dynamic_ = -1, levels_ = -1;
 };
+
+// A view of our rows as CHOLMOD's columns; the matrix is symmetric, and CHOLMOD reads its upper triangle.
+cholmod_sparse view(const SparseMatrix& m) {
+    cholmod_sparse a{};
+    a.nrow = static_cast<std::size_t>(m.rows);
+    a.ncol = static_cast<std::size_t>(m.columns);
+    a.nzmax = static_cast<std::size_t>(m.entries());
+    a.p = const_cast<std::int64_t*>(m.start.data());
+    a.i = const_cast<std::int64_t*>(m.column.data());
+    a.x = const_cast<double*>(m.value.data());
+    a.stype = 1;
+    a.itype = CHOLMOD_LONG;
+    a.xtype = CHOLMOD_REAL;
+    a.dtype = CHOLMOD_DOUBLE;
+    a.sorted = 1;
+    a.packed = 1;
+    return a;
+}
+
+cholmod_dense view(std::span<const double> b) {
+    cholmod_dense d{};
+    d.nrow = b.size();
+    d.ncol = 1;
+    d.nzmax = b.size();
+    d.d = b.size();
+    d.x = const_cast<double*>(b.data());
+    d.xtype = CHOLMOD_REAL;
+    d.dtype = CHOLMOD_DOUBLE;
+    return d;
+}
 
 }  // namespace
 
@@ -151,13 +182,31 @@ struct SparseCholesky::Impl {
 
     using Order = std::vector<SuiteSparse_long>;
 
-    // Minimum degree of the leading variables, with the trailing ones last in their given order.
-    Order minimum_degree(cholmod_sparse& a) {
-        Order group(a.nrow, 0), order(a.nrow);
-        const auto interior = static_cast<std::ptrdiff_t>(size - trailing);
-        std::fill(group.begin() + interior, group.end(), 1);
-        if (cholmod_l_camd(&a, nullptr, 0, group.data(), order.data(), &common) == 0) check("ordering");
-        std::iota(order.begin() + interior, order.end(), size - trailing);
+    // Minimum degree of the leading variables, with the trailing ones last in their given order. Variables with equal
+    // rows are ordered as one: CAMD would find them itself, in twice the time.
+    Order minimum_degree(const SparseMatrix& matrix) {
+        const std::int64_t leading = size - trailing;
+        Order order;
+        order.reserve(index(size));
+        // CAMD writes beyond its arrays if the number of a set, here 1, is not below the number of variables.
+        if (leading == 0) {
+            order.resize(index(size));
+            std::iota(order.begin(), order.end(), std::int64_t{0});
+            return order;
+        }
+        const EqualRows groups = equal_rows(matrix, size, leading);
+        const SparseMatrix pattern = pattern_of_groups(matrix, groups);
+        cholmod_sparse a = view(pattern);
+        a.xtype = CHOLMOD_PATTERN;
+        a.sorted = 0;
+        Order last(a.nrow), of_groups(a.nrow);
+        for (std::size_t g = 0; g < last.size(); ++g) last[g] = groups.member[index(groups.start[g])] < leading ? 0 : 1;
+        if (cholmod_l_camd(&a, nullptr, 0, last.data(), of_groups.data(), &common) == 0) check("ordering");
+        for (const SuiteSparse_long g : of_groups)
+            for (std::int64_t i = groups.start[index(g)]; last[index(g)] == 0 && i < groups.start[index(g) + 1]; ++i)
+                order.push_back(groups.member[index(i)]);
+        order.resize(index(size));
+        std::iota(order.begin() + leading, order.end(), leading);
         return order;
     }
 
@@ -209,36 +258,6 @@ struct SparseCholesky::Impl {
 
 namespace {
 
-// A view of our rows as CHOLMOD's columns; the matrix is symmetric, and CHOLMOD reads its upper triangle.
-cholmod_sparse view(const SparseMatrix& m) {
-    cholmod_sparse a{};
-    a.nrow = static_cast<std::size_t>(m.rows);
-    a.ncol = static_cast<std::size_t>(m.columns);
-    a.nzmax = static_cast<std::size_t>(m.entries());
-    a.p = const_cast<std::int64_t*>(m.start.data());
-    a.i = const_cast<std::int64_t*>(m.column.data());
-    a.x = const_cast<double*>(m.value.data());
-    a.stype = 1;
-    a.itype = CHOLMOD_LONG;
-    a.xtype = CHOLMOD_REAL;
-    a.dtype = CHOLMOD_DOUBLE;
-    a.sorted = 1;
-    a.packed = 1;
-    return a;
-}
-
-cholmod_dense view(std::span<const double> b) {
-    cholmod_dense d{};
-    d.nrow = b.size();
-    d.ncol = 1;
-    d.nzmax = b.size();
-    d.d = b.size();
-    d.x = const_cast<double*>(b.data());
-    d.xtype = CHOLMOD_REAL;
-    d.dtype = CHOLMOD_DOUBLE;
-    return d;
-}
-
 // An ordering for few large overlapping dense blocks, where minimum degree takes longer than the factorisation itself.
 // Variables that belong to only one block come first, because their rows are the shortest. Rows with the same columns
 // stay together (recognised by a checksum).
@@ -284,7 +303,7 @@ SparseCholesky::SparseCholesky(const SparseMatrix& matrix, std::int64_t trailing
         impl.analyse(a, order);
         return;
     }
-    Impl::Order order = impl.minimum_degree(a);
+    Impl::Order order = impl.minimum_degree(matrix);
     call_if_set(poll);
     impl.analyse(a, order);
     if (!may_gain(impl.size_of_factor, matrix, trailing)) return;
