@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
 
 #include "base/cancel_scope.hpp"
 #include "base/error.hpp"
@@ -180,17 +181,14 @@ void add(const Block& block, SparseMatrix& k) {
     }
 }
 
-}  // namespace
-
 // The pattern follows from the graph of nodes before any number is known: element matrices are added directly at their
 // positions, cell after cell, and no list of all their entries ever exists. Both triangles receive the same numbers in
-// the same order, whatever the number of threads.
-SparseMatrix assemble_stiffness(const Mesh& mesh, std::span<const std::int64_t> cells,
-                                std::span<const std::int64_t> nodes, const BodyModel& model, std::int64_t threads,
-                                const Poll& poll) {
+// the same order, whatever the number of threads. model_of: a cell's.
+SparseMatrix assemble(const Mesh& mesh, std::span<const std::int64_t> cells, std::span<const std::int64_t> nodes,
+                      const auto& model_of, std::int64_t threads, const Poll& poll) {
     if (std::max(nodes.size(), cells.size()) > index(std::numeric_limits<std::int32_t>::max()))
         fail(DELAM_ERROR_ARGUMENT, nodes.size(), " nodes, ", cells.size(),
-             " cells in one part of a body: at most 2^31 - 1");
+             " cells to assemble at once: at most 2^31 - 1");
     const std::size_t dim = index(mesh.dimension());
     const LocalCells local = local_cells(mesh, cells, nodes);
     call_if_set(poll);
@@ -208,17 +206,22 @@ SparseMatrix assemble_stiffness(const Mesh& mesh, std::span<const std::int64_t> 
         for (std::size_t c = first; c < last; ++c) place.push_back(place.back() + size_of(c));
         matrices.resize(place.back());
         const auto compute = [&](std::int64_t piece) {
-            CellElasticity elasticity(model, mesh.dimension());
+            const BodyModel* model = nullptr;
+            std::optional<CellElasticity> elasticity;
             const std::size_t begin = first + index(piece) * cells_at_a_time;
             for (std::size_t c = begin; c < std::min(begin + cells_at_a_time, last); ++c) {
                 const Coordinates x = cell_coordinates(mesh, cells[c]);
-                const std::span<const double> own = elasticity.matrix(cells[c]);
+                if (const BodyModel& next = model_of(cells[c]); &next != model) {
+                    model = &next;
+                    elasticity.emplace(next, mesh.dimension());
+                }
+                const std::span<const double> own = elasticity->matrix(cells[c]);
                 const auto matrix = std::span<double>(matrices).subspan(place[c - first], size_of(c));
-                if (model.formulation == Formulation::mean_dilatation)
-                    mean_dilatation_stiffness(mesh.cell_type(cells[c]), x.view(), own, elasticity.dilatation(cells[c]),
+                if (model->formulation == Formulation::mean_dilatation)
+                    mean_dilatation_stiffness(mesh.cell_type(cells[c]), x.view(), own, elasticity->dilatation(cells[c]),
                                               matrix);
                 else
-                    element_stiffness(mesh.cell_type(cells[c]), x.view(), own, model.formulation, matrix);
+                    element_stiffness(mesh.cell_type(cells[c]), x.view(), own, model->formulation, matrix);
             }
         };
         team.run(static_cast<std::int64_t>((last - first + cells_at_a_time - 1) / cells_at_a_time), compute,
@@ -230,6 +233,22 @@ SparseMatrix assemble_stiffness(const Mesh& mesh, std::span<const std::int64_t> 
         }
     }
     return k;
+}
+
+}  // namespace
+
+SparseMatrix assemble_stiffness(const Mesh& mesh, std::span<const std::int64_t> cells,
+                                std::span<const std::int64_t> nodes, std::span<const BodyModel> models,
+                                std::int64_t threads, const Poll& poll) {
+    const auto own = [&](std::int64_t cell) -> const BodyModel& { return models[index(mesh.cell_body(cell))]; };
+    return assemble(mesh, cells, nodes, own, threads, poll);
+}
+
+SparseMatrix assemble_stiffness(const Mesh& mesh, std::span<const std::int64_t> cells,
+                                std::span<const std::int64_t> nodes, const BodyModel& model, std::int64_t threads,
+                                const Poll& poll) {
+    return assemble(
+        mesh, cells, nodes, [&](std::int64_t) -> const BodyModel& { return model; }, threads, poll);
 }
 
 // Without eigenstrains the in-plane rows suffice, and isotropic bodies have their zz from the others.

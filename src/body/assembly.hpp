@@ -14,8 +14,13 @@
 
 namespace delam {
 
-// Full symmetric stiffness (both triangles) of some cells of one body over the DOFs of `nodes` (ascending mesh nodes
-// that include all nodes of the cells): DOF dimension*i + component of nodes[i]. No digit depends on the threads.
+// Full symmetric stiffness (both triangles) of some cells over the DOFs of `nodes` (ascending mesh nodes that include
+// all nodes of the cells): DOF dimension*i + component of nodes[i]. models: by body index. No digit depends on the
+// threads.
+SparseMatrix assemble_stiffness(const Mesh& mesh, std::span<const std::int64_t> cells,
+                                std::span<const std::int64_t> nodes, std::span<const BodyModel> models,
+                                std::int64_t threads = 1, const Poll& poll = {});
+// The same of cells of one body.
 SparseMatrix assemble_stiffness(const Mesh& mesh, std::span<const std::int64_t> cells,
                                 std::span<const std::int64_t> nodes, const BodyModel& model, std::int64_t threads = 1,
                                 const Poll& poll = {});

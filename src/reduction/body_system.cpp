@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/numbers.hpp"
+#include "body/assembly.hpp"
 #include "linalg/dense.hpp"
 #include "scene/carriers.hpp"
 
@@ -13,38 +14,60 @@ namespace delam {
 
 namespace {
 
-// The stiffness of all bodies over all mesh DOFs; rows of nodes of no body are empty.
+// Of the bodies with cells of their own, over all mesh DOFs.
+SparseMatrix assemble_cells(const Problem& problem, const Poll& poll) {
+    const Mesh& mesh = *problem.mesh;
+    std::vector<BodyModel> models;
+    for (std::int32_t body = 0; body < mesh.body_count(); ++body)
+        models.push_back(problem.stiffness[index(body)] == nullptr
+                             ? problem.model(body)
+                             : BodyModel{Elastic{1.0, 0.0}, problem.plane, Formulation::standard, nullptr});
+    std::vector<std::int64_t> cells, nodes(index(mesh.node_count()));
+    cells.reserve(index(mesh.cell_count()));
+    for (std::int64_t c = 0; c < mesh.cell_count(); ++c)
+        if (problem.stiffness[index(mesh.cell_body(c))] == nullptr) cells.push_back(c);
+    std::iota(nodes.begin(), nodes.end(), std::int64_t{0});
+    return assemble_stiffness(mesh, cells, nodes, models, problem.options.threads, poll);
+}
+
+// The stiffness of all bodies over all mesh DOFs; rows of nodes of no body are empty. No two bodies share a row.
 SparseMatrix assemble(const Problem& problem, const Poll& poll) {
     const Mesh& mesh = *problem.mesh;
     const std::int64_t dim = mesh.dimension();
-    const std::int64_t dofs = mesh.node_count() * dim;
-    std::vector<SparseMatrix> part;
-    std::vector<std::vector<std::int64_t>> nodes;
+    SparseMatrix of_cells = assemble_cells(problem, poll);
+    if (std::all_of(problem.stiffness.begin(), problem.stiffness.end(),
+                    [](const auto& given) { return given == nullptr; }))
+        return of_cells;
+    struct Row {
+        const SparseMatrix* from = nullptr;
+        std::int64_t row = 0;
+        const std::vector<std::int64_t>* nodes = nullptr;  // of the columns; null: as they are
+    };
+    std::vector<Row> source(index(of_cells.rows));
+    for (std::int64_t r = 0; r < of_cells.rows; ++r) source[index(r)] = {&of_cells, r, nullptr};
+    std::vector<std::vector<std::int64_t>> nodes(index(mesh.body_count()));
+    std::int64_t entries = of_cells.entries();
     for (std::int32_t body = 0; body < mesh.body_count(); ++body) {
-        nodes.push_back(mesh.body_nodes(body));
-        part.push_back(problem.body_stiffness(body, poll));
-        call_if_set(poll);
+        const auto& given = problem.stiffness[index(body)];
+        if (given == nullptr) continue;
+        nodes[index(body)] = mesh.body_nodes(body);
+        for (std::int64_t r = 0; r < given->matrix.rows; ++r)
+            source[index(nodes[index(body)][index(r / dim)] * dim + r % dim)] = {&given->matrix, r,
+                                                                                 &nodes[index(body)]};
+        entries += given->matrix.entries();
     }
     SparseMatrix k;
-    k.rows = k.columns = dofs;
-    k.start.assign(index(dofs) + 1, 0);
-    for (std::size_t b = 0; b < part.size(); ++b)
-        for (std::int64_t r = 0; r < part[b].rows; ++r)
-            k.start[index(nodes[b][index(r / dim)] * dim + r % dim) + 1] =
-                part[b].start[index(r) + 1] - part[b].start[index(r)];
-    std::partial_sum(k.start.begin(), k.start.end(), k.start.begin());
-    k.column.resize(index(k.start.back()));
-    k.value.resize(index(k.start.back()));
-    for (std::size_t b = 0; b < part.size(); ++b) {
-        for (std::int64_t r = 0; r < part[b].rows; ++r) {
-            std::size_t at = index(k.start[index(nodes[b][index(r / dim)] * dim + r % dim)]);
-            for (std::int64_t e = part[b].start[index(r)]; e < part[b].start[index(r) + 1]; ++e, ++at) {
-                const std::int64_t c = part[b].column[index(e)];
-                k.column[at] = nodes[b][index(c / dim)] * dim + c % dim;
-                k.value[at] = part[b].value[index(e)];
-            }
+    k.rows = k.columns = of_cells.rows;
+    k.column.reserve(index(entries));
+    k.value.reserve(index(entries));
+    for (const Row& row : source) {
+        const SparseMatrix& m = *row.from;
+        for (std::int64_t e = m.start[index(row.row)]; e < m.start[index(row.row) + 1]; ++e) {
+            const std::int64_t c = m.column[index(e)];
+            k.column.push_back(row.nodes == nullptr ? c : (*row.nodes)[index(c / dim)] * dim + c % dim);
+            k.value.push_back(m.value[index(e)]);
         }
-        part[b] = SparseMatrix();
+        k.start.push_back(k.entries());
     }
     return k;
 }
