@@ -13,11 +13,8 @@ namespace delam {
 
 namespace {
 
-struct Key {
-    std::array<std::int64_t, 4> node;  // corners, ascending; unused entries at the end, beyond every node
-    std::int64_t place;                // i*stride + f
-    bool operator==(const Key& other) const { return node == other.node; }
-};
+// Corners of a face, ascending; unused entries at the end, beyond every node.
+using Corners = std::array<std::int64_t, 4>;
 
 // Two cells on the two sides of a face traverse it in opposite directions.
 bool opposite(std::span<const std::int64_t> a, std::span<const std::int64_t> b) {
@@ -85,62 +82,56 @@ std::array<double, 3> area_vector(const Mesh& mesh, std::span<const std::int64_t
     return sum;
 }
 
-// A counting sort gathers the faces by their smallest node; the few with the same node are compared directly.
+// Each face is compared with those before it that have the same smallest node: a few, listed in their order.
 FaceTable match_faces(const Mesh& mesh, std::span<const std::int64_t> cells) {
     constexpr std::int64_t none = std::numeric_limits<std::int64_t>::max();
     FaceTable table;
     table.neighbour.assign(cells.size() * index(FaceTable::stride), -1);
-
-    std::vector<std::int64_t> begin(index(mesh.node_count()) + 1, 0);
-    const auto each_face = [&](auto&& visit) {
-        for (std::size_t i = 0; i < cells.size(); ++i) {
-            poll_cancel("mesh");
-            const CellTopology& shape = topology(mesh.cell_type(cells[i]));
-            for (int f = 0; f < shape.faces; ++f) {
-                Key key{{none, none, none, none}, static_cast<std::int64_t>(i) * FaceTable::stride + f};
-                const auto nodes = face_nodes(mesh, cells[i], f);
-                std::copy_n(nodes.begin(), shape.face_corners, key.node.begin());
-                std::sort(key.node.begin(), key.node.end());
-                visit(key);
-            }
-        }
-    };
-    each_face([&](const Key& key) { ++begin[index(key.node[0]) + 1]; });
-    for (std::size_t n = 0; n + 1 < begin.size(); ++n) begin[n + 1] += begin[n];
-    std::vector<Key> sorted(index(begin.back()));
-    {
-        std::vector<std::int64_t> next(begin.begin(), begin.end() - 1);
-        each_face([&](const Key& key) { sorted[index(next[index(key.node[0])]++)] = key; });
-    }
-
     const auto face_of = [&](std::int64_t place) {
         const std::int64_t cell = cells[index(place / FaceTable::stride)];
         const CellTopology& shape = topology(mesh.cell_type(cell));
         return BoundaryFace{cell, shape.face_nodes, shape.face_corners,
                             face_nodes(mesh, cell, static_cast<int>(place % FaceTable::stride))};
     };
-    for (std::size_t n = 0; n + 1 < begin.size(); ++n) {
-        if (begin[n] != begin[n + 1]) poll_cancel("mesh");
-        for (std::size_t i = index(begin[n]); i < index(begin[n + 1]); ++i) {
-            for (std::size_t j = i + 1; j < index(begin[n + 1]); ++j) {
-                if (!(sorted[i] == sorted[j])) continue;
-                std::int64_t& here = table.neighbour[index(sorted[i].place)];
-                std::int64_t& there = table.neighbour[index(sorted[j].place)];
-                const std::int64_t a = sorted[i].place / FaceTable::stride;
-                const std::int64_t b = sorted[j].place / FaceTable::stride;
-                const BoundaryFace face = face_of(sorted[i].place);
-                const BoundaryFace other = face_of(sorted[j].place);
-                if (here >= 0 || there >= 0 || !opposite(face.corner(), other.corner()))
-                    fail(DELAM_ERROR_MESH, "cells ", cells[index(a)], " and ", cells[index(b)],
-                         " lie on the same side of the face they share: they overlap");
-                if (face.nodes != other.nodes ||
-                    !std::is_permutation(face.middle().begin(), face.middle().end(), other.middle().begin()))
-                    fail(DELAM_ERROR_MESH, "cells ", cells[index(a)], " and ", cells[index(b)],
-                         " share the face with corner ", face.node[0],
-                         " but not its mid-side nodes: they do not fit together");
-                here = b;
-                there = a;
-            }
+    const auto join = [&](std::int64_t first, std::int64_t second) {
+        std::int64_t& here = table.neighbour[index(first)];
+        std::int64_t& there = table.neighbour[index(second)];
+        const std::int64_t a = first / FaceTable::stride;
+        const std::int64_t b = second / FaceTable::stride;
+        const BoundaryFace face = face_of(first);
+        const BoundaryFace other = face_of(second);
+        if (here >= 0 || there >= 0 || !opposite(face.corner(), other.corner()))
+            fail(DELAM_ERROR_MESH, "cells ", cells[index(a)], " and ", cells[index(b)],
+                 " lie on the same side of the face they share: they overlap");
+        if (face.nodes != other.nodes ||
+            !std::is_permutation(face.middle().begin(), face.middle().end(), other.middle().begin()))
+            fail(DELAM_ERROR_MESH, "cells ", cells[index(a)], " and ", cells[index(b)], " share the face with corner ",
+                 face.node[0], " but not its mid-side nodes: they do not fit together");
+        here = b;
+        there = a;
+    };
+
+    struct Known {
+        Corners corner;
+        std::int64_t place;  // i*stride + f
+        std::int64_t next;   // with the same smallest node, -1: the last
+    };
+    std::vector<Known> known;
+    known.reserve(cells.empty() ? 0 : cells.size() * index(topology(mesh.cell_type(cells.front())).faces));
+    std::vector<std::int64_t> first(index(mesh.node_count()), -1);  // face of a smallest node
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        poll_cancel("mesh");
+        const CellTopology& shape = topology(mesh.cell_type(cells[i]));
+        const std::span<const std::int64_t> cell = mesh.cell(cells[i]);
+        for (std::size_t f = 0; f < index(shape.faces); ++f) {
+            Known face{{none, none, none, none}, static_cast<std::int64_t>(i * index(FaceTable::stride) + f), -1};
+            for (std::size_t k = 0; k < index(shape.face_corners); ++k) face.corner[k] = cell[index(shape.face[f][k])];
+            std::sort(face.corner.begin(), face.corner.end());
+            std::int64_t* end = &first[index(face.corner[0])];
+            for (; *end >= 0; end = &known[index(*end)].next)
+                if (known[index(*end)].corner == face.corner) join(known[index(*end)].place, face.place);
+            *end = static_cast<std::int64_t>(known.size());
+            known.push_back(face);
         }
     }
     return table;

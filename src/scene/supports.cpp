@@ -101,6 +101,20 @@ struct Frame {
     double length = 0.0;
 };
 
+struct Extent {
+    std::array<Point, 2> corner{};
+    bool empty = true;
+
+    void take(const Point& p) {
+        if (empty) corner = {p, p};
+        empty = false;
+        for (std::size_t d = 0; d < p.size(); ++d) {
+            corner[0][d] = std::min(corner[0][d], p[d]);
+            corner[1][d] = std::max(corner[1][d], p[d]);
+        }
+    }
+};
+
 class MotionFinder {
 public:
     MotionFinder(const Problem& problem, bool tied)
@@ -128,6 +142,7 @@ private:
     std::vector<std::int64_t> node_piece_;
     std::vector<Tie> ties_;
     std::vector<Row> rows_;
+    std::vector<Extent> box_;             // of the pieces, then of the control nodes
     std::map<std::size_t, Frame> frame_;  // of each group
 
     Point place(std::int64_t node) const {
@@ -211,19 +226,25 @@ void MotionFinder::find_ties(bool tied) {
 }
 
 void MotionFinder::measure() {
-    std::map<std::size_t, std::array<Point, 2>> box;
-    for (std::int64_t node = 0; node < mesh_.node_count(); ++node) {
-        if (node_piece_[index(node)] < 0) continue;
-        poll_cancel("check");
-        const Point p = place(node);
-        auto [entry, fresh] = box.try_emplace(group(node), std::array<Point, 2>{p, p});
-        for (std::size_t d = 0; d < dimension_ && !fresh; ++d) {
-            entry->second[0][d] = std::min(entry->second[0][d], p[d]);
-            entry->second[1][d] = std::max(entry->second[1][d], p[d]);
+    // Boxes of the pieces and control nodes are found once, and united for each grouping.
+    if (box_.empty()) {
+        box_.resize(pieces_.count() + carriers_.controls().size());
+        for (std::int64_t node = 0; node < mesh_.node_count(); ++node) {
+            if (node_piece_[index(node)] < 0) continue;
+            poll_cancel("check");
+            box_[index(node_piece_[index(node)])].take(place(node));
         }
     }
+    std::map<std::size_t, Extent> box;
+    for (std::size_t piece = 0; piece < box_.size(); ++piece) {
+        if (box_[piece].empty) continue;
+        Extent& united = box[groups_.find(piece)];
+        united.take(box_[piece].corner[0]);
+        united.take(box_[piece].corner[1]);
+    }
     frame_.clear();
-    for (const auto& [g, corners] : box) {
+    for (const auto& [g, extent] : box) {
+        const std::array<Point, 2>& corners = extent.corner;
         Frame f;
         for (std::size_t d = 0; d < dimension_; ++d) {
             f.centre[d] = 0.5 * (corners[0][d] + corners[1][d]);
