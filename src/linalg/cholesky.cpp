@@ -21,6 +21,7 @@
 #include "delam/delam.h"
 #include "linalg/dissection.hpp"
 #include "linalg/equal_rows.hpp"
+#include "linalg/leading_solve.hpp"
 #include "linalg/single_factor.hpp"
 
 // This file calls only LGPL modules by name (Core, Cholesky, Partition/CAMD; METIS is called by itself, metis.hpp). The
@@ -117,6 +118,7 @@ struct SparseCholesky::Impl {
     mutable cholmod_dense* x_buffer = nullptr;  // kept between solves
     mutable cholmod_dense* y_work = nullptr;
     mutable cholmod_dense* e_work = nullptr;
+    mutable std::vector<double> below;   // likewise, of the solves with the leading block
     std::optional<SingleFactor> single;  // instead of the values in `factor`
     void* single_values = nullptr;       // CHOLMOD's memory
     std::size_t single_count = 0;
@@ -163,21 +165,24 @@ struct SparseCholesky::Impl {
         prefer_large_pages(factor->x, factor->xsize * sizeof(double));
     }
 
-    // The values change hands; the factor keeps its pattern, as after the analysis.
-    void take_single(int power) {
+    Supernodes supernodes() const {
         const std::size_t n = factor->nsuper;
         const auto array = [](const void* data, std::size_t count) {
             return std::span<const std::int64_t>(static_cast<const std::int64_t*>(data), count);
         };
+        return {array(factor->super, n + 1), array(factor->pi, n + 1), array(factor->px, n),
+                array(factor->s, factor->ssize), array(factor->Perm, factor->n)};
+    }
+
+    // The values change hands; the factor keeps its pattern, as after the analysis.
+    void take_single(int power) {
         single_values = std::exchange(factor->x, nullptr);
         factor->xtype = CHOLMOD_PATTERN;
         std::size_t bytes = factor->xsize * sizeof(double);
         round_in_place(static_cast<double*>(single_values), static_cast<std::int64_t>(factor->xsize), power);
         single_values = cholmod_l_realloc(factor->xsize * sizeof(float), 1, single_values, &bytes, &common);
         single_count = factor->xsize;
-        const Supernodes nodes{array(factor->super, n + 1), array(factor->pi, n + 1), array(factor->px, n),
-                               array(factor->s, factor->ssize), array(factor->Perm, factor->n)};
-        single.emplace(nodes, static_cast<const float*>(single_values), power);
+        single.emplace(supernodes(), static_cast<const float*>(single_values), power);
     }
 
     using Order = std::vector<SuiteSparse_long>;
@@ -370,6 +375,15 @@ void SparseCholesky::solve_leading(std::span<const double> b, std::span<double> 
     const Impl& impl = *impl_;
     const auto leading = static_cast<std::size_t>(impl.size - impl.trailing);
     if (leading == 0) return;
+    if (impl.factor->is_super != 0) {
+        const Supernodes nodes = impl.supernodes();
+        std::vector<double> y(leading);
+        for (std::size_t i = 0; i < leading; ++i) y[i] = b[index(nodes.order[i])];
+        solve_leading_block(nodes, static_cast<const double*>(impl.factor->x), impl.size - impl.trailing, y,
+                            impl.below);
+        for (std::size_t i = 0; i < leading; ++i) x[index(nodes.order[i])] = y[i];
+        return;
+    }
     const FactorThreads threads(0.0);
     std::vector<double> v(static_cast<std::size_t>(impl.size), 0.0);
     std::copy(b.begin(), b.end(), v.begin());
