@@ -8,6 +8,7 @@
 #include <array>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <numeric>
@@ -18,6 +19,7 @@
 #include "box_matrix.hpp"
 #include "linalg/cholesky.hpp"
 #include "linalg/dissection.hpp"
+#include "linalg/equal_rows.hpp"
 #include "quiet_check.hpp"
 
 // Last: its macro fail() would break delam::fail().
@@ -206,6 +208,40 @@ START_TEST(graphs_in_pieces) {
 }
 END_TEST
 
+// The three variables of a node are one group unless some of them must come last, and groups are connected as their
+// nodes are.
+START_TEST(variables_with_equal_rows_are_one) {
+    const std::int64_t nodes = 5 * 4 * 3;
+    const SparseMatrix m = box(5, 4, 3);
+    const EqualRows groups = equal_rows(m, m.rows, m.rows);
+    ck_assert_int_eq(static_cast<int>(groups.count()), static_cast<int>(nodes));
+    for (std::int64_t i = 0; i < m.rows; ++i) {
+        ck_assert_int_eq(static_cast<int>(groups.of[static_cast<std::size_t>(i)]), static_cast<int>(i / 3));
+        ck_assert_int_eq(static_cast<int>(groups.member[static_cast<std::size_t>(i)]), static_cast<int>(i));
+    }
+    ck_assert_int_eq(static_cast<int>(9 * pattern_of_groups(m, groups).entries()), static_cast<int>(m.entries()));
+    const EqualRows apart = equal_rows(m, m.rows, m.rows - 1);
+    ck_assert_int_eq(static_cast<int>(apart.count()), static_cast<int>(nodes + 1));
+    ck_assert(apart.of.back() == nodes && apart.of[apart.of.size() - 2] == nodes - 1);
+}
+END_TEST
+
+// Where every variable comes last, few or many, there is nothing to order.
+START_TEST(nothing_but_trailing_variables) {
+    for (const std::int64_t n : {1, 3, 40}) {
+        std::vector<Triplet> dense;
+        for (std::int64_t r = 0; r < n; ++r)
+            for (std::int64_t c = 0; c < n; ++c) dense.push_back({r, c, r == c ? static_cast<double>(n) + 1.0 : 1.0});
+        const SparseMatrix m = from_triplets(n, n, std::move(dense));
+        SparseCholesky factor(m, n);
+        ck_assert(factor.factorise(m));
+        const std::vector<std::int64_t> order = factor.order();
+        ck_assert(std::is_sorted(order.begin(), order.end()));
+        ck_assert_double_eq_tol(factor.trailing_factor()(0, 0), std::sqrt(static_cast<double>(n) + 1.0), 1e-14 * 7.0);
+    }
+}
+END_TEST
+
 int main() {
     Suite* suite = suite_create("ordering");
     TCase* tests = tcase_create("ordering");
@@ -215,6 +251,8 @@ int main() {
     tcase_add_test(tests, requests_to_end_wait_for_the_order);
     tcase_add_test(tests, solutions_have_equal_bits);
     tcase_add_test(tests, graphs_in_pieces);
+    tcase_add_test(tests, variables_with_equal_rows_are_one);
+    tcase_add_test(tests, nothing_but_trailing_variables);
     suite_add_tcase(suite, tests);
     SRunner* runner = srunner_create(suite);
     srunner_run_all(runner, CK_ENV);
