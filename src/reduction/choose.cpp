@@ -46,7 +46,7 @@ constexpr double most_vectors = 156.0;     // with the 60 pairs that conjugate g
 // Per variable: METIS takes 1.1 s for 354,000 displacements, 3 s for a million.
 constexpr double ordering_operations = 6e4;
 constexpr double largest_patch = 0.25;      // of all variables, as of reanalysis.cpp and local_zone.cpp
-constexpr double relaxed_supernodes = 1.6;  // numbers stored per entry of its factor
+constexpr double relaxed_supernodes = 1.5;  // numbers stored per entry of its factor
 // Operations of a factor, times variables over the square of its entries (1: all columns alike).
 constexpr double column_spread = 6.0;
 // A matrix-vector product waits for memory: its operations are this many times slower than a factorisation's.

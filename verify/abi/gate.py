@@ -27,7 +27,7 @@ SKIPPED = 77
 # Core, Check, Cholesky, Partition and CAMD are under the LGPL; the other modules are not.
 CHOLMOD = {"cholmod_l_" + name for name in
            ("start", "finish", "camd", "analyze_ordering", "analyze_p", "factorize", "solve2", "free_factor", "free_dense", "ensure_dense",
-            "realloc", "free")}
+            "realloc", "free", "change_factor")}
 
 
 def output(*command):
