@@ -96,8 +96,9 @@ DenseMatrix whole_schur(const Bulk& bulk, const SparseMatrix& transformed) {
     return s;
 }
 
-// States of the places: springs, held rows and zones at random, in runs as a front makes them.
-std::vector<double> random_states(const Superelements& bodies, std::mt19937& random) {
+// States of the places: springs, held rows and zones at random, in runs as a front makes them. Zones are anywhere, or
+// on a few neighbouring jumps.
+std::vector<double> random_states(const Superelements& bodies, std::mt19937& random, bool anywhere) {
     std::vector<double> state(bodies.variable().size(), 0.0);
     std::uniform_real_distribution<double> number(0.0, 1.0);
     double now = 1e10;
@@ -111,6 +112,12 @@ std::vector<double> random_states(const Superelements& bodies, std::mt19937& ran
             now = 1e10 * number(random);
         state[p] = now;
     }
+    if (anywhere) return state;
+    const std::size_t first = random() % state.size(), last = first + state.size() / 12;
+    for (std::size_t p = 0; p < state.size(); ++p)
+        if (bodies.kind(static_cast<std::int64_t>(p)) == Superelements::Kind::jump &&
+            (state[p] == Elimination::in_zone) != (p >= first && p < last))
+            state[p] = p >= first && p < last ? Elimination::in_zone : 1e9;
     return state;
 }
 
@@ -209,8 +216,8 @@ START_TEST(zones_are_those_of_the_dense_energy) {
     whole.update(all, {});
     std::mt19937 random(7);
     const std::vector<double> theta(problem.patterns.size(), 0.7);
-    for (int trial = 0; trial < 4; ++trial) {
-        const std::vector<double> state = random_states(bodies, random);
+    for (int trial = 0; trial < 8; ++trial) {
+        const std::vector<double> state = random_states(bodies, random, trial % 2 == 0);
         part.update(state, {});
         std::vector<std::int64_t> kept, eliminated;
         std::vector<double> springs(whole.places().size(), 0.0);
@@ -256,10 +263,10 @@ START_TEST(history_leaves_no_digit) {
     bulk.condense(monitor);
     Elimination one = bulk.elimination();
     std::mt19937 random(11);
-    std::vector<double> state = random_states(bulk.superelements(), random);
-    for (int trial = 0; trial < 6; ++trial) {
+    std::vector<double> state = random_states(bulk.superelements(), random, true);
+    for (int trial = 0; trial < 12; ++trial) {
         if (trial % 2 == 0) {
-            state = random_states(bulk.superelements(), random);
+            state = random_states(bulk.superelements(), random, trial % 4 == 0);
         } else {  // one jump alone
             for (std::size_t p = 0; p < state.size(); ++p)
                 if (state[p] > 0.0) {

@@ -52,7 +52,7 @@ void Bulk::factorise(const Poll& poll) {
     const auto patterns = static_cast<std::int64_t>(problem_.patterns.size());
     const auto places = static_cast<std::int64_t>(superelements_->variable().size());
     trailing_load_ = DenseMatrix(places, patterns);
-    bonded_ = std::make_unique<Elimination>(*superelements_, DenseMatrix(places, 0));
+    bonded_ = std::make_unique<Elimination>(*superelements_, DenseMatrix(places, 0), Elimination::Last::root);
     try {
         if (definite) bonded_->update(states(std::vector<double>(index(unknowns()), Elimination::held)), poll);
     } catch (const Error& error) {

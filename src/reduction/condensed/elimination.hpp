@@ -5,8 +5,10 @@
 // A node adds the energies that its children have left and its own entries, and eliminates what it owns,
 //     F = [F_ee F_er; F_re F_rr],   L L^T = F_ee + springs,   V = L^-1 F_er,   F_rr - V^T V   goes on to its parent
 // (the multifrontal method: I. Duff, J. Reid, ACM TOMS 9, 1983), where r are the jumps of the zone below and the
-// border. A change of springs or of the zone asks for the nodes from the changed leaf to the root alone. What a node
-// leaves is a function of its springs and its zone, not of what was there before.
+// border. The zone is eliminated last, at the lowest node that has all of it below: what lies outside of this subtree
+// comes down to it in the same way, from the root, as messages do in a tree of cliques (S. Lauritzen, D. Spiegelhalter,
+// J. R. Stat. Soc. B 50, 1988). A change of springs or of the zone asks for the nodes on its path alone. What a node
+// leaves is a function of the springs and the zone, not of what was there before.
 #pragma once
 
 #include <cstdint>
@@ -21,8 +23,9 @@ namespace delam {
 
 class Elimination {
 public:
-    // `bodies` must outlive it. load: of the skeleton, [places][patterns].
-    Elimination(const Superelements& bodies, DenseMatrix load);
+    enum class Last { zone, root };
+    // `bodies` must outlive it. load: of the skeleton, [places][patterns]. last: where the elimination ends.
+    Elimination(const Superelements& bodies, DenseMatrix load, Last last = Last::zone);
 
     // States of a jump: a spring s >= 0 with which it is minimised out, or one of these.
     static constexpr double held = -1.0;
@@ -31,12 +34,12 @@ public:
     // then nothing is left that could be used.
     void update(std::span<const double> state, const Poll& poll);
     // Of the kept displacements, then the jumps of the zone, in ascending order.
-    const DenseEnergy& energy() const { return front_.back().energy; }
-    const std::vector<std::int64_t>& places() const { return front_.back().left; }
+    const DenseEnergy& energy() const { return last_.energy; }
+    const std::vector<std::int64_t>& places() const { return last_.left; }
     // All of the skeleton from the unknowns of energy().
     void recover(std::span<const double> theta, std::span<const double> left, std::span<double> skeleton) const;
     // S x = b on the displacements of the cuts, with all jumps and kept displacements at rest; in place, b: [places].
-    // All jumps must be held or in the zone.
+    // All jumps must be held or in the zone, and the elimination must end at the root.
     void solve_cuts(std::span<double> b) const;
 
 private:
@@ -46,19 +49,36 @@ private:
         DenseMatrix coupling;                 // V
         DenseMatrix load;                     // L^-1 f_e
         DenseEnergy energy;                   // lower triangle
+        std::int64_t made = -1;               // number of the update
     };
-    void eliminate(std::size_t node, const Poll& poll);
-    void divide(Front& front, const Superelements::Node& node);
+    std::int64_t lowest_with_the_zone() const;
+    bool older(const Front& front, std::span<const std::int64_t> own, std::initializer_list<std::int64_t> bordered,
+               std::initializer_list<const Front*> inputs) const;
+    void refresh_below(std::int64_t node, const Poll& poll);
+    void refresh_outside(std::int64_t node, const Poll& poll);
+    void divide_node(Front& front, const Superelements::Node& node, const Front* outside) const;
+    void divide_outside(Front& front, std::int64_t node) const;
+    void open(Front& front);
     void add_leaf(Front& front, std::int64_t leaf);
-    void add_entries(Front& front, std::span<const Triplet> entries);
-    void add(Front& front, std::span<const std::int64_t> at, const DenseEnergy& energy);
+    void add_own(Front& front, const Superelements::Node& node);
+    void add(Front& front, const Front& other);
+    void eliminate(Front& front, const Poll& poll);
+    static void recover(const Front& front, std::span<const double> theta, std::span<double> skeleton);
+    void recover_below(std::int64_t node, std::span<const double> theta, std::span<double> skeleton) const;
 
+    // [places], the update at which the state changed, and at which it began or ceased to be held or in the zone: a
+    // subtree needs to know no more of its border.
+    std::vector<std::int64_t> changed_, changed_kind_;
+    std::int64_t updates_ = 0;
+    std::vector<std::int64_t> parent_;    // [nodes]
+    std::vector<Front> below_, outside_;  // [nodes] what the subtree leaves, and what all else leaves to it
+    Front last_;                          // at the lowest node with all of the zone
+    std::int64_t last_node_ = -1;
+    Last where_;
     const Superelements& bodies_;
     DenseMatrix load_;
     std::vector<double> state_;
-    std::vector<Front> front_;
     std::vector<std::int64_t> at_;  // scratch: place in a front
-    bool valid_ = false;
 };
 
 }  // namespace delam
