@@ -269,11 +269,10 @@ void lower_transpose_times_lower(DenseMatrix& a, const Poll& poll) {
 
 }  // namespace
 
-DenseMatrix inverse_definite(DenseMatrix a, const Poll& poll) {
+bool invert_definite(DenseMatrix& a, const Poll& poll) {
     const int n = blas_size(a.rows), lda = leading(a);
     int info = 0;
-    if (!factor_definite(a, poll))
-        fail(DELAM_ERROR_NUMERICAL, "a dense block of ", n, " rows is not positive definite");
+    if (!factor_definite(a, poll)) return false;
     call_if_set(poll);
     if (n > small) {
         info = invert_lower(a, poll);
@@ -281,10 +280,15 @@ DenseMatrix inverse_definite(DenseMatrix a, const Poll& poll) {
     } else if (n > 0) {
         blas::potri("L", &n, a.value.data(), &lda, &info);
     }
-    if (info != 0)
-        fail(DELAM_ERROR_NUMERICAL, "a dense block of ", n, " rows is not positive definite (row ", info, ")");
+    if (info != 0) return false;
     call_if_set(poll);
     mirror_lower(a);
+    return true;
+}
+
+DenseMatrix inverse_definite(DenseMatrix a, const Poll& poll) {
+    if (!invert_definite(a, poll))
+        fail(DELAM_ERROR_NUMERICAL, "a dense block of ", a.rows, " rows is not positive definite");
     return a;
 }
 

@@ -55,6 +55,8 @@ void add_gram(DenseMatrix& c, const DenseMatrix& v, const Poll& poll = {});
 void subtract_product(DenseMatrix& c, const DenseMatrix& v, const DenseMatrix& w);
 // A^-1, full symmetric, of a positive definite A (LAPACK dpotrf, dpotri; beyond 1024 rows in panels).
 DenseMatrix inverse_definite(DenseMatrix a, const Poll& poll = {});
+// The same in place. False: A is not positive definite, and it is overwritten.
+bool invert_definite(DenseMatrix& a, const Poll& poll = {});
 // A X = B in place of B, by LU with rows scaled to 1 (LAPACK dgetrf, dgetrs); overwrites A. False: A is singular, no
 // pivot larger than `tolerance` times the largest; B is then undefined.
 bool solve_general(DenseMatrix& a, DenseMatrix& b, double tolerance);

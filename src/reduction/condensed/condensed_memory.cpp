@@ -13,6 +13,7 @@ namespace delam {
 // Per unknown: a code of age and inside, the spring at which it is minimised out, that of the last solve.
 std::vector<double> Condensed::memory() const {
     if (zone_ == nullptr) return {};
+    zone_->forget();  // the factor that earlier solves have left is not saved
     std::vector<double> m;
     m.reserve(3 * always_.size());
     for (std::size_t i = 0; i < always_.size(); ++i) m.push_back(age_[i] + 4 * inside_[i]);
@@ -57,7 +58,10 @@ void Condensed::recall(std::span<const double> memory) {
         energy_.reset();
         return;
     }
-    if (std::ranges::equal(memory, this->memory())) return;
+    if (std::ranges::equal(memory, this->memory())) {
+        zone_->forget();
+        return;
+    }
     auto [age, inside, spring, last] = parse(memory);
     zone_.reset();  // as in choose
     age_ = std::move(age);

@@ -184,7 +184,10 @@ DenseZone* FetiZone::zone(const Springs& springs, std::span<const std::uint8_t> 
     if (rows != rows_ && !find_energy(std::move(rows))) return nullptr;
     Split now = split(springs, wanted);
     if (now.kept.empty()) return nullptr;
-    if ((zone_ == nullptr || !(now == split_)) && !minimise_out(std::move(now))) return nullptr;
+    if (zone_ != nullptr && now == split_)
+        zone_->forget();  // no history: this operator has no memory
+    else if (!minimise_out(std::move(now)))
+        return nullptr;
     return zone_.get();
 }
 

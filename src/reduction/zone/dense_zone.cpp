@@ -17,6 +17,18 @@ constexpr double dependent = 1e-10;  // coefficients of dependent rows below thi
 constexpr double rounded = 1e-11;    // of motion times load, which counts as rounding (measured: up to 5e-13)
 constexpr double unbalanced = 1e-8;  // largest part of a load that may remain on a free motion
 
+// y = S x, cheap where few x are not zero.
+void multiply_few(const DenseMatrix& s, std::span<const double> x, std::span<double> y) {
+    const auto zeros = static_cast<std::size_t>(std::count(x.begin(), x.end(), 0.0));
+    if (2 * zeros < x.size()) {
+        multiply_symmetric(s, x, y);
+        return;
+    }
+    std::fill(y.begin(), y.end(), 0.0);
+    for (std::size_t j = 0; j < x.size(); ++j)
+        if (x[j] != 0.0) add_scaled(x[j], std::span<const double>(s.value).subspan(j * x.size(), x.size()), y);
+}
+
 }  // namespace
 
 DenseZone::DenseZone(const DenseEnergy& energy, std::vector<JumpRow> rows, std::vector<std::int64_t> jump_rows,
@@ -97,7 +109,7 @@ void DenseZone::hold(std::span<const std::uint8_t> held) {
 
 std::vector<double> DenseZone::apply(std::span<const double> x) const {
     std::vector<double> y(x.size());
-    multiply_symmetric(rigid_.columns > 0 ? shifted_ : energy_->stiffness, x, y);
+    multiply_symmetric(matrix(), x, y);
     for (const Triplet& s : springs_) y[index(s.row)] += s.value * x[index(s.column)];
     return y;
 }
@@ -136,14 +148,32 @@ bool DenseZone::factor(std::span<const Coupling> couplings, std::span<const std:
         for (const auto& [i, a] : rows_[index(c.row)].unknowns)
             for (const auto& [j, b] : rows_[index(c.column)].unknowns) springs_.push_back({i, j, a * b * c.value});
     }
+    return factor_free() && (rigid_.columns == 0 || factor_motions());
+}
+
+bool DenseZone::factor_free() {
+    if (!bound_.empty()) {
+        assemble();
+        ++bound_factors_;
+        return factor_definite(factor_, poll_);
+    }
+    if (updated_.update(matrix(), springs_, free_, poll_)) return updated_.definite();
     assemble();
-    if (!factor_definite(factor_, poll_)) return false;
-    return rigid_.columns == 0 || factor_motions();
+    return updated_.renew(std::move(factor_), springs_, free_, energy_->rows(), poll_);
+}
+
+void DenseZone::solve_free(std::span<double> x, bool again) {
+    if (bound_.empty()) {
+        updated_.solve(x, again);
+        return;
+    }
+    solve_lower(factor_, x);
+    solve_lower_transposed(factor_, x);
 }
 
 // The lower triangle of A_ff + A_fb M + M^T A_bf + M^T A_bb M, where A = S + C and bound = M free.
 void DenseZone::assemble() {
-    const DenseMatrix& s = rigid_.columns > 0 ? shifted_ : energy_->stiffness;
+    const DenseMatrix& s = matrix();
     const auto n = static_cast<std::int64_t>(free_.size()), bound = static_cast<std::int64_t>(bound_.size());
     std::vector<std::int64_t> place(index(energy_->rows()), -1);  // among free, then bound
     for (std::int64_t i = 0; i < n; ++i) place[index(free_[index(i)])] = i;
@@ -204,7 +234,7 @@ bool DenseZone::factor_motions() {
     };
     for (std::int64_t c = 0; c < z.columns; ++c) {
         std::vector<double> image(index(z.rows)), springs(image.size(), 0.0);
-        multiply_symmetric(shifted_, column(motion_y_, c), image);
+        multiply_few(shifted_, column(motion_y_, c), image);  // held unknowns alone, where none is bound
         for (const Triplet& t : springs_) springs[index(t.row)] += t.value * column(motion_x_, c)[index(t.column)];
         for (std::int64_t d = 0; d < z.columns; ++d)
             schur(d, c) = dot(column(motion_y_, d), image) + dot(column(motion_x_, d), springs);
@@ -212,11 +242,11 @@ bool DenseZone::factor_motions() {
         const std::vector<double> w = reduce(image);
         std::copy(w.begin(), w.end(), motion_coupling_.value.begin() + c * n);
     }
+    motion_stiffness_ = schur;
     motion_solved_ = motion_coupling_;
-    solve_lower(factor_, motion_solved_);
-    subtract_gram(schur, motion_solved_);
     for (std::int64_t c = 0; c < z.columns; ++c)
-        solve_lower_transposed(factor_, std::span<double>(motion_solved_.value).subspan(index(c * n), index(n)));
+        solve_free(std::span<double>(motion_solved_.value).subspan(index(c * n), index(n)), false);
+    subtract_product(schur, motion_coupling_, motion_solved_);
     motion_scale_.assign(index(z.columns), 0.0);
     for (std::int64_t c = 0; c < z.columns; ++c) {
         if (!(schur(c, c) > 0.0)) return false;
@@ -245,6 +275,20 @@ bool DenseZone::balances(std::span<const double> load) const {
         if (std::abs(total) > std::max(unbalanced * size, rounded * std::sqrt(motion * pull_size))) return false;
     }
     return true;
+}
+
+// Free unknowns and held motions, from the loads on them.
+void DenseZone::solve_together(std::vector<double>& y, std::vector<double>& alpha, bool again) {
+    solve_free(y, again);
+    if (alpha.empty()) return;
+    std::vector<double> carried(alpha.size()), correction(y.size());
+    multiply_transposed(motion_coupling_, y, carried);
+    for (std::size_t c = 0; c < alpha.size(); ++c) alpha[c] = motion_scale_[c] * (alpha[c] - carried[c]);
+    solve_lower(motion_factor_, alpha);
+    solve_lower_transposed(motion_factor_, alpha);
+    for (std::size_t c = 0; c < alpha.size(); ++c) alpha[c] *= motion_scale_[c];
+    multiply(motion_solved_, alpha, correction);
+    for (std::size_t i = 0; i < y.size(); ++i) y[i] -= correction[i];
 }
 
 DenseZone::Solution DenseZone::solve(std::span<const double> theta, std::span<const double> row_force) {
@@ -278,23 +322,26 @@ DenseZone::Solution DenseZone::solve(std::span<const double> theta, std::span<co
     solution.balanced = balances(g);
     if (!solution.balanced) return solution;
 
-    std::vector<double> y = reduce(g);
-    solve_lower(factor_, y);
-    solve_lower_transposed(factor_, y);
-    std::vector<double> moved(g.size(), 0.0);
-    if (rigid_.columns > 0 && motion_x_.columns > 0) {
-        std::vector<double> alpha(index(motion_x_.columns)), carried(alpha.size());
-        multiply_transposed(motion_x_, g, alpha);
-        multiply_transposed(motion_coupling_, y, carried);
-        for (std::size_t c = 0; c < alpha.size(); ++c) alpha[c] = motion_scale_[c] * (alpha[c] - carried[c]);
-        solve_lower(motion_factor_, alpha);
-        solve_lower_transposed(motion_factor_, alpha);
-        for (std::size_t c = 0; c < alpha.size(); ++c) alpha[c] *= motion_scale_[c];
-        std::vector<double> correction(y.size());
-        multiply(motion_solved_, alpha, correction);
-        for (std::size_t i = 0; i < y.size(); ++i) y[i] -= correction[i];
-        multiply(motion_x_, alpha, moved);
+    std::vector<double> y = reduce(g), alpha(index(rigid_.columns > 0 ? motion_x_.columns : 0)), moved(g.size(), 0.0);
+    if (!alpha.empty()) multiply_transposed(motion_x_, g, alpha);
+    const std::vector<double> on_free = y, on_motions = alpha;
+    solve_together(y, alpha, true);
+    if (bound_.empty() && updated_.changed()) {
+        // An updated factor leaves a residual that a new one would not. A step of refinement removes it.
+        std::vector<double> left = reduce(apply(expand(y))), motions(alpha.size()), coupled(y.size());
+        if (!alpha.empty()) multiply(motion_coupling_, alpha, coupled);
+        for (std::size_t i = 0; i < left.size(); ++i) left[i] = on_free[i] - left[i] - coupled[i];
+        if (!alpha.empty()) {
+            std::vector<double> own(alpha.size());
+            multiply_transposed(motion_coupling_, y, motions);
+            multiply(motion_stiffness_, alpha, own);
+            for (std::size_t c = 0; c < own.size(); ++c) motions[c] = on_motions[c] - motions[c] - own[c];
+        }
+        solve_together(left, motions, false);
+        add_scaled(1.0, left, y);
+        add_scaled(1.0, motions, alpha);
     }
+    if (!alpha.empty()) multiply(motion_x_, alpha, moved);
     solution.unknowns = expand(y);
     for (std::size_t i = 0; i < moved.size(); ++i) solution.unknowns[i] += moved[i] + start[i];
 
@@ -316,10 +363,21 @@ DenseZone::Solution DenseZone::solve(std::span<const double> theta, std::span<co
 
 void DenseZone::complete_forces(std::span<const double> theta, const Solution& solution,
                                 std::span<double> row_force) const {
-    std::vector<double> left(index(energy_->rows())), image(left.size());
+    std::vector<double> left(index(energy_->rows()));
     multiply(energy_->load, theta, left);
-    multiply_symmetric(energy_->stiffness, solution.unknowns, image);
-    for (std::size_t i = 0; i < left.size(); ++i) left[i] -= image[i];
+    std::vector<std::int64_t> needed;
+    for (std::size_t r = 0; r < rows_.size(); ++r)
+        if (plain_[r] >= 0 && held_[r] != 0) needed.push_back(plain_[r]);
+    if (2 * needed.size() < left.size()) {
+        for (const std::int64_t i : needed)
+            left[index(i)] -=
+                dot(std::span<const double>(energy_->stiffness.value).subspan(index(i) * left.size(), left.size()),
+                    solution.unknowns);
+    } else {
+        std::vector<double> image(left.size());
+        multiply_symmetric(energy_->stiffness, solution.unknowns, image);
+        for (std::size_t i = 0; i < left.size(); ++i) left[i] -= image[i];
+    }
     for (const std::int64_t r : bound_rows_) row_force[index(r)] = solution.multiplier[index(r)];
     for (std::size_t r = 0; r < rows_.size(); ++r)
         if (plain_[r] < 0 || held_[r] == 0)

@@ -14,6 +14,7 @@
 #include "reduction/zone/dense_energy.hpp"
 #include "reduction/zone/jump_row.hpp"
 #include "reduction/zone/rigid_jumps.hpp"
+#include "reduction/zone/updated_factor.hpp"
 #include "reduction/zone/zone.hpp"
 
 namespace delam {
@@ -38,10 +39,19 @@ public:
     double energy_rounding() const override { return 1e-14; }
 
     const DenseEnergy& energy() const { return *energy_; }
+    // What earlier solves have left, on which the last digits of the next one depend.
+    void forget() { updated_.forget(); }
+    // Full factorisations so far.
+    std::int64_t factorisations() const { return updated_.renewals() + bound_factors_; }
 
 private:
     void hold(std::span<const std::uint8_t> held);
+    const DenseMatrix& matrix() const { return rigid_.columns > 0 ? shifted_ : energy_->stiffness; }
     void assemble();
+    bool factor_free();
+    // again: the next solve may be of the same load.
+    void solve_free(std::span<double> x, bool again);
+    void solve_together(std::vector<double>& y, std::vector<double>& alpha, bool again);
     bool factor_motions();
     bool balances(std::span<const double> load) const;
     // y = (S + C) x over all unknowns
@@ -69,9 +79,12 @@ private:
     std::vector<std::int64_t> bound_;       // unknowns that these fix
     DenseMatrix binding_;                   // M: bound = M free (+ offsets)
     DenseMatrix operations_;                // echelon: [bound][bound_rows]
-    DenseMatrix factor_;
+    UpdatedFactor updated_;                 // of the free unknowns where none is bound
+    DenseMatrix factor_;                    // where some are
+    std::int64_t bound_factors_ = 0;
     Combinations motions_;
     DenseMatrix motion_y_, motion_x_;  // Y (what y must do), X = Z + Y
+    DenseMatrix motion_stiffness_;     // H_alpha,alpha
     DenseMatrix motion_coupling_;      // H_r,alpha
     DenseMatrix motion_solved_;        // H_rr^-1 H_r,alpha
     DenseMatrix motion_factor_;        // of the Schur complement in held motions, scaled
