@@ -22,7 +22,8 @@ namespace {
 constexpr std::uint64_t magic = 0x31305453'4d4c4544;  // "DELMST01" in memory on a little-endian machine
 // 5: the first that was ever published. 6: histories of patterns that the host has changed. 7: recorded values. 8:
 // released energy in the ledger. 10: another zone of the condensed operator, which begins anew after an older version.
-constexpr std::uint32_t version = 10, oldest = 5;
+// 11: energies of candidates for the next search.
+constexpr std::uint32_t version = 11, oldest = 5;
 constexpr std::int64_t most_steps = std::int64_t{1} << 53;
 // Of a larger file, hash and checksum are compared piece by piece, before there is memory for all of it.
 constexpr std::uint64_t largest_unchecked = std::uint64_t{1} << 20;

@@ -121,8 +121,9 @@ struct State {
     std::vector<std::uint8_t> closed;   // [pairs]
     std::uint8_t loaded = 0;            // 1 once any pair has had a jump, so that the mixities are meaningful
     Response response;
-    std::vector<double> memory;         // of the jump operator
-    std::vector<double> search_memory;  // of the operator that a search uses
+    std::vector<double> memory;           // of the jump operator
+    std::vector<double> search_memory;    // of the operator that a search uses
+    std::vector<double> search_energies;  // that the next search may take over
     Ledger ledger;
     Effort effort;
     StepOutcome outcome;

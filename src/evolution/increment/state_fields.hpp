@@ -102,7 +102,9 @@ inline constexpr auto saved_fields<State> = std::tuple_cat(
         member_of(&State::outcome, &StepOutcome::damage_change),
         member_of(&State::effort, &Effort::linear_residual)),
     saved_since(unsaved,  // told when the step ends
-        &State::jump_within));
+        &State::jump_within),
+    saved_since(11,
+        any_size(&State::search_energies)));
 // clang-format on
 
 static_assert(complete<Response>(saved_fields<Response>) && complete<Ledger>(saved_fields<Ledger>) &&

@@ -18,6 +18,11 @@ namespace {
 
 // Rows of a dense zone: beyond them whole displacement solves are cheaper.
 constexpr std::size_t largest_dense_zone = 1500;
+// Searches for which an energy that they do not ask for is kept.
+constexpr std::int64_t forgotten = 4;
+// A key is saved in two halves, which a double holds exactly.
+constexpr unsigned half = 32;
+constexpr std::size_t saved_numbers = 5;  // of an energy
 
 std::uint64_t key_of(std::span<const double> adhesion) {
     std::uint64_t h = 14695981039346656037ULL;
@@ -56,11 +61,37 @@ std::size_t CandidateEnergies::largest_zone() const {
 }
 
 void CandidateEnergies::focus(std::span<const std::uint8_t> wanted) {
+    lose_focus();
     if (zone_ == nullptr) return;
-    std::vector<std::uint8_t> pairs(wanted.begin(), wanted.end());
-    for (std::size_t p = 0; p < pairs.size(); ++p)
-        if (from_.adhesion[p] != increment_.adhesion_before()[p]) pairs[p] = 1;
-    focused_ = zone_->focus(from_, pairs, allowed_);
+    wanted_.assign(wanted.begin(), wanted.end());
+    for (std::size_t p = 0; p < wanted_.size(); ++p)
+        if (from_.adhesion[p] != increment_.adhesion_before()[p]) wanted_[p] = 1;
+}
+
+void CandidateEnergies::recall(std::span<const double> memory) {
+    const std::size_t patterns = direction_.size();
+    if (memory.size() < patterns || !std::ranges::equal(memory.first(patterns), direction_)) return;
+    const std::span<const double> entries = memory.subspan(patterns);
+    const auto whole = [](double v) { return v >= 0.0 && v < std::ldexp(1.0, half) && v == std::floor(v); };
+    for (std::size_t at = 0; at + saved_numbers <= entries.size(); at += saved_numbers) {
+        if (!whole(entries[at]) || !whole(entries[at + 1]) || !whole(entries[at + 4])) return;
+        const std::uint64_t key =
+            (static_cast<std::uint64_t>(entries[at]) << half) | static_cast<std::uint64_t>(entries[at + 1]);
+        known_[key] = {{entries[at + 2], entries[at + 3], {}, {}}, static_cast<std::int64_t>(entries[at + 4]) + 1};
+    }
+}
+
+std::vector<double> CandidateEnergies::memory() const {
+    std::vector<double> m(direction_);
+    for (const auto& [key, known] : known_) {
+        if (known.age > forgotten || !std::isfinite(known.energy.value)) continue;
+        m.push_back(static_cast<double>(key >> half));
+        m.push_back(static_cast<double>(key & 0xffffffffU));
+        m.push_back(known.energy.value);
+        m.push_back(known.energy.error);
+        m.push_back(static_cast<double>(known.age));
+    }
+    return m;
 }
 
 double CandidateEnergies::breaking_mixity(std::size_t pair, std::span<const double> adhesion, double known,
@@ -125,15 +156,21 @@ const CandidateEnergy& CandidateEnergies::at(const std::vector<double>& adhesion
                                              std::span<const double> known, std::int64_t candidates) {
     const std::uint64_t key = key_of(adhesion);
     if (const auto it = known_.find(key);
-        it != known_.end() && (!follow_mixity_ || next.empty() || std::ranges::equal(it->second.next, next)))
-        return it->second;
+        it != known_.end() && (!follow_mixity_ || next.empty() || std::ranges::equal(it->second.energy.next, next))) {
+        it->second.age = 0;
+        return it->second.energy;
+    }
     monitor_.progress("search", candidates, 0);
     CandidateEnergy e{infinite, 0.0, {next.begin(), next.end()}, {}};
+    if (!wanted_.empty()) {
+        focused_ = zone_->focus(from_, wanted_, allowed_);
+        wanted_.clear();
+    }
     if (within_zone(adhesion, next))
         from_zone(adhesion, known, e);
     else
         from_operator(adhesion, known, e);
-    return known_[key] = std::move(e);
+    return (known_[key] = {std::move(e), 0}).energy;
 }
 
 }  // namespace delam

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Energies E(t, z) of the candidates of one search, per unit of the load, each computed once.
+// Energies E(t, z) of the candidates of one search, per unit of the load, each computed once; those of the same
+// adhesion and direction of the load that the searches of earlier steps have left are taken over.
 #pragma once
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 #include "base/monitor.hpp"
@@ -28,6 +29,10 @@ public:
     // be too high, F L.
     CandidateEnergies(JumpOperator& op, const ContactScene& contact, Monitor& monitor, ZoneEnergies* zone,
                       const PairGraph& graph, const Increment& increment, const State& from, double allowed);
+    // memory() of a search of an earlier step; ignored where it is of another load, or not of this kind.
+    void recall(std::span<const double> memory);
+    // The direction of the load, then key, value, error and age of each energy of the last searches.
+    std::vector<double> memory() const;
 
     double size() const { return size_; }
     const std::vector<double>& direction() const { return direction_; }
@@ -35,7 +40,10 @@ public:
     std::size_t largest_zone() const;
     // Allows energies to come from a zone about these pairs, [pairs], and those that the step has damaged.
     void focus(std::span<const std::uint8_t> wanted);
-    void lose_focus() { focused_ = false; }
+    void lose_focus() {
+        focused_ = false;
+        wanted_.clear();
+    }
     // known: B of the pairs. candidates: number compared so far (progress).
     const CandidateEnergy& at(const std::vector<double>& adhesion, std::span<const std::int64_t> next,
                               std::span<const double> known, std::int64_t candidates);
@@ -58,12 +66,17 @@ private:
     const State& from_;
     bool follow_mixity_;
     bool focused_ = false;
+    std::vector<std::uint8_t> wanted_;  // [pairs] of a zone that is chosen once an energy needs it; empty: none
     double allowed_;
     double size_ = 0.0;
     std::vector<double> direction_;
     std::vector<std::uint8_t> closed_;
     Response response_;
-    std::unordered_map<std::uint64_t, CandidateEnergy> known_;
+    struct Known {
+        CandidateEnergy energy;
+        std::int64_t age = 0;  // searches since it was last used
+    };
+    std::map<std::uint64_t, Known> known_;
 };
 
 }  // namespace delam

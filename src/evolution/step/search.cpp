@@ -211,6 +211,7 @@ SearchResult Search::run(const Increment& increment, const State& from, std::spa
         result.words = "no load: nothing to search\n";
         return result;
     }
+    energies.recall(increment.before().search_energies);
     SearchRun run{increment,
                   graph_,
                   energies,
@@ -222,6 +223,7 @@ SearchResult Search::run(const Increment& increment, const State& from, std::spa
     Trials trials(run, from, {increment.adhesion_before(), {mixity.begin(), mixity.end()}, 0.0});
     trials.run();
     result.starts = trials.take_found();
+    result.energies = energies.memory();
     if (result.error > 0.0)
         result.words += text("energies of candidates come from an iteration: too high by at most ", result.error, "\n");
     return result;

@@ -46,6 +46,7 @@ struct SearchResult {
     double bound = std::numeric_limits<double>::infinity();
     double error = 0.0;  // by which the energy of a candidate may be too high, F L; the bound takes it into account
     std::string words;
+    std::vector<double> energies;  // for the search of the next step (State::search_energies)
 };
 
 class Search {
@@ -54,8 +55,9 @@ public:
     Search(const Problem& problem, const PairLaws& pairs, const ContactScene& contact, Monitor& monitor,
            JumpOperator& op);
     // from: the step as far as it is known, booked; mixity: that of its start. What a search finds depends on its step
-    // alone, so that an analysis that was saved, rolled back or cancelled goes on with the same bits. Nothing is kept
-    // from other steps but E_all of the same load.
+    // and on the state before it, so that an analysis that was saved, rolled back or cancelled goes on with the same
+    // bits: energies for later searches are part of the state. Besides these nothing is kept from other steps but E_all
+    // of the same load.
     SearchResult run(const Increment& increment, const State& from, std::span<const double> mixity);
 
 private:

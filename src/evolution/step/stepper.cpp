@@ -422,6 +422,7 @@ void Stepper::search(Result& best, const Increment& step) {
     }
     if (!followed) lowest = hold_against(best, found, step);
     if (twin_) best.state.search_memory = twin_->memory();
+    best.state.search_energies = std::move(found.energies);
     StepOutcome& outcome = best.state.outcome;
     const double kept = best.state.ledger.increment;
     best.state.effort.search_candidates += found.candidates;

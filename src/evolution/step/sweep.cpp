@@ -2,6 +2,7 @@
 #include "evolution/step/sweep.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "base/numbers.hpp"
@@ -111,6 +112,18 @@ void Sweep::sample(std::size_t n) {
     value_[n] = Candidate{{}, {}, c.incremental};
 }
 
+std::size_t Sweep::place(std::size_t n) const { return ring_[n - 1].size() == 1 ? index(ring_[n - 1].front()) : n; }
+
+// In the middle half the place that is the multiple of the highest power of two: the energies of steps between which
+// the front has moved are then of the same states.
+std::size_t Sweep::middle(std::size_t low, std::size_t high) const {
+    const std::size_t quarter = (high - low) / 4;
+    std::size_t best = low + (high - low) / 2;
+    for (std::size_t n = low + std::max<std::size_t>(1, quarter); n + std::max<std::size_t>(1, quarter) <= high; ++n)
+        if (std::countr_zero(place(n)) > std::countr_zero(place(best))) best = n;
+    return best;
+}
+
 double Sweep::between(std::size_t low, std::size_t high) const {
     const double first = search_.cost(candidate(low + 1));
     // The gradient energy is not monotone along the front; between samples its lower bound is 0.
@@ -146,8 +159,8 @@ void Sweep::refine_minimum() {
         const std::size_t at = lowest->first, left = std::prev(lowest)->first;
         const std::size_t right = std::next(lowest) == value_.end() ? at : std::next(lowest)->first;
         if (at - left <= 1 && right - at <= 1) return;
-        if (at - left > 1) sample(left + (at - left) / 2);
-        if (right - at > 1 && search_.left > 0) sample(at + (right - at) / 2);
+        if (at - left > 1) sample(middle(left, at));
+        if (right - at > 1 && search_.left > 0) sample(middle(at, right));
     }
     stopped_ = true;
 }
@@ -169,7 +182,7 @@ void Sweep::close_gap() {
             stopped_ = true;
             return;
         }
-        sample(low + (high - low) / 2);
+        sample(middle(low, high));
     }
 }
 
@@ -179,8 +192,7 @@ void Sweep::sample_coarsely() {
     while (ring_.size() / stride > fine) stride *= 2;
     std::size_t geometric = 1;
     for (std::size_t n = 1; n <= ring_.size(); ++n) {
-        const std::size_t place = ring_[n - 1].size() == 1 ? index(ring_[n - 1].front()) : n;
-        const bool wanted = nucleation_ ? n == geometric : n <= 2 || place % stride == 0;
+        const bool wanted = nucleation_ ? n == geometric : n <= 2 || place(n) % stride == 0;
         if (!wanted && n < ring_.size()) continue;
         if (search_.left <= 0) {
             stopped_ = true;

@@ -51,6 +51,10 @@ private:
     bool touches_debonded(std::span<const std::int64_t> ring) const;
     Candidate candidate(std::size_t n) const;
     void sample(std::size_t n);
+    // A place of ring n that does not move with the front, where rings are single pairs.
+    std::size_t place(std::size_t n) const;
+    // Between two samples, about in the middle.
+    std::size_t middle(std::size_t low, std::size_t high) const;
     void sample_coarsely();
     void refine_minimum();
     void close_gap();

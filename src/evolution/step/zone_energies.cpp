@@ -2,6 +2,7 @@
 #include "evolution/step/zone_energies.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "base/numbers.hpp"
 
@@ -21,7 +22,7 @@ bool ZoneEnergies::focus(const State& known, std::span<const std::uint8_t> wante
     Zone* zone = op_.zone(springs, rows, true);
     if (zone == nullptr) return false;
     system_.emplace(*zone, contact_, op_.prescribed_rows(), springs.held, known.theta);
-    closed_ = system_->entered_closed();
+    solved_.clear();
     place_.assign(wanted.size(), -1);
     for (const ZoneSystem::Pair& p : system_->pairs()) place_[p.pair] = static_cast<std::int64_t>(p.first);
     zone->unknowns_at(known.response);
@@ -53,8 +54,18 @@ std::optional<double> ZoneEnergies::zone_energy(std::span<const double> adhesion
             couplings.push_back({static_cast<std::int64_t>(z), static_cast<std::int64_t>(z), spring[z]});
     }
     system_->load(std::move(couplings), {});
-    if (!find_active_set(*system_, system_->contact_rows(), closed_, energy_contact_steps, false).settled)
+    std::vector<std::uint8_t> closed = system_->entered_closed();
+    std::int64_t nearest = std::numeric_limits<std::int64_t>::max();
+    for (const Solved& s : solved_) {
+        std::int64_t differ = 0;
+        for (std::size_t z = 0; z < spring.size(); ++z) differ += s.spring[z] != spring[z] ? 1 : 0;
+        if (differ >= nearest) continue;
+        nearest = differ;
+        closed = s.closed;
+    }
+    if (!find_active_set(*system_, system_->contact_rows(), closed, energy_contact_steps, false).settled)
         return std::nullopt;
+    solved_.push_back({spring, std::move(closed)});
     double energy = system_->zone().energy_of(system_->theta(), system_->unknowns());
     const std::span<const double> jump = system_->jump();
     for (std::size_t z = 0; z < spring.size(); ++z) energy += 0.5 * spring[z] * jump[z] * jump[z];

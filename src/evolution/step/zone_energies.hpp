@@ -42,9 +42,14 @@ private:
     const PairLaws& pairs_;
     const ContactScene& contact_;
     std::optional<ZoneSystem> system_;
-    std::vector<std::uint8_t> closed_;  // [contact rows] of the last energy, from which the next begins
-    std::vector<std::int64_t> place_;   // [pairs] first row within the zone, -1: outside
-    double offset_ = 0.0;               // absolute energy less the zone's
+    // What the zone has been solved for since focus(): the next contact set is searched from the nearest one.
+    struct Solved {
+        std::vector<double> spring;        // [zone rows]
+        std::vector<std::uint8_t> closed;  // [contact rows]
+    };
+    std::vector<Solved> solved_;
+    std::vector<std::int64_t> place_;  // [pairs] first row within the zone, -1: outside
+    double offset_ = 0.0;              // absolute energy less the zone's
 };
 
 }  // namespace delam
