@@ -218,6 +218,7 @@ SearchResult Search::run(const Increment& increment, const State& from, std::spa
                   result,
                   energies.size() * energies.size() * unit_floor_ - increment.energy_before(),
                   from.ledger.increment,
+                  from.ledger.increment,
                   tolerance,
                   problem_.options.search_limit};
     Trials trials(run, from, {increment.adhesion_before(), {mixity.begin(), mixity.end()}, 0.0});

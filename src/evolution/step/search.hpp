@@ -32,6 +32,9 @@
 
 namespace delam {
 
+// A candidate above the step's state by no more than this part of what it dissipates may relax below it.
+inline constexpr double promising = 0.5;
+
 struct Candidate {
     std::vector<double> adhesion;  // [pairs]
     std::vector<double> mixity;    // [pairs] with which it was booked

@@ -17,9 +17,8 @@ namespace delam {
 namespace {
 
 constexpr std::size_t most_starts = 2;  // candidates of a search from which a step is minimised
-// Of its dissipation: by how much a candidate may lie above the step and still be relaxed.
-constexpr double promising = 0.5;
-// The same for following the way to it, whose dissipated energy the candidate only estimates.
+// What `promising` is for relaxing a candidate, for following the way to it, whose dissipated energy the candidate only
+// estimates.
 constexpr double promising_way = 0.05;
 // Of the toughness: what a pair may lose in a step that damages gradually.
 constexpr double gradual = 0.1;

@@ -186,19 +186,41 @@ void Sweep::close_gap() {
     }
 }
 
-// Rings far apart, at positions that do not move with the front; new cracks of sizes 1, 2, 4 ...
-void Sweep::sample_coarsely() {
-    std::size_t stride = 1;
-    while (ring_.size() / stride > fine) stride *= 2;
-    std::size_t geometric = 1;
-    for (std::size_t n = 1; n <= ring_.size(); ++n) {
-        const bool wanted = nucleation_ ? n == geometric : n <= 2 || place(n) % stride == 0;
-        if (!wanted && n < ring_.size()) continue;
+// New cracks of sizes 1, 2, 4 ... and the largest, from above: what a crack releases is at least what smaller ones do.
+// Where no smaller one can be promising, they need no energy. Where the mixity follows the iterates, that of a ring is
+// known from the size before it: from below.
+void Sweep::sample_new_crack() {
+    std::vector<std::size_t> sizes;
+    for (std::size_t n = 1; n < ring_.size(); n *= 2) sizes.push_back(n);
+    if (!ring_.empty()) sizes.push_back(ring_.size());
+    const bool from_below = search_.increment.follows_iterates();
+    if (!from_below) std::reverse(sizes.begin(), sizes.end());
+    for (const std::size_t n : sizes) {
         if (search_.left <= 0) {
             stopped_ = true;
             return;
         }
-        if (nucleation_) geometric *= 2;
+        sample(n);
+        if (from_below ? search_.floor + cost_.at(n) >= search_.best : no_smaller_one_is_promising(n)) return;
+    }
+}
+
+bool Sweep::no_smaller_one_is_promising(std::size_t n) const {
+    if (!search_.pairs().gradient.empty() || !std::isfinite(value_.at(n).incremental)) return false;
+    const double energy = value_.at(n).incremental - search_.result.error - cost_.at(n);
+    return energy + (1.0 - promising) * search_.cost(candidate(1)) >= search_.level;
+}
+
+// Rings far apart, at positions that do not move with the front.
+void Sweep::sample_coarsely() {
+    std::size_t stride = 1;
+    while (ring_.size() / stride > fine) stride *= 2;
+    for (std::size_t n = 1; n <= ring_.size(); ++n) {
+        if (n > 2 && place(n) % stride != 0 && n < ring_.size()) continue;
+        if (search_.left <= 0) {
+            stopped_ = true;
+            return;
+        }
         sample(n);
         if (search_.floor + cost_.at(n) >= search_.best) return;
     }
@@ -206,7 +228,10 @@ void Sweep::sample_coarsely() {
 
 void Sweep::run() {
     sample(0);
-    sample_coarsely();
+    if (nucleation_)
+        sample_new_crack();
+    else
+        sample_coarsely();
     if (value_.size() > 1) {
         refine_minimum();
         if (!nucleation_) close_gap();

@@ -20,6 +20,7 @@ struct SearchRun {
     CandidateEnergies& energies;
     SearchResult& result;
     double floor;       // E_all less the energy before
+    double level;       // I of the step
     double best;        // lowest I so far, of the step or a candidate
     double tolerance;   // of energies
     std::int64_t left;  // candidates until the limit
@@ -56,6 +57,8 @@ private:
     // Between two samples, about in the middle.
     std::size_t middle(std::size_t low, std::size_t high) const;
     void sample_coarsely();
+    void sample_new_crack();
+    bool no_smaller_one_is_promising(std::size_t n) const;
     void refine_minimum();
     void close_gap();
     // Lower bound of what lies strictly between two samples.
