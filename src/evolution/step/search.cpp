@@ -147,6 +147,7 @@ void Trials::debond_interfaces() {
 
 void Trials::run() {
     const std::vector<Front> all = fronts(start_, seeds);
+    search_.new_cracks = reach_of_new_cracks(search_, all, start_);
     for (const Front& front : all) sweep(front, start_, "");
     if (all.size() > 1) {
         advance_together(all);

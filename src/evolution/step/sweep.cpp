@@ -13,6 +13,8 @@ namespace {
 
 constexpr std::size_t fine = 16;           // rings that are all sampled; of longer sweeps about as many
 constexpr std::size_t largest_crack = 32;  // rings of a new crack, and of the zone about it
+// Rows of a zone in which an energy costs less than the choice of a smaller zone.
+constexpr std::size_t small_zone = 512;
 
 }  // namespace
 
@@ -32,6 +34,21 @@ double SearchRun::compare(Candidate& candidate, std::span<const std::int64_t> ne
     result.lowest = std::min(result.lowest, candidate.incremental);
     best = std::min(best, candidate.incremental);
     return candidate.incremental;
+}
+
+std::vector<std::uint8_t> reach_of_new_cracks(const SearchRun& search, std::span<const Front> fronts,
+                                              const Candidate& base) {
+    const std::vector<std::uint8_t> adhering = search.adhering(base);
+    std::vector<std::uint8_t> reached(adhering.size(), 0);
+    for (const Front& front : fronts) {
+        if (!front.nucleation) continue;
+        const std::vector<std::vector<std::int64_t>> ring = rings(search.graph, adhering, front);
+        for (std::size_t k = 0; k < std::min(ring.size(), largest_crack + 1); ++k)
+            for (const std::int64_t p : ring[k]) reached[index(p)] = 1;
+    }
+    const auto pairs = static_cast<std::size_t>(std::count(reached.begin(), reached.end(), std::uint8_t{1}));
+    if (pairs * index(search.pairs().dimension) > small_zone) reached.clear();
+    return reached;
 }
 
 // A new crack that meets an older one is an advance of the older one, with the mixity of its front.
@@ -76,6 +93,9 @@ void Sweep::keep_rings() {
         for (const std::int64_t p : ring_[keep]) wanted[index(p)] = 1;  // pairs whose mixity may be needed
     ring_.resize(keep);
     mixity_.resize(ring_.size());
+    if (nucleation_)
+        for (std::size_t p = 0; p < search_.new_cracks.size(); ++p)
+            if (search_.new_cracks[p] != 0) wanted[p] = 1;
     search_.energies.focus(wanted);
 }
 

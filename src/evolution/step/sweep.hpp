@@ -24,6 +24,8 @@ struct SearchRun {
     double best;        // lowest I so far, of the step or a candidate
     double tolerance;   // of energies
     std::int64_t left;  // candidates until the limit
+    // [pairs] that the new cracks of this search may reach, if one zone serves them all; empty: a zone for each.
+    std::vector<std::uint8_t> new_cracks{};
 
     const PairLaws& pairs() const { return increment.pairs(); }
     double cost(const Candidate& c) const { return increment.cost(c.mixity, c.adhesion); }
@@ -31,6 +33,10 @@ struct SearchRun {
     // I of a candidate; counts it. next_mixity: B that the pairs `next` show, where the mixity follows the iterates.
     double compare(Candidate& candidate, std::span<const std::int64_t> next, std::vector<double>* next_mixity);
 };
+
+// SearchRun::new_cracks of these fronts.
+std::vector<std::uint8_t> reach_of_new_cracks(const SearchRun& search, std::span<const Front> fronts,
+                                              const Candidate& base);
 
 class Sweep {
 public:
