@@ -26,7 +26,7 @@ double cube(double x) { return x * x * x; }
 
 // Fitted constants; README.md describes the data.
 // of the squares of all jumps: zones and what they take along to the root of the tree
-constexpr double zone_squares = 1.5;
+constexpr double zone_squares = 2.8;
 constexpr double condensed_step = 1.5;  // of the operations of a condensation of all of the skeleton, per load step
 constexpr double supernodes = 1.25;     // numbers stored per entry of a factor
 constexpr double series_bytes = 32.0;  // per square of a subdomain's jumps: the series preconditioner while it is built
