@@ -24,13 +24,13 @@ std::vector<std::uint8_t> contact_levels(std::span<const InterfaceGeometry> inte
                         neighbours[static_cast<std::size_t>(interface.face[f + a])].push_back(
                             static_cast<std::size_t>(interface.face[f + b]));
         std::uint8_t top = 0;
-        while ((pairs >> (2 * (top + 1))) >= coarsest) ++top;
+        while ((pairs >> (top + 1)) >= coarsest) ++top;
 
-        // Level after level, chooses each pair that no chosen one reaches within 4^l - 1 faces.
+        // Level after level, chooses each pair that no chosen one reaches within 2^l - 1 faces.
         std::vector<std::uint8_t> own(pairs, 0), chosen(pairs, 0), mark(pairs, 0);
         std::vector<std::size_t> seen;
         for (std::uint8_t l = top; l > 0; --l) {
-            const std::size_t radius = (std::size_t{1} << (2 * l)) - 1;
+            const std::size_t radius = (std::size_t{1} << l) - 1;
             std::vector<std::uint8_t> reached(pairs, 0);
             const auto reach = [&](std::size_t from) {
                 std::vector<std::size_t> ring{from};

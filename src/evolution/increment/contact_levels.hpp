@@ -14,7 +14,7 @@
 
 namespace delam {
 
-// [pairs] the coarsest level at which a pair takes part: pairs of level >= l lie about 4^l faces apart.
+// [pairs] the coarsest level at which a pair takes part: pairs of level >= l lie about 2^l faces apart.
 std::vector<std::uint8_t> contact_levels(std::span<const InterfaceGeometry> interfaces);
 
 }  // namespace delam
