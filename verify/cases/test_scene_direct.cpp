@@ -20,7 +20,9 @@ struct Case {
 
 const Case scenes[] = {
     {"mmb", {"geometry.divisions=100", "time.steps=20"}, {5, 12, 20}, 0},
-    {"4enf", {"geometry.divisions=100", "time.steps=22"}, {5, 14, 22}, 6},
+    // Between its inner rollers the moment is constant and nothing presses the arms together: forces of contacts are
+    // rounding there.
+    {"4enf", {"geometry.divisions=100", "time.steps=22"}, {5, 14, 22}, 6, 1e-8, true},
     // A strip of 200 mm by 0.265 mm in a beam that opens by centimetres: the residual of FETI stalls, and overlaps of
     // 1e-11 of the opening are forces on springs of 1e13 N/m3 that the direct solution shows.
     {"dcb-double", {"geometry.divisions=40", "time.steps=8"}, {2, 5, 8}, 0, 1e-7, true},
