@@ -119,9 +119,10 @@ DELAM_API int32_t delam_abi(void);
  * [owns result static; status -; thread any; since 0.1] */
 DELAM_API const char *delam_status_name(int32_t status);
 /* Returns the number of threads that the host has given to BLAS in this process; 0 if BLAS does not report it. The
- * library uses one thread around small calls of BLAS and restores the number (src/capi/CONTRACT.md, "Threads"); it
+ * library uses one thread in its calls of BLAS and restores the number; only large sparse factorisations have all of
+ * them (src/capi/CONTRACT.md, "Threads"), and two runs with such give identical digits only with the same number. It
  * leaves 1 where a limit of the address space leaves too little room for OpenBLAS' threads. The option `threads` sets
- * the library's own threads. Two runs give identical digits only with the same number of BLAS threads.
+ * the library's own threads.
  * [status -; thread any; since 0.1] */
 DELAM_API int32_t delam_blas_threads(void);
 

@@ -48,8 +48,7 @@ std::int32_t blas_threads() {
     return alone > 0 ? of_the_host : threads_now();
 }
 
-BlasThreads::BlasThreads(double multiplications) {
-    if (!(multiplications < large)) return;
+BlasThreads::BlasThreads() {
     if (MKL_Set_Num_Threads_Local != nullptr) {
         before_ = MKL_Set_Num_Threads_Local(1);
         alone_ = true;

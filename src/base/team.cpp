@@ -6,10 +6,32 @@
 #include <algorithm>
 #include <csignal>
 #include <system_error>
+#include <utility>
 
 #include "base/blas_memory.hpp"
+#include "base/blas_threads.hpp"
 
 namespace delam {
+
+namespace {
+
+// In the static TLS block, as cancel_scope is: reading them cannot fail.
+constinit thread_local TeamScope* team_scope __attribute__((tls_model("initial-exec"))) = nullptr;
+constinit thread_local bool at_a_piece __attribute__((tls_model("initial-exec"))) = false;
+
+class Piece {
+public:
+    Piece() : outer_(std::exchange(at_a_piece, true)) {}
+    ~Piece() { at_a_piece = outer_; }
+    Piece(const Piece&) = delete;
+    Piece& operator=(const Piece&) = delete;
+
+private:
+    const BlasThreads blas_;
+    bool outer_;
+};
+
+}  // namespace
 
 std::int64_t processors() {
     cpu_set_t set;
@@ -62,6 +84,7 @@ bool Team::step(bool caller) {
     }
     std::exception_ptr thrown;
     try {
+        const Piece piece;
         (*work_)(mine);
     } catch (...) {
         thrown = std::current_exception();
@@ -95,6 +118,7 @@ void Team::run(std::int64_t count, const std::function<void(std::int64_t)>& work
     if (members_.empty()) {
         for (std::int64_t i = 0; i < count; ++i) {
             if (before) before(i);
+            const Piece piece;
             work(i);
         }
         return;
@@ -133,6 +157,29 @@ void Team::run(std::int64_t count, const std::function<void(std::int64_t)>& work
         failure_ = nullptr;
         std::rethrow_exception(failure);
     }
+}
+
+bool in_a_piece() { return at_a_piece; }
+
+TeamScope::TeamScope(std::int64_t threads) : threads_(threads), outer_(team_scope) { team_scope = this; }
+
+TeamScope::~TeamScope() { team_scope = outer_; }
+
+// The scope is closed meanwhile: a callback of the host, in `before`, may call the library for another context.
+void share(std::int64_t count, const std::function<void(std::int64_t)>& work,
+           const std::function<void(std::int64_t done)>& before) {
+    if (count == 1) {
+        if (before) before(0);
+        return work(0);
+    }
+    TeamScope* const scope = in_a_piece() ? nullptr : team_scope;
+    if (scope == nullptr || scope->threads_ <= 1) return Team(1).run(count, work, before);
+    if (!scope->team_) scope->team_.emplace(scope->threads_);
+    struct Closed {
+        TeamScope* scope = std::exchange(team_scope, nullptr);
+        ~Closed() { team_scope = scope; }
+    } const closed;
+    scope->team_->run(count, work, before);
 }
 
 }  // namespace delam

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The library's own threads. A call starts them and joins them before it returns. The caller's thread works too, so a
-// team of one starts no thread. The result must not depend on which thread does which piece.
+// team of one starts no thread. The result must not depend on which thread does which piece. Threads without a piece
+// sleep; they do not spin, which would take time from other programs.
 #pragma once
 
 #include <condition_variable>
@@ -8,6 +9,7 @@
 #include <exception>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <vector>
 
@@ -27,7 +29,7 @@ public:
 
     // Runs work(i) for i = 0 .. count-1, each once, in any order, and returns when all are done. If pieces throw, the
     // exception of the smallest i is rethrown here, and pieces that have not begun may be skipped. before: called on
-    // the caller's thread before each of its own pieces (progress, cancel).
+    // the caller's thread before each of its own pieces (progress, cancel). A piece has one thread of the BLAS.
     void run(std::int64_t count, const std::function<void(std::int64_t)>& work,
              const std::function<void(std::int64_t done)>& before = {});
 
@@ -44,5 +46,28 @@ private:
     std::exception_ptr failure_;
     bool leaving_ = false;
 };
+
+// Whether this thread works on a piece for a team, of one thread or more: the others are busy with such pieces, too.
+bool in_a_piece();
+
+// While it lives, share() of this thread has so many threads. They start with the first work that is shared.
+class TeamScope {
+public:
+    explicit TeamScope(std::int64_t threads);
+    ~TeamScope();
+    TeamScope(const TeamScope&) = delete;
+    TeamScope& operator=(const TeamScope&) = delete;
+
+private:
+    friend void share(std::int64_t, const std::function<void(std::int64_t)>&, const std::function<void(std::int64_t)>&);
+    std::int64_t threads_;
+    std::optional<Team> team_;
+    TeamScope* outer_;
+};
+
+// As Team::run(), with the team of the scope that this thread has opened; one after another where there is none, and
+// within a piece. A single piece is none: it may share its own work.
+void share(std::int64_t count, const std::function<void(std::int64_t)>& work,
+           const std::function<void(std::int64_t done)>& before = {});
 
 }  // namespace delam

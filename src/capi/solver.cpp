@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/file.hpp"
+#include "base/team.hpp"
 #include "capi/handles.hpp"
 #include "evolution/condensed_matrices.hpp"
 #include "evolution/fields.hpp"
@@ -36,6 +37,15 @@ const std::vector<CrackFront>& fronts_of(const delam_solver& solver, std::int64_
     return solver.core->crack_fronts(require_index(interface_index, count, 0, "interface_index"));
 }
 
+// As guard_solve(), with the library's threads that the options of the scene ask for.
+template <class Body>
+std::int32_t guard_step(delam_solver* solver, Body&& body) noexcept {
+    return guard_solve(solver, [&] {
+        const TeamScope team(useful_threads(solver->core->problem().options.threads));
+        return body();
+    });
+}
+
 }  // namespace
 
 extern "C" {
@@ -45,6 +55,7 @@ int32_t delam_solver_create(const delam_problem* problem, double time, delam_sol
     return guard_solve(problem, [&] {
         require_pointer(out, "out");
         require_finite(&time, 1, "time");
+        const TeamScope team(useful_threads(problem->core->options.threads));
         auto handle = std::make_unique<delam_solver>();
         handle->context = problem->context;
         handle->core = std::make_shared<Solver>(*problem->core, problem->context->monitor, time);
@@ -59,7 +70,7 @@ int32_t delam_solver_create(const delam_problem* problem, double time, delam_sol
 void delam_solver_destroy(delam_solver** solver) { destroy(solver); }
 
 int32_t delam_solver_advance(delam_solver* solver, double time) {
-    return guard_solve(solver, [&] { return report(*solver->context, solver->core->advance(time)); });
+    return guard_step(solver, [&] { return report(*solver->context, solver->core->advance(time)); });
 }
 
 int32_t delam_solver_commit(delam_solver* solver) {
@@ -89,7 +100,7 @@ int32_t delam_solver_set_history(delam_solver* solver, int64_t pattern, int64_t 
 }
 
 int32_t delam_solver_equilibrate(delam_solver* solver, double time, const double* adhesion) {
-    return guard_solve(solver, [&] {
+    return guard_step(solver, [&] {
         std::span<const double> held;
         if (adhesion != nullptr) held = {adhesion, solver->core->committed().adhesion.size()};
         return report(*solver->context, solver->core->equilibrate(time, held));
@@ -241,7 +252,7 @@ int32_t delam_solver_average(const delam_solver* solver, int32_t body, double* v
 }
 
 int32_t delam_solver_tangent(delam_solver* solver, int64_t capacity, double* matrix) {
-    return guard_solve(solver, [&] {
+    return guard_step(solver, [&] {
         const auto patterns = static_cast<int64_t>(solver->core->problem().patterns.size());
         require_capacity(capacity, patterns * patterns, "matrix");
         copy_out(solver->core->tangent(), capacity, matrix, "matrix");
@@ -249,7 +260,7 @@ int32_t delam_solver_tangent(delam_solver* solver, int64_t capacity, double* mat
 }
 
 int32_t delam_solver_step_tangent(delam_solver* solver, int64_t capacity, double* matrix) {
-    return guard_solve(solver, [&] {
+    return guard_step(solver, [&] {
         const auto patterns = static_cast<int64_t>(solver->core->problem().patterns.size());
         require_capacity(capacity, patterns * patterns, "matrix");
         copy_out(solver->core->step_tangent(), capacity, matrix, "matrix");
@@ -381,7 +392,7 @@ int32_t delam_solver_save(const delam_solver* solver, int64_t capacity, uint8_t*
 }
 
 int32_t delam_solver_load(delam_solver* solver, int64_t size, const uint8_t* bytes) {
-    return guard_solve(solver, [&] {
+    return guard_step(solver, [&] {
         require_count(size, "size");
         require_array(bytes, size, "bytes");
         load(*solver->core, {bytes, static_cast<std::size_t>(size)});
@@ -396,7 +407,7 @@ int32_t delam_solver_save_file(const delam_solver* solver, const char* path) {
 }
 
 int32_t delam_solver_load_file(delam_solver* solver, const char* path) {
-    return guard_solve(solver, [&] {
+    return guard_step(solver, [&] {
         require_pointer(path, "path");
         load_file(*solver->core, path);
     });

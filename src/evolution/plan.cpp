@@ -109,7 +109,8 @@ void add_reduction(std::vector<PlanItem>& items, const Basis& basis) {
         {"threads", useful > 1 ? used : left_out,
          text(useful > 1 ? text(useful, " of the library") : std::string("the caller's alone"), " (option threads",
               own > useful ? text(" = ", own, ", of which this process has processors for ", processors()) : "",
-              "): assembly of the bodies", feti ? ", subdomains" : "", "; the BLAS uses ", of_blas),
+              "): assembly of the bodies, large dense products", feti ? ", subdomains" : ", pieces of the bodies",
+              "; the BLAS has ", of_blas, ", for large sparse factorisations"),
          0.0, 0.0, "-"});
     const double longest = choice.own().longest, ordering = choice.own().ordering / nominal_rate;
     const std::string before = ordering < noticed ? ""

@@ -18,6 +18,7 @@
 #include "base/large_pages.hpp"
 #include "base/numbers.hpp"
 #include "base/room.hpp"
+#include "base/team.hpp"
 #include "delam/delam.h"
 #include "linalg/dissection.hpp"
 #include "linalg/equal_rows.hpp"
@@ -29,12 +30,12 @@
 // DELAM_CHOLMOD_SIMPLICIAL is defined.
 
 // CHOLMOD 3 requests four OpenMP threads on any machine; on fewer cores they wait for each other at every supernode
-// (measured: twice the time of one thread). Small factorisations and all solves get one: no region of the calling
-// thread is parallel meanwhile. For large ones the "dynamic" setting of the calling thread lets the runtime provide
-// fewer than four: GNU's provides as many as there are processors, less the load of the last 15 minutes. The threads
-// share the scattering of blocks, not sums, so that no digit depends on their number. Not where OpenBLAS has OpenMP's
-// threads (2): it waits for as many as it has asked for, and for ever if the runtime provides fewer. Weak symbols: a
-// CHOLMOD without OpenMP, and another BLAS, lack these functions.
+// (measured: twice the time of one thread). Small factorisations, those in a piece of a team's work, and all solves get
+// one: no region of the calling thread is parallel meanwhile. For large ones the "dynamic" setting of the calling
+// thread lets the runtime provide fewer than four: GNU's provides as many as there are processors, less the load of the
+// last 15 minutes. The threads share the scattering of blocks, not sums, so that no digit depends on their number. Not
+// where OpenBLAS has OpenMP's threads (2): it waits for as many as it has asked for, and for ever if the runtime
+// provides fewer. Weak symbols: a CHOLMOD without OpenMP, and another BLAS, lack these functions.
 extern "C" {
 int openblas_get_parallel() __attribute__((weak));
 int omp_get_dynamic() __attribute__((weak));
@@ -47,16 +48,19 @@ namespace delam {
 
 namespace {
 
-// The threads of CHOLMOD and of the BLAS that it calls, for work of so many operations; 0: one thread.
+// The threads of CHOLMOD and of the BLAS that it calls, for work of so many operations outside a piece of a team's; 0:
+// one thread.
 class FactorThreads {
 public:
-    explicit FactorThreads(double operations) : blas_(operations < large ? 0.0 : operations) {
+    explicit FactorThreads(double operations) {
+        const bool one = operations < large || in_a_piece();
+        if (one) blas_.emplace();
         require_room(std::size_t{1} << 16);  // GNU's OpenMP ends the process if this memory is missing
         if (omp_get_dynamic == nullptr || omp_set_dynamic == nullptr) return;
         if (openblas_get_parallel != nullptr && openblas_get_parallel() == 2) return;
         dynamic_ = omp_get_dynamic();
         omp_set_dynamic(1);
-        if (operations < large && omp_get_max_active_levels != nullptr && omp_set_max_active_levels != nullptr) {
+        if (one && omp_get_max_active_levels != nullptr && omp_set_max_active_levels != nullptr) {
             levels_ = omp_get_max_active_levels();
             omp_set_max_active_levels(0);
         }
@@ -71,7 +75,7 @@ public:
 private:
     // A second of one core, most of it in products of large supernodes.
     static constexpr double large = 2e10;
-    BlasThreads blas_;
+    std::optional<BlasThreads> blas_;
     int dynamic_ = -1, levels_ = -1;
 };
 

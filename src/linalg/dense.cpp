@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "base/error.hpp"
+#include "base/team.hpp"
 #include "delam/delam.h"
 #include "linalg/blas.hpp"
 #include "linalg/blas_size.hpp"
@@ -16,17 +17,41 @@ namespace {
 
 constexpr int one = 1;
 
-// Up to `small` rows LAPACK runs without a poll in between; larger matrices are treated in panels of `width` columns.
-constexpr std::int64_t small = 1024, width = 256;
+// Up to `small` rows LAPACK runs without a poll in between; larger matrices are treated in panels of `width` columns
+// (README.md has the times).
+constexpr std::int64_t small = 384, width = 96;
+// Inverses: from these on.
+constexpr std::int64_t small_inverse = 1024, wide = 256;
 
-// Multiplications in one part of an operation: about a twentieth of a second.
-constexpr double part = 5e8;
+// Multiplications between two polls: some milliseconds.
+constexpr double part = 5e7;
 
-// Number of columns in a part, where a column takes `cost` multiplications; a multiple that suits the BLAS kernels.
-std::int64_t columns_a_part(double cost, std::int64_t all) {
-    if (cost * static_cast<double>(all) <= part) return std::max<std::int64_t>(all, 1);
-    return std::clamp<std::int64_t>(static_cast<std::int64_t>(part / cost) / 64 * 64, 64,
-                                    std::max<std::int64_t>(all, 64));
+// Multiplications in a piece for one thread: about a millisecond, much less than the time slice for which a thread may
+// have to wait where other programs use the cores, and a hundred times what it takes to wake one. The pieces depend on
+// the sizes alone, so that no digit depends on the number of threads.
+constexpr double piece = 8e6;
+
+// Calls operation(first, count) for pieces of the columns, or rows, each of which takes `cost` multiplications. Each is
+// computed by itself.
+template <class Operation>
+void in_pieces(std::int64_t all, double cost, const Operation& operation, const Poll& poll) {
+    if (all == 0) return;
+    // Narrower ones take 1.1 times the time in the kernels of the BLAS.
+    constexpr std::int64_t narrowest = 128, multiple = 64;
+    std::int64_t step = all;
+    if (cost * static_cast<double>(all) >= 2.0 * piece)
+        step = std::min(all, std::max(narrowest, static_cast<std::int64_t>(piece / cost) / multiple * multiple));
+    const auto between =
+        std::max<std::int64_t>(1, static_cast<std::int64_t>(part / (cost * static_cast<double>(step))));
+    std::int64_t polled = 0;
+    share((all + step - 1) / step,
+          [&](std::int64_t p) { operation(p * step, static_cast<int>(std::min(step, all - p * step))); },
+          [&](std::int64_t done) {
+              if (done < polled + between) return;
+              polled = done;
+              call_if_set(poll);
+          });
+    call_if_set(poll);
 }
 
 int leading(const DenseMatrix& a) {
@@ -70,9 +95,12 @@ DenseMatrix multiply(const DenseMatrix& a, const DenseMatrix& b) {
     const int m = blas_size(a.rows), n = blas_size(b.columns), k = blas_size(a.columns);
     const int lda = leading(a), ldb = leading(b), ldc = leading(c);
     const double alpha = 1.0, beta = 0.0;
-    if (m > 0 && n > 0 && k > 0)
-        blas::gemm("N", "N", &m, &n, &k, &alpha, a.value.data(), &lda, b.value.data(), &ldb, &beta, c.value.data(),
-                   &ldc);
+    if (m == 0 || n == 0 || k == 0) return c;
+    const auto columns = [&](std::int64_t j, int count) {
+        blas::gemm("N", "N", &m, &count, &k, &alpha, a.value.data(), &lda, b.value.data() + j * b.rows, &ldb, &beta,
+                   c.value.data() + j * c.rows, &ldc);
+    };
+    in_pieces(n, static_cast<double>(m) * k, columns, {});
     return c;
 }
 
@@ -81,9 +109,12 @@ DenseMatrix multiply_transposed(const DenseMatrix& a, const DenseMatrix& b, std:
     const int m = blas_size(a.columns), n = blas_size(b.columns), k = blas_size(a.rows - first);
     const int lda = leading(a), ldb = leading(b), ldc = leading(c);
     const double alpha = 1.0, beta = 0.0;
-    if (m > 0 && n > 0 && k > 0)
-        blas::gemm("T", "N", &m, &n, &k, &alpha, a.value.data() + first, &lda, b.value.data() + first, &ldb, &beta,
-                   c.value.data(), &ldc);
+    if (m == 0 || n == 0 || k == 0) return c;
+    const auto columns = [&](std::int64_t j, int count) {
+        blas::gemm("T", "N", &m, &count, &k, &alpha, a.value.data() + first, &lda, b.value.data() + first + j * b.rows,
+                   &ldb, &beta, c.value.data() + j * c.rows, &ldc);
+    };
+    in_pieces(n, static_cast<double>(m) * k, columns, {});
     return c;
 }
 
@@ -97,18 +128,23 @@ void mirror_lower(DenseMatrix& a) {
                 for (std::int64_t i = std::max(bi, j + 1); i < std::min(bi + block, a.rows); ++i) a(j, i) = a(i, j);
 }
 
-// By column panels: panel k touches only the square below and to the right of its first row.
+// By column panels of the product: rows behind a panel have L's columns up to its end in common with it.
 DenseMatrix lower_times_transpose(const DenseMatrix& lower, const Poll& poll) {
-    constexpr std::int64_t narrower = 128;
     DenseMatrix product(lower.rows, lower.rows);
     const int lda = leading(lower);
-    const double unit = 1.0;
-    for (std::int64_t k = 0; k < lower.rows; k += narrower) {
-        const int n = blas_size(lower.rows - k), panel = static_cast<int>(std::min(narrower, lower.rows - k));
-        blas::syrk("L", "N", &n, &panel, &unit, &lower.value[static_cast<std::size_t>(k + k * lower.rows)], &lda, &unit,
-                   &product.value[static_cast<std::size_t>(k + k * lower.rows)], &lda);
-        call_if_set(poll);
-    }
+    const double unit = 1.0, none = 0.0;
+    const auto panel = [&](std::int64_t p) {
+        const std::int64_t j = p * width;
+        const int columns = static_cast<int>(std::min(width, lower.rows - j)),
+                  rest = static_cast<int>(lower.rows - j - columns), common = static_cast<int>(j + columns);
+        const double* row = lower.value.data() + j;
+        double* corner = product.value.data() + j * (lower.rows + 1);
+        blas::syrk("L", "N", &columns, &common, &unit, row, &lda, &none, corner, &lda);
+        if (rest > 0)
+            blas::gemm("N", "T", &rest, &columns, &common, &unit, row + columns, &lda, row, &lda, &none,
+                       corner + columns, &lda);
+    };
+    if (lower.rows > 0) share((lower.rows + width - 1) / width, panel, [&](std::int64_t) { call_if_set(poll); });
     mirror_lower(product);
     return product;
 }
@@ -142,6 +178,7 @@ bool factor_definite(DenseMatrix& a, const Poll& poll) {
     }
     const double unit = 1.0, minus = -1.0;
     const auto at = [&a](std::int64_t i, std::int64_t j) { return a.value.data() + i + j * a.rows; };
+    double passed = 0.0;
     for (std::int64_t k = 0; k < n; k += width) {
         const int panel = static_cast<int>(std::min<std::int64_t>(width, n - k)),
                   below = static_cast<int>(n - k - panel);
@@ -149,17 +186,22 @@ bool factor_definite(DenseMatrix& a, const Poll& poll) {
         if (info != 0) return false;
         if (below == 0) break;
         const std::int64_t behind = k + panel;
-        blas::trsm("R", "L", "T", "N", &below, &panel, &unit, at(k, k), &lda, at(behind, k), &lda);
-        const std::int64_t step = columns_a_part(static_cast<double>(below) * panel, below);
-        for (std::int64_t j = behind; j < n; j += step) {
-            const int columns = static_cast<int>(std::min<std::int64_t>(step, n - j)),
-                      rest = static_cast<int>(n - j - columns);
-            blas::syrk("L", "N", &columns, &panel, &minus, at(j, k), &lda, &unit, at(j, j), &lda);
+        const auto rows = [&](std::int64_t i, int count) {
+            blas::trsm("R", "L", "T", "N", &count, &panel, &unit, at(k, k), &lda, at(behind + i, k), &lda);
+        };
+        const auto columns = [&](std::int64_t offset, int count) {
+            const std::int64_t j = behind + offset;
+            const int rest = static_cast<int>(n - j - count);
+            blas::syrk("L", "N", &count, &panel, &minus, at(j, k), &lda, &unit, at(j, j), &lda);
             if (rest > 0)
-                blas::gemm("N", "T", &rest, &columns, &panel, &minus, at(j + columns, k), &lda, at(j, k), &lda, &unit,
-                           at(j + columns, j), &lda);
-            call_if_set(poll);
-        }
+                blas::gemm("N", "T", &rest, &count, &panel, &minus, at(j + count, k), &lda, at(j, k), &lda, &unit,
+                           at(j + count, j), &lda);
+        };
+        const double update = static_cast<double>(below) * panel;
+        in_pieces(below, 0.5 * panel * panel, rows, {});
+        passed += 0.5 * update * below;
+        in_pieces(below, 0.5 * update, columns, passed < part ? Poll() : poll);
+        if (passed >= part) passed = 0.0;
     }
     return true;
 }
@@ -168,13 +210,11 @@ void solve_lower(const DenseMatrix& lower, DenseMatrix& b, std::int64_t first, c
     const int m = blas_size(b.rows - first), lda = leading(lower), ldb = leading(b);
     const double alpha = 1.0;
     if (m == 0) return;
-    const std::int64_t step = columns_a_part(0.5 * m * m, b.columns);
-    for (std::int64_t j = 0; j < b.columns; j += step) {
-        const int columns = blas_size(std::min(step, b.columns - j));
-        blas::trsm("L", "L", "N", "N", &m, &columns, &alpha, lower.value.data() + first * (lower.rows + 1), &lda,
+    const auto columns = [&](std::int64_t j, int count) {
+        blas::trsm("L", "L", "N", "N", &m, &count, &alpha, lower.value.data() + first * (lower.rows + 1), &lda,
                    b.value.data() + first + j * b.rows, &ldb);
-        call_if_set(poll);
-    }
+    };
+    in_pieces(b.columns, 0.5 * m * m, columns, poll);
 }
 
 void solve_lower(const DenseMatrix& lower, std::span<double> x) {
@@ -193,18 +233,16 @@ void accumulate_gram(DenseMatrix& c, const DenseMatrix& v, double sign, const Po
     const int n = blas_size(c.rows), k = blas_size(v.rows), ldv = leading(v), ldc = leading(c);
     const double beta = 1.0;
     if (n == 0 || k == 0) return;
-    const std::int64_t step = columns_a_part(0.5 * n * k, n);
     const auto column = [&v](std::int64_t j) { return v.value.data() + j * v.rows; };
-    for (std::int64_t j = 0; j < n; j += step) {
-        const int columns = static_cast<int>(std::min<std::int64_t>(step, n - j)),
-                  rest = static_cast<int>(n - j - columns);
+    const auto columns = [&](std::int64_t j, int count) {
+        const int rest = static_cast<int>(n - j - count);
         double* corner = c.value.data() + j * (c.rows + 1);
-        blas::syrk("L", "T", &columns, &k, &sign, column(j), &ldv, &beta, corner, &ldc);
+        blas::syrk("L", "T", &count, &k, &sign, column(j), &ldv, &beta, corner, &ldc);
         if (rest > 0)
-            blas::gemm("T", "N", &rest, &columns, &k, &sign, column(j + columns), &ldv, column(j), &ldv, &beta,
-                       corner + columns, &ldc);
-        call_if_set(poll);
-    }
+            blas::gemm("T", "N", &rest, &count, &k, &sign, column(j + count), &ldv, column(j), &ldv, &beta,
+                       corner + count, &ldc);
+    };
+    in_pieces(n, 0.5 * n * k, columns, poll);
 }
 
 }  // namespace
@@ -230,8 +268,8 @@ int invert_lower(DenseMatrix& a, const Poll& poll) {
     const int lda = leading(a);
     const double unit = 1.0, minus = -1.0;
     const auto at = [&a](std::int64_t i, std::int64_t j) { return a.value.data() + i + j * a.rows; };
-    for (std::int64_t k = (n - 1) / width * width; k >= 0; k -= width) {
-        const int panel = static_cast<int>(std::min(width, n - k)), below = static_cast<int>(n - k - panel);
+    for (std::int64_t k = (n - 1) / wide * wide; k >= 0; k -= wide) {
+        const int panel = static_cast<int>(std::min(wide, n - k)), below = static_cast<int>(n - k - panel);
         if (below > 0) {
             blas::trmm("L", "L", "N", "N", &below, &panel, &unit, at(k + panel, k + panel), &lda, at(k + panel, k),
                        &lda);
@@ -251,8 +289,8 @@ void lower_transpose_times_lower(DenseMatrix& a, const Poll& poll) {
     const int lda = leading(a);
     const double unit = 1.0;
     const auto at = [&a](std::int64_t i, std::int64_t j) { return a.value.data() + i + j * a.rows; };
-    for (std::int64_t k = 0; k < n; k += width) {
-        const int panel = static_cast<int>(std::min(width, n - k)), below = static_cast<int>(n - k - panel),
+    for (std::int64_t k = 0; k < n; k += wide) {
+        const int panel = static_cast<int>(std::min(wide, n - k)), below = static_cast<int>(n - k - panel),
                   before = static_cast<int>(k);
         int info = 0;
         if (before > 0) blas::trmm("L", "L", "T", "N", &panel, &before, &unit, at(k, k), &lda, at(k, 0), &lda);
@@ -274,7 +312,7 @@ bool invert_definite(DenseMatrix& a, const Poll& poll) {
     int info = 0;
     if (!factor_definite(a, poll)) return false;
     call_if_set(poll);
-    if (n > small) {
+    if (n > small_inverse) {
         info = invert_lower(a, poll);
         if (info == 0) lower_transpose_times_lower(a, poll);
     } else if (n > 0) {

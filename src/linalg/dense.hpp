@@ -22,7 +22,8 @@ struct DenseMatrix {
     double operator()(std::int64_t i, std::int64_t j) const { return value[static_cast<std::size_t>(i + j * rows)]; }
 };
 
-// poll: called about every twentieth of a second in operations that take longer than that.
+// Large products, factors and solves are shared by the threads of a TeamScope; no digit depends on their number.
+// poll: called every few milliseconds in operations that take longer than that.
 
 double dot(std::span<const double> x, std::span<const double> y);
 // y += a x
@@ -53,7 +54,7 @@ void subtract_gram(DenseMatrix& c, const DenseMatrix& v, const Poll& poll = {});
 void add_gram(DenseMatrix& c, const DenseMatrix& v, const Poll& poll = {});
 // C -= V^T W (BLAS dgemm)
 void subtract_product(DenseMatrix& c, const DenseMatrix& v, const DenseMatrix& w);
-// A^-1, full symmetric, of a positive definite A (LAPACK dpotrf, dpotri; beyond 1024 rows in panels).
+// A^-1, full symmetric, of a positive definite A (LAPACK dpotrf, dpotri; beyond 1024 rows in panels, on one thread).
 DenseMatrix inverse_definite(DenseMatrix a, const Poll& poll = {});
 // The same in place. False: A is not positive definite, and it is overwritten.
 bool invert_definite(DenseMatrix& a, const Poll& poll = {});

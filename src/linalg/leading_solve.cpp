@@ -41,7 +41,7 @@ void poll(const Part& p) { poll_cancel_reading("solve", static_cast<std::int64_t
 
 void solve_leading_block(const Supernodes& nodes, const double* values, std::int64_t leading, std::span<double> y,
                          std::vector<double>& below) {
-    const BlasThreads threads(0.0);  // it waits for memory, supernode after supernode
+    const BlasThreads one;  // it waits for memory, supernode after supernode
     const auto count = static_cast<std::size_t>(std::lower_bound(nodes.first.begin(), nodes.first.end() - 1, leading) -
                                                 nodes.first.begin());
     poll_cancel("solve", leading / 64);

@@ -91,7 +91,7 @@ void SingleFactor::backward(std::span<float> y) const {
 }
 
 void SingleFactor::solve(std::span<const double> b, std::span<double> x) const {
-    const BlasThreads threads(0.0);  // it waits for memory, supernode after supernode
+    const BlasThreads one;  // it waits for memory, supernode after supernode
     const int size = exponent(max_abs(b));
     for (std::size_t i = 0; i < solution_.size(); ++i)
         solution_[i] = static_cast<float>(std::ldexp(b[index(nodes_.order[i])], -size));

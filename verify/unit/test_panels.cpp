@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Large dense operations run in panels, with a poll in between: the same matrices, the same digits each time, and an
-// exception passes through at each panel.
+// Large dense operations run in panels, with a poll in between: the same matrices, the same digits with any number of
+// threads, and an exception passes through at each panel.
 #include <cmath>
 #include <random>
 #include <stdexcept>
+#include <vector>
 
+#include "base/team.hpp"
 #include "linalg/dense.hpp"
 
 // Last: its macro fail() would break delam::fail().
@@ -17,7 +19,7 @@ namespace {
 constexpr std::int64_t n = 1400;  // a whole number of panels and a remainder
 
 // Definite, with a decaying coupling.
-DenseMatrix definite() {
+DenseMatrix definite(std::int64_t n = ::n) {
     std::mt19937_64 random(7);
     std::uniform_real_distribution<double> value(-1.0, 1.0);
     DenseMatrix a(n, n);
@@ -28,7 +30,7 @@ DenseMatrix definite() {
 }
 
 void clear_upper(DenseMatrix& a) {
-    for (std::int64_t j = 0; j < n; ++j)
+    for (std::int64_t j = 0; j < a.columns; ++j)
         for (std::int64_t i = 0; i < j; ++i) a(i, j) = 0.0;
 }
 
@@ -80,6 +82,37 @@ START_TEST(products) {
 }
 END_TEST
 
+// All that is shared, in the order of a condensation.
+std::vector<DenseMatrix> computed(std::int64_t threads) {
+    constexpr std::int64_t rows = 800;
+    const TeamScope team(threads);
+    DenseMatrix lower = definite(rows), v = definite(rows), c = definite(rows), sum = definite(rows);
+    ck_assert(factor_definite(lower));
+    solve_lower(lower, v);
+    DenseMatrix few = definite(rows);
+    solve_lower(lower, few, rows / 3);
+    subtract_gram(c, v);
+    add_gram(sum, v);
+    DenseMatrix left = lower;
+    clear_upper(left);
+    std::vector<DenseMatrix> all = {multiply(v, c), multiply_transposed(v, c, rows / 3), lower_times_transpose(left)};
+    for (DenseMatrix* a : {&lower, &v, &few, &c, &sum}) all.push_back(std::move(*a));
+    return all;
+}
+
+START_TEST(any_number_of_threads) {
+    const std::vector<DenseMatrix> one = computed(1);
+    for (const std::int64_t threads : {2, 3}) {
+        const std::vector<DenseMatrix> more = computed(threads);
+        for (std::size_t i = 0; i < one.size(); ++i) ck_assert_msg(more[i].value == one[i].value, "%zu", i);
+    }
+    DenseMatrix indefinite = definite();
+    indefinite(n - 1, n - 1) = -1.0;
+    const TeamScope team(2);
+    ck_assert(!factor_definite(indefinite));
+}
+END_TEST
+
 START_TEST(stopped) {
     int looks = 0;
     DenseMatrix a = definite();
@@ -101,9 +134,11 @@ END_TEST
 int main() {
     Suite* suite = suite_create("panels");
     TCase* tests = tcase_create("panels");
+    tcase_set_timeout(tests, 60.0);
     tcase_add_test(tests, factor);
     tcase_add_test(tests, inverse);
     tcase_add_test(tests, products);
+    tcase_add_test(tests, any_number_of_threads);
     tcase_add_test(tests, stopped);
     suite_add_tcase(suite, tests);
     SRunner* runner = srunner_create(suite);

@@ -24,7 +24,7 @@ Bulk::Bulk(const Problem& problem, Monitor& monitor) : problem_(problem) {
 AssembledBodies Bulk::release() && { return {std::move(system_), std::move(transformed_)}; }
 
 void Bulk::condense(Monitor& monitor) {
-    const Poll condensing = [&monitor] { monitor.progress("condense", 0, 0); };
+    const Poll condensing = monitor.poll_at("condense", 0, 0);
     monitor.progress("factor", 0, 0);
     resolve_equations();
     factorise(condensing);

@@ -7,6 +7,7 @@
 
 #include "base/cancel_scope.hpp"
 #include "base/numbers.hpp"
+#include "base/team.hpp"
 
 namespace delam {
 
@@ -161,8 +162,10 @@ std::size_t Superelements::find_alike(const Piece& piece) const {
 }
 
 bool Superelements::condense(const Poll& poll) {
-    for (Piece& piece : pieces_)
-        if (!condense(piece, poll)) return false;
+    std::vector<std::uint8_t> definite(pieces_.size(), 0);
+    const auto work = [&](std::int64_t p) { definite[index(p)] = condense(pieces_[index(p)], poll) ? 1 : 0; };
+    share(static_cast<std::int64_t>(pieces_.size()), work);
+    if (std::find(definite.begin(), definite.end(), 0) != definite.end()) return false;
     for (const Leaf& leaf : leaves_)
         for (std::int64_t t = 0; t < piece_of(leaf).jumps; ++t)
             diagonal_[index(leaf.rows[index(t)])] = piece_of(leaf).stiffness(t, t);

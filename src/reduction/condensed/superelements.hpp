@@ -31,7 +31,8 @@ public:
     // Cuts the bodies and analyses the leaves. stiffness: T^T K T.
     Superelements(const SparseMatrix& stiffness, const JumpVariables& variables, const Problem& problem,
                   const Poll& poll);
-    // Computes the numbers. False: a leaf is not positive definite with its border at rest.
+    // Computes the numbers. False: a leaf is not positive definite with its border at rest. poll: threads of the
+    // library call it, too.
     bool condense(const Poll& poll);
 
     // The skeleton in the order of elimination, as variables; and the place of a variable in it, -1: inside a leaf.

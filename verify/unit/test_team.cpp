@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The library's own threads: every piece once, what pieces may do within pieces, exceptions, and an analysis with the
+// same bits whatever their number.
+#include <atomic>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "base/blas_threads.hpp"
+#include "base/monitor.hpp"
+#include "base/team.hpp"
+#include "evolution/solver.hpp"
+#include "flexure.hpp"
+
+// Last: its macro fail() would break delam::fail().
+#include <check.h>
+
+extern "C" {
+int openblas_get_num_threads() __attribute__((weak));
+void openblas_set_num_threads(int) __attribute__((weak));
+}
+
+using namespace delam;
+
+namespace {
+
+constexpr std::int64_t count = 200;
+
+START_TEST(every_piece_once) {
+    for (const std::int64_t threads : {1, 2, 3}) {
+        const TeamScope team(threads);
+        for (int round = 0; round < 50; ++round) {
+            std::vector<std::atomic<int>> times(count);
+            std::int64_t last = 0;
+            share(
+                count, [&](std::int64_t i) { ++times[static_cast<std::size_t>(i)]; },
+                [&](std::int64_t done) {
+                    ck_assert_int_ge(done, last);
+                    last = done;
+                });
+            for (const auto& t : times) ck_assert_int_eq(t, 1);
+        }
+    }
+}
+END_TEST
+
+// Pieces within pieces run one after another; a single piece is none.
+START_TEST(within) {
+    const TeamScope team(2);
+    std::atomic<int> inner{0};
+    share(4, [&](std::int64_t) {
+        ck_assert(in_a_piece());
+        share(3, [&](std::int64_t) { ++inner; });
+        ck_assert(in_a_piece());
+    });
+    ck_assert_int_eq(inner, 12);
+    ck_assert(!in_a_piece());
+    share(1, [](std::int64_t) { ck_assert(!in_a_piece()); });
+}
+END_TEST
+
+// A callback of the host, between two pieces, may call the library again.
+START_TEST(between) {
+    const TeamScope team(2);
+    std::atomic<int> outer{0};
+    int inner = 0;
+    share(
+        50, [&](std::int64_t) { ++outer; }, [&](std::int64_t) { share(3, [&](std::int64_t) { ++inner; }); });
+    ck_assert_int_eq(outer, 50);
+    ck_assert_int_ge(inner, 3);
+    ck_assert_int_eq(inner % 3, 0);
+}
+END_TEST
+
+START_TEST(exceptions) {
+    for (const std::int64_t threads : {1, 2, 3}) {
+        const TeamScope team(threads);
+        std::string caught;
+        try {
+            share(count, [](std::int64_t i) {
+                if (i >= 7) throw std::runtime_error(std::to_string(i));
+            });
+        } catch (const std::runtime_error& error) {
+            caught = error.what();
+        }
+        ck_assert_str_eq(caught.c_str(), "7");
+        std::atomic<int> after{0};
+        share(count, [&](std::int64_t) { ++after; });
+        ck_assert_int_eq(after, count);
+    }
+}
+END_TEST
+
+START_TEST(one_thread_of_the_blas) {
+    if (openblas_get_num_threads == nullptr || openblas_set_num_threads == nullptr) return;
+    openblas_set_num_threads(2);
+    if (openblas_get_num_threads() != 2) return;
+    for (const std::int64_t threads : {1, 2}) {
+        const TeamScope team(threads);
+        share(count, [](std::int64_t) { ck_assert_int_eq(openblas_get_num_threads(), 1); });
+        ck_assert_int_eq(openblas_get_num_threads(), 2);
+    }
+}
+END_TEST
+
+START_TEST(analysis) {
+    unit::Flexure scene;
+    scene.dimension = 3;
+    scene.along = 30;
+    scene.across = 6;
+    const Problem problem = unit::make_flexure(scene);
+    const auto march = [&](std::int64_t threads) {
+        const TeamScope team(threads);
+        Monitor monitor;
+        Solver solver(problem, monitor, 0.0);
+        for (int k = 1; k <= 4; ++k) {
+            ck_assert_int_ge(solver.advance(k / 4.0).status, 0);
+            solver.commit();
+        }
+        return solver.state().adhesion;
+    };
+    const std::vector<double> one = march(1);
+    ck_assert(march(2) == one);
+    ck_assert(march(3) == one);
+}
+END_TEST
+
+}  // namespace
+
+int main() {
+    Suite* suite = suite_create("team");
+    TCase* tests = tcase_create("team");
+    tcase_set_timeout(tests, 60.0);
+    for (const TTest* test : {every_piece_once, within, between, exceptions, one_thread_of_the_blas, analysis})
+        tcase_add_test(tests, test);
+    suite_add_tcase(suite, tests);
+    SRunner* runner = srunner_create(suite);
+    srunner_run_all(runner, CK_ENV);
+    const int failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+}
