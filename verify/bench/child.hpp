@@ -10,9 +10,16 @@
 
 namespace bench {
 
-// `task` and its arguments are those of run_child_task(). threads: for BLAS and OpenMP. If the child fails, the result
-// is {"error": ...}.
+// `task` and its arguments are those of run_child_task(). threads: for BLAS and OpenMP; 0: the environment leaves them
+// to the libraries. If the child fails, the result is {"error": ...}.
 Json ask_child(const std::vector<std::string>& task, int threads);
+
+// The same in two halves, for children that run at the same time.
+struct Child {
+    int process = -1, answer = -1;
+};
+Child start_child(const std::vector<std::string>& task, int threads);
+Json answer_of(const Child& child);
 
 // The child's side: what main() does when called with --child.
 Json run_child_task(const std::vector<std::string>& task);

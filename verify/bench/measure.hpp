@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Single measurements of the tables `march` and `energetic`; each runs in a separate process (child.hpp). `cap`:
-// maximal seconds of an analysis.
+// Single measurements of the tables `march`, `energetic` and `side-by-side`; each runs in a separate process
+// (child.hpp). `cap`: maximal seconds of an analysis.
 #pragma once
 
 #include <limits>
@@ -23,6 +23,11 @@ Json measure_critical(const std::string& scene, double cap);
 // Local, backtracked and energetic analysis and the LSE in turn, `repeat` rounds: times, counts, the jump, gap and
 // margin of the search (energetic_series.cpp).
 Json measure_concepts(const std::string& scene, int repeat, double cap);
+#ifdef DELAM_SCENE_FILES
+// An analysis of a scene file, from the mesh in memory: seconds of the clock and of the processors
+// (side_by_side_table.cpp).
+Json measure_analysis(const std::string& path, const std::vector<std::string>& settings);
+#endif
 
 // Largest relative differences of two analyses over their common steps: reaction relative to the largest reaction,
 // energies relative to the largest total energy.

@@ -27,6 +27,7 @@ Json energetic_table(const Settings& settings);
 #ifdef DELAM_SCENE_FILES
 Json scene_file_table(const Settings& settings);
 Json size_table(const Settings& settings);
+Json side_by_side_table(const Settings& settings);
 #endif
 
 }  // namespace bench
