@@ -26,8 +26,8 @@ constexpr std::int64_t small_inverse = 1024, wide = 256;
 // Multiplications between two polls: some milliseconds.
 constexpr double part = 5e7;
 
-// Multiplications in a piece for one thread: about a millisecond, much less than the time slice for which a thread may
-// have to wait where other programs use the cores, and a hundred times what it takes to wake one. The pieces depend on
+// Multiplications in a piece for one thread: about half a millisecond, much less than the time slice for which a thread
+// may have to wait where other programs use the cores, and ten times what it takes to wake one. The pieces depend on
 // the sizes alone, so that no digit depends on the number of threads.
 constexpr double piece = 8e6;
 
