@@ -20,7 +20,6 @@ const Bulk& bulk_of(const Solver& solver) {
     return *bulk;
 }
 
-// Only the lower triangle of S is valid.
 void copy_stiffness(const DenseEnergy& energy, double* out) {
     for (std::int64_t j = 0; j < energy.rows(); ++j) {
         poll_cancel("copy", 1 + energy.rows() / 64);

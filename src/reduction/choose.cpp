@@ -26,7 +26,7 @@ double cube(double x) { return x * x * x; }
 
 // Fitted constants; README.md describes the data.
 // of the squares of all jumps: zones and what they take along to the root of the tree
-constexpr double zone_squares = 2.8;
+constexpr double zone_squares = 2.2;
 // Of what is no dense operation: assembly, checks and ordering per displacement, a load step per jump (measured on
 // beams with cells of 1 to 0.1 mm: 1.5 to 2.5 us, 0.9 to 1.1 us).
 constexpr double setup_overhead = 4e4, step_overhead = 2e4;

@@ -59,7 +59,6 @@ public:
         std::vector<std::int64_t> rest_number;   // of each row among the trailing variables that no equation determines
         std::vector<std::int64_t> pivot_number;  // of each pivot among the equations
         DenseMatrix binding;                     // [pivots][rest]
-        std::int64_t kept = 0;
     };
     // The energy of the unknowns of a zone, equations resolved and kept displacements minimised out: of an elimination
     // that must not be updated as long as this is used.

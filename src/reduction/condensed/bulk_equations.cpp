@@ -104,7 +104,6 @@ Bulk::Reduced Bulk::reduce(const Elimination& elimination) const {
             at[index(role)] = static_cast<std::int64_t>(r.rest.size());
             r.rest.push_back(i);
             r.rest_number.push_back(role);
-            if (role < kept_rest_) ++r.kept;
         } else {
             r.pivot.push_back(i);
             r.pivot_number.push_back(-2 - role);

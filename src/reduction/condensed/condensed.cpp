@@ -370,8 +370,8 @@ double Condensed::rounding_energy(std::span<const double> theta, const Response&
 std::string Condensed::description_of(const Bulk& bulk) {
     const Superelements& pieces = bulk.superelements();
     return text("condensed: ", free_jumps(bulk.system().variables()), " unknown jumps, ", pieces.leaves(),
-                " superelements, sparse factors with ", pieces.size().entries, " entries, dense matrices of ",
-                8.0 * pieces.dense_entries() / 1048576.0, " MiB");
+                " superelements, ", pieces.pieces(), " of them different, sparse factors with ", pieces.size().entries,
+                " entries, dense matrices of ", 8.0 * pieces.dense_entries() / 1048576.0, " MiB");
 }
 
 }  // namespace delam

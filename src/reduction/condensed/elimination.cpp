@@ -2,7 +2,6 @@
 #include "reduction/condensed/elimination.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "base/error.hpp"
 #include "base/numbers.hpp"
@@ -32,7 +31,7 @@ Elimination::Elimination(const Superelements& bodies, DenseMatrix load, Last las
       parent_(bodies.nodes().size(), -1),
       below_(bodies.nodes().size()),
       outside_(bodies.nodes().size()),
-      where_(last),
+      ends_at_(last),
       bodies_(bodies),
       load_(std::move(load)),
       state_(bodies.variable().size(), 0.0),
@@ -76,7 +75,7 @@ std::int64_t Elimination::lowest_with_the_zone() const {
         for (const std::int64_t child : nodes[n].children) inside[n] += inside[index(child)];
     }
     std::size_t lowest = nodes.size() - 1;
-    for (bool down = where_ == Last::zone && inside[lowest] > 0; down;) {
+    for (bool down = ends_at_ == Last::zone && inside[lowest] > 0; down;) {
         down = false;
         for (const std::int64_t child : nodes[lowest].children)
             if (inside[index(child)] == inside[lowest]) {

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <span>
 #include <vector>
 
@@ -74,7 +75,7 @@ private:
     std::vector<Front> below_, outside_;  // [nodes] what the subtree leaves, and what all else leaves to it
     Front last_;                          // at the lowest node with all of the zone
     std::int64_t last_node_ = -1;
-    Last where_;
+    Last ends_at_;
     const Superelements& bodies_;
     DenseMatrix load_;
     std::vector<double> state_;

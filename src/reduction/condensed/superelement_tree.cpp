@@ -2,6 +2,7 @@
 #include "reduction/condensed/superelement_tree.hpp"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <utility>
 

@@ -6,8 +6,9 @@
 // inner node owns the variables on the cut between its two children: without them nothing couples one child to the
 // other. What a subtree shares with the rest is its border, variables that nodes above it own.
 //
-// Every variable belongs to the jump that is the fewest cells away, so that cuts run straight from the interface
-// through the bodies; METIS divides the graph of these columns, which has as many vertices as there are pairs.
+// Every variable belongs to the jump that is the fewest cells away, and of several to the nearest, so that cuts run
+// straight from the interface through the bodies; METIS divides the graph of these columns, which has as many vertices
+// as there are pairs.
 #pragma once
 
 #include <cstdint>
@@ -16,6 +17,7 @@
 #include "base/monitor.hpp"
 #include "linalg/sparse.hpp"
 #include "reduction/jump_variables.hpp"
+#include "scene/problem.hpp"
 
 namespace delam {
 

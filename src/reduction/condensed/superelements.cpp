@@ -33,13 +33,14 @@ Superelements::Superelements(const SparseMatrix& stiffness, const JumpVariables&
         if (node.leaf())
             for (const std::int64_t v : node.inside) inside_leaf[index(v)] = 1;
     place_.assign(order.size(), -1);
+    std::vector<std::int64_t> kept;
     for (const std::int64_t v : order) {
         if (inside_leaf[index(v)] != 0) continue;
         place_[index(v)] = static_cast<std::int64_t>(variable_.size());
         kind_.push_back(v < variables.leading                    ? Kind::cut
                         : v < variables.leading + variables.kept ? Kind::kept
                                                                  : Kind::jump);
-        if (kind_.back() == Kind::kept) kept_.push_back(place_[index(v)]);
+        if (kind_.back() == Kind::kept) kept.push_back(place_[index(v)]);
         variable_.push_back(v);
     }
     const auto places = [this](std::span<const std::int64_t> of) {
@@ -76,9 +77,9 @@ Superelements::Superelements(const SparseMatrix& stiffness, const JumpVariables&
         call_if_set(poll);
     }
     Node& root = nodes_.back();
-    root.kept = kept_;
-    root.border = kept_;
-    entries_of(kept_, root.entries);
+    entries_of(kept, root.entries);
+    root.border = kept;
+    root.kept = std::move(kept);
 }
 
 // The rows and columns of a leaf, without entries within the border, which belong to the cuts. In their place the
@@ -151,8 +152,7 @@ std::size_t Superelements::find_alike(const Piece& piece) const {
         for (std::int64_t r = 0; r < m.rows && same; ++r)
             for (std::int64_t e = m.start[index(r)]; e < m.start[index(r) + 1] && same; ++e) {
                 const std::int64_t c = m.column[index(e)];
-                if (r >= border && c == r) continue;
-                // The diagonal of the border is no entry of the leaf.
+                if (r >= border && c == r) continue;  // the shift is no entry of the leaf
                 const double scale = size[index(r)] * size[index(c)];
                 same = std::abs(m.value[index(e)] - other.matrix.value[index(e)]) <= alike * scale;
             }

@@ -100,7 +100,6 @@ private:
     std::vector<Node> nodes_;
     std::vector<Leaf> leaves_;
     std::vector<Piece> pieces_;
-    std::vector<std::int64_t> kept_;  // places
     std::vector<Kind> kind_;
     std::vector<double> diagonal_;
     std::vector<std::int64_t> local_;  // scratch of add_leaf(), [variables]

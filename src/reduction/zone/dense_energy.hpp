@@ -22,7 +22,6 @@ struct DenseEnergy {
 //   S_kk - S_ke (S_ee + s_e)^-1 S_ek = S_kk - V^T V,    V = L^-1 S_ek,  L L^T = S_ee + s_e
 class Condensation {
 public:
-    Condensation() = default;
     // stiffness: [parent rows] springs. Throws Error(DELAM_ERROR_NUMERICAL) if
     // nothing holds the eliminated rows.
     Condensation(const DenseEnergy& parent, std::vector<std::int64_t> kept, std::vector<std::int64_t> eliminated,
