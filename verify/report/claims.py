@@ -9,7 +9,9 @@ CLAIMS = [
                              "refined together converge (in mixed mode with the mixity of the step itself; a frozen one "
                              "needs short steps for it), and energetic marches find what an exhaustive scan of crack fronts finds."},
     {"chapter": "c", "text": "At equal error a march costs a few linear solves of the scene, tens of times less than alternate "
-                             "minimisation with a factorisation in every iteration; where it costs more, that is listed first."},
+                             "minimisation with a factorisation in every iteration; where it costs more, that is listed first. For orientation, not "
+                             "measured here: in a trial by other people, on ductile end-notched flexure with cells of 0.5 and 0.25 mm, an established "
+                             "open-source finite element code took 65 and 75 times the processor time of this library's command line, from start to files."},
     {"chapter": "d", "text": "Over the ranges of stiffness, toughness, contrast, shape, size and tolerance that are listed, the result is right "
                              "to the stated error, or the library refuses and says why. Stiffness, moduli, shapes and partitions are shown by "
                              "elastic bodies with contact, where the solve is what is hard; what damage does to it, by the other cases."},

@@ -89,7 +89,7 @@ def _draw_bars(plot: dict, size: tuple[float, float]):
     if size == NARROW:
         axes.xaxis.set_major_locator(matplotlib.ticker.MaxNLocator(5))
     if len(plot["series"]) > 1:
-        figure.legend(loc="outside lower center", ncols=2)
+        axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2)
     return figure
 
 

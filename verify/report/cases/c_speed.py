@@ -19,6 +19,12 @@ DUCTILE = "E = 75 GPa, nu = 0.3; k = 125e9 N/m3, Go = 100, Gc = 250 J/m2"
 BRITTLE = "E = 75 GPa, nu = 0.3; k = 125e15 N/m3, Go = 0.01, Gc = 25 J/m2"
 PATCHES = "means over patches of 2 mm (points have no limit as the mesh is refined), midspan pressed by 6 mm in 40 steps"
 FREE = {"past": "free"}
+# What was set as a goal, and is said where it is missed: linear solves of a whole analysis, at most.
+GOALS = {"enf-ductile-1.5": 8, "enf-ductile-1": 8, "enf-ductile-0.5": 5, "enf-ductile-0.1": 4, "enf-brittle-0.1": 6,
+         "energetic enf-brittle-1": 25, "energetic enf-brittle-0.5": 15, "energetic enf-brittle-0.1": 10,
+         "mmb": 20, "dcb-alfano": 55, "fibres-30": 150}
+RATIO = 100        # baseline over the march, at least, on the finest meshes
+MEMORY = {"enf-ductile-0.1": 1.3, "fibres-30": 3}  # of one factorisation
 AT_LEAST = ", stopped: at least"
 
 
@@ -30,15 +36,27 @@ def noise(ratio):
     return max(ratio, 1.0 / ratio) - 1.0
 
 
-def march_case(scene, *, quick, expected, asked, cap, shipped=False):
-    """asked: linear solves at most, baseline over this at least; what was set as a goal, and is said where it is missed."""
+def by_threads(found):
+    """Rows of the accelerated march by number of threads, each in linear solves with as many, and the ratio of their times to one thread."""
+    rows, alone = [], middle(found["1"]["methods"]["accelerated"]["total_s"])
+    for count, part in sorted(found.items()):
+        m = part["methods"]["accelerated"]
+        rows.append([int(count), middle(part["lse_s"]), m["lse"], middle(m["total_s"]) / alone, m.get("baseline_over_this")])
+    return rows
+
+
+def march_case(scene, *, quick, expected, cap, shipped=False):
+    """One of the meshes of 40 steps; with one thread and, in the full report, with two, in turns."""
     name = f"{scene}-shipped" if shipped else scene
     brittle, fine = "brittle" in scene, scene
 
     def run(context):
         limit = 2 if context.quick else cap
         scene = "enf-ductile-1.5" if context.quick else fine
-        data = bench(context, "march", "--repeat", "1" if context.quick else "3", "--cap", str(limit), "--threads", "1", "--scene", scene, **({"DELAM_BENCH_AS_SHIPPED": "1"} if shipped else {}))
+        goal, ratio_goal = GOALS[scene], RATIO if scene.endswith(("-0.1", "-0.25")) else 0
+        threads = ["1"] if context.quick or shipped else ["1", "2"]
+        data = bench(context, "march", "--repeat", "1" if context.quick else "3", "--cap", str(limit), *[w for n in threads for w in ("--threads", n)], "--scene", scene,
+                     **({"DELAM_BENCH_AS_SHIPPED": "1"} if shipped else {}))
         found = data["scenes"][scene]
         part, memory = found["threads"]["1"], found["memory"]
         if "error" in part:
@@ -65,13 +83,13 @@ def march_case(scene, *, quick, expected, asked, cap, shipped=False):
             raise Failed("the accelerated march did not end: " + best.get("skipped", best["label"]))
         cost, ratio = best["lse"], best["baseline_over_this"]
         priced = part["methods"]["baseline"]["label"] != "measured"
-        if cost > asked[0]:
-            losses.append(f"the analysis costs {cost:.3g} linear solves; the goal is {asked[0]}")
-        if ratio < asked[1]:
-            losses.append(f"the baseline takes {ratio:.3g} times as long; the goal is {asked[1]}" + (", its time priced from counted factorisations" if priced else ""))
+        if cost > goal:
+            losses.append(f"the analysis costs {cost:.3g} linear solves; the goal is {goal}")
+        if ratio < ratio_goal:
+            losses.append(f"the baseline takes {ratio:.3g} times as long; the goal is {ratio_goal}" + (", its time priced from counted factorisations" if priced else ""))
         peaks = memory["accelerated"]["peak_MB"] / peak
         if peaks > 1.0:
-            losses.append(f"the march holds {peaks:.2g} times the memory of one factorisation")
+            losses.append(f"the march holds {peaks:.3g} times the memory of one factorisation" + (f"; the goal is {MEMORY[scene]}" if peaks > MEMORY.get(scene, peaks) else ""))
         if not context.quick:
             checks.append(check("baseline over the march" + (", baseline extrapolated" if priced else ""), ratio, 20.0, "tens of times is what is claimed"
                                 + ("; the baseline is priced from counted factorisations, of which a part was timed" if priced else ""), ">="))
@@ -107,7 +125,7 @@ def march_case(scene, *, quick, expected, asked, cap, shipped=False):
         plots = [plot("Time and memory of the march", axis("peak memory", "of one factorisation"), axis("time", "linear solves", "log"),
                       [series(label + AT_LEAST * (label in bounded), roles[label], [held[label]], [value], line="none",
                               hollow=label in bounded) for label, value in over if label in held],
-                      [{"kind": "horizontal", "value": float(asked[0]), "label": "goal"}], "Further left and further down is better. Where the note in the table says so, the baseline is "
+                      [{"kind": "horizontal", "value": float(goal), "label": "goal"}], "Further left and further down is better. Where the note in the table says so, the baseline is "
                       "priced from counted factorisations; what was stopped is hollow, and would be higher.")]
         if history:
             plots.append(plot("What they all compute", axis("displacement of mid-span", "mm"), axis("reaction", "N/m"), history))
@@ -118,6 +136,8 @@ def march_case(scene, *, quick, expected, asked, cap, shipped=False):
                           *(column(n, "linear solves", optional=True, **FREE) for n in ("setup", "factor", "iterate")), column("alternations", optional=True, past="count", capped=True),
                           column("active-set steps", optional=True, past="count", capped=True), column("factorisations of the bodies", optional=True, past="count", capped=True),
                           column("peak memory", "MB", optional=True, **FREE), column("note", may=True)], rows, MACHINE_WHY),
+                    *([table("The accelerated march by number of threads, in turns", [column("threads", key=True), column("linear solve", "s", **FREE), column("march", "linear solves with as many", **FREE),
+                             column("time over that of one thread", **FREE), column("baseline / this", optional=True, **FREE)], by_threads(found["threads"]))] if len(threads) > 1 else []),
                     *([table("Agreement: largest relative difference over the common steps", [column("methods", key=True), column("delta", key=True), column("common steps", **FREE),
                              *(column(n, "relative", **FREE) for n in ("reaction", "bodies", "interface", "dissipated"))], agreed, "Where a brittle crack jumps, several states are critical: such differences are not judged." if brittle else "")] if agreed else [])],
             figures=[figure(f"speed_{key}_unknowns", part["primal_dofs"], "", f"{text}: unknowns"),
@@ -130,7 +150,7 @@ def march_case(scene, *, quick, expected, asked, cap, shipped=False):
     return Case(id=f"c-march-{name.removeprefix('enf-')}", chapter="c", title=f"March, {'brittle' if brittle else 'ductile'}, cells of {scene.rsplit('-', 1)[1]} mm"
                 + (" (quick: 1.5)" if quick else "") + (", OpenMP as shipped" if shipped else ""),
                 requirement=f"A march to the same tolerance takes a twentieth of the baseline's time at most and gives the same history"
-                f"{' (brittle: ends in critical points)' if brittle else ''}; the goals are {asked[0]} linear solves and {asked[1]} times the baseline.",
+                f"{' (brittle: ends in critical points)' if brittle else ''}; the goal is {GOALS[scene]} linear solves.",
                 materials=BRITTLE if brittle else DUCTILE, **ENF, run=run, quick=quick, timing=True, seconds=1500, expected=expected)
 
 
@@ -294,10 +314,11 @@ def methods(context):
             listed.append([mesh["h_mm"], label, mesh["primal_dofs"], m["lse"], middle(m["total_s"]) / unit, *counts, *errors, m["label"]])
             labels.append(m["label"])
             apart = max([apart, *(abs(m[error] / best[error] - 1.0) for error, _ in ERRORS.values() if error in m)])
-        if best["lse"] > 8:
-            losses.append(f"cells of {mesh['h_mm']:g} mm: the accelerated march costs {best['lse']:.3g} linear solves of its own "
-                          "mesh; the goal is 8")
 
+    for mesh in meshes[-2:]:
+        ratio = middle(mesh["methods"]["baseline"]["total_s"]) / middle(mesh["methods"]["accelerated"]["total_s"])
+        if ratio < RATIO:
+            losses.append(f"cells of {mesh['h_mm']:g} mm, at equal error: the baseline takes {ratio:.3g} times as long as the accelerated march; the goal is {RATIO}")
     priced = any(label.startswith("extrapolated") for label in labels)
     cut = sum("lower bound" in label for label in labels)
     ratios, checks, plots = [], [], []
@@ -349,7 +370,7 @@ def methods(context):
 
 
 def energetic(context):
-    scenes = ["enf-brittle-1"] if context.quick else ["enf-brittle-0.5", "enf-brittle-0.1"]
+    scenes = ["enf-brittle-1"] if context.quick else ["enf-brittle-1", "enf-brittle-0.5", "enf-brittle-0.1"]
     data = bench(context, "energetic", "--repeat", "1" if context.quick else "3", "--cap", "60", "--threads", "1", *[w for s in scenes for w in ("--scene", s)])
     costs, finds, losses, checks, curves, figures = [], [], [], [], [], []
     for scene in scenes:
@@ -374,8 +395,8 @@ def energetic(context):
         found = part["methods"]["energetic"]
         if None in jumps.values():
             raise Failed(f"{scene}: a march without a jump")
-        if found["lse"] > 8:
-            losses.append(f"{scene}: the energetic analysis costs {found['lse']:.3g} linear solves; the goal is 8")
+        if found["lse"] > GOALS[f"energetic {scene}"]:
+            losses.append(f"{scene}: the energetic analysis costs {found['lse']:.3g} linear solves; the goal is {GOALS[f'energetic {scene}']}")
         if "to_local" in found and middle(found["to_local"]) > 1:
             losses.append(f"{scene}: it takes {middle(found['to_local']):.2g} times as long as the local march")
         if jumps["backtracking"] >= jumps["local"]:
@@ -401,7 +422,7 @@ def energetic(context):
 
 def scene_files(context):
     # In the quick report a scene that FETI brings to its end, too.
-    wanted = ["enf-ductile"] if context.quick else ["fibre", "mmb", "fibres-30"]
+    wanted = ["enf-ductile"] if context.quick else ["fibre", "mmb", "dcb-alfano", "fibres-30"]
     settings = ["--set", "time.steps=20"] if context.quick else []
     data = bench(context, "scene-file", "--repeat", "1", "--cap", "20", *[w for s in wanted for w in ("--scene", f"examples/{s}/{s}.toml")], *settings)
     rows, losses, checks, at = [], [], [], {}
@@ -414,10 +435,11 @@ def scene_files(context):
         rows.append([name, how, r["unknowns"], r["pairs"], steps, cost, cost / max(steps, 1), r["setup_s"] / lse, r["alternations"] if r["whole"] else None,
                      r["linear_iterations"] if r["whole"] else None, r["peak_MB"] / max(r["lse_MB"], 1e-9), "" if r["whole"] else "stopped by the cap"])
         if how == "chosen":
-            if cost > 8:
-                losses.append(f"{name}: the march costs {show(cost)} linear solves for {steps} steps")
+            if cost > GOALS.get(name, 8):
+                losses.append(f"{name}: the march costs {show(cost)} linear solves for {steps} steps; the goal is {GOALS.get(name, 8)}")
             if r["peak_MB"] > r["lse_MB"]:
-                losses.append(f"{name}: it holds {r['peak_MB'] / max(r['lse_MB'], 1e-9):.2g} times the memory of one factorisation")
+                losses.append(f"{name}: it holds {r['peak_MB'] / max(r['lse_MB'], 1e-9):.2g} times the memory of one factorisation"
+                              + (f"; the goal is {MEMORY[name]}" if name in MEMORY else ""))
     for name in wanted:
         chosen, feti = at[name, "chosen"], at[name, "FETI"]
         checks.append(check(f"{name}: marches by the library's own choice that were stopped", int(not chosen[0]["whole"]), 0, "what it chooses goes to the end"))
@@ -442,11 +464,43 @@ def scene_files(context):
         figures=[figure("scene_file_lse", first[1], "linear solves", f"Scene {wanted[0]}, {first[0]['steps']} steps: whole march", past="free")])
 
 
+SHARED = {"at_once/in_turn": ("at once over in turn, time", 1.1), "processor, at_once/in_turn": ("at once over in turn, processor time", 1.1),
+          "idle/one_thread": ("idle, over one thread", 1.1), "loaded/one_thread": ("beside loops, over one thread", 1.1)}
+
+
+def side_by_side(context):
+    scenes = ["examples/enf-ductile/enf-ductile.toml"] if context.quick else ["examples/fibre/fibre.toml", "examples/enf-3d/enf-3d.toml"]
+    settings = ["--set", "time.steps=20"] if context.quick else []
+    data = bench(context, "side-by-side", "--repeat", "1" if context.quick else "3", *[w for scene in scenes for w in ("--scene", scene)], *settings)
+    rows, losses = [], []
+    for r in data:
+        name = r["scene"].rsplit("/", 1)[-1].removesuffix(".toml")
+        ratios = [middle(r[key]) for key in SHARED]
+        rows.append([name, r["threads"], middle(r["in_turn_s"]), middle(r["at_once_s"]), *ratios])
+        for (words, limit), value in zip(SHARED.values(), ratios):
+            if value > limit:
+                losses.append(f"{name}, {r['threads']}: {words}: {value:.3g}; the goal is {limit}")
+    checks = [check("variants of threads that gave a time", len(rows), 3 * len(scenes), "an analysis that ends with an error gives none", ">=")]
+    if not context.quick:
+        worst = largest(row[7] for row in rows)
+        checks.append(check("beside busy loops, over one thread, worst", worst, 1.5, "waiting threads that spin cost 10 to 20 times as much; 1.1 is the goal, and schedulers scatter"))
+    return result(
+        reference("own past", "the same analysis with one thread of everything, as separate processes in turns (verify/bench, table side-by-side)", "the scheduler: 1.1 is seen without any difference"),
+        checks=checks, losses=losses,
+        tables=[table("Four analyses at once against one after another, and one beside as many busy loops as there are cores",
+                      [column("scene", key=True), column("threads", key=True), column("four in turn", "s", **FREE), column("four at once", "s", **FREE),
+                       *(column(words, **FREE) for words, _ in SHARED.values())], rows, MACHINE_WHY)],
+        plots=[plot("Time over that with one thread", axis("", bars=[f"{r[0]}, {r[1]}" for r in rows]), axis("ratio", ""),
+                    [series("idle", "condensed", list(range(len(rows))), [r[6] for r in rows]), series("beside loops", "accelerated", list(range(len(rows))), [r[7] for r in rows])])])
+
+
 def cases():
-    return [march_case("enf-ductile-0.5", quick=True, expected=35, asked=(8, 50), cap=5),
-            march_case("enf-ductile-0.1", quick=False, expected=180, asked=(4, 100), cap=20),
-            march_case("enf-ductile-0.1", quick=False, expected=220, asked=(4, 100), cap=20, shipped=True),
-            march_case("enf-brittle-0.1", quick=False, expected=300, asked=(6, 500), cap=20),
+    return [march_case("enf-ductile-1.5", quick=False, expected=15, cap=5),
+            march_case("enf-ductile-1", quick=False, expected=20, cap=5),
+            march_case("enf-ductile-0.5", quick=True, expected=60, cap=5),
+            march_case("enf-ductile-0.1", quick=False, expected=360, cap=20),
+            march_case("enf-ductile-0.1", quick=False, expected=220, cap=20, shipped=True),
+            march_case("enf-brittle-0.1", quick=False, expected=500, cap=20),
             Case(id="c-methods", chapter="c", title="Work against precision, by method", requirement="At equal error the condensed marches take a fraction of the time of the baseline; where a method "
                  "is slower than the baseline, that is listed first.", geometry="two arms 120 mm x 3 mm, notch 30 mm, 4-node cells of 1.5 to 0.25 (quick: 0.5) mm, plane strain", materials=DUCTILE,
                  supports=PATCHES, units=f"relative L1 errors; ratios of times; {COSTS}", run=methods, quick=False, timing=True, seconds=1200, expected=90),
@@ -455,7 +509,10 @@ def cases():
                  supports=PATCHES, units=f"relative L1 errors; ratios of times; {COSTS}",
                  run=precision, quick=False, timing=True, seconds=1500, expected=150),
             Case(id="c-energetic", chapter="c", title="What an energetic march costs", requirement="An energetic march jumps no later than a local one and stays within the two-sided "
-                 "estimate; the goal is 8 linear solves.", materials=BRITTLE, **ENF, run=energetic, quick=True, timing=True, seconds=1200, expected=90),
+                 "estimate; the goals are 25, 15 and 10 linear solves on cells of 1, 0.5 and 0.1 mm.", materials=BRITTLE, **ENF, run=energetic, quick=True, timing=True, seconds=1200, expected=90),
             Case(id="c-scene-files", chapter="c", title="Marches of scene files", requirement="The library's own choice ends every march, gives what FETI gives, and is listed where it costs "
-                 "more than a few linear solves.", geometry="fibre and thirty fibres in periodic cells, mixed-mode bending (quick: end-notched flexure): examples/", materials="as the scene files say", supports="as the "
-                 "scene files say", units=f"ratios; {COSTS}", run=scene_files, quick=True, timing=True, seconds=900, expected=150)]
+                 "more than a few linear solves.", geometry="fibre and thirty fibres in periodic cells, mixed-mode bending, double cantilever (quick: end-notched flexure): examples/", materials="as the scene files say", supports="as the "
+                 "scene files say", units=f"ratios; {COSTS}", run=scene_files, quick=True, timing=True, seconds=900, expected=150),
+            Case(id="c-side-by-side", chapter="c", title="Beside other programs", requirement="An analysis is never more than 10 % slower than with one thread, idle or beside other programs, and four at "
+                 "once on the cores take the processor time of four in turn.", geometry="fibre in a periodic cell, flexure in space (quick: in the plane): examples/", materials="as the scene files say",
+                 supports="as the scene files say", units="ratios of times", run=side_by_side, quick=True, timing=True, seconds=900, expected=300)]

@@ -16,6 +16,7 @@ QUICK = ("The quick report judges no time here: of its few small meshes, each ti
          "peak memory. Exponents of times are shown, and judged in the full report alone.")
 # A fit over few meshes of small scenes.
 NOISE = 0.3
+GOAL = 1.2  # of the accelerated march in the plane
 
 
 def growth(context, scenes, time_limit, memory_limit, cap, space):
@@ -90,6 +91,9 @@ def growth(context, scenes, time_limit, memory_limit, cap, space):
     linear = next(f for f in fits if f[0] == "one linear solve, total")
     if total[2] > linear[2] + NOISE:
         losses.append(f"the march grows faster than one linear solve: n^{total[2]:.2f} against n^{linear[2]:.2f}")
+    march = next(f for f in fits if f[0] == "condensed, accelerated, total")
+    if not space and not context.quick and march[2] > GOAL:
+        losses.append(f"the accelerated march grows as n^{march[2]:.2f}; the goal is n^{GOAL}")
     key = "space" if space else "plane"
     return result(
         REFERENCE, losses=losses, checks=checks, warnings=[QUICK] if context.quick else [],
