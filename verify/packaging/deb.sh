@@ -65,9 +65,11 @@ fi
 if has cli; then
     holds delam '^\./usr/bin/delam$'
     holds delam 'share/doc/delam/bindings/cli/SCENE\.md$'
-    lacks delam '/include/|\.so'
+    holds delam '/delam/delam-gmsh\.so$'
+    lacks delam '/include/|libdelam.*\.so'
     depends delam "libdelam$ABI"
     "$work/root/usr/bin/delam" --version
+    quietly "$work/root/usr/bin/delam" check "$SOURCE/examples/fibre/fibre.toml"
 fi
 library=$(find "$work/root/usr/lib" -name "libdelam.so.$ABI")
 if readelf -S "$library" | grep -q '\.debug_info'; then

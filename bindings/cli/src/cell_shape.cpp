@@ -74,4 +74,13 @@ std::vector<std::string> shape_names(std::int32_t dimension) {
     return names;
 }
 
+// make_quadratic() adds no node in the middle of a cell.
+std::vector<std::string> fibre_cell_shapes() {
+    return shape_names([](const CellShape& shape) { return shape.dimension == 2 && shape.nodes <= 2 * shape.corners; });
+}
+
+std::vector<std::string> weave_shapes() {
+    return shape_names([](const CellShape& shape) { return shape.dimension == 3 && shape.simplex(); });
+}
+
 }  // namespace cli

@@ -108,11 +108,6 @@ void mesh_surfaces(double h, bool quadrilaterals) {
 
 }  // namespace
 
-// make_quadratic() adds no node in the middle of a cell.
-std::vector<std::string> fibre_cell_shapes() {
-    return shape_names([](const CellShape& shape) { return shape.dimension == 2 && shape.nodes <= 2 * shape.corners; });
-}
-
 MeshData generate_fibre_cell(const FibreCell& cell) {
     const Place& place = cell.place;
     require(std::isfinite(cell.radius) && cell.radius > 0, place, "radius",

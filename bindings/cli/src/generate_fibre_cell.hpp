@@ -26,9 +26,6 @@ struct FibreCell {
     Place place;                     // of the table, for messages
 };
 
-// The names of the cells that it can have.
-std::vector<std::string> fibre_cell_shapes();
-
 // Origin in a corner of the cell; bodies matrix, fibre-1, fibre-2, ..; a fibre cut by the border continues on the
 // opposite side and is one body. Opposite borders have the same nodes, shifted by the period. Node sets left, right,
 // bottom, top, corners, origin. Sides of quadratic cells lie on the circles. Throws SceneFailure.

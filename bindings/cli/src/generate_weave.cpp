@@ -252,10 +252,6 @@ void check(const WeaveCell& cell) {
 
 }  // namespace
 
-std::vector<std::string> weave_shapes() {
-    return shape_names([](const CellShape& shape) { return shape.dimension == 3 && shape.simplex(); });
-}
-
 double weave_amplitude(const WeaveCell& cell) {
     check(cell);
     return amplitude_of(Section(cell), cell.gap / cell.spacing) * cell.spacing;

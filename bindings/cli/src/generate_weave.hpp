@@ -25,9 +25,6 @@ struct WeaveCell {
     Place place;                   // of the table, for messages
 };
 
-// The names of the cells that it can have.
-std::vector<std::string> weave_shapes();
-
 // The cell is [0, 2 spacing]^2 x [-height/2, height/2] ([0, height] if stacked). Warp yarns run along x at y =
 // spacing/2, 3 spacing/2; weft yarns along y. The centre line of a yarn is z = +- A sin(pi s/spacing), and its sections
 // across x (warp) or y (weft) are all equal. A is the smallest amplitude that keeps the gap everywhere. Bodies matrix,

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "cell_shape.hpp"
+#include "gmsh_module.hpp"
 #include "read_abaqus.hpp"
-#include "read_gmsh.hpp"
 #include "reader.hpp"
 #include "say.hpp"
 
@@ -92,7 +92,7 @@ MeshFile read_mesh(const std::string& path, const std::vector<std::string>& bodi
         throw SceneFailure(place, path + ": a mesh of Gmsh (.msh) or of Abaqus (.inp) is expected");
     if (!abaqus && !bodies.empty())
         throw SceneFailure(place, "bodies is for .inp alone: in a .msh physical groups are the bodies");
-    MeshFile out = abaqus ? read_abaqus(path, bodies, place) : read_gmsh(path, place);
+    MeshFile out = abaqus ? read_abaqus(path, bodies, place) : gmsh_module(place).read(path, place);
     for (const std::string& name : out.mesh.body_names)
         if (name.size() > most_text_bytes)
             throw SceneFailure(place, fmt::format("{}: the name of a body, \"{}\", has {} bytes, and at most {} are "

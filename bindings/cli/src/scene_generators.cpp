@@ -4,8 +4,7 @@
 #include <utility>
 
 #include "cell_shape.hpp"
-#include "generate_fibre_cell.hpp"
-#include "generate_weave.hpp"
+#include "gmsh_module.hpp"
 
 namespace cli {
 
@@ -33,7 +32,7 @@ MeshData fibre_cell(const Table& table) {
     if (table.has("h")) cell.h = table.number("h", positive);
     cell.cells_around = table.whole("cells_around", 8, cell.cells_around);
     cell.cell = shape_named(table.choice("cell", fibre_cell_shapes(), "tri6")).type;
-    return generate_fibre_cell(cell);
+    return gmsh_module(cell.place).fibre_cell(cell);
 }
 
 MeshData weave(const Table& table) {
@@ -49,7 +48,7 @@ MeshData weave(const Table& table) {
     cell.stacked = table.flag("stacked", cell.stacked);
     cell.h = table.number("h", positive);
     cell.cell = shape_named(table.choice("cell", weave_shapes(), "tet10")).type;
-    return generate_weave(cell);
+    return gmsh_module(cell.place).weave(cell);
 }
 
 }  // namespace

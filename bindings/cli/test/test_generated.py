@@ -2,8 +2,9 @@
 """Scenes on generated cells: fibres come off, a weave is stretched along and across its yarns, and what is refused."""
 import csv
 import os
+import subprocess
 
-from support import changed, delam, expect, expect_error, finish, folder, write
+from support import DELAM, changed, delam, expect, expect_error, finish, folder, write
 
 FIBRES = """
 schema = 1
@@ -165,6 +166,14 @@ def refused():
     check(WEAVE, "h = 0.6e-3", 'h = 0.6e-3\nplane = "plane-stress"', r"mesh\.plane")
 
 
+# Gmsh brings a hundred libraries, which take longer to load than a small analysis takes.
+def loaded_when_asked():
+    libraries = subprocess.run(["ldd", DELAM], capture_output=True, text=True, check=True).stdout
+    expect("libdelam" in libraries, "ldd lists the library")
+    expect("gmsh" not in libraries, "the program alone does not load Gmsh")
+
+
+loaded_when_asked()
 fibres()
 weave()
 refused()
