@@ -131,7 +131,7 @@ private:
     }
 
     // Cuts a set of columns, unless it is small enough, and appends its subtree. Returns the number of its root.
-    // A cut with many variables and few jumps beside it would cost more than it saves.
+    // A cut with more variables than the halves have jumps would cost more than it saves.
     std::int64_t divide(std::vector<std::int64_t> columns) {
         std::int64_t jumps = 0;
         for (const std::int64_t c : columns) jumps += jumps_in_[index(c)];
@@ -139,7 +139,7 @@ private:
         std::array<std::vector<std::int64_t>, 2> part = halves(columns);
         if (part[0].empty() || part[1].empty()) return leaf(columns);
         const std::vector<std::int64_t> cut = separate(part);
-        if (jumps < jumps_per_cut() * static_cast<std::int64_t>(cut.size())) return leaf(columns);
+        if (jumps < jumps_per_cut * static_cast<std::int64_t>(cut.size())) return leaf(columns);
         for (const std::int64_t v : cut) owner_[index(v)] = on_a_cut;
         call_if_set(poll_);
         columns = {};
@@ -272,11 +272,7 @@ private:
     }
 
     // Measured on beams in the plane, 0.1 to 1 mm: between half and twice of these, the time changes by a tenth.
-    static constexpr std::int64_t few_jumps = 64;
-    // In the plane a front lies in one piece or two. In space it passes through many, and all their cuts carry its
-    // zone. Measured on plates of 4,000 jumps: with 2 the analysis takes 1.1 to 1.3 times as long as with 4, with 8 it
-    // takes 1.2 to 1.5 times.
-    std::int64_t jumps_per_cut() const { return points_.dimension == 2 ? 2 : 4; }
+    static constexpr std::int64_t few_jumps = 64, jumps_per_cut = 2;
     static constexpr std::int64_t on_a_cut = -2;
     const SparseMatrix& a_;
     const JumpVariables& variables_;
