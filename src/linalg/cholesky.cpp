@@ -97,6 +97,13 @@ cholmod_sparse view(const SparseMatrix& m) {
     return a;
 }
 
+cholmod_sparse view_of_pattern(const SparseMatrix& m) {
+    cholmod_sparse a = view(m);
+    a.xtype = CHOLMOD_PATTERN;
+    a.sorted = 0;
+    return a;
+}
+
 cholmod_dense view(std::span<const double> b) {
     cholmod_dense d{};
     d.nrow = b.size();
@@ -191,45 +198,56 @@ struct SparseCholesky::Impl {
 
     using Order = std::vector<SuiteSparse_long>;
 
-    // Minimum degree of the leading variables, with the trailing ones last in their given order. Variables with equal
-    // rows are ordered as one: CAMD would find them itself, in twice the time.
-    Order minimum_degree(const SparseMatrix& matrix) {
-        const std::int64_t leading = size - trailing;
+    Order members(const EqualRows& groups, std::span<const SuiteSparse_long> of_groups) const {
         Order order;
         order.reserve(index(size));
-        // CAMD writes beyond its arrays if the number of a set, here 1, is not below the number of variables.
-        if (leading == 0) {
-            order.resize(index(size));
-            std::iota(order.begin(), order.end(), std::int64_t{0});
-            return order;
-        }
-        const EqualRows groups = equal_rows(matrix, size, leading);
-        const SparseMatrix pattern = pattern_of_groups(matrix, groups);
-        cholmod_sparse a = view(pattern);
-        a.xtype = CHOLMOD_PATTERN;
-        a.sorted = 0;
-        Order last(a.nrow), of_groups(a.nrow);
-        for (std::size_t g = 0; g < last.size(); ++g) last[g] = groups.member[index(groups.start[g])] < leading ? 0 : 1;
-        if (cholmod_l_camd(&a, nullptr, 0, last.data(), of_groups.data(), &common) == 0) check("ordering");
         for (const SuiteSparse_long g : of_groups)
-            for (std::int64_t i = groups.start[index(g)]; last[index(g)] == 0 && i < groups.start[index(g) + 1]; ++i)
-                order.push_back(groups.member[index(i)]);
-        order.resize(index(size));
-        std::iota(order.begin() + leading, order.end(), leading);
+            for (std::int64_t i = groups.start[index(g)]; i < groups.start[index(g) + 1]; ++i)
+                if (groups.member[index(i)] < size - trailing) order.push_back(groups.member[index(i)]);
+        for (std::int64_t v = size - trailing; v < size; ++v) order.push_back(v);
         return order;
     }
 
-    // What a factor in this order costs. The leading variables come back in postorder, which changes no fill and makes
-    // columns with the same rows neighbours.
-    FactorSize count(cholmod_sparse& a, Order& order) {
-        Order parent(a.nrow), post(a.nrow), columns(a.nrow), first(a.nrow), level(a.nrow), before = order;
+    // Minimum degree of the leading variables. Those with equal rows are ordered as one: CAMD would find them itself,
+    // in twice the time.
+    Order minimum_degree(const EqualRows& groups, const SparseMatrix& pattern) {
+        Order last(groups.count()), of_groups(groups.count());
+        for (std::size_t g = 0; g < last.size(); ++g)
+            last[g] = groups.member[index(groups.start[g])] < size - trailing ? 0 : 1;
+        // CAMD writes beyond its arrays if the number of a set, here 1, is not below the number of variables.
+        if (trailing == size) return members(groups, {});
+        cholmod_sparse a = view_of_pattern(pattern);
+        if (cholmod_l_camd(&a, nullptr, 0, last.data(), of_groups.data(), &common) == 0) check("ordering");
+        return members(groups, of_groups);
+    }
+
+    // What a factor in this order costs, from the groups alone: a column has as many entries as its groups have
+    // members, where these are as many as on average. The leading variables come back in postorder, which changes no
+    // fill and makes columns with the same rows neighbours.
+    FactorSize estimate(const EqualRows& groups, const SparseMatrix& pattern, Order& order) {
+        const auto n = groups.count();
+        Order before, parent(n), post(n), columns(n), first(n), level(n);
+        std::vector<std::uint8_t> seen(n, 0);
+        for (const SuiteSparse_long v : order)
+            if (std::exchange(seen[index(groups.of[index(v)])], std::uint8_t{1}) == 0)
+                before.push_back(groups.of[index(v)]);
+        cholmod_sparse a = view_of_pattern(pattern);
         cholmod_l_analyze_ordering(&a, CHOLMOD_GIVEN, before.data(), nullptr, 0, parent.data(), post.data(),
                                    columns.data(), first.data(), level.data(), &common);
         check("ordering");
-        std::size_t next = 0;
-        for (const SuiteSparse_long j : post)
-            if (j < size - trailing) order[next++] = before[static_cast<std::size_t>(j)];
-        return {common.lnz, common.fl};
+        const double average = static_cast<double>(size) / static_cast<double>(n);
+        FactorSize found;
+        for (std::size_t k = 0; k < n; ++k) {
+            const std::int64_t g = before[k], own = groups.start[index(g) + 1] - groups.start[index(g)];
+            for (std::int64_t i = 0; i < own; ++i) {
+                const double rows = average * static_cast<double>(columns[k] - 1) + static_cast<double>(own - i);
+                found.entries += rows;
+                found.flops += rows * rows;
+            }
+        }
+        for (SuiteSparse_long& k : post) k = before[index(k)];
+        order = members(groups, post);
+        return found;
     }
 
     void analyse(cholmod_sparse& a, Order& order) {
@@ -312,17 +330,22 @@ SparseCholesky::SparseCholesky(const SparseMatrix& matrix, std::int64_t trailing
         impl.analyse(a, order);
         return;
     }
-    Impl::Order order = impl.minimum_degree(matrix);
+    const EqualRows groups = equal_rows(matrix, matrix.rows, matrix.rows - trailing);
+    const SparseMatrix pattern = pattern_of_groups(matrix, groups);
+    Impl::Order order = impl.minimum_degree(groups, pattern);
     call_if_set(poll);
-    impl.analyse(a, order);
-    if (!may_gain(impl.size_of_factor, matrix, trailing)) return;
-    call_if_set(poll);
-    const std::vector<std::int64_t> dissected = dissection_order(matrix, matrix.rows - trailing);
-    if (dissected.empty()) return;
-    call_if_set(poll);
-    std::copy(dissected.begin(), dissected.end(), order.begin());  // the trailing variables stay where they are
-    if (impl.count(a, order).flops >= impl.size_of_factor.flops) return;
-    call_if_set(poll);
+    const FactorSize full{0.5 * all, all * static_cast<double>(matrix.rows) / 3.0};
+    Impl::Order in_postorder = order;
+    const FactorSize size =
+        may_gain(full, matrix, trailing) ? impl.estimate(groups, pattern, in_postorder) : FactorSize{};
+    if (may_gain(size, matrix, trailing)) {
+        call_if_set(poll);
+        const std::vector<std::int64_t> dissected = dissection_order(matrix, matrix.rows - trailing);
+        if (!dissected.empty()) {
+            std::copy(dissected.begin(), dissected.end(), in_postorder.begin());
+            if (impl.estimate(groups, pattern, in_postorder).flops < size.flops) order = std::move(in_postorder);
+        }
+    }
     impl.analyse(a, order);
 }
 
@@ -450,8 +473,7 @@ DenseMatrix SparseCholesky::trailing_factor() const {
     const std::int64_t first = impl.size - impl.trailing;
     const auto* x = static_cast<const double*>(l->x);
     if (l->is_super != 0) {
-        // A supernode stores its columns as one dense block over its rows; amalgamation may let it begin before
-        // `first`.
+        // Columns of a supernode are one dense block over its rows; amalgamation may let it begin before `first`.
         const auto* super = static_cast<const std::int64_t*>(l->super);
         const auto* row_start = static_cast<const std::int64_t*>(l->pi);
         const auto* value_start = static_cast<const std::int64_t*>(l->px);

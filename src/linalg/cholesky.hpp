@@ -22,7 +22,7 @@ class SparseCholesky {
 public:
     // Symbolic analysis of a symmetric matrix (both triangles stored). The last `trailing` variables are eliminated
     // last, in their given order; the others come first, by (constrained) minimum degree or by nested dissection,
-    // whichever needs fewer operations by its symbolic count. poll: called between orderings and analyses.
+    // whichever is estimated to need fewer operations. poll: called between orderings and analyses.
     explicit SparseCholesky(const SparseMatrix& matrix, std::int64_t trailing = 0, const Poll& poll = {});
     ~SparseCholesky();
     SparseCholesky(SparseCholesky&&) noexcept;
