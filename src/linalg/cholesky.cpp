@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "linalg/cholesky.hpp"
 
-#include <suitesparse/cholmod.h>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
-#include <new>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -20,8 +15,8 @@
 #include "base/room.hpp"
 #include "base/team.hpp"
 #include "delam/delam.h"
-#include "linalg/dissection.hpp"
-#include "linalg/equal_rows.hpp"
+#include "linalg/cholmod_view.hpp"
+#include "linalg/elimination_order.hpp"
 #include "linalg/leading_solve.hpp"
 #include "linalg/single_factor.hpp"
 
@@ -79,31 +74,6 @@ private:
     int dynamic_ = -1, levels_ = -1;
 };
 
-// A view of our rows as CHOLMOD's columns; the matrix is symmetric, and CHOLMOD reads its upper triangle.
-cholmod_sparse view(const SparseMatrix& m) {
-    cholmod_sparse a{};
-    a.nrow = static_cast<std::size_t>(m.rows);
-    a.ncol = static_cast<std::size_t>(m.columns);
-    a.nzmax = static_cast<std::size_t>(m.entries());
-    a.p = const_cast<std::int64_t*>(m.start.data());
-    a.i = const_cast<std::int64_t*>(m.column.data());
-    a.x = const_cast<double*>(m.value.data());
-    a.stype = 1;
-    a.itype = CHOLMOD_LONG;
-    a.xtype = CHOLMOD_REAL;
-    a.dtype = CHOLMOD_DOUBLE;
-    a.sorted = 1;
-    a.packed = 1;
-    return a;
-}
-
-cholmod_sparse view_of_pattern(const SparseMatrix& m) {
-    cholmod_sparse a = view(m);
-    a.xtype = CHOLMOD_PATTERN;
-    a.sorted = 0;
-    return a;
-}
-
 cholmod_dense view(std::span<const double> b) {
     cholmod_dense d{};
     d.nrow = b.size();
@@ -117,8 +87,6 @@ cholmod_dense view(std::span<const double> b) {
 }
 
 }  // namespace
-
-static_assert(sizeof(SuiteSparse_long) == sizeof(std::int64_t));
 
 struct SparseCholesky::Impl {
     mutable cholmod_common common;
@@ -196,61 +164,7 @@ struct SparseCholesky::Impl {
         single.emplace(supernodes(), static_cast<const float*>(single_values), power);
     }
 
-    using Order = std::vector<SuiteSparse_long>;
-
-    Order members(const EqualRows& groups, std::span<const SuiteSparse_long> of_groups) const {
-        Order order;
-        order.reserve(index(size));
-        for (const SuiteSparse_long g : of_groups)
-            for (std::int64_t i = groups.start[index(g)]; i < groups.start[index(g) + 1]; ++i)
-                if (groups.member[index(i)] < size - trailing) order.push_back(groups.member[index(i)]);
-        for (std::int64_t v = size - trailing; v < size; ++v) order.push_back(v);
-        return order;
-    }
-
-    // Minimum degree of the leading variables. Those with equal rows are ordered as one: CAMD would find them itself,
-    // in twice the time.
-    Order minimum_degree(const EqualRows& groups, const SparseMatrix& pattern) {
-        Order last(groups.count()), of_groups(groups.count());
-        for (std::size_t g = 0; g < last.size(); ++g)
-            last[g] = groups.member[index(groups.start[g])] < size - trailing ? 0 : 1;
-        // CAMD writes beyond its arrays if the number of a set, here 1, is not below the number of variables.
-        if (trailing == size) return members(groups, {});
-        cholmod_sparse a = view_of_pattern(pattern);
-        if (cholmod_l_camd(&a, nullptr, 0, last.data(), of_groups.data(), &common) == 0) check("ordering");
-        return members(groups, of_groups);
-    }
-
-    // What a factor in this order costs, from the groups alone: a column has as many entries as its groups have
-    // members, where these are as many as on average. The leading variables come back in postorder, which changes no
-    // fill and makes columns with the same rows neighbours.
-    FactorSize estimate(const EqualRows& groups, const SparseMatrix& pattern, Order& order) {
-        const auto n = groups.count();
-        Order before, parent(n), post(n), columns(n), first(n), level(n);
-        std::vector<std::uint8_t> seen(n, 0);
-        for (const SuiteSparse_long v : order)
-            if (std::exchange(seen[index(groups.of[index(v)])], std::uint8_t{1}) == 0)
-                before.push_back(groups.of[index(v)]);
-        cholmod_sparse a = view_of_pattern(pattern);
-        cholmod_l_analyze_ordering(&a, CHOLMOD_GIVEN, before.data(), nullptr, 0, parent.data(), post.data(),
-                                   columns.data(), first.data(), level.data(), &common);
-        check("ordering");
-        const double average = static_cast<double>(size) / static_cast<double>(n);
-        FactorSize found;
-        for (std::size_t k = 0; k < n; ++k) {
-            const std::int64_t g = before[k], own = groups.start[index(g) + 1] - groups.start[index(g)];
-            for (std::int64_t i = 0; i < own; ++i) {
-                const double rows = average * static_cast<double>(columns[k] - 1) + static_cast<double>(own - i);
-                found.entries += rows;
-                found.flops += rows * rows;
-            }
-        }
-        for (SuiteSparse_long& k : post) k = before[index(k)];
-        order = members(groups, post);
-        return found;
-    }
-
-    void analyse(cholmod_sparse& a, Order& order) {
+    void analyse(cholmod_sparse& a, std::vector<std::int64_t>& order) {
         cholmod_l_free_factor(&factor, &common);
         common.nmethods = 1;
         common.method[0].ordering = CHOLMOD_GIVEN;
@@ -276,77 +190,17 @@ struct SparseCholesky::Impl {
         check("solve");
         return static_cast<const double*>(x_buffer->x);
     }
-    void check(const char* stage) const {
-        if (common.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
-        if (common.status == CHOLMOD_TOO_LARGE) fail(DELAM_ERROR_MEMORY, "CHOLMOD ", stage, ": problem too large");
-        if (common.status < 0) fail(DELAM_ERROR_INTERNAL, "CHOLMOD ", stage, ": status ", common.status);
-    }
+    void check(const char* stage) const { require_cholmod(common, stage); }
 };
-
-namespace {
-
-// An ordering for few large overlapping dense blocks, where minimum degree takes longer than the factorisation itself.
-// Variables that belong to only one block come first, because their rows are the shortest. Rows with the same columns
-// stay together (recognised by a checksum).
-constexpr double well_filled = 0.1;
-constexpr std::int64_t few_rows = 500;
-
-std::vector<SuiteSparse_long> shortest_first(const SparseMatrix& m) {
-    std::vector<std::array<std::uint64_t, 3>> rows;  // length, checksum, number
-    for (std::size_t r = 0; r < static_cast<std::size_t>(m.rows); ++r) {
-        std::uint64_t sum = 0;
-        for (std::int64_t e = m.start[r]; e < m.start[r + 1]; ++e)
-            sum = sum * 1099511628211u + static_cast<std::uint64_t>(m.column[static_cast<std::size_t>(e)]);
-        rows.push_back({static_cast<std::uint64_t>(m.start[r + 1] - m.start[r]), sum, r});
-    }
-    std::sort(rows.begin(), rows.end());
-    std::vector<SuiteSparse_long> order;
-    for (const auto& row : rows) order.push_back(static_cast<SuiteSparse_long>(row[2]));
-    return order;
-}
-
-// Nested dissection is tried where minimum degree costs more operations per stored entry of the matrix; README.md has
-// the data. The triangle of the trailing variables costs the same in every order.
-constexpr double worth_dissecting = 5e3;
-
-bool may_gain(const FactorSize& size, const SparseMatrix& m, std::int64_t trailing) {
-    const auto t = static_cast<double>(trailing);
-    return size.flops - t * t * t / 3.0 > worth_dissecting * static_cast<double>(m.entries());
-}
-
-}  // namespace
 
 SparseCholesky::SparseCholesky(const SparseMatrix& matrix, std::int64_t trailing, const Poll& poll)
     : impl_(std::make_unique<Impl>()) {
-    Impl& impl = *impl_;
-    impl.size = matrix.rows;
-    impl.trailing = trailing;
+    impl_->size = matrix.rows;
+    impl_->trailing = trailing;
     if (matrix.rows == 0) return;
+    std::vector<std::int64_t> order = elimination_order(matrix, trailing, poll);
     cholmod_sparse a = view(matrix);
-    const double all = static_cast<double>(matrix.rows) * static_cast<double>(matrix.rows);
-    if (trailing == 0 && matrix.rows > few_rows && static_cast<double>(matrix.entries()) > well_filled * all) {
-        Impl::Order order = shortest_first(matrix);
-        call_if_set(poll);
-        impl.analyse(a, order);
-        return;
-    }
-    const EqualRows groups = equal_rows(matrix, matrix.rows, matrix.rows - trailing);
-    const SparseMatrix pattern = pattern_of_groups(matrix, groups);
-    Impl::Order order = impl.minimum_degree(groups, pattern);
-    call_if_set(poll);
-    const FactorSize full{0.5 * all, all * static_cast<double>(matrix.rows) / 3.0};
-    Impl::Order in_postorder = order;
-    const FactorSize size =
-        may_gain(full, matrix, trailing) ? impl.estimate(groups, pattern, in_postorder) : FactorSize{};
-    if (may_gain(size, matrix, trailing)) {
-        call_if_set(poll);
-        const std::vector<std::int64_t> dissected = dissection_order(matrix, matrix.rows - trailing);
-        if (!dissected.empty()) {
-            std::copy(dissected.begin(), dissected.end(), in_postorder.begin());
-            if (impl.estimate(groups, pattern, in_postorder).flops < size.flops) order = std::move(in_postorder);
-        }
-    }
-    impl.analyse(a, order);
+    impl_->analyse(a, order);
 }
 
 SparseCholesky::~SparseCholesky() = default;
@@ -473,7 +327,8 @@ DenseMatrix SparseCholesky::trailing_factor() const {
     const std::int64_t first = impl.size - impl.trailing;
     const auto* x = static_cast<const double*>(l->x);
     if (l->is_super != 0) {
-        // Columns of a supernode are one dense block over its rows; amalgamation may let it begin before `first`.
+        // A supernode stores its columns as one dense block over its rows; amalgamation may let it begin before
+        // `first`.
         const auto* super = static_cast<const std::int64_t*>(l->super);
         const auto* row_start = static_cast<const std::int64_t*>(l->pi);
         const auto* value_start = static_cast<const std::int64_t*>(l->px);

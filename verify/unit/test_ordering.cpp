@@ -19,6 +19,7 @@
 #include "box_matrix.hpp"
 #include "linalg/cholesky.hpp"
 #include "linalg/dissection.hpp"
+#include "linalg/elimination_order.hpp"
 #include "linalg/equal_rows.hpp"
 #include "quiet_check.hpp"
 
@@ -226,6 +227,31 @@ START_TEST(variables_with_equal_rows_are_one) {
 }
 END_TEST
 
+// On the groups, operations are those that CHOLMOD counts for the whole matrix, and the postorder does not change them.
+START_TEST(operations_are_estimated_from_groups) {
+    for (const SparseMatrix& m : {box(9, 8, 7), box(30, 20, 1)}) {
+        const SparseCholesky factor(m);
+        const EqualRows groups = equal_rows(m, m.rows, m.rows);
+        const SparseMatrix pattern = pattern_of_groups(m, groups);
+        std::vector<std::int64_t> order = factor.order();
+        for (int i = 0; i < 2; ++i)
+            ck_assert_double_eq_tol(estimated_operations(groups, pattern, 0, order) / factor.size().flops, 1.0, 1e-12);
+        std::vector<std::int64_t> worse(order.size());
+        std::iota(worse.begin(), worse.end(), std::int64_t{0});
+        ck_assert_double_gt(estimated_operations(groups, pattern, 0, worse), factor.size().flops);
+        std::sort(worse.begin(), worse.end());
+        for (std::size_t i = 0; i < worse.size(); ++i)
+            ck_assert_int_eq(static_cast<int>(worse[i]), static_cast<int>(i));
+        // One variable that comes last is a group of its own.
+        const EqualRows apart = equal_rows(m, m.rows, m.rows - 1);
+        order = SparseCholesky(m, 1).order();
+        const double near = estimated_operations(apart, pattern_of_groups(m, apart), 1, order);
+        ck_assert_double_eq_tol(near / SparseCholesky(m, 1).size().flops, 1.0, 0.02);
+        ck_assert_int_eq(static_cast<int>(order.back()), static_cast<int>(m.rows - 1));
+    }
+}
+END_TEST
+
 // Where every variable comes last, few or many, there is nothing to order.
 START_TEST(nothing_but_trailing_variables) {
     for (const std::int64_t n : {1, 3, 40}) {
@@ -252,6 +278,7 @@ int main() {
     tcase_add_test(tests, solutions_have_equal_bits);
     tcase_add_test(tests, graphs_in_pieces);
     tcase_add_test(tests, variables_with_equal_rows_are_one);
+    tcase_add_test(tests, operations_are_estimated_from_groups);
     tcase_add_test(tests, nothing_but_trailing_variables);
     suite_add_tcase(suite, tests);
     SRunner* runner = srunner_create(suite);
