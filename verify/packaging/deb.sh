@@ -68,6 +68,7 @@ if has cli; then
     holds delam '/delam/delam-gmsh\.so$'
     lacks delam '/include/|libdelam.*\.so'
     depends delam "libdelam$ABI"
+    depends delam libgmsh
     "$work/root/usr/bin/delam" --version
     quietly "$work/root/usr/bin/delam" check "$SOURCE/examples/fibre/fibre.toml"
 fi

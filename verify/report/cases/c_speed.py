@@ -22,8 +22,9 @@ FREE = {"past": "free"}
 # What was set as a goal, and is said where it is missed: linear solves of a whole analysis, at most.
 GOALS = {"enf-ductile-1.5": 8, "enf-ductile-1": 8, "enf-ductile-0.5": 5, "enf-ductile-0.1": 4, "enf-brittle-0.1": 6,
          "energetic enf-brittle-1": 25, "energetic enf-brittle-0.5": 15, "energetic enf-brittle-0.1": 10,
-         "mmb": 20, "dcb-alfano": 55, "fibres-30": 150}
-RATIO = 100        # baseline over the march, at least, on the finest meshes
+         "mmb": 20, "dcb-alfano": 53, "fibres-30": 150}  # dcb-alfano: half of what it was
+RATIOS = {"enf-ductile-0.5": 50, "enf-ductile-0.1": 100, "enf-brittle-0.1": 500}  # baseline over the march, at least
+EQUAL_ERROR = 100  # the same at equal error, on the two finest meshes
 MEMORY = {"enf-ductile-0.1": 1.3, "fibres-30": 3}  # of one factorisation
 AT_LEAST = ", stopped: at least"
 
@@ -53,7 +54,7 @@ def march_case(scene, *, quick, expected, cap, shipped=False):
     def run(context):
         limit = 2 if context.quick else cap
         scene = "enf-ductile-1.5" if context.quick else fine
-        goal, ratio_goal = GOALS[scene], RATIO if scene.endswith(("-0.1", "-0.25")) else 0
+        goal, ratio_goal = GOALS[scene], RATIOS.get(scene, 0)
         threads = ["1"] if context.quick or shipped else ["1", "2"]
         data = bench(context, "march", "--repeat", "1" if context.quick else "3", "--cap", str(limit), *[w for n in threads for w in ("--threads", n)], "--scene", scene,
                      **({"DELAM_BENCH_AS_SHIPPED": "1"} if shipped else {}))
@@ -150,7 +151,8 @@ def march_case(scene, *, quick, expected, cap, shipped=False):
     return Case(id=f"c-march-{name.removeprefix('enf-')}", chapter="c", title=f"March, {'brittle' if brittle else 'ductile'}, cells of {scene.rsplit('-', 1)[1]} mm"
                 + (" (quick: 1.5)" if quick else "") + (", OpenMP as shipped" if shipped else ""),
                 requirement=f"A march to the same tolerance takes a twentieth of the baseline's time at most and gives the same history"
-                f"{' (brittle: ends in critical points)' if brittle else ''}; the goal is {GOALS[scene]} linear solves.",
+                f"{' (brittle: ends in critical points)' if brittle else ''}; the goals are {GOALS[scene]} linear solves"
+                f"{f' and {RATIOS[scene]} times the baseline' if scene in RATIOS else ''}.",
                 materials=BRITTLE if brittle else DUCTILE, **ENF, run=run, quick=quick, timing=True, seconds=1500, expected=expected)
 
 
@@ -314,11 +316,14 @@ def methods(context):
             listed.append([mesh["h_mm"], label, mesh["primal_dofs"], m["lse"], middle(m["total_s"]) / unit, *counts, *errors, m["label"]])
             labels.append(m["label"])
             apart = max([apart, *(abs(m[error] / best[error] - 1.0) for error, _ in ERRORS.values() if error in m)])
+        if best["lse"] > 8:
+            losses.append(f"cells of {mesh['h_mm']:g} mm: the accelerated march costs {best['lse']:.3g} linear solves of its own "
+                          "mesh; the goal is 8")
 
     for mesh in meshes[-2:]:
         ratio = middle(mesh["methods"]["baseline"]["total_s"]) / middle(mesh["methods"]["accelerated"]["total_s"])
-        if ratio < RATIO:
-            losses.append(f"cells of {mesh['h_mm']:g} mm, at equal error: the baseline takes {ratio:.3g} times as long as the accelerated march; the goal is {RATIO}")
+        if ratio < EQUAL_ERROR:
+            losses.append(f"cells of {mesh['h_mm']:g} mm, at equal error: the baseline takes {ratio:.3g} times as long as the accelerated march; the goal is {EQUAL_ERROR}")
     priced = any(label.startswith("extrapolated") for label in labels)
     cut = sum("lower bound" in label for label in labels)
     ratios, checks, plots = [], [], []
@@ -482,8 +487,8 @@ def side_by_side(context):
                 losses.append(f"{name}, {r['threads']}: {words}: {value:.3g}; the goal is {limit}")
     checks = [check("variants of threads that gave a time", len(rows), 3 * len(scenes), "an analysis that ends with an error gives none", ">=")]
     if not context.quick:
-        worst = largest(row[7] for row in rows)
-        checks.append(check("beside busy loops, over one thread, worst", worst, 1.5, "waiting threads that spin cost 10 to 20 times as much; 1.1 is the goal, and schedulers scatter"))
+        worst = largest(value for row in rows for value in row[6:8])
+        checks.append(check("idle or beside busy loops, over one thread, worst", worst, 1.5, "waiting threads that spin cost 10 to 20 times as much; 1.1 is the goal, and schedulers scatter"))
     return result(
         reference("own past", "the same analysis with one thread of everything, as separate processes in turns (verify/bench, table side-by-side)", "the scheduler: 1.1 is seen without any difference"),
         checks=checks, losses=losses,
@@ -513,6 +518,6 @@ def cases():
             Case(id="c-scene-files", chapter="c", title="Marches of scene files", requirement="The library's own choice ends every march, gives what FETI gives, and is listed where it costs "
                  "more than a few linear solves.", geometry="fibre and thirty fibres in periodic cells, mixed-mode bending, double cantilever (quick: end-notched flexure): examples/", materials="as the scene files say", supports="as the "
                  "scene files say", units=f"ratios; {COSTS}", run=scene_files, quick=True, timing=True, seconds=900, expected=150),
-            Case(id="c-side-by-side", chapter="c", title="Beside other programs", requirement="An analysis is never more than 10 % slower than with one thread, idle or beside other programs, and four at "
-                 "once on the cores take the processor time of four in turn.", geometry="fibre in a periodic cell, flexure in space (quick: in the plane): examples/", materials="as the scene files say",
+            Case(id="c-side-by-side", chapter="c", title="Beside other programs", requirement="Idle or beside other programs, an analysis takes no more than 1.5 times as long as with one thread. The goals are 1.1, also for the "
+                 "processor time of four at once over that of four in turn; what misses them is listed.", geometry="fibre in a periodic cell, flexure in space (quick: in the plane): examples/", materials="as the scene files say",
                  supports="as the scene files say", units="ratios of times", run=side_by_side, quick=True, timing=True, seconds=900, expected=300)]

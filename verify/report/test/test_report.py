@@ -261,6 +261,8 @@ class Pages(unittest.TestCase):
         bars = case.plot("B", case.axis("", bars=["C++", "Python"]), case.axis("step", "us"), [case.series("s", "first", [0, 1], [0.1, 9.0], low=[-0.1, 8.0], high=[0.2, 9.5])])
         data["plots"] = [bars]
         schema.check(data)
+        two = {**bars, "series": [bars["series"][0], {**bars["series"][0], "name": "t", "role": "second"}]}
+        self.assertIn("<svg", plots.svg(two, plots.NARROW))
         self.assertIn("<svg", plots.svg(bars, plots.NARROW))
         for spoil in ({"x": [0, 2]}, {"low": [0.0]}, {"high": [float("nan"), 1.0]}):
             spoilt = {**bars, "series": [{**bars["series"][0], **spoil}]}
