@@ -140,8 +140,11 @@ SparseMatrix empty_matrix(const NodeGraph& graph, std::size_t dim) {
     SparseMatrix k;
     k.rows = k.columns = static_cast<std::int64_t>(nodes * dim);
     k.start.resize(nodes * dim + 1);
-    k.column.resize(graph.neighbour.size() * dim * dim);
-    k.value.assign(k.column.size(), 0.0);
+    const std::size_t entries = graph.neighbour.size() * dim * dim;
+    make_room(k.column, entries);
+    make_room(k.value, entries);
+    k.column.resize(entries);
+    k.value.assign(entries, 0.0);
     std::size_t entry = 0;
     k.start[0] = 0;
     for (std::size_t i = 0; i < nodes; ++i) {

@@ -321,7 +321,10 @@ SparseCholesky::Pivot SparseCholesky::smallest_pivot() const {
 
 DenseMatrix SparseCholesky::trailing_factor() const {
     const Impl& impl = *impl_;
-    DenseMatrix lower(impl.trailing, impl.trailing);
+    DenseMatrix lower;
+    make_room(lower.value, index(impl.trailing * impl.trailing));
+    lower.rows = lower.columns = impl.trailing;
+    lower.value.assign(index(impl.trailing * impl.trailing), 0.0);
     if (impl.trailing == 0) return lower;
     const cholmod_factor* l = impl.factor;
     const std::int64_t first = impl.size - impl.trailing;

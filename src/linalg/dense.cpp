@@ -91,11 +91,12 @@ void multiply_symmetric(const DenseMatrix& s, std::span<const double> x, std::sp
 }
 
 DenseMatrix multiply(const DenseMatrix& a, const DenseMatrix& b) {
-    DenseMatrix c(a.rows, b.columns);
+    if (a.columns == 0) return {a.rows, b.columns};
+    DenseMatrix c = DenseMatrix::unset(a.rows, b.columns);
     const int m = blas_size(a.rows), n = blas_size(b.columns), k = blas_size(a.columns);
     const int lda = leading(a), ldb = leading(b), ldc = leading(c);
     const double alpha = 1.0, beta = 0.0;
-    if (m == 0 || n == 0 || k == 0) return c;
+    if (m == 0 || n == 0) return c;
     const auto columns = [&](std::int64_t j, int count) {
         blas::gemm("N", "N", &m, &count, &k, &alpha, a.value.data(), &lda, b.value.data() + j * b.rows, &ldb, &beta,
                    c.value.data() + j * c.rows, &ldc);
@@ -105,11 +106,12 @@ DenseMatrix multiply(const DenseMatrix& a, const DenseMatrix& b) {
 }
 
 DenseMatrix multiply_transposed(const DenseMatrix& a, const DenseMatrix& b, std::int64_t first) {
-    DenseMatrix c(a.columns, b.columns);
+    if (a.rows == first) return {a.columns, b.columns};
+    DenseMatrix c = DenseMatrix::unset(a.columns, b.columns);
     const int m = blas_size(a.columns), n = blas_size(b.columns), k = blas_size(a.rows - first);
     const int lda = leading(a), ldb = leading(b), ldc = leading(c);
     const double alpha = 1.0, beta = 0.0;
-    if (m == 0 || n == 0 || k == 0) return c;
+    if (m == 0 || n == 0) return c;
     const auto columns = [&](std::int64_t j, int count) {
         blas::gemm("T", "N", &m, &count, &k, &alpha, a.value.data() + first, &lda, b.value.data() + first + j * b.rows,
                    &ldb, &beta, c.value.data() + j * c.rows, &ldc);
@@ -130,7 +132,10 @@ void mirror_lower(DenseMatrix& a) {
 
 // By column panels of the product: rows behind a panel have L's columns up to its end in common with it.
 DenseMatrix lower_times_transpose(const DenseMatrix& lower, const Poll& poll) {
-    DenseMatrix product(lower.rows, lower.rows);
+    DenseMatrix product;
+    make_room(product.value, static_cast<std::size_t>(lower.rows * lower.rows));
+    product.rows = product.columns = lower.rows;
+    product.value.resize(static_cast<std::size_t>(lower.rows * lower.rows));
     const int lda = leading(lower);
     const double unit = 1.0, none = 0.0;
     const auto panel = [&](std::int64_t p) {

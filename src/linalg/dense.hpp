@@ -18,6 +18,14 @@ struct DenseMatrix {
 
     DenseMatrix() = default;
     DenseMatrix(std::int64_t r, std::int64_t c) : rows(r), columns(c), value(static_cast<std::size_t>(r * c), 0.0) {}
+    // Its entries have no value yet.
+    static DenseMatrix unset(std::int64_t r, std::int64_t c) {
+        DenseMatrix a;
+        a.rows = r;
+        a.columns = c;
+        a.value.resize(static_cast<std::size_t>(r * c));
+        return a;
+    }
     double& operator()(std::int64_t i, std::int64_t j) { return value[static_cast<std::size_t>(i + j * rows)]; }
     double operator()(std::int64_t i, std::int64_t j) const { return value[static_cast<std::size_t>(i + j * rows)]; }
 };

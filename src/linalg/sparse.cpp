@@ -83,6 +83,8 @@ SparseMatrix transpose(const SparseMatrix& a) {
     t.start.assign(static_cast<std::size_t>(a.columns) + 1, 0);
     for (const std::int64_t c : a.column) ++t.start[static_cast<std::size_t>(c) + 1];
     for (std::size_t i = 1; i < t.start.size(); ++i) t.start[i] += t.start[i - 1];
+    make_room(t.column, a.column.size());
+    make_room(t.value, a.value.size());
     t.column.resize(a.column.size());
     t.value.resize(a.value.size());
     std::vector<std::int64_t> next(t.start.begin(), t.start.end() - 1);
@@ -104,8 +106,8 @@ SparseMatrix congruence(const SparseMatrix& k, const SparseMatrix& t, const Poll
     SparseMatrix m;
     m.rows = m.columns = t.columns;
     m.start.reserve(at(m.rows) + 1);
-    m.column.reserve(k.column.size());
-    m.value.reserve(k.value.size());
+    make_room(m.column, k.column.size());
+    make_room(m.value, k.value.size());
     std::vector<std::int64_t> place(at(m.columns), -1);
     std::vector<std::pair<std::int64_t, double>> row;
     for (std::size_t i = 0; i < at(tt.rows); ++i) {

@@ -70,6 +70,11 @@ public:
     // What solves from now on leave of their residual; without a call: usual. True: this operator can tell it from
     // usual.
     virtual bool aim(Accuracy /*accuracy*/) { return false; }
+    // Contact may hold or release any of these rows in the next solves. (A hint; solve() takes all springs as they
+    // come.)
+    virtual void expect_changes(std::span<const std::size_t> /*rows*/) {}
+    // An a-fold load has the a-fold response, to rounding, whatever was solved before.
+    virtual bool answers_in_proportion() const { return false; }
     // Reactions: forces of the constraints [constraints], F.
     virtual std::vector<double> reaction(std::span<const double> theta, const Response& response) const = 0;
     // Displacements [mesh DOFs] of a response of this operator.

@@ -95,7 +95,29 @@ private:
     Accuracy accuracy_ = Accuracy::usual;
 };
 
+// A response that is there already.
+struct ResponseSystem {
+    const ContactScene& scene;
+    std::span<const double> theta;
+    const Response& response;
+
+    ContactSolve solve(const std::vector<std::uint8_t>&) const { return ContactSolve::solved; }
+    std::span<const double> jump() const { return response.jump; }
+    std::span<const double> force() const { return response.force; }
+    double jump_floor() const { return scene.jump_floor(theta); }
+    double force_floor() const { return scene.force_floor(theta); }
+};
+
 }  // namespace
+
+bool contact_settled(const JumpOperator& op, const ContactScene& scene, std::span<const double> theta,
+                     std::span<const std::uint8_t> closed, const Response& response) {
+    const auto dim = static_cast<std::size_t>(scene.dimension);
+    const ContactRows rows = contact_rows(scene, op.prescribed_rows(), false);
+    std::vector<std::uint8_t> set;
+    for (const std::size_t row : rows.row) set.push_back(closed[row / dim]);
+    return contact_violators(ResponseSystem{scene, theta, response}, rows, set, rows.least).empty();
+}
 
 std::vector<std::uint8_t> held_rows(const ContactScene& scene, std::span<const std::uint8_t> closed) {
     const auto dim = static_cast<std::size_t>(scene.dimension);
@@ -114,6 +136,7 @@ ContactResult solve_contact(JumpOperator& op, const ContactScene& scene, std::sp
     if (rows.first > rows.least) std::fill(closed.begin(), closed.end(), std::uint8_t{0});
     std::vector<std::uint8_t> set;  // of the contact rows
     for (const std::size_t row : rows.row) set.push_back(closed[row / dim]);
+    if (cold) op.expect_changes(rows.row);
     ContactResult result;
     OperatorSystem system(
         op, scene, rows,

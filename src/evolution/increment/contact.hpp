@@ -60,4 +60,8 @@ ContactResult solve_contact(JumpOperator& op, const ContactScene& scene, std::sp
                             std::span<const double> theta, std::vector<std::uint8_t>& closed, Response& response,
                             bool cold, std::span<const double> row_force = {});
 
+// Is the contact set that of this response, as far as rounding lets it be known?
+bool contact_settled(const JumpOperator& op, const ContactScene& scene, std::span<const double> theta,
+                     std::span<const std::uint8_t> closed, const Response& response);
+
 }  // namespace delam

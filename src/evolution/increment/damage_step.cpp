@@ -56,8 +56,13 @@ std::vector<double> spring_stiffness(const PairLaws& pairs, std::span<const doub
 
 std::vector<Toughness> toughnesses(const PairLaws& pairs, std::span<const double> mixity) {
     std::vector<Toughness> t(mixity.size(), Toughness{0.0, 0.0});
-    for (std::size_t p = 0; p < t.size(); ++p)
-        if (pairs.law[p] != nullptr) t[p] = pairs.toughness(p, mixity[p]);
+    for (std::size_t p = 0; p < t.size(); ++p) {
+        if (pairs.law[p] == nullptr) continue;
+        // Neighbours often have the same mode.
+        const bool like_the_last = p > 0 && pairs.law[p] == pairs.law[p - 1] && pairs.mixed(p) && pairs.mixed(p - 1) &&
+                                   mixity[p] == mixity[p - 1];
+        t[p] = like_the_last ? t[p - 1] : pairs.toughness(p, mixity[p]);
+    }
     return t;
 }
 

@@ -128,7 +128,8 @@ bool InnerPath::part(const State& at, State& next, bool displaced) {
     return converged;
 }
 
-bool InnerPath::follow(State& next, const Increment& step, const Dissipation* begun, const Watch& watch) {
+bool InnerPath::follow(State& next, const Increment& step, const Dissipation* begun, const Watch& watch,
+                       bool displaced) {
     State at = step.before();
     at.theta = next.theta;
     at.time = next.time;
@@ -142,7 +143,7 @@ bool InnerPath::follow(State& next, const Increment& step, const Dissipation* be
     points_.clear();
     started_elsewhere_ = next.adhesion != step.before().adhesion;
     std::int64_t held = 0;
-    bool converged = part(at, next, false);
+    bool converged = part(at, next, displaced);
     while (true) {
         book(at, next);
         points_.push_back(path_point(pairs_, graph_, next, dissipated_.booked));

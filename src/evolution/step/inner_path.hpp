@@ -39,15 +39,18 @@ public:
         : pairs_(pairs), graph_(graph), stride_(stride), make_(std::move(make)), minimise_(std::move(minimise)) {}
 
     // From the adhesion and mixity of `next`, which has the load of the end of the step; `step` begins at the state
-    // before. begun: what it has dissipated down to this adhesion; none: at these mixities. False: a part did not
-    // converge.
-    bool follow(State& next, const Increment& step, const Dissipation* begun = nullptr, const Watch& watch = {});
+    // before. begun: what it has dissipated down to this adhesion; none: at these mixities. displaced: the
+    // displacements of `next` are those of its adhesion. False: a part did not converge.
+    bool follow(State& next, const Increment& step, const Dissipation* begun = nullptr, const Watch& watch = {},
+                bool displaced = false);
     // Do all pairs that are damaged in part, or nearly loaded to their onset, have the same toughness at these
     // mixities? before: and those that were damaged since then, at the mixities that they show now, too. Without such
     // pairs: yes.
     bool one_mode(const State& at, std::span<const double> mixity, const State* before) const;
     // In one part, without its bound.
-    bool minimise(State& next, Increment& increment) const { return minimise_(next, increment, false); }
+    bool minimise(State& next, Increment& increment, bool displaced) const {
+        return minimise_(next, increment, displaced);
+    }
     // What the step has dissipated in all parts, with that of its start, F L.
     const Dissipation& dissipated() const { return dissipated_; }
     // Did the path begin at a state that is not the one before the step?

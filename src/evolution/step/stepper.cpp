@@ -217,10 +217,10 @@ InnerPath Stepper::inner_path() {
 }
 
 // Starts from the adhesion and the mixity of `next`.
-bool Stepper::minimise(State& next, const Increment& step, const Dissipation* begun) {
+bool Stepper::minimise(State& next, const Increment& step, const Dissipation* begun, bool displaced) {
     InnerPath path = inner_path();
-    const bool converged =
-        step.in_parts() ? path.follow(next, step, begun) : path.minimise(next, *step.starting_at(next.mixity));
+    const bool converged = step.in_parts() ? path.follow(next, step, begun, {}, displaced)
+                                           : path.minimise(next, *step.starting_at(next.mixity), displaced);
     refuse_runaway(next, step);
     next.loaded = step.before().loaded != 0 || any_jump(pairs_, next.response.jump) ? 1 : 0;
     book_step(next, step, step.in_parts() ? &path : nullptr);
@@ -255,6 +255,21 @@ double Stepper::lower_excess(const State& state) const {
     return scale > 0.0 ? (state.ledger.lower - state.ledger.increment) / scale : 0.0;
 }
 
+// At its adhesion, and with its contact set, the state before answers loads in proportion with displacements in
+// proportion: the bodies, springs and frictionless contact without a gap have no other length.
+bool Stepper::displaced_in_proportion(State& next, const State& before) const {
+    const std::optional<double> a = load_ratio(before.theta, next.theta);
+    if (!a || !operator_->answers_in_proportion() || before.response.jump.empty() ||
+        !contact_settled(*operator_, contact_, before.theta, before.closed, before.response))
+        return false;
+    const double grown = 1.0 / *a;
+    Response& response = next.response;
+    for (auto* values : {&response.jump, &response.force, &response.conjugate})
+        for (double& v : *values) v *= grown;
+    for (double* energy : {&response.stored_bulk, &response.load_potential}) *energy *= grown * grown;
+    return true;
+}
+
 // Before the first load there is no jump that gives a mixity; the elastic solution of the step itself gives it.
 bool Stepper::start(State& next, const State& before, double time) {
     next = before;
@@ -278,8 +293,11 @@ Stepper::Result Stepper::step(const State& before, double time, std::span<const 
     State first;
     const bool converged = start(first, before, time);
     const std::unique_ptr<Increment> step = increment(before, first.mixity);
+    // Plain alternation solves for the displacements in every step, as the reference solver does.
+    const bool displaced = problem_.options.minimisation != "alternate" && step->quadratic() &&
+                           (before.loaded == 0 || displaced_in_proportion(first, before));
     Result best{first, true};
-    best.converged = minimise(best.state, *step) && converged;
+    best.converged = minimise(best.state, *step, nullptr, displaced) && converged;
     for (const Start& from : also) {
         State other = first;
         other.effort = best.state.effort;
@@ -289,9 +307,9 @@ Stepper::Result Stepper::step(const State& before, double time, std::span<const 
             other.adhesion[p] = std::min(from.adhesion[p], before.adhesion[p]);
         }
         step->adopt(from.mixity, other);
-        const Dissipation begun{from.dissipated - before.ledger.dissipated,
-                                from.dissipated_linear - before.ledger.dissipated_linear, 0.0};
-        keep_lower(best, std::move(other), *step, from.descends && later ? &begun : nullptr);
+        const Dissipation dissipated{from.dissipated - before.ledger.dissipated,
+                                     from.dissipated_linear - before.ledger.dissipated_linear, 0.0};
+        keep_lower(best, std::move(other), *step, from.descends && later ? &dissipated : nullptr);
     }
     if (problem_.options.solution == "energetic") search(best, *step);
     return best;

@@ -83,9 +83,12 @@ private:
     std::unique_ptr<Increment> increment(const State& before, std::span<const double> mixity) const;
     // The state from which the minimisations of a step begin; false: its elastic displacements reached a limit.
     bool start(State& next, const State& before, double time);
+    // False: not known without a solve.
+    bool displaced_in_proportion(State& next, const State& before) const;
     InnerPath inner_path();
-    // begun: what is dissipated down to the adhesion of `next`, where the step is followed in parts.
-    bool minimise(State& next, const Increment& step, const Dissipation* begun = nullptr);
+    // begun: what is dissipated down to the adhesion of `next`, where the step is followed in parts. displaced: the
+    // displacements of `next` are those of its adhesion.
+    bool minimise(State& next, const Increment& step, const Dissipation* begun = nullptr, bool displaced = false);
     void refuse_runaway(const State& state, const Increment& step);
     // The largest part of its toughness that a pair loses in a step.
     double largest_loss(const Increment& step, const State& next) const;

@@ -127,7 +127,10 @@ void Condensed::choose(const Springs& springs, std::span<const std::uint8_t> wan
         if (age_[i] < forgotten || (now[i] > 0.0 && now[i] < weak * body)) set[i] = 1;
     }
     const std::size_t needed = count(set);
-    set = grown(std::move(set), needed + std::max<std::size_t>(16, needed / 5));
+    if (expected_.empty()) set = grown(std::move(set), needed + std::max<std::size_t>(16, needed / 5));
+    for (std::size_t i = 0; i < expected_.size(); ++i)
+        if (expected_[i] != 0) set[i] = 1;
+    expected_.clear();
     // From here to the end of condense() there is no zone: an interrupted choice is never taken for a valid one.
     zone_.reset();
     spring_ = std::move(now);
@@ -211,6 +214,15 @@ DenseZone* Condensed::zone(const Springs& springs, std::span<const std::uint8_t>
     return zone_.get();
 }
 
+// A zone of all of them, where its factor costs less than choosing zones anew.
+void Condensed::expect_changes(std::span<const std::size_t> rows) {
+    expected_.assign(always_.size(), 0);
+    for (const std::size_t r : rows)
+        for (const auto& [i, n] : bulk_->rows()[r].unknowns) expected_[index(i)] = 1;
+    const auto n = static_cast<double>(count(expected_));
+    if (n * n * n / 3.0 > bulk_->superelements().condensation().operations) expected_.clear();
+}
+
 void Condensed::solve(const Springs& springs, std::span<const double> theta, Response& response) {
     monitor_.progress("displacement", 0, 0);
     std::vector<double> now(always_.size());
@@ -237,7 +249,7 @@ void Condensed::solve(const Springs& springs, std::span<const double> theta, Res
         wanted[i] = 1;
         age_[i] = 0;
     }
-    if (!covers(springs)) choose(springs, wanted);
+    if (!covers(springs) || !expected_.empty()) choose(springs, wanted);
     if (!springs.force.empty()) {
         std::vector<std::uint8_t> pulled(springs.force.size());
         for (std::size_t r = 0; r < pulled.size(); ++r) pulled[r] = springs.force[r] != 0.0 ? 1 : 0;

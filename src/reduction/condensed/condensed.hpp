@@ -19,6 +19,8 @@ class Condensed final : public JumpOperator {
 public:
     Condensed(std::shared_ptr<Bulk> bulk, const Problem& problem, Monitor& monitor);
     void solve(const Springs& springs, std::span<const double> theta, Response& response) override;
+    void expect_changes(std::span<const std::size_t> rows) override;
+    bool answers_in_proportion() const override { return true; }
     std::vector<double> displacement(std::span<const double> theta, const Response& response) const override;
     std::vector<double> reaction(std::span<const double> theta, const Response& response) const override;
     double equilibrium_defect(std::span<const double> theta, const Response& response) const override;
@@ -72,10 +74,11 @@ private:
     std::vector<std::int64_t> neighbour_start_, neighbour_;  // of unknowns
 
     // The present choice, [unknowns]. Springs: -1 is held.
-    std::vector<std::uint8_t> inside_;  // in the zone
-    std::vector<double> spring_;        // at which the others are minimised out
-    std::vector<double> last_;          // of the previous solve; all 0: there was none, or nothing was held
-    std::vector<std::uint8_t> age_;     // number of choices since it last changed or was requested, up to `forgotten`
+    std::vector<std::uint8_t> inside_;    // in the zone
+    std::vector<double> spring_;          // at which the others are minimised out
+    std::vector<double> last_;            // of the previous solve; all 0: there was none, or nothing was held
+    std::vector<std::uint8_t> age_;       // number of choices since it last changed or was requested, up to `forgotten`
+    std::vector<std::uint8_t> expected_;  // taken into the next choice; empty: none
     Elimination elimination_;
     std::unique_ptr<Bulk::ZoneEnergy> energy_;
     std::unique_ptr<DenseZone> zone_;

@@ -49,6 +49,7 @@ Condensed::Choice Condensed::parse(std::span<const double> memory) const {
 
 void Condensed::recall(std::span<const double> memory) {
     const std::size_t unknowns = always_.size();
+    expected_.clear();
     if (memory.empty()) {  // before the first zone was chosen
         age_.assign(unknowns, forgotten);
         inside_.assign(unknowns, 1);

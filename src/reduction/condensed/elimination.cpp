@@ -11,11 +11,22 @@ namespace delam {
 
 namespace {
 
-// Zeros, in the memory of what was there.
+// Zeros, in the memory of what was there; of a symmetric one, in its lower triangle.
 void clear(DenseMatrix& a, std::int64_t rows, std::int64_t columns) {
     a.rows = rows;
     a.columns = columns;
+    a.value.clear();
+    make_room(a.value, index(rows * columns));
     a.value.assign(index(rows * columns), 0.0);
+}
+
+void clear_symmetric(DenseMatrix& a, std::int64_t rows) {
+    a.rows = a.columns = rows;
+    a.value.clear();
+    make_room(a.value, index(rows * rows));
+    a.value.resize(index(rows * rows));
+    for (std::int64_t j = 0; j < rows; ++j)
+        std::fill_n(a.value.begin() + j * (rows + 1), static_cast<std::size_t>(rows - j), 0.0);
 }
 
 void sort_unique(std::vector<std::int64_t>& list) {
@@ -190,9 +201,9 @@ void Elimination::divide_outside(Front& front, std::int64_t number) const {
 // Empty, with the places of its variables in at_.
 void Elimination::open(Front& front) {
     const auto e = static_cast<std::int64_t>(front.out.size()), r = static_cast<std::int64_t>(front.left.size());
-    clear(front.factor, e, e);
+    clear_symmetric(front.factor, e);
     clear(front.coupling, e, r);
-    clear(front.energy.stiffness, r, r);
+    clear_symmetric(front.energy.stiffness, r);
     clear(front.load, e, load_.columns);
     clear(front.energy.load, r, load_.columns);
     for (std::int64_t i = 0; i < e; ++i) at_[index(front.out[index(i)])] = i;

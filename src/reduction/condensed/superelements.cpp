@@ -101,6 +101,10 @@ void Superelements::add_leaf(const SparseMatrix& stiffness, Superelement& node, 
     SparseMatrix& m = piece.matrix;
     m.rows = m.columns = static_cast<std::int64_t>(all.size());
     m.start.reserve(all.size() + 1);
+    std::int64_t entries = piece.border;
+    for (const std::int64_t v : all) entries += stiffness.start[index(v) + 1] - stiffness.start[index(v)];
+    make_room(m.column, index(entries));
+    make_room(m.value, index(entries));
     const std::int64_t border = piece.inside + piece.jumps;
     std::vector<std::pair<std::int64_t, double>> row;
     for (std::int64_t r = 0; r < m.rows; ++r) {

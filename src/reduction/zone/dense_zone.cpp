@@ -159,7 +159,7 @@ bool DenseZone::factor_free() {
     }
     if (updated_.update(matrix(), springs_, free_, poll_)) return updated_.definite();
     assemble();
-    return updated_.renew(std::move(factor_), springs_, free_, energy_->rows(), poll_);
+    return updated_.renew(factor_, springs_, free_, energy_->rows(), poll_);
 }
 
 void DenseZone::solve_free(std::span<double> x, bool again) {
@@ -179,7 +179,8 @@ void DenseZone::assemble() {
     for (std::int64_t i = 0; i < n; ++i) place[index(free_[index(i)])] = i;
     for (std::int64_t i = 0; i < bound; ++i) place[index(bound_[index(i)])] = n + i;
 
-    factor_ = DenseMatrix(n, n);
+    factor_.rows = factor_.columns = n;  // in the memory of an earlier one; its upper triangle is not set
+    factor_.value.resize(index(n * n));
     for (std::int64_t j = 0; j < n; ++j) {
         const double* column = s.value.data() + free_[index(j)] * s.rows;
         double* out = factor_.value.data() + j * n;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/numbers.hpp"
 
@@ -32,12 +33,12 @@ std::vector<Triplet> sorted_sums(std::vector<Triplet> springs) {
 
 }  // namespace
 
-bool UpdatedFactor::renew(DenseMatrix a, const std::vector<Triplet>& springs, std::span<const std::int64_t> free,
+bool UpdatedFactor::renew(DenseMatrix& a, const std::vector<Triplet>& springs, std::span<const std::int64_t> free,
                           std::int64_t all, const Poll& poll) {
     ++renewals_;
     definite_ = factor_definite(a, poll);
     if (!definite_) return false;
-    factor_ = std::move(a);
+    std::swap(factor_, a);
     unknowns_.assign(free.begin(), free.end());
     place_.assign(index(all), -1);
     for (std::size_t i = 0; i < unknowns_.size(); ++i) place_[index(unknowns_[i])] = static_cast<std::int64_t>(i);

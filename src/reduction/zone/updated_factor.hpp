@@ -29,10 +29,10 @@ public:
     // none, a new one is cheaper, or digits would be lost; then renew. stiffness: S, the same as for the reference.
     bool update(const DenseMatrix& stiffness, const std::vector<Triplet>& springs, std::span<const std::int64_t> free,
                 const Poll& poll);
-    // Makes the reference of A, [free] with its lower triangle set. False: A is not positive definite, and the
-    // reference is the one before.
-    bool renew(DenseMatrix a, const std::vector<Triplet>& springs, std::span<const std::int64_t> free, std::int64_t all,
-               const Poll& poll);
+    // Makes the reference of A, [free] with its lower triangle set, in its memory; a: that of an earlier one. False: A
+    // is not positive definite, and the reference is the one before.
+    bool renew(DenseMatrix& a, const std::vector<Triplet>& springs, std::span<const std::int64_t> free,
+               std::int64_t all, const Poll& poll);
     void forget() { valid_ = false; }
     // Of the last successful update or renewal.
     bool definite() const { return definite_; }
