@@ -70,8 +70,8 @@ public:
     // What solves from now on leave of their residual; without a call: usual. True: this operator can tell it from
     // usual.
     virtual bool aim(Accuracy /*accuracy*/) { return false; }
-    // Contact may hold or release any of these rows in the next solves. (A hint; solve() takes all springs as they
-    // come.)
+    // Contact may hold or release any of these rows in the solves up to the next call; empty: no more than usual. (A
+    // hint: solve() takes all springs as they come.)
     virtual void expect_changes(std::span<const std::size_t> /*rows*/) {}
     // An a-fold load has the a-fold response, to rounding, whatever was solved before.
     virtual bool answers_in_proportion() const { return false; }

@@ -3,6 +3,7 @@
 // restores it continues with the same bits as the one that saved it, whatever either has computed before.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <memory>
 #include <vector>
@@ -138,12 +139,44 @@ START_TEST(another_past) {
 }
 END_TEST
 
+// A search for contact announces the rows that may change. Its zone has other digits, but it is no other system, and
+// nothing of it is left for the time after.
+START_TEST(expected_changes) {
+    Operators all;
+    const auto one = all.fresh(), other = all.fresh();
+    const std::vector<double> theta{1.0};
+    std::vector<std::size_t> normal;
+    for (std::size_t r = 0; r < static_cast<std::size_t>(all.problem().jump_count()); r += 2) normal.push_back(r);
+    one->expect_changes(normal);
+    for (const std::size_t closed : {0U, 40U, 20U, 50U, 31U}) {
+        Springs s = springs(all.problem(), 3);
+        for (std::size_t p = 61 - closed; p < 61; ++p) s.held[2 * p] = 1;
+        Response a, b;
+        one->solve(s, theta, a);
+        other->solve(s, theta, b);
+        double jump = 0.0, force = 0.0, error = 0.0, force_error = 0.0;
+        for (std::size_t r = 0; r < a.jump.size(); ++r) {
+            jump = std::max(jump, std::abs(b.jump[r]));
+            force = std::max(force, std::abs(b.force[r]));
+            error = std::max(error, std::abs(a.jump[r] - b.jump[r]));
+            force_error = std::max(force_error, std::abs(a.force[r] - b.force[r]));
+        }
+        ck_assert_msg(error <= 1e-10 * jump && force_error <= 1e-10 * force, "%zu closed: %g, %g", closed, error / jump,
+                      force_error / force);
+    }
+    one->expect_changes({});
+    other->recall(one->memory());
+    solve_alike(all.problem(), *one, *other);
+}
+END_TEST
+
 int main() {
     Suite* suite = suite_create("condensed memory");
     TCase* tests = tcase_create("bits");
     tcase_add_test(tests, zone_before_a_solve);
     tcase_add_test(tests, zeros_with_a_sign);
     tcase_add_test(tests, another_past);
+    tcase_add_test(tests, expected_changes);
     suite_add_tcase(suite, tests);
     SRunner* runner = srunner_create(suite);
     srunner_run_all(runner, CK_ENV);

@@ -2,6 +2,7 @@
 // What an analysis leaves out changes nothing: contact where pairs cannot close, mixity where the law does not depend
 // on it, displacements that nobody reads. And the bodies are factored only once.
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <string>
 
@@ -170,6 +171,36 @@ START_TEST(the_plan_is_known_beforehand) {
 }
 END_TEST
 
+// Loads in proportion that damage nothing need no solve: the displacements grow with them. Alternation solves always.
+START_TEST(nothing_is_solved_where_loads_grow_alone) {
+    Problem problem = unit::make_flexure({});
+    Monitor monitor;
+    Solver grown(problem, monitor, 0.0);
+    problem.options.minimisation = "alternate";
+    Solver solved(problem, monitor, 0.0);
+    int alone = 0;
+    for (int k = 1; k <= 12; ++k) {
+        for (Solver* solver : {&grown, &solved}) {
+            ck_assert_int_eq(solver->advance(0.02 * k).status, 0);
+            solver->commit();
+        }
+        const bool damaged = value(solved, "dissipated") > 0.0;
+        if (!damaged) {
+            ck_assert(value(grown, "displacement_solves") == (k == 1 ? 1.0 : 0.0));
+            ck_assert(value(solved, "displacement_solves") >= 1.0);
+            ++alone;
+        }
+        for (const char* key : {"stored_bulk", "stored_interface", "reaction:press", "work"}) {
+            const double a = value(grown, key), b = value(solved, key);
+            ck_assert_msg(std::abs(a - b) <= (damaged ? 1e-4 : 1e-10) * std::abs(b), "step %d: %s is %.15g, not %.15g",
+                          k, key, a, b);
+        }
+    }
+    ck_assert_int_ge(alone, 3);
+    ck_assert(value(grown, "dissipated") > 0.0);
+}
+END_TEST
+
 int main() {
     Suite* suite = suite_create("plan");
     TCase* left_out = tcase_create("left out");
@@ -177,6 +208,7 @@ int main() {
     tcase_add_test(left_out, mixity_stays_where_the_law_sees_it);
     tcase_add_loop_test(left_out, contact_left_out_changes_no_digit, 0, 2);
     tcase_add_loop_test(left_out, bodies_are_factored_once_and_displacements_recovered_on_request, 0, 3);
+    tcase_add_test(left_out, nothing_is_solved_where_loads_grow_alone);
     tcase_add_loop_test(left_out, the_plan_is_known_beforehand, 0, 8);
     suite_add_tcase(suite, left_out);
     SRunner* runner = srunner_create(suite);

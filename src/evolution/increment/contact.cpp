@@ -143,6 +143,7 @@ ContactResult solve_contact(JumpOperator& op, const ContactScene& scene, std::sp
         {{stiffness.begin(), stiffness.end()}, held_rows(scene, closed), {row_force.begin(), row_force.end()}}, theta,
         response, result);
     const ActiveSet found = find_active_set(system, rows, set, scene.limit, true);
+    if (cold) op.expect_changes({});
     result.solves = found.solves;
     result.doubts = found.doubts;
     result.fallback = found.exchanged;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "base/error.hpp"
 #include "base/numbers.hpp"
@@ -15,6 +16,8 @@ namespace {
 // A spring weaker than this fraction of the bodies' stiffness cannot support a factorisation; such rows stay in the
 // zone.
 constexpr double weak = 1e-9;
+// So many times faster than the small fronts of a tree is one factor of the same operations.
+constexpr double one_factor = 3.0;
 
 std::size_t count(const std::vector<std::uint8_t>& set) {
     return static_cast<std::size_t>(std::count_if(set.begin(), set.end(), [](std::uint8_t v) { return v != 0; }));
@@ -130,7 +133,6 @@ void Condensed::choose(const Springs& springs, std::span<const std::uint8_t> wan
     if (expected_.empty()) set = grown(std::move(set), needed + std::max<std::size_t>(16, needed / 5));
     for (std::size_t i = 0; i < expected_.size(); ++i)
         if (expected_[i] != 0) set[i] = 1;
-    expected_.clear();
     // From here to the end of condense() there is no zone: an interrupted choice is never taken for a valid one.
     zone_.reset();
     spring_ = std::move(now);
@@ -214,13 +216,18 @@ DenseZone* Condensed::zone(const Springs& springs, std::span<const std::uint8_t>
     return zone_.get();
 }
 
-// A zone of all of them, where its factor costs less than choosing zones anew.
+// A zone of all of them, where its factor costs less than choosing zones anew. The unknowns that have changed in it are
+// no reason to stay in later ones.
 void Condensed::expect_changes(std::span<const std::size_t> rows) {
+    unmet_ = false;
+    expected_.clear();
+    if (rows.empty()) return;
     expected_.assign(always_.size(), 0);
     for (const std::size_t r : rows)
         for (const auto& [i, n] : bulk_->rows()[r].unknowns) expected_[index(i)] = 1;
     const auto n = static_cast<double>(count(expected_));
-    if (n * n * n / 3.0 > bulk_->superelements().condensation().operations) expected_.clear();
+    if (n * n * n / 3.0 > one_factor * bulk_->superelements().condensation().operations) expected_.clear();
+    unmet_ = !expected_.empty();
 }
 
 void Condensed::solve(const Springs& springs, std::span<const double> theta, Response& response) {
@@ -247,9 +254,10 @@ void Condensed::solve(const Springs& springs, std::span<const double> theta, Res
     for (std::size_t i = 0; after_another && i < now.size(); ++i) {
         if (now[i] == last_[i]) continue;
         wanted[i] = 1;
-        age_[i] = 0;
+        if (expected_.empty()) age_[i] = 0;
     }
-    if (!covers(springs) || !expected_.empty()) choose(springs, wanted);
+    const bool unmet = std::exchange(unmet_, false);
+    if (unmet || !covers(springs)) choose(springs, wanted);
     if (!springs.force.empty()) {
         std::vector<std::uint8_t> pulled(springs.force.size());
         for (std::size_t r = 0; r < pulled.size(); ++r) pulled[r] = springs.force[r] != 0.0 ? 1 : 0;

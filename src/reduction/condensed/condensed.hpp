@@ -78,7 +78,8 @@ private:
     std::vector<double> spring_;          // at which the others are minimised out
     std::vector<double> last_;            // of the previous solve; all 0: there was none, or nothing was held
     std::vector<std::uint8_t> age_;       // number of choices since it last changed or was requested, up to `forgotten`
-    std::vector<std::uint8_t> expected_;  // taken into the next choice; empty: none
+    std::vector<std::uint8_t> expected_;  // [unknowns] in every zone until the expectation ends; empty: none
+    bool unmet_ = false;                  // no zone has been chosen for it yet
     Elimination elimination_;
     std::unique_ptr<Bulk::ZoneEnergy> energy_;
     std::unique_ptr<DenseZone> zone_;

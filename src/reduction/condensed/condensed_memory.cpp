@@ -49,7 +49,7 @@ Condensed::Choice Condensed::parse(std::span<const double> memory) const {
 
 void Condensed::recall(std::span<const double> memory) {
     const std::size_t unknowns = always_.size();
-    expected_.clear();
+    expect_changes({});
     if (memory.empty()) {  // before the first zone was chosen
         age_.assign(unknowns, forgotten);
         inside_.assign(unknowns, 1);

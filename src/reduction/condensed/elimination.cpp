@@ -11,22 +11,23 @@ namespace delam {
 
 namespace {
 
-// Zeros, in the memory of what was there; of a symmetric one, in its lower triangle.
-void clear(DenseMatrix& a, std::int64_t rows, std::int64_t columns) {
+// In the memory of what was there, without values.
+void resize(DenseMatrix& a, std::int64_t rows, std::int64_t columns) {
     a.rows = rows;
     a.columns = columns;
     a.value.clear();
     make_room(a.value, index(rows * columns));
-    a.value.assign(index(rows * columns), 0.0);
+    a.value.resize(index(rows * columns));
 }
 
-void clear_symmetric(DenseMatrix& a, std::int64_t rows) {
-    a.rows = a.columns = rows;
-    a.value.clear();
-    make_room(a.value, index(rows * rows));
-    a.value.resize(index(rows * rows));
-    for (std::int64_t j = 0; j < rows; ++j)
-        std::fill_n(a.value.begin() + j * (rows + 1), static_cast<std::size_t>(rows - j), 0.0);
+void clear(DenseMatrix& a, std::int64_t rows, std::int64_t columns) {
+    resize(a, rows, columns);
+    std::fill(a.value.begin(), a.value.end(), 0.0);
+}
+
+void clear_lower(DenseMatrix& a) {
+    for (std::int64_t j = 0; j < a.rows; ++j)
+        std::fill_n(a.value.begin() + j * (a.rows + 1), static_cast<std::size_t>(a.rows - j), 0.0);
 }
 
 void sort_unique(std::vector<std::int64_t>& list) {
@@ -68,7 +69,7 @@ void Elimination::update(std::span<const double> state, const Poll& poll) {
     refresh_outside(last_node_, poll);
     const Front* outside = parent_[index(last_node_)] < 0 ? nullptr : &outside_[index(last_node_)];
     divide_node(last_, node, outside);
-    open(last_);
+    open(last_, node.leaf);
     if (node.leaf >= 0) add_leaf(last_, node.leaf);
     for (const std::int64_t child : node.children) add(last_, below_[index(child)]);
     add_own(last_, node);
@@ -120,7 +121,7 @@ void Elimination::refresh_below(std::int64_t number, const Poll& poll) {
     for (const std::int64_t child : node.children) stale = stale || below_[index(child)].made > front.made;
     if (!stale) return;
     divide_node(front, node, nullptr);
-    open(front);
+    open(front, node.leaf);
     if (node.leaf >= 0) add_leaf(front, node.leaf);
     for (const std::int64_t child : node.children) add(front, below_[index(child)]);
     add_own(front, node);
@@ -141,7 +142,7 @@ void Elimination::refresh_outside(std::int64_t number, const Poll& poll) {
     const Front &beside = below_[index(sibling)], &beyond = outside_[index(parent)];
     if (!older(front, above.jumps, {number, sibling, parent}, {&beside, top ? &beside : &beyond})) return;
     divide_outside(front, number);
-    open(front);
+    open(front, -1);
     add(front, beside);
     add_own(front, above);
     if (!top) add(front, beyond);
@@ -198,16 +199,23 @@ void Elimination::divide_outside(Front& front, std::int64_t number) const {
     sort_unique(front.left);
 }
 
-// Empty, with the places of its variables in at_.
-void Elimination::open(Front& front) {
+// Zero, with the places of its variables in at_. leaf: what is added next, -1: none; it may set all entries itself.
+void Elimination::open(Front& front, std::int64_t leaf) {
     const auto e = static_cast<std::int64_t>(front.out.size()), r = static_cast<std::int64_t>(front.left.size());
-    clear_symmetric(front.factor, e);
-    clear(front.coupling, e, r);
-    clear_symmetric(front.energy.stiffness, r);
-    clear(front.load, e, load_.columns);
-    clear(front.energy.load, r, load_.columns);
     for (std::int64_t i = 0; i < e; ++i) at_[index(front.out[index(i)])] = i;
     for (std::int64_t i = 0; i < r; ++i) at_[index(front.left[index(i)])] = e + i;
+    clear(front.load, e, load_.columns);
+    clear(front.energy.load, r, load_.columns);
+    resize(front.factor, e, e);
+    resize(front.coupling, e, r);
+    resize(front.energy.stiffness, r, r);
+    std::int64_t set = 0;
+    if (leaf >= 0)
+        for (const std::int64_t p : bodies_.rows(leaf)) set += at_[index(p)] >= 0 ? 1 : 0;
+    if (set == e + r) return;
+    clear_lower(front.factor);
+    clear_lower(front.energy.stiffness);
+    std::fill(front.coupling.value.begin(), front.coupling.value.end(), 0.0);
 }
 
 void Elimination::add_leaf(Front& front, std::int64_t leaf) {

@@ -59,7 +59,7 @@ private:
     void refresh_outside(std::int64_t node, const Poll& poll);
     void divide_node(Front& front, const Superelements::Node& node, const Front* outside) const;
     void divide_outside(Front& front, std::int64_t node) const;
-    void open(Front& front);
+    void open(Front& front, std::int64_t leaf);
     void add_leaf(Front& front, std::int64_t leaf);
     void add_own(Front& front, const Superelements::Node& node);
     void add(Front& front, const Front& other);

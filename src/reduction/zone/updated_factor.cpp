@@ -13,6 +13,8 @@ namespace {
 
 // A spring of the reference that is stiffer than this multiple of the bodies' own stiffness is not subtracted.
 constexpr double hidden = 1e3;
+// What an update costs beside its multiplications, in those of a full factor: it handles a dozen small matrices.
+constexpr double handling = 3e5;
 // Multiplications from which on a poll is worth it.
 constexpr double long_enough = 1e8;
 
@@ -185,7 +187,7 @@ bool UpdatedFactor::update(const DenseMatrix& stiffness, const std::vector<Tripl
     const Change change = compare(springs, free);
     const auto n = static_cast<double>(free.size());
     const double more = cost(change);
-    if (spent_ + more > n * n * n / 3.0 || hides(stiffness, change)) return false;
+    if (spent_ + more + handling > n * n * n / 3.0 || hides(stiffness, change)) return false;
     spent_ += more;
     add_columns(stiffness, change, poll);
     free_.assign(free.begin(), free.end());
