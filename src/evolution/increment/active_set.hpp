@@ -141,6 +141,12 @@ private:
     SolveError open_;
 };
 
+// Systems of which only the energy is wanted may say that the rows on the wrong side hardly matter.
+template <class S>
+concept EnergySystem = requires(S system, const std::vector<std::uint8_t>& closed, std::span<const std::size_t> wrong) {
+    { system.negligible(closed, wrong) } -> std::same_as<bool>;
+};
+
 // closed: [contact rows], on entry the starting set, on return the contact set. Where a loaded part floats, contact may
 // hold it: with close_once the search begins once more with everything closed.
 template <ContactSystem S>
@@ -189,6 +195,7 @@ ActiveSet find_active_set(S& system, const ContactRows& rows, std::vector<std::u
             }
         }
         result.settled = wrong.empty();
+        if constexpr (EnergySystem<S>) result.settled = system.negligible(closed, wrong);
         if (result.settled || result.solves >= limit) return result;
         if (!seen.emplace(closed.begin(), closed.end()).second) result.exchanged = exchange = true;
         for (const std::size_t i : wrong) {

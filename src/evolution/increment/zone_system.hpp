@@ -48,6 +48,14 @@ public:
     double jump_floor() const { return scene_.jump_floor(theta_); }
     double force_floor() const { return scene_.force_floor(theta_); }
     bool softens() const;
+    // Only energies are wanted, within so much, F L: contact may then be left undecided where it matters less.
+    void ask_for_energies(double allowed) { allowed_ = allowed; }
+    bool negligible(const std::vector<std::uint8_t>& closed, std::span<const std::size_t> wrong);
+    // The energy with contact lies above that of the last solve by at most `above`, below it by at most `below`, F L.
+    struct ContactDoubt {
+        double above = 0.0, below = 0.0;
+    };
+    const ContactDoubt& doubt() const { return doubt_; }
     SolveError error() const { return error_; }
     double energy_error() const { return energy_error_; }
     bool rough() const { return false; }
@@ -64,6 +72,8 @@ public:
     std::vector<std::uint8_t> held(const std::vector<std::uint8_t>& closed) const;
 
 private:
+    ContactDoubt doubt_contact(const std::vector<std::uint8_t>& closed, std::span<const std::size_t> wrong) const;
+
     Zone& zone_;
     const ContactScene& scene_;
     std::span<const double> theta_;
@@ -76,6 +86,8 @@ private:
     std::vector<double> row_force_;
     std::vector<double> unknowns_, jump_, force_;
     SolveError error_;
+    double allowed_ = 0.0;  // of energies
+    ContactDoubt doubt_;
     double energy_error_ = 0.0;
     double left_ = 0.0;
     std::int64_t iterations_ = 0;

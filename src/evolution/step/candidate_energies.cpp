@@ -65,7 +65,7 @@ void CandidateEnergies::focus(std::span<const std::uint8_t> wanted) {
     std::vector<std::uint8_t> pairs(wanted.begin(), wanted.end());
     for (std::size_t p = 0; p < pairs.size(); ++p)
         if (from_.adhesion[p] != increment_.adhesion_before()[p]) pairs[p] = 1;
-    if (focused_ && pairs == inside_) return;
+    if (focused_ && zone_->serves(pairs)) return;
     lose_focus();
     wanted_ = std::move(pairs);
 }
@@ -166,7 +166,6 @@ const CandidateEnergy& CandidateEnergies::at(const std::vector<double>& adhesion
     CandidateEnergy e{infinite, 0.0, {next.begin(), next.end()}, {}};
     if (!wanted_.empty()) {
         focused_ = zone_->focus(from_, wanted_, allowed_);
-        inside_ = std::move(wanted_);
         wanted_.clear();
     }
     if (within_zone(adhesion, next))

@@ -67,7 +67,6 @@ private:
     bool follow_mixity_;
     bool focused_ = false;
     std::vector<std::uint8_t> wanted_;  // [pairs] of a zone that is chosen once an energy needs it; empty: none
-    std::vector<std::uint8_t> inside_;  // of the zone that was chosen last
     double allowed_;
     double size_ = 0.0;
     std::vector<double> direction_;

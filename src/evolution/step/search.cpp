@@ -148,7 +148,11 @@ void Trials::debond_interfaces() {
 void Trials::run() {
     const std::vector<Front> all = fronts(start_, seeds);
     search_.new_cracks = reach_of_new_cracks(search_, all, start_);
-    for (const Front& front : all) sweep(front, start_, "");
+    // Of new cracks those inside before those at ends, which often reach over a part of them.
+    for (const Front& front : all)
+        if (!front.nucleation) sweep(front, start_, "");
+    for (auto front = all.rbegin(); front != all.rend(); ++front)
+        if (front->nucleation) sweep(*front, start_, "");
     if (all.size() > 1) {
         advance_together(all);
         sweep_from_the_lowest();
@@ -187,8 +191,14 @@ double Search::debonded_energy(const State& from, std::span<const double> direct
     JumpOperator& op = twin ? *twin : op_;
     op.recall({});
     std::vector<std::uint8_t> closed(nothing.size(), 0);
+    std::vector<std::uint8_t> tested;  // rows
+    for (std::size_t p = 0; p < closed.size(); ++p)
+        tested.insert(tested.end(), static_cast<std::size_t>(pairs_.dimension),
+                      coarse.level[p] >= coarse.least_level ? 1 : 0);
     Response response;
     try {
+        // One zone for all contact sets.
+        if (twin) op.zone({spring_stiffness(pairs_, nothing), held_rows(coarse, closed)}, tested, true);
         const bool settled =
             solve_contact(op, coarse, spring_stiffness(pairs_, nothing), direction, closed, response, false).converged;
         if (settled && response.balanced) return response.stored_bulk + response.load_potential;
@@ -212,6 +222,7 @@ SearchResult Search::run(const Increment& increment, const State& from, std::spa
         result.words = "no load: nothing to search\n";
         return result;
     }
+    if (zone_) zone_->forget();
     energies.recall(increment.before().search_energies);
     SearchRun run{increment,
                   graph_,
@@ -227,7 +238,7 @@ SearchResult Search::run(const Increment& increment, const State& from, std::spa
     result.starts = trials.take_found();
     result.energies = energies.memory();
     if (result.error > 0.0)
-        result.words += text("energies of candidates come from an iteration: too high by at most ", result.error, "\n");
+        result.words += text("energies of candidates are too high by at most ", result.error, "\n");
     return result;
 }
 

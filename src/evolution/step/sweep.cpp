@@ -11,10 +11,9 @@ namespace delam {
 
 namespace {
 
-constexpr std::size_t fine = 16;           // rings that are all sampled; of longer sweeps about as many
+constexpr std::size_t fine = 8;            // rings that are all sampled; of longer sweeps about as many
 constexpr std::size_t largest_crack = 32;  // rings of a new crack, and of the zone about it
-// Rows of a zone in which an energy costs less than the choice of a smaller zone.
-constexpr std::size_t small_zone = 512;
+constexpr std::size_t small_zone = 512;    // rows of a zone that serves all new cracks
 
 }  // namespace
 
@@ -49,6 +48,16 @@ std::vector<std::uint8_t> reach_of_new_cracks(const SearchRun& search, std::span
     const auto pairs = static_cast<std::size_t>(std::count(reached.begin(), reached.end(), std::uint8_t{1}));
     if (pairs * index(search.pairs().dimension) > small_zone) reached.clear();
     return reached;
+}
+
+std::vector<std::uint8_t> SearchRun::with_new_cracks(std::vector<std::uint8_t> wanted, bool always) const {
+    std::vector<std::uint8_t> all = wanted;
+    for (std::size_t p = 0; p < new_cracks.size(); ++p)
+        if (new_cracks[p] != 0) all[p] = 1;
+    const auto rows = [&](const std::vector<std::uint8_t>& set) {
+        return static_cast<std::size_t>(std::count(set.begin(), set.end(), std::uint8_t{1})) * index(pairs().dimension);
+    };
+    return always || rows(all) <= 2 * rows(wanted) + spare_rows ? all : wanted;
 }
 
 // A new crack that meets an older one is an advance of the older one, with the mixity of its front.
@@ -93,10 +102,7 @@ void Sweep::keep_rings() {
         for (const std::int64_t p : ring_[keep]) wanted[index(p)] = 1;  // pairs whose mixity may be needed
     ring_.resize(keep);
     mixity_.resize(ring_.size());
-    if (nucleation_)
-        for (std::size_t p = 0; p < search_.new_cracks.size(); ++p)
-            if (search_.new_cracks[p] != 0) wanted[p] = 1;
-    search_.energies.focus(wanted);
+    search_.energies.focus(search_.with_new_cracks(std::move(wanted), nucleation_));
 }
 
 Candidate Sweep::candidate(std::size_t n) const {
@@ -220,15 +226,34 @@ void Sweep::sample_new_crack() {
             stopped_ = true;
             return;
         }
+        if (!from_below && settled_by_a_larger_one(n)) return;
         sample(n);
-        if (from_below ? search_.floor + cost_.at(n) >= search_.best : no_smaller_one_is_promising(n)) return;
+        if (from_below && search_.floor + cost_.at(n) >= search_.best) return;
+        if (!from_below) note_beneath(n);
     }
 }
 
-bool Sweep::no_smaller_one_is_promising(std::size_t n) const {
-    if (!search_.pairs().gradient.empty() || !std::isfinite(value_.at(n).incremental)) return false;
-    const double energy = value_.at(n).incremental - search_.result.error - cost_.at(n);
+std::vector<std::int64_t> Sweep::pairs_within(std::size_t n) const {
+    std::vector<std::int64_t> pairs;
+    for (std::size_t k = 0; k < n; ++k) pairs.insert(pairs.end(), ring_[k].begin(), ring_[k].end());
+    std::sort(pairs.begin(), pairs.end());
+    return pairs;
+}
+
+bool Sweep::not_promising(double energy) const {
     return energy + (1.0 - promising) * search_.cost(candidate(1)) >= search_.level;
+}
+
+void Sweep::note_beneath(std::size_t n) {
+    if (!search_.pairs().gradient.empty() || !std::isfinite(value_.at(n).incremental)) return;
+    search_.beneath.push_back({pairs_within(n), value_.at(n).incremental - search_.result.error - cost_.at(n)});
+}
+
+bool Sweep::settled_by_a_larger_one(std::size_t n) const {
+    const std::vector<std::int64_t> pairs = pairs_within(n);
+    return std::any_of(search_.beneath.begin(), search_.beneath.end(), [&](const SearchRun::Beneath& b) {
+        return not_promising(b.energy) && std::includes(b.pairs.begin(), b.pairs.end(), pairs.begin(), pairs.end());
+    });
 }
 
 // Rings far apart, at positions that do not move with the front.

@@ -24,12 +24,20 @@ struct SearchRun {
     double best;        // lowest I so far, of the step or a candidate
     double tolerance;   // of energies
     std::int64_t left;  // candidates until the limit
+    // Pairs of cracks, ascending, and less than the energy with them debonded: with fewer of them there is no less.
+    struct Beneath {
+        std::vector<std::int64_t> pairs;
+        double energy;  // E less the energy before, F L
+    };
+    std::vector<Beneath> beneath{};
     // [pairs] that the new cracks of this search may reach, if one zone serves them all; empty: a zone for each.
     std::vector<std::uint8_t> new_cracks{};
 
     const PairLaws& pairs() const { return increment.pairs(); }
     double cost(const Candidate& c) const { return increment.cost(c.mixity, c.adhesion); }
     std::vector<std::uint8_t> adhering(const Candidate& base) const;
+    // These pairs and those that new cracks may reach, where a small zone serves both, or always.
+    std::vector<std::uint8_t> with_new_cracks(std::vector<std::uint8_t> wanted, bool always) const;
     // I of a candidate; counts it. next_mixity: B that the pairs `next` show, where the mixity follows the iterates.
     double compare(Candidate& candidate, std::span<const std::int64_t> next, std::vector<double>* next_mixity);
 };
@@ -64,7 +72,13 @@ private:
     std::size_t middle(std::size_t low, std::size_t high) const;
     void sample_coarsely();
     void sample_new_crack();
-    bool no_smaller_one_is_promising(std::size_t n) const;
+    std::vector<std::int64_t> pairs_within(std::size_t n) const;
+    // Whether a crack with this energy, and each smaller one, lies too high.
+    bool not_promising(double energy) const;
+    // Says a larger crack, of this sweep or another one, that one of n rings is not promising?
+    bool settled_by_a_larger_one(std::size_t n) const;
+    // Keeps what the sample says about smaller cracks.
+    void note_beneath(std::size_t n);
     void refine_minimum();
     void close_gap();
     // Lower bound of what lies strictly between two samples.

@@ -2,6 +2,7 @@
 #include "evolution/step/zone_energies.hpp"
 
 #include <algorithm>
+
 #include <limits>
 
 #include "base/numbers.hpp"
@@ -11,6 +12,9 @@ namespace delam {
 namespace {
 
 constexpr std::int64_t energy_contact_steps = 200;  // beyond them the energy is not known
+// Of the error that is allowed: what is left undecided of contact.
+constexpr double undecided = 1e-3;
+constexpr std::size_t most_solved = 64;  // contact sets that are remembered
 
 }  // namespace
 
@@ -22,7 +26,8 @@ bool ZoneEnergies::focus(const State& known, std::span<const std::uint8_t> wante
     Zone* zone = op_.zone(springs, rows, true);
     if (zone == nullptr) return false;
     system_.emplace(*zone, contact_, op_.prescribed_rows(), springs.held, known.theta);
-    solved_.clear();
+    known_closed_ = known.closed;
+    if (solved_.empty()) solved_.push_back({known.adhesion, known.closed});
     place_.assign(wanted.size(), -1);
     for (const ZoneSystem::Pair& p : system_->pairs()) place_[p.pair] = static_cast<std::int64_t>(p.first);
     zone->unknowns_at(known.response);
@@ -30,6 +35,7 @@ bool ZoneEnergies::focus(const State& known, std::span<const std::uint8_t> wante
     const std::optional<double> energy = zone_energy(known.adhesion);
     if (!energy) return false;
     zone->ask_for_energies(allowed);
+    system_->ask_for_energies(undecided * allowed);
     // The search itself handles the gradient term, which does not depend on displacements.
     offset_ = known.ledger.energy() - gradient_energy(pairs_, known.adhesion) - *energy;
     return true;
@@ -38,6 +44,55 @@ bool ZoneEnergies::focus(const State& known, std::span<const std::uint8_t> wante
 std::optional<double> ZoneEnergies::energy(std::span<const double> adhesion) {
     const std::optional<double> energy = zone_energy(adhesion);
     return energy ? std::optional<double>(*energy + offset_) : std::nullopt;
+}
+
+bool ZoneEnergies::serves(std::span<const std::uint8_t> wanted) const {
+    std::size_t rows = 0;
+    for (std::size_t p = 0; p < wanted.size(); ++p) {
+        if (wanted[p] == 0) continue;
+        if (!inside(p)) return false;
+        rows += static_cast<std::size_t>(pairs_.dimension);
+    }
+    return system_->zone().jump_rows().size() <= 2 * rows + spare_rows;
+}
+
+// Every pair as in the nearest of the solved states that has the same adhesion there. A pair that is debonded for the
+// first time begins closed where several fronts have left it closed, and else open.
+std::vector<std::uint8_t> ZoneEnergies::start_of_contact(std::span<const double> adhesion) const {
+    std::vector<std::pair<std::int64_t, const Solved*>> nearest;
+    for (const Solved& s : solved_) {
+        std::int64_t differ = 0;
+        for (std::size_t p = 0; p < adhesion.size(); ++p) differ += s.adhesion[p] != adhesion[p] ? 1 : 0;
+        nearest.emplace_back(differ, &s);
+    }
+    std::stable_sort(nearest.begin(), nearest.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    const auto dim = static_cast<std::size_t>(pairs_.dimension);
+    std::vector<std::uint8_t> closed;
+    for (const std::size_t row : system_->contact_rows().row) {
+        const std::size_t p = index(system_->zone().jump_rows()[row]) / dim;
+        const auto same = std::find_if(nearest.begin(), nearest.end(),
+                                       [&](const auto& s) { return s.second->adhesion[p] == adhesion[p]; });
+        const auto everywhere = [&] {
+            return nearest.back().first > 2 * nearest.front().first &&
+                   std::all_of(nearest.begin(), nearest.end(), [&](const auto& s) { return s.second->closed[p] != 0; });
+        };
+        if (same != nearest.end())
+            closed.push_back(same->second->closed[p]);
+        else if (adhesion[p] > 0.0)
+            closed.push_back(nearest.front().second->closed[p]);
+        else
+            closed.push_back(everywhere() ? 1 : 0);
+    }
+    return closed;
+}
+
+void ZoneEnergies::remember(std::span<const double> adhesion, const std::vector<std::uint8_t>& closed) {
+    const auto dim = static_cast<std::size_t>(pairs_.dimension);
+    Solved solved{{adhesion.begin(), adhesion.end()}, known_closed_};
+    for (std::size_t i = 0; i < closed.size(); ++i)
+        solved.closed[index(system_->zone().jump_rows()[system_->contact_rows().row[i]]) / dim] = closed[i];
+    if (solved_.size() == most_solved) solved_.erase(solved_.begin());
+    solved_.push_back(std::move(solved));
 }
 
 std::optional<double> ZoneEnergies::zone_energy(std::span<const double> adhesion) {
@@ -54,19 +109,11 @@ std::optional<double> ZoneEnergies::zone_energy(std::span<const double> adhesion
             couplings.push_back({static_cast<std::int64_t>(z), static_cast<std::int64_t>(z), spring[z]});
     }
     system_->load(std::move(couplings), {});
-    std::vector<std::uint8_t> closed = system_->entered_closed();
-    std::int64_t nearest = std::numeric_limits<std::int64_t>::max();
-    for (const Solved& s : solved_) {
-        std::int64_t differ = 0;
-        for (std::size_t z = 0; z < spring.size(); ++z) differ += s.spring[z] != spring[z] ? 1 : 0;
-        if (differ >= nearest) continue;
-        nearest = differ;
-        closed = s.closed;
-    }
+    std::vector<std::uint8_t> closed = start_of_contact(adhesion);
     if (!find_active_set(*system_, system_->contact_rows(), closed, energy_contact_steps, false).settled)
         return std::nullopt;
-    solved_.push_back({spring, std::move(closed)});
-    double energy = system_->zone().energy_of(system_->theta(), system_->unknowns());
+    remember(adhesion, closed);
+    double energy = system_->doubt().above + system_->zone().energy_of(system_->theta(), system_->unknowns());
     const std::span<const double> jump = system_->jump();
     for (std::size_t z = 0; z < spring.size(); ++z) energy += 0.5 * spring[z] * jump[z] * jump[z];
     return energy;

@@ -15,6 +15,9 @@
 
 namespace delam {
 
+// A zone is used although it has twice the rows that are wanted, and so many more: another one would have to be chosen.
+inline constexpr std::size_t spare_rows = 128;
+
 class ZoneEnergies {
 public:
     ZoneEnergies(JumpOperator& op, const PairLaws& pairs, const ContactScene& contact)
@@ -23,12 +26,16 @@ public:
     // may differ. allowed: by how much an energy may be too high, F L. False: there is no zone for them, or no
     // equilibrium under the known load in it.
     bool focus(const State& known, std::span<const std::uint8_t> wanted, double allowed);
+    // What earlier energies have shown of contact; a search begins without it.
+    void forget() { solved_.clear(); }
     // Whether this pair may differ.
     bool inside(std::size_t pair) const { return place_[pair] >= 0; }
+    // Whether the zone in use has all of these pairs, [pairs], and is not much larger than one of their own.
+    bool serves(std::span<const std::uint8_t> wanted) const;
     // E at the known state's load and another adhesion; none: no equilibrium.
     std::optional<double> energy(std::span<const double> adhesion);
     // By how much the last energy() may be too high, F L.
-    double error() const { return system_->energy_error(); }
+    double error() const { return system_->energy_error() + system_->doubt().above + system_->doubt().below; }
     // Local jump of a pair inside the zone, in the last energy().
     std::span<const double> jump(std::size_t pair) const {
         return system_->jump().subspan(static_cast<std::size_t>(place_[pair]),
@@ -36,20 +43,23 @@ public:
     }
 
 private:
+    std::vector<std::uint8_t> start_of_contact(std::span<const double> adhesion) const;
+    void remember(std::span<const double> adhesion, const std::vector<std::uint8_t>& closed);
     std::optional<double> zone_energy(std::span<const double> adhesion);
 
     JumpOperator& op_;
     const PairLaws& pairs_;
     const ContactScene& contact_;
     std::optional<ZoneSystem> system_;
-    // What the zone has been solved for since focus(): the next contact set is searched from the nearest one.
+    // What has been solved since forget(): the next contact set is searched from the nearest one.
     struct Solved {
-        std::vector<double> spring;        // [zone rows]
-        std::vector<std::uint8_t> closed;  // [contact rows]
+        std::vector<double> adhesion;      // [pairs]
+        std::vector<std::uint8_t> closed;  // [pairs]
     };
     std::vector<Solved> solved_;
-    std::vector<std::int64_t> place_;  // [pairs] first row within the zone, -1: outside
-    double offset_ = 0.0;              // absolute energy less the zone's
+    std::vector<std::uint8_t> known_closed_;  // [pairs] of the known state
+    std::vector<std::int64_t> place_;         // [pairs] first row within the zone, -1: outside
+    double offset_ = 0.0;                     // absolute energy less the zone's
 };
 
 }  // namespace delam

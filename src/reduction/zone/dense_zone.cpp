@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.hpp"
 #include "base/numbers.hpp"
@@ -327,7 +328,7 @@ DenseZone::Solution DenseZone::solve(std::span<const double> theta, std::span<co
     if (!alpha.empty()) multiply_transposed(motion_x_, g, alpha);
     const std::vector<double> on_free = y, on_motions = alpha;
     solve_together(y, alpha, true);
-    if (bound_.empty() && updated_.changed()) {
+    if (refine_ && bound_.empty() && updated_.changed()) {
         // An updated factor leaves a residual that a new one would not. A step of refinement removes it.
         std::vector<double> left = reduce(apply(expand(y))), motions(alpha.size()), coupled(y.size());
         if (!alpha.empty()) multiply(motion_coupling_, alpha, coupled);
@@ -392,6 +393,20 @@ double DenseZone::energy_of(std::span<const double> theta, std::span<const doubl
     multiply(energy_->load, theta, load);
     multiply_symmetric(energy_->stiffness, unknowns, image);
     return 0.5 * dot(unknowns, image) - dot(unknowns, load);
+}
+
+double DenseZone::energy_of_moving(std::span<const std::size_t> rows, std::span<const double> d) const {
+    double sum = 0.0;
+    for (std::size_t j = 0; j < rows.size(); ++j) {
+        const std::int64_t unknown = plain_[rows[j]];
+        if (unknown < 0) return std::numeric_limits<double>::infinity();
+        const double* column = energy_->stiffness.value.data() + unknown * energy_->rows();
+        double force = 0.0;
+        for (std::size_t i = 0; i < rows.size(); ++i)
+            if (plain_[rows[i]] >= 0) force += column[plain_[rows[i]]] * d[i];
+        sum += 0.5 * force * d[j];
+    }
+    return sum;
 }
 
 std::vector<double> DenseZone::unknowns_at(const Response& response) const {

@@ -26,6 +26,9 @@ public:
     DenseZone(const DenseEnergy& energy, std::vector<JumpRow> rows, std::vector<std::int64_t> jump_rows,
               DenseMatrix rigid, Poll poll = {});
 
+    // An energy at its minimum needs half of the digits of its solution.
+    void ask_for_energies(double allowed) override { refine_ = !(allowed > 0.0); }
+    void begin_model() override { refine_ = true; }
     bool factor(std::span<const Coupling> couplings, std::span<const std::uint8_t> held) override;
     Solution solve(std::span<const double> theta, std::span<const double> row_force) override;
     const std::vector<std::int64_t>& jump_rows() const override { return jump_rows_; }
@@ -36,11 +39,15 @@ public:
     void complete_forces(std::span<const double> theta, const Solution& solution,
                          std::span<double> row_force) const override;
     double energy_of(std::span<const double> theta, std::span<const double> unknowns) const override;
+    double energy_of_moving(std::span<const std::size_t> rows, std::span<const double> d) const override;
     double energy_rounding() const override { return 1e-14; }
 
     const DenseEnergy& energy() const { return *energy_; }
     // What earlier solves have left, on which the last digits of the next one depend.
-    void forget() { updated_.forget(); }
+    void forget() {
+        updated_.forget();
+        refine_ = true;
+    }
     // Full factorisations so far.
     std::int64_t factorisations() const { return updated_.renewals() + bound_factors_; }
 
@@ -70,6 +77,7 @@ private:
     DenseMatrix shifted_;     // S + rho Z Z^T where Z is not empty
 
     Poll poll_;
+    bool refine_ = true;  // solutions of updated factors
     // Of the last factor():
     std::vector<std::uint8_t> held_;
     std::vector<Triplet> springs_;  // C in unknowns, sum N^T C N

@@ -9,7 +9,9 @@
 // (iterated/iterated_zone.hpp), or the bodies about a process zone with the rest at rest (iterated/local_zone.hpp).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -69,6 +71,11 @@ public:
                                  std::span<double> row_force) const = 0;
     // 1/2 x^T S x - theta^T L^T x, up to what depends on theta alone.
     virtual double energy_of(std::span<const double> theta, std::span<const double> unknowns) const = 0;
+    // 1/2 d^T S d, by which the energy changes where rows move by d on their own from a minimum of energy and springs;
+    // infinite: it is not known, or these rows cannot move on their own.
+    virtual double energy_of_moving(std::span<const std::size_t> /*rows*/, std::span<const double> /*d*/) const {
+        return std::numeric_limits<double>::infinity();
+    }
     // Of such energies: differences below this part of them are rounding.
     virtual double energy_rounding() const = 0;
 };
