@@ -17,8 +17,12 @@ constexpr std::size_t small_zone = 512;    // rows of a zone that serves all new
 
 }  // namespace
 
-std::vector<std::uint8_t> SearchRun::adhering(const Candidate& base) const {
-    return adhering_pairs(pairs(), base.adhesion, toughnesses(pairs(), base.mixity));
+const std::vector<std::uint8_t>& SearchRun::adhering(const Candidate& base) {
+    if (last_adhering.empty() || base.adhesion != last_base.adhesion || base.mixity != last_base.mixity) {
+        last_adhering = adhering_pairs(pairs(), base.adhesion, toughnesses(pairs(), base.mixity));
+        last_base = base;
+    }
+    return last_adhering;
 }
 
 double SearchRun::compare(Candidate& candidate, std::span<const std::int64_t> next, std::vector<double>* next_mixity) {
@@ -35,8 +39,7 @@ double SearchRun::compare(Candidate& candidate, std::span<const std::int64_t> ne
     return candidate.incremental;
 }
 
-std::vector<std::uint8_t> reach_of_new_cracks(const SearchRun& search, std::span<const Front> fronts,
-                                              const Candidate& base) {
+std::vector<std::uint8_t> reach_of_new_cracks(SearchRun& search, std::span<const Front> fronts, const Candidate& base) {
     const std::vector<std::uint8_t> adhering = search.adhering(base);
     std::vector<std::uint8_t> reached(adhering.size(), 0);
     for (const Front& front : fronts) {
@@ -150,8 +153,15 @@ std::size_t Sweep::middle(std::size_t low, std::size_t high) const {
     return best;
 }
 
+double Sweep::cost_of(std::size_t n) const {
+    if (search_.increment.follows_iterates()) return search_.cost(candidate(n));
+    auto known = other_cost_.find(n);
+    if (known == other_cost_.end()) known = other_cost_.emplace(n, search_.cost(candidate(n))).first;
+    return known->second;
+}
+
 double Sweep::between(std::size_t low, std::size_t high) const {
-    const double first = search_.cost(candidate(low + 1));
+    const double first = cost_of(low + 1);
     // The gradient energy is not monotone along the front; between samples its lower bound is 0.
     const double gradient =
         search_.pairs().gradient.empty() ? 0.0 : gradient_energy(search_.pairs(), candidate(high).adhesion);
@@ -240,9 +250,7 @@ std::vector<std::int64_t> Sweep::pairs_within(std::size_t n) const {
     return pairs;
 }
 
-bool Sweep::not_promising(double energy) const {
-    return energy + (1.0 - promising) * search_.cost(candidate(1)) >= search_.level;
-}
+bool Sweep::not_promising(double energy) const { return energy + (1.0 - promising) * cost_of(1) >= search_.level; }
 
 void Sweep::note_beneath(std::size_t n) {
     if (!search_.pairs().gradient.empty() || !std::isfinite(value_.at(n).incremental)) return;

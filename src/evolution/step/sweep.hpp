@@ -35,16 +35,19 @@ struct SearchRun {
 
     const PairLaws& pairs() const { return increment.pairs(); }
     double cost(const Candidate& c) const { return increment.cost(c.mixity, c.adhesion); }
-    std::vector<std::uint8_t> adhering(const Candidate& base) const;
+    const std::vector<std::uint8_t>& adhering(const Candidate& base);
     // These pairs and those that new cracks may reach, where a small zone serves both, or always.
     std::vector<std::uint8_t> with_new_cracks(std::vector<std::uint8_t> wanted, bool always) const;
     // I of a candidate; counts it. next_mixity: B that the pairs `next` show, where the mixity follows the iterates.
     double compare(Candidate& candidate, std::span<const std::int64_t> next, std::vector<double>* next_mixity);
+
+    // What adhering() has answered last.
+    Candidate last_base{};
+    std::vector<std::uint8_t> last_adhering{};
 };
 
 // SearchRun::new_cracks of these fronts.
-std::vector<std::uint8_t> reach_of_new_cracks(const SearchRun& search, std::span<const Front> fronts,
-                                              const Candidate& base);
+std::vector<std::uint8_t> reach_of_new_cracks(SearchRun& search, std::span<const Front> fronts, const Candidate& base);
 
 class Sweep {
 public:
@@ -83,15 +86,18 @@ private:
     void close_gap();
     // Lower bound of what lies strictly between two samples.
     double between(std::size_t low, std::size_t high) const;
+    // D of the rings up to n, of which a sample need not exist.
+    double cost_of(std::size_t n) const;
 
     SearchRun& search_;
     const Candidate& base_;
     std::vector<std::uint8_t> adhering_;
     std::vector<std::vector<std::int64_t>> ring_;
     bool nucleation_;
-    std::map<std::size_t, Candidate> value_;   // by rings; adhesion is left out: only I and D are needed
-    std::map<std::size_t, double> cost_;       // D
-    std::vector<std::vector<double>> mixity_;  // B of a ring, from the nearest sample before it
+    std::map<std::size_t, Candidate> value_;            // by rings; adhesion is left out: only I and D are needed
+    std::map<std::size_t, double> cost_;                // D
+    mutable std::map<std::size_t, double> other_cost_;  // where it does not depend on the samples
+    std::vector<std::vector<double>> mixity_;           // B of a ring, from the nearest sample before it
     std::size_t best_at_ = 0;
     std::size_t all_ = 0;  // rings of the front; those kept may matter and fit
     bool stopped_ = false;

@@ -40,7 +40,9 @@ DenseZone::DenseZone(const DenseEnergy& energy, std::vector<JumpRow> rows, std::
       rigid_(std::move(rigid)),
       poll_(std::move(poll)) {
     std::vector<std::uint8_t> taken(index(energy.rows()), 0);
+    rows_of_.assign(index(energy.rows()), 0);
     for (const JumpRow& row : rows_) {
+        for (const auto& [i, n] : row.unknowns) ++rows_of_[index(i)];
         const bool plain = row.offset.empty() && row.unknowns.size() == 1 && row.unknowns.front().second == 1.0 &&
                            taken[index(row.unknowns.front().first)] == 0;
         if (plain) taken[index(row.unknowns.front().first)] = 1;
@@ -399,7 +401,7 @@ double DenseZone::energy_of_moving(std::span<const std::size_t> rows, std::span<
     double sum = 0.0;
     for (std::size_t j = 0; j < rows.size(); ++j) {
         const std::int64_t unknown = plain_[rows[j]];
-        if (unknown < 0) return std::numeric_limits<double>::infinity();
+        if (unknown < 0 || rows_of_[index(unknown)] > 1) return std::numeric_limits<double>::infinity();
         const double* column = energy_->stiffness.value.data() + unknown * energy_->rows();
         double force = 0.0;
         for (std::size_t i = 0; i < rows.size(); ++i)

@@ -70,7 +70,8 @@ private:
     const DenseEnergy* energy_;
     std::vector<JumpRow> rows_;
     std::vector<std::int64_t> jump_rows_;
-    std::vector<std::int64_t> plain_;
+    std::vector<std::int64_t> plain_;    // [rows] unknown that the row is, -1: none
+    std::vector<std::int64_t> rows_of_;  // [unknowns] number of rows in which it appears
     bool with_offsets_ = false;
     DenseMatrix rigid_;       // Z
     DenseMatrix rigid_rows_;  // N Z
