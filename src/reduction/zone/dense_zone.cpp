@@ -16,6 +16,7 @@ namespace {
 
 constexpr double dependent = 1e-10;  // coefficients of dependent rows below this are rounding
 constexpr double rounded = 1e-11;    // of motion times load, which counts as rounding (measured: up to 5e-13)
+constexpr std::size_t few = 8;       // times so many bound unknowns as there are free ones are too many for updates
 constexpr double unbalanced = 1e-8;  // largest part of a load that may remain on a free motion
 
 // y = S x, cheap where few x are not zero.
@@ -154,19 +155,33 @@ bool DenseZone::factor(std::span<const Coupling> couplings, std::span<const std:
     return factor_free() && (rigid_.columns == 0 || factor_motions());
 }
 
+// From a factor in which nothing is bound, or where that is not positive definite, from one of its own.
 bool DenseZone::factor_free() {
-    if (!bound_.empty()) {
-        assemble();
-        ++bound_factors_;
-        return factor_definite(factor_, poll_);
+    const BoundUnknowns unknowns{free_, bound_, binding_};
+    by_updates_ = true;
+    if (updated_.update(matrix(), springs_, unknowns, poll_)) return updated_.definite();
+    if (bound_.empty()) {
+        assemble(unknowns);
+        return updated_.renew(factor_, springs_, free_, energy_->rows(), poll_);
     }
-    if (updated_.update(matrix(), springs_, free_, poll_)) return updated_.definite();
-    assemble();
-    return updated_.renew(factor_, springs_, free_, energy_->rows(), poll_);
+    if (few * bound_.size() < free_.size()) {
+        std::vector<std::int64_t> all(free_);
+        all.insert(all.end(), bound_.begin(), bound_.end());
+        std::sort(all.begin(), all.end());
+        const DenseMatrix none(0, static_cast<std::int64_t>(all.size()));
+        assemble({all, {}, none});
+        if (updated_.renew(factor_, springs_, all, energy_->rows(), poll_) &&
+            updated_.update(matrix(), springs_, unknowns, poll_))
+            return updated_.definite();
+    }
+    by_updates_ = false;
+    assemble(unknowns);
+    ++bound_factors_;
+    return factor_definite(factor_, poll_);
 }
 
 void DenseZone::solve_free(std::span<double> x, bool again) {
-    if (bound_.empty()) {
+    if (by_updates_) {
         updated_.solve(x, again);
         return;
     }
@@ -174,26 +189,27 @@ void DenseZone::solve_free(std::span<double> x, bool again) {
     solve_lower_transposed(factor_, x);
 }
 
-// The lower triangle of A_ff + A_fb M + M^T A_bf + M^T A_bb M, where A = S + C and bound = M free.
-void DenseZone::assemble() {
+// Into factor_: the lower triangle of A_ff + A_fb M + M^T A_bf + M^T A_bb M, where A = S + C and bound = M free.
+void DenseZone::assemble(const BoundUnknowns& unknowns) {
     const DenseMatrix& s = matrix();
-    const auto n = static_cast<std::int64_t>(free_.size()), bound = static_cast<std::int64_t>(bound_.size());
+    const std::span<const std::int64_t> free_of = unknowns.free, bound_of = unknowns.bound;
+    const auto n = static_cast<std::int64_t>(free_of.size()), bound = static_cast<std::int64_t>(bound_of.size());
     std::vector<std::int64_t> place(index(energy_->rows()), -1);  // among free, then bound
-    for (std::int64_t i = 0; i < n; ++i) place[index(free_[index(i)])] = i;
-    for (std::int64_t i = 0; i < bound; ++i) place[index(bound_[index(i)])] = n + i;
+    for (std::int64_t i = 0; i < n; ++i) place[index(free_of[index(i)])] = i;
+    for (std::int64_t i = 0; i < bound; ++i) place[index(bound_of[index(i)])] = n + i;
 
     factor_.rows = factor_.columns = n;  // in the memory of an earlier one; its upper triangle is not set
     factor_.value.resize(index(n * n));
     for (std::int64_t j = 0; j < n; ++j) {
-        const double* column = s.value.data() + free_[index(j)] * s.rows;
+        const double* column = s.value.data() + free_of[index(j)] * s.rows;
         double* out = factor_.value.data() + j * n;
-        for (std::int64_t i = j; i < n; ++i) out[i] = column[free_[index(i)]];
+        for (std::int64_t i = j; i < n; ++i) out[i] = column[free_of[index(i)]];
     }
     DenseMatrix cross(bound, n), corner(bound, bound);  // A_bf, A_bb
     for (std::int64_t j = 0; j < bound; ++j) {
-        const double* column = s.value.data() + bound_[index(j)] * s.rows;
-        for (std::int64_t i = 0; i < n; ++i) cross(j, i) = column[free_[index(i)]];
-        for (std::int64_t i = 0; i < bound; ++i) corner(i, j) = column[bound_[index(i)]];
+        const double* column = s.value.data() + bound_of[index(j)] * s.rows;
+        for (std::int64_t i = 0; i < n; ++i) cross(j, i) = column[free_of[index(i)]];
+        for (std::int64_t i = 0; i < bound; ++i) corner(i, j) = column[bound_of[index(i)]];
     }
     for (const Triplet& t : springs_) {
         const std::int64_t i = place[index(t.row)], j = place[index(t.column)];
@@ -206,9 +222,9 @@ void DenseZone::assemble() {
             corner(i - n, j - n) += t.value;
     }
     if (bound == 0) return;
-    DenseMatrix half = multiply(corner, binding_);
+    DenseMatrix half = multiply(corner, unknowns.binding);
     for (std::size_t i = 0; i < half.value.size(); ++i) half.value[i] = 0.5 * half.value[i] + cross.value[i];
-    const DenseMatrix product = multiply_transposed(binding_, half);
+    const DenseMatrix product = multiply_transposed(unknowns.binding, half);
     for (std::int64_t j = 0; j < n; ++j)
         for (std::int64_t i = j; i < n; ++i) factor_(i, j) += product(i, j) + product(j, i);
 }
@@ -330,7 +346,7 @@ DenseZone::Solution DenseZone::solve(std::span<const double> theta, std::span<co
     if (!alpha.empty()) multiply_transposed(motion_x_, g, alpha);
     const std::vector<double> on_free = y, on_motions = alpha;
     solve_together(y, alpha, true);
-    if (refine_ && bound_.empty() && updated_.changed()) {
+    if (refine_ && by_updates_ && updated_.changed()) {
         // An updated factor leaves a residual that a new one would not. A step of refinement removes it.
         std::vector<double> left = reduce(apply(expand(y))), motions(alpha.size()), coupled(y.size());
         if (!alpha.empty()) multiply(motion_coupling_, alpha, coupled);

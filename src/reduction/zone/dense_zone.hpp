@@ -54,7 +54,7 @@ public:
 private:
     void hold(std::span<const std::uint8_t> held);
     const DenseMatrix& matrix() const { return rigid_.columns > 0 ? shifted_ : energy_->stiffness; }
-    void assemble();
+    void assemble(const BoundUnknowns& unknowns);
     bool factor_free();
     // again: the next solve may be of the same load.
     void solve_free(std::span<double> x, bool again);
@@ -88,8 +88,9 @@ private:
     std::vector<std::int64_t> bound_;       // unknowns that these fix
     DenseMatrix binding_;                   // M: bound = M free (+ offsets)
     DenseMatrix operations_;                // echelon: [bound][bound_rows]
-    UpdatedFactor updated_;                 // of the free unknowns where none is bound
-    DenseMatrix factor_;                    // where some are
+    UpdatedFactor updated_;
+    bool by_updates_ = true;  // false: the matrix of the free unknowns has a factor of its own
+    DenseMatrix factor_;      // that one; else memory for the next matrix
     std::int64_t bound_factors_ = 0;
     Combinations motions_;
     DenseMatrix motion_y_, motion_x_;  // Y (what y must do), X = Z + Y

@@ -33,6 +33,12 @@ std::vector<Triplet> sorted_sums(std::vector<Triplet> springs) {
     return springs;
 }
 
+// Does this free unknown determine a bound one?
+bool binds(const DenseMatrix& binding, std::size_t free) {
+    const auto column = std::span<const double>(binding.value).subspan(free * index(binding.rows), index(binding.rows));
+    return std::any_of(column.begin(), column.end(), [](double m) { return m != 0.0; });
+}
+
 }  // namespace
 
 bool UpdatedFactor::renew(DenseMatrix& a, const std::vector<Triplet>& springs, std::span<const std::int64_t> free,
@@ -55,26 +61,32 @@ bool UpdatedFactor::renew(DenseMatrix& a, const std::vector<Triplet>& springs, s
     free_ = unknowns_;
     k_.clear();
     b_.clear();
+    small_free_.clear();
+    small_bound_.clear();
     touched_ = 0;
     valid_ = true;
     return true;
 }
 
-UpdatedFactor::Change UpdatedFactor::compare(const std::vector<Triplet>& springs, std::span<const std::int64_t> free) {
+UpdatedFactor::Change UpdatedFactor::compare(const std::vector<Triplet>& springs, const BoundUnknowns& unknowns) {
     Change change;
     std::vector<std::uint8_t> now(place_.size(), 0), marked(place_.size(), 0);
-    for (const std::int64_t i : free) {
-        now[index(i)] = 1;
-        if (place_[index(i)] < 0) change.fresh.push_back(i);
-    }
+    for (const auto& set : {unknowns.free, unknowns.bound})
+        for (const std::int64_t i : set) {
+            now[index(i)] = 1;
+            if (place_[index(i)] < 0) change.fresh.push_back(i);
+        }
+    std::sort(change.fresh.begin(), change.fresh.end());
+    for (const std::int64_t i : unknowns.bound) marked[index(i)] = 1;
+    for (std::size_t j = 0; j < unknowns.free.size() && !unknowns.bound.empty(); ++j)
+        if (binds(unknowns.binding, j)) marked[index(unknowns.free[j])] = 1;
     for (const std::int64_t i : unknowns_)
         if (now[index(i)] == 0) change.held.push_back(i);
     const std::vector<Triplet> next = sorted_sums(springs);
     const auto differ = [&](const Triplet& at, double value) {
         if (value == 0.0 || now[index(at.row)] == 0 || now[index(at.column)] == 0) return;
         change.spring.push_back({at.row, at.column, value});
-        for (const std::int64_t i : {at.row, at.column})
-            if (place_[index(i)] >= 0) marked[index(i)] = 1;
+        marked[index(at.row)] = marked[index(at.column)] = 1;
     };
     auto old = springs_.begin();
     for (const Triplet& t : next) {
@@ -150,7 +162,7 @@ void UpdatedFactor::add_columns(const DenseMatrix& stiffness, const Change& chan
 
 // The small matrix, factored: [G^-1_UU, (G^-1 H)_UB; ., S_BB - S_B0 A0^-1 S_0B + H^T G^-1 H] and the springs. False:
 // the flexibility has no digits.
-bool UpdatedFactor::condense(const DenseMatrix& stiffness, const Change& change) {
+bool UpdatedFactor::condense(const DenseMatrix& stiffness, const Change& change, const BoundUnknowns& unknowns) {
     const auto k = static_cast<std::int64_t>(k_.size()), b = static_cast<std::int64_t>(b_.size()),
                u = static_cast<std::int64_t>(change.touched.size());
     const auto at = [&](std::int64_t unknown) { return column_of_[index(unknown)]; };
@@ -177,25 +189,84 @@ bool UpdatedFactor::condense(const DenseMatrix& stiffness, const Change& change)
     for (std::int64_t i = 0; i < u; ++i) row[index(k_[index(i)])] = i;
     for (std::int64_t i = 0; i < b; ++i) row[index(b_[index(i)])] = u + i;
     for (const Triplet& t : change.spring) small_(row[index(t.row)], row[index(t.column)]) += t.value;
+    bind(unknowns, row);
     definite_ = factor_definite(small_);
     return true;
 }
 
+// The small matrix without the bound unknowns: S_ff + S_fb M + M^T S_bf + M^T S_bb M. row: of each unknown, -1: none.
+void UpdatedFactor::bind(const BoundUnknowns& unknowns, std::span<const std::int64_t> row) {
+    small_free_.clear();
+    small_bound_.clear();
+    if (unknowns.bound.empty()) return;
+    std::vector<std::uint8_t> is_bound(index(small_.rows), 0);
+    for (const std::int64_t i : unknowns.bound) {
+        small_bound_.push_back(row[index(i)]);
+        is_bound[index(row[index(i)])] = 1;
+    }
+    std::vector<std::int64_t> place(is_bound.size(), -1);
+    for (std::int64_t i = 0; i < small_.rows; ++i) {
+        if (is_bound[index(i)] != 0) continue;
+        place[index(i)] = static_cast<std::int64_t>(small_free_.size());
+        small_free_.push_back(i);
+    }
+    const auto bound = static_cast<std::int64_t>(small_bound_.size()),
+               free = static_cast<std::int64_t>(small_free_.size());
+    small_binding_ = DenseMatrix(bound, free);
+    for (std::size_t j = 0; j < unknowns.free.size(); ++j) {
+        if (!binds(unknowns.binding, j)) continue;
+        for (std::int64_t i = 0; i < bound; ++i)
+            small_binding_(i, place[index(row[index(unknowns.free[j])])]) =
+                unknowns.binding(i, static_cast<std::int64_t>(j));
+    }
+    mirror_lower(small_);
+    const DenseMatrix all = std::move(small_);
+    DenseMatrix corner(bound, bound);
+    for (std::int64_t j = 0; j < bound; ++j)
+        for (std::int64_t i = 0; i < bound; ++i)
+            corner(i, j) = 0.5 * all(small_bound_[index(i)], small_bound_[index(j)]);
+    DenseMatrix half = multiply(corner, small_binding_);
+    for (std::int64_t j = 0; j < free; ++j)
+        for (std::int64_t i = 0; i < bound; ++i) half(i, j) += all(small_bound_[index(i)], small_free_[index(j)]);
+    const DenseMatrix product = multiply_transposed(small_binding_, half);
+    small_ = DenseMatrix(free, free);
+    for (std::int64_t j = 0; j < free; ++j)
+        for (std::int64_t i = j; i < free; ++i)
+            small_(i, j) = all(small_free_[index(i)], small_free_[index(j)]) + product(i, j) + product(j, i);
+}
+
 bool UpdatedFactor::update(const DenseMatrix& stiffness, const std::vector<Triplet>& springs,
-                           std::span<const std::int64_t> free, const Poll& poll) {
+                           const BoundUnknowns& unknowns, const Poll& poll) {
     if (!valid_) return false;
-    const Change change = compare(springs, free);
-    const auto n = static_cast<double>(free.size());
+    const Change change = compare(springs, unknowns);
+    const auto n = static_cast<double>(unknowns.free.size() + unknowns.bound.size());
     const double more = cost(change);
     if (spent_ + more + handling > n * n * n / 3.0 || hides(stiffness, change)) return false;
     spent_ += more;
     add_columns(stiffness, change, poll);
-    free_.assign(free.begin(), free.end());
+    free_.assign(unknowns.free.begin(), unknowns.free.end());
     k_ = change.touched;
     k_.insert(k_.end(), change.held.begin(), change.held.end());
     b_ = change.fresh;
     touched_ = static_cast<std::int64_t>(change.touched.size());
-    return condense(stiffness, change);
+    return condense(stiffness, change, unknowns);
+}
+
+void UpdatedFactor::solve_small(std::vector<double>& small) const {
+    if (small_bound_.empty()) {
+        solve_lower(small_, small);
+        solve_lower_transposed(small_, small);
+        return;
+    }
+    std::vector<double> free(small_free_.size()), bound(small_bound_.size());
+    for (std::size_t i = 0; i < bound.size(); ++i) bound[i] = small[index(small_bound_[i])];
+    multiply_transposed(small_binding_, bound, free);
+    for (std::size_t i = 0; i < free.size(); ++i) free[i] += small[index(small_free_[i])];
+    solve_lower(small_, free);
+    solve_lower_transposed(small_, free);
+    multiply(small_binding_, free, bound);
+    for (std::size_t i = 0; i < free.size(); ++i) small[index(small_free_[i])] = free[i];
+    for (std::size_t i = 0; i < bound.size(); ++i) small[index(small_bound_[i])] = bound[i];
 }
 
 // With x_K - x_K* + H x_B = G mu:   L^T x_0 = L^-1 g - Y_B x_B + Y_K mu.
@@ -226,8 +297,7 @@ void UpdatedFactor::solve(std::span<double> x, bool again) {
         std::copy_n(q.begin(), u, small.begin());
         for (std::size_t i = 0; i < b; ++i)
             small[u + i] = other[index(b_[i])] - on[index(column_of_[index(b_[i])])] + carried[i];
-        solve_lower(small_, small);
-        solve_lower_transposed(small_, small);
+        solve_small(small);
         std::copy_n(small.begin() + static_cast<std::ptrdiff_t>(u), b, fresh.begin());
         multiply(through_, fresh, moved);
         for (std::size_t i = 0; i < k; ++i) moved[i] += (i < u ? small[i] : 0.0) - star[i];

@@ -11,6 +11,10 @@
 // springs on U and B are added, and x_R = 0. By Haynsworth's theorem (Linear Algebra Appl. 1, 1968) A is positive
 // definite where A0 and this small matrix are. Columns L^-1 e_i and L^-1 S_0b are computed when they are first needed
 // and kept as long as the reference; a new one is made when the updates have cost as much.
+//
+// Held rows that express some unknowns by others, x_b = M x_f, add all unknowns of these rows to U, with springs that
+// have not changed, and are then eliminated in the small matrix: A restricted to them is positive definite where the
+// small matrix is on the null space of the rows.
 #pragma once
 
 #include <cstdint>
@@ -23,14 +27,20 @@
 
 namespace delam {
 
+// Unknowns of a system: those that are solved for, ascending, and those that they determine, bound = M free.
+struct BoundUnknowns {
+    std::span<const std::int64_t> free, bound;
+    const DenseMatrix& binding;  // M
+};
+
 class UpdatedFactor {
 public:
-    // The matrix with these springs [symmetric] and free unknowns [ascending], from the reference. False: there is
-    // none, a new one is cheaper, or digits would be lost; then renew. stiffness: S, the same as for the reference.
-    bool update(const DenseMatrix& stiffness, const std::vector<Triplet>& springs, std::span<const std::int64_t> free,
+    // The matrix with these springs [symmetric] and unknowns, from the reference. False: there is none, a new one is
+    // cheaper, or digits would be lost; then renew. stiffness: S, the same as for the reference.
+    bool update(const DenseMatrix& stiffness, const std::vector<Triplet>& springs, const BoundUnknowns& unknowns,
                 const Poll& poll);
-    // Makes the reference of A, [free] with its lower triangle set, in its memory; a: that of an earlier one. False: A
-    // is not positive definite, and the reference is the one before.
+    // Makes the reference of A, [free] with its lower triangle set, where none is bound, in its memory; a: that of an
+    // earlier one. False: A is not positive definite, and the reference is the one before.
     bool renew(DenseMatrix& a, const std::vector<Triplet>& springs, std::span<const std::int64_t> free,
                std::int64_t all, const Poll& poll);
     void forget() { valid_ = false; }
@@ -49,12 +59,14 @@ private:
         std::vector<std::int64_t> touched, held, fresh;  // U, R, B
         std::vector<Triplet> spring;                     // among U and B
     };
-    Change compare(const std::vector<Triplet>& springs, std::span<const std::int64_t> free);
+    Change compare(const std::vector<Triplet>& springs, const BoundUnknowns& unknowns);
     // A stiff spring hides the digits of the bodies that would remain without it.
     bool hides(const DenseMatrix& stiffness, const Change& change) const;
     double cost(const Change& change) const;
     void add_columns(const DenseMatrix& stiffness, const Change& change, const Poll& poll);
-    bool condense(const DenseMatrix& stiffness, const Change& change);
+    bool condense(const DenseMatrix& stiffness, const Change& change, const BoundUnknowns& unknowns);
+    void bind(const BoundUnknowns& unknowns, std::span<const std::int64_t> row);
+    void solve_small(std::vector<double>& small) const;
 
     // The reference.
     bool valid_ = false;
@@ -70,12 +82,14 @@ private:
     // The present matrix.
     bool definite_ = false;
     std::vector<std::int64_t> free_;
-    std::vector<std::int64_t> k_, b_;    // unknowns: U then R; B
-    std::int64_t touched_ = 0;           // size of U
-    DenseMatrix inverse_;                // G^-1
-    DenseMatrix through_;                // H
-    DenseMatrix small_;                  // factor of the small matrix
-    std::vector<double> load_, loaded_;  // on the reference, and L^-1 of it: contact changes neither
+    std::vector<std::int64_t> k_, b_;  // unknowns: U then R; B
+    std::int64_t touched_ = 0;         // size of U
+    DenseMatrix inverse_;              // G^-1
+    DenseMatrix through_;              // H
+    DenseMatrix small_;                // factor of the small matrix, in its unknowns that are not bound
+    std::vector<std::int64_t> small_free_, small_bound_;  // rows of the small matrix
+    DenseMatrix small_binding_;                           // M among them
+    std::vector<double> load_, loaded_;                   // on the reference, and L^-1 of it: contact changes neither
     std::int64_t renewals_ = 0;
 };
 
