@@ -164,7 +164,7 @@ bool DenseZone::factor_free() {
         assemble(unknowns);
         return updated_.renew(factor_, springs_, free_, energy_->rows(), poll_);
     }
-    if (few * bound_.size() < free_.size()) {
+    if (few * bound_.size() < free_.size() && UpdatedFactor::pays(free_.size())) {
         std::vector<std::int64_t> all(free_);
         all.insert(all.end(), bound_.begin(), bound_.end());
         std::sort(all.begin(), all.end());

@@ -235,6 +235,11 @@ void UpdatedFactor::bind(const BoundUnknowns& unknowns, std::span<const std::int
             small_(i, j) = all(small_free_[index(i)], small_free_[index(j)]) + product(i, j) + product(j, i);
 }
 
+bool UpdatedFactor::pays(std::size_t unknowns) {
+    const auto n = static_cast<double>(unknowns);
+    return handling <= n * n * n / 3.0;
+}
+
 bool UpdatedFactor::update(const DenseMatrix& stiffness, const std::vector<Triplet>& springs,
                            const BoundUnknowns& unknowns, const Poll& poll) {
     if (!valid_) return false;

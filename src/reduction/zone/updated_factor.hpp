@@ -35,6 +35,8 @@ struct BoundUnknowns {
 
 class UpdatedFactor {
 public:
+    // Can an update of so many unknowns be cheaper than a new factor?
+    static bool pays(std::size_t unknowns);
     // The matrix with these springs [symmetric] and unknowns, from the reference. False: there is none, a new one is
     // cheaper, or digits would be lost; then renew. stiffness: S, the same as for the reference.
     bool update(const DenseMatrix& stiffness, const std::vector<Triplet>& springs, const BoundUnknowns& unknowns,
