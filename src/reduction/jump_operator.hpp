@@ -104,7 +104,7 @@ public:
     // A local dense system about the wanted rows [rows], with everything else minimised out at these springs, for
     // minimisers that change springs and contact there. It is valid until the next call of zone(), solve() or recall().
     // Null: none this time, or never (offers_zone() is false). tight: do not use an existing zone that is much larger
-    // than necessary, and choose no larger one.
+    // than necessary.
     virtual bool offers_zone() const { return false; }
     // Every zone has all rows, and what it costs does not depend on those that are wanted.
     virtual bool zone_is_whole() const { return false; }

@@ -238,10 +238,11 @@ CASE_TEST(every_scene) {
 struct Constrained {
     const char* name;
     // J/m2, so small that pairs soften and so large that some adhere in the end and no front leaves the symmetry of its
-    // scene: "unglued 3D" with 0.001 has two mirrored states of equal energy.
+    // scene: "unglued 3D" with 0.001 has two mirrored states of equal energy. And no step decides by rounding whether
+    // its pairs have one mode: in "means 3D" with 0.01 their toughness spreads by 0.1 %, which is the limit.
     double onset;
 };
-const Constrained constrained[] = {{"means", 0.01},     {"bound jumps", 1.0}, {"bound slip", 1.0},
+const Constrained constrained[] = {{"means", 0.012},    {"bound jumps", 1.0}, {"bound slip", 1.0},
                                    {"nose", 0.03},      {"lever", 0.03},      {"rigid end", 0.01},
                                    {"chains", 0.3},     {"periodic", 0.1},    {"periodic, dead force", 0.1},
                                    {"unglued", 0.0015}, {"unmatched", 0.1},   {"unmatched, periodic", 0.1},

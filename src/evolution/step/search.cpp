@@ -237,8 +237,7 @@ SearchResult Search::run(const Increment& increment, const State& from, std::spa
     trials.run();
     result.starts = trials.take_found();
     result.energies = energies.memory();
-    if (result.error > 0.0)
-        result.words += text("energies of candidates are too high by at most ", result.error, "\n");
+    if (result.error > 0.0) result.words += text("energies of candidates are too high by at most ", result.error, "\n");
     return result;
 }
 

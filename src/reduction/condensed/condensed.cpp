@@ -120,7 +120,7 @@ std::vector<std::uint8_t> Condensed::grown(std::vector<std::uint8_t> set, std::s
 }
 
 // Margins, so that a front may advance for a while before the zone has to follow.
-void Condensed::choose(const Springs& springs, std::span<const std::uint8_t> wanted, bool tight) {
+void Condensed::choose(const Springs& springs, std::span<const std::uint8_t> wanted) {
     const std::size_t unknowns = always_.size();
     std::vector<std::uint8_t> set(always_);
     std::vector<double> now(unknowns);
@@ -131,15 +131,8 @@ void Condensed::choose(const Springs& springs, std::span<const std::uint8_t> wan
         const double body = bulk_->diagonal(static_cast<std::int64_t>(i));
         if (age_[i] < forgotten || (now[i] > 0.0 && now[i] < weak * body)) set[i] = 1;
     }
-    if (tight && count(set) > small) {
-        std::copy(always_.begin(), always_.end(), set.begin());
-        for (std::size_t i = 0; i < unknowns; ++i)
-            if (wanted[i] != 0 || (now[i] > 0.0 && now[i] < weak * bulk_->diagonal(static_cast<std::int64_t>(i))))
-                set[i] = 1;
-    }
     const std::size_t needed = count(set);
-    if (expected_.empty() && (!tight || needed <= small))
-        set = grown(std::move(set), needed + std::max<std::size_t>(16, needed / 5));
+    if (expected_.empty()) set = grown(std::move(set), needed + std::max<std::size_t>(16, needed / 5));
     for (std::size_t i = 0; i < expected_.size(); ++i)
         if (expected_[i] != 0) set[i] = 1;
     // From here to the end of condense() there is no zone: an interrupted choice is never taken for a valid one.
@@ -220,7 +213,7 @@ DenseZone* Condensed::zone(const Springs& springs, std::span<const std::uint8_t>
         if (zone_ != nullptr)
             for (std::size_t i = 0; i < unknowns.size(); ++i)
                 if (inside_[i] == 0 && spring_[i] != spring_of(springs, i)) unknowns[i] = 1;
-        choose(springs, unknowns, tight);
+        choose(springs, unknowns);
     }
     return zone_.get();
 }

@@ -58,7 +58,7 @@ private:
     Choice parse(std::span<const double> memory) const;
     Poll poll();
     bool covers(const Springs& springs) const;
-    void choose(const Springs& springs, std::span<const std::uint8_t> wanted, bool tight = false);
+    void choose(const Springs& springs, std::span<const std::uint8_t> wanted);
     void condense();
     std::vector<std::uint8_t> grown(std::vector<std::uint8_t> set, std::size_t count) const;
     std::vector<double> skeleton_of(std::span<const double> theta, const Zone::Solution* solution) const;
