@@ -131,6 +131,7 @@ void Condensed::choose(const Springs& springs, std::span<const std::uint8_t> wan
         const double body = bulk_->diagonal(static_cast<std::int64_t>(i));
         if (age_[i] < forgotten || (now[i] > 0.0 && now[i] < weak * body)) set[i] = 1;
     }
+    if (!expected_.empty() && floats_without(expected_, now)) expected_.clear();
     const std::size_t needed = count(set);
     if (expected_.empty()) set = grown(std::move(set), needed + std::max<std::size_t>(16, needed / 5));
     for (std::size_t i = 0; i < expected_.size(); ++i)
@@ -140,6 +141,16 @@ void Condensed::choose(const Springs& springs, std::span<const std::uint8_t> wan
     spring_ = std::move(now);
     inside_ = std::move(set);
     condense();
+}
+
+// Do bodies float without these unknowns, at these springs? Where nothing but contact holds them, held rows that enter
+// the zone one by one find their motions with more digits: 16 plies lifted off each other did not settle in one zone.
+bool Condensed::floats_without(std::span<const std::uint8_t> unknowns, std::span<const double> springs) const {
+    const DenseMatrix& rigid = bulk_->rigid();
+    if (rigid.columns == 0) return false;
+    std::vector<std::uint8_t> active(springs.size());
+    for (std::size_t i = 0; i < active.size(); ++i) active[i] = unknowns[i] == 0 && springs[i] != 0.0 ? 1 : 0;
+    return split_motions(rigid, active).free.columns > 0;
 }
 
 // The zone at the present choice.
@@ -219,12 +230,11 @@ DenseZone* Condensed::zone(const Springs& springs, std::span<const std::uint8_t>
 }
 
 // A zone of all of them, where its factor costs less than choosing zones anew. The unknowns that have changed in it are
-// no reason to stay in later ones. Where bodies float, held rows that enter one by one find their motions with more
-// digits: 16 plies that are lifted off each other did not settle in one zone.
+// no reason to stay in later ones.
 void Condensed::expect_changes(std::span<const std::size_t> rows) {
     unmet_ = false;
     expected_.clear();
-    if (rows.empty() || bulk_->rigid().columns > 0) return;
+    if (rows.empty()) return;
     expected_.assign(always_.size(), 0);
     for (const std::size_t r : rows)
         for (const auto& [i, n] : bulk_->rows()[r].unknowns) expected_[index(i)] = 1;
