@@ -165,7 +165,7 @@ const CandidateEnergy& CandidateEnergies::at(const std::vector<double>& adhesion
     monitor_.progress("search", candidates, 0);
     CandidateEnergy e{infinite, 0.0, {next.begin(), next.end()}, {}};
     if (!wanted_.empty()) {
-        focused_ = zone_->focus(from_, wanted_, allowed_);
+        focused_ = zone_->focus(from_, wanted_, allowed_, follow_mixity_);
         wanted_.clear();
     }
     if (within_zone(adhesion, next))

@@ -12,6 +12,7 @@ namespace delam {
 namespace {
 
 constexpr std::size_t fine = 8;            // rings that are all sampled; of longer sweeps about as many
+constexpr std::size_t fine_mixity = 16;    // where the mixity of a ring is that of the sample before it
 constexpr std::size_t largest_crack = 32;  // rings of a new crack, and of the zone about it
 constexpr std::size_t small_zone = 512;    // rows of a zone that serves all new cracks
 
@@ -266,8 +267,9 @@ bool Sweep::settled_by_a_larger_one(std::size_t n) const {
 
 // Rings far apart, at positions that do not move with the front.
 void Sweep::sample_coarsely() {
+    const std::size_t most = search_.increment.follows_iterates() ? fine_mixity : fine;
     std::size_t stride = 1;
-    while (ring_.size() / stride > fine) stride *= 2;
+    while (ring_.size() / stride > most) stride *= 2;
     for (std::size_t n = 1; n <= ring_.size(); ++n) {
         if (n > 2 && place(n) % stride != 0 && n < ring_.size()) continue;
         if (search_.left <= 0) {

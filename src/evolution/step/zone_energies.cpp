@@ -18,7 +18,7 @@ constexpr std::size_t most_solved = 64;  // contact sets that are remembered
 
 }  // namespace
 
-bool ZoneEnergies::focus(const State& known, std::span<const std::uint8_t> wanted, double allowed) {
+bool ZoneEnergies::focus(const State& known, std::span<const std::uint8_t> wanted, double allowed, bool with_jumps) {
     const auto dim = static_cast<std::size_t>(pairs_.dimension);
     Springs springs{spring_stiffness(pairs_, known.adhesion), held_rows(contact_, known.closed)};
     std::vector<std::uint8_t> rows;
@@ -35,7 +35,7 @@ bool ZoneEnergies::focus(const State& known, std::span<const std::uint8_t> wante
     const std::optional<double> energy = zone_energy(known.adhesion);
     if (!energy) return false;
     zone->ask_for_energies(allowed);
-    system_->ask_for_energies(undecided * allowed);
+    system_->ask_for_energies(with_jumps ? 0.0 : undecided * allowed);
     // The search itself handles the gradient term, which does not depend on displacements.
     offset_ = known.ledger.energy() - gradient_energy(pairs_, known.adhesion) - *energy;
     return true;

@@ -23,9 +23,10 @@ public:
     ZoneEnergies(JumpOperator& op, const PairLaws& pairs, const ContactScene& contact)
         : op_(op), pairs_(pairs), contact_(contact) {}
     // known: a state with displacements and booked energy, which must outlive the following calls. wanted: [pairs] that
-    // may differ. allowed: by how much an energy may be too high, F L. False: there is no zone for them, or no
-    // equilibrium under the known load in it.
-    bool focus(const State& known, std::span<const std::uint8_t> wanted, double allowed);
+    // may differ. allowed: by how much an energy may be too high, F L. with_jumps: its jumps are wanted, too, which
+    // contact must not be left undecided for. False: there is no zone for them, or no equilibrium under the known load
+    // in it.
+    bool focus(const State& known, std::span<const std::uint8_t> wanted, double allowed, bool with_jumps);
     // What earlier energies have shown of contact; a search begins without it.
     void forget() { solved_.clear(); }
     // Whether this pair may differ.

@@ -131,7 +131,7 @@ void Condensed::choose(const Springs& springs, std::span<const std::uint8_t> wan
         const double body = bulk_->diagonal(static_cast<std::int64_t>(i));
         if (age_[i] < forgotten || (now[i] > 0.0 && now[i] < weak * body)) set[i] = 1;
     }
-    if (!expected_.empty() && floats_without(expected_, now)) expected_.clear();
+    if (!expected_.empty() && floats_unless_held(expected_, now)) expected_.clear();
     const std::size_t needed = count(set);
     if (expected_.empty()) set = grown(std::move(set), needed + std::max<std::size_t>(16, needed / 5));
     for (std::size_t i = 0; i < expected_.size(); ++i)
@@ -143,13 +143,15 @@ void Condensed::choose(const Springs& springs, std::span<const std::uint8_t> wan
     condense();
 }
 
-// Do bodies float without these unknowns, at these springs? Where nothing but contact holds them, held rows that enter
-// the zone one by one find their motions with more digits: 16 plies lifted off each other did not settle in one zone.
-bool Condensed::floats_without(std::span<const std::uint8_t> unknowns, std::span<const double> springs) const {
+// Do bodies float unless these unknowns are held, at these springs? Where nothing but contact holds them, held rows
+// that enter the zone one by one find their motions with more digits: 16 plies lifted off each other did not settle in
+// one zone.
+bool Condensed::floats_unless_held(std::span<const std::uint8_t> unknowns, std::span<const double> springs) const {
     const DenseMatrix& rigid = bulk_->rigid();
     if (rigid.columns == 0) return false;
     std::vector<std::uint8_t> active(springs.size());
-    for (std::size_t i = 0; i < active.size(); ++i) active[i] = unknowns[i] == 0 && springs[i] != 0.0 ? 1 : 0;
+    for (std::size_t i = 0; i < active.size(); ++i)
+        active[i] = springs[i] > 0.0 || (springs[i] < 0.0 && unknowns[i] == 0) ? 1 : 0;
     return split_motions(rigid, active).free.columns > 0;
 }
 

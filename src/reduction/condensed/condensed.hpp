@@ -59,7 +59,7 @@ private:
     Poll poll();
     bool covers(const Springs& springs) const;
     void choose(const Springs& springs, std::span<const std::uint8_t> wanted);
-    bool floats_without(std::span<const std::uint8_t> unknowns, std::span<const double> springs) const;
+    bool floats_unless_held(std::span<const std::uint8_t> unknowns, std::span<const double> springs) const;
     void condense();
     std::vector<std::uint8_t> grown(std::vector<std::uint8_t> set, std::size_t count) const;
     std::vector<double> skeleton_of(std::span<const double> theta, const Zone::Solution* solution) const;
