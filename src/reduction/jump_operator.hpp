@@ -104,7 +104,7 @@ public:
     // A local dense system about the wanted rows [rows], with everything else minimised out at these springs, for
     // minimisers that change springs and contact there. It is valid until the next call of zone(), solve() or recall().
     // Null: none this time, or never (offers_zone() is false). tight: do not use an existing zone that is much larger
-    // than necessary.
+    // than necessary, and choose no larger one.
     virtual bool offers_zone() const { return false; }
     // Every zone has all rows, and what it costs does not depend on those that are wanted.
     virtual bool zone_is_whole() const { return false; }
@@ -114,7 +114,13 @@ public:
     virtual Zone* zone(const Springs& /*springs*/, std::span<const std::uint8_t> /*wanted*/, bool /*tight*/) {
         return nullptr;
     }
-    // The same with only the bodies about the wanted rows free, and all else where the response has it: what lowers
+    // The response of all bodies to a solution of the last zone(). springs: those of the solution, and outside the zone
+    // those of its choice. False: not set, because zones are whole.
+    virtual bool complete(const Springs& /*springs*/, std::span<const double> /*theta*/,
+                          const Zone::Solution& /*solution*/, Response& /*response*/) const {
+        return false;
+    }
+    // As zone(), with only the bodies about the wanted rows free, and all else where the response has it: what lowers
     // the energy there lowers that of the whole. Null: that is not much cheaper, or not offered.
     virtual Zone* part(std::span<const double> /*theta*/, const Response& /*response*/,
                        std::span<const std::uint8_t> /*wanted*/) {

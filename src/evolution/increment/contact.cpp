@@ -110,13 +110,17 @@ struct ResponseSystem {
 
 }  // namespace
 
-bool contact_settled(const JumpOperator& op, const ContactScene& scene, std::span<const double> theta,
-                     std::span<const std::uint8_t> closed, const Response& response) {
+std::vector<std::size_t> pairs_on_the_wrong_side(const JumpOperator& op, const ContactScene& scene,
+                                                 std::span<const double> theta, std::span<const std::uint8_t> closed,
+                                                 const Response& response) {
     const auto dim = static_cast<std::size_t>(scene.dimension);
     const ContactRows rows = contact_rows(scene, op.prescribed_rows(), false);
     std::vector<std::uint8_t> set;
     for (const std::size_t row : rows.row) set.push_back(closed[row / dim]);
-    return contact_violators(ResponseSystem{scene, theta, response}, rows, set, rows.least).empty();
+    std::vector<std::size_t> pairs;
+    for (const std::size_t i : contact_violators(ResponseSystem{scene, theta, response}, rows, set, rows.least))
+        pairs.push_back(rows.row[i] / dim);
+    return pairs;
 }
 
 std::vector<std::uint8_t> held_rows(const ContactScene& scene, std::span<const std::uint8_t> closed) {

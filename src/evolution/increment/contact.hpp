@@ -60,8 +60,10 @@ ContactResult solve_contact(JumpOperator& op, const ContactScene& scene, std::sp
                             std::span<const double> theta, std::vector<std::uint8_t>& closed, Response& response,
                             bool cold, std::span<const double> row_force = {});
 
-// Is the contact set that of this response, as far as rounding lets it be known?
-bool contact_settled(const JumpOperator& op, const ContactScene& scene, std::span<const double> theta,
-                     std::span<const std::uint8_t> closed, const Response& response);
+// Pairs that this response shows on the wrong side of contact, ascending; empty: the contact set is its own, as far as
+// rounding lets it be known.
+std::vector<std::size_t> pairs_on_the_wrong_side(const JumpOperator& op, const ContactScene& scene,
+                                                 std::span<const double> theta, std::span<const std::uint8_t> closed,
+                                                 const Response& response);
 
 }  // namespace delam

@@ -2,6 +2,7 @@
 #include "evolution/increment/zone_system.hpp"
 
 #include <limits>
+#include <utility>
 
 #include "base/numbers.hpp"
 
@@ -83,20 +84,17 @@ ContactSolve ZoneSystem::solve(const std::vector<std::uint8_t>& closed) {
     call_if_set(poll_);
     held_ = held(closed);
     if (!zone_.factor(couplings_, held_)) return ContactSolve::failed;
-    const Zone::Solution solution = zone_.solve(theta_, row_force_);
+    Zone::Solution solution = zone_.solve(theta_, row_force_);
     iterations_ += solution.iterations;
     if (!solution.balanced) return ContactSolve::unbalanced;
     if (!solution.definite || !solution.converged) return ContactSolve::failed;
-    error_ = solution.error;
-    energy_error_ = solution.energy_error;
-    left_ = solution.left;
-    unknowns_ = solution.unknowns;
-    jump_ = zone_.jumps(theta_, unknowns_);
+    solution_ = std::move(solution);
+    jump_ = zone_.jumps(theta_, solution_.unknowns);
     force_.assign(jump_.size(), 0.0);
     for (std::size_t z = 0; z < row_force_.size(); ++z) force_[z] = -row_force_[z];
     for (const Zone::Coupling& c : couplings_) force_[index(c.row)] += c.value * jump_[index(c.column)];
     const std::vector<double> acting = force_;
-    zone_.complete_forces(theta_, solution, force_);
+    zone_.complete_forces(theta_, solution_, force_);
     for (std::size_t i = 0; i < closed.size(); ++i)
         if (closed[i] != 0) force_[contact_.row[i]] -= acting[contact_.row[i]];
     return ContactSolve::solved;

@@ -56,16 +56,17 @@ public:
         double above = 0.0, below = 0.0;
     };
     const ContactDoubt& doubt() const { return doubt_; }
-    SolveError error() const { return error_; }
-    double energy_error() const { return energy_error_; }
+    SolveError error() const { return solution_.error; }
+    double energy_error() const { return solution_.energy_error; }
     bool rough() const { return false; }
     // What is in doubt here is decided by the operator, which checks the end of a minimiser.
     static constexpr std::int64_t guesses = 0;
     bool tighten() { return false; }
-    // Of the last solve.
-    const std::vector<double>& unknowns() const { return unknowns_; }
+    // The last solve.
+    const Zone::Solution& solution() const { return solution_; }
+    const std::vector<double>& unknowns() const { return solution_.unknowns; }
     // What it has left of the residual with which this load began, as a part of it.
-    double left() const { return left_; }
+    double left() const { return solution_.left; }
     // Krylov iterations of all solves.
     std::int64_t iterations() const { return iterations_; }
     // Zone rows that are held with this contact set.
@@ -84,12 +85,10 @@ private:
     std::vector<std::uint8_t> held_;  // [zone rows]
     std::vector<Zone::Coupling> couplings_;
     std::vector<double> row_force_;
-    std::vector<double> unknowns_, jump_, force_;
-    SolveError error_;
+    std::vector<double> jump_, force_;
+    Zone::Solution solution_;
     double allowed_ = 0.0;  // of energies
     ContactDoubt doubt_;
-    double energy_error_ = 0.0;
-    double left_ = 0.0;
     std::int64_t iterations_ = 0;
 };
 

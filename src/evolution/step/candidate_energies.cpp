@@ -65,7 +65,10 @@ void CandidateEnergies::focus(std::span<const std::uint8_t> wanted) {
     std::vector<std::uint8_t> pairs(wanted.begin(), wanted.end());
     for (std::size_t p = 0; p < pairs.size(); ++p)
         if (from_.adhesion[p] != increment_.adhesion_before()[p]) pairs[p] = 1;
-    if (focused_ && zone_->serves(pairs)) return;
+    if (focused_ && zone_->serves(pairs)) {
+        zone_->look_anew();
+        return;
+    }
     lose_focus();
     wanted_ = std::move(pairs);
 }
@@ -122,6 +125,10 @@ bool CandidateEnergies::within_zone(std::span<const double> adhesion, std::span<
 
 void CandidateEnergies::from_zone(std::span<const double> adhesion, std::span<const double> known, CandidateEnergy& e) {
     const std::optional<double> value = zone_->energy(adhesion);
+    if (!zone_->settled()) {
+        from_operator(adhesion, known, e);
+        return;
+    }
     if (!value) return;
     e.value = *value / (size_ * size_);
     e.error = zone_->error() / (size_ * size_);

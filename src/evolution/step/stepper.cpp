@@ -260,7 +260,7 @@ double Stepper::lower_excess(const State& state) const {
 bool Stepper::displaced_in_proportion(State& next, const State& before) const {
     const std::optional<double> a = load_ratio(before.theta, next.theta);
     if (!a || !operator_->answers_in_proportion() || before.response.jump.empty() ||
-        !contact_settled(*operator_, contact_, before.theta, before.closed, before.response))
+        !pairs_on_the_wrong_side(*operator_, contact_, before.theta, before.closed, before.response).empty())
         return false;
     const double grown = 1.0 / *a;
     Response& response = next.response;

@@ -2,7 +2,6 @@
 #include "evolution/step/zone_energies.hpp"
 
 #include <algorithm>
-
 #include <limits>
 
 #include "base/numbers.hpp"
@@ -15,41 +14,74 @@ constexpr std::int64_t energy_contact_steps = 200;  // beyond them the energy is
 // Of the error that is allowed: what is left undecided of contact.
 constexpr double undecided = 1e-3;
 constexpr std::size_t most_solved = 64;  // contact sets that are remembered
+// Contact outside is looked at again in states that differ in so many times as many pairs; then so many zones at most.
+constexpr std::size_t look_again = 2;
+constexpr int rounds_outside = 5;
 
 }  // namespace
 
 bool ZoneEnergies::focus(const State& known, std::span<const std::uint8_t> wanted, double allowed, bool with_jumps) {
+    known_ = &known;
+    wanted_.assign(wanted.begin(), wanted.end());
+    allowed_ = allowed;
+    with_jumps_ = with_jumps;
+    looked_at_ = 0;
+    return choose();
+}
+
+bool ZoneEnergies::choose() {
     const auto dim = static_cast<std::size_t>(pairs_.dimension);
-    Springs springs{spring_stiffness(pairs_, known.adhesion), held_rows(contact_, known.closed)};
+    Springs springs{spring_stiffness(pairs_, known_->adhesion), held_rows(contact_, known_->closed)};
     std::vector<std::uint8_t> rows;
-    for (const std::uint8_t pair : wanted) rows.insert(rows.end(), dim, pair);
+    for (std::size_t p = 0; p < wanted_.size(); ++p) rows.insert(rows.end(), dim, wants(p) ? 1 : 0);
     Zone* zone = op_.zone(springs, rows, true);
     if (zone == nullptr) return false;
-    system_.emplace(*zone, contact_, op_.prescribed_rows(), springs.held, known.theta);
-    known_closed_ = known.closed;
-    if (solved_.empty()) solved_.push_back({known.adhesion, known.closed});
-    place_.assign(wanted.size(), -1);
+    system_.emplace(*zone, contact_, op_.prescribed_rows(), springs.held, known_->theta);
+    if (solved_.empty()) solved_.push_back({known_->adhesion, known_->closed});
+    place_.assign(wanted_.size(), -1);
     for (const ZoneSystem::Pair& p : system_->pairs()) place_[p.pair] = static_cast<std::int64_t>(p.first);
-    zone->unknowns_at(known.response);
+    zone->unknowns_at(known_->response);
     zone->ask_for_energies(0.0);
-    const std::optional<double> energy = zone_energy(known.adhesion);
+    const std::optional<double> energy = zone_energy(known_->adhesion);
     if (!energy) return false;
-    zone->ask_for_energies(allowed);
-    system_->ask_for_energies(with_jumps ? 0.0 : undecided * allowed);
+    zone->ask_for_energies(allowed_);
+    system_->ask_for_energies(with_jumps_ ? 0.0 : undecided * allowed_);
     // The search itself handles the gradient term, which does not depend on displacements.
-    offset_ = known.ledger.energy() - gradient_energy(pairs_, known.adhesion) - *energy;
+    offset_ = known_->ledger.energy() - gradient_energy(pairs_, known_->adhesion) - *energy;
     return true;
 }
 
 std::optional<double> ZoneEnergies::energy(std::span<const double> adhesion) {
-    const std::optional<double> energy = zone_energy(adhesion);
+    std::size_t differ = 0;
+    for (std::size_t p = 0; p < adhesion.size(); ++p) differ += adhesion[p] != known_->adhesion[p] ? 1 : 0;
+    std::optional<double> energy = zone_energy(adhesion);
+    settled_ = op_.zone_is_whole() || differ < std::max<std::size_t>(1, look_again * looked_at_);
+    for (int round = 0; energy && !settled_ && round < rounds_outside; ++round) {
+        const std::vector<std::size_t> wrong = wrong_outside();
+        settled_ = wrong.empty();
+        if (settled_) looked_at_ = differ;
+        if (joined_.empty()) joined_.assign(adhesion.size(), 0);
+        for (const std::size_t p : wrong) joined_[p] = 1;
+        if (!settled_) energy = choose() ? zone_energy(adhesion) : std::nullopt;
+    }
     return energy ? std::optional<double>(*energy + offset_) : std::nullopt;
+}
+
+std::vector<std::size_t> ZoneEnergies::wrong_outside() const {
+    const Solved& last = solved_.back();
+    Response response;
+    if (!op_.complete({spring_stiffness(pairs_, last.adhesion), held_rows(contact_, last.closed)}, known_->theta,
+                      system_->solution(), response))
+        return {};
+    std::vector<std::size_t> wrong = pairs_on_the_wrong_side(op_, contact_, known_->theta, last.closed, response);
+    std::erase_if(wrong, [&](std::size_t p) { return inside(p); });
+    return wrong;
 }
 
 bool ZoneEnergies::serves(std::span<const std::uint8_t> wanted) const {
     std::size_t rows = 0;
     for (std::size_t p = 0; p < wanted.size(); ++p) {
-        if (wanted[p] == 0) continue;
+        if (wanted[p] == 0 && (joined_.empty() || joined_[p] == 0)) continue;
         if (!inside(p)) return false;
         rows += static_cast<std::size_t>(pairs_.dimension);
     }
@@ -88,7 +120,7 @@ std::vector<std::uint8_t> ZoneEnergies::start_of_contact(std::span<const double>
 
 void ZoneEnergies::remember(std::span<const double> adhesion, const std::vector<std::uint8_t>& closed) {
     const auto dim = static_cast<std::size_t>(pairs_.dimension);
-    Solved solved{{adhesion.begin(), adhesion.end()}, known_closed_};
+    Solved solved{{adhesion.begin(), adhesion.end()}, known_->closed};
     for (std::size_t i = 0; i < closed.size(); ++i)
         solved.closed[index(system_->zone().jump_rows()[system_->contact_rows().row[i]]) / dim] = closed[i];
     if (solved_.size() == most_solved) solved_.erase(solved_.begin());

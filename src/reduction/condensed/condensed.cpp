@@ -120,7 +120,7 @@ std::vector<std::uint8_t> Condensed::grown(std::vector<std::uint8_t> set, std::s
 }
 
 // Margins, so that a front may advance for a while before the zone has to follow.
-void Condensed::choose(const Springs& springs, std::span<const std::uint8_t> wanted) {
+void Condensed::choose(const Springs& springs, std::span<const std::uint8_t> wanted, bool tight) {
     const std::size_t unknowns = always_.size();
     std::vector<std::uint8_t> set(always_);
     std::vector<double> now(unknowns);
@@ -129,11 +129,13 @@ void Condensed::choose(const Springs& springs, std::span<const std::uint8_t> wan
         age_[i] = wanted[i] != 0 ? std::uint8_t{0}
                                  : std::min<std::uint8_t>(forgotten, static_cast<std::uint8_t>(age_[i] + 1));
         const double body = bulk_->diagonal(static_cast<std::int64_t>(i));
-        if (age_[i] < forgotten || (now[i] > 0.0 && now[i] < weak * body)) set[i] = 1;
+        const bool kept = age_[i] < forgotten && (!tight || wanted[i] != 0);
+        if (kept || (now[i] > 0.0 && now[i] < weak * body)) set[i] = 1;
     }
     if (!expected_.empty() && floats_unless_held(expected_, now)) expected_.clear();
     const std::size_t needed = count(set);
-    if (expected_.empty()) set = grown(std::move(set), needed + std::max<std::size_t>(16, needed / 5));
+    if (expected_.empty() && (!tight || needed <= small))
+        set = grown(std::move(set), needed + std::max<std::size_t>(16, needed / 5));
     for (std::size_t i = 0; i < expected_.size(); ++i)
         if (expected_[i] != 0) set[i] = 1;
     // From here to the end of condense() there is no zone: an interrupted choice is never taken for a valid one.
@@ -226,7 +228,7 @@ DenseZone* Condensed::zone(const Springs& springs, std::span<const std::uint8_t>
         if (zone_ != nullptr)
             for (std::size_t i = 0; i < unknowns.size(); ++i)
                 if (inside_[i] == 0 && spring_[i] != spring_of(springs, i)) unknowns[i] = 1;
-        choose(springs, unknowns);
+        choose(springs, unknowns, tight);
     }
     return zone_.get();
 }
@@ -296,6 +298,12 @@ void Condensed::solve(const Springs& springs, std::span<const double> theta, Res
     for (std::size_t z = 0; z < force.size(); ++z) force[z] = springs.force[index(zone_->jump_rows()[z])];
     const Zone::Solution solution = zone_->solve(theta, force);
     respond(springs, theta, &solution, response);
+}
+
+bool Condensed::complete(const Springs& springs, std::span<const double> theta, const Zone::Solution& solution,
+                         Response& response) const {
+    respond(springs, theta, &solution, response);
+    return true;
 }
 
 // Along the minimiser S x = L theta - sum_r N_r^T lambda_r, which gives the energies without another product with S:

@@ -20,6 +20,8 @@ public:
     Condensed(std::shared_ptr<Bulk> bulk, const Problem& problem, Monitor& monitor);
     void solve(const Springs& springs, std::span<const double> theta, Response& response) override;
     void expect_changes(std::span<const std::size_t> rows) override;
+    bool complete(const Springs& springs, std::span<const double> theta, const Zone::Solution& solution,
+                  Response& response) const override;
     bool answers_in_proportion() const override { return true; }
     std::vector<double> displacement(std::span<const double> theta, const Response& response) const override;
     std::vector<double> reaction(std::span<const double> theta, const Response& response) const override;
@@ -58,7 +60,7 @@ private:
     Choice parse(std::span<const double> memory) const;
     Poll poll();
     bool covers(const Springs& springs) const;
-    void choose(const Springs& springs, std::span<const std::uint8_t> wanted);
+    void choose(const Springs& springs, std::span<const std::uint8_t> wanted, bool tight = false);
     bool floats_unless_held(std::span<const std::uint8_t> unknowns, std::span<const double> springs) const;
     void condense();
     std::vector<std::uint8_t> grown(std::vector<std::uint8_t> set, std::size_t count) const;
