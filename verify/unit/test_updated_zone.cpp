@@ -219,6 +219,40 @@ START_TEST(forgets) {
 }
 END_TEST
 
+// The work of forces on the jumps of others is that of solutions with these forces alone.
+START_TEST(flexibility) {
+    Random random(static_cast<unsigned>(_i) + 470U);
+    Case c = make_case(random, 30, _i % 2 == 0 ? 3 : 0, _i % 3);
+    DenseZone zone = c.zone();
+    const std::vector<double> theta(2, 0.0);
+    for (int k = 0; k < 6; ++k) {
+        change(c, random);
+        if (!zone.factor(c.couplings(), c.held)) continue;
+        std::vector<std::vector<Zone::RowForce>> sets(4);
+        std::vector<std::vector<double>> jumps;
+        for (auto& set : sets) {
+            std::vector<double> pull(c.rows.size(), 0.0);
+            for (int f = 0; f < 2; ++f) {
+                const Index row = random.below(static_cast<Index>(pull.size()));
+                set.push_back({row, random.real()});
+                pull[at(row)] += set.back().value;
+            }
+            jumps.push_back(zone.jumps(theta, zone.solve(theta, pull).unknowns));
+        }
+        const auto work = zone.flexibility(sets);
+        ck_assert(work.has_value());
+        for (Index i = 0; i < 4; ++i)
+            for (Index j = 0; j < 4; ++j) {
+                double expected = 0.0;
+                for (const Zone::RowForce& f : sets[at(i)])
+                    if (c.held[at(f.row)] == 0) expected += f.value * jumps[at(j)][at(f.row)];
+                ck_assert_msg(std::abs((*work)(i, j) - expected) <= 1e-10 * max_abs(work->value), "work (%d, %d)",
+                              static_cast<int>(i), static_cast<int>(j));
+            }
+    }
+}
+END_TEST
+
 int main() {
     Suite* suite = suite_create("updated_zone");
     TCase* tests = tcase_create("changes");
@@ -226,6 +260,7 @@ int main() {
     tcase_add_loop_test(tests, definiteness, 0, 12);
     tcase_add_loop_test(tests, stiff_springs, 0, 10);
     tcase_add_loop_test(tests, forgets, 0, 12);
+    tcase_add_loop_test(tests, flexibility, 0, 12);
     suite_add_tcase(suite, tests);
     SRunner* runner = srunner_create(suite);
     srunner_run_all(runner, CK_ENV);

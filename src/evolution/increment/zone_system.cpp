@@ -80,6 +80,13 @@ bool ZoneSystem::negligible(const std::vector<std::uint8_t>& closed, std::span<c
     return true;
 }
 
+std::optional<DenseMatrix> ZoneSystem::flexibility(const std::vector<std::uint8_t>& closed,
+                                                   std::span<const std::vector<Zone::RowForce>> forces) {
+    call_if_set(poll_);
+    if (!zone_.factor(couplings_, held(closed))) return {};
+    return zone_.flexibility(forces);
+}
+
 ContactSolve ZoneSystem::solve(const std::vector<std::uint8_t>& closed) {
     call_if_set(poll_);
     held_ = held(closed);

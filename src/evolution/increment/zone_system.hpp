@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -41,6 +42,9 @@ public:
     void load_model(std::vector<Zone::Coupling> couplings, std::vector<double> row_force);
 
     ContactSolve solve(const std::vector<std::uint8_t>& closed);
+    // Zone::flexibility of what is loaded, with this contact set.
+    std::optional<DenseMatrix> flexibility(const std::vector<std::uint8_t>& closed,
+                                           std::span<const std::vector<Zone::RowForce>> forces);
     std::span<const double> jump() const { return jump_; }
     // Of a closed contact row that of contact alone: where a model of a softening pair pulls at a jump of zero, the
     // force of the pair would open it, and open it would penetrate.

@@ -22,6 +22,13 @@ constexpr std::int64_t halvings = 7;               // of a line search, includin
 // A part of the bodies is brought to its end this much more finely than the whole has changed.
 constexpr double part_of_change = 1e-3;
 constexpr std::int64_t steps_in_part = 50;
+// A damped step goes this many times as far along the softest mode as a staggered one; more after each that succeeds.
+constexpr double least_growth = 16.0, most_growth = 1024.0, growth_rate = 8.0;
+// From this softening on, a pair leaves for its debonded branch of its own.
+constexpr double violent = 1.5;
+// Of the power method for the softest mode.
+constexpr std::int64_t power_steps = 50;
+constexpr double power_tolerance = 1e-4;
 // A pair joins the zone if its driving energy exceeds this fraction of the one that damages it.
 constexpr double nearly_loaded = 0.7;
 
@@ -77,17 +84,25 @@ private:
     }
     Point start() const;
     Point point(std::vector<double> unknowns) const;
+    Point halfway(const Point& from, const Point& to) const;
     // Loads the system with models of the members about a point: their tangents between secant (0) and full (1), one
     // of them debonded (or none: -1).
     void model(const Point& at, std::span<const double> adhesion, double fraction, std::int64_t debonded);
     // Minimiser of the model with contact; false: indefinite, unbalanced, or the contact set did not converge.
     bool minimise(const Point& at, std::span<const double> adhesion, double fraction, std::int64_t debonded,
                   Point& out);
-    // A point between `at` and `to` with less energy; false: none.
-    bool descend(const Point& at, Point& to) const;
+    // A point between `at` and `to` with less energy, at which pairs change one by one if asked for; false: none.
+    bool descend(const Point& at, Point& to, bool singly) const;
+    // Between the points at most one pair breaks, and if one does, none that was at rest begins to soften.
+    bool one_by_one(const Point& from, const Point& to) const;
     std::int64_t weakest(const Point& at) const;
     Move step(const Point& at);
     Move staggered_step(const Point& at, const std::vector<std::uint8_t>& closed);
+    // The largest eigenvalue of what softening takes off the stiffness relative to the secant one: the tangents are
+    // indefinite from 1 on. None: the zone cannot tell.
+    std::optional<double> softening(const Point& at);
+    // A step of Newton's method with so much of the tangents that it remains definite.
+    Move damped_step(const Point& at, double softening, const std::vector<std::uint8_t>& closed);
     // Shows the point's mixities: those of the members whose adhesion `carried` was positive. True: the toughness in
     // use has changed, and with it the energy and adhesions of the point.
     bool observe(Point& at, std::span<const double> carried);
@@ -109,6 +124,9 @@ private:
     Extrapolation extrapolation_;
     std::vector<double> used_;  // adhesions from which the last extrapolation started
     Patience newton_patience_, move_patience_;
+    bool indefinite_ = false;       // the last model had no minimum
+    bool softens_ = false;          // the last tangents were indefinite
+    double growth_ = least_growth;  // by which damped steps exceed staggered ones along the softest mode
 };
 
 Descent::Descent(const ZoneNewton& newton, State& state, Increment& increment, const Springs& springs, Zone& zone)
@@ -149,6 +167,12 @@ Descent::Point Descent::point(std::vector<double> unknowns) const {
     return at;
 }
 
+Descent::Point Descent::halfway(const Point& from, const Point& to) const {
+    std::vector<double> between(from.unknowns);
+    for (std::size_t i = 0; i < between.size(); ++i) between[i] += 0.5 * (to.unknowns[i] - from.unknowns[i]);
+    return point(std::move(between));
+}
+
 void Descent::model(const Point& at, std::span<const double> adhesion, double fraction, std::int64_t debonded) {
     std::vector<Zone::Coupling> couplings;
     std::vector<double> row_force(spring_.size(), 0.0);
@@ -176,23 +200,29 @@ bool Descent::minimise(const Point& at, std::span<const double> adhesion, double
     std::vector<std::uint8_t> closed = closed_;
     const ActiveSet found = find_active_set(system_, system_.contact_rows(), closed, newton_contact_steps, false);
     state_.effort.newton_solves += found.solves;
+    indefinite_ = found.last == ContactSolve::failed;
     if (!found.settled) return false;
     closed_ = std::move(closed);
     out = point(system_.unknowns());
     return true;
 }
 
-bool Descent::descend(const Point& at, Point& to) const {
+bool Descent::one_by_one(const Point& from, const Point& to) const {
+    std::int64_t broken = 0, begun = 0;
+    for (std::size_t i = 0; i < members_.size(); ++i) {
+        const double whole = increment_.adhesion_before()[members_[i].pair];
+        if (from.adhesion[i] > 0.0 && !(to.adhesion[i] > 0.0)) ++broken;
+        if (!(from.adhesion[i] < whole) && to.adhesion[i] < whole) ++begun;
+    }
+    return broken == 0 || (broken == 1 && begun == 0);
+}
+
+bool Descent::descend(const Point& at, Point& to, bool singly) const {
     const double rounding = zone_.energy_rounding() * (std::abs(at.energy) + std::abs(to.energy));
     for (std::int64_t n = 0; n < halvings; ++n) {
         halved_ = n > 0;
-        if (n > 0) {
-            std::vector<double> between(at.unknowns.size());
-            for (std::size_t i = 0; i < between.size(); ++i)
-                between[i] = at.unknowns[i] + 0.5 * (to.unknowns[i] - at.unknowns[i]);
-            to = point(std::move(between));
-        }
-        if (to.energy <= at.energy + rounding) return true;
+        if (n > 0) to = halfway(at, to);
+        if (to.energy <= at.energy + rounding && (!singly || one_by_one(at, to))) return true;
     }
     return false;
 }
@@ -210,15 +240,28 @@ std::int64_t Descent::weakest(const Point& at) const {
     return found;
 }
 
-// Newton's method; otherwise moves one pair to its debonded branch; otherwise a step of the staggered scheme.
+// Newton's method; otherwise moves one pair to its debonded branch; otherwise a damped step; otherwise one of the
+// staggered scheme.
 Descent::Move Descent::step(const Point& at) {
     const std::vector<std::uint8_t> before = closed_;
     Move move;
     move.carried = at.adhesion;
-    move.newton = newton_patience_.try_now() &&
-                  newton_patience_.report(minimise(at, at.adhesion, 1.0, -1, move.to) && descend(at, move.to));
+    std::optional<double> soft;
+    if (softens_) soft = softening(at);
+    softens_ = soft && *soft >= 1.0;
+    if (!softens_ && newton_patience_.try_now()) {
+        const bool found = minimise(at, at.adhesion, 1.0, -1, move.to);
+        move.newton = found && descend(at, move.to, false);
+        if (!move.newton && indefinite_) {
+            closed_ = before;
+            if (!soft) soft = softening(at);
+            softens_ = soft.has_value();
+            if (soft) soft = std::max(*soft, 1.0);
+        }
+        if (!softens_) newton_patience_.report(move.newton);
+    }
     move.taken = move.newton;
-    if (!move.taken && move_patience_.try_now()) {
+    if (!move.taken && !(soft && *soft < violent) && move_patience_.try_now()) {
         closed_ = before;
         const std::int64_t pair = weakest(at);
         move.taken = move_patience_.report(pair >= 0 && minimise(at, at.adhesion, 0.0, pair, move.to) &&
@@ -228,9 +271,71 @@ Descent::Move Descent::step(const Point& at) {
             move.carried[index(pair)] = 0.0;
         }
     }
+    if (!move.taken && softens_) move = damped_step(at, *soft, before);
     if (!move.taken) return staggered_step(at, before);
     extrapolation_.forget();
     used_ = move.to.adhesion;
+    return move;
+}
+
+// With the secant stiffness H and the loss P of the pairs, H - f P is definite for f below 1 over the largest
+// eigenvalue of H^-1 P, which the pairs' flexibility gives.
+std::optional<double> Descent::softening(const Point& at) {
+    std::vector<std::vector<Zone::RowForce>> forces;
+    DenseMatrix loss(static_cast<std::int64_t>(dim_), static_cast<std::int64_t>(dim_));
+    for (std::size_t i = 0; i < members_.size(); ++i) {
+        const PairModel full = increment_.model(members_[i].pair, local(at, i), at.adhesion[i], 1.0),
+                        secant = increment_.model(members_[i].pair, local(at, i), at.adhesion[i], 0.0);
+        bool any = false;
+        for (std::size_t e = 0; e < dim_ * dim_; ++e) {
+            loss.value[e] = secant.tangent[e] - full.tangent[e];
+            any = any || loss.value[e] != 0.0;
+        }
+        if (!any) continue;
+        const Eigen modes = eigen_symmetric(loss);
+        for (std::size_t m = 0; m < dim_; ++m) {
+            if (!(modes.value[m] > 1e-12 * modes.value[dim_ - 1])) continue;
+            forces.emplace_back();
+            for (std::size_t r = 0; r < dim_; ++r)
+                forces.back().push_back({static_cast<std::int64_t>(members_[i].first + r),
+                                         std::sqrt(modes.value[m]) * modes.vector.value[m * dim_ + r]});
+        }
+    }
+    if (forces.empty()) return 0.0;
+    model(at, at.adhesion, 0.0, -1);
+    const std::optional<DenseMatrix> work = system_.flexibility(closed_, forces);
+    if (!work) return {};
+    std::vector<double> mode(forces.size(), 1.0), image(mode.size());
+    double value = 0.0;
+    for (std::int64_t n = 0; n < power_steps; ++n) {
+        multiply(*work, mode, image);
+        const double before = value;
+        value = dot(mode, image) / dot(mode, mode);
+        const double size = std::sqrt(dot(image, image));
+        if (!(size > 0.0)) break;
+        for (std::size_t i = 0; i < mode.size(); ++i) mode[i] = image[i] / size;
+        if (std::abs(value - before) <= power_tolerance * value) break;
+    }
+    return value;
+}
+
+// Staggered steps leave an unstable equilibrium by a factor of H^-1 P a step, which may take thousands. This one goes
+// on to where the energy grows again, or one more pair is broken: a crack that ran past an equilibrium would stay open.
+Descent::Move Descent::damped_step(const Point& at, double softening, const std::vector<std::uint8_t>& closed) {
+    Move move;
+    move.carried = at.adhesion;
+    closed_ = closed;
+    const double fraction = (1.0 - 1.0 / growth_) / softening;
+    move.taken =
+        minimise(at, at.adhesion, fraction, -1, move.to) && descend(at, move.to, true) && move.to.energy < at.energy;
+    for (std::int64_t n = 0; n < halvings && move.taken; ++n) {
+        Point nearer = halfway(at, move.to);
+        if (!(nearer.energy < move.to.energy)) break;
+        move.to = std::move(nearer);
+        halved_ = true;
+    }
+    growth_ = move.taken && !halved_ ? std::min(growth_rate * growth_, most_growth)
+                                     : std::max(growth_ / growth_rate, least_growth);
     return move;
 }
 

@@ -381,6 +381,32 @@ DenseZone::Solution DenseZone::solve(std::span<const double> theta, std::span<co
     return solution;
 }
 
+std::optional<DenseMatrix> DenseZone::flexibility(std::span<const std::vector<RowForce>> forces) {
+    const auto sets = static_cast<std::int64_t>(forces.size());
+    DenseMatrix on_free(static_cast<std::int64_t>(free_.size()), sets), free(on_free.rows, sets);
+    DenseMatrix on_motions(rigid_.columns > 0 ? motion_x_.columns : 0, sets), motions(on_motions.rows, sets);
+    const auto column = [](DenseMatrix& a, std::int64_t c) {
+        return std::span<double>(a.value).subspan(index(c * a.rows), index(a.rows));
+    };
+    for (std::int64_t c = 0; c < sets; ++c) {
+        std::vector<double> g(index(energy_->rows()), 0.0);
+        for (const RowForce& f : forces[index(c)])
+            for (const auto& [i, n] : rows_[index(f.row)].unknowns)
+                if (held_[index(f.row)] == 0) g[index(i)] += n * f.value;
+        std::vector<double> y = reduce(g), alpha(index(motions.rows));
+        if (!alpha.empty()) multiply_transposed(motion_x_, g, alpha);
+        std::copy(y.begin(), y.end(), column(on_free, c).begin());
+        std::copy(alpha.begin(), alpha.end(), column(on_motions, c).begin());
+        solve_together(y, alpha, false);
+        std::copy(y.begin(), y.end(), column(free, c).begin());
+        std::copy(alpha.begin(), alpha.end(), column(motions, c).begin());
+    }
+    DenseMatrix work = multiply_transposed(on_free, free);
+    for (std::int64_t c = 0; c < sets; ++c)
+        for (std::int64_t d = 0; d < sets; ++d) work(d, c) += dot(column(on_motions, d), column(motions, c));
+    return work;
+}
+
 void DenseZone::complete_forces(std::span<const double> theta, const Solution& solution,
                                 std::span<double> row_force) const {
     std::vector<double> left(index(energy_->rows()));

@@ -12,8 +12,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
+
+#include "linalg/dense.hpp"
 
 namespace delam {
 
@@ -57,6 +60,15 @@ public:
     };
     // row_force: h, [rows] or empty.
     virtual Solution solve(std::span<const double> theta, std::span<const double> row_force) = 0;
+
+    // A force on one row, F.
+    struct RowForce {
+        std::int64_t row;
+        double value;
+    };
+    // Of the last factor(): the work of each set of forces on the jumps that each other one causes, [set][set]. Null:
+    // it would take a solve of all bodies for each of them.
+    virtual std::optional<DenseMatrix> flexibility(std::span<const std::vector<RowForce>> /*forces*/) { return {}; }
 
     // The operator's jump row of each row, ascending.
     virtual const std::vector<std::int64_t>& jump_rows() const = 0;
