@@ -23,6 +23,8 @@ constexpr std::int64_t halvings = 7;               // of a line search, includin
 constexpr double part_of_change = 1e-3;
 constexpr std::int64_t steps_in_part = 50;
 // A damped step goes this many times as far along the softest mode as a staggered one; more after each that succeeds.
+// Only after so many staggered steps: where pairs break at once, the softest mode is not worth its price.
+constexpr std::int64_t creeping = 2;
 constexpr double least_growth = 16.0, most_growth = 1024.0, growth_rate = 8.0;
 // From this softening on, a pair leaves for its debonded branch of its own.
 constexpr double violent = 1.5;
@@ -126,6 +128,7 @@ private:
     Patience newton_patience_, move_patience_;
     bool indefinite_ = false;       // the last model had no minimum
     bool softens_ = false;          // the last tangents were indefinite
+    std::int64_t staggered_ = 0;    // steps since Newton's method has succeeded
     double growth_ = least_growth;  // by which damped steps exceed staggered ones along the softest mode
 };
 
@@ -252,7 +255,7 @@ Descent::Move Descent::step(const Point& at) {
     if (!softens_ && newton_patience_.try_now()) {
         const bool found = minimise(at, at.adhesion, 1.0, -1, move.to);
         move.newton = found && descend(at, move.to, false);
-        if (!move.newton && indefinite_) {
+        if (!move.newton && indefinite_ && staggered_ >= creeping) {
             closed_ = before;
             if (!soft) soft = softening(at);
             softens_ = soft.has_value();
@@ -272,7 +275,11 @@ Descent::Move Descent::step(const Point& at) {
         }
     }
     if (!move.taken && softens_) move = damped_step(at, *soft, before);
-    if (!move.taken) return staggered_step(at, before);
+    if (!move.taken) {
+        ++staggered_;
+        return staggered_step(at, before);
+    }
+    if (move.newton) staggered_ = 0;
     extrapolation_.forget();
     used_ = move.to.adhesion;
     return move;
