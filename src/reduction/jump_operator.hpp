@@ -115,7 +115,7 @@ public:
         return nullptr;
     }
     // The response of all bodies to a solution of the last zone(). springs: those of the solution, and outside the zone
-    // those of its choice. False: not set, because zones are whole.
+    // those of its choice. False: not set; zones are whole, or it would take another solve.
     virtual bool complete(const Springs& /*springs*/, std::span<const double> /*theta*/,
                           const Zone::Solution& /*solution*/, Response& /*response*/) const {
         return false;

@@ -45,8 +45,9 @@ class OperatorSystem {
 public:
     static constexpr std::int64_t guesses = 3;
 
+    // cold: nothing is known of the set, and any row may change.
     OperatorSystem(JumpOperator& op, const ContactScene& scene, const ContactRows& rows, Springs springs,
-                   std::span<const double> theta, Response& response, ContactResult& result)
+                   std::span<const double> theta, Response& response, ContactResult& result, bool cold)
         : op_(op),
           scene_(scene),
           rows_(rows),
@@ -56,10 +57,14 @@ public:
           result_(result) {
         // From one of the first sets to the next, hundreds of rows change: rough answers tell which.
         if (rows.first > rows.least && op_.aim(Accuracy::rough)) accuracy_ = Accuracy::rough;
+        if (cold) op_.expect_changes(rows.row);
     }
     OperatorSystem(const OperatorSystem&) = delete;
     OperatorSystem& operator=(const OperatorSystem&) = delete;
-    ~OperatorSystem() { op_.aim(Accuracy::usual); }
+    ~OperatorSystem() {
+        op_.aim(Accuracy::usual);
+        op_.expect_changes({});
+    }
 
     ContactSolve solve(const std::vector<std::uint8_t>& closed) {
         for (std::size_t i = 0; i < closed.size(); ++i) springs_.held[rows_.row[i]] = closed[i];
@@ -140,14 +145,12 @@ ContactResult solve_contact(JumpOperator& op, const ContactScene& scene, std::sp
     if (rows.first > rows.least) std::fill(closed.begin(), closed.end(), std::uint8_t{0});
     std::vector<std::uint8_t> set;  // of the contact rows
     for (const std::size_t row : rows.row) set.push_back(closed[row / dim]);
-    if (cold) op.expect_changes(rows.row);
     ContactResult result;
     OperatorSystem system(
         op, scene, rows,
         {{stiffness.begin(), stiffness.end()}, held_rows(scene, closed), {row_force.begin(), row_force.end()}}, theta,
-        response, result);
+        response, result, cold);
     const ActiveSet found = find_active_set(system, rows, set, scene.limit, true);
-    if (cold) op.expect_changes({});
     result.solves = found.solves;
     result.doubts = found.doubts;
     result.fallback = found.exchanged;

@@ -44,6 +44,10 @@ public:
         focused_ = false;
         wanted_.clear();
     }
+    // Without another focus: what comes next differs from the step's own state elsewhere.
+    void look_anew() {
+        if (focused_) zone_->look_anew();
+    }
     // known: B of the pairs. candidates: number compared so far (progress).
     const CandidateEnergy& at(const std::vector<double>& adhesion, std::span<const std::int64_t> next,
                               std::span<const double> known, std::int64_t candidates);

@@ -368,8 +368,9 @@ Stepper::Scouted Stepper::scout(Result& best, const Increment& step, double exte
     return found;
 }
 
-// A zone's energy keeps the contact outside as it was and may be too low, so candidates that seem lower than the kept
-// state are checked by displacement steps of their own. Returns the lowest candidate.
+// A zone's energy keeps the contact outside as it was, unless a look has shown otherwise, and may be too low, so
+// candidates that seem lower than the kept state are checked by displacement steps of their own. Returns the lowest
+// candidate.
 double Stepper::hold_against(Result& best, const SearchResult& found, const Increment& step) {
     double lowest = std::numeric_limits<double>::infinity();
     bool held = false;

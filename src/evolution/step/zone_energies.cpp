@@ -2,7 +2,6 @@
 #include "evolution/step/zone_energies.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "base/numbers.hpp"
 
@@ -44,7 +43,7 @@ bool ZoneEnergies::choose() {
     zone->ask_for_energies(0.0);
     const std::optional<double> energy = zone_energy(known_->adhesion);
     if (!energy) return false;
-    zone->ask_for_energies(allowed_);
+    zone->ask_for_energies(with_jumps_ && !op_.zone_is_whole() ? 0.0 : allowed_);
     system_->ask_for_energies(with_jumps_ ? 0.0 : undecided * allowed_);
     // The search itself handles the gradient term, which does not depend on displacements.
     offset_ = known_->ledger.energy() - gradient_energy(pairs_, known_->adhesion) - *energy;
@@ -55,14 +54,19 @@ std::optional<double> ZoneEnergies::energy(std::span<const double> adhesion) {
     std::size_t differ = 0;
     for (std::size_t p = 0; p < adhesion.size(); ++p) differ += adhesion[p] != known_->adhesion[p] ? 1 : 0;
     std::optional<double> energy = zone_energy(adhesion);
-    settled_ = op_.zone_is_whole() || differ < std::max<std::size_t>(1, look_again * looked_at_);
-    for (int round = 0; energy && !settled_ && round < rounds_outside; ++round) {
+    settled_ = !energy || op_.zone_is_whole() || differ < std::max<std::size_t>(1, look_again * looked_at_);
+    for (int round = 0; !settled_ && round < rounds_outside; ++round) {
         const std::vector<std::size_t> wrong = wrong_outside();
         settled_ = wrong.empty();
-        if (settled_) looked_at_ = differ;
+        if (settled_) {
+            looked_at_ = differ;
+            break;
+        }
         if (joined_.empty()) joined_.assign(adhesion.size(), 0);
         for (const std::size_t p : wrong) joined_[p] = 1;
-        if (!settled_) energy = choose() ? zone_energy(adhesion) : std::nullopt;
+        if (!choose()) return std::nullopt;  // not settled: the operator has to tell
+        energy = zone_energy(adhesion);
+        settled_ = !energy;
     }
     return energy ? std::optional<double>(*energy + offset_) : std::nullopt;
 }
@@ -85,7 +89,7 @@ bool ZoneEnergies::serves(std::span<const std::uint8_t> wanted) const {
         if (!inside(p)) return false;
         rows += static_cast<std::size_t>(pairs_.dimension);
     }
-    return system_->zone().jump_rows().size() <= 2 * rows + spare_rows;
+    return op_.zone_is_whole() || system_->zone().jump_rows().size() <= 2 * rows + spare_rows;
 }
 
 // Every pair as in the nearest of the solved states that has the same adhesion there. A pair that is debonded for the

@@ -2,7 +2,8 @@
 // Energies of many states that differ from one known state in a few pairs, where the operator offers a zone: the other
 // pairs and their contact stay as they are in the known state, so that each energy is a small dense solve with contact
 // inside the zone. Contact outside is looked at where a state differs from the known one in twice as many pairs as any
-// state before it; pairs that are then on the wrong side join the zone.
+// state before it; pairs that are then on the wrong side join the zone. (FETI cannot tell without another solve: there
+// it stays as it is.)
 #pragma once
 
 #include <cstdint>

@@ -128,7 +128,7 @@ private:
     Patience newton_patience_, move_patience_;
     bool indefinite_ = false;       // the last model had no minimum
     bool softens_ = false;          // the last tangents were indefinite
-    std::int64_t staggered_ = 0;    // steps since Newton's method has succeeded
+    std::int64_t staggered_ = 0;    // staggered steps since Newton's method has succeeded
     double growth_ = least_growth;  // by which damped steps exceed staggered ones along the softest mode
 };
 
@@ -288,6 +288,7 @@ Descent::Move Descent::step(const Point& at) {
 // With the secant stiffness H and the loss P of the pairs, H - f P is definite for f below 1 over the largest
 // eigenvalue of H^-1 P, which the pairs' flexibility gives.
 std::optional<double> Descent::softening(const Point& at) {
+    if (!zone_.offers_flexibility()) return {};
     std::vector<std::vector<Zone::RowForce>> forces;
     DenseMatrix loss(static_cast<std::int64_t>(dim_), static_cast<std::int64_t>(dim_));
     for (std::size_t i = 0; i < members_.size(); ++i) {

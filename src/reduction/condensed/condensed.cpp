@@ -291,6 +291,7 @@ void Condensed::solve(const Springs& springs, std::span<const double> theta, Res
         if (held[z] == 0 && springs.stiffness[r] > 0.0)
             couplings.push_back({static_cast<std::int64_t>(z), static_cast<std::int64_t>(z), springs.stiffness[r]});
     }
+    zone_->ask_for_energies(0.0);
     if (!zone_->factor(couplings, held))
         fail(DELAM_ERROR_NUMERICAL, "the condensed stiffness of the process zone (", zone_->jump_rows().size(),
              " rows) is not positive definite");

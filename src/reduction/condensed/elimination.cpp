@@ -202,13 +202,14 @@ void Elimination::divide_outside(Front& front, std::int64_t number) const {
 // Zero, with the places of its variables in at_. leaf: what is added next, -1: none; it may set all entries itself.
 void Elimination::open(Front& front, std::int64_t leaf) {
     const auto e = static_cast<std::int64_t>(front.out.size()), r = static_cast<std::int64_t>(front.left.size());
-    for (std::int64_t i = 0; i < e; ++i) at_[index(front.out[index(i)])] = i;
-    for (std::int64_t i = 0; i < r; ++i) at_[index(front.left[index(i)])] = e + i;
     clear(front.load, e, load_.columns);
     clear(front.energy.load, r, load_.columns);
     resize(front.factor, e, e);
     resize(front.coupling, e, r);
     resize(front.energy.stiffness, r, r);
+    // From here on nothing fails.
+    for (std::int64_t i = 0; i < e; ++i) at_[index(front.out[index(i)])] = i;
+    for (std::int64_t i = 0; i < r; ++i) at_[index(front.left[index(i)])] = e + i;
     std::int64_t set = 0;
     if (leaf >= 0)
         for (const std::int64_t p : bodies_.rows(leaf)) set += at_[index(p)] >= 0 ? 1 : 0;

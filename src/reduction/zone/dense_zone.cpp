@@ -16,7 +16,6 @@ namespace {
 
 constexpr double dependent = 1e-10;  // coefficients of dependent rows below this are rounding
 constexpr double rounded = 1e-11;    // of motion times load, which counts as rounding (measured: up to 5e-13)
-constexpr std::size_t few = 8;       // times so many bound unknowns as there are free ones are too many for updates
 constexpr double unbalanced = 1e-8;  // largest part of a load that may remain on a free motion
 
 // y = S x, cheap where few x are not zero.
@@ -164,7 +163,7 @@ bool DenseZone::factor_free() {
         assemble(unknowns);
         return updated_.renew(factor_, springs_, free_, energy_->rows(), poll_);
     }
-    if (few * bound_.size() < free_.size() && UpdatedFactor::pays(free_.size())) {
+    if (UpdatedFactor::pays(free_.size() + bound_.size(), unknowns.touched())) {
         std::vector<std::int64_t> all(free_);
         all.insert(all.end(), bound_.begin(), bound_.end());
         std::sort(all.begin(), all.end());

@@ -31,6 +31,7 @@ public:
     void begin_model() override { refine_ = true; }
     bool factor(std::span<const Coupling> couplings, std::span<const std::uint8_t> held) override;
     Solution solve(std::span<const double> theta, std::span<const double> row_force) override;
+    bool offers_flexibility() const override { return true; }
     std::optional<DenseMatrix> flexibility(std::span<const std::vector<RowForce>> forces) override;
     const std::vector<std::int64_t>& jump_rows() const override { return jump_rows_; }
     // The unknowns that are a jump row of their own start there, the others at zero.

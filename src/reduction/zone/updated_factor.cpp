@@ -33,13 +33,19 @@ std::vector<Triplet> sorted_sums(std::vector<Triplet> springs) {
     return springs;
 }
 
-// Does this free unknown determine a bound one?
-bool binds(const DenseMatrix& binding, std::size_t free) {
-    const auto column = std::span<const double>(binding.value).subspan(free * index(binding.rows), index(binding.rows));
+}  // namespace
+
+bool BoundUnknowns::binds(std::size_t i) const {
+    const std::size_t rows = index(binding.rows);
+    const auto column = std::span<const double>(binding.value).subspan(i * rows, rows);
     return std::any_of(column.begin(), column.end(), [](double m) { return m != 0.0; });
 }
 
-}  // namespace
+std::size_t BoundUnknowns::touched() const {
+    std::size_t count = bound.size();
+    for (std::size_t i = 0; i < free.size(); ++i) count += binds(i) ? 1 : 0;
+    return count;
+}
 
 bool UpdatedFactor::renew(DenseMatrix& a, const std::vector<Triplet>& springs, std::span<const std::int64_t> free,
                           std::int64_t all, const Poll& poll) {
@@ -79,7 +85,7 @@ UpdatedFactor::Change UpdatedFactor::compare(const std::vector<Triplet>& springs
     std::sort(change.fresh.begin(), change.fresh.end());
     for (const std::int64_t i : unknowns.bound) marked[index(i)] = 1;
     for (std::size_t j = 0; j < unknowns.free.size() && !unknowns.bound.empty(); ++j)
-        if (binds(unknowns.binding, j)) marked[index(unknowns.free[j])] = 1;
+        if (unknowns.binds(j)) marked[index(unknowns.free[j])] = 1;
     for (const std::int64_t i : unknowns_)
         if (now[index(i)] == 0) change.held.push_back(i);
     const std::vector<Triplet> next = sorted_sums(springs);
@@ -214,7 +220,7 @@ void UpdatedFactor::bind(const BoundUnknowns& unknowns, std::span<const std::int
                free = static_cast<std::int64_t>(small_free_.size());
     small_binding_ = DenseMatrix(bound, free);
     for (std::size_t j = 0; j < unknowns.free.size(); ++j) {
-        if (!binds(unknowns.binding, j)) continue;
+        if (!unknowns.binds(j)) continue;
         for (std::int64_t i = 0; i < bound; ++i)
             small_binding_(i, place[index(row[index(unknowns.free[j])])]) =
                 unknowns.binding(i, static_cast<std::int64_t>(j));
@@ -235,9 +241,11 @@ void UpdatedFactor::bind(const BoundUnknowns& unknowns, std::span<const std::int
             small_(i, j) = all(small_free_[index(i)], small_free_[index(j)]) + product(i, j) + product(j, i);
 }
 
-bool UpdatedFactor::pays(std::size_t unknowns) {
+// Of U alone: u n^2 / 2 for its columns, u^2 n / 2 for their products, and some u^3; a quarter of n leaves room for
+// more.
+bool UpdatedFactor::pays(std::size_t unknowns, std::size_t touched) {
     const auto n = static_cast<double>(unknowns);
-    return handling <= n * n * n / 3.0;
+    return handling <= n * n * n / 3.0 && 4 * touched <= unknowns;
 }
 
 bool UpdatedFactor::update(const DenseMatrix& stiffness, const std::vector<Triplet>& springs,

@@ -31,12 +31,17 @@ namespace delam {
 struct BoundUnknowns {
     std::span<const std::int64_t> free, bound;
     const DenseMatrix& binding;  // M
+
+    // Does this free unknown, by its number among them, determine a bound one?
+    bool binds(std::size_t i) const;
+    // All unknowns of the rows that bind.
+    std::size_t touched() const;
 };
 
 class UpdatedFactor {
 public:
-    // Can an update of so many unknowns be cheaper than a new factor?
-    static bool pays(std::size_t unknowns);
+    // Can an update of so many unknowns, so many of them in U, be cheaper than a new factor?
+    static bool pays(std::size_t unknowns, std::size_t touched);
     // The matrix with these springs [symmetric] and unknowns, from the reference. False: there is none, a new one is
     // cheaper, or digits would be lost; then renew. stiffness: S, the same as for the reference.
     bool update(const DenseMatrix& stiffness, const std::vector<Triplet>& springs, const BoundUnknowns& unknowns,

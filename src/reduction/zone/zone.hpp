@@ -66,6 +66,8 @@ public:
         std::int64_t row;
         double value;
     };
+    // Whether flexibility() tells.
+    virtual bool offers_flexibility() const { return false; }
     // Of the last factor(): the work of each set of forces on the jumps that each other one causes, [set][set]. Null:
     // it would take a solve of all bodies for each of them.
     virtual std::optional<DenseMatrix> flexibility(std::span<const std::vector<RowForce>> /*forces*/) { return {}; }
