@@ -153,6 +153,7 @@ def ledger(context):
 
 RULES = {"frozen": {"mixity_rule": "frozen"}, "converged": {"mixity_rule": "converged"}, "variational": {"mixity_rule": "variational"}}
 ETA = 1e-3  # tolerance of the two-sided estimate
+ROUNDING = 1e-12  # of a defect, over the work
 
 
 def estimate_levels(specimen, solution, quick):
@@ -189,8 +190,10 @@ def estimate_case(specimen, solution, quick, expected):
             of["open"], of["steps"] = of["open"] + m.open, of["steps"] + steps
             low, high = (sum(v[i] > ETA for v in off) for i in (0, 1))
             drop = max(u - i for u, i in zip(m.at["upper"][1:], m.at["increment"][1:]))
+            # A ledger that closes to rounding has a defect of no digits.
+            defect = of["defect"][-1] if of["defect"][-1] > ROUNDING else 0.0
             rows.append([1e3 * h, rule, len(of["tau"]), steps, 1.0 / steps, m.dofs, of["band"][-1], None, None, None,
-                         of["defect"][-1], None, None, None, low, high,
+                         defect, None, None, None, low, high,
                          max(max(max(v) for v in off), 0.0), drop, m.open,
                          "steps " + " ".join(map(str,
                                                  wrong[:12])) + (" ..." if len(wrong) > 12 else "") if wrong else ""])
