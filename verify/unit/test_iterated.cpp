@@ -466,7 +466,7 @@ START_TEST(errors_are_estimated) {
             // Without wide patches the forces of held rows are overestimated most: 2e4 times where a layer floats, and
             // up to 5e5 times where weak springs hold it: the correction, a rigid motion, is rounded to single
             // precision.
-            const double most = c.tolerance > 1e-7 ? 1e7 : 1e5;
+            const double most = c.tolerance > 1e-7 ? 2e6 : 1e5;
             ck_assert(a.error.jump <= 1e3 * jump + 1e3 * own_jump);
             ck_assert_msg(a.error.force <= most * force + 1e3 * own_force,
                           "%s, %g, front at %g: forces off by %.1e, %.1e estimated", c.name, tolerance, x, force,
