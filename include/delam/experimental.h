@@ -14,6 +14,149 @@
 extern "C" {
 #endif
 
+/* ---- engines --------------------------------------------------------------------------------------------------------
+ *
+ * An engine solves the bodies in the place of the library: on other machines, with another solver. The library keeps
+ * the interfaces (damage, contact, energies) and asks the engine for the displacements that minimise
+ *
+ *   1/2 u.K u - f(theta).u + 1/2 v.C v - h.v     with   u = T v + U theta
+ *
+ * over the variables v. K is the stiffness of the bodies, which only the engine knows; theta [patterns] are the factors
+ * of the load patterns, f(theta) = sum theta_p f_p their nodal forces, C what the interfaces do at the moment, h forces
+ * on single variables. Of the variables the library reads the `visible` ones: those at interfaces and in constraints.
+ */
+
+/* The variables of a problem. Variable i < dofs is the displacement of DOF i of the mesh (dimension*node + component);
+ * variable dofs + k is the jump k. DOFs in `replaced` are no variables: row r of T says u[replaced[r]] = sum over e in
+ * [row_starts[r], row_starts[r+1]) of coefficients[e] * v[columns[e]]. Every other DOF is a variable of its own, unless
+ * no element acts on it. homes [jump_count]: for each jump a replaced DOF that depends on it, a different one for each;
+ * the displacements at these DOFs could be the variables in the place of the jumps. U and f by patterns: entries
+ * [starts[p], starts[p+1]) belong to pattern p. visible [visible_count]: variables, ascending. */
+typedef struct delam_experimental_variables {
+    int64_t dimension;
+    int64_t dofs;
+    int64_t pattern_count;
+    int64_t jump_count;
+    const int64_t *homes;
+    int64_t replaced_count;
+    const int64_t *replaced;
+    const int64_t *row_starts;
+    const int64_t *columns;
+    const double *coefficients;
+    const int64_t *lift_starts;
+    const int64_t *lift_dofs;
+    const double *lift_values;
+    const int64_t *force_starts;
+    const int64_t *force_dofs;
+    const double *force_values;
+    int64_t visible_count;
+    const int64_t *visible;
+} delam_experimental_variables;
+
+/* Entries of a sparse matrix. Rows and columns are places in `visible`. */
+typedef struct delam_experimental_entries {
+    int64_t count;
+    const int64_t *rows;
+    const int64_t *columns;
+    const double *values;
+} delam_experimental_entries;
+
+/* What is asked of a solve. theta [pattern_count]; force [visible_count]: h; right [pivot_count]: what the expressed
+ * variables have besides their masters. start [visible_count]: values of an earlier answer, from which to begin, or
+ * NULL.
+ *
+ * The solve may end when the residual r, in the norm sqrt(r.M r) of its preconditioner M, is at most `tolerance` times
+ * the size of the state, sqrt(|u.K u| + sum of |v_i C_ij v_j|), or at most what enough(first, user) returns for the
+ * norm at the start (enough may be NULL). limit: of its iterations. poll(user) returns a value other than 0 if the
+ * solve is to be given up; the engine asks in each iteration and then returns DELAM_CANCELLED. */
+typedef struct delam_experimental_request {
+    const double *theta;
+    const double *force;
+    const double *right;
+    const double *start;
+    double tolerance;
+    int64_t limit;
+    double (*enough)(double first, void *user);
+    int32_t (*poll)(void *user);
+    void *user;
+} delam_experimental_request;
+
+/* What a solve answers; the arrays are the library's, the engine fills them. values [visible_count]: v. balance
+ * [visible_count]: T^T (f - K u), in equilibrium C v - h but for expressed variables. correction and
+ * correction_balance [visible_count]: M r and T^T K T M r of the true residual r at the end. energy: 1/2 u.K u. work
+ * and lifted [pattern_count]: f_p.u and U_p.(K u). first and norm: sqrt(r.M r) at the start and at the end; size: that
+ * of the state. least: about the least eigenvalue of M A that the iteration has met, 1 if it has met none. converged: 0
+ * if neither the tolerance nor what rounding allows was reached. definite: 0 if the matrix turned out to be indefinite;
+ * the rest is then not set. */
+typedef struct delam_experimental_answer {
+    double *values;
+    double *balance;
+    double *correction;
+    double *correction_balance;
+    double *work;
+    double *lifted;
+    double energy;
+    double first;
+    double norm;
+    double size;
+    double least;
+    int64_t iterations;
+    int32_t converged;
+    int32_t definite;
+} delam_experimental_answer;
+
+/* An engine. size: sizeof(delam_experimental_engine). The functions are called in the thread of the running call of the
+ * library, return 0 or a status of delam.h, and must not call the library with objects of the same context.
+ *   prepare   the variables from now on; valid until it returns. Fills diagonal [visible_count], of T^T K T, and
+ *             load_sizes [pattern_count], the largest component of |T^T (f_p - K U_p)|.
+ *   set       what acts from now on: the entries of C; variables that are zero (places in `visible`); and expressed
+ *             variables: places `pivots` [pivot_count], each the sum of values times columns of `masters`, whose rows
+ *             are places in `pivots`, plus what a request has for it. No pivot is a master.
+ *   renew     a new preconditioner, of T^T K T with these entries added, which make it positive definite. Stores in
+ *             *cost how many iterations it is worth.
+ *   solve     see above.
+ *   recover   the displacements of a state that a solve has answered with these values at theta: displacement
+ *             [dofs], and K u in force [dofs].
+ *   release   frees the engine: called once, when the last problem or solver that holds it is gone. May be NULL.
+ *   message   says why the last call failed. */
+typedef struct delam_experimental_engine {
+    int64_t size;
+    void *user;
+    int32_t (*prepare)(const delam_experimental_variables *variables, double *diagonal, double *load_sizes, void *user);
+    int32_t (*set)(const delam_experimental_entries *couplings, int64_t fixed_count, const int64_t *fixed,
+                   int64_t pivot_count, const int64_t *pivots, const delam_experimental_entries *masters, void *user);
+    int32_t (*renew)(const delam_experimental_entries *entries, double *cost, void *user);
+    int32_t (*solve)(const delam_experimental_request *request, delam_experimental_answer *answer, void *user);
+    int32_t (*recover)(const double *values, const double *theta, double *displacement, double *force, void *user);
+    void (*release)(void *user);
+    const char *(*message)(void *user);
+} delam_experimental_engine;
+
+/* Solves the bodies of the problem by an engine, which the library copies; NULL takes it back. Solvers made from then
+ * on use it. The option `reduction` must be `auto`, `subdomains` 0. No stiffness is assembled here.
+ * [null engine; owns engine: what it points to, the host, until its function release is called; status argument; since
+ * 0.2] */
+DELAM_API int32_t delam_experimental_problem_set_engine(delam_problem *problem,
+                                                        const delam_experimental_engine *engine);
+
+/* Writes some of the problem's cells, with all that their stiffness follows from, as bytes that another process can
+ * turn into a matrix (delam_experimental_part_matrix). cells: [count], ascending. *size receives the number of bytes;
+ * call it with bytes NULL to get it, and again with bytes [capacity].
+ * [null bytes, size; status argument, problem; source none; since 0.2] */
+DELAM_API int32_t delam_experimental_problem_part(const delam_problem *problem, int64_t count, const int64_t *cells,
+                                                  int64_t capacity, uint8_t *bytes, int64_t *size);
+/* Returns the stiffness of a part: CSR with both triangles over the DOFs of its nodes, dimension*i + component for
+ * local node i. bytes: [size]. nodes [node_count] receives the nodes in the numbering of the problem's mesh, ascending,
+ * coordinates [node_count][dimension] their places. Call it with NULL arrays to get *dimension, *node_count and
+ * *entries, and again with row_starts [dimension*node_count+1], columns [entries] and values [entries].
+ * [unit coordinates L, values F/L; null dimension, node_count, entries, nodes, coordinates, row_starts, columns,
+ * values; status cancelled, argument, snapshot; source T. Hughes, The Finite Element Method (1987), chapters 3 and 4;
+ * since 0.2] */
+DELAM_API int32_t delam_experimental_part_matrix(delam_context *context, int64_t size, const uint8_t *bytes,
+                                                 int64_t *dimension, int64_t *node_count, int64_t *entries,
+                                                 int64_t *nodes, double *coordinates, int64_t *row_starts,
+                                                 int64_t *columns, double *values);
+
 #ifdef __cplusplus
 }
 #endif
