@@ -28,8 +28,8 @@ extern "C" {
 
 /* The variables of a problem. Variable i < dofs is the displacement of DOF i of the mesh (dimension*node + component);
  * variable dofs + k is the jump k. DOFs in `replaced` are no variables: row r of T says u[replaced[r]] = sum over e in
- * [row_starts[r], row_starts[r+1]) of coefficients[e] * v[columns[e]]. Every other DOF is a variable of its own, unless
- * no element acts on it. homes [jump_count]: for each jump a replaced DOF that depends on it, a different one for each;
+ * [row_starts[r], row_starts[r+1]) of coefficients[e] * v[columns[e]]. Every other DOF is a variable of its own.
+ * homes [jump_count]: for each jump a replaced DOF that depends on it, a different one for each;
  * the displacements at these DOFs could be the variables in the place of the jumps. U and f by patterns: entries
  * [starts[p], starts[p+1]) belong to pattern p. visible [visible_count]: variables, ascending. */
 typedef struct delam_experimental_variables {
@@ -89,8 +89,8 @@ typedef struct delam_experimental_request {
  * with the answer in each place s, 0 for empty ones, and with itself in its own. work and lifted [pattern_count]: f_p.u
  * and U_p.(K u). first and norm: sqrt(r.M r) at the start and at the end; size: that of the state. least: about the
  * least eigenvalue of M A that the iteration has met, 1 if it has met none. converged: 0 if neither the tolerance nor
- * what rounding allows was reached. definite: 0 if the matrix turned out to be indefinite; the rest is then not set, and
- * the place is empty. */
+ * what rounding allows was reached. definite: 0 if the matrix turned out to be indefinite; the rest is then not set,
+ * and the place is empty. */
 typedef struct delam_experimental_answer {
     double *values;
     double *balance;
