@@ -88,9 +88,10 @@ typedef struct delam_experimental_request {
  * correction_balance [visible_count]: M r and T^T K T M r of the true residual r at the end. products [kept]: u.K u_s
  * with the answer in each place s, 0 for empty ones, and with itself in its own. work and lifted [pattern_count]: f_p.u
  * and U_p.(K u). first and norm: sqrt(r.M r) at the start and at the end; size: that of the state. least: about the
- * least eigenvalue of M A that the iteration has met, 1 if it has met none. converged: 0 if neither the tolerance nor
- * what rounding allows was reached. definite: 0 if the matrix turned out to be indefinite; the rest is then not set,
- * and the place is empty. */
+ * least eigenvalue of M A that the iteration has met, 1 if it has met none. rounding: relative, of u.K u, about the
+ * unit of rounding times sqrt(sum of (d_i v_i^2)^2) / u.K u with the diagonal d of T^T K T. converged: 0 if neither the
+ * tolerance nor what rounding allows was reached. definite: 0 if the matrix turned out to be indefinite; the rest is
+ * then not set, and the place is empty. */
 typedef struct delam_experimental_answer {
     double *values;
     double *balance;
@@ -103,6 +104,7 @@ typedef struct delam_experimental_answer {
     double norm;
     double size;
     double least;
+    double rounding;
     int64_t iterations;
     int32_t converged;
     int32_t definite;

@@ -95,9 +95,9 @@ std::vector<double> iterated_reactions(std::span<const Constraint* const> list, 
 // constraints are dependent. Constraints that share DOFs of bodies are solved together, densely. A control node may
 // connect thousands of them; these are solved by conjugate gradients on D D^T, which then has few distinct eigenvalues
 // (rows of few nodes, and one direction for each control DOF).
-std::vector<double> BodySystem::reaction(std::span<const double> theta, std::span<const double> displacement,
+std::vector<double> BodySystem::reaction(std::span<const double> theta, std::span<const double> stressed,
                                          std::span<const double> force) const {
-    const std::vector<double> left = residual(theta, displacement, force);
+    const std::vector<double> left = residual(theta, stressed, force);
     const std::size_t count = problem_.constraints.size();
     const Carriers carriers(problem_);
     const std::int64_t dim = problem_.mesh->dimension();
@@ -133,9 +133,9 @@ std::vector<double> BodySystem::reaction(std::span<const double> theta, std::spa
     return rho;
 }
 
-double BodySystem::defect(std::span<const double> theta, std::span<const double> displacement,
+double BodySystem::defect(std::span<const double> theta, std::span<const double> stressed,
                           std::span<const double> force, std::span<const double> reaction) const {
-    std::vector<double> left = residual(theta, displacement, force);
+    std::vector<double> left = residual(theta, stressed, force);
     for (std::size_t c = 0; c < problem_.constraints.size(); ++c) {
         const Constraint& constraint = problem_.constraints[c];
         for (std::size_t i = 0; i < constraint.dof.size(); ++i)

@@ -109,8 +109,8 @@ SparseMatrix with_diagonal(SparseMatrix k, std::int64_t first) {
 
 }  // namespace
 
-BodySystem::BodySystem(const Problem& problem, const Poll& poll) : problem_(problem) {
-    stiffness_ = assemble(problem_, poll);
+BodySystem::BodySystem(const Problem& problem, const Poll& poll, Stiffness stiffness) : problem_(problem) {
+    if (stiffness == Stiffness::here) stiffness_ = assemble(problem_, poll);
     call_if_set(poll);
     jump_rows_ = jump_matrix(problem_);
     call_if_set(poll);
@@ -157,10 +157,15 @@ void BodySystem::add_variables(std::span<const double> variables, std::span<doub
     for (std::size_t i = 0; i < moved.size(); ++i) displacement[i] += moved[i];
 }
 
-std::vector<double> BodySystem::residual(std::span<const double> theta, std::span<const double> displacement,
+std::vector<double> BodySystem::stressed(std::span<const double> displacement) const {
+    std::vector<double> force(displacement.size());
+    multiply(stiffness_, displacement, force);
+    return force;
+}
+
+std::vector<double> BodySystem::residual(std::span<const double> theta, std::span<const double> stressed,
                                          std::span<const double> force) const {
-    std::vector<double> r(displacement.size()), pull(displacement.size());
-    multiply(stiffness_, displacement, r);
+    std::vector<double> r(stressed.begin(), stressed.end()), pull(stressed.size());
     multiply_transposed(jump_rows_, force, pull);
     for (std::size_t i = 0; i < r.size(); ++i) r[i] += pull[i];
     for (std::size_t p = 0; p < theta.size(); ++p)

@@ -18,13 +18,15 @@ namespace delam {
 
 class BodySystem {
 public:
-    // `problem` must outlive the system.
-    BodySystem(const Problem& problem, const Poll& poll);
+    // `problem` must outlive the system. elsewhere: K is not assembled here, and stiffness(), transformed() and
+    // stressed() have nothing to say.
+    enum class Stiffness { here, elsewhere };
+    BodySystem(const Problem& problem, const Poll& poll, Stiffness stiffness = Stiffness::here);
 
     const Problem& problem() const { return problem_; }
     const JumpVariables& variables() const { return variables_; }
     const SparseMatrix& stiffness() const { return stiffness_; }  // K, all mesh DOFs
-    std::int64_t dofs() const { return stiffness_.rows; }
+    std::int64_t dofs() const { return variables_.transform.rows; }
     // T^T K T; the diagonal entries of all trailing variables exist.
     SparseMatrix transformed(const Poll& poll) const;
     // Computes the forces of all patterns. The forces in the result have been taken out of it.
@@ -36,14 +38,16 @@ public:
     std::vector<double> lift(std::span<const double> theta) const;
     // displacement += T v
     void add_variables(std::span<const double> variables, std::span<double> displacement) const;
-    // The forces that no element balances: K u - f + B^T force. force: of the jump rows.
-    std::vector<double> residual(std::span<const double> theta, std::span<const double> displacement,
+    // K u
+    std::vector<double> stressed(std::span<const double> displacement) const;
+    // The forces that no element balances: K u - f + B^T force. stressed: K u; force: of the jump rows.
+    std::vector<double> residual(std::span<const double> theta, std::span<const double> stressed,
                                  std::span<const double> force) const;
-    // Forces of the constraints from displacements and interface forces [rows].
-    std::vector<double> reaction(std::span<const double> theta, std::span<const double> displacement,
+    // Forces of the constraints from K u and interface forces [rows].
+    std::vector<double> reaction(std::span<const double> theta, std::span<const double> stressed,
                                  std::span<const double> force) const;
     // Largest unbalanced force, F.
-    double defect(std::span<const double> theta, std::span<const double> displacement, std::span<const double> force,
+    double defect(std::span<const double> theta, std::span<const double> stressed, std::span<const double> force,
                   std::span<const double> reaction) const;
 
 private:

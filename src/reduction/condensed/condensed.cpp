@@ -393,12 +393,14 @@ std::vector<double> Condensed::displacement(std::span<const double> theta, const
 }
 
 std::vector<double> Condensed::reaction(std::span<const double> theta, const Response& response) const {
-    return bulk_->system().reaction(theta, displacement(theta, response), response.force);
+    const BodySystem& system = bulk_->system();
+    return system.reaction(theta, system.stressed(displacement(theta, response)), response.force);
 }
 
 double Condensed::equilibrium_defect(std::span<const double> theta, const Response& response) const {
-    const std::vector<double> u = displacement(theta, response);
-    return bulk_->system().defect(theta, u, response.force, bulk_->system().reaction(theta, u, response.force));
+    const BodySystem& system = bulk_->system();
+    const std::vector<double> stressed = system.stressed(displacement(theta, response));
+    return system.defect(theta, stressed, response.force, system.reaction(theta, stressed, response.force));
 }
 
 // Entries of S have an error of the order of eps S_ii, and so has x^T S x, however small it is: the bending stiffness

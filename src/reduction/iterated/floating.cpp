@@ -53,12 +53,13 @@ Floating::Floating(const BodySystem& bodies, const JumpSystem& system)
 std::vector<double> Floating::in_variables(std::span<const double> combination) const {
     const std::vector<double> u = rigid_.displacement(combination);
     std::vector<double> v(index(system_.count()), 0.0), jump(system_.rows().size());
-    for (std::size_t i = 0; i < dof_of_.size(); ++i) v[i] = u[index(dof_of_[i])];
+    const std::size_t first = index(system_.first());
+    for (std::size_t i = first; i < dof_of_.size(); ++i) v[i - first] = u[index(dof_of_[i])];
     multiply(rigid_.jumps(), combination, jump);
     const JumpVariables& variables = bodies_.variables();
     for (std::size_t r = 0; r < jump.size(); ++r)
         if (const SparseVector& row = variables.row[r]; row.size() == 1 && row.front().second == 1.0)
-            v[index(variables.leading + variables.kept + row.front().first)] = jump[r];
+            v[dof_of_.size() + index(row.front().first) - first] = jump[r];
     return v;
 }
 
@@ -77,6 +78,8 @@ void Floating::update() {
     free_.clear();
     weak_.clear();
     anchors_.clear();
+    free_anchors_.clear();
+    combination_.clear();
     held_ = system_.held();
     active_ = std::move(active);
     spring_ = std::move(spring);
@@ -149,23 +152,32 @@ void Floating::examine() {
             for (std::int64_t i = 0; i < loose.columns; ++i)
                 floating(i, parts.free.columns + c) += parts.held(i, k) * eigen.vector(k, c);
     const DenseMatrix combinations = multiply(loose, floating);
-    for (std::int64_t c = 0; c < combinations.columns; ++c)
-        (c < parts.free.columns ? free_ : weak_)
-            .push_back(in_variables(std::span<const double>(combinations.value)
-                                        .subspan(index(c * combinations.rows), index(combinations.rows))));
-    anchor(multiply(z, combinations));
+    for (std::int64_t c = 0; c < combinations.columns; ++c) {
+        const std::span<const double> combination = std::span<const double>(combinations.value)
+                                                        .subspan(index(c * combinations.rows),
+                                                                 index(combinations.rows));
+        (c < parts.free.columns ? free_ : weak_).push_back(in_variables(combination));
+        if (c < parts.free.columns) combination_.emplace_back(combination.begin(), combination.end());
+    }
+    const DenseMatrix all = multiply(z, combinations);
+    anchors_ = anchors_of(all);
+    DenseMatrix of_free(all.rows, parts.free.columns);
+    std::copy_n(all.value.begin(), of_free.value.size(), of_free.value.begin());
+    free_anchors_ = anchors_of(of_free);
 }
 
-void Floating::anchor(const DenseMatrix& jumps) {
-    if (jumps.columns == 0) return;
+std::vector<Zone::Coupling> Floating::anchors_of(const DenseMatrix& jumps) const {
+    std::vector<Zone::Coupling> anchors;
+    if (jumps.columns == 0) return anchors;
     DenseMatrix across(jumps.columns, jumps.rows);
     for (std::int64_t i = 0; i < jumps.rows; ++i)
         for (std::int64_t c = 0; c < jumps.columns; ++c) across(c, i) = jumps(i, c);
     const PivotedColumns pivots = pivoted_columns(std::move(across), 1e-10);
     for (std::int64_t k = 0; k < pivots.rank; ++k) {
         const std::int64_t r = pivots.order[index(k)];
-        anchors_.push_back({r, r, anchored * row_diagonal(system_, index(r))});
+        anchors.push_back({r, r, anchored * row_diagonal(system_, index(r))});
     }
+    return anchors;
 }
 
 bool Floating::balances(std::span<const double> load) const {
@@ -176,10 +188,13 @@ bool Floating::balances(std::span<const double> load) const {
             total += motion[i] * load[i];
             size += std::abs(motion[i] * load[i]);
         }
-        if (std::abs(total) > std::max(unbalanced_load * size, rounded_load * std::sqrt(dot(motion, motion) * pull)))
-            return false;
+        if (!balances(total, size, std::sqrt(dot(motion, motion)), std::sqrt(pull))) return false;
     }
     return true;
+}
+
+bool Floating::balances(double work, double magnitudes, double motion, double load) {
+    return std::abs(work) <= std::max(unbalanced_load * magnitudes, rounded_load * motion * load);
 }
 
 void Floating::settle(std::span<double> x) const {

@@ -27,14 +27,20 @@ public:
     const std::vector<std::vector<double>>& weak() const { return weak_; }
     // Springs that hold all these motions, for preconditioners.
     std::span<const Zone::Coupling> anchors() const { return anchors_; }
+    // As many springs as there are free motions, which hold these: a load that balances leaves them without force.
+    std::span<const Zone::Coupling> free_anchors() const { return free_anchors_; }
+    // u of a free motion, [mesh DOFs].
+    std::vector<double> free_displacement(std::size_t i) const { return rigid_.displacement(combination_[i]); }
     // False: a free motion carries a load. load: forces on all variables.
     bool balances(std::span<const double> load) const;
+    // The same from the work of a load along a motion, the sum of its magnitudes, and the lengths of motion and load.
+    static bool balances(double work, double magnitudes, double motion, double load);
     // Takes the free motions out of the jumps of x.
     void settle(std::span<double> x) const;
 
 private:
     std::vector<double> in_variables(std::span<const double> combination) const;
-    void anchor(const DenseMatrix& jumps);
+    std::vector<Zone::Coupling> anchors_of(const DenseMatrix& jumps) const;
     bool all_resisted();
     void examine();
 
@@ -53,7 +59,8 @@ private:
     std::vector<double> reach_;  // [rows] squared length of the row of Z
     double enough_ = 0.0;        // such an eigenvalue, for which no motion is weakly held
     std::int64_t examinations_ = 0;
-    std::vector<Zone::Coupling> anchors_;
+    std::vector<Zone::Coupling> anchors_, free_anchors_;
+    std::vector<std::vector<double>> combination_;  // of the rigid motions, for each free one
 };
 
 }  // namespace delam

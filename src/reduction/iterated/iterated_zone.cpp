@@ -27,11 +27,10 @@ constexpr double foreseen = 0.1;
 
 }  // namespace
 
-IteratedZone::IteratedZone(const BodySystem& bodies, Reanalysis& reanalysis)
-    : bodies_(bodies),
-      reanalysis_(reanalysis),
-      tolerance_(std::clamp(part_of_tolerance * bodies.problem().options.damage_tolerance, finest_in_zone, coarsest)),
-      jump_rows_(reanalysis.system().rows().size()) {
+IteratedZone::IteratedZone(BodySolver& solver, const Options& options)
+    : solver_(solver),
+      tolerance_(std::clamp(part_of_tolerance * options.damage_tolerance, finest_in_zone, coarsest)),
+      jump_rows_(solver.system().rows().size()) {
     std::iota(jump_rows_.begin(), jump_rows_.end(), std::int64_t{0});
 }
 
@@ -48,11 +47,11 @@ void IteratedZone::ask_for_energies(double allowed) {
 }
 
 bool IteratedZone::factor(std::span<const Coupling> couplings, std::span<const std::uint8_t> held) {
-    const std::span<const std::uint8_t> prescribed = reanalysis_.system().prescribed();
+    const std::span<const std::uint8_t> prescribed = solver_.system().prescribed();
     std::vector<Coupling> acting;
     for (const Coupling& c : couplings)
         if (prescribed[index(c.row)] == 0 || prescribed[index(c.column)] == 0) acting.push_back(c);
-    return reanalysis_.set(std::move(acting), held);
+    return solver_.set(std::move(acting), held);
 }
 
 Zone::Solution IteratedZone::solve(std::span<const double> theta, std::span<const double> row_force) {
@@ -60,7 +59,7 @@ Zone::Solution IteratedZone::solve(std::span<const double> theta, std::span<cons
     solution.unknowns = start_;
     // As much as the model before has missed of the bodies' answer (S. Eisenstat, H. Walker, SIAM J. Sci. Comput. 17,
     // 1996, choice 1).
-    const Reanalysis::Forcing forcing = [this](double first) {
+    const BodySolver::Forcing forcing = [this](double first) {
         if (model_.begun == 0.0) return std::sqrt(2.0 * foreseen * allowed_);
         if (model_.begun < 0.0) {
             model_.begun = first;
@@ -69,7 +68,7 @@ Zone::Solution IteratedZone::solve(std::span<const double> theta, std::span<cons
         }
         return part_ * model_.begun;
     };
-    const Reanalysis::Answer answer = reanalysis_.solve(theta, row_force, tolerance_, solution.unknowns, forcing);
+    const BodySolver::Answer answer = solver_.solve(theta, row_force, tolerance_, solution.unknowns, forcing);
     model_.left = answer.norm;
     solution.left = answer.residual > tolerance_ && model_.begun > 0.0 ? model_.left / model_.begun : 0.0;
     solution.balanced = answer.balanced;
@@ -79,11 +78,11 @@ Zone::Solution IteratedZone::solve(std::span<const double> theta, std::span<cons
     if (!solution.balanced || !solution.definite || !solution.converged) return solution;
     std::vector<double> jump = jumps(theta, solution.unknowns), force(jump.size(), 0.0);
     for (std::size_t r = 0; r < row_force.size(); ++r) force[r] = -row_force[r];
-    for (const Coupling& c : reanalysis_.system().couplings()) force[index(c.row)] += c.value * jump[index(c.column)];
-    reanalysis_.held_forces(theta, solution.unknowns, force);
+    for (const Coupling& c : solver_.system().couplings()) force[index(c.row)] += c.value * jump[index(c.column)];
+    solver_.held_forces(theta, solution.unknowns, force);
     solution.multiplier.assign(force.size(), 0.0);
     for (std::size_t r = 0; r < force.size(); ++r)
-        if (reanalysis_.system().held()[r] != 0) solution.multiplier[r] = force[r];
+        if (solver_.system().held()[r] != 0) solution.multiplier[r] = force[r];
     solution.error = answer.error;
     if (allowed_ > 0.0) solution.energy_error = answer.energy_error;
     start_ = solution.unknowns;
@@ -99,7 +98,7 @@ void IteratedZone::start_anew() {
 std::vector<double> IteratedZone::unknowns_at(const Response& response) const {
     rounding_ = -1.0;
     start_ = response.multipliers;
-    start_.resize(index(reanalysis_.system().count()), 0.0);
+    start_.resize(index(solver_.state_size()), 0.0);
     return start_;
 }
 
@@ -108,37 +107,22 @@ void IteratedZone::keep(std::span<const double> unknowns, Response& response) co
 }
 
 std::vector<double> IteratedZone::jumps(std::span<const double> theta, std::span<const double> unknowns) const {
-    std::vector<double> j = reanalysis_.system().offsets(theta);
-    for (std::size_t r = 0; r < j.size(); ++r) j[r] += reanalysis_.system().row_value(r, unknowns);
+    std::vector<double> j = solver_.system().offsets(theta);
+    for (std::size_t r = 0; r < j.size(); ++r) j[r] += solver_.system().row_value(r, unknowns);
     return j;
 }
 
 void IteratedZone::complete_forces(std::span<const double>, const Solution& solution,
                                    std::span<double> row_force) const {
     for (std::size_t r = 0; r < row_force.size(); ++r)
-        if (reanalysis_.system().held()[r] != 0) row_force[r] = solution.multiplier[r];
+        if (solver_.system().held()[r] != 0) row_force[r] = solution.multiplier[r];
 }
 
 double IteratedZone::energy_of(std::span<const double> theta, std::span<const double> unknowns) const {
-    std::vector<double> u = bodies_.lift(theta), force(u.size());
-    bodies_.add_variables(unknowns, u);
-    multiply(bodies_.stiffness(), u, force);
-    double energy = 0.5 * dot(u, force);
-    for (std::size_t p = 0; p < theta.size(); ++p)
-        if (!bodies_.force()[p].empty()) energy -= theta[p] * dot(bodies_.force()[p], u);
-    if (rounding_ < 0.0) {
-        // Each component of K u has an error of the size of its terms, with a random sign.
-        const SparseMatrix& k = bodies_.stiffness();
-        double squares = 0.0;
-        for (std::size_t i = 0; i < u.size(); ++i) {
-            double sum = 0.0;
-            for (std::int64_t e = k.start[i]; e < k.start[i + 1]; ++e)
-                sum += std::abs(k.value[index(e)] * u[index(k.column[index(e)])]);
-            squares += u[i] * u[i] * sum * sum;
-        }
-        const double rounding = std::numeric_limits<double>::epsilon() * std::sqrt(squares);
-        rounding_ = energy != 0.0 ? std::min(1e-6, rounding / std::abs(energy)) : 0.0;
-    }
+    const BodySolver::Work work = solver_.work(theta, unknowns);
+    double energy = work.strain;
+    for (std::size_t p = 0; p < theta.size(); ++p) energy -= theta[p] * work.done[p];
+    if (rounding_ < 0.0) rounding_ = energy != 0.0 ? std::min(1e-6, solver_.energy_rounding(theta, unknowns)) : 0.0;
     return energy;
 }
 

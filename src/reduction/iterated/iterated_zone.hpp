@@ -3,14 +3,15 @@
 // tangents are, in the factor of a patch, or in the curvature along a direction of the iteration.
 #pragma once
 
-#include "reduction/iterated/reanalysis.hpp"
+#include "reduction/iterated/body_solver.hpp"
 #include "reduction/zone/zone.hpp"
+#include "scene/options.hpp"
 
 namespace delam {
 
 class IteratedZone final : public Zone {
 public:
-    IteratedZone(const BodySystem& bodies, Reanalysis& reanalysis);
+    IteratedZone(BodySolver& solver, const Options& options);
 
     void begin_model() override;
     void ask_for_energies(double allowed) override;
@@ -31,8 +32,7 @@ public:
     void forget_models();
 
 private:
-    const BodySystem& bodies_;
-    Reanalysis& reanalysis_;
+    BodySolver& solver_;
     double tolerance_;  // of the relative residual
     // Norms of residuals, of the present model and the one before: with which it began, and what its last solve left.
     struct Model {

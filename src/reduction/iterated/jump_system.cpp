@@ -82,23 +82,32 @@ JumpSystem::JumpSystem(const BodySystem& bodies, SparseMatrix transformed, const
     }
 }
 
+JumpSystem::JumpSystem(const BodySystem& bodies)
+    : patterns_(bodies.problem().patterns.size()), first_(bodies.variables().leading) {
+    matrix_.rows = matrix_.columns = bodies.variables().trailing();
+    matrix_.start.assign(index(matrix_.rows) + 1, 0);
+    diagonal_.assign(index(matrix_.rows), 0.0);
+    express_rows(bodies);
+}
+
 // A row that the constraints prescribe has no variable. Other jumps that they bind stay variables: expressed by all
 // others of an interface, they would fill the matrix.
 void JumpSystem::express_rows(const BodySystem& bodies) {
     const JumpVariables& variables = bodies.variables();
+    const std::int64_t trailing = variables.leading - first_;
     const std::vector<SolvedEquation> equations = solve_equations(variables);
     for (const SolvedEquation& solved : equations) {
         SparseVector& equation = equations_.emplace_back();
-        equation.emplace_back(variables.leading + solved.pivot, 1.0);
-        for (const auto& [t, c] : solved.entries) equation.emplace_back(variables.leading + t, -c);
+        equation.emplace_back(trailing + solved.pivot, 1.0);
+        for (const auto& [t, c] : solved.entries) equation.emplace_back(trailing + t, -c);
         equation_right_.push_back(solved.prescribed);
     }
-    row_of_.assign(index(variables.count()), -1);
+    row_of_.assign(index(count()), -1);
     std::vector<JumpRow> expressed = delam::express_rows(variables, equations);
     for (std::size_t r = 0; r < expressed.size(); ++r) {
         JumpRow row{{}, variables.row_offset[r]};
         for (const auto& [jump, n] : variables.row[r])
-            row.unknowns.emplace_back(variables.leading + variables.kept + jump, n);
+            row.unknowns.emplace_back(trailing + variables.kept + jump, n);
         if (expressed[r].prescribed()) row = std::move(expressed[r]);
         const bool plain = row.offset.empty() && row.unknowns.size() == 1 && row.unknowns.front().second == 1.0 &&
                            row_of_[index(row.unknowns.front().first)] < 0;

@@ -13,6 +13,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/monitor.hpp"
@@ -27,6 +28,10 @@ class JumpSystem {
 public:
     // transformed: T^T K T of the bodies
     JumpSystem(const BodySystem& bodies, SparseMatrix transformed, const Poll& poll);
+    // Of the trailing variables alone, those of all rows and constraints, for bodies that somebody else solves: what
+    // multiplies by T^T K T has nothing to say. Their diagonal comes later.
+    explicit JumpSystem(const BodySystem& bodies);
+    void set_diagonal(std::vector<double> diagonal) { diagonal_ = std::move(diagonal); }
 
     std::int64_t count() const { return matrix_.rows; }
     // T^T K T; entries exist for all variables that a pair's rows connect.
@@ -47,6 +52,17 @@ public:
     void set(std::vector<Zone::Coupling> couplings, std::span<const std::uint8_t> held);
     const std::vector<Zone::Coupling>& couplings() const { return couplings_; }
     const std::vector<std::uint8_t>& held() const { return held_; }
+
+    // A variable that held rows or constraints express by others.
+    struct Slave {
+        std::int64_t pivot;
+        SparseVector masters;
+        std::vector<double> right;  // [patterns]
+    };
+    const std::vector<Slave>& slaves() const { return slaves_; }
+    const std::vector<std::int64_t>& removed() const { return removed_; }
+    // Of the variables of jump_variables.hpp, the first that this system has.
+    std::int64_t first() const { return first_; }
 
     // o, [rows]
     std::vector<double> offsets(std::span<const double> theta) const;
@@ -79,11 +95,6 @@ public:
     std::vector<double> multipliers(std::span<double> left, std::span<double> force) const;
 
 private:
-    struct Slave {
-        std::int64_t pivot;
-        SparseVector masters;
-        std::vector<double> right;  // [patterns]
-    };
     double matrix_row(std::size_t i, std::span<const double> x) const;
     void express_rows(const BodySystem& bodies);
     void hold();
@@ -91,6 +102,7 @@ private:
     void factor_binding() const;
 
     std::size_t patterns_;
+    std::int64_t first_ = 0;
     SparseMatrix matrix_;
     std::vector<double> diagonal_;
     std::vector<JumpRow> rows_;

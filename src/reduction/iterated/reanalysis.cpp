@@ -15,11 +15,6 @@ namespace delam {
 
 namespace {
 
-// A spring differs if bodies and spring together are stiffer or softer than in the factor by this share.
-constexpr double differs = 0.1;
-// The same for tangents that soften or couple rows, which no factor of the whole can have: small ones of many thin
-// cells together leave little of a soft motion.
-constexpr double differs_in_kind = 0.03;
 // Patches of more than this share of all variables cost as much as a new factor of the whole.
 constexpr double largest_patch = 0.25;
 // A triangular solve waits for memory: its operations are this many times slower than a factorisation's.
@@ -66,14 +61,45 @@ std::vector<double> Reanalysis::load(std::span<const double> theta) const {
     return g;
 }
 
-// Held rows as the springs that stand for them in the factors.
-std::vector<double> Reanalysis::springs_now() const {
-    std::vector<double> springs(system_.rows().size(), 0.0);
-    for (const Zone::Coupling& c : system_.couplings())
-        if (c.row == c.column) springs[index(c.row)] += c.value;
-    for (std::size_t r = 0; r < springs.size(); ++r)
-        if (system_.held()[r] != 0) springs[r] = held_as * row_diagonal(system_, r);
-    return springs;
+double Reanalysis::load_size(std::span<const double> theta) const { return max_abs(load(theta)); }
+
+void Reanalysis::recover(std::span<const double> theta, std::span<const double> x, std::vector<double>& displacement,
+                         std::vector<double>& stressed) const {
+    displacement = bodies_.lift(theta);
+    bodies_.add_variables(x, displacement);
+    stressed = bodies_.stressed(displacement);
+}
+
+BodySolver::Work Reanalysis::work(std::span<const double> theta, std::span<const double> x) const {
+    std::vector<double> u, stressed;
+    recover(theta, x, u, stressed);
+    Work work;
+    work.strain = 0.5 * dot(u, stressed);
+    const std::vector<std::vector<double>>& force = bodies_.force();
+    for (std::size_t p = 0; p < theta.size(); ++p)
+        if (!force[p].empty() && theta[p] != 0.0) add_scaled(-theta[p], force[p], stressed);
+    for (std::size_t p = 0; p < theta.size(); ++p) {
+        work.lifted.push_back(dot(bodies_.variables().lift[p], stressed));
+        work.done.push_back(force[p].empty() ? 0.0 : dot(force[p], u));
+    }
+    return work;
+}
+
+// Each component of K u has an error of the size of its terms, with a random sign.
+double Reanalysis::energy_rounding(std::span<const double> theta, std::span<const double> x) const {
+    std::vector<double> u, stressed;
+    recover(theta, x, u, stressed);
+    double energy = 0.5 * dot(u, stressed), squares = 0.0;
+    for (std::size_t p = 0; p < theta.size(); ++p)
+        if (!bodies_.force()[p].empty()) energy -= theta[p] * dot(bodies_.force()[p], u);
+    const SparseMatrix& k = bodies_.stiffness();
+    for (std::size_t i = 0; i < u.size(); ++i) {
+        double sum = 0.0;
+        for (std::int64_t e = k.start[i]; e < k.start[i + 1]; ++e)
+            sum += std::abs(k.value[index(e)] * u[index(k.column[index(e)])]);
+        squares += u[i] * u[i] * sum * sum;
+    }
+    return std::numeric_limits<double>::epsilon() * std::sqrt(squares) / std::abs(energy);
 }
 
 bool Reanalysis::plain() const {
@@ -82,21 +108,7 @@ bool Reanalysis::plain() const {
 }
 
 std::vector<std::int64_t> Reanalysis::changed() const {
-    const std::vector<double> now = springs_now();
-    std::vector<std::uint8_t> row(now.size(), 0);
-    for (std::size_t r = 0; r < now.size(); ++r) {
-        if (system_.prescribed()[r] != 0 || now[r] == lagged_[r]) continue;
-        const double body = row_diagonal(system_, r), old = body + lagged_[r], fresh = body + now[r];
-        const double share = now[r] < 0.0 ? differs_in_kind : differs;
-        row[r] = fresh > (1.0 + share) * old || old > (1.0 + share) * fresh ? 1 : 0;
-    }
-    for (const Zone::Coupling& c : system_.couplings()) {
-        const auto r = index(c.row), q = index(c.column);
-        if (r == q || system_.prescribed()[r] != 0 || system_.prescribed()[q] != 0) continue;
-        if (system_.held()[r] != 0 || system_.held()[q] != 0) continue;
-        const double own = (row_diagonal(system_, r) + lagged_[r]) * (row_diagonal(system_, q) + lagged_[q]);
-        if (c.value * c.value > differs_in_kind * differs_in_kind * own) row[r] = row[q] = 1;
-    }
+    const std::vector<std::uint8_t> row = differing_rows(system_, lagged_);
     std::vector<std::int64_t> variables;
     for (std::size_t r = 0; r < row.size(); ++r)
         for (const auto& [i, n] : system_.rows()[r].unknowns)
@@ -154,7 +166,7 @@ void Reanalysis::renew(std::vector<double> springs) {
 }
 
 void Reanalysis::renew_now() {
-    std::vector<double> springs = springs_now();
+    std::vector<double> springs = springs_of(system_);
     for (double& s : springs) s = std::max(0.0, s);
     for (const Zone::Coupling& c : floating_.anchors()) springs[index(c.row)] += c.value;
     renew(std::move(springs));

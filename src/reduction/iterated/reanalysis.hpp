@@ -15,6 +15,7 @@
 
 #include "base/monitor.hpp"
 #include "reduction/body_system.hpp"
+#include "reduction/iterated/body_solver.hpp"
 #include "reduction/iterated/conjugate_gradients.hpp"
 #include "reduction/iterated/floating.hpp"
 #include "reduction/iterated/jump_system.hpp"
@@ -23,59 +24,43 @@
 
 namespace delam {
 
-class Reanalysis {
+class Reanalysis final : public BodySolver {
 public:
-    // Residuals below this part of the state are not asked for: it is what a decision about contact can still use.
-    static constexpr double finest = 1e-12;
-
     // transformed: T^T K T of the bodies
     Reanalysis(const BodySystem& bodies, SparseMatrix transformed, Monitor& monitor);
 
-    // What acts from now on. False: a patch is not positive definite, and nothing can be solved.
-    bool set(std::vector<Zone::Coupling> couplings, std::span<const std::uint8_t> held);
-    // What may stay of the norm of a residual, given the norm at the start: as much, or what the tolerance allows.
-    using Forcing = std::function<double(double first)>;
-    struct Answer {
-        std::int64_t iterations = 0;
-        double residual = 0.0;           // relative, in the energy norm
-        double first = 0.0, norm = 0.0;  // of the residual, at the start and at the end
-        SolveError error;           // of jumps and forces: ten times what a further step of the iteration would change
-        double energy_error = 0.0;  // 1/2 r^T A^-1 r, F L, as far as the iteration knows A
-        bool converged = true;
-        bool balanced = true;  // false: a free motion carries a load; x is then not set
-        bool definite = true;  // false: negative curvature was met; x is then of no use
-    };
-    // x: [variables] in: where to start, empty: nowhere; out: the solution. row_force: h, [rows] or empty. tolerance:
-    // of the residual, relative to the size of the state, at best `finest`.
+    bool set(std::vector<Zone::Coupling> couplings, std::span<const std::uint8_t> held) override;
     Answer solve(std::span<const double> theta, std::span<const double> row_force, double tolerance,
-                 std::vector<double>& x, const Forcing& forcing = {});
-    // Adds the forces of held rows to those of the others. Returns the multipliers of constraints on many variables.
+                 std::vector<double>& x, const Forcing& forcing = {}) override;
     std::vector<double> held_forces(std::span<const double> theta, std::span<const double> x,
-                                    std::span<double> force) const;
+                                    std::span<double> force) const override;
+    double load_size(std::span<const double> theta) const override;
+    Work work(std::span<const double> theta, std::span<const double> x) const override;
+    double energy_rounding(std::span<const double> theta, std::span<const double> x) const override;
+    void recover(std::span<const double> theta, std::span<const double> x, std::vector<double>& displacement,
+                 std::vector<double>& stressed) const override;
 
-    const JumpSystem& system() const { return system_; }
+    const JumpSystem& system() const override { return system_; }
+    std::int64_t state_size() const override { return system_.count(); }
     const Floating& floating() const { return floating_; }
     // g = T^T (f - K U theta)
     std::vector<double> load(std::span<const double> theta) const;
-    std::int64_t factorisations() const { return factorisations_; }
+    std::int64_t factorisations() const override { return factorisations_; }
     const WholeFactor* whole() const { return whole_.get(); }
     const Patches& patches() const { return patches_; }
 
     // Of an analysis that looks at other states and comes back.
     static bool keeps_two_factors(const Problem& problem);
 
-    // What the next solution's last digits depend on.
-    std::vector<double> memory() const;
-    void recall(std::span<const double> memory);
-    // Throws Error(DELAM_ERROR_SNAPSHOT).
-    void require_memory(std::span<const double> memory) const;
+    std::vector<double> memory() const override;
+    void recall(std::span<const double> memory) override;
+    void require_memory(std::span<const double> memory) const override;
 
 private:
     // Iterations with a fresh factor for which no newer one is blamed: as many as its first solve has taken, within
     // these bounds (tangents that are negative or couple rows are in patches alone).
     static constexpr double fresh_iterations = 4.0, most_fresh_iterations = 12.0;
 
-    std::vector<double> springs_now() const;
     // Variables of rows whose springs differ from those of the factor.
     std::vector<std::int64_t> changed() const;
     bool plain() const;

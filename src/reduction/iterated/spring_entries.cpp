@@ -28,4 +28,32 @@ std::vector<Triplet> spring_entries(const JumpSystem& system, std::span<const Zo
     return entries;
 }
 
+std::vector<double> springs_of(const JumpSystem& system) {
+    std::vector<double> springs(system.rows().size(), 0.0);
+    for (const Zone::Coupling& c : system.couplings())
+        if (c.row == c.column) springs[index(c.row)] += c.value;
+    for (std::size_t r = 0; r < springs.size(); ++r)
+        if (system.held()[r] != 0) springs[r] = held_as * row_diagonal(system, r);
+    return springs;
+}
+
+std::vector<std::uint8_t> differing_rows(const JumpSystem& system, std::span<const double> springs) {
+    const std::vector<double> now = springs_of(system);
+    std::vector<std::uint8_t> row(now.size(), 0);
+    for (std::size_t r = 0; r < now.size(); ++r) {
+        if (system.prescribed()[r] != 0 || now[r] == springs[r]) continue;
+        const double body = row_diagonal(system, r), old = body + springs[r], fresh = body + now[r];
+        const double share = now[r] < 0.0 ? differs_in_kind : differs;
+        row[r] = fresh > (1.0 + share) * old || old > (1.0 + share) * fresh ? 1 : 0;
+    }
+    for (const Zone::Coupling& c : system.couplings()) {
+        const auto r = index(c.row), q = index(c.column);
+        if (r == q || system.prescribed()[r] != 0 || system.prescribed()[q] != 0) continue;
+        if (system.held()[r] != 0 || system.held()[q] != 0) continue;
+        const double own = (row_diagonal(system, r) + springs[r]) * (row_diagonal(system, q) + springs[q]);
+        if (c.value * c.value > differs_in_kind * differs_in_kind * own) row[r] = row[q] = 1;
+    }
+    return row;
+}
+
 }  // namespace delam

@@ -3,6 +3,7 @@
 // spring so stiff that the bodies do not feel it give way: the pattern of the matrix then does not depend on contact.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -23,5 +24,16 @@ double row_diagonal(const JumpSystem& system, std::size_t row);
 // N^T C N, held rows included.
 std::vector<Triplet> spring_entries(const JumpSystem& system, std::span<const Zone::Coupling> couplings,
                                     std::span<const std::uint8_t> held);
+
+// What acts on the rows at the moment, as springs, held rows as those that stand for them: [rows].
+std::vector<double> springs_of(const JumpSystem& system);
+
+// A spring differs from an earlier one if bodies and spring together are stiffer or softer by this share.
+inline constexpr double differs = 0.1;
+// The same for tangents that soften or couple rows, which no preconditioner can have: small ones of many thin cells
+// together leave little of a soft motion.
+inline constexpr double differs_in_kind = 0.03;
+// [rows] 1: what acts on it differs from these springs [rows].
+std::vector<std::uint8_t> differing_rows(const JumpSystem& system, std::span<const double> springs);
 
 }  // namespace delam
