@@ -31,7 +31,7 @@ extern "C" {
  * [row_starts[r], row_starts[r+1]) of coefficients[e] * v[columns[e]]. Every other DOF is a variable of its own.
  * homes [jump_count]: for each jump a replaced DOF that depends on it, a different one for each;
  * the displacements at these DOFs could be the variables in the place of the jumps. U and f by patterns: entries
- * [starts[p], starts[p+1]) belong to pattern p. visible [visible_count]: variables, ascending. */
+ * [starts[p], starts[p+1]) belong to pattern p. visible [visible_count]: variables. */
 typedef struct delam_experimental_variables {
     int64_t dimension;
     int64_t dofs;
@@ -110,7 +110,7 @@ typedef struct delam_experimental_answer {
     int32_t definite;
 } delam_experimental_answer;
 
-/* An engine. size: sizeof(delam_experimental_engine); kept: number of answers that it keeps, at least 4. The functions
+/* An engine. size: sizeof(delam_experimental_engine); kept: number of answers that it keeps, at least 8. The functions
  * are called in the thread of the running call of the library, return 0 or a status of delam.h, and must not call the
  * library with objects of the same context.
  *   prepare   the variables from now on, valid until it returns; all places are empty. Fills diagonal [visible_count],

@@ -45,7 +45,8 @@ void add_realisations(std::vector<PlanItem>& items, const Basis& basis) {
         const ReductionCost& cost;
     } all[] = {{Realisation::condensed, "condensed operator", "the condensed operator", choice.condensation},
                {Realisation::iterated, "iterated operator", "the iterated operator", choice.iteration},
-               {Realisation::feti, "FETI", "FETI", choice.feti}};
+               {Realisation::feti, "FETI", "FETI", choice.feti},
+               {Realisation::engine, "engine", "the engine of the host", choice.engine}};
     std::string other;
     const ReductionCost* rival = nullptr;  // the cheapest of the others that were predicted
     for (const auto& [realisation, subject, name, cost] : all) {
@@ -57,6 +58,7 @@ void add_realisations(std::vector<PlanItem>& items, const Basis& basis) {
     const bool both = rival != nullptr && choice.own().setup > 0.0;
     for (const auto& [realisation, subject, name, cost] : all) {
         const bool own = realisation == choice.realisation;
+        if (realisation == Realisation::engine && !own) continue;
         const std::string built =
             text(words, "; ", basis.description, "; cost of an analysis of ", nominal_steps, " steps");
         const std::string left = text(other, " is used instead, ", words,
@@ -68,6 +70,11 @@ void add_realisations(std::vector<PlanItem>& items, const Basis& basis) {
                          "flop"});
     }
     const ReductionCost& own = choice.own();
+    if (choice.realisation == Realisation::engine) {
+        for (const char* what : {"time of a load step", "memory"})
+            items.push_back({what, left_out, "not predicted: the engine of the host decides", 0.0, 0.0, "-"});
+        return;
+    }
     items.push_back({"time of a load step", used,
                      text("predicted at a nominal ", nominal_rate * 1e-9, " GF/s, after a set-up of ",
                           rounded(own.setup / nominal_rate), " s; ", nominal_steps, " steps then end after ",
@@ -93,6 +100,7 @@ void add_reduction(std::vector<PlanItem>& items, const Basis& basis) {
     add_realisations(items, basis);
     const ReductionChoice& choice = basis.choice;
     const bool feti = choice.realisation == Realisation::feti;
+    const bool engine = choice.realisation == Realisation::engine;
     const std::string name = choice.condensed() ? "the condensed operator" : "the iterated operator";
     if (feti)
         items.push_back(
@@ -101,7 +109,10 @@ void add_reduction(std::vector<PlanItem>& items, const Basis& basis) {
                   ", predicted boundary ", std::round(choice.boundary), " DOFs each"),
              0.0, 0.0, "-"});
     else
-        items.push_back({"subdomains", left_out, text(name, " factors all bodies at once"), 0.0, 0.0, "-"});
+        items.push_back(
+            {"subdomains", left_out,
+             engine ? std::string("the engine cuts the bodies as it likes") : text(name, " factors all bodies at once"),
+             0.0, 0.0, "-"});
     const std::int64_t own = basis.problem.options.threads, blas = blas_threads();
     const std::string of_blas = blas > 0 ? text(blas) : std::string("an unknown number");
     const std::int64_t useful = useful_threads(own);

@@ -12,6 +12,7 @@
 #include "base/numbers.hpp"
 #include "delam/delam.h"
 #include "reduction/condensed/condensed.hpp"
+#include "reduction/engine/engine_operator.hpp"
 #include "reduction/feti/feti.hpp"
 #include "reduction/iterated/iterated.hpp"
 #include "scene/carriers.hpp"
@@ -140,7 +141,17 @@ IteratedSize iterated_size(const Bulk& bulk) {
 }
 
 const ReductionCost& ReductionChoice::own() const {
-    return realisation == Realisation::condensed ? condensation : realisation == Realisation::feti ? feti : iteration;
+    switch (realisation) {
+        case Realisation::condensed:
+            return condensation;
+        case Realisation::feti:
+            return feti;
+        case Realisation::engine:
+            return engine;
+        case Realisation::iterated:
+            break;
+    }
+    return iteration;
 }
 
 double predict_monolithic_entries(const Bulk& bulk) { return bulk.superelements().entries_in_order(); }
@@ -306,6 +317,22 @@ Design of_iterated(Design design, std::unique_ptr<Iterated> iterated) {
     return design;
 }
 
+Design of_engine(Design design, const Problem& problem, Monitor& monitor) {
+    if (problem.options.reduction != "auto" || problem.options.subdomains > 0)
+        fail(DELAM_ERROR_PROBLEM, "the problem has an engine: option 'reduction' = '", problem.options.reduction,
+             "', 'subdomains' = ", problem.options.subdomains, ", allowed: auto and 0");
+    auto op = std::make_unique<EngineOperator>(problem, monitor);
+    design.choice.forced = true;
+    design.choice.realisation = Realisation::engine;
+    design.choice.reason = "the engine of the host";
+    design.choice.unknowns = problem.jump_count();
+    design.description = op->description();
+    design.bound = bound_rows(op->variables());
+    design.prescribed.assign(op->prescribed_rows().begin(), op->prescribed_rows().end());
+    design.op = std::move(op);
+    return design;
+}
+
 Design of_feti(Design design, const Problem& problem, Monitor& monitor) {
     design.description = text("total FETI: ", design.choice.subdomains, " subdomains, ", problem.jump_count(),
                               " jump multipliers, preconditioner ", problem.options.preconditioner);
@@ -359,6 +386,7 @@ Design chosen(const Problem& problem, Monitor& monitor) {
     Design design;
     ReductionChoice& choice = design.choice;
     choice.memory = memory_for(problem);
+    if (problem.engine != nullptr) return of_engine(std::move(design), problem, monitor);
     choice.unknowns = problem.jump_count();
     choice.subdomains = feti_subdomains(problem);
     choice.feti = predict_feti(problem, choice.subdomains, choice.boundary);

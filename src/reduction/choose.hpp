@@ -43,7 +43,7 @@ struct ReductionCost {
     double analysis() const { return setup + nominal_steps * step; }
 };
 
-enum class Realisation { condensed, iterated, feti };
+enum class Realisation { condensed, iterated, feti, engine };
 
 struct ReductionChoice {
     Realisation realisation = Realisation::condensed;
@@ -53,6 +53,7 @@ struct ReductionChoice {
     ReductionCost condensation;  // setup 0: not predicted, because the options or the size had decided
     ReductionCost iteration;
     ReductionCost feti;
+    ReductionCost engine;  // nobody knows
     // Of the realisation in use.
     const ReductionCost& own() const;
     double monolithic = 0.0;      // bytes of one monolithic factorisation, 0: not predicted

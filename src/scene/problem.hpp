@@ -15,6 +15,7 @@
 #include "law/law.hpp"
 #include "linalg/sparse.hpp"
 #include "mesh/mesh.hpp"
+#include "scene/engine.hpp"
 #include "scene/options.hpp"
 
 namespace delam {
@@ -76,6 +77,7 @@ struct Problem {
     std::vector<NodalForce> forces;
     std::vector<Eigenstrain> eigenstrains;
     Options options;
+    std::shared_ptr<Engine> engine;  // that solves the bodies; null: the library does
 
     // DOFs of all pairs: rows of the jump, interface after interface, pair after pair, normal first.
     std::int64_t pair_count() const;

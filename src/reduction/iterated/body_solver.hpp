@@ -56,12 +56,12 @@ public:
         double strain = 0.0;
         std::vector<double> done, lifted;  // [patterns]
     };
-    virtual Work work(std::span<const double> theta, std::span<const double> x) const = 0;
+    virtual Work work(std::span<const double> theta, std::span<const double> x) = 0;
     // Relative rounding of 1/2 u^T K u - f^T u.
-    virtual double energy_rounding(std::span<const double> theta, std::span<const double> x) const = 0;
+    virtual double energy_rounding(std::span<const double> theta, std::span<const double> x) = 0;
     // u and K u of a state, over all DOFs of the mesh.
     virtual void recover(std::span<const double> theta, std::span<const double> x, std::vector<double>& displacement,
-                         std::vector<double>& stressed) const = 0;
+                         std::vector<double>& stressed) = 0;
 
     virtual std::int64_t factorisations() const = 0;
     // What the next solution's last digits depend on.

@@ -51,6 +51,8 @@ Floating::Floating(const BodySystem& bodies, const JumpSystem& system)
 }
 
 std::vector<double> Floating::in_variables(std::span<const double> combination) const {
+    if (std::all_of(combination.begin(), combination.end(), [](double c) { return c == 0.0; }))
+        return std::vector<double>(index(system_.count()), 0.0);
     const std::vector<double> u = rigid_.displacement(combination);
     std::vector<double> v(index(system_.count()), 0.0), jump(system_.rows().size());
     const std::size_t first = index(system_.first());
@@ -153,9 +155,8 @@ void Floating::examine() {
                 floating(i, parts.free.columns + c) += parts.held(i, k) * eigen.vector(k, c);
     const DenseMatrix combinations = multiply(loose, floating);
     for (std::int64_t c = 0; c < combinations.columns; ++c) {
-        const std::span<const double> combination = std::span<const double>(combinations.value)
-                                                        .subspan(index(c * combinations.rows),
-                                                                 index(combinations.rows));
+        const std::span<const double> combination =
+            std::span<const double>(combinations.value).subspan(index(c * combinations.rows), index(combinations.rows));
         (c < parts.free.columns ? free_ : weak_).push_back(in_variables(combination));
         if (c < parts.free.columns) combination_.emplace_back(combination.begin(), combination.end());
     }
@@ -197,8 +198,9 @@ bool Floating::balances(double work, double magnitudes, double motion, double lo
     return std::abs(work) <= std::max(unbalanced_load * magnitudes, rounded_load * motion * load);
 }
 
-void Floating::settle(std::span<double> x) const {
-    if (free_.empty()) return;
+std::vector<double> Floating::settle(std::span<double> x) const {
+    std::vector<double> added;
+    if (free_.empty()) return added;
     const auto n = static_cast<std::int64_t>(free_.size());
     const std::size_t rows = system_.rows().size();
     DenseMatrix gram(n, n), right(n, 1);
@@ -211,8 +213,12 @@ void Floating::settle(std::span<double> x) const {
         right(i, 0) = dot(jump[index(i)], now);
         for (std::int64_t j = 0; j < n; ++j) gram(i, j) = dot(jump[index(i)], jump[index(j)]);
     }
-    if (!solve_general(gram, right, 1e-12)) return;
-    for (std::int64_t i = 0; i < n; ++i) add_scaled(-right(i, 0), free_[index(i)], x);
+    if (!solve_general(gram, right, 1e-12)) return added;
+    for (std::int64_t i = 0; i < n; ++i) {
+        added.push_back(-right(i, 0));
+        add_scaled(added.back(), free_[index(i)], x);
+    }
+    return added;
 }
 
 }  // namespace delam

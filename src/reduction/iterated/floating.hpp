@@ -29,17 +29,22 @@ public:
     std::span<const Zone::Coupling> anchors() const { return anchors_; }
     // As many springs as there are free motions, which hold these: a load that balances leaves them without force.
     std::span<const Zone::Coupling> free_anchors() const { return free_anchors_; }
-    // u of a free motion, [mesh DOFs].
+    // Rigid motions, of which all others are combinations [motions]; a free one's; u [mesh DOFs] and variables of one.
+    std::int64_t motions() const { return rigid_.jumps().columns; }
+    std::span<const double> free_combination(std::size_t i) const { return combination_[i]; }
     std::vector<double> free_displacement(std::size_t i) const { return rigid_.displacement(combination_[i]); }
+    std::vector<double> rigid_displacement(std::span<const double> combination) const {
+        return rigid_.displacement(combination);
+    }
+    std::vector<double> in_variables(std::span<const double> combination) const;
     // False: a free motion carries a load. load: forces on all variables.
     bool balances(std::span<const double> load) const;
     // The same from the work of a load along a motion, the sum of its magnitudes, and the lengths of motion and load.
     static bool balances(double work, double magnitudes, double motion, double load);
-    // Takes the free motions out of the jumps of x.
-    void settle(std::span<double> x) const;
+    // Takes the free motions out of the jumps of x. How much of each it has added; empty: nothing.
+    std::vector<double> settle(std::span<double> x) const;
 
 private:
-    std::vector<double> in_variables(std::span<const double> combination) const;
     std::vector<Zone::Coupling> anchors_of(const DenseMatrix& jumps) const;
     bool all_resisted();
     void examine();

@@ -106,8 +106,7 @@ void JumpSystem::express_rows(const BodySystem& bodies) {
     std::vector<JumpRow> expressed = delam::express_rows(variables, equations);
     for (std::size_t r = 0; r < expressed.size(); ++r) {
         JumpRow row{{}, variables.row_offset[r]};
-        for (const auto& [jump, n] : variables.row[r])
-            row.unknowns.emplace_back(trailing + variables.kept + jump, n);
+        for (const auto& [jump, n] : variables.row[r]) row.unknowns.emplace_back(trailing + variables.kept + jump, n);
         if (expressed[r].prescribed()) row = std::move(expressed[r]);
         const bool plain = row.offset.empty() && row.unknowns.size() == 1 && row.unknowns.front().second == 1.0 &&
                            row_of_[index(row.unknowns.front().first)] < 0;

@@ -64,13 +64,13 @@ std::vector<double> Reanalysis::load(std::span<const double> theta) const {
 double Reanalysis::load_size(std::span<const double> theta) const { return max_abs(load(theta)); }
 
 void Reanalysis::recover(std::span<const double> theta, std::span<const double> x, std::vector<double>& displacement,
-                         std::vector<double>& stressed) const {
+                         std::vector<double>& stressed) {
     displacement = bodies_.lift(theta);
     bodies_.add_variables(x, displacement);
     stressed = bodies_.stressed(displacement);
 }
 
-BodySolver::Work Reanalysis::work(std::span<const double> theta, std::span<const double> x) const {
+BodySolver::Work Reanalysis::work(std::span<const double> theta, std::span<const double> x) {
     std::vector<double> u, stressed;
     recover(theta, x, u, stressed);
     Work work;
@@ -86,7 +86,7 @@ BodySolver::Work Reanalysis::work(std::span<const double> theta, std::span<const
 }
 
 // Each component of K u has an error of the size of its terms, with a random sign.
-double Reanalysis::energy_rounding(std::span<const double> theta, std::span<const double> x) const {
+double Reanalysis::energy_rounding(std::span<const double> theta, std::span<const double> x) {
     std::vector<double> u, stressed;
     recover(theta, x, u, stressed);
     double energy = 0.5 * dot(u, stressed), squares = 0.0;

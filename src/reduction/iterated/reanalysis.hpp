@@ -35,10 +35,10 @@ public:
     std::vector<double> held_forces(std::span<const double> theta, std::span<const double> x,
                                     std::span<double> force) const override;
     double load_size(std::span<const double> theta) const override;
-    Work work(std::span<const double> theta, std::span<const double> x) const override;
-    double energy_rounding(std::span<const double> theta, std::span<const double> x) const override;
+    Work work(std::span<const double> theta, std::span<const double> x) override;
+    double energy_rounding(std::span<const double> theta, std::span<const double> x) override;
     void recover(std::span<const double> theta, std::span<const double> x, std::vector<double>& displacement,
-                 std::vector<double>& stressed) const override;
+                 std::vector<double>& stressed) override;
 
     const JumpSystem& system() const override { return system_; }
     std::int64_t state_size() const override { return system_.count(); }
