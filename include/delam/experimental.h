@@ -139,8 +139,10 @@ typedef struct delam_experimental_engine {
     const char *(*message)(void *user);
 } delam_experimental_engine;
 
-/* Solves the bodies of the problem by an engine, which the library copies; NULL takes it back. Solvers made from then
- * on use it. The option `reduction` must be `auto`, `subdomains` 0. No stiffness is assembled here.
+/* Solves the bodies of the problem by an engine, which the library copies; NULL takes it back. Bodies without cells
+ * (delam_mesh_add_host_body) then need no stiffness, and no other nodes than those at interfaces, supports and loads:
+ * each of them is one elastic solid, which nothing but the problem's supports and interfaces holds. Solvers made from
+ * then on use it. The option `reduction` must be `auto`, `subdomains` 0. No stiffness is assembled here.
  * [null engine; owns engine: what it points to, the host, until its function release is called; status argument; since
  * 0.2] */
 DELAM_API int32_t delam_experimental_problem_set_engine(delam_problem *problem,

@@ -42,6 +42,15 @@ Pieces find_pieces(const Problem& problem) {
         nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     }
     for (std::size_t b = 0; b < problem.stiffness.size(); ++b) {
+        const auto body = static_cast<std::int32_t>(b);
+        if (problem.stiffness[b] == nullptr && problem.engine != nullptr && mesh.host_body(body)) {
+            const std::vector<std::int64_t> nodes = mesh.body_nodes(body);
+            for (const std::int64_t node : nodes)
+                pieces.of_node[index(node)] = static_cast<std::int64_t>(pieces.count());
+            pieces.fixed.push_back(0);
+            pieces.nodes.push_back(nodes);
+            pieces.body.push_back(body);
+        }
         if (problem.stiffness[b] == nullptr) continue;
         for (const HostPiece& own : problem.stiffness[b]->pieces) {
             for (const std::int64_t node : own.nodes)
@@ -65,14 +74,17 @@ Pieces find_pieces(const Problem& problem) {
 struct KnownPieces {
     std::shared_ptr<const Mesh> mesh;
     std::vector<std::shared_ptr<const HostStiffness>> stiffness;
+    bool engine;
     Pieces pieces;
 };
 
 const Pieces& rigid_pieces(const Problem& problem) {
     const KnownPieces* known = problem.known_pieces.get();
-    if (known == nullptr || known->mesh != problem.mesh || known->stiffness != problem.stiffness)
-        problem.known_pieces =
-            std::make_shared<const KnownPieces>(KnownPieces{problem.mesh, problem.stiffness, find_pieces(problem)});
+    const bool engine = problem.engine != nullptr;
+    if (known == nullptr || known->mesh != problem.mesh || known->stiffness != problem.stiffness ||
+        known->engine != engine)
+        problem.known_pieces = std::make_shared<const KnownPieces>(
+            KnownPieces{problem.mesh, problem.stiffness, engine, find_pieces(problem)});
     return problem.known_pieces->pieces;
 }
 

@@ -32,6 +32,7 @@ void check_bodies(const Problem& problem) {
                          "': give its forces instead (delam_problem_add_forces)");
             continue;
         }
+        if (mesh.host_body(body) && problem.engine != nullptr) continue;  // the engine has its stiffness
         if (mesh.host_body(body))
             fail(DELAM_ERROR_PROBLEM, "body ", mesh.body_label(body),
                  ": no cells and no stiffness (delam_problem_set_stiffness)");

@@ -1,0 +1,476 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The bodies solved by an engine of the host against the condensed operator: responses, zones, whole marches; states
+// that the engine keeps no longer; what an engine does wrong.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/numbers.hpp"
+#include "evolution/solver.hpp"
+#include "layer_states.hpp"
+#include "reduction/condensed/condensed.hpp"
+#include "reduction/engine/engine_operator.hpp"
+#include "serial_engine.hpp"
+
+// Last: its macro fail() would break delam::fail().
+#include "quiet_check.hpp"
+
+using namespace delam;
+
+namespace {
+
+constexpr unit::LayerCase cases[] = {
+    {.name = "two layers", .dimension = 2, .layers = 2, .subdomains = 0, .stiffness = 125e9},
+    {.name = "soft interface", .dimension = 2, .layers = 2, .subdomains = 0, .stiffness = 1e9},
+    {.name = "stiff interface", .dimension = 2, .layers = 2, .subdomains = 0, .stiffness = 1e17},
+    {.name = "space", .dimension = 3, .layers = 3, .subdomains = 0, .stiffness = 125e9},
+    {.name = "a layer that floats", .dimension = 2, .layers = 3, .subdomains = 0, .stiffness = 125e9, .floating = true},
+    {.name = "a layer that floats in space",
+     .dimension = 3,
+     .layers = 3,
+     .subdomains = 0,
+     .stiffness = 125e9,
+     .floating = true},
+    {.name = "contact alone", .dimension = 2, .layers = 3, .subdomains = 0, .stiffness = 125e9, .touching = true},
+    {.name = "dead forces, eigenstrains",
+     .dimension = 2,
+     .layers = 3,
+     .subdomains = 0,
+     .stiffness = 125e9,
+     .loaded = true},
+    {.name = "a clamped end in space",
+     .dimension = 3,
+     .layers = 2,
+     .subdomains = 0,
+     .stiffness = 125e9,
+     .clamped = true},
+    {.name = "mean opening",
+     .dimension = 2,
+     .layers = 3,
+     .subdomains = 0,
+     .stiffness = 125e9,
+     .opening = unit::LayerCase::Opening::prescribed},
+    {.name = "two mean openings tied to each other",
+     .dimension = 3,
+     .layers = 3,
+     .subdomains = 0,
+     .stiffness = 125e9,
+     .opening = unit::LayerCase::Opening::tied},
+    {.name = "mean opening of a control node",
+     .dimension = 2,
+     .layers = 3,
+     .subdomains = 0,
+     .stiffness = 125e9,
+     .opening = unit::LayerCase::Opening::control},
+};
+
+void expect_close(std::span<const double> a, std::span<const double> b, double tolerance, double size,
+                  const std::string& what) {
+    ck_assert_uint_eq(a.size(), b.size());
+    double off = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) off = std::max(off, std::abs(a[i] - b[i]));
+    ck_assert_msg(off <= tolerance * size, "%s: off by %.2e of %.3g", what.c_str(), off, size);
+}
+
+Springs advanced(const unit::LayerState& scene, double x) {
+    Springs springs = scene.springs;
+    std::size_t pair = 0;
+    for (const InterfaceGeometry& face : scene.problem.mesh->interfaces())
+        for (std::size_t p = 0; p < face.node_a.size(); ++p, ++pair) {
+            const double at = scene.problem.mesh->node(face.node_a[p])[0];
+            if (at < 0.045 || at > x) continue;
+            for (std::size_t k = 0; k < scene.dim; ++k) springs.stiffness[pair * scene.dim + k] = 0.0;
+            springs.held[pair * scene.dim] = pair % 7 == 0 ? 1 : 0;
+        }
+    return springs;
+}
+
+// A problem with an engine of its own.
+struct Engined {
+    Problem problem;
+    unit::SerialEngine engine;
+    explicit Engined(const Problem& other) : problem(other), engine(BodySystem(other, {}).stiffness()) {
+        problem.engine = std::make_shared<Engine>(engine.functions());
+    }
+};
+
+}  // namespace
+
+START_TEST(answers_as_the_condensed_operator) {
+    const unit::LayerCase& c = cases[_i];
+    const unit::LayerState scene(c, static_cast<unsigned>(_i) + 1U);
+    Engined engined(scene.problem);
+    Monitor monitor;
+    auto bulk = std::make_shared<Bulk>(scene.problem, monitor);
+    bulk->condense(monitor);
+    Condensed condensed(bulk, scene.problem, monitor);
+    EngineOperator op(engined.problem, monitor);
+    ck_assert(std::ranges::equal(condensed.prescribed_rows(), op.prescribed_rows()));
+    Response a, b, first, first_condensed;
+    std::vector<double> theta = scene.theta, first_theta;
+    std::int64_t iterations = 0;
+    for (const double x : {0.0, 0.06, 0.07, 0.075}) {
+        const std::string where = std::string(c.name) + ", front at " + std::to_string(x);
+        for (double& t : theta) t *= 1.1;
+        const Springs springs = advanced(scene, x);
+        condensed.solve(springs, theta, b);
+        op.solve(springs, theta, a);
+        ck_assert_int_eq(a.balanced, b.balanced);
+        if (!b.balanced) continue;
+        ck_assert_msg(a.converged, "%s: %d iterations, residual %.1e", where.c_str(), static_cast<int>(a.iterations),
+                      a.residual);
+        iterations += a.iterations;
+        const double tolerance = 1e-8;
+        expect_close(a.jump, b.jump, tolerance, max_abs(b.jump), where + ", jumps");
+        expect_close(a.force, b.force, tolerance, max_abs(b.force), where + ", forces");
+        expect_close(a.conjugate, b.conjugate, tolerance, max_abs(b.conjugate), where + ", conjugate forces");
+        const double energies[] = {a.stored_bulk, a.load_potential}, others[] = {b.stored_bulk, b.load_potential};
+        expect_close(energies, others, tolerance, std::max(max_abs(others), std::abs(dot(b.force, b.jump))),
+                     where + ", energies");
+        const std::vector<double> u = condensed.displacement(theta, b);
+        expect_close(op.displacement(theta, a), u, tolerance, max_abs(u), where + ", displacements");
+        const std::vector<double> rho = condensed.reaction(theta, b);
+        expect_close(op.reaction(theta, a), rho, 10.0 * tolerance, max_abs(rho), where + ", reactions");
+        ck_assert(op.equilibrium_defect(theta, a) <= 10.0 * tolerance * max_abs(rho));
+        if (first_theta.empty()) {
+            first_theta = theta;
+            first = a;
+            first_condensed = b;
+        }
+    }
+    std::printf("%s: %d iterations, %d factors\n", c.name, static_cast<int>(iterations), engined.engine.renewed);
+    if (first_theta.empty()) return;
+    // A state that the engine has forgotten is found again.
+    for (int i = 0; i < 12; ++i) {
+        for (double& t : theta) t *= 1.01;
+        op.solve(scene.springs, theta, a);
+    }
+    const std::vector<double> u = condensed.displacement(first_theta, first_condensed);
+    const int renewed = engined.engine.renewed;
+    expect_close(op.displacement(first_theta, first), u, 1e-8, max_abs(u), std::string(c.name) + ", found again");
+    ck_assert_int_eq(engined.engine.renewed, renewed + 1);
+    op.solve(scene.springs, theta, a);
+    condensed.solve(scene.springs, theta, b);
+    expect_close(a.jump, b.jump, 1e-8, max_abs(b.jump), std::string(c.name) + ", jumps afterwards");
+}
+END_TEST
+
+START_TEST(zone_answers_as_the_dense_one) {
+    const unit::LayerCase& c = cases[_i];
+    unit::LayerState scene(c, static_cast<unsigned>(_i) + 1U);
+    scene.problem.options.damage_tolerance = 1e-8;
+    Engined engined(scene.problem);
+    Monitor monitor;
+    auto bulk = std::make_shared<Bulk>(scene.problem, monitor);
+    bulk->condense(monitor);
+    Condensed condensed(bulk, scene.problem, monitor);
+    EngineOperator op(engined.problem, monitor);
+    Zone* dense = condensed.zone(scene.springs, scene.wanted, false);
+    Zone* sparse = op.zone(scene.springs, scene.wanted, false);
+    std::vector<unit::ZoneAnswer> a, b;
+    for (const double scale : {1.0, 0.3}) {
+        a.push_back(unit::ask(*sparse, scene, scale));
+        b.push_back(unit::ask(*dense, scene, scale));
+        const std::string where = std::string(c.name) + ", scale " + std::to_string(scale);
+        expect_close(a.back().jump, b.back().jump, 1e-7, max_abs(b.back().jump), where + ", jumps");
+        expect_close(a.back().force, b.back().force, 1e-7, max_abs(b.back().force), where + ", forces");
+    }
+    const double off = (a[1].energy - a[0].energy) - (b[1].energy - b[0].energy);
+    const double size = std::max(std::abs(a[0].energy), std::abs(b[0].energy));
+    ck_assert_msg(std::abs(off) <= 1e-8 * size, "%s: energies off by %.2e of %.3g", c.name, off, size);
+}
+END_TEST
+
+// The energy on the way between two solutions is a parabola; its middle is known from the bodies' displacements.
+START_TEST(energy_of_combinations) {
+    const unit::LayerState scene(cases[3], 7);
+    Engined engined(scene.problem);
+    Monitor monitor;
+    EngineOperator op(engined.problem, monitor);
+    Zone& zone = *op.zone(scene.springs, scene.wanted, false);
+    std::vector<Zone::Solution> ends;
+    for (const double scale : {1.0, 0.2}) {
+        std::vector<Zone::Coupling> couplings;
+        for (std::size_t r = 0; r < scene.springs.stiffness.size(); ++r)
+            if (scene.springs.stiffness[r] > 0.0)
+                couplings.push_back({static_cast<std::int64_t>(r), static_cast<std::int64_t>(r),
+                                     (scene.wanted[r] != 0 ? scale : 1.0) * scene.springs.stiffness[r]});
+        ck_assert(zone.factor(couplings, std::vector<std::uint8_t>(scene.springs.held.size(), 0)));
+        ends.push_back(zone.solve(scene.theta, {}));
+    }
+    const auto energy = [&](double s) {
+        std::vector<double> x(ends[0].unknowns.size());
+        for (std::size_t i = 0; i < x.size(); ++i) x[i] = (1.0 - s) * ends[0].unknowns[i] + s * ends[1].unknowns[i];
+        Response response;
+        zone.keep(x, response);
+        const std::vector<double> u = op.displacement(scene.theta, response);
+        std::vector<double> stressed(u.size());
+        multiply(BodySystem(scene.problem, {}).stiffness(), u, stressed);
+        const double exact = 0.5 * dot(u, stressed);
+        expect_close(std::vector<double>{zone.energy_of(scene.theta, x)}, std::vector<double>{exact}, 1e-10, exact,
+                     "energy at " + std::to_string(s));
+        return exact;
+    };
+    const double first = energy(0.0), middle = energy(0.5), last = energy(1.0), quarter = energy(0.25);
+    expect_close(std::vector<double>{quarter}, std::vector<double>{0.375 * first + 0.75 * middle - 0.125 * last}, 1e-12,
+                 first, "parabola");
+}
+END_TEST
+
+namespace {
+
+struct March {
+    const char* name;
+    int dimension;
+    const char *solution, *mixity_rule;
+    double tangential;  // toughness over the normal one
+    std::size_t layers;
+    double brittle;  // onset over the toughness
+};
+constexpr March marches[] = {
+    {"ductile", 2, "local", "frozen", 1.0, 2, 0.4},
+    {"ductile in space", 3, "local", "frozen", 1.0, 2, 0.4},
+    {"three layers, mixed mode", 2, "local", "frozen", 2.5, 3, 0.4},
+    {"converged mixity", 2, "local", "converged", 2.5, 2, 0.4},
+    {"variational", 2, "local", "variational", 1.2, 2, 0.5},
+    {"brittle, local", 2, "local", "frozen", 1.0, 2, 1.0},
+    {"brittle, energetic", 2, "energetic", "frozen", 1.0, 2, 1.0},
+};
+
+Problem march_of(const March& m) {
+    unit::Flexure f;
+    f.dimension = m.dimension;
+    f.layers = m.layers;
+    f.along = m.dimension == 2 ? 60 : 30;
+    f.across = 3;
+    f.through = 2;
+    f.law.normal_onset = m.brittle * f.law.normal_toughness;
+    f.law.tangential_toughness = m.tangential * f.law.normal_toughness;
+    f.law.tangential_onset = m.brittle * f.law.tangential_toughness;
+    Problem problem = unit::make_flexure(f);
+    problem.options.solution = m.solution;
+    problem.options.mixity_rule = m.mixity_rule;
+    problem.options.damage_tolerance = 1e-7;
+    return problem;
+}
+
+}  // namespace
+
+START_TEST(marches_as_without_an_engine) {
+    const March& m = marches[_i];
+    Problem plain = march_of(m);
+    Engined engined(plain);
+    plain.options.reduction = "condensed";
+    Monitor monitor;
+    Solver a(plain, monitor, 0.0), b(engined.problem, monitor, 0.0);
+    std::int64_t broken = 0;
+    for (int step = 1; step <= 8; ++step) {
+        const double time = 0.125 * step;
+        const std::string where = std::string(m.name) + ", step " + std::to_string(step);
+        ck_assert_int_eq(a.advance(time).status, DELAM_OK);
+        const Outcome outcome = b.advance(time);
+        ck_assert_msg(outcome.status == DELAM_OK, "%s: %s", where.c_str(), outcome.text.c_str());
+        a.commit();
+        b.commit();
+        const State &s = a.committed(), &t = b.committed();
+        expect_close(t.adhesion, s.adhesion, 1e-4, 1.0, where + ", adhesion");
+        const double energies[] = {s.ledger.stored_bulk, s.ledger.dissipated},
+                     others[] = {t.ledger.stored_bulk, t.ledger.dissipated};
+        expect_close(others, energies, 1e-6, max_abs(energies), where + ", energies");
+        ck_assert_msg(t.closed == s.closed, "%s: contact", where.c_str());
+        const std::vector<double> u = a.displacement();
+        expect_close(b.displacement(), u, 1e-6, max_abs(u), where + ", displacements");
+        broken = std::count_if(t.adhesion.begin(), t.adhesion.end(), [](double z) { return z < 1.0; });
+    }
+    const std::vector<double> k = a.tangent(), other = b.tangent();
+    expect_close(other, k, 1e-6, max_abs(k), std::string(m.name) + ", tangent");
+    std::printf("%s: %d pairs damaged; %d solves, %d factors, %d recoveries\n", m.name, static_cast<int>(broken),
+                engined.engine.solved, engined.engine.renewed, engined.engine.recovered);
+    ck_assert_int_gt(broken, 0);
+}
+END_TEST
+
+namespace {
+
+// The problem without its cells and without the nodes that neither interfaces nor loads need, and the stiffness that an
+// engine has for it.
+std::pair<Problem, SparseMatrix> skeleton_of(const Problem& whole) {
+    const Mesh& mesh = *whole.mesh;
+    const std::int64_t dim = mesh.dimension();
+    std::vector<std::uint8_t> needed(index(mesh.node_count()), 0);
+    for (const InterfaceGeometry& face : mesh.interfaces())
+        for (std::size_t p = 0; p < face.node_a.size(); ++p)
+            needed[index(face.node_a[p])] = needed[index(face.node_b[p])] = 1;
+    for (const Constraint& c : whole.constraints)
+        for (const std::int64_t dof : c.dof) needed[index(dof / dim)] = 1;
+    std::vector<std::int64_t> place(needed.size()), bodies;
+    std::int64_t count = 0;
+    for (const std::uint8_t wanted : {1, 0})
+        for (std::size_t node = 0; node < needed.size(); ++node)
+            if (needed[node] == wanted) place[node] = count++;
+    const std::int64_t kept = std::count(needed.begin(), needed.end(), 1);
+    std::vector<double> places(index(kept * dim));
+    for (std::size_t node = 0; node < needed.size(); ++node)
+        for (std::size_t k = 0; k < index(dim) && needed[node] != 0; ++k)
+            places[index(place[node] * dim) + k] = mesh.node(static_cast<std::int64_t>(node))[k];
+    auto own = std::make_shared<Mesh>(mesh.dimension(), places);
+    for (std::int32_t body = 0; body < mesh.body_count(); ++body) {
+        std::vector<std::int64_t> nodes;
+        for (const std::int64_t node : mesh.body_nodes(body))
+            if (needed[index(node)] != 0) nodes.push_back(place[index(node)]);
+        own->add_host_body(mesh.body_label(body), nodes);
+    }
+    for (const InterfaceGeometry& face : mesh.interfaces()) {
+        std::vector<std::int64_t> a, b;
+        std::vector<double> normals;
+        for (std::size_t p = 0; p < face.node_a.size(); ++p) {
+            a.push_back(place[index(face.node_a[p])]);
+            b.push_back(place[index(face.node_b[p])]);
+            for (std::size_t k = 0; k < index(dim); ++k) normals.push_back(face.frame[p * index(dim * dim) + k]);
+        }
+        own->add_pairs(mesh.body_label(face.body_a), mesh.body_label(face.body_b), a, b, normals, face.weight, 0, {});
+    }
+    Problem problem(own);
+    problem.plane = whole.plane;
+    problem.patterns = whole.patterns;
+    problem.options = whole.options;
+    for (std::size_t i = 0; i < whole.interfaces.size(); ++i) problem.interfaces[i] = whole.interfaces[i];
+    for (Constraint c : whole.constraints) {
+        for (std::int64_t& dof : c.dof) dof = place[index(dof / dim)] * dim + dof % dim;
+        problem.constraints.push_back(std::move(c));
+    }
+    const SparseMatrix k = BodySystem(whole, {}).stiffness();
+    std::vector<Triplet> entries;
+    const auto moved = [&](std::int64_t dof) { return place[index(dof / dim)] * dim + dof % dim; };
+    for (std::int64_t r = 0; r < k.rows; ++r)
+        for (std::int64_t e = k.start[index(r)]; e < k.start[index(r) + 1]; ++e)
+            entries.push_back({moved(r), moved(k.column[index(e)]), k.value[index(e)]});
+    return {std::move(problem), from_triplets(k.rows, k.columns, std::move(entries))};
+}
+
+}  // namespace
+
+// The library knows the interfaces alone, of bodies that float once they have come off.
+START_TEST(bodies_that_only_the_engine_knows) {
+    const March& m = marches[_i];
+    Problem plain = march_of(m);
+    plain.options.reduction = "condensed";
+    auto [problem, stiffness] = skeleton_of(march_of(m));
+    unit::SerialEngine engine(std::move(stiffness));
+    problem.engine = std::make_shared<Engine>(engine.functions());
+    ck_assert_int_lt(problem.mesh->node_count(), plain.mesh->node_count());
+    Monitor monitor;
+    Solver a(plain, monitor, 0.0), b(problem, monitor, 0.0);
+    for (int step = 1; step <= 6; ++step) {
+        const std::string where = std::string(m.name) + ", skeleton, step " + std::to_string(step);
+        for (Solver* solver : {&a, &b}) {
+            ck_assert_int_eq(solver->advance(0.15 * step).status, DELAM_OK);
+            solver->commit();
+        }
+        expect_close(b.committed().adhesion, a.committed().adhesion, 1e-4, 1.0, where + ", adhesion");
+        const std::vector<double> rho = a.reaction();
+        expect_close(b.reaction(), rho, 1e-6, max_abs(rho), where + ", reactions");
+    }
+}
+END_TEST
+
+// Two solvers of one problem take turns: the engine has room for the variables of one of them.
+START_TEST(solvers_take_turns) {
+    const Problem plain = march_of(marches[0]);
+    Engined engined(plain);
+    Monitor monitor;
+    {
+        Solver alone(engined.problem, monitor, 0.0);
+        Solver one(engined.problem, monitor, 0.0), two(engined.problem, monitor, 0.0);
+        for (int step = 1; step <= 6; ++step) {
+            for (Solver* solver : {&alone, &one, &two}) {
+                ck_assert_int_eq(solver->advance(0.15 * step).status, DELAM_OK);
+                solver->commit();
+            }
+            expect_close(one.committed().adhesion, two.committed().adhesion, 1e-6, 1.0, "two solvers");
+        }
+        ck_assert_int_ge(engined.engine.prepared, 18);
+        const std::vector<double> u = one.displacement();
+        expect_close(two.displacement(), u, 1e-6, max_abs(u), "displacements of two solvers");
+    }
+    engined.problem.engine.reset();
+    ck_assert_int_eq(engined.engine.released, 1);
+}
+END_TEST
+
+START_TEST(failures_and_cancellation) {
+    Engined engined(march_of(marches[0]));
+    Monitor monitor;
+    Solver solver(engined.problem, monitor, 0.0);
+    ck_assert_int_eq(solver.advance(0.5).status, DELAM_OK);
+    solver.commit();
+    const std::vector<double> adhesion = solver.committed().adhesion;
+    engined.engine.fails = DELAM_ERROR_MEMORY;
+    try {
+        (void)solver.advance(0.9);
+        ck_abort_msg("an engine that fails was believed");
+    } catch (const Error& e) {
+        ck_assert_int_eq(e.status(), DELAM_ERROR_MEMORY);
+        ck_assert_msg(std::string(e.what()) == "engine: solve: as asked", "%s", e.what());
+    }
+    monitor.progress_callback = [](const char* stage, std::int64_t, std::int64_t, void*) {
+        return std::string(stage) == "linear solve" ? 1 : 0;
+    };
+    try {
+        (void)solver.advance(0.9);
+        ck_abort_msg("not cancelled");
+    } catch (const Error& e) {
+        ck_assert_int_eq(e.status(), DELAM_CANCELLED);
+    }
+    monitor.progress_callback = nullptr;
+    ck_assert(solver.committed().adhesion == adhesion);
+    Problem plain = march_of(marches[0]);
+    Solver other(plain, monitor, 0.0);
+    for (const double time : {0.5, 0.9}) {
+        ck_assert_int_eq(other.advance(time).status, DELAM_OK);
+        other.commit();
+    }
+    ck_assert_int_eq(solver.advance(0.9).status, DELAM_OK);
+    solver.commit();
+    expect_close(solver.committed().adhesion, other.committed().adhesion, 2e-5, 1.0, "after a failure");
+
+    delam_experimental_engine wrong = engined.engine.functions();
+    wrong.kept = 3;
+    try {
+        const Engine refused(wrong);
+        ck_abort_msg("an engine with three places was taken");
+    } catch (const Error& e) {
+        ck_assert_int_eq(e.status(), DELAM_ERROR_ARGUMENT);
+    }
+    engined.problem.options.reduction = "feti";
+    try {
+        const Solver refused(engined.problem, monitor, 0.0);
+        ck_abort_msg("an engine beside FETI");
+    } catch (const Error& e) {
+        ck_assert_int_eq(e.status(), DELAM_ERROR_PROBLEM);
+    }
+}
+END_TEST
+
+int main() {
+    Suite* suite = suite_create("engine");
+    TCase* test = tcase_create("engine");
+    tcase_set_timeout(test, 0);
+    tcase_add_loop_test(test, answers_as_the_condensed_operator, 0, static_cast<int>(std::size(cases)));
+    tcase_add_loop_test(test, zone_answers_as_the_dense_one, 0, static_cast<int>(std::size(cases)));
+    tcase_add_test(test, energy_of_combinations);
+    tcase_add_loop_test(test, marches_as_without_an_engine, 0, static_cast<int>(std::size(marches)));
+    tcase_add_loop_test(test, bodies_that_only_the_engine_knows, 0, 3);
+    tcase_add_test(test, solvers_take_turns);
+    tcase_add_test(test, failures_and_cancellation);
+    suite_add_tcase(suite, test);
+    SRunner* runner = srunner_create(suite);
+    srunner_run_all(runner, CK_ENV);
+    const int failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return failed == 0 ? 0 : 1;
+}
