@@ -267,7 +267,8 @@ def main():
         for gap in struct_gaps(struct, header):
             print(f"{options.header}:{struct.line}: {struct.name}: {gap}")
             gaps += 1
-    print(f"{len(header.functions)} functions, {len(own_callbacks)} callbacks, {len(header.structs)} structs, {gaps} gaps")
+    print(f"{len(header.functions)} functions, {len(own_callbacks)} callbacks, {len(header.structs)} structs, "
+          f"{gaps} gaps")
     sys.exit(1 if gaps else 0)
 
 
