@@ -48,10 +48,18 @@ private:
     std::uint32_t version_;
 };
 
-// Throws Error(DELAM_ERROR_SNAPSHOT) where the bytes end early.
+// FNV-1a over bytes; a longer run of them in pieces, from the sum of those before.
+inline constexpr std::uint64_t checksum_start = 14695981039346656037ULL;
+inline std::uint64_t checksum(std::span<const std::uint8_t> bytes, std::uint64_t sum = checksum_start) {
+    for (const std::uint8_t b : bytes) sum = (sum ^ b) * 1099511628211ULL;
+    return sum;
+}
+
+// Throws Error(DELAM_ERROR_SNAPSHOT) where the bytes end early. what: of which they are, for the message.
 class Reader {
 public:
-    Reader(std::span<const std::uint8_t> bytes, std::uint32_t version) : bytes_(bytes), version_(version) {}
+    Reader(std::span<const std::uint8_t> bytes, std::uint32_t version, const char* what = "snapshot")
+        : bytes_(bytes), version_(version), what_(what) {}
 
     std::uint32_t version() const { return version_; }
     std::size_t left() const { return bytes_.size() - at_; }
@@ -75,7 +83,7 @@ public:
     }
 
 private:
-    [[noreturn]] void end_early() const { fail(DELAM_ERROR_SNAPSHOT, "snapshot ends early at byte ", bytes_.size()); }
+    [[noreturn]] void end_early() const { fail(DELAM_ERROR_SNAPSHOT, what_, " ends early at byte ", bytes_.size()); }
     const std::uint8_t* take(std::size_t n) {
         if (n > left()) end_early();
         const std::uint8_t* p = bytes_.data() + at_;
@@ -85,6 +93,7 @@ private:
     std::span<const std::uint8_t> bytes_;
     std::size_t at_ = 0;
     std::uint32_t version_;
+    const char* what_;
 };
 
 // What a saved member may be besides the rule: an array of the size that the reader's own has, of finite numbers.

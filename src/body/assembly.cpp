@@ -134,6 +134,12 @@ NodeGraph node_graph(const LocalCells& cells, std::size_t nodes) {
     return graph;
 }
 
+// Nodes and cells are numbered by int32.
+void require_countable(std::size_t nodes, std::size_t cells) {
+    if (std::max(nodes, cells) > index(std::numeric_limits<std::int32_t>::max()))
+        fail(DELAM_ERROR_ARGUMENT, nodes, " nodes, ", cells, " cells to assemble at once: at most 2^31 - 1");
+}
+
 // The pattern of the matrix: each entry of the graph is a block of dimension x dimension.
 SparseMatrix empty_matrix(const NodeGraph& graph, std::size_t dim) {
     const std::size_t nodes = graph.start.size() - 1;
@@ -189,9 +195,7 @@ void add(const Block& block, SparseMatrix& k) {
 // the same order, whatever the number of threads. model_of: a cell's.
 SparseMatrix assemble(const Mesh& mesh, std::span<const std::int64_t> cells, std::span<const std::int64_t> nodes,
                       const auto& model_of, std::int64_t threads, const Poll& poll) {
-    if (std::max(nodes.size(), cells.size()) > index(std::numeric_limits<std::int32_t>::max()))
-        fail(DELAM_ERROR_ARGUMENT, nodes.size(), " nodes, ", cells.size(),
-             " cells to assemble at once: at most 2^31 - 1");
+    require_countable(nodes.size(), cells.size());
     const std::size_t dim = index(mesh.dimension());
     const LocalCells local = local_cells(mesh, cells, nodes);
     call_if_set(poll);
@@ -252,6 +256,13 @@ SparseMatrix assemble_stiffness(const Mesh& mesh, std::span<const std::int64_t> 
                                 const Poll& poll) {
     return assemble(
         mesh, cells, nodes, [&](std::int64_t) -> const BodyModel& { return model; }, threads, poll);
+}
+
+std::int64_t stiffness_entries(const Mesh& mesh, std::span<const std::int64_t> cells,
+                               std::span<const std::int64_t> nodes) {
+    require_countable(nodes.size(), cells.size());
+    const NodeGraph graph = node_graph(local_cells(mesh, cells, nodes), nodes.size());
+    return static_cast<std::int64_t>(graph.neighbour.size()) * mesh.dimension() * mesh.dimension();
 }
 
 // Without eigenstrains the in-plane rows suffice, and isotropic bodies have their zz from the others.

@@ -25,6 +25,10 @@ SparseMatrix assemble_stiffness(const Mesh& mesh, std::span<const std::int64_t> 
                                 std::span<const std::int64_t> nodes, const BodyModel& model, std::int64_t threads = 1,
                                 const Poll& poll = {});
 
+// Entries of this matrix, without its values.
+std::int64_t stiffness_entries(const Mesh& mesh, std::span<const std::int64_t> cells,
+                               std::span<const std::int64_t> nodes);
+
 // Stresses at cell centres, [cells][4 or 6]: xx, yy, zz, xy (2D, zz from the plane assumption) or xx, yy, zz, xy, yz,
 // zx: C (eps - e*). displacement: [mesh nodes][dimension]; models by body index; eigenstrains e* by body index too, in
 // material axes (none if the list is empty).

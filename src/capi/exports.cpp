@@ -18,12 +18,6 @@ void give(const SparseMatrix& matrix, std::int64_t* row_starts, std::int64_t* co
     if (values != nullptr) std::copy(matrix.value.begin(), matrix.value.end(), values);
 }
 
-void require_material(const Problem& problem, std::int32_t body) {
-    if (!problem.material[static_cast<std::size_t>(body)])
-        fail(DELAM_ERROR_PROBLEM, "body ", problem.mesh->body_label(body),
-             ": no material (delam_problem_set_elastic or delam_problem_set_orthotropic)");
-}
-
 // Forces of the bodies with eigenstrains.
 void require_materials(const Problem& problem) {
     for (const Eigenstrain& eigenstrain : problem.eigenstrains) require_material(problem, eigenstrain.body);

@@ -28,12 +28,6 @@ constexpr std::int64_t most_steps = std::int64_t{1} << 53;
 // Of a larger file, hash and checksum are compared piece by piece, before there is memory for all of it.
 constexpr std::uint64_t largest_unchecked = std::uint64_t{1} << 20;
 
-constexpr std::uint64_t checksum_start = 14695981039346656037ULL;
-std::uint64_t checksum(std::span<const std::uint8_t> bytes, std::uint64_t h = checksum_start) {
-    for (const std::uint8_t b : bytes) h = (h ^ b) * 1099511628211ULL;
-    return h;
-}
-
 void forget_zones(State& state) {
     state.memory.clear();
     state.search_memory.clear();

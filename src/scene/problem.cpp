@@ -52,6 +52,12 @@ SparseMatrix Problem::body_stiffness(std::int32_t body, const Poll& poll) const 
                               poll);
 }
 
+void require_material(const Problem& problem, std::int32_t body) {
+    if (!problem.material[static_cast<std::size_t>(body)])
+        fail(DELAM_ERROR_PROBLEM, "body ", problem.mesh->body_label(body),
+             ": no material (delam_problem_set_elastic or delam_problem_set_orthotropic)");
+}
+
 std::vector<double> Problem::factors(double time) const {
     std::vector<double> factor;
     factor.reserve(patterns.size());

@@ -103,6 +103,9 @@ struct Problem {
 // part connected through bonded or adhering pairs must be held against all its rigid motions.
 void validate(const Problem& problem, const Poll& poll = {});
 
+// Error(DELAM_ERROR_PROBLEM) where a body has no material.
+void require_material(const Problem& problem, std::int32_t body);
+
 // FNV-1a over everything that determines the result, the options included.
 std::uint64_t hash(const Problem& problem);
 

@@ -36,10 +36,7 @@ void check_bodies(const Problem& problem) {
         if (mesh.host_body(body))
             fail(DELAM_ERROR_PROBLEM, "body ", mesh.body_label(body),
                  ": no cells and no stiffness (delam_problem_set_stiffness)");
-        if (!problem.material[static_cast<std::size_t>(body)]) {
-            fail(DELAM_ERROR_PROBLEM, "body ", mesh.body_label(body),
-                 ": no material (delam_problem_set_elastic or delam_problem_set_orthotropic)");
-        }
+        require_material(problem, body);
         require_formulation(mesh, body, problem.formulation[static_cast<std::size_t>(body)], DELAM_ERROR_PROBLEM);
         (void)problem.model(body);
     }

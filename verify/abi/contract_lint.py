@@ -22,6 +22,9 @@ Checked for each function, from its signature:
     source  there when numbers are computed for the caller or solved for
     since   a version, the one of symbols.txt
 
+Structs (outside the promise) have a comment directly above, without brackets, that says what they are; every member is
+named in it or in the comment above a struct or function that uses the struct.
+
 Callbacks are the host's: their own statuses are not in src/capi, their numbers need no source, and each has a thread;
 owns is there when a text is given, status is '-' where nothing is returned.
 """
@@ -214,6 +217,26 @@ def check(function, header, listed, implemented, fuzzed=None):
     return gaps
 
 
+def struct_gaps(struct, header):
+    """header: with the structs and functions that may use this one."""
+    gaps = []
+    if not struct.comment:
+        return ["no comment directly above"]
+    if len(re.findall(r"[A-Za-z]{2,}", struct.comment)) < 3:
+        gaps.append("what: the comment does not say what the struct is")
+    if fields_of(struct.comment)[0] is not None:
+        gaps.append("a struct has no line in brackets")
+    said = struct.comment
+    for user in [*header.structs.values(), *header.functions.values(), *header.callbacks.values()]:
+        things = user.members if isinstance(user, headers.Struct) else [user]
+        if user is not struct and struct.name in (pointee(t) for thing in things for t in headers.types_of(thing)):
+            said += "\n" + user.comment
+    for member in struct.members:
+        if member.name not in EXPLAINED and not named(member.name, said):
+            gaps.append(f"what: member {member.name} is not named")
+    return gaps
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("header")
@@ -240,7 +263,12 @@ def main():
         for gap in check(function, header, listed, implemented, fuzzed):
             print(f"{options.header}:{function.line}: {function.name}: {gap}")
             gaps += 1
-    print(f"{len(header.functions)} functions, {len(own_callbacks)} callbacks, {gaps} gaps")
+    for struct in header.structs.values():
+        for gap in struct_gaps(struct, header):
+            print(f"{options.header}:{struct.line}: {struct.name}: {gap}")
+            gaps += 1
+    print(f"{len(header.functions)} functions, {len(own_callbacks)} callbacks, {len(header.structs)} structs, "
+          f"{gaps} gaps")
     sys.exit(1 if gaps else 0)
 
 

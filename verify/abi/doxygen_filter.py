@@ -3,7 +3,8 @@
 """doxygen_filter.py HEADER: the header as Doxygen reads it, to standard output.
 
 The header is written for people who read it in an editor, without markup. Here comments become documentation: words as
-they are, indented tables verbatim, the line in brackets as a list. Line numbers are kept only roughly.
+they are, indented tables verbatim, the line in brackets as a list. Members of a struct refer to the comment above it.
+Line numbers are kept only roughly.
 """
 import os
 import re
@@ -65,7 +66,7 @@ def main():
         else:
             out.append(code)
     out.append(text[at:])
-    text = "".join(out)
+    text = headers.STRUCT.sub(lambda struct: struct.group().replace(";\n", "; /**< See above. */\n"), "".join(out))
     # A comment stands for all constants of its list: those below the first refer to it.
     lines = text.split("\n")
     leader = ""

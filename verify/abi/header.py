@@ -3,7 +3,15 @@
 
 A strict reader of the few forms that the header may have: comments, preprocessor lines, opaque handles, callback types
 and functions marked DELAM_API. Whatever else stands there (a struct with members, an enumeration, an inline function)
-is refused by line, so that the reader is also the rule.
+is refused by line, so that the reader is also the rule. A header outside the promise, which is read with the promised
+one as `known`, may have structs too:
+
+    typedef struct NAME {
+        TYPE member;
+        RESULT (*member)(PARAMETERS);
+    } NAME;
+
+A member begins on a line of its own. Functions and other structs have pointers to structs only.
 """
 import re
 from dataclasses import dataclass
@@ -34,6 +42,14 @@ class Function:
 
 
 @dataclass
+class Struct:
+    name: str
+    members: list  # of Parameter and, where a member is a pointer to a function, of Function
+    comment: str
+    line: int
+
+
+@dataclass
 class Header:
     path: str
     functions: dict
@@ -41,6 +57,7 @@ class Header:
     handles: list
     constants: dict  # name -> text of the value
     comments: list   # (line, text) of every comment
+    structs: dict    # outside the promise alone
 
 
 BLANK = re.compile(r"\s+")
@@ -50,6 +67,9 @@ LINKAGE = re.compile(r'extern "C" \{|\}')
 HANDLE = re.compile(r"typedef struct (\w+) (\w+);")
 CALLBACK = re.compile(r"typedef ([^;{}()]+?)\(\*(\w+)\)\(([^;{}()]*)\);")
 FUNCTION = re.compile(r"DELAM_API\s+([^;{}()]+?)(\w+)\(([^;{}()]*)\);")
+STRUCT = re.compile(r"typedef struct (\w+) \{\n([^{}]*)\} (\w+);")
+MEMBER = re.compile(r"([^;{}()]+?)(\w+)")
+POINTER_MEMBER = re.compile(r"([^;{}()]+?)\(\*(\w+)\)\(([^;{}()]*)\)")
 CONSTANT = re.compile(r"#define (DELAM_\w+)[ \t]+(\S+)")
 NUMBERS = {"int32_t", "int64_t", "double", "uint8_t"}
 
@@ -77,13 +97,55 @@ def parameters_of(text, where):
     return found
 
 
+def members_of(text, where, line):
+    """Of the lines between the braces of a struct, the first of which is `line`."""
+    members = []
+    if COMMENT.search(text):
+        raise HeaderError(f"{where}: comments of a struct stand above it")
+    *parts, rest = text.split(";")
+    if rest.strip():
+        raise HeaderError(f"{where}: no ';' after '{rest.strip()}'")
+    for part in parts:
+        # Behind the ';' of the member before, its line ends.
+        gap = part[:len(part) - len(part.lstrip())]
+        if members and "\n" not in gap:
+            raise HeaderError(f"{where}: member '{part.strip()}' does not begin a line")
+        own = line + text.count("\n", 0, text.index(part) + len(gap))
+        if match := POINTER_MEMBER.fullmatch(part.strip()):
+            members.append(Function(match.group(2), squeezed(match.group(1)), parameters_of(match.group(3), where), "",
+                                    own, True))
+        elif (match := MEMBER.fullmatch(part.strip())) and match.group(1).strip():
+            members.append(Parameter(squeezed(match.group(1)), match.group(2)))
+        else:
+            raise HeaderError(f"{where}: not a member that a struct may have: {part.strip().splitlines()[0]}")
+    names = [member.name for member in members]
+    for name in names:
+        if names.count(name) > 1:
+            raise HeaderError(f"{where}: member {name} is there twice")
+    return members
+
+
+def types_of(member):
+    """Of a parameter or a member; of a function its result and its parameters."""
+    return [member.result, *(p.type for p in member.parameters)] if isinstance(member, Function) else [member.type]
+
+
 def read(path, known=None):
-    """known: a Header whose handles and callbacks this one may use."""
+    """known: the promised Header, whose handles and callbacks this one, which is not promised, may use."""
     with open(path, encoding="utf-8") as file:
         text = file.read()
     handles = list(known.handles) if known else []
     callbacks = dict(known.callbacks) if known else {}
-    header = Header(str(path), {}, {}, [], {}, [])
+    structs = dict(known.structs) if known else {}
+    header = Header(str(path), {}, {}, [], {}, [], {})
+
+    def check_types(name, things):
+        allowed = NUMBERS | {"void", "char"} | set(handles) | set(callbacks) | set(structs)
+        for type_text in (t for thing in things for t in types_of(thing)):
+            bare = type_text.replace("const ", "").rstrip("*")
+            if bare not in allowed or (bare in structs and "*" not in type_text):
+                raise HeaderError(f"{where}: {name}: type '{type_text}' is none of the interface's types")
+
     at = 0
     comment = ""
     while at < len(text):
@@ -118,10 +180,16 @@ def read(path, known=None):
             into[function.name] = function
             if callback:
                 callbacks[function.name] = function
-            allowed = NUMBERS | {"void", "char"} | set(handles) | set(callbacks)
-            for type_text in [function.result] + [p.type for p in function.parameters]:
-                if type_text.replace("const ", "").rstrip("*") not in allowed:
-                    raise HeaderError(f"{where}: {function.name}: type '{type_text}' is none of the interface's types")
+            check_types(function.name, [function])
+            comment = ""
+        elif known and (match := STRUCT.match(text, at)):
+            struct = Struct(match.group(1), members_of(match.group(2), where, line + 1), comment, line)
+            if match.group(3) != struct.name:
+                raise HeaderError(f"{where}: struct {struct.name} is named {match.group(3)} at its end")
+            if struct.name in structs:
+                raise HeaderError(f"{where}: {struct.name} is declared twice")
+            header.structs[struct.name] = structs[struct.name] = struct
+            check_types(struct.name, struct.members)
             comment = ""
         else:
             raise HeaderError(f"{where}: not a form that the header may have: {text[at:at + 60].splitlines()[0]}")

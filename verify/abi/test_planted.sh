@@ -424,6 +424,57 @@ gap 's/^typedef int32_t \(\*delam_watch/typedef void (*delam_watch/' \
     'delam_watch_callback: status: the callback returns void'
 gap "s/thread call's; //" 'delam_watch_callback: thread: missing'
 gap "s/thread call's; since 0.2/thread call's/" 'delam_watch_callback: since: missing'
+# Structs, outside the promise alone. struct_gap SED MESSAGE: the sound one after SED.
+planted struct
+cat >"$work/struct/delam/experimental.h" <<'HEADER'
+#ifndef DELAM_EXPERIMENTAL_H
+#define DELAM_EXPERIMENTAL_H
+#include <delam/delam.h>
+/* Points of a law. jump [count]. watch(value, user) is told of each. */
+typedef struct delam_experimental_points {
+    int64_t count;
+    const double *jump;
+    int32_t (*watch)(double value,
+                     void *user);
+    double most;
+} delam_experimental_points;
+
+/* Points under one law; those of first and second are smaller than their `most`. */
+typedef struct delam_experimental_pair {
+    const delam_experimental_points *first;
+    delam_experimental_points *second;
+    const delam_law *law;
+} delam_experimental_pair;
+#endif
+HEADER
+cp "$work/struct/delam/experimental.h" "$work/struct/sound.h"
+lint_struct() { "$python" "$here/contract_lint.py" "$work/struct/delam/experimental.h" --promised "$work/struct/delam/delam.h"; }
+accepted lint_struct
+struct_gap() {
+    wanted struct_gap || return 0
+    cp "$work/struct/sound.h" "$work/struct/delam/experimental.h"
+    edit struct delam/experimental.h "$1"
+    refused "$2" lint_struct
+}
+struct_gap 's/jump \[count\]\. //' 'delam_experimental_points: what: member count is not named'
+struct_gap 's/watch\(value, user\)/A host/' 'delam_experimental_points: what: member watch is not named'
+struct_gap 's/their `most`/others/' 'delam_experimental_points: what: member most is not named'
+struct_gap '/^\/\* Points of a law/d' 'delam_experimental_points: no comment directly above'
+struct_gap 's/of each\. \*/of each. \*\/\n\n\/\* Two. \*/' 'delam_experimental_points: what: the comment does not say what the struct is'
+struct_gap 's/of each\. \*/of each.\n * [null jump] */' 'delam_experimental_points: a struct has no line in brackets'
+struct_gap 's/int64_t count;/long count;/' "experimental.h:5: delam_experimental_points: type 'long' is none of the interface's"
+struct_gap 's/const delam_experimental_points \*first/delam_experimental_points first/' \
+    "delam_experimental_pair: type 'delam_experimental_points' is none of the interface's"
+struct_gap 's/double value,/float value,/' "delam_experimental_points: type 'float' is none of the interface's"
+struct_gap 's/int64_t count;/int64_t count[2];/' 'not a member that a struct may have: int64_t count\[2\]'
+struct_gap 's/int64_t count;/int64_t count : 3;/' "type 'int64_t count :' is none of the interface's types"
+struct_gap 's/int64_t count;/int64_t count; double more;/' "member 'double more' does not begin a line"
+struct_gap 's/int64_t count;/int64_t jump;/' 'member jump is there twice'
+struct_gap 's/int64_t count;/int64_t count; \/\* how many \*\//' 'comments of a struct stand above it'
+struct_gap 's/\} delam_experimental_pair;/} delam_experimental_pairs;/' 'is named delam_experimental_pairs at its end'
+struct_gap 's/experimental_pair\b/experimental_points/g' 'delam_experimental_points is declared twice'
+gap 's/^typedef struct delam_law delam_law;/typedef struct delam_law {\n    double most;\n} delam_law;/' \
+    'not a form that the header may have: typedef struct delam_law \{'
 # A status that the façade gives and the header does not list.
 planted contract
 mkdir "$work/contract/capi"

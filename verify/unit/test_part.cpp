@@ -1,0 +1,502 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Parts of a problem as bytes: their matrices add up to those of the bodies, and damaged bytes are refused.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <functional>
+#include <limits>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/archive.hpp"
+#include "base/error.hpp"
+#include "base/numbers.hpp"
+#include "capi/handles.hpp"
+#include "delam/experimental.h"
+#include "scene/part.hpp"
+
+// Last: its macro fail() would break delam::fail().
+#include <check.h>
+
+using namespace delam;
+
+namespace {
+
+constexpr double nan_number = std::numeric_limits<double>::quiet_NaN();
+constexpr int plies = 7, core_layer = 3;  // labels; the plies come first in the mesh, last in the order of labels
+
+using Place = std::array<std::int64_t, 3>;  // on a lattice with a node in the middle of every edge
+
+struct Shape {
+    int dimension;
+    CellType box, simplex;
+    const char *plane, *formulation;
+    bool mixed;  // has the upper body simplices too?
+};
+const Shape shapes[] = {
+    {2, CellType::quad4, CellType::tri3, "plane-strain", "incompatible", false},
+    {2, CellType::quad8, CellType::tri6, "plane-strain", "mean-dilatation", true},
+    {2, CellType::quad9, CellType::tri6, "plane-stress", "standard", true},
+    {3, CellType::hex8, CellType::tet4, nullptr, "incompatible", false},
+    {3, CellType::hex8, CellType::tet4, nullptr, "mean-dilatation", false},
+    {3, CellType::hex20, CellType::tet10, nullptr, "mean-dilatation", true},
+};
+constexpr int shape_count = static_cast<int>(std::size(shapes));
+
+// Two blocks of crooked cells, one above the other. Boxes and simplices take turns, so that no type comes in one run.
+class Blocks {
+public:
+    explicit Blocks(const Shape& shape) : shape_(shape), size_{9, 5, shape.dimension == 3 ? 5 : 1} {
+        ck_assert_int_eq(delam_context_create(&context), 0);
+        std::vector<double> nodes;
+        for (int body = 0; body < 2; ++body)
+            for (std::int64_t k = 0; k < size_[2]; ++k)
+                for (std::int64_t j = 0; j < size_[1]; ++j)
+                    for (std::int64_t i = 0; i < size_[0]; ++i) add_node(body, {i, j, k}, nodes);
+        expect(delam_mesh_create(context, shape.dimension, static_cast<std::int64_t>(nodes.size()) / shape.dimension,
+                                 nodes.data(), &mesh));
+        for (int body = 0; body < 2; ++body)
+            for (std::int64_t k = 0; k + 1 < std::max<std::int64_t>(size_[2], 2); k += 2)
+                for (std::int64_t j = 0; j + 1 < size_[1]; j += 2)
+                    for (std::int64_t i = 0; i + 1 < size_[0]; i += 2) {
+                        const bool split = (i + j + k) % 4 == 2 && (body == 1 || shape.mixed);
+                        split ? add_simplices(body, {i, j, k}) : add_box(body, {i, j, k});
+                    }
+        expect(delam_problem_create(context, mesh, &problem));
+        set_bodies();
+    }
+    ~Blocks() {
+        delam_problem_destroy(&problem);
+        delam_mesh_destroy(&mesh);
+        delam_context_destroy(&context);
+    }
+    Blocks(const Blocks&) = delete;
+    Blocks& operator=(const Blocks&) = delete;
+
+    delam_context* context = nullptr;
+    delam_mesh* mesh = nullptr;
+    delam_problem* problem = nullptr;
+
+    void expect(std::int32_t status) const {
+        ck_assert_msg(status == 0, "%d: %s", status, delam_context_message(context));
+    }
+    // The last call was refused with words that say this.
+    void refused(std::int32_t status, std::int32_t expected, const std::string& words) const {
+        const std::string said = delam_context_message(context);
+        ck_assert_msg(status == expected && said.find(words) != std::string::npos, "%d, not %d: '%s' without '%s'",
+                      status, expected, said.c_str(), words.c_str());
+    }
+    const Mesh& core() const { return *problem->core->mesh; }
+    std::vector<std::uint8_t> part(const std::vector<std::int64_t>& cells) const {
+        std::int64_t size = 0;
+        const auto count = static_cast<std::int64_t>(cells.size());
+        expect(delam_experimental_problem_part(problem, count, cells.data(), 0, nullptr, &size));
+        std::vector<std::uint8_t> bytes(index(size));
+        expect(delam_experimental_problem_part(problem, count, cells.data(), size, bytes.data(), nullptr));
+        return bytes;
+    }
+
+private:
+    std::int64_t number(int body, const Place& p) const {
+        return p[0] + size_[0] * (p[1] + size_[1] * (p[2] + size_[2] * body));
+    }
+    void add_node(int body, const Place& p, std::vector<double>& nodes) const {
+        const double x = 0.5e-3 * static_cast<double>(p[0]), y = 0.4e-3 * static_cast<double>(p[1]),
+                     z = 0.3e-3 * static_cast<double>(p[2]);
+        const double bent[] = {x + 4e-5 * std::sin(2e3 * y), y + 3e-5 * std::sin(1.5e3 * x + 2e3 * z),
+                               z + 2e-5 * std::sin(1e3 * (x + y))};
+        for (int d = 0; d < shape_.dimension; ++d)
+            nodes.push_back(bent[d] + (d == shape_.dimension - 1 ? 2e-3 * body : 0.0));
+    }
+    // Corners, then what lies in the middle between two of them.
+    void add_cell(int body, CellType type, std::vector<Place> place) {
+        const CellTopology& own = topology(type);
+        for (int m = 0; own.corners + m < own.nodes; ++m) {
+            const Place &a = place[index(own.middle[index(m)][0])], &b = place[index(own.middle[index(m)][1])];
+            place.push_back({(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2});
+        }
+        std::vector<std::int64_t> nodes;
+        for (const Place& p : place) nodes.push_back(number(body, p));
+        const std::int32_t label = body == 0 ? plies : core_layer;
+        expect(delam_mesh_add_cells(mesh, static_cast<std::int32_t>(type), 1, nodes.data(), &label, 0));
+    }
+    void add_box(int body, const Place& p) {
+        std::vector<Place> corners;
+        for (std::int64_t k = 0; k < (shape_.dimension == 3 ? 4 : 2); k += 2)
+            for (const auto& [i, j] : {std::pair{0, 0}, {2, 0}, {2, 2}, {0, 2}})
+                corners.push_back({p[0] + i, p[1] + j, p[2] + k});
+        add_cell(body, shape_.box, corners);
+    }
+    // One simplex for each order of the axes, from the lowest corner to the opposite one.
+    void add_simplices(int body, const Place& p) {
+        std::array<std::size_t, 3> order{0, 1, 2};
+        const auto last = order.begin() + shape_.dimension;
+        do {
+            std::vector<Place> corners{p};
+            int inversions = 0;
+            for (auto axis = order.begin(); axis != last; ++axis) {
+                corners.push_back(corners.back());
+                corners.back()[*axis] += 2;
+                inversions += static_cast<int>(std::count_if(order.begin(), axis, [&](auto a) { return a > *axis; }));
+            }
+            if (inversions % 2 == 1) std::swap(corners[1], corners[2]);
+            add_cell(body, shape_.simplex, corners);
+        } while (std::next_permutation(order.begin(), last));
+    }
+    // Orthotropic plies whose cells have axes of their own but for every third, on an isotropic core.
+    void set_bodies() {
+        const double ply[] = {135e9, 9e9, 8e9, 0.24, 0.26, 0.46, 5.2e9, 4.8e9, 3.1e9};
+        if (shape_.plane != nullptr) expect(delam_problem_set_plane(problem, shape_.plane));
+        expect(delam_problem_set_orthotropic(problem, plies, ply));
+        expect(delam_problem_set_elastic(problem, core_layer, 3.4e9, 0.35));
+        expect(delam_problem_set_formulation(problem, plies, shape_.formulation));
+        std::vector<std::int64_t> cells;
+        std::vector<double> axes;
+        for (std::int64_t c = 0; c < core().cell_count(); ++c) {
+            if (c % 3 == 2) continue;
+            cells.push_back(c);
+            const double angle = 0.3 * static_cast<double>(c % 4);
+            for (const double x : {std::cos(angle), std::sin(angle), 0.1, 0.2, 1.0, -0.1}) axes.push_back(x);
+        }
+        expect(delam_problem_set_orientation(problem, -1, static_cast<std::int64_t>(cells.size()), cells.data(),
+                                             axes.data(), 0));
+    }
+
+    const Shape& shape_;
+    Place size_;
+};
+
+struct Matrix {
+    std::int64_t dimension = 0, nodes = 0, entries = 0;
+    std::vector<std::int64_t> node, start, column;
+    std::vector<double> place, value;
+};
+
+Matrix matrix_of(const Blocks& b, const std::vector<std::uint8_t>& bytes) {
+    Matrix m;
+    const auto size = static_cast<std::int64_t>(bytes.size());
+    b.expect(delam_experimental_part_matrix(b.context, size, bytes.data(), &m.dimension, &m.nodes, &m.entries, nullptr,
+                                            nullptr, nullptr, nullptr, nullptr));
+    m.node.resize(index(m.nodes));
+    m.place.resize(index(m.nodes * m.dimension));
+    m.start.resize(m.place.size() + 1);
+    m.column.resize(index(m.entries));
+    m.value.resize(m.column.size());
+    std::int64_t again = 0;
+    b.expect(delam_experimental_part_matrix(b.context, size, bytes.data(), nullptr, nullptr, &again, m.node.data(),
+                                            m.place.data(), m.start.data(), m.column.data(), m.value.data()));
+    ck_assert_int_eq(again, m.entries);
+    ck_assert_int_eq(m.start.back(), m.entries);
+    for (std::size_t i = 0; i < m.node.size(); ++i) {
+        ck_assert(i == 0 || m.node[i] > m.node[i - 1]);
+        const auto x = b.core().node(m.node[i]);
+        ck_assert(std::equal(x.begin(), x.end(), m.place.begin() + static_cast<std::int64_t>(i) * m.dimension));
+    }
+    return m;
+}
+
+Matrix body_matrix(const Blocks& b, std::int32_t label) {
+    Matrix m;
+    m.dimension = b.core().dimension();
+    m.node = b.core().body_nodes(b.core().body_of_label(label));
+    std::int64_t rows = 0;
+    b.expect(delam_problem_body_matrix(b.problem, label, &rows, &m.entries, nullptr, nullptr, nullptr));
+    ck_assert_int_eq(rows, static_cast<std::int64_t>(m.node.size()) * m.dimension);
+    m.start.resize(index(rows) + 1);
+    m.column.resize(index(m.entries));
+    m.value.resize(m.column.size());
+    b.expect(
+        delam_problem_body_matrix(b.problem, label, nullptr, nullptr, m.start.data(), m.column.data(), m.value.data()));
+    return m;
+}
+
+using Sum = std::map<std::pair<std::int64_t, std::int64_t>, double>;  // by DOFs of the mesh
+
+void add(const Matrix& m, Sum& sum) {
+    const auto dof = [&](std::int64_t i) { return m.node[index(i / m.dimension)] * m.dimension + i % m.dimension; };
+    for (std::size_t r = 0; r + 1 < m.start.size(); ++r)
+        for (std::int64_t e = m.start[r]; e < m.start[r + 1]; ++e)
+            sum[{dof(static_cast<std::int64_t>(r)), dof(m.column[index(e)])}] += m.value[index(e)];
+}
+
+bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+}
+
+void correct_checksum(std::vector<std::uint8_t>& bytes) {
+    const std::uint64_t sum = checksum(std::span(bytes).first(bytes.size() - sizeof(sum)));
+    std::memcpy(&bytes[bytes.size() - sizeof(sum)], &sum, sizeof(sum));
+}
+
+// All outputs; what is left of them must be as before after an error.
+std::int32_t read(const Blocks& b, const std::vector<std::uint8_t>& bytes) {
+    std::int64_t dimension = -5, nodes = -5, entries = -5;
+    const std::int32_t status =
+        delam_experimental_part_matrix(b.context, static_cast<std::int64_t>(bytes.size()), bytes.data(), &dimension,
+                                       &nodes, &entries, nullptr, nullptr, nullptr, nullptr, nullptr);
+    if (status != 0) ck_assert(dimension == -5 && nodes == -5 && entries == -5);
+    return status;
+}
+
+// A short part with both bodies: its first and its last cells.
+std::vector<std::int64_t> ends(const Blocks& b) {
+    const std::int64_t last = b.core().cell_count() - 1;
+    return {0, 1, 2, last - 1, last};
+}
+
+}  // namespace
+
+START_TEST(a_whole_body_has_the_bits_of_its_matrix) {
+    const Blocks b(shapes[_i]);
+    for (const std::int32_t label : {plies, core_layer}) {
+        const std::vector<std::int64_t> cells = b.core().body_cells(b.core().body_of_label(label));
+        const Matrix part = matrix_of(b, b.part(cells)), whole = body_matrix(b, label);
+        ck_assert(part.node == whole.node && part.start == whole.start && part.column == whole.column);
+        ck_assert(same_bits(part.value, whole.value));
+    }
+}
+END_TEST
+
+// Every third cell is in the same part, so that parts share nodes and each has cells of both bodies.
+START_TEST(parts_add_up_to_the_bodies) {
+    const Blocks b(shapes[_i]);
+    Sum parts, bodies;
+    std::int64_t nodes = 0;
+    for (std::int64_t p = 0; p < 3; ++p) {
+        std::vector<std::int64_t> cells;
+        for (std::int64_t c = p; c < b.core().cell_count(); c += 3) cells.push_back(c);
+        const Matrix m = matrix_of(b, b.part(cells));
+        nodes += m.nodes;
+        add(m, parts);
+    }
+    double largest = 0.0;
+    for (const std::int32_t label : {plies, core_layer}) {
+        const Matrix m = body_matrix(b, label);
+        nodes -= static_cast<std::int64_t>(m.node.size());
+        largest = std::max(largest, max_abs(m.value));
+        add(m, bodies);
+    }
+    ck_assert_int_gt(nodes, 0);
+    ck_assert_uint_eq(parts.size(), bodies.size());
+    for (const auto& [place, value] : bodies) {
+        ck_assert_uint_eq(parts.count(place), 1);
+        ck_assert_msg(std::abs(parts[place] - value) <= 1e-14 * largest, "(%ld, %ld): %.17g, not %.17g",
+                      static_cast<long>(place.first), static_cast<long>(place.second), parts[place], value);
+    }
+}
+END_TEST
+
+// Bytes do not depend on what else the problem holds, and survive reading and writing.
+START_TEST(bytes_are_what_they_say) {
+    const Blocks b(shapes[_i]);
+    const std::vector<std::uint8_t> bytes = b.part(ends(b));
+    const Part part = load_part(bytes);
+    ck_assert(save(part) == bytes);
+    ck_assert((part.labels == std::vector<std::int32_t>{core_layer, plies}));
+    ck_assert((part.orthotropic == std::vector<std::int32_t>{0, 1}));
+    ck_assert((part.body == std::vector<std::int32_t>{1, 1, 1, 0, 0}));
+    ck_assert((part.axes_of_cell == std::vector<std::int32_t>{0, 1, -1, -1, -1}));
+    ck_assert(b.part(ends(b)) == bytes);
+}
+END_TEST
+
+START_TEST(damaged_bytes_are_refused) {
+    const Blocks b(shapes[_i]);
+    const std::vector<std::uint8_t> bytes = b.part(ends(b));
+    b.expect(read(b, bytes));
+    for (std::size_t at = 0; at < bytes.size(); at += 7) {
+        std::vector<std::uint8_t> damaged = bytes;
+        damaged[at] = static_cast<std::uint8_t>(damaged[at] ^ (1u << (at / 7 % 8)));
+        b.refused(read(b, damaged), DELAM_ERROR_SNAPSHOT, "part");
+        damaged.assign(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(at));
+        b.refused(read(b, damaged), DELAM_ERROR_SNAPSHOT, "part");
+        // A fitting checksum: what is wrong must be found in what the bytes say, and some changes are harmless.
+        if (at >= sizeof(std::uint64_t)) {
+            correct_checksum(damaged);
+            b.refused(read(b, damaged), DELAM_ERROR_SNAPSHOT, "part");
+        }
+        if (at + sizeof(std::uint64_t) >= bytes.size()) continue;
+        for (const int bits : {0x01, 0x40, 0x80, 0xff}) {
+            damaged = bytes;
+            damaged[at] = static_cast<std::uint8_t>(damaged[at] ^ bits);
+            correct_checksum(damaged);
+            if (const std::int32_t status = read(b, damaged); status != 0)
+                b.refused(status, DELAM_ERROR_SNAPSHOT, "part");
+        }
+    }
+    std::vector<std::uint8_t> longer = bytes;
+    longer.push_back(0);
+    b.refused(read(b, longer), DELAM_ERROR_SNAPSHOT, "checksum");
+    correct_checksum(longer);
+    b.refused(read(b, longer), DELAM_ERROR_SNAPSHOT, "part has 1 bytes too many");
+}
+END_TEST
+
+// Bytes with a fitting checksum that no library has written.
+START_TEST(parts_of_no_problem_are_refused) {
+    const Blocks b(shapes[_i]);
+    const Part sound = load_part(b.part(ends(b)));
+    const auto nodes = static_cast<std::int32_t>(sound.nodes.size());
+    const std::vector<std::pair<const char*, std::function<void(Part&)>>> changes = {
+        {"dimension 4", [](Part& p) { p.dimension = 4; }},
+        {"plane assumption 2", [](Part& p) { p.plane = 2; }},
+        {"no cells", [](Part& p) { p.types.clear(); }},
+        {"nodes[1] = ", [](Part& p) { std::swap(p.nodes[0], p.nodes[1]); }},
+        {"nodes[0] = -1", [](Part& p) { p.nodes[0] = -1; }},
+        {"coordinates, expected ", [](Part& p) { p.coordinates.pop_back(); }},
+        {"coordinates[3] = nan", [](Part& p) { p.coordinates[3] = nan_number; }},
+        {"coordinates[0] = inf", [](Part& p) { p.coordinates[0] = infinite; }},
+        {"cell type 0", [](Part& p) { p.types[1] = 0; }},
+        {"cell type 77", [](Part& p) { p.types[1] = 77; }},
+        {"cell type ", [](Part& p) { p.types[0] = p.dimension == 2 ? DELAM_TET4 : DELAM_TRI3; }},
+        {"nodes of cells, expected ", [](Part& p) { p.connectivity.push_back(0); }},
+        {"connectivity[2] = ", [=](Part& p) { p.connectivity[2] = nodes; }},
+        {"connectivity[2] = -1", [](Part& p) { p.connectivity[2] = -1; }},
+        {"bodies of cells, expected 5", [](Part& p) { p.body.pop_back(); }},
+        {"body[4] = 2, allowed: 0 .. 1", [](Part& p) { p.body[4] = 2; }},
+        {"labels[1] = ", [](Part& p) { p.labels[1] = p.labels[0]; }},
+        {"labels[0] = -3", [](Part& p) { p.labels[0] = -3; }},
+        {"formulation[0] = 3", [](Part& p) { p.formulation[0] = 3; }},
+        {"orthotropic[0] = 2", [](Part& p) { p.orthotropic[0] = 2; }},
+        {"constants, expected 18", [](Part& p) { p.constants.resize(17); }},
+        {"constants[12] = nan", [](Part& p) { p.constants[12] = nan_number; }},
+        {"E = 0 of body 3", [](Part& p) { p.constants[0] = 0.0; }},
+        {"nu = 0.5 of body 3", [](Part& p) { p.constants[1] = 0.5; }},
+        {"constants of body 7: nu12", [](Part& p) { p.constants[12] = 99.0; }},
+        {"numbers of axes, expected 9", [](Part& p) { p.axes.pop_back(); }},
+        {"axes[4] = nan", [](Part& p) { p.axes[4] = nan_number; }},
+        {"axes 1, which are not orthonormal", [](Part& p) { p.axes[9] *= 2.0; }},
+        {"axes_of_cell[1] = 2, allowed: -1 .. 1", [](Part& p) { p.axes_of_cell[1] = 2; }},
+        {"axes of cells, expected 5", [](Part& p) { p.axes_of_cell.push_back(0); }},
+        {"2 bodies, of which 1", [](Part& p) { p.body.assign(5, 0); }},
+        {"node ",
+         [](Part& p) {
+             p.nodes.push_back(p.nodes.back() + 1);
+             p.coordinates.resize(p.coordinates.size() + index(p.dimension));
+         }},
+        {"part is not sound: ", [](Part& p) { p.connectivity[1] = p.connectivity[0]; }},
+        {"part is not sound: node ", [](Part& p) { p.body[0] = 0; }},
+    };
+    for (const auto& [words, change] : changes) {
+        Part part = sound;
+        change(part);
+        b.refused(read(b, save(part)), DELAM_ERROR_SNAPSHOT, words);
+    }
+}
+END_TEST
+
+START_TEST(formulations_that_cells_do_not_have) {
+    const Blocks linear(shapes[0]), quadratic(shapes[1]), stress(shapes[2]);
+    const auto formulation = [](const Blocks& b, Formulation f) {
+        Part part = load_part(b.part(ends(b)));
+        part.formulation.assign(2, static_cast<std::int32_t>(f));
+        return read(b, save(part));
+    };
+    linear.refused(formulation(linear, Formulation::mean_dilatation), DELAM_ERROR_SNAPSHOT, "locks as before");
+    quadratic.refused(formulation(quadratic, Formulation::incompatible), DELAM_ERROR_SNAPSHOT,
+                      "'incompatible' of body");
+    stress.refused(formulation(stress, Formulation::mean_dilatation), DELAM_ERROR_SNAPSHOT, "in plane stress");
+}
+END_TEST
+
+START_TEST(bytes_of_something_else) {
+    const Blocks b(shapes[0]);
+    std::vector<std::uint8_t> bytes = b.part({0});
+    bytes[7] ^= 3;
+    b.refused(read(b, bytes), DELAM_ERROR_SNAPSHOT, "not a part of a libdelam problem");
+    bytes[7] ^= 3;
+    bytes[8] = 2;
+    b.refused(read(b, bytes), DELAM_ERROR_SNAPSHOT, "part of version 2, this library reads 1");
+    b.refused(read(b, std::vector<std::uint8_t>(1)), DELAM_ERROR_SNAPSHOT, "part ends early at byte 1");
+    std::uint8_t none = 0;
+    b.refused(delam_experimental_part_matrix(b.context, 0, &none, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr,
+                                             nullptr, nullptr),
+              DELAM_ERROR_SNAPSHOT, "part ends early at byte 0");
+}
+END_TEST
+
+START_TEST(wrong_arguments) {
+    const Blocks b(shapes[1]);
+    const std::int64_t last = b.core().cell_count() - 1;
+    std::vector<std::uint8_t> bytes(1 << 16, 77);
+    const auto part = [&](std::vector<std::int64_t> cells, std::int64_t capacity) {
+        std::int64_t size = -5;
+        const std::int32_t status = delam_experimental_problem_part(b.problem, static_cast<std::int64_t>(cells.size()),
+                                                                    cells.data(), capacity, bytes.data(), &size);
+        ck_assert((status == 0) == (size != -5));
+        return status;
+    };
+    const std::string range = " is outside 0 .. " + std::to_string(last);
+    b.refused(part({}, 1 << 16), DELAM_ERROR_ARGUMENT, "count = 0 is outside 1");
+    b.refused(part({0, last + 1}, 1 << 16), DELAM_ERROR_ARGUMENT, "cells[1] = " + std::to_string(last + 1) + range);
+    b.refused(part({-1}, 1 << 16), DELAM_ERROR_ARGUMENT, "cells[0] = -1" + range);
+    b.refused(part({0, 4, 3}, 1 << 16), DELAM_ERROR_ARGUMENT, "cells[2] = 3 must be > cells[1] = 4");
+    b.refused(part({2, 2}, 1 << 16), DELAM_ERROR_ARGUMENT, "cells[1] = 2 must be > cells[0] = 2");
+    b.refused(part({0}, 10), DELAM_ERROR_ARGUMENT, "bytes: capacity 10 < ");
+    ck_assert(std::all_of(bytes.begin(), bytes.end(), [](std::uint8_t byte) { return byte == 77; }));
+    b.expect(part({0}, 1 << 16));
+    b.refused(delam_experimental_problem_part(b.problem, 1, nullptr, 0, nullptr, nullptr), DELAM_ERROR_ARGUMENT,
+              "cells is NULL");
+    b.refused(delam_experimental_part_matrix(b.context, 8, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr,
+                                             nullptr, nullptr, nullptr),
+              DELAM_ERROR_ARGUMENT, "bytes is NULL");
+    b.refused(delam_experimental_part_matrix(b.context, -1, bytes.data(), nullptr, nullptr, nullptr, nullptr, nullptr,
+                                             nullptr, nullptr, nullptr),
+              DELAM_ERROR_ARGUMENT, "size = -1");
+    ck_assert_int_eq(delam_experimental_problem_part(nullptr, 0, nullptr, 0, nullptr, nullptr), DELAM_ERROR_HANDLE);
+    ck_assert_int_eq(delam_experimental_part_matrix(nullptr, 0, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr,
+                                                    nullptr, nullptr, nullptr),
+                     DELAM_ERROR_HANDLE);
+}
+END_TEST
+
+START_TEST(bodies_without_a_stiffness_of_their_own) {
+    const Blocks b(shapes[1]);
+    const auto part = [&](std::int32_t label) {
+        const std::vector<std::int64_t> cells = b.core().body_cells(b.core().body_of_label(label));
+        return delam_experimental_problem_part(b.problem, 2, cells.data(), 0, nullptr, nullptr);
+    };
+    const Matrix own = body_matrix(b, plies);
+    b.expect(delam_problem_set_stiffness(b.problem, static_cast<std::int64_t>(own.node.size()), own.node.data(),
+                                         nullptr, own.start.data(), own.column.data(), own.value.data(), -1, nullptr,
+                                         0));
+    b.refused(part(plies), DELAM_ERROR_PROBLEM, "body 7 has the host's stiffness");
+    b.expect(part(core_layer));
+    delam_problem* bare = nullptr;
+    b.expect(delam_problem_create(b.context, b.mesh, &bare));
+    const std::int64_t cell = 0;
+    b.refused(delam_experimental_problem_part(bare, 1, &cell, 0, nullptr, nullptr), DELAM_ERROR_PROBLEM,
+              "body 7: no material");
+    b.expect(delam_problem_set_elastic(bare, plies, 1e9, 0.3));
+    b.expect(delam_experimental_problem_part(bare, 1, &cell, 0, nullptr, nullptr));
+    delam_problem_destroy(&bare);
+    b.expect(delam_problem_set_plane(b.problem, "plane-stress"));
+    b.expect(part(core_layer));
+}
+END_TEST
+
+int main() {
+    Suite* suite = suite_create("part");
+    TCase* tests = tcase_create("part");
+    tcase_add_loop_test(tests, a_whole_body_has_the_bits_of_its_matrix, 0, shape_count);
+    tcase_add_loop_test(tests, parts_add_up_to_the_bodies, 0, shape_count);
+    tcase_add_loop_test(tests, bytes_are_what_they_say, 0, shape_count);
+    tcase_add_loop_test(tests, damaged_bytes_are_refused, 0, shape_count);
+    tcase_add_loop_test(tests, parts_of_no_problem_are_refused, 0, shape_count);
+    tcase_add_test(tests, formulations_that_cells_do_not_have);
+    tcase_add_test(tests, bytes_of_something_else);
+    tcase_add_test(tests, wrong_arguments);
+    tcase_add_test(tests, bodies_without_a_stiffness_of_their_own);
+    suite_add_tcase(suite, tests);
+    SRunner* runner = srunner_create(suite);
+    srunner_run_all(runner, CK_ENV);
+    const int failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+}
