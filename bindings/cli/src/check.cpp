@@ -62,14 +62,19 @@ extern "C" void on_check_log(std::int32_t level, const char* text, void*) {
 
 }  // namespace
 
-int check(const std::string& scene_file, const std::vector<std::string>& settings) {
+int check(const std::string& scene_file, const std::vector<std::string>& settings, const Around& around) {
     const Scene scene = read_scene(scene_file, settings);
     Context context = new_context();
     const Interrupt interrupt(context.get());
     delam_context_set_log(context.get(), on_check_log, nullptr);
     const Model model = build(std::move(context), scene);
     const History history(model, scene);
-    const Planned planned = plan(model, scene);
+    Planned planned;
+    const auto make_plan = [&] {
+        planned = plan(model, scene);
+        return 0;
+    };
+    (void)(around ? around(model, make_plan) : make_plan());
 
     std::int64_t primal = 0;
     std::int64_t dual = 0;

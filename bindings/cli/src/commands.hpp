@@ -2,14 +2,21 @@
 // The subcommands; each returns an exit code or throws a Failure.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace cli {
 
+struct Model;
+
+// What solvers of the model are made and used in: calls the rest of the command and returns its exit code. Empty: the
+// command calls it itself. For programs that solve the bodies elsewhere.
+using Around = std::function<int(const Model& model, const std::function<int()>& rest)>;
+
 // settings: KEY=VALUE, see setting.hpp. command: the line as typed, for result.json.
 int run(const std::string& scene_file, const std::vector<std::string>& settings, const std::string& folder, bool resume,
-        const std::string& command);
-int check(const std::string& scene_file, const std::vector<std::string>& settings);
+        const std::string& command, const Around& around);
+int check(const std::string& scene_file, const std::vector<std::string>& settings, const Around& around);
 
 }  // namespace cli

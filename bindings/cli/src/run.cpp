@@ -280,32 +280,19 @@ int already_complete(const OutputFolder& folder, const Scene& scene) {
     return published.converged ? exit_done : exit_not_converged;
 }
 
-}  // namespace
+struct Analysis {
+    const Scene& scene;
+    const Model& model;
+    const std::optional<StateFile>& state;
+    OutputFolder& folder;
+    Progress& progress;
+    const std::string& command;  // as typed
+    const std::string& again;    // that reproduces the result
+};
 
-int run(const std::string& scene_file, const std::vector<std::string>& settings, const std::string& folder_path,
-        bool resume, const std::string& command) {
-    if (folder_path.empty()) throw Failure(exit_scene, "--out: the name of the folder is empty");
-    const Scene scene = read_scene(scene_file, settings);
-    const std::string again = command_again(scene, folder_path);
-    Context context = new_context();
-    const Interrupt interrupt(context.get());
-    Progress progress(static_cast<std::int64_t>(scene.step_count()));
-    delam_context_set_progress(context.get(), on_progress, &progress);
-    const Model model = build(std::move(context), scene);
-    progress.clear();
-    OutputFolder folder(folder_path);
-    if (resume)
-        if (const int code = already_complete(folder, scene); code >= 0) return code;
-    const std::optional<StateFile> state = resume ? find_state(folder, scene, model) : std::nullopt;
-    const std::int64_t first = state ? state->state.step : 0;
-    progress.begin_after(first);
-    delam_context_set_log(model.context.get(), on_log, &progress);
-    say("delam {} ({}): {}{}\n", delam_version(), delam_commit(), scene_file,
-        scene.title.empty() ? "" : ", " + scene.title);
-    if (resume) say("{}\n", state ? fmt::format("resumed after step {}", first) : "nothing to resume: started anew");
-    for (const std::string& text : warnings_of(model, scene)) say("warning: {}\n", text);
-    std::fflush(stdout);
-
+// Everything after the words of the beginning.
+int analyse(const Analysis& of) {
+    const auto& [scene, model, state, folder, progress, command, again] = of;
     bool converged = true;
     Solver solver = new_solver(model, scene, converged);
     if (!converged) say("warning: the displacement of the initial state did not converge\n");
@@ -332,10 +319,10 @@ int run(const std::string& scene_file, const std::vector<std::string>& settings,
         const char* how = code == exit_interrupted ? "interrupted" : "stopped";
         if (done > 0)
             complain("delam: {} after step {} of {}; the finished steps are in {}, marked incomplete\n", how, done,
-                     total, folder_path);
+                     total, folder.path());
         else
             complain("delam: {} before any of {} was finished; {} holds the initial state, marked incomplete\n", how,
-                     counted(total, "step"), folder_path);
+                     counted(total, "step"), folder.path());
         if (code == exit_interrupted)
             complain("delam: {} with: {}{}\n", done > 0 ? "go on" : "start again", again, done > 0 ? " --resume" : "");
         else
@@ -346,9 +333,40 @@ int run(const std::string& scene_file, const std::vector<std::string>& settings,
         complain("delam: {} did not converge (of {}), the first is step {}\n",
                  counted(static_cast<std::int64_t>(outcome.not_converged.size()), "step"), total,
                  outcome.not_converged.front());
-    say("wrote {}: history.csv, {}fields.h5, fields.xdmf, result.json, state.bin\n", folder_path,
+    say("wrote {}: history.csv, {}fields.h5, fields.xdmf, result.json, state.bin\n", folder.path(),
         outcome.has_jumps ? "jumps.csv, " : "");
     return code;
+}
+
+}  // namespace
+
+int run(const std::string& scene_file, const std::vector<std::string>& settings, const std::string& folder_path,
+        bool resume, const std::string& command, const Around& around) {
+    if (folder_path.empty()) throw Failure(exit_scene, "--out: the name of the folder is empty");
+    const Scene scene = read_scene(scene_file, settings);
+    const std::string again = command_again(scene, folder_path);
+    Context context = new_context();
+    const Interrupt interrupt(context.get());
+    Progress progress(static_cast<std::int64_t>(scene.step_count()));
+    delam_context_set_progress(context.get(), on_progress, &progress);
+    const Model model = build(std::move(context), scene);
+    progress.clear();
+    OutputFolder folder(folder_path);
+    if (resume)
+        if (const int code = already_complete(folder, scene); code >= 0) return code;
+    const std::optional<StateFile> state = resume ? find_state(folder, scene, model) : std::nullopt;
+    const std::int64_t first = state ? state->state.step : 0;
+    progress.begin_after(first);
+    delam_context_set_log(model.context.get(), on_log, &progress);
+    say("delam {} ({}): {}{}\n", delam_version(), delam_commit(), scene_file,
+        scene.title.empty() ? "" : ", " + scene.title);
+    if (resume) say("{}\n", state ? fmt::format("resumed after step {}", first) : "nothing to resume: started anew");
+    for (const std::string& text : warnings_of(model, scene)) say("warning: {}\n", text);
+    std::fflush(stdout);
+
+    const Analysis analysis{scene, model, state, folder, progress, command, again};
+    const auto rest = [&] { return analyse(analysis); };
+    return around ? around(model, rest) : rest();
 }
 
 }  // namespace cli
