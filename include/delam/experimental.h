@@ -28,10 +28,10 @@ extern "C" {
 
 /* The variables of a problem. Variable i < dofs is the displacement of DOF i of the mesh (dimension*node + component);
  * variable dofs + k is the jump k. DOFs in `replaced` are no variables: row r of T says u[replaced[r]] = sum over e in
- * [row_starts[r], row_starts[r+1]) of coefficients[e] * v[columns[e]]. Every other DOF is a variable of its own, unless
- * no element acts on it. homes [jump_count]: for each jump a replaced DOF that depends on it, a different one for each;
+ * [row_starts[r], row_starts[r+1]) of coefficients[e] * v[columns[e]]. Every other DOF is a variable of its own.
+ * homes [jump_count]: for each jump a replaced DOF that depends on it, a different one for each;
  * the displacements at these DOFs could be the variables in the place of the jumps. U and f by patterns: entries
- * [starts[p], starts[p+1]) belong to pattern p. visible [visible_count]: variables, ascending. */
+ * [starts[p], starts[p+1]) belong to pattern p. visible [visible_count]: variables. */
 typedef struct delam_experimental_variables {
     int64_t dimension;
     int64_t dofs;
@@ -62,8 +62,9 @@ typedef struct delam_experimental_entries {
 } delam_experimental_entries;
 
 /* What is asked of a solve. theta [pattern_count]; force [visible_count]: h; right [pivot_count]: what the expressed
- * variables have besides their masters. start [visible_count]: values of an earlier answer, from which to begin, or
- * NULL.
+ * variables have besides their masters. The engine keeps `kept` answers, in places 0 to kept-1, as whole vectors v with
+ * their theta: place says where to keep this one, start [kept] from which combination of them to begin (NULL: from
+ * nothing; the start of least energy along it is better than the combination itself).
  *
  * The solve may end when the residual r, in the norm sqrt(r.M r) of its preconditioner M, is at most `tolerance` times
  * the size of the state, sqrt(|u.K u| + sum of |v_i C_ij v_j|), or at most what enough(first, user) returns for the
@@ -74,6 +75,7 @@ typedef struct delam_experimental_request {
     const double *force;
     const double *right;
     const double *start;
+    int64_t place;
     double tolerance;
     int64_t limit;
     double (*enough)(double first, void *user);
@@ -83,57 +85,64 @@ typedef struct delam_experimental_request {
 
 /* What a solve answers; the arrays are the library's, the engine fills them. values [visible_count]: v. balance
  * [visible_count]: T^T (f - K u), in equilibrium C v - h but for expressed variables. correction and
- * correction_balance [visible_count]: M r and T^T K T M r of the true residual r at the end. energy: 1/2 u.K u. work
- * and lifted [pattern_count]: f_p.u and U_p.(K u). first and norm: sqrt(r.M r) at the start and at the end; size: that
- * of the state. least: about the least eigenvalue of M A that the iteration has met, 1 if it has met none. converged: 0
- * if neither the tolerance nor what rounding allows was reached. definite: 0 if the matrix turned out to be indefinite;
- * the rest is then not set. */
+ * correction_balance [visible_count]: M r and T^T K T M r of the true residual r at the end. products [kept]: u.K u_s
+ * with the answer in each place s, 0 for empty ones, and with itself in its own. work and lifted [pattern_count]: f_p.u
+ * and U_p.(K u). first and norm: sqrt(r.M r) at the start and at the end; size: that of the state. least: about the
+ * least eigenvalue of M A that the iteration has met, 1 if it has met none. rounding: relative, of u.K u, about the
+ * unit of rounding times sqrt(sum of (d_i v_i^2)^2) / u.K u with the diagonal d of T^T K T. converged: 0 if neither the
+ * tolerance nor what rounding allows was reached. definite: 0 if the matrix turned out to be indefinite; the rest is
+ * then not set, and the place is empty. */
 typedef struct delam_experimental_answer {
     double *values;
     double *balance;
     double *correction;
     double *correction_balance;
+    double *products;
     double *work;
     double *lifted;
-    double energy;
     double first;
     double norm;
     double size;
     double least;
+    double rounding;
     int64_t iterations;
     int32_t converged;
     int32_t definite;
 } delam_experimental_answer;
 
-/* An engine. size: sizeof(delam_experimental_engine). The functions are called in the thread of the running call of the
- * library, return 0 or a status of delam.h, and must not call the library with objects of the same context.
- *   prepare   the variables from now on; valid until it returns. Fills diagonal [visible_count], of T^T K T, and
- *             load_sizes [pattern_count], the largest component of |T^T (f_p - K U_p)|.
+/* An engine. size: sizeof(delam_experimental_engine); kept: number of answers that it keeps, at least 8. The functions
+ * are called in the thread of the running call of the library, return 0 or a status of delam.h, and must not call the
+ * library with objects of the same context.
+ *   prepare   the variables from now on, valid until it returns; all places are empty. Fills diagonal [visible_count],
+ *             of T^T K T, and load_sizes [pattern_count], the largest component of |T^T (f_p - K U_p)|.
  *   set       what acts from now on: the entries of C; variables that are zero (places in `visible`); and expressed
  *             variables: places `pivots` [pivot_count], each the sum of values times columns of `masters`, whose rows
- *             are places in `pivots`, plus what a request has for it. No pivot is a master.
+ *             are places in `pivots`, plus what a request has for it. No pivot is a master or zero.
  *   renew     a new preconditioner, of T^T K T with these entries added, which make it positive definite. Stores in
  *             *cost how many iterations it is worth.
  *   solve     see above.
- *   recover   the displacements of a state that a solve has answered with these values at theta: displacement
- *             [dofs], and K u in force [dofs].
+ *   recover   the displacements of a combination of kept answers, weights [kept]: u in displacement [dofs], and K u in
+ *             force [dofs].
  *   release   frees the engine: called once, when the last problem or solver that holds it is gone. May be NULL.
  *   message   says why the last call failed. */
 typedef struct delam_experimental_engine {
     int64_t size;
+    int64_t kept;
     void *user;
     int32_t (*prepare)(const delam_experimental_variables *variables, double *diagonal, double *load_sizes, void *user);
     int32_t (*set)(const delam_experimental_entries *couplings, int64_t fixed_count, const int64_t *fixed,
                    int64_t pivot_count, const int64_t *pivots, const delam_experimental_entries *masters, void *user);
     int32_t (*renew)(const delam_experimental_entries *entries, double *cost, void *user);
     int32_t (*solve)(const delam_experimental_request *request, delam_experimental_answer *answer, void *user);
-    int32_t (*recover)(const double *values, const double *theta, double *displacement, double *force, void *user);
+    int32_t (*recover)(const double *weights, double *displacement, double *force, void *user);
     void (*release)(void *user);
     const char *(*message)(void *user);
 } delam_experimental_engine;
 
-/* Solves the bodies of the problem by an engine, which the library copies; NULL takes it back. Solvers made from then
- * on use it. The option `reduction` must be `auto`, `subdomains` 0. No stiffness is assembled here.
+/* Solves the bodies of the problem by an engine, which the library copies; NULL takes it back. Bodies without cells
+ * (delam_mesh_add_host_body) then need no stiffness, and no other nodes than those at interfaces, supports and loads:
+ * each of them is one elastic solid, which nothing but the problem's supports and interfaces holds. Solvers made from
+ * then on use it. The option `reduction` must be `auto`, `subdomains` 0. No stiffness is assembled here.
  * [null engine; owns engine: what it points to, the host, until its function release is called; status argument; since
  * 0.2] */
 DELAM_API int32_t delam_experimental_problem_set_engine(delam_problem *problem,
