@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "delam/experimental.h"
+#include "petsc/mesh_fields.hpp"
+#include "petsc/solve.hpp"
+
+namespace delam::petsc {
+
+// What delam_experimental_engine asks for, as the ranks do it together: one object from `prepare` to the next. All
+// functions are collective; their pointers are those of rank 0, and NULL elsewhere.
+class Engine {
+public:
+    struct Counts {
+        double solves = 0.0, iterations = 0.0, renewals = 0.0;
+    };
+
+    Engine(const Communicator& comm, const Part& part, const delam_experimental_variables* variables, Counts& counts);
+    Engine(const Engine&) = delete;
+    Engine& operator=(const Engine&) = delete;
+
+    void sizes(double* diagonal, double* load_sizes) const;
+    void set(const delam_experimental_entries* couplings, std::int64_t fixed_count, const std::int64_t* fixed,
+             std::int64_t pivot_count, const std::int64_t* pivots, const delam_experimental_entries* masters);
+    void renew(const delam_experimental_entries* entries, double* cost);
+    // Whether it was not given up.
+    bool solve(const delam_experimental_request* request, delam_experimental_answer* answer);
+    void recover(const double* weights, double* displacement, double* force);
+    const Preconditioner& preconditioner() const { return preconditioner_; }
+
+private:
+    Question share(const delam_experimental_request* request) const;
+    void answer(const Question& question, delam_experimental_answer* out);
+    double relative_rounding(const BodyState& state, Vec v, Vec work) const;
+
+    const Communicator& comm_;
+    Counts& counts_;
+    SceneVariables scene_;
+    Bodies bodies_;
+    Visible visible_;
+    Constraints constraints_;
+    Operator operator_;
+    Preconditioner preconditioner_;
+    Solve solve_;
+    KeptStates kept_;
+    std::unique_ptr<MeshFields> fields_;
+    std::int64_t pivot_count_ = 0;
+};
+
+}  // namespace delam::petsc

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "petsc/failure.hpp"
+
+#include <new>
+
+namespace delam::petsc {
+
+namespace {
+
+// PETSc's handlers are a stack of the process; ours writes here, in the thread that runs PETSc.
+thread_local std::string recorded;
+
+PetscErrorCode record(MPI_Comm, int line, const char* function, const char*, PetscErrorCode code, PetscErrorType type,
+                      const char* text, void*) {
+    if (type != PETSC_ERROR_INITIAL) return code;
+    try {
+        std::ostringstream all;
+        all << (function != nullptr ? function : "PETSc") << ", line " << line << ": " << (text != nullptr ? text : "");
+        recorded = all.str();
+    } catch (...) {
+        return code;
+    }
+    return code;
+}
+
+}  // namespace
+
+ErrorRecord::ErrorRecord() {
+    recorded.clear();
+    PetscPushErrorHandler(record, nullptr);
+}
+
+ErrorRecord::~ErrorRecord() { PetscPopErrorHandler(); }
+
+void fail_petsc(PetscErrorCode code) {
+    const char* kind = nullptr;
+    PetscErrorMessage(code, &kind, nullptr);
+    std::int32_t status = DELAM_ERROR_INTERNAL;
+    if (code == PETSC_ERR_MEM) status = DELAM_ERROR_MEMORY;
+    if (code == PETSC_ERR_FP || code == PETSC_ERR_MAT_LU_ZRPVT || code == PETSC_ERR_MAT_CH_ZRPVT ||
+        code == PETSC_ERR_NOT_CONVERGED || code == PETSC_ERR_LIB)
+        status = DELAM_ERROR_NUMERICAL;
+    if (code == PETSC_ERR_ARG_UNKNOWN_TYPE || code == PETSC_ERR_MISSING_FACTOR || code == PETSC_ERR_SUP ||
+        code == PETSC_ERR_USER_INPUT)
+        status = DELAM_ERROR_ARGUMENT;
+    fail(status, "PETSc: ", kind != nullptr ? kind : "error", " (", recorded, ")");
+}
+
+Failure current_failure() {
+    try {
+        throw;
+    } catch (const Failure& failure) {
+        return failure;
+    } catch (const std::bad_alloc&) {
+        return Failure(DELAM_ERROR_MEMORY, "not enough memory");
+    } catch (const std::exception& error) {
+        return Failure(DELAM_ERROR_INTERNAL, error.what());
+    } catch (...) {
+        return Failure(DELAM_ERROR_INTERNAL, "an unknown exception");
+    }
+}
+
+}  // namespace delam::petsc

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "petsc/iterations.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "petsc/options.hpp"
+
+namespace delam::petsc {
+
+namespace {
+
+// Of r.z: below it a curvature is zero but for rounding.
+constexpr double flat = 1e-13;
+// Of |r||z|: the same for r.z itself.
+constexpr double flat_product = 1e-10;
+constexpr int most_idle = 20;  // iterations without gain: rounding
+
+}  // namespace
+
+Iterations::Iterations(const Bodies& bodies, const Operator& matrix, const Preconditioner& preconditioner)
+    : bodies_(bodies), operator_(matrix), preconditioner_(preconditioner) {
+    check(KSPCreate(bodies.comm().get(), ksp_.out()));
+    check(KSPSetOptionsPrefix(ksp_, options_prefix));
+    check(KSPSetType(ksp_, KSPCG));
+    check(KSPSetOperators(ksp_, matrix.shell(), matrix.shell()));
+    check(KSPSetPC(ksp_, preconditioner.shell()));
+    // The options of the preconditioner belong to the one inside.
+    check(PCSetOptionsPrefix(preconditioner.shell(), "delam_outer_"));
+    check(KSPSetComputeSingularValues(ksp_, PETSC_TRUE));
+    check(KSPSetNormType(ksp_, KSP_NORM_NATURAL));
+    check(KSPSetTolerances(ksp_, 0.0, 0.0, PETSC_DEFAULT, PETSC_MAX_INT - 1));
+    check(KSPSetFromOptions(ksp_));
+    check(KSPSetNormType(ksp_, KSP_NORM_NATURAL));
+    check(KSPSetInitialGuessNonzero(ksp_, PETSC_FALSE));
+    check(KSPSetConvergenceTest(ksp_, test, this, nullptr));
+}
+
+PetscErrorCode Iterations::test(KSP, PetscInt iteration, PetscReal norm, KSPConvergedReason* reason, void* self) {
+    try {
+        *reason = static_cast<Iterations*>(self)->decide(iteration, norm);
+    } catch (...) {
+        return PETSC_ERR_LIB;
+    }
+    return 0;
+}
+
+KSPConvergedReason Iterations::decide(PetscInt iteration, double norm) {
+    // KSPCG only sees changes of sign.
+    if (iteration == 1 && operator_.last_curvature() <= 0.0) return KSP_DIVERGED_INDEFINITE_MAT;
+    idle_ = iteration == 0 || norm < 0.9 * lowest_ ? 0 : idle_ + 1;
+    lowest_ = iteration == 0 ? norm : std::min(lowest_, norm);
+    norm_ = norm;
+    outcome_.iterations = iteration;
+    int decision = KSP_CONVERGED_ITERATING;
+    if (bodies_.comm().root()) {
+        if (norm <= limits_.target)
+            decision = KSP_CONVERGED_ATOL;
+        else if (iteration >= limits_.iterations || idle_ > most_idle || !std::isfinite(norm))
+            decision = KSP_CONVERGED_ITS;
+        else if (limits_.poll != nullptr && limits_.poll(limits_.user) != 0)
+            decision = KSP_DIVERGED_BREAKDOWN;
+    }
+    bodies_.comm().broadcast(decision);
+    outcome_.cancelled = decision == KSP_DIVERGED_BREAKDOWN;
+    return static_cast<KSPConvergedReason>(decision);
+}
+
+Iterations::Outcome Iterations::run(Vec r, Vec z, Vec x, const Limits& limits) {
+    limits_ = limits;
+    outcome_ = {};
+    norm_ = lowest_ = 0.0;
+    idle_ = 0;
+    preconditioner_.expect(z);
+    check(KSPSolve(ksp_, r, x));
+    KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
+    check(KSPGetConvergedReason(ksp_, &reason));
+    PetscInt count = 0;
+    check(KSPGetIterationNumber(ksp_, &count));
+    outcome_.iterations = count;
+    if (reason == KSP_DIVERGED_INDEFINITE_MAT)
+        outcome_.definite = !(operator_.last_curvature() <= -flat * norm_ * norm_);
+    if (reason == KSP_DIVERGED_INDEFINITE_PC) {
+        const auto [product, sizes] = preconditioner_.last_product();
+        outcome_.definite = !(product <= -flat_product * sizes);
+    }
+    if (reason == KSP_DIVERGED_PC_FAILED) fail(DELAM_ERROR_NUMERICAL, "the preconditioner has failed");
+    PetscReal greatest = 0.0, least = 0.0;
+    if (count > 0) check(KSPComputeExtremeSingularValues(ksp_, &greatest, &least));
+    if (least > 0.0) outcome_.least = std::min(1.0, least);
+    return outcome_;
+}
+
+}  // namespace delam::petsc

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+#include "petsc/operator.hpp"
+#include "petsc/preconditioner.hpp"
+
+namespace delam::petsc {
+
+// Conjugate gradients by PETSc's KSP: corrections of a state, one run after the other. Rank 0 decides in each iteration
+// whether to go on, and tells the others, so that the ranks can never part.
+class Iterations {
+public:
+    Iterations(const Bodies& bodies, const Operator& matrix, const Preconditioner& preconditioner);
+    Iterations(const Iterations&) = delete;
+    Iterations& operator=(const Iterations&) = delete;
+
+    struct Limits {           // on rank 0
+        double target = 0.0;  // of sqrt(r.M r)
+        std::int64_t iterations = 0;
+        std::int32_t (*poll)(void* user) = nullptr;
+        void* user = nullptr;
+    };
+    struct Outcome {
+        std::int64_t iterations = 0;
+        double least = 1.0;  // eigenvalue met
+        bool definite = true;
+        bool cancelled = false;
+    };
+    // x = about A^-1 r, from zero. z: M r, which is known.
+    Outcome run(Vec r, Vec z, Vec x, const Limits& limits);
+
+private:
+    static PetscErrorCode test(KSP ksp, PetscInt iteration, PetscReal norm, KSPConvergedReason* reason, void* self);
+    KSPConvergedReason decide(PetscInt iteration, double norm);
+
+    const Bodies& bodies_;
+    const Operator& operator_;
+    const Preconditioner& preconditioner_;
+    OwnedKsp ksp_;
+    Limits limits_;
+    Outcome outcome_;
+    double lowest_ = 0.0;
+    double norm_ = 0.0;
+    int idle_ = 0;
+};
+
+}  // namespace delam::petsc

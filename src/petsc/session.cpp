@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "petsc/session.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "petsc/callbacks.hpp"
+#include "petsc/partition.hpp"
+
+namespace delam::petsc {
+
+Session::~Session() {
+    for (Link* link : links_) link->session = nullptr;
+}
+
+void forget_link(Link* link) {
+    if (link->session != nullptr) std::erase(link->session->links_, link);
+    delete link;
+}
+
+std::int32_t Session::failed() {
+    const Failure failure = current_failure();
+    message_ = failure.what();
+    return failure.status;
+}
+
+std::int32_t Session::refuse(const char* why) {
+    message_ = why;
+    return DELAM_ERROR_STATE;
+}
+
+void Session::set_part(Part part) {
+    const auto dimension = static_cast<std::int64_t>(part.dimension);
+    const std::int64_t largest = comm_.largest(dimension);
+    comm_.together([&] {
+        if (dimension != largest)
+            fail(DELAM_ERROR_ARGUMENT, "dimension = ", dimension, ", but another rank has ", largest);
+    });
+    engine_.reset();
+    part_ = std::move(part);
+    has_part_ = true;
+}
+
+void Session::take_scene(const delam_mesh* mesh, const delam_problem* problem) {
+    comm_.together([&] {
+        const bool given = mesh != nullptr && problem != nullptr;
+        if (comm_.root() && !given) fail(DELAM_ERROR_ARGUMENT, "mesh or problem is NULL on rank 0");
+    });
+    set_part(receive_part(comm_, mesh, problem));
+}
+
+void Session::attach(delam_problem* problem) {
+    comm_.together([&] {
+        if (!comm_.root()) return;
+        if (problem == nullptr) fail(DELAM_ERROR_ARGUMENT, "problem is NULL on rank 0");
+        auto link = std::make_unique<Link>(Link{this});
+        links_.push_back(link.get());
+        const delam_experimental_engine engine = make_callbacks(link.release());
+        const std::int32_t status = delam_experimental_problem_set_engine(problem, &engine);
+        if (status == DELAM_OK) return;
+        forget_link(links_.back());
+        fail(status, "delam_experimental_problem_set_engine returned ", delam_status_name(status),
+             " (delam_context_message on rank 0 says why)");
+    });
+}
+
+std::int32_t Session::run(std::int32_t (*work)(void* user), void* user) {
+    message_.clear();
+    std::int32_t status = DELAM_OK;
+    running_ = true;
+    if (comm_.root()) {
+        try {
+            status = work(user);
+        } catch (...) {
+            status = failed();
+        }
+        Command stop = Command::stop;
+        comm_.broadcast(stop);
+    } else {
+        serve();
+    }
+    running_ = false;
+    comm_.broadcast(status);
+    if (comm_.root() && status != DELAM_OK && message_.empty())
+        message_ = std::string("the work on rank 0 returned ") + delam_status_name(status);
+    comm_.broadcast(message_);
+    return status;
+}
+
+// What fails has been agreed upon, and is rank 0's to deal with.
+void Session::serve() {
+    while (true) {
+        Command next = Command::stop;
+        comm_.broadcast(next);
+        switch (next) {
+            case Command::stop:
+                return;
+            case Command::prepare:
+                prepare(nullptr, nullptr, nullptr);
+                break;
+            case Command::set:
+                set(nullptr, 0, nullptr, 0, nullptr, nullptr);
+                break;
+            case Command::renew:
+                renew(nullptr, nullptr);
+                break;
+            case Command::solve:
+                solve(nullptr, nullptr);
+                break;
+            case Command::recover:
+                recover(nullptr, nullptr, nullptr);
+                break;
+        }
+    }
+}
+
+Engine& Session::engine() const {
+    if (engine_ == nullptr) fail(DELAM_ERROR_STATE, "the parts have changed: a solver made before is of no use now");
+    return *engine_;
+}
+
+std::int32_t Session::prepare(const delam_experimental_variables* variables, double* diagonal, double* load_sizes) {
+    return command(Command::prepare, [&] {
+        comm_.together([&] {
+            if (!has_part_) fail(DELAM_ERROR_STATE, "there are no parts: delam_petsc_set_part comes first");
+            if (comm_.root() && variables->dimension != part_.dimension)
+                fail(DELAM_ERROR_ARGUMENT, "the mesh has dimension ", variables->dimension, ", the parts ",
+                     part_.dimension);
+        });
+        engine_.reset();
+        engine_ = std::make_unique<Engine>(comm_, part_, variables, counts_);
+        engine_->sizes(diagonal, load_sizes);
+    });
+}
+
+std::int32_t Session::set(const delam_experimental_entries* couplings, std::int64_t fixed_count,
+                          const std::int64_t* fixed, std::int64_t pivot_count, const std::int64_t* pivots,
+                          const delam_experimental_entries* masters) {
+    return command(Command::set, [&] { engine().set(couplings, fixed_count, fixed, pivot_count, pivots, masters); });
+}
+
+std::int32_t Session::renew(const delam_experimental_entries* entries, double* cost) {
+    return command(Command::renew, [&] { engine().renew(entries, cost); });
+}
+
+std::int32_t Session::solve(const delam_experimental_request* request, delam_experimental_answer* answer) {
+    bool cancelled = false;
+    const std::int32_t status = command(Command::solve, [&] { cancelled = !engine().solve(request, answer); });
+    return status == DELAM_OK && cancelled ? DELAM_CANCELLED : status;
+}
+
+std::int32_t Session::recover(const double* weights, double* displacement, double* force) {
+    return command(Command::recover, [&] { engine().recover(weights, displacement, force); });
+}
+
+double Session::value(const char* key) const {
+    return counters_.value(key, counts_, engine_ == nullptr ? nullptr : &engine_->preconditioner());
+}
+
+}  // namespace delam::petsc

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "delam/petsc.h"
+#include "petsc/counters.hpp"
+#include "petsc/engine.hpp"
+
+namespace delam::petsc {
+
+class Session;
+
+// What an engine's callbacks are called with. The problem may outlive the handle.
+struct Link {
+    Session* session = nullptr;
+};
+
+// A handle: the ranks, their parts, and the engine that rank 0 leads. In `run`, rank 0 does the work; each callback of
+// the engine sends a command to the other ranks, which wait for commands until the work is done.
+class Session {
+public:
+    explicit Session(MPI_Comm comm) : comm_(comm), counters_(comm_) {}
+    ~Session();
+    Session(const Session&) = delete;
+    Session& operator=(const Session&) = delete;
+
+    const Communicator& comm() const { return comm_; }
+    const std::string& message() const { return message_; }
+
+    // Runs work on all ranks and turns what it throws into a status, the same everywhere.
+    template <class Work>
+    std::int32_t guard(Work&& work) {
+        const ErrorRecord record;
+        try {
+            std::int32_t status = DELAM_OK;
+            comm_.together([&] { status = work(); });
+            return status;
+        } catch (...) {
+            return failed();
+        }
+    }
+
+    void set_part(Part part);
+    void take_scene(const delam_mesh* mesh, const delam_problem* problem);
+    void attach(delam_problem* problem);
+    std::int32_t run(std::int32_t (*work)(void* user), void* user);
+    double value(const char* key) const;
+    bool running() const { return running_; }
+
+    // The engine's commands: rank 0 calls them with its pointers, the others with NULL.
+    std::int32_t prepare(const delam_experimental_variables* variables, double* diagonal, double* load_sizes);
+    std::int32_t set(const delam_experimental_entries* couplings, std::int64_t fixed_count, const std::int64_t* fixed,
+                     std::int64_t pivot_count, const std::int64_t* pivots, const delam_experimental_entries* masters);
+    std::int32_t renew(const delam_experimental_entries* entries, double* cost);
+    std::int32_t solve(const delam_experimental_request* request, delam_experimental_answer* answer);
+    std::int32_t recover(const double* weights, double* displacement, double* force);
+    std::int32_t refuse(const char* why);
+
+private:
+    enum class Command : std::int32_t { stop, prepare, set, renew, solve, recover };
+
+    std::int32_t failed();
+    // On rank 0: tells the others what to do, and does it with them.
+    template <class Work>
+    std::int32_t command(Command which, Work&& work) {
+        if (comm_.root()) {
+            if (!running_) return refuse("the engine works only inside delam_petsc_run");
+            comm_.broadcast(which);
+        }
+        return guard([&] {
+            work();
+            return DELAM_OK;
+        });
+    }
+    void serve();
+    Engine& engine() const;
+
+    Communicator comm_;
+    std::string message_;
+    Part part_;
+    bool has_part_ = false;
+    bool running_ = false;
+    Engine::Counts counts_;
+    Counters counters_;
+    std::unique_ptr<Engine> engine_;
+    std::vector<Link*> links_;  // freed by the engines' release
+
+    friend void forget_link(Link* link);
+};
+
+// Release of an engine.
+void forget_link(Link* link);
+
+}  // namespace delam::petsc
