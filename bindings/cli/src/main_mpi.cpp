@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The program `delam-mpi`: `delam` on many processes. Rank 0 reads the command line and the scene, and writes the
+// results; the bodies are solved by all ranks together (delam/petsc.h).
+#include <mpi.h>
+
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <string>
+
+#include <dlfcn.h>
+
+#include "build.hpp"
+#include "delam/petsc.h"
+#include "error.hpp"
+#include "program.hpp"
+#include "say.hpp"
+
+namespace {
+
+constexpr const char* usage =
+    "delam-mpi: as delam, on the processes of mpirun; see delam-mpi run --help.\n"
+    "    mpirun -n 4 delam-mpi [--petsc OPTIONS] run SCENE.toml --out FOLDER\n"
+    "  --petsc OPTIONS   options of PETSc for the bodies, e.g. \"-delam_pc_type bddc -delam_ksp_monitor\"; in front of "
+    "the\n"
+    "                    command, beside those of the variable PETSC_OPTIONS\n";
+
+// Ends with the program, on all ranks at once.
+class Processes {
+public:
+    Processes(int& argc, char**& argv) {
+        MPI_Init(&argc, &argv);
+        MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+    }
+    ~Processes() { MPI_Finalize(); }
+    Processes(const Processes&) = delete;
+    Processes& operator=(const Processes&) = delete;
+    bool first() const { return rank_ == 0; }
+    static int shared(int value) {
+        MPI_Bcast(&value, 1, MPI_INT, 0, MPI_COMM_WORLD);
+        return value;
+    }
+
+private:
+    int rank_ = 0;
+};
+
+// One thread of the BLAS for each process, unless its user says otherwise: as many processes as cores would each take
+// all of them. (OpenBLAS reads the variable before main.)
+void one_blas_thread() {
+    if (std::getenv("OPENBLAS_NUM_THREADS") != nullptr || std::getenv("OMP_NUM_THREADS") != nullptr) return;
+    if (void* set = dlsym(RTLD_DEFAULT, "openblas_set_num_threads")) reinterpret_cast<void (*)(int)>(set)(1);
+}
+
+// What is asked of the other ranks next.
+enum Next { leave, solve };
+
+class Ranks {
+public:
+    explicit Ranks(delam_petsc* petsc) : petsc_(petsc) {}
+
+    // On rank 0: the bodies go to all ranks, which then serve `rest`.
+    int around(const cli::Model& model, const std::function<int()>& rest) {
+        (void)Processes::shared(solve);
+        call(delam_petsc_take_scene(petsc_, model.mesh.get(), model.problem.get()), model);
+        call(delam_petsc_attach(petsc_, model.problem.get()), model);
+        Work work{rest, cli::exit_numerical, {}};
+        const std::int32_t status = delam_petsc_run(petsc_, run, &work);
+        if (work.failure) std::rethrow_exception(work.failure);
+        call(status, model);
+        return work.code;
+    }
+    // On the others: until rank 0 has come to its end.
+    void serve() {
+        while (Processes::shared(leave) == solve) {
+            if (delam_petsc_take_scene(petsc_, nullptr, nullptr) != DELAM_OK) continue;
+            if (delam_petsc_attach(petsc_, nullptr) != DELAM_OK) continue;
+            (void)delam_petsc_run(petsc_, nullptr, nullptr);
+        }
+    }
+
+private:
+    struct Work {
+        const std::function<int()>& rest;
+        int code;
+        std::exception_ptr failure;
+    };
+    static std::int32_t run(void* user) {
+        auto& work = *static_cast<Work*>(user);
+        try {
+            work.code = work.rest();
+        } catch (...) {
+            work.failure = std::current_exception();
+        }
+        return DELAM_OK;
+    }
+    void call(std::int32_t status, const cli::Model& model) const {
+        if (status == DELAM_OK) return;
+        const std::string said = delam_petsc_message(petsc_), own = delam_context_message(model.context.get());
+        throw cli::Failure(
+            status == DELAM_ERROR_PROBLEM || status == DELAM_ERROR_ARGUMENT ? cli::exit_scene : cli::exit_numerical,
+            said.empty() ? own : said);
+    }
+    delam_petsc* petsc_;
+};
+
+// Takes --petsc OPTIONS out of the words and puts them behind those of the environment. False: OPTIONS are missing.
+bool take_petsc_options(int& argc, char** argv) {
+    if (argc < 2 || std::strcmp(argv[1], "--petsc") != 0) return true;
+    if (argc < 3) return false;
+    const char* before = std::getenv("PETSC_OPTIONS");
+    setenv("PETSC_OPTIONS", ((before != nullptr ? std::string(before) + " " : std::string()) + argv[2]).c_str(), 1);
+    for (int i = 3; i <= argc; ++i) argv[i - 2] = argv[i];
+    argc -= 2;
+    return true;
+}
+
+int on_all_ranks(const Processes& processes, int argc, char** argv) {
+    const bool right = take_petsc_options(argc, argv) && argc > 1, help = right && std::strcmp(argv[1], "--help") == 0;
+    if (!right || help) {
+        if (processes.first() && help) cli::say("{}", usage);
+        if (processes.first() && !help) cli::complain("{}", usage);
+        return help ? cli::exit_done : cli::exit_scene;
+    }
+    delam_petsc* petsc = nullptr;
+    if (delam_petsc_create(MPI_COMM_WORLD, &petsc) != DELAM_OK) {
+        if (processes.first()) cli::complain("delam-mpi: PETSc cannot be initialised\n");
+        return cli::exit_numerical;
+    }
+    int code = cli::exit_done;
+    Ranks ranks(petsc);
+    if (processes.first()) {
+        code = cli::program(argc, argv, [&](const cli::Model& model, const std::function<int()>& rest) {
+            return ranks.around(model, rest);
+        });
+        (void)Processes::shared(leave);
+    } else {
+        ranks.serve();
+    }
+    code = Processes::shared(code);
+    delam_petsc_destroy(&petsc);
+    return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    one_blas_thread();
+    const Processes processes(argc, argv);
+    return on_all_ranks(processes, argc, argv);
+}
