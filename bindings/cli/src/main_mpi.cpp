@@ -138,9 +138,8 @@ int on_all_ranks(const Processes& processes, int argc, char** argv) {
     } else {
         ranks.serve();
     }
-    code = Processes::shared(code);
     delam_petsc_destroy(&petsc);
-    return code;
+    return code;  // rank 0's is that of mpirun
 }
 
 }  // namespace
