@@ -12,24 +12,41 @@ namespace {
 
 // Of r.z: below it a curvature is zero but for rounding.
 constexpr double flat = 1e-13;
-// Of |r||z|: the same for r.z itself.
-constexpr double flat_product = 1e-10;
-constexpr int most_idle = 20;  // iterations without gain: rounding
+constexpr PetscInt longest_run = 10000;  // KSP keeps some numbers of each iteration
+constexpr int most_idle = 20;            // iterations without gain: rounding
+
+PetscErrorCode apply_shell(PC shell, Vec r, Vec z) {
+    void* context = nullptr;
+    const PetscErrorCode code = PCShellGetContext(shell, &context);
+    if (code != 0) return code;
+    try {
+        static_cast<const Preconditioner*>(context)->apply(r, z);
+    } catch (...) {
+        return PETSC_ERR_LIB;
+    }
+    return 0;
+}
 
 }  // namespace
 
 Iterations::Iterations(const Bodies& bodies, const Operator& matrix, const Preconditioner& preconditioner)
-    : bodies_(bodies), operator_(matrix), preconditioner_(preconditioner) {
-    check(KSPCreate(bodies.comm().get(), ksp_.out()));
+    : bodies_(bodies), operator_(matrix), preconditioner_(preconditioner) {}
+
+void Iterations::create() {
+    check(PCCreate(bodies_.comm().get(), shell_.out()));
+    check(PCSetType(shell_, PCSHELL));
+    check(PCShellSetContext(shell_, const_cast<Preconditioner*>(&preconditioner_)));
+    check(PCShellSetApply(shell_, apply_shell));
+    check(KSPCreate(bodies_.comm().get(), ksp_.out()));
     check(KSPSetOptionsPrefix(ksp_, options_prefix));
     check(KSPSetType(ksp_, KSPCG));
-    check(KSPSetOperators(ksp_, matrix.shell(), matrix.shell()));
-    check(KSPSetPC(ksp_, preconditioner.shell()));
+    check(KSPSetPC(ksp_, shell_));
+    check(KSPSetOperators(ksp_, operator_.shell(), operator_.shell()));
     // The options of the preconditioner belong to the one inside.
-    check(PCSetOptionsPrefix(preconditioner.shell(), "delam_outer_"));
+    check(PCSetOptionsPrefix(shell_, "delam_outer_"));
     check(KSPSetComputeSingularValues(ksp_, PETSC_TRUE));
     check(KSPSetNormType(ksp_, KSP_NORM_NATURAL));
-    check(KSPSetTolerances(ksp_, 0.0, 0.0, PETSC_DEFAULT, PETSC_MAX_INT - 1));
+    check(KSPSetTolerances(ksp_, 0.0, 0.0, PETSC_DEFAULT, longest_run));
     check(KSPSetFromOptions(ksp_));
     check(KSPSetNormType(ksp_, KSP_NORM_NATURAL));
     check(KSPSetInitialGuessNonzero(ksp_, PETSC_FALSE));
@@ -66,24 +83,32 @@ KSPConvergedReason Iterations::decide(PetscInt iteration, double norm) {
     return static_cast<KSPConvergedReason>(decision);
 }
 
+// What an error leaves of a KSP is of no use.
+void Iterations::iterate(Vec r, Vec x) {
+    try {
+        if (ksp_ == nullptr) create();
+        check(KSPSolve(ksp_, r, x));
+    } catch (...) {
+        ksp_.reset();
+        throw;
+    }
+}
+
 Iterations::Outcome Iterations::run(Vec r, Vec z, Vec x, const Limits& limits) {
     limits_ = limits;
     outcome_ = {};
     norm_ = lowest_ = 0.0;
     idle_ = 0;
     preconditioner_.expect(z);
-    check(KSPSolve(ksp_, r, x));
+    iterate(r, x);
     KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
     check(KSPGetConvergedReason(ksp_, &reason));
     PetscInt count = 0;
     check(KSPGetIterationNumber(ksp_, &count));
     outcome_.iterations = count;
+    // The preconditioner is definite: if r.M r is not positive, that is rounding, and the run is over.
     if (reason == KSP_DIVERGED_INDEFINITE_MAT)
         outcome_.definite = !(operator_.last_curvature() <= -flat * norm_ * norm_);
-    if (reason == KSP_DIVERGED_INDEFINITE_PC) {
-        const auto [product, sizes] = preconditioner_.last_product();
-        outcome_.definite = !(product <= -flat_product * sizes);
-    }
     if (reason == KSP_DIVERGED_PC_FAILED) fail(DELAM_ERROR_NUMERICAL, "the preconditioner has failed");
     PetscReal greatest = 0.0, least = 0.0;
     if (count > 0) check(KSPComputeExtremeSingularValues(ksp_, &greatest, &least));

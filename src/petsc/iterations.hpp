@@ -32,12 +32,15 @@ public:
     Outcome run(Vec r, Vec z, Vec x, const Limits& limits);
 
 private:
+    void create();
+    void iterate(Vec r, Vec x);
     static PetscErrorCode test(KSP ksp, PetscInt iteration, PetscReal norm, KSPConvergedReason* reason, void* self);
     KSPConvergedReason decide(PetscInt iteration, double norm);
 
     const Bodies& bodies_;
     const Operator& operator_;
     const Preconditioner& preconditioner_;
+    OwnedPc shell_;  // of the preconditioner
     OwnedKsp ksp_;
     Limits limits_;
     Outcome outcome_;

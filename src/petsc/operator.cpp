@@ -54,8 +54,7 @@ void Operator::apply(Vec y, Vec out) const {
     apply_couplings(spread_, of_couplings_);
     check(VecAXPY(image_, 1.0, of_couplings_));
     constraints_.gather(image_, out);
-    last_in_ = y;
-    last_out_ = out;
+    check(VecDot(y, out, &last_curvature_));
 }
 
 double Operator::coupled(Vec v) const {
@@ -76,12 +75,6 @@ void Operator::add_coupling_sizes(Vec v, Vec out) const {
             std::abs(entries_.values[e] * values[static_cast<std::size_t>(entries_.columns[e])]);
     visible_.write(sizes, of_couplings_);
     check(VecAXPY(out, 1.0, of_couplings_));
-}
-
-double Operator::last_curvature() const {
-    PetscScalar curvature = 0.0;
-    check(VecDot(last_in_, last_out_, &curvature));
-    return curvature;
 }
 
 }  // namespace delam::petsc

@@ -32,7 +32,7 @@ public:
     // out += |C| |v|
     void add_coupling_sizes(Vec v, Vec out) const;
     // x.A x of the last x that the shell was applied to.
-    double last_curvature() const;
+    double last_curvature() const { return last_curvature_; }
 
 private:
     const Bodies& bodies_;
@@ -42,7 +42,7 @@ private:
     SparseEntries couplings_;
     OwnedMat shell_;
     OwnedVec spread_, image_, of_couplings_;
-    mutable Vec last_in_ = nullptr, last_out_ = nullptr;  // owned by the KSP
+    mutable double last_curvature_ = 0.0;  // the KSP may overwrite both vectors
 };
 
 }  // namespace delam::petsc

@@ -16,28 +16,11 @@ constexpr double slower = 20.0;
 // What a renewal is worth where nothing tells: iterations.
 constexpr double usual_worth = 10.0;
 
-PetscErrorCode apply_shell(PC shell, Vec r, Vec z) {
-    void* context = nullptr;
-    const PetscErrorCode code = PCShellGetContext(shell, &context);
-    if (code != 0) return code;
-    try {
-        static_cast<const Preconditioner*>(context)->apply(r, z);
-    } catch (...) {
-        return PETSC_ERR_LIB;
-    }
-    return 0;
-}
-
 }  // namespace
 
 Preconditioner::Preconditioner(const Bodies& bodies, const Visible& visible, const Constraints& constraints)
     : bodies_(bodies), visible_(visible), constraints_(constraints), work_(bodies.vector()) {
     check(MatDuplicate(bodies.matrix(), MAT_COPY_VALUES, matrix_.out()));
-    check(PCCreate(bodies.comm().get(), shell_.out()));
-    check(PCSetType(shell_, PCSHELL));
-    check(PCShellSetContext(shell_, this));
-    check(PCShellSetApply(shell_, apply_shell));
-    check(PCShellSetName(shell_, "delam"));
 }
 
 void Preconditioner::create() {
@@ -139,8 +122,6 @@ double Preconditioner::worth() {
 
 void Preconditioner::apply(Vec residual, Vec z) const {
     if (inner_ == nullptr) fail(DELAM_ERROR_STATE, "there is no preconditioner yet: renew comes before solve");
-    last_in_ = residual;
-    last_out_ = z;
     if (expected_ != nullptr) {
         check(VecCopy(expected_, z));
         expected_ = nullptr;
@@ -149,15 +130,6 @@ void Preconditioner::apply(Vec residual, Vec z) const {
     check(VecPointwiseMult(work_, residual, constraints_.free()));
     check(PCApply(inner_, work_, z));
     constraints_.mask(z);
-}
-
-std::pair<double, double> Preconditioner::last_product() const {
-    PetscScalar product = 0.0;
-    PetscReal r = 0.0, z = 0.0;
-    check(VecDot(last_in_, last_out_, &product));
-    check(VecNorm(last_in_, NORM_2, &r));
-    check(VecNorm(last_out_, NORM_2, &z));
-    return {product, r * z};
 }
 
 }  // namespace delam::petsc

@@ -20,13 +20,10 @@ public:
 
     // Returns how many iterations this is worth.
     double renew(const Operator::Entries& entries);
-    PC shell() const { return shell_; }
     void apply(Vec residual, Vec z) const;
     // The next residual that apply gets has this z, which is known.
     void expect(Vec z) const { expected_ = z; }
 
-    // r.z of the last application, and the product of the norms.
-    std::pair<double, double> last_product() const;
     double factor_entries() const { return factor_entries_; }
     double factor_flops() const { return factor_flops_; }
 
@@ -44,12 +41,10 @@ private:
     std::map<std::pair<PetscInt, PetscInt>, double> places_;  // all that there ever were, on rank 0
     SparseEntries entries_;
     OwnedPc inner_;
-    OwnedPc shell_;
     OwnedVec work_;
     double factor_entries_ = 0.0;
     double factor_flops_ = 0.0;
     mutable Vec expected_ = nullptr;
-    mutable Vec last_in_ = nullptr, last_out_ = nullptr;  // owned by the KSP
 };
 
 }  // namespace delam::petsc
