@@ -306,8 +306,8 @@ static int32_t make_law(scene *s) {
     TRY(delam_law_create(s->context, "piecewise-linear", &s->law));
     TRY(delam_law_set(s->law, "normal_stiffness", 3e12));
     TRY(delam_law_set(s->law, "tangential_stiffness", 3e12));
-    TRY(delam_law_set(s->law, "normal_onset", 20.0));
-    TRY(delam_law_set(s->law, "tangential_onset", 20.0));
+    TRY(delam_law_set(s->law, "normal_onset", 5.0));
+    TRY(delam_law_set(s->law, "tangential_onset", 5.0));
     TRY(delam_law_set(s->law, "normal_toughness", 250.0));
     TRY(delam_law_set(s->law, "tangential_toughness", 250.0));
     return DELAM_OK;

@@ -234,7 +234,7 @@ contains
     integer :: i
     character(20), parameter :: keys(6) = [character(20) :: 'normal_stiffness', 'tangential_stiffness', &
       'normal_onset', 'tangential_onset', 'normal_toughness', 'tangential_toughness']
-    real(dp), parameter :: numbers(6) = [3e12_dp, 3e12_dp, 20.0_dp, 20.0_dp, 250.0_dp, 250.0_dp]
+    real(dp), parameter :: numbers(6) = [3e12_dp, 3e12_dp, 5.0_dp, 5.0_dp, 250.0_dp, 250.0_dp]
     call context%create(status, message)
     if (failed()) return
     call make_mesh()

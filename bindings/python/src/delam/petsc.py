@@ -30,8 +30,8 @@ from numpy.typing import ArrayLike
 
 from . import _library, _raw
 from ._arrays import floats, indices, pointer
-from ._call import text
-from .errors import ArgumentError, DelamError, HandleError, error_of
+from ._call import integer, text
+from .errors import ArgumentError, DelamError, HandleError, StateError, error_of
 from .mesh import Mesh
 from .problem import Problem, _rows_of
 
@@ -111,13 +111,20 @@ class Ranks:
         self.rank: int = comm.rank
         self.size: int = comm.size
         self._agreed = None  # an error that all ranks have
+        self._running = False
 
     # ---- handle
 
-    @property
-    def _handle(self):
+    def _check(self):
         if not self._pointer:
             raise HandleError("these Ranks are closed")
+        # The other ranks would not answer.
+        if self._running:
+            raise StateError("these Ranks are running a function")
+
+    @property
+    def _handle(self):
+        self._check()
         return self._pointer
 
     @property
@@ -127,7 +134,7 @@ class Ranks:
     def close(self) -> None:
         """Frees what the ranks hold; all of them call it. Solvers made with it raise StateError from then on."""
         if self._pointer:
-            self._library.delam_petsc_destroy(ctypes.byref(self._pointer))
+            self._library.delam_petsc_destroy(ctypes.byref(self._handle))
             self._comm.Free()
 
     def __enter__(self) -> Ranks:
@@ -150,6 +157,7 @@ class Ranks:
 
     def _together(self, function):
         """What the function returns; an error of some rank is raised on all of them."""
+        self._check()
         result, error = None, None
         try:
             result = function()
@@ -185,7 +193,7 @@ class Ranks:
         interface joins is best in one part."""
         def arrays():
             count = indices("nodes", nodes)
-            size = count.size * dimension
+            size = count.size * integer("dimension", dimension, 32)
             row_starts, columns, values = _rows_of(matrix)
             row_starts = indices("row_starts", row_starts, (size + 1,))
             values = floats("values", values, (None,))
@@ -231,7 +239,11 @@ class Ranks:
                 return status or _raw.DELAM_ERROR_INTERNAL
             return _raw.DELAM_OK
 
-        status = self._library.delam_petsc_run(handle, work, None)
+        self._running = True
+        try:
+            status = self._library.delam_petsc_run(handle, work, None)
+        finally:
+            self._running = False
         if status == _raw.DELAM_OK:
             return results[0] if self.rank == 0 else None
         failure = failures[0] if failures else None
