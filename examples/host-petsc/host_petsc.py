@@ -84,7 +84,8 @@ def make_part(grid, first, last):
     nodes, at, local = np.unique(numbers, return_index=True, return_inverse=True)
     dofs = (3 * local.reshape(-1, 8, 1) + np.arange(3)).reshape(-1, 24)
     rows = np.broadcast_to(dofs[:, :, None], (len(dofs), 24, 24))
-    stiffness = compressed(rows.ravel(), rows.transpose(0, 2, 1).ravel(), cell_stiffness(places).ravel(), 3 * len(nodes))
+    stiffness = compressed(rows.ravel(), rows.transpose(0, 2, 1).ravel(), cell_stiffness(places).ravel(),
+                           3 * len(nodes))
     return nodes, stiffness, places.reshape(-1, 3)[at]
 
 

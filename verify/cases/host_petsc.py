@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """host_petsc.py RANKS HOST [ARGUMENT ...]
 
-A host of examples/host-petsc on some ranks prints the numbers of the library alone, for the same scene with cells of the
-library's own: up to 1e-7 of the largest of each column. On two ranks it is also given wrong arguments, which end it with
-exit code 2. Exits with 77 where mpirun, or what a host in Python needs, is missing.
+A host of examples/host-petsc on some ranks prints the numbers of the library alone, for the same scene with cells of
+the library's own: up to 1e-7 of the largest of each column. On two ranks it is also given wrong arguments, which end it
+with exit code 2. Exits with 77 where mpirun, or what a host in Python needs, is missing.
 """
 import os
 import shutil
@@ -25,8 +25,9 @@ def alone():
     glue = mesh.add_interface(0, 1)
     problem = delam.Problem(mesh)
     problem.set_elastic(60e9, 0.3)
-    problem.set_law(glue, delam.Law("piecewise-linear", normal_stiffness=3e12, tangential_stiffness=3e12, normal_onset=5.0,
-                                    tangential_onset=5.0, normal_toughness=250.0, tangential_toughness=250.0))
+    problem.set_law(glue, delam.Law(
+        "piecewise-linear", normal_stiffness=3e12, tangential_stiffness=3e12, normal_onset=5.0, tangential_onset=5.0,
+        normal_toughness=250.0, tangential_toughness=250.0))
     problem.options["damage_tolerance"] = 1e-10
     problem.set_adhesion(glue, glue.places[:, 0] < NOTCH - 1e-9, 0.0)
     opening = problem.add_pattern("opening", [0.0, 1.0], [0.0, 1.6e-3])
@@ -63,13 +64,15 @@ def main():
     if shutil.which("mpirun") is None:
         print("skipped: mpirun is not there")
         return SKIPPED
-    if "python" in host[0] and subprocess.run([host[0], "-c", "import mpi4py"], stderr=subprocess.DEVNULL).returncode != 0:
+    needs = subprocess.run([host[0], "-c", "import mpi4py"], stderr=subprocess.DEVNULL) if "python" in host[0] else None
+    if needs is not None and needs.returncode != 0:
         print("skipped: mpi4py is not there")
         return SKIPPED
     done = on_ranks(ranks, host, str(CELLS))
     lines = done.stdout.splitlines()
     if done.returncode != 0 or len(lines) != STEPS + 1:
-        print(f"exit code {done.returncode} and {len(lines)} lines, expected 0 and {STEPS + 1}:\n{done.stdout}{done.stderr}")
+        print(f"exit code {done.returncode} and {len(lines)} lines, expected 0 and {STEPS + 1}:\n"
+              f"{done.stdout}{done.stderr}")
         return 1
     expected = alone()
     found = [[float(word) for word in line.split()] for line in lines[1:]]

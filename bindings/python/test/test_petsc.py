@@ -30,8 +30,10 @@ class Alone(unittest.TestCase):
                 "assert 'libmpi' not in open('/proc/self/maps').read()\n"
                 "try:\n    delam.petsc._library_of_ranks()\n"
                 "except ImportError as error:\n    print(error)\n")
-        environment = dict(os.environ, PYTHONPATH=str(support.SOURCES), DELAM_PETSC_LIBRARY="/nowhere/libdelam-petsc.so.1")
-        done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=False)
+        environment = dict(os.environ, PYTHONPATH=str(support.SOURCES),
+                           DELAM_PETSC_LIBRARY="/nowhere/libdelam-petsc.so.1")
+        done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True,
+                              check=False)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("DELAM_PETSC_LIBRARY", done.stdout)
         self.assertIn("/nowhere", done.stdout)

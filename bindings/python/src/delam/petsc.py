@@ -10,9 +10,9 @@
         ranks.attach(problem)
         history = ranks.run(lambda: delam.Solver(problem).history(times))
 
-All ranks make the same calls in the same order. An error of any of them is raised on all ranks: what is the library's,
-and what the function of `run` raises on rank 0, too. Run a host by `mpirun -n 4 python3 -m mpi4py host.py`: where a rank
-fails by itself, outside these calls, mpi4py then ends the others.
+All ranks make the same calls in the same order. An error of a call is raised on all ranks, and so is what the function
+of `run` raises on rank 0. Run a host by `mpirun -n 4 python3 -m mpi4py host.py`: where a rank fails by itself, outside
+these calls, mpi4py then ends the others.
 
 The library libdelam-petsc.so.N is loaded when the first Ranks is made. It is searched for in the environment variable
 DELAM_PETSC_LIBRARY, a file or a folder; if that is not set, next to libdelam and then on the loader's paths.
@@ -84,8 +84,8 @@ def _library_of_ranks():
             _loaded.append(library)
             break
         else:
-            raise ImportError(f"libdelam-petsc was not found. Set {VARIABLE} to {SONAME} or to its folder, or install it "
-                              f"next to libdelam. Tried:\n  " + "\n  ".join(tried))
+            raise ImportError(f"libdelam-petsc was not found. Set {VARIABLE} to {SONAME} or to its folder, or install "
+                              f"it next to libdelam. Tried:\n  " + "\n  ".join(tried))
     return _loaded[0]
 
 
@@ -184,9 +184,10 @@ class Ranks:
                  dimension: int = 3) -> None:
         """What this rank adds to the stiffness of the bodies, which is the sum over all ranks.
 
-        nodes        each once, in the numbers of the mesh of rank 0's problem; numbers beyond the mesh are nodes that only
-                     the ranks know
-        matrix       a delam.Sparse or a matrix of scipy.sparse, both triangles; row dimension * i + component of nodes[i]
+        nodes        each once, in the numbers of the mesh of rank 0's problem; numbers beyond the mesh are nodes that
+                     only the ranks know
+        matrix       a delam.Sparse or a matrix of scipy.sparse, both triangles; row dimension * i + component of
+                     nodes[i]
         coordinates  [nodes][dimension], which some preconditioners use: on all ranks or on none
 
         A rank may have no nodes. Nodes of the mesh that are in no part have no stiffness. A pair of nodes that an
@@ -199,7 +200,8 @@ class Ranks:
             values = floats("values", values, (None,))
             columns = indices("columns", columns, (values.size,))
             if row_starts[-1] != values.size:
-                raise ArgumentError(f"row_starts[{size}] = {row_starts[-1]}, expected {values.size}, the number of values")
+                raise ArgumentError(f"row_starts[{size}] = {row_starts[-1]}, expected {values.size}, the number of "
+                                    f"values")
             places = None if coordinates is None else floats("coordinates", coordinates, (count.size, dimension))
             return count, places, row_starts, columns, values
 
@@ -208,24 +210,24 @@ class Ranks:
                    *map(pointer, rows))
 
     def take_scene(self, mesh: Mesh | None, problem: Problem | None) -> None:
-        """Divides the cells of rank 0's mesh among the ranks, in place of set_part. None on the other ranks; the problem
-        has to be complete but for its loads."""
+        """Divides the cells of rank 0's mesh among the ranks, in place of set_part. None on the other ranks; the
+        problem has to be complete but for its loads."""
         handles = self._together(lambda: (self._first("mesh", mesh, Mesh), self._first("problem", problem, Problem)))
         self._call(self._library.delam_petsc_take_scene, *handles)
 
     # ---- work
 
     def attach(self, problem: Problem | None) -> None:
-        """The ranks solve the bodies of rank 0's problem from now on, in solvers that are made, and work, in `run`. None
-        on the other ranks."""
+        """The ranks solve the bodies of rank 0's problem from now on, in solvers that are made, and work, in `run`.
+        None on the other ranks."""
         handle = self._together(lambda: self._first("problem", problem, Problem))
         self._call(self._library.delam_petsc_attach, handle)
 
     def run(self, function: Callable | None = None):
-        """Calls function() on rank 0, which may use everything of the package, while the other ranks work for it. Returns
-        its result on rank 0, None on the others. What it raises is raised on all ranks: a DelamError as such, anything
-        else as WorkError on the others and on rank 0, with it as the cause; what is no Exception, such as
-        KeyboardInterrupt, is raised again on rank 0."""
+        """Calls function() on rank 0, which may use everything of the package but these Ranks, while the other ranks
+        work for it. Returns its result on rank 0, None on the others. What it raises is raised on all ranks: a
+        DelamError as such, another exception as WorkError (on rank 0 with the exception as its cause). What is no
+        Exception, such as KeyboardInterrupt, is raised again on rank 0 and is a WorkError on the others."""
         handle = self._handle
         results, failures = [], []
 
