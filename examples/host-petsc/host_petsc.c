@@ -34,19 +34,19 @@ typedef struct {
     int64_t first, last; /* sections between which this rank's cells lie */
 } grid;
 
-static void place(const grid* g, int64_t arm, int64_t i, int64_t j, int64_t k, double* x) {
+static void place(const grid *g, int64_t arm, int64_t i, int64_t j, int64_t k, double *x) {
     x[0] = length * (double)i / (double)g->along;
     x[1] = width * (double)j / across;
     x[2] = height + (arm == 0 ? -1.0 : 1.0) * height * (double)k / upwards;
 }
 
 /* Where the numbers of the groups begin: nodes of the interface, held ones, loaded ones, all others. */
-static int64_t held_nodes(const grid* g) { return 2 * (g->along + 1) * (across + 1); }
-static int64_t loaded_nodes(const grid* g) { return held_nodes(g) + 2 * upwards * (across + 1); }
-static int64_t other_nodes(const grid* g) { return loaded_nodes(g) + 2 * (across + 1); }
+static int64_t held_nodes(const grid *g) { return 2 * (g->along + 1) * (across + 1); }
+static int64_t loaded_nodes(const grid *g) { return held_nodes(g) + 2 * upwards * (across + 1); }
+static int64_t other_nodes(const grid *g) { return loaded_nodes(g) + 2 * (across + 1); }
 
 /* Number of a node, the same on all ranks. libdelam's mesh has the first groups; numbers behind may have gaps. */
-static int64_t number(const grid* g, int64_t arm, int64_t i, int64_t j, int64_t k) {
+static int64_t number(const grid *g, int64_t arm, int64_t i, int64_t j, int64_t k) {
     const int64_t layer = arm * upwards + k - 1;
     if (k == 0) return (arm * (across + 1) + j) * (g->along + 1) + i;
     if (i == g->along) return held_nodes(g) + layer * (across + 1) + j;
@@ -57,7 +57,7 @@ static int64_t number(const grid* g, int64_t arm, int64_t i, int64_t j, int64_t 
 /* ---- the host's elements ---------------------------------------------------------------------------------------- */
 
 /* Gradients of the shape functions at a point of a cell, and the volume that a unit of its cube has there. */
-static double gradients(double x[8][3], const double* point, double gradient[8][3]) {
+static double gradients(double x[8][3], const double *point, double gradient[8][3]) {
     double slope[8][3]; /* by the coordinates of the cube */
     double jacobian[3][3] = {{0.0}};
     double cofactor[3][3];
@@ -92,7 +92,7 @@ static void cell_stiffness(double x[8][3], double stiffness[8][8][3][3]) {
     const double lambda = young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson));
     const double mu = 0.5 * young / (1.0 + poisson);
     const double gauss = 1.0 / sqrt(3.0);
-    double* entries = &stiffness[0][0][0][0];
+    double *entries = &stiffness[0][0][0][0];
     int point, a, b, p, q;
     for (a = 0; a < 8 * 8 * 3 * 3; ++a) entries[a] = 0.0;
     for (point = 0; point < 8; ++point) {
@@ -117,14 +117,14 @@ static void cell_stiffness(double x[8][3], double stiffness[8][8][3][3]) {
 
 typedef struct {
     int64_t node_count;
-    int64_t* nodes;
-    double* coordinates;
-    int64_t* row_starts;
-    int64_t* columns;
-    double* values;
+    int64_t *nodes;
+    double *coordinates;
+    int64_t *row_starts;
+    int64_t *columns;
+    double *values;
 } part;
 
-static void free_part(part* p) {
+static void free_part(part *p) {
     free(p->nodes);
     free(p->coordinates);
     free(p->row_starts);
@@ -133,12 +133,12 @@ static void free_part(part* p) {
 }
 
 /* Place of a node in the part. */
-static int64_t local(const grid* g, int64_t arm, int64_t i, int64_t j, int64_t k) {
+static int64_t local(const grid *g, int64_t arm, int64_t i, int64_t j, int64_t k) {
     return ((arm * (upwards + 1) + k) * (across + 1) + j) * (g->last - g->first + 1) + i - g->first;
 }
 
 /* Adds up the cells: 27 blocks of 3 x 3 for each node, one for each node of the 3 x 3 x 3 around it. */
-static void add_cells(const grid* g, double (*blocks)[27][3][3]) {
+static void add_cells(const grid *g, double (*blocks)[27][3][3]) {
     int64_t arm, i, j, k;
     int a, b, p, q;
     for (arm = 0; arm < 2; ++arm) {
@@ -165,8 +165,8 @@ static void add_cells(const grid* g, double (*blocks)[27][3][3]) {
 }
 
 /* Writes the rows of a node behind the entries so far; returns how many there are then. */
-static int64_t write_rows(const grid* g, int64_t arm, int64_t i, int64_t j, int64_t k, double blocks[27][3][3],
-                          part* out, int64_t entries) {
+static int64_t write_rows(const grid *g, int64_t arm, int64_t i, int64_t j, int64_t k, double blocks[27][3][3],
+                          part *out, int64_t entries) {
     const int64_t row = local(g, arm, i, j, k);
     int p, q, to;
     for (p = 0; p < 3; ++p) {
@@ -184,7 +184,7 @@ static int64_t write_rows(const grid* g, int64_t arm, int64_t i, int64_t j, int6
 }
 
 /* Returns 0, or 1 if there is not enough memory. A rank without cells has an empty part. */
-static int make_part(const grid* g, part* out) {
+static int make_part(const grid *g, part *out) {
     const int64_t sections = g->last > g->first ? g->last - g->first + 1 : 0;
     const size_t count = (size_t)(2 * (upwards + 1) * (across + 1) * sections);
     double(*blocks)[27][3][3];
@@ -223,11 +223,11 @@ static int make_part(const grid* g, part* out) {
 
 typedef struct {
     grid g;
-    delam_context* context;
-    delam_mesh* mesh;
-    delam_law* law;
-    delam_problem* problem;
-    delam_solver* solver;
+    delam_context *context;
+    delam_mesh *mesh;
+    delam_law *law;
+    delam_problem *problem;
+    delam_solver *solver;
     int64_t opening; /* the load pattern */
 } scene;
 
@@ -241,8 +241,8 @@ typedef struct {
         }                                                                                                           \
     } while (0)
 
-static int32_t make_mesh_of(scene* s, double* x, int64_t* list, double* normals, double* weights, int64_t* faces) {
-    const grid* g = &s->g;
+static int32_t make_mesh_of(scene *s, double *x, int64_t *list, double *normals, double *weights, int64_t *faces) {
+    const grid *g = &s->g;
     const int64_t pairs = (g->along + 1) * (across + 1);
     const double area = length / (double)g->along * width / across;
     int64_t arm, i, j, k, count, face = 0, interface_index = 0;
@@ -285,13 +285,13 @@ static int32_t make_mesh_of(scene* s, double* x, int64_t* list, double* normals,
     return DELAM_OK;
 }
 
-static int32_t make_mesh(scene* s) {
+static int32_t make_mesh(scene *s) {
     const size_t nodes = (size_t)other_nodes(&s->g);
-    double* x = malloc(3 * nodes * sizeof *x);
-    int64_t* list = malloc(nodes * sizeof *list);
-    double* normals = malloc(3 * nodes * sizeof *normals);
-    double* weights = malloc(nodes * sizeof *weights);
-    int64_t* faces = malloc(4 * nodes * sizeof *faces);
+    double *x = malloc(3 * nodes * sizeof *x);
+    int64_t *list = malloc(nodes * sizeof *list);
+    double *normals = malloc(3 * nodes * sizeof *normals);
+    double *weights = malloc(nodes * sizeof *weights);
+    int64_t *faces = malloc(4 * nodes * sizeof *faces);
     int32_t status = DELAM_ERROR_MEMORY;
     if (x != NULL && list != NULL && normals != NULL && weights != NULL && faces != NULL)
         status = make_mesh_of(s, x, list, normals, weights, faces);
@@ -303,7 +303,7 @@ static int32_t make_mesh(scene* s) {
     return status;
 }
 
-static int32_t make_law(scene* s) {
+static int32_t make_law(scene *s) {
     TRY(delam_law_create(s->context, "piecewise-linear", &s->law));
     TRY(delam_law_set(s->law, "normal_stiffness", 3e12));
     TRY(delam_law_set(s->law, "tangential_stiffness", 3e12));
@@ -315,7 +315,7 @@ static int32_t make_law(scene* s) {
 }
 
 /* Pairs left of the notch tip have no adhesion from the start. */
-static int32_t make_notch(scene* s) {
+static int32_t make_notch(scene *s) {
     const double none = 0.0;
     int64_t i, j;
     for (j = 0; j <= across; ++j) {
@@ -330,7 +330,7 @@ static int32_t make_notch(scene* s) {
 }
 
 /* The right end is held, the outer edges of the left one are driven apart. */
-static int32_t make_loads(scene* s) {
+static int32_t make_loads(scene *s) {
     const double times[2] = {0.0, 1.0};
     const double values[2] = {0.0, 1.6e-3};
     const double axes[3][3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
@@ -356,8 +356,8 @@ static int32_t make_loads(scene* s) {
     return DELAM_OK;
 }
 
-static int32_t make_scene(void* user) {
-    scene* s = user;
+static int32_t make_scene(void *user) {
+    scene *s = user;
     int32_t status = delam_context_create(&s->context);
     if (status == DELAM_OK) status = make_mesh(s);
     if (status == DELAM_OK) status = make_law(s);
@@ -369,8 +369,8 @@ static int32_t make_scene(void* user) {
     return status == DELAM_OK ? make_loads(s) : status;
 }
 
-static int32_t write_row(scene* s, int step) {
-    static const char* const keys[4] = {"load:opening", "reaction:opening", "dissipated", "debonded_length"};
+static int32_t write_row(scene *s, int step) {
+    static const char *const keys[4] = {"load:opening", "reaction:opening", "dissipated", "debonded_length"};
     double values[4];
     int i;
     for (i = 0; i < 4; ++i) TRY(delam_solver_value(s->solver, keys[i], &values[i]));
@@ -379,8 +379,8 @@ static int32_t write_row(scene* s, int step) {
     return DELAM_OK;
 }
 
-static int32_t march(void* user) {
-    scene* s = user;
+static int32_t march(void *user) {
+    scene *s = user;
     int step;
     TRY(delam_problem_check(s->problem));
     TRY(delam_solver_create(s->problem, 0.0, &s->solver));
@@ -398,13 +398,13 @@ static int32_t march(void* user) {
 /* ---- all ranks -------------------------------------------------------------------------------------------------- */
 
 /* Tells on rank 0 what has failed; all ranks have the same status. */
-static int failed(const delam_petsc* petsc, int rank, int32_t status, const char* what) {
+static int failed(const delam_petsc *petsc, int rank, int32_t status, const char *what) {
     if (status != DELAM_OK && rank == 0)
         fprintf(stderr, "host_petsc: %s: %s: %s\n", what, delam_status_name(status), delam_petsc_message(petsc));
     return status != DELAM_OK;
 }
 
-static int work(delam_petsc* petsc, int rank, scene* s, part* p) {
+static int work(delam_petsc *petsc, int rank, scene *s, part *p) {
     int lacks = make_part(&s->g, p);
     MPI_Allreduce(MPI_IN_PLACE, &lacks, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
     if (failed(petsc, rank, lacks ? DELAM_ERROR_MEMORY : DELAM_OK, "assembly")) return 1;
@@ -418,10 +418,10 @@ static int work(delam_petsc* petsc, int rank, scene* s, part* p) {
     return failed(petsc, rank, delam_petsc_run(petsc, march, s), "march");
 }
 
-int main(int argc, char** argv) {
+int main(int argc, char **argv) {
     scene s = {{30, 0, 0}, NULL, NULL, NULL, NULL, NULL, 0};
     part p = {0, NULL, NULL, NULL, NULL, NULL};
-    delam_petsc* petsc = NULL;
+    delam_petsc *petsc = NULL;
     int rank, ranks, result;
     MPI_Init(&argc, &argv);
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
