@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # The program of the README, and the examples in every language: one history each, that of the host in C, and the
-# values of examples/reference.csv.
+# values of examples/reference.csv; a host on many processes in three languages.
 
 # delam_example_test(SCENE LANGUAGE COMMAND...): what cannot run here is a test that says so and is skipped.
 function(delam_example_test scene language)
@@ -41,5 +41,29 @@ if(NOT DELAM_SANITIZE)
     delam_example_test(${scene} python /usr/bin/python3 ${PROJECT_SOURCE_DIR}/examples/${scene}/${name}.py)
     delam_example_test(${scene} julia sh ${PROJECT_SOURCE_DIR}/bindings/julia/test/julia.sh
                        ${PROJECT_SOURCE_DIR}/bindings/julia ${PROJECT_SOURCE_DIR}/examples/${scene}/${name}.jl)
+  endforeach()
+  # The host on many processes, against the library alone.
+  foreach(language c fortran python)
+    set(program)
+    if(language STREQUAL c AND TARGET example_host_petsc)
+      set(program $<TARGET_FILE:example_host_petsc>)
+    elseif(language STREQUAL fortran AND TARGET example_host_petsc_fortran)
+      set(program $<TARGET_FILE:example_host_petsc_fortran>)
+    elseif(language STREQUAL python AND TARGET delam_petsc)
+      set(program /usr/bin/python3 -m mpi4py ${PROJECT_SOURCE_DIR}/examples/host-petsc/host_petsc.py)
+    endif()
+    foreach(ranks 1 2 4)
+      set(test example/host_petsc_${language}_${ranks})
+      if(program)
+        add_test(NAME ${test} COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/verify/cases/host_petsc.py ${ranks}
+                                      ${program})
+      else()
+        add_test(NAME ${test} COMMAND sh -c "echo 'skipped: the host in ${language} on MPI is not built'; exit 77")
+      endif()
+      set_tests_properties(${test} PROPERTIES LABELS "quick;example" TIMEOUT ${DELAM_LIMIT} SKIP_RETURN_CODE 77
+        PROCESSORS ${ranks}
+        ENVIRONMENT "DELAM_LIBRARY=$<TARGET_FILE:delam>;PYTHONPATH=${PROJECT_SOURCE_DIR}/bindings/python/src;\
+PYTHONDONTWRITEBYTECODE=1;OPENBLAS_NUM_THREADS=1")
+    endforeach()
   endforeach()
 endif()

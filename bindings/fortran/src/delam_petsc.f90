@@ -1,0 +1,76 @@
+! SPDX-License-Identifier: BSD-3-Clause
+! The functions of include/delam/petsc.h, as in C: indices from 0, texts end with c_null_char, an absent array is NULL.
+! `use delam_petsc` goes with `use delam`: a handle of libdelam-petsc is a type(c_ptr), and a problem goes to
+! delam_petsc_attach as problem%handle() on rank 0, c_null_ptr on the others.
+module delam_petsc
+  use, intrinsic :: iso_c_binding, only: c_ptr, c_funptr, c_char, c_int, c_int32_t, c_int64_t, c_double
+  implicit none
+  private
+  public :: delam_petsc_create, delam_petsc_destroy, delam_petsc_message, delam_petsc_set_part, &
+            delam_petsc_take_scene, delam_petsc_attach, delam_petsc_run, delam_petsc_value
+
+  ! Signature of `work`; pass c_funloc of such a procedure.
+  abstract interface
+    function delam_petsc_work(user) bind(c) result(status)
+      import :: c_ptr, c_int32_t
+      type(c_ptr), value :: user
+      integer(c_int32_t) :: status
+    end function delam_petsc_work
+  end interface
+  public :: delam_petsc_work
+
+  interface
+    ! comm: the integer of the module mpi, or comm%mpi_val of mpi_f08.
+    function delam_petsc_create(comm, out) bind(c, name="delam_petsc_create_fortran") result(status)
+      import :: c_ptr, c_int, c_int32_t
+      integer(c_int), value :: comm
+      type(c_ptr), intent(inout) :: out
+      integer(c_int32_t) :: status
+    end function delam_petsc_create
+    subroutine delam_petsc_destroy(petsc) bind(c, name="delam_petsc_destroy")
+      import :: c_ptr
+      type(c_ptr), intent(inout) :: petsc
+    end subroutine delam_petsc_destroy
+    function delam_petsc_message(petsc) bind(c, name="delam_petsc_message") result(text)
+      import :: c_ptr
+      type(c_ptr), value :: petsc
+      type(c_ptr) :: text
+    end function delam_petsc_message
+    function delam_petsc_set_part(petsc, dimension, node_count, nodes, coordinates, row_starts, columns, values) &
+        bind(c, name="delam_petsc_set_part") result(status)
+      import :: c_ptr, c_int32_t, c_int64_t, c_double
+      type(c_ptr), value :: petsc
+      integer(c_int32_t), value :: dimension
+      integer(c_int64_t), value :: node_count
+      integer(c_int64_t), intent(in), optional :: nodes(*)
+      real(c_double), intent(in), optional :: coordinates(*)
+      integer(c_int64_t), intent(in), optional :: row_starts(*), columns(*)
+      real(c_double), intent(in), optional :: values(*)
+      integer(c_int32_t) :: status
+    end function delam_petsc_set_part
+    function delam_petsc_take_scene(petsc, mesh, problem) bind(c, name="delam_petsc_take_scene") result(status)
+      import :: c_ptr, c_int32_t
+      type(c_ptr), value :: petsc, mesh, problem
+      integer(c_int32_t) :: status
+    end function delam_petsc_take_scene
+    function delam_petsc_attach(petsc, problem) bind(c, name="delam_petsc_attach") result(status)
+      import :: c_ptr, c_int32_t
+      type(c_ptr), value :: petsc, problem
+      integer(c_int32_t) :: status
+    end function delam_petsc_attach
+    function delam_petsc_run(petsc, work, user) bind(c, name="delam_petsc_run") result(status)
+      import :: c_ptr, c_funptr, c_int32_t
+      type(c_ptr), value :: petsc
+      type(c_funptr), value :: work
+      type(c_ptr), value :: user
+      integer(c_int32_t) :: status
+    end function delam_petsc_run
+    function delam_petsc_value(petsc, key, value) bind(c, name="delam_petsc_value") result(status)
+      import :: c_ptr, c_char, c_int32_t, c_double
+      type(c_ptr), value :: petsc
+      character(kind=c_char), intent(in) :: key(*)
+      real(c_double), intent(inout), optional :: value
+      integer(c_int32_t) :: status
+    end function delam_petsc_value
+  end interface
+end module delam_petsc

@@ -1,0 +1,270 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Bodies on many processes: libdelam-petsc (include/delam/petsc.h), with mpi4py.
+
+    from mpi4py import MPI
+    import delam.petsc
+
+    with delam.petsc.Ranks(MPI.COMM_WORLD) as ranks:
+        ranks.set_part(nodes, coordinates, stiffness)    each rank: what it adds to the stiffness of the bodies
+        problem = ranks.run(make_problem)                rank 0 describes the scene; None on the others
+        ranks.attach(problem)
+        history = ranks.run(lambda: delam.Solver(problem).history(times))
+
+All ranks make the same calls in the same order. An error of a call is raised on all ranks, and so is what the function
+of `run` raises on rank 0. Run a host by `mpirun -n 4 python3 -m mpi4py host.py`: where a rank fails by itself, outside
+these calls, mpi4py then ends the others.
+
+The library libdelam-petsc.so.N is loaded when the first Ranks is made. It is searched for in the environment variable
+DELAM_PETSC_LIBRARY, a file or a folder; if that is not set, next to libdelam and then on the loader's paths.
+"""
+from __future__ import annotations
+
+import ctypes
+import os
+import pathlib
+from collections.abc import Callable
+from ctypes import POINTER, c_char_p, c_double, c_int32, c_int64, c_void_p
+from typing import TYPE_CHECKING
+
+from numpy.typing import ArrayLike
+
+from . import _library, _raw
+from ._arrays import floats, indices, pointer
+from ._call import integer, text
+from .errors import ArgumentError, DelamError, HandleError, StateError, error_of
+from .mesh import Mesh
+from .problem import Problem, _rows_of
+
+if TYPE_CHECKING:
+    from mpi4py import MPI
+
+SONAME = f"libdelam-petsc.so.{_raw.DELAM_ABI}"
+VARIABLE = "DELAM_PETSC_LIBRARY"
+_WORK = ctypes.CFUNCTYPE(c_int32, c_void_p)
+# Without the two functions that make a handle: the type of a communicator is known only with mpi4py.
+_FUNCTIONS = {
+    "delam_petsc_destroy": (None, (POINTER(c_void_p),)),
+    "delam_petsc_message": (c_char_p, (c_void_p,)),
+    "delam_petsc_set_part": (c_int32, (c_void_p, c_int32, c_int64, POINTER(c_int64), POINTER(c_double),
+                                       POINTER(c_int64), POINTER(c_int64), POINTER(c_double))),
+    "delam_petsc_take_scene": (c_int32, (c_void_p, c_void_p, c_void_p)),
+    "delam_petsc_attach": (c_int32, (c_void_p, c_void_p)),
+    "delam_petsc_run": (c_int32, (c_void_p, _WORK, c_void_p)),
+    "delam_petsc_value": (c_int32, (c_void_p, c_char_p, POINTER(c_double))),
+}
+_loaded = []
+
+
+class WorkError(DelamError, RuntimeError):
+    """The function of Ranks.run raised something that is not a DelamError, which is the cause on rank 0."""
+
+
+def _candidates():
+    value = os.environ.get(VARIABLE)
+    if value:
+        path = pathlib.Path(value)
+        return [str(path / SONAME if path.is_dir() else path)]
+    beside = pathlib.Path(_library.location).parent / SONAME
+    return ([str(beside)] if beside.exists() else []) + [SONAME]
+
+
+def _library_of_ranks():
+    """libdelam-petsc with typed functions, loaded once."""
+    if not _loaded:
+        tried = []
+        for path in _candidates():
+            try:
+                library = ctypes.CDLL(path)
+                for name, (result, arguments) in _FUNCTIONS.items():
+                    function = getattr(library, name)
+                    function.restype, function.argtypes = result, arguments
+            except (OSError, AttributeError) as error:
+                tried.append(str(error))
+                continue
+            _loaded.append(library)
+            break
+        else:
+            raise ImportError(f"libdelam-petsc was not found. Set {VARIABLE} to {SONAME} or to its folder, or install "
+                              f"it next to libdelam. Tried:\n  " + "\n  ".join(tried))
+    return _loaded[0]
+
+
+class Ranks:
+    """Ranks of a communicator of mpi4py, which is duplicated, that solve the bodies of a problem together. Close it, or
+    use it in `with`, on all ranks before MPI is finalised."""
+
+    def __init__(self, comm: MPI.Intracomm) -> None:
+        from mpi4py import MPI
+        if not isinstance(comm, MPI.Intracomm) or comm == MPI.COMM_NULL:
+            raise ArgumentError(f"comm = {comm!r}, expected an intracommunicator of mpi4py")
+        self._library = _library_of_ranks()
+        # The handle of a communicator is an int or a pointer, according to the implementation of MPI.
+        kind = ctypes.c_int if MPI._sizeof(MPI.Comm) == ctypes.sizeof(ctypes.c_int) else c_void_p
+        create = self._library.delam_petsc_create
+        create.restype, create.argtypes = c_int32, (kind, POINTER(c_void_p))
+        handle = c_void_p()
+        status = create(kind.from_address(MPI._addressof(comm)), ctypes.byref(handle))
+        if status != _raw.DELAM_OK:
+            raise error_of(status, "PETSc could not be initialised on these ranks")
+        self._pointer = handle
+        self._comm = comm.Dup()
+        self.rank: int = comm.rank
+        self.size: int = comm.size
+        self._agreed = None  # an error that all ranks have
+        self._running = False
+
+    # ---- handle
+
+    def _check(self):
+        if not self._pointer:
+            raise HandleError("these Ranks are closed")
+        # The other ranks would not answer.
+        if self._running:
+            raise StateError("these Ranks are running a function")
+
+    @property
+    def _handle(self):
+        self._check()
+        return self._pointer
+
+    @property
+    def closed(self) -> bool:
+        return not self._pointer
+
+    def close(self) -> None:
+        """Frees what the ranks hold; all of them call it. Solvers made with it raise StateError from then on."""
+        if self._pointer:
+            self._library.delam_petsc_destroy(ctypes.byref(self._handle))
+            self._comm.Free()
+
+    def __enter__(self) -> Ranks:
+        return self
+
+    def __exit__(self, kind, error, trace) -> None:
+        # Where one rank alone has failed, the others do not come here.
+        if error is None or error is self._agreed or self.size == 1:
+            self.close()
+
+    def _raise(self, error, cause=None):
+        self._agreed = error
+        raise error from cause
+
+    def _call(self, function, *arguments):
+        status = function(self._handle, *arguments)
+        if status != _raw.DELAM_OK:
+            message = self._library.delam_petsc_message(self._handle).decode(errors="replace")
+            self._raise(error_of(status, message))
+
+    def _together(self, function):
+        """What the function returns; an error of some rank is raised on all of them."""
+        self._check()
+        result, error = None, None
+        try:
+            result = function()
+        except DelamError as exception:
+            error = exception
+        failures = [failure for failure in self._comm.allgather(error and (self.rank, error.status, str(error)))
+                    if failure is not None]
+        if failures:
+            rank, status, message = failures[0]
+            self._raise(error_of(status, f"rank {rank}: {message}"), error)
+        return result
+
+    def _first(self, name, value, kind):
+        """Handle of an object that rank 0 has, None on the others."""
+        if self.rank != 0:
+            return None
+        if not isinstance(value, kind):
+            raise ArgumentError(f"{name} = {value!r}, expected a {kind.__name__} on rank 0")
+        return ctypes.cast(value._handle, c_void_p)
+
+    # ---- parts
+
+    def set_part(self, nodes: ArrayLike, matrix: object, coordinates: ArrayLike | None = None,
+                 dimension: int = 3) -> None:
+        """What this rank adds to the stiffness of the bodies, which is the sum over all ranks.
+
+        nodes        each once, in the numbers of the mesh of rank 0's problem; numbers beyond the mesh are nodes that
+                     only the ranks know
+        matrix       a delam.Sparse or a matrix of scipy.sparse, both triangles; row dimension * i + component of
+                     nodes[i]
+        coordinates  [nodes][dimension], which some preconditioners use: on all ranks or on none
+
+        A rank may have no nodes. Nodes of the mesh that are in no part have no stiffness. A pair of nodes that an
+        interface joins is best in one part."""
+        def arrays():
+            count = indices("nodes", nodes)
+            size = count.size * integer("dimension", dimension, 32)
+            row_starts, columns, values = _rows_of(matrix)
+            row_starts = indices("row_starts", row_starts, (size + 1,))
+            values = floats("values", values, (None,))
+            columns = indices("columns", columns, (values.size,))
+            if row_starts[-1] != values.size:
+                raise ArgumentError(f"row_starts[{size}] = {row_starts[-1]}, expected {values.size}, the number of "
+                                    f"values")
+            places = None if coordinates is None else floats("coordinates", coordinates, (count.size, dimension))
+            return count, places, row_starts, columns, values
+
+        count, places, *rows = self._together(arrays)
+        self._call(self._library.delam_petsc_set_part, dimension, count.size, pointer(count), pointer(places),
+                   *map(pointer, rows))
+
+    def take_scene(self, mesh: Mesh | None, problem: Problem | None) -> None:
+        """Divides the cells of rank 0's mesh among the ranks, in place of set_part. None on the other ranks; the
+        problem has to be complete but for its loads."""
+        handles = self._together(lambda: (self._first("mesh", mesh, Mesh), self._first("problem", problem, Problem)))
+        self._call(self._library.delam_petsc_take_scene, *handles)
+
+    # ---- work
+
+    def attach(self, problem: Problem | None) -> None:
+        """The ranks solve the bodies of rank 0's problem from now on, in solvers that are made, and work, in `run`.
+        None on the other ranks."""
+        handle = self._together(lambda: self._first("problem", problem, Problem))
+        self._call(self._library.delam_petsc_attach, handle)
+
+    def run(self, function: Callable | None = None):
+        """Calls function() on rank 0, which may use everything of the package but these Ranks, while the other ranks
+        work for it. Returns its result on rank 0, None on the others. What it raises is raised on all ranks: a
+        DelamError as such, another exception as WorkError (on rank 0 with the exception as its cause). What is no
+        Exception, such as KeyboardInterrupt, is raised again on rank 0 and is a WorkError on the others."""
+        handle = self._handle
+        results, failures = [], []
+
+        @_WORK
+        def work(_):
+            try:
+                results.append(function())
+            except BaseException as exception:
+                failures.append(exception)
+                status = exception.status if isinstance(exception, DelamError) else 0
+                return status or _raw.DELAM_ERROR_INTERNAL
+            return _raw.DELAM_OK
+
+        self._running = True
+        try:
+            status = self._library.delam_petsc_run(handle, work, None)
+        finally:
+            self._running = False
+        if status == _raw.DELAM_OK:
+            return results[0] if self.rank == 0 else None
+        failure = failures[0] if failures else None
+        told = None
+        if isinstance(failure, DelamError):
+            told = True, str(failure)
+        elif failure is not None:
+            told = False, f"{type(failure).__name__}: {failure}"
+        told = self._comm.bcast(told)
+        if told is None:
+            self._raise(error_of(status, self._library.delam_petsc_message(self._handle).decode(errors="replace")))
+        ours, message = told
+        if failure is not None and (ours or not isinstance(failure, Exception)):
+            self._agreed = failure
+            raise failure
+        self._raise(error_of(status, message) if ours else WorkError(message), failure)
+
+    def value(self, name: str) -> float:
+        """A number by its name, of all ranks; include/delam/petsc.h lists them."""
+        number = c_double()
+        self._call(self._library.delam_petsc_value, text("name", name), ctypes.byref(number))
+        return number.value

@@ -1,0 +1,96 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""host_petsc.py RANKS HOST [ARGUMENT ...]
+
+A host of examples/host-petsc on some ranks prints the numbers of the library alone, for the same scene with cells of
+the library's own: up to 1e-7 of the largest of each column. On two ranks it is also given wrong arguments, which end it
+with exit code 2. Exits with 77 where mpirun, or what a host in Python needs, is missing.
+"""
+import os
+import shutil
+import subprocess
+import sys
+
+TOLERANCE = 1e-7
+SKIPPED = 77
+CELLS = 18
+LENGTH, WIDTH, HEIGHT, NOTCH, ACROSS, UPWARDS, STEPS = 45e-3, 9e-3, 1.5e-3, 15e-3, 3, 2, 10
+KEYS = "load:opening", "reaction:opening", "dissipated", "debonded_length"
+
+
+def alone():
+    """Rows of the library with its own cells, in one process."""
+    import delam
+    mesh = delam.Mesh.layers([LENGTH, WIDTH], [CELLS, ACROSS], [HEIGHT, HEIGHT], [UPWARDS, UPWARDS], "hex8")
+    glue = mesh.add_interface(0, 1)
+    problem = delam.Problem(mesh)
+    problem.set_elastic(60e9, 0.3)
+    problem.set_law(glue, delam.Law(
+        "piecewise-linear", normal_stiffness=3e12, tangential_stiffness=3e12, normal_onset=5.0, tangential_onset=5.0,
+        normal_toughness=250.0, tangential_toughness=250.0))
+    problem.options["damage_tolerance"] = 1e-10
+    problem.set_adhesion(glue, glue.places[:, 0] < NOTCH - 1e-9, 0.0)
+    opening = problem.add_pattern("opening", [0.0, 1.0], [0.0, 1.6e-3])
+    for axis in "xyz":
+        problem.prescribe(mesh.find_nodes((LENGTH, 0.0, 0.0), (LENGTH, WIDTH, 2.0 * HEIGHT)), axis)
+    for z, outwards in ((0.0, "-z"), (2.0 * HEIGHT, "z")):
+        problem.prescribe(mesh.find_nodes((0.0, 0.0, z), (0.0, WIDTH, z)), outwards, {opening: 0.5})
+    rows = []
+    with delam.Solver(problem, not_converged="raise") as solver:
+        for step in range(1, STEPS + 1):
+            solver.advance(step / STEPS)
+            solver.commit()
+            values = [solver.values[key] for key in KEYS]
+            rows.append([step, *values[:3], values[3] / WIDTH])
+    return rows
+
+
+def on_ranks(ranks, host, argument):
+    told = subprocess.run(["mpirun", "--version"], capture_output=True, text=True, check=False).stdout
+    options = ["--allow-run-as-root", "--oversubscribe"] if "Open MPI" in told or "OpenRTE" in told else []
+    environment = dict(os.environ, OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1")
+    return subprocess.run(["mpirun", *options, "-n", str(ranks), *host, argument], env=environment, capture_output=True,
+                          text=True, check=False)
+
+
+def differences(expected, found):
+    """Largest of each column, relative to the column's largest number."""
+    return [max(abs(a - b) for a, b in zip(one, other)) / max(map(abs, one))
+            for one, other in zip(zip(*expected), zip(*found))]
+
+
+def main():
+    ranks, host = int(sys.argv[1]), sys.argv[2:]
+    if shutil.which("mpirun") is None:
+        print("skipped: mpirun is not there")
+        return SKIPPED
+    needs = subprocess.run([host[0], "-c", "import mpi4py"], stderr=subprocess.DEVNULL) if "python" in host[0] else None
+    if needs is not None and needs.returncode != 0:
+        print("skipped: mpi4py is not there")
+        return SKIPPED
+    done = on_ranks(ranks, host, str(CELLS))
+    lines = done.stdout.splitlines()
+    if done.returncode != 0 or len(lines) != STEPS + 1:
+        print(f"exit code {done.returncode} and {len(lines)} lines, expected 0 and {STEPS + 1}:\n"
+              f"{done.stdout}{done.stderr}")
+        return 1
+    expected = alone()
+    found = [[float(word) for word in line.split()] for line in lines[1:]]
+    worst = differences(expected, found)
+    print(f"{ranks} ranks against the library alone, largest relative difference of each column: "
+          + ", ".join(f"{title} {difference:.1e}" for title, difference in zip(lines[0].split(), worst)))
+    if expected[-1][4] <= 0.0:
+        print("nothing debonds in this scene")
+        return 1
+    if not all(difference <= TOLERANCE for difference in worst):
+        print(f"expected at most {TOLERANCE:g}:\n{done.stdout}", *expected, sep="\n")
+        return 1
+    wrong = on_ranks(ranks, host, "2") if ranks == 2 else None
+    if wrong is not None and (wrong.returncode != 2 or "usage" not in wrong.stderr):
+        print(f"exit code {wrong.returncode}, expected 2, with wrong arguments:\n{wrong.stdout}{wrong.stderr}")
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
