@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "petsc/corners.hpp"
 #include "petsc/options.hpp"
 
 namespace delam::petsc {
@@ -14,7 +15,9 @@ BddcPreconditioner::BddcPreconditioner(const Bodies& bodies, const Visible& visi
     default_option("pc_bddc_detect_disconnected", "true");
     const double lacking = bodies.part().coordinates.empty() && !bodies.part().nodes.empty() ? 1.0 : 0.0;
     has_coordinates_ = bodies.comm().sum(lacking) == 0.0;
-    if (has_coordinates_) default_option("pc_bddc_corner_selection", "true");
+    const std::vector<PetscInt> points = corners(bodies, system_, has_coordinates_);
+    check(ISCreateGeneral(bodies.comm().get(), petsc_int(points.size()), points.data(), PETSC_COPY_VALUES,
+                          corners_.out()));
     for (const char* solver : {"dirichlet", "neumann", "coarse"}) {
         const std::string name = std::string("pc_bddc_") + solver;
         default_option((name + "_pc_type").c_str(), "cholesky");
@@ -41,6 +44,11 @@ double BddcPreconditioner::renew(const Operator::Entries& entries) {
     check(PCSetType(bddc_, PCBDDC));
     check(PCSetFromOptions(bddc_));
     check(PCBDDCSetDirichletBoundariesLocal(bddc_, system_.empty_places()));
+    check(PCBDDCSetPrimalVerticesIS(bddc_, corners_));
+    // Constraints for each body that crosses a cut, also where springs tie it to another: in contact they only resist
+    // one component.
+    check(PCBDDCSetLocalAdjacencyGraph(bddc_, system_.stiffness().rows, system_.stiffness().start.data(),
+                                       system_.stiffness().column.data(), PETSC_COPY_VALUES));
     give_coordinates();
     set_up(bddc_);
     return usual_worth();

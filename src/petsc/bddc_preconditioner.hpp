@@ -21,6 +21,7 @@ private:
 
     const Bodies& bodies_;
     DisplacementSystem system_;
+    OwnedIs corners_;
     OwnedMat matrix_;
     OwnedPc bddc_;
     bool has_coordinates_ = false;

@@ -190,6 +190,12 @@ OwnedMat DisplacementSystem::local_matrix(const std::vector<std::int64_t>& rows,
     return matrix;
 }
 
+bool DisplacementSystem::is_whole(std::size_t node) const {
+    const auto d = static_cast<std::ptrdiff_t>(bodies_.local().dimension);
+    const auto first = is_variable_.begin() + static_cast<std::ptrdiff_t>(node) * d;
+    return std::all_of(first, first + d, [](std::uint8_t is) { return is != 0; });
+}
+
 OwnedIs DisplacementSystem::empty_places() const {
     std::vector<PetscInt> places;
     for (std::size_t i = 0; i < is_variable_.size(); ++i)
