@@ -32,7 +32,7 @@ Engine::Engine(const Communicator& comm, const Part& part, const delam_experimen
       visible_(bodies_, scene_.visible),
       constraints_(bodies_, visible_),
       operator_(bodies_, visible_, constraints_),
-      preconditioner_(bodies_, visible_, constraints_),
+      preconditioner_(bodies_, visible_, constraints_, scene_),
       solve_(bodies_, visible_, constraints_, operator_, preconditioner_),
       kept_(bodies_) {}
 

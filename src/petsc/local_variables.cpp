@@ -1,41 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "petsc/local_variables.hpp"
 
-#include <algorithm>
-#include <unordered_map>
+#include "petsc/places.hpp"
 
 namespace delam::petsc {
 
 namespace {
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
-class Places {
-public:
-    Places(std::int64_t dimension, std::vector<std::int64_t>& nodes) : dimension_(dimension), nodes_(nodes) {
-        for (const std::int64_t node : nodes) add_known(node);
-    }
-    // The node of a DOF that is not here yet is added.
-    PetscInt of(std::int64_t dof) {
-        const std::int64_t node = dof / dimension_;
-        auto found = place_.find(node);
-        if (found == place_.end()) {
-            nodes_.push_back(node);
-            found = add_known(node);
-        }
-        return petsc_int(found->second * dimension_ + dof % dimension_);
-    }
-    bool has(std::int64_t dof) const { return place_.contains(dof / dimension_); }
-
-private:
-    std::unordered_map<std::int64_t, std::int64_t>::iterator add_known(std::int64_t node) {
-        return place_.emplace(node, static_cast<std::int64_t>(place_.size())).first;
-    }
-
-    std::int64_t dimension_;
-    std::vector<std::int64_t>& nodes_;
-    std::unordered_map<std::int64_t, std::int64_t> place_;
-};
 
 std::int64_t dof_of(const LocalVariables& local, std::size_t place) {
     const auto d = at(local.dimension);

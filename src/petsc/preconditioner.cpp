@@ -1,134 +1,50 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "petsc/preconditioner.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <cstring>
+#include <utility>
 
+#include "petsc/assembled_preconditioner.hpp"
+#include "petsc/bddc_preconditioner.hpp"
 #include "petsc/options.hpp"
 
 namespace delam::petsc {
 
 namespace {
 
-// A triangular solve waits for memory: its operations are this many times slower than a factorisation's.
-constexpr double slower = 20.0;
-// What a renewal is worth where nothing tells: iterations.
-constexpr double usual_worth = 10.0;
+bool bddc_is_chosen() {
+    char type[64] = "";
+    check(PetscOptionsGetString(nullptr, options_prefix, "-pc_type", type, sizeof type, nullptr));
+    return std::strcmp(type, PCBDDC) == 0;
+}
 
 }  // namespace
 
-Preconditioner::Preconditioner(const Bodies& bodies, const Visible& visible, const Constraints& constraints)
-    : bodies_(bodies), visible_(visible), constraints_(constraints), work_(bodies.vector()) {
-    check(MatDuplicate(bodies.matrix(), MAT_COPY_VALUES, matrix_.out()));
-}
-
-void Preconditioner::create() {
-    check(PCCreate(bodies_.comm().get(), inner_.out()));
-    check(PCSetOptionsPrefix(inner_, options_prefix));
-    check(MatSetOptionsPrefix(matrix_, options_prefix));
-    check(PCSetOperators(inner_, matrix_, matrix_));
-    PetscBool symmetric = PETSC_FALSE, general = PETSC_FALSE;
-    check(MatGetFactorAvailable(matrix_, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, &symmetric));
-    check(MatGetFactorAvailable(matrix_, MATSOLVERMUMPS, MAT_FACTOR_LU, &general));
-    if (symmetric == PETSC_TRUE || general == PETSC_TRUE) {
-        check(PCSetType(inner_, symmetric == PETSC_TRUE ? PCCHOLESKY : PCLU));
-        check(PCFactorSetMatSolverType(inner_, MATSOLVERMUMPS));
-    }
-    check(PCSetFromOptions(inner_));
+Preconditioner::Preconditioner(const Bodies& bodies, const Visible& visible, const Constraints& constraints,
+                               const SceneVariables& scene)
+    : constraints_(constraints), work_(bodies.vector()) {
+    if (bddc_is_chosen())
+        inner_ = std::make_unique<BddcPreconditioner>(bodies, visible, scene);
+    else
+        inner_ = std::make_unique<AssembledPreconditioner>(bodies, visible);
 }
 
 double Preconditioner::renew(const Operator::Entries& entries) {
+    ready_ = false;
     expected_ = nullptr;
-    check(MatZeroEntries(matrix_));
-    check(MatAXPY(matrix_, 1.0, bodies_.matrix(), SUBSET_NONZERO_PATTERN));
-    add_entries(entries);
-    complete_diagonal();
-    check(MatSetOption(matrix_, MAT_SYMMETRIC, PETSC_TRUE));
-    check(MatSetOption(matrix_, MAT_SPD, PETSC_TRUE));
-    if (inner_ == nullptr) create();
-    set_up();
-    return worth();
-}
-
-// The nonzero pattern only grows, so that the factor's structure is found once.
-void Preconditioner::add_entries(const Operator::Entries& entries) {
-    std::vector<PetscInt> rows, columns;
-    std::vector<double> values;
-    bodies_.comm().together([&] {
-        for (auto& [place, value] : places_) value = 0.0;
-        for (std::size_t e = 0; e < entries.values.size(); ++e)
-            places_[{visible_.number(entries.rows[e]), visible_.number(entries.columns[e])}] += entries.values[e];
-        for (const auto& [place, value] : places_) {
-            rows.push_back(place.first);
-            columns.push_back(place.second);
-            values.push_back(value);
-        }
-    });
-    const bool grown = entries_.set(bodies_, rows, columns, values);
-    check(MatAXPY(matrix_, 1.0, entries_.matrix(), grown ? DIFFERENT_NONZERO_PATTERN : SUBSET_NONZERO_PATTERN));
-}
-
-// Variables that nothing acts on, neither bodies nor entries, are not asked for; their rows only have to be regular.
-void Preconditioner::complete_diagonal() {
-    check(MatGetDiagonal(matrix_, work_));
-    PetscReal largest = 0.0;
-    check(VecNorm(work_, NORM_INFINITY, &largest));
-    PetscScalar* diagonal = nullptr;
-    PetscInt count = 0;
-    double missing = 0.0;
-    check(VecGetLocalSize(work_, &count));
-    check(VecGetArray(work_, &diagonal));
-    for (PetscInt i = 0; i < count; ++i) {
-        const bool empty = diagonal[i] == 0.0;
-        diagonal[i] = empty ? (largest > 0.0 ? largest : 1.0) : 0.0;
-        missing += empty ? 1.0 : 0.0;
-    }
-    check(VecRestoreArray(work_, &diagonal));
-    if (bodies_.comm().sum(missing) > 0.0) check(MatDiagonalSet(matrix_, work_, ADD_VALUES));
-}
-
-void Preconditioner::set_up() {
-    check(PCSetOperators(inner_, matrix_, matrix_));
-    check(PCSetUp(inner_));
-    PCFailedReason reason = PC_NOERROR;
-    check(PCGetFailedReason(inner_, &reason));
-    if (reason != PC_NOERROR) {
-        check(PCReset(inner_));
-        fail(reason == PC_FACTOR_OUTMEMORY ? DELAM_ERROR_MEMORY : DELAM_ERROR_NUMERICAL,
-             "the preconditioner cannot be set up: ", PCFailedReasons[reason]);
-    }
-}
-
-double Preconditioner::worth() {
-    PCType type = nullptr;
-    MatSolverType solver = nullptr;
-    check(PCGetType(inner_, &type));
-    factor_entries_ = factor_flops_ = 0.0;
-    const bool direct = std::strcmp(type, PCCHOLESKY) == 0 || std::strcmp(type, PCLU) == 0;
-    if (direct) check(PCFactorGetMatSolverType(inner_, &solver));
-    if (solver == nullptr || std::strcmp(solver, MATSOLVERMUMPS) != 0) return usual_worth;
-    Mat factor = nullptr;
-    PetscInt entries = 0;
-    check(PCFactorGetMatrix(inner_, &factor));
-    check(MatMumpsGetInfog(factor, 29, &entries));
-    check(MatMumpsGetRinfog(factor, 3, &factor_flops_));
-    // MUMPS gives numbers beyond its integers in millions, with a minus.
-    factor_entries_ = entries < 0 ? -1e6 * static_cast<double>(entries) : static_cast<double>(entries);
-    MatInfo info;
-    check(MatGetInfo(bodies_.matrix(), MAT_GLOBAL_SUM, &info));
-    return std::max(1.0, factor_flops_ / (slower * (4.0 * factor_entries_ + 6.0 * info.nz_used)));
+    const double worth = inner_->renew(entries);
+    ready_ = true;
+    return worth;
 }
 
 void Preconditioner::apply(Vec residual, Vec z) const {
-    if (inner_ == nullptr) fail(DELAM_ERROR_STATE, "there is no preconditioner yet: renew comes before solve");
+    if (!ready_) fail(DELAM_ERROR_STATE, "there is no preconditioner: renew comes before solve");
     if (expected_ != nullptr) {
-        check(VecCopy(expected_, z));
-        expected_ = nullptr;
+        check(VecCopy(std::exchange(expected_, nullptr), z));
         return;
     }
     check(VecPointwiseMult(work_, residual, constraints_.free()));
-    check(PCApply(inner_, work_, z));
+    inner_->apply(work_, z);
     constraints_.mask(z);
 }
 

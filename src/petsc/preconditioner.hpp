@@ -1,49 +1,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstdint>
-#include <map>
 #include <memory>
-#include <utility>
 
-#include "petsc/operator.hpp"
+#include "petsc/inner_preconditioner.hpp"
 
 namespace delam::petsc {
 
-// What approximates the inverse of the bodies' matrix with the entries of `renew`; between the two masks of the free
-// variables it is the preconditioner M. PETSc's options with the prefix delam_ choose it: -delam_pc_type and so on.
+// The preconditioner M of the free variables: an approximate inverse of the whole matrix between two masks. PETSc's
+// options with the prefix delam_ choose which; -delam_pc_type bddc works on the ranks' own matrices, every other on the
+// assembled one.
 class Preconditioner {
 public:
-    Preconditioner(const Bodies& bodies, const Visible& visible, const Constraints& constraints);
-    Preconditioner(const Preconditioner&) = delete;
-    Preconditioner& operator=(const Preconditioner&) = delete;
+    Preconditioner(const Bodies& bodies, const Visible& visible, const Constraints& constraints,
+                   const SceneVariables& scene);
 
     // Returns how many iterations this is worth.
     double renew(const Operator::Entries& entries);
     void apply(Vec residual, Vec z) const;
     // The next residual that apply gets has this z, which is known.
     void expect(Vec z) const { expected_ = z; }
-
-    double factor_entries() const { return factor_entries_; }
-    double factor_flops() const { return factor_flops_; }
+    double factor_entries() const { return inner_->factor_entries(); }
+    double factor_flops() const { return inner_->factor_flops(); }
 
 private:
-    void create();
-    void add_entries(const Operator::Entries& entries);
-    void complete_diagonal();
-    void set_up();
-    double worth();
-
-    const Bodies& bodies_;
-    const Visible& visible_;
     const Constraints& constraints_;
-    OwnedMat matrix_;
-    std::map<std::pair<PetscInt, PetscInt>, double> places_;  // all that there ever were, on rank 0
-    SparseEntries entries_;
-    OwnedPc inner_;
+    std::unique_ptr<InnerPreconditioner> inner_;
+    bool ready_ = false;
     OwnedVec work_;
-    double factor_entries_ = 0.0;
-    double factor_flops_ = 0.0;
     mutable Vec expected_ = nullptr;
 };
 

@@ -2,7 +2,9 @@
 // The engine on PETSc against a dense direct solution: this program plays the library's core. Run it with mpirun on 1,
 // 2, 4 ranks. Options of PETSc choose the preconditioner.
 #include <algorithm>
+#include <cstdlib>
 #include <stdexcept>
+#include <string>
 
 #include "delam/petsc.h"
 #include "engine_client.hpp"
@@ -13,6 +15,8 @@ using namespace verify;
 
 delam_experimental_engine given;  // what delam_petsc_attach passes on
 int failures = 0;
+// The default preconditioner is exact when it is new; PETSC_OPTIONS chooses others.
+const bool direct = std::getenv("PETSC_OPTIONS") == nullptr;
 
 void expect(bool good, const char* what, double number, double bound) {
     if (!good) {
@@ -134,7 +138,7 @@ void sequence(const Case& c, const Variables& v, const EngineClient& client, dou
     acting.theta = {2.0, 1.0};
     const Answered twice = client.solve(acting, 1, start, fine, never);
     compare("twice the load, from it", client, dense, acting, twice, 1);
-    small("iterations of a multiple", static_cast<double>(twice.raw.iterations), 2.0);
+    small("iterations of a multiple", static_cast<double>(twice.raw.iterations), direct ? 2.0 : 12.0);
     small("products", std::abs(2.0 * twice.products[0] / twice.products[1] - 1.0), 1e-7);
     acting.force = force;
     acting.couplings = springs(c, v, k, v.pairs / 2, v.pairs);
@@ -142,7 +146,9 @@ void sequence(const Case& c, const Variables& v, const EngineClient& client, dou
     start = Values(client.kept(), 0.0);
     start[0] = 0.5;
     start[1] = 0.75;
-    compare("half debonded, old preconditioner", client, dense, acting, client.solve(acting, 2, start, fine, never), 2);
+    // With springs of 1e17 N/m3 the old preconditioner is wrong by a factor of 1e8: to give up is an answer then.
+    const Answered old = client.solve(acting, 2, start, fine, never);
+    if (direct || old.raw.converged != 0) compare("half debonded, old preconditioner", client, dense, acting, old, 2);
     for (std::int64_t p = v.pairs / 2; p < v.pairs; ++p) acting.fixed.push_back(v.dimension * p);
     require(client.set(acting), "set");
     compare("contact, old preconditioner", client, dense, acting, client.solve(acting, 3, start, fine, never), 3);
