@@ -43,7 +43,7 @@ DELAM_API int32_t delam_petsc_create(MPI_Comm comm, delam_petsc **out);
 /* The same, for a communicator comm of Fortran.
  * [null none; owns out caller; status argument, memory, internal; thread MPI's; since 0.1] */
 DELAM_API int32_t delam_petsc_create_fortran(MPI_Fint comm, delam_petsc **out);
-/* Destroys a handle.
+/* Destroys a handle and sets it to NULL.
  * [null petsc, *petsc; owns petsc destroyed; status -; since 0.1] */
 DELAM_API void delam_petsc_destroy(delam_petsc **petsc);
 /* Returns the text of the last status other than DELAM_OK, the same on all ranks; "" if there has been none; never
@@ -82,7 +82,7 @@ typedef int32_t (*delam_petsc_work_callback)(void *user);
  * returned; source none; since 0.1] */
 DELAM_API int32_t delam_petsc_run(delam_petsc *petsc, delam_petsc_work_callback work, void *user);
 
-/* Returns a number by key. Counts begin when the handle is made.
+/* Writes a number, by key, to *value. Counts begin when the handle is made.
  *   solves, iterations, renewals    solves of the engine, their iterations, renewals of the preconditioner
  *   factor_entries, factor_flops    entries of the present factor and operations for it, of all ranks; 0 if there is
  *                                   none, or if it is not MUMPS'
