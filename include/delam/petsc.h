@@ -17,7 +17,7 @@
  *   options    PETSc's options with the prefix delam_ choose the solver, e.g. in the variable PETSC_OPTIONS:
  *              -delam_pc_type bddc, -delam_ksp_monitor. The default is a Cholesky factorisation by MUMPS. PETSc's type
  *              numbers have to be real, in double precision; the number of DOFs has to fit into its integers.
- *   threads    All calls of a rank come from the thread that may call MPI, "MPI's" in the brackets: the one of MPI_Init.
+ *   threads    All calls of a rank come from a thread that may call MPI ("MPI's" in the brackets), one at a time.
  *   errors     If a rank fails where the others cannot know, in the middle of a step of PETSc or MPI that all of them
  *              share, it waits five minutes for them, then writes a line to the standard error and calls MPI_Abort.
  *   memory     A problem that has the engine may outlive the delam_petsc; its solvers then return DELAM_ERROR_STATE.
@@ -54,8 +54,8 @@ DELAM_API const char *delam_petsc_message(const delam_petsc *petsc);
 /* Sets what this rank adds to the stiffness of the bodies, which is the sum over all ranks. nodes: [node_count], each
  * once, in the numbers of the mesh of rank 0's problem; numbers beyond the mesh are nodes that only the ranks know.
  * coordinates: [node_count][dimension], which some preconditioners use. CSR with both triangles over the DOFs of these
- * nodes, dimension*i + component for node i: row_starts [dimension*node_count+1], columns and values [entries]. Nodes of
- * the mesh that are in no part have no stiffness. A pair of nodes that an interface joins is best in one part.
+ * nodes, dimension*i + component for node i: row_starts [dimension*node_count+1], columns and values [entries]. Nodes
+ * of the mesh that are in no part have no stiffness. A pair of nodes that an interface joins is best in one part.
  * Solvers made before are of no use afterwards.
  * [unit coordinates L finite, values F/L finite; null coordinates; status argument, state; since 0.1] */
 DELAM_API int32_t delam_petsc_set_part(delam_petsc *petsc, int32_t dimension, int64_t node_count, const int64_t *nodes,

@@ -7,17 +7,17 @@
 
 struct host {
     delam_problem *problem;
-    double opening;
+    double reaction;
 };
 
-/* Rank 0: how far the loaded node has moved. */
+/* Rank 0 alone. */
 static int32_t analysis(void *user) {
     struct host *host = (struct host *)user;
     delam_solver *solver = NULL;
     int32_t status = delam_solver_create(host->problem, 0, &solver);
     TRY(delam_solver_advance(solver, 1));
     TRY(delam_solver_commit(solver));
-    TRY(delam_solver_value(solver, "reaction:open", &host->opening));
+    TRY(delam_solver_value(solver, "reaction:open", &host->reaction));
     delam_solver_destroy(&solver);
     return status;
 }
@@ -74,7 +74,7 @@ int main(int argc, char **argv) {
     TRY(delam_petsc_run(petsc, analysis, &host));
     TRY(delam_petsc_value(petsc, "solves", &solves));
     if (rank == 0 && status != DELAM_OK) printf("%s: %s\n", delam_status_name(status), delam_petsc_message(petsc));
-    if (rank == 0 && status == DELAM_OK) printf("%d ranks: reaction %.9g, solves %g\n", size, host.opening, solves);
+    if (rank == 0 && status == DELAM_OK) printf("%d ranks: reaction %.9g, solves %g\n", size, host.reaction, solves);
     delam_petsc_destroy(&petsc);
     delam_problem_destroy(&host.problem);
     delam_mesh_destroy(&mesh);
