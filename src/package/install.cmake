@@ -5,7 +5,7 @@ install(TARGETS delam EXPORT delam LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} C
                                            NAMELINK_COMPONENT development)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/delam DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
-        FILES_MATCHING PATTERN "*.h")
+        FILES_MATCHING PATTERN "*.h" PATTERN petsc.h EXCLUDE)
 # The contract, and the documents that the header names, under the paths that it gives.
 install(FILES ${PROJECT_SOURCE_DIR}/include/GLOSSARY.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/include
         COMPONENT development)
@@ -37,7 +37,20 @@ if(DELAM_STATIC)
   list(JOIN DELAM_PC_LINKS " " DELAM_PC_LINKS)
   set(DELAM_PC_LINKS "Requires: delam-shared\nLibs.private: \${libdir}/libdelam.a ${DELAM_PC_LINKS}")
 endif()
+# delam_install_pc(FILE COMPONENT)
+function(delam_install_pc file component)
+  configure_file(${CMAKE_CURRENT_FUNCTION_LIST_DIR}/${file}.pc.in ${PROJECT_BINARY_DIR}/${file}.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/${file}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT ${component})
+endfunction()
 foreach(file IN LISTS DELAM_PC_FILES)
-  configure_file(${CMAKE_CURRENT_LIST_DIR}/${file}.pc.in ${PROJECT_BINARY_DIR}/${file}.pc @ONLY)
-  install(FILES ${PROJECT_BINARY_DIR}/${file}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
+  delam_install_pc(${file} development)
 endforeach()
+# libdelam-petsc: in components of its own, so that the others need no MPI.
+if(TARGET delam_petsc)
+  install(TARGETS delam_petsc EXPORT delam-petsc LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT petsc
+                                                         NAMELINK_COMPONENT petsc_development)
+  install(FILES ${PROJECT_SOURCE_DIR}/include/delam/petsc.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/delam
+          COMPONENT petsc_development)
+  install(EXPORT delam-petsc NAMESPACE delam:: DESTINATION ${DELAM_CMAKE_DIR} COMPONENT petsc_development)
+  delam_install_pc(delam-petsc petsc_development)
+endif()

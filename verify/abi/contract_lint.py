@@ -26,7 +26,8 @@ Structs (outside the promise) have a comment directly above, without brackets, t
 named in it or in the comment above a struct or function that uses the struct.
 
 Callbacks are the host's: their own statuses are not in src/capi, their numbers need no source, and each has a thread;
-owns is there when a text is given, status is '-' where nothing is returned.
+owns is there when a text is given, status is '-' where nothing is returned. "returned" among the statuses: the running
+call returns what the callback did.
 """
 import argparse
 import glob
@@ -185,6 +186,8 @@ def check(function, header, listed, implemented, fuzzed=None):
     else:
         only = status.startswith("only ")
         words = set(split(status[5:] if only else status)) - {"usual"}
+        if callback or any(p.type in header.callbacks for p in parameters):
+            words -= {"returned"}
         for word in sorted(words - STATUSES):
             gaps.append(f"status: '{word}' is not known; known are {', '.join(sorted(STATUSES))}")
         if callback and function.result != "int32_t":
@@ -242,12 +245,14 @@ def main():
     parser.add_argument("header")
     parser.add_argument("symbols", nargs="?")
     parser.add_argument("--promised", help="delam.h, where HEADER is the experimental one")
+    parser.add_argument("--base", help="delam.h, where HEADER is that of a library on top of libdelam")
     parser.add_argument("--sources", help="src/capi: the statuses that its lines give are compared with those listed")
     parser.add_argument("--fuzzed", help="verify/fuzz/api_sequence.cpp: so are those that its table lets pass")
     options = parser.parse_args()
     try:
-        promised = headers.read(options.promised) if options.promised else None
-        header = headers.read(options.header, promised)
+        known = options.promised or options.base
+        promised = headers.read(known) if known else None
+        header = headers.read(options.header, promised, promised=options.base is not None)
     except headers.HeaderError as error:
         print(error)
         sys.exit(1)

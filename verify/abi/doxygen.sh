@@ -12,3 +12,4 @@ if ! command -v doxygen >/dev/null; then
 fi
 doxygen verify/abi/Doxyfile
 test -f "$DELAM_DOXYGEN_OUTPUT/html/delam_8h.html"
+test -f "$DELAM_DOXYGEN_OUTPUT/html/petsc_8h.html"

@@ -14,7 +14,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import contract_lint as lint  # noqa: E402
 import header as headers  # noqa: E402
 
-DECLARATION = re.compile(r"\s*(?:DELAM_API|typedef|#define DELAM_(?!API|DELAM_H|EXPERIMENTAL_H))")
+DECLARATION = re.compile(r"\s*(?:DELAM_API|typedef|#define DELAM_(?!API|DELAM_H|EXPERIMENTAL_H|PETSC_H))")
 
 
 def quiet(text):
@@ -71,7 +71,7 @@ def main():
     lines = text.split("\n")
     leader = ""
     for number, line in enumerate(lines):
-        constant = re.match(r"#define (DELAM_(?!API|DELAM_H|EXPERIMENTAL_H)\w+) \S+\s*$", line)
+        constant = re.match(r"#define (DELAM_(?!API|DELAM_H|EXPERIMENTAL_H|PETSC_H)\w+) \S+\s*$", line)
         if constant and lines[number - 1] == "*/":
             leader = constant.group(1)
         elif constant and leader:

@@ -9,6 +9,9 @@ static     global names of the static library = symbols.txt and the experimental
 baseline   every declaration and constant of the baseline's header stands in today's, unchanged
 abidiff    the library's own debug information against the baseline (libabigail)
 abixml     no check: what a new baseline would be
+
+--base: HEADER is that of a library on top of libdelam, whose functions, nodes and SONAME have the header's name too:
+petsc.h, delam_petsc_, DELAM_PETSC_1, libdelam-petsc.so.1.
 """
 import argparse
 import os
@@ -59,9 +62,15 @@ def exported(library):
     return found
 
 
+def read_header(path, base):
+    """Of delam.h, or with `base`, which is delam.h, of the header of a library on top."""
+    return headers.read(path, headers.read(base), promised=True) if base else headers.read(path)
+
+
 def check_symbols(options):
     wrong = []
-    header = headers.read(options.header)
+    header = read_header(options.header, options.base)
+    part = os.path.basename(options.header)[:-2] if options.base else ""
     experimental = {}
     if options.experimental and os.path.exists(options.experimental):
         experimental = headers.read(options.experimental, header).functions
@@ -84,19 +93,25 @@ def check_symbols(options):
         if name.startswith(EXPERIMENTAL):
             wrong.append(f"{name}: an experimental name in the promised header")
 
-    abi = header.constants.get("DELAM_ABI", "")
+    for name in sorted(header.functions):
+        if part and not name.startswith(f"delam_{part}_"):
+            wrong.append(f"{name}: names of {part}.h start with delam_{part}_")
+
+    abi = (headers.read(options.base) if options.base else header).constants.get("DELAM_ABI", "")
     for name, node in sorted(found.items()):
-        expected = "DELAM_EXPERIMENTAL" if name.startswith(EXPERIMENTAL) else f"DELAM_{abi}"
+        expected = f"DELAM_{part.upper()}_{abi}" if part else f"DELAM_{abi}"
+        if name.startswith(EXPERIMENTAL):
+            expected = "DELAM_EXPERIMENTAL"
         if node != expected:
             wrong.append(f"{name}: version node '{node}', expected {expected}")
     soname = re.findall(r"\(SONAME\).*\[(.*)\]", output("readelf", "-d", options.library))
-    if soname != [f"libdelam.so.{abi}"]:
-        wrong.append(f"SONAME {', '.join(soname) or 'is missing'}, but DELAM_ABI {abi} of the header asks for "
-                     f"libdelam.so.{abi}")
+    wanted = f"libdelam-{part}.so.{abi}" if part else f"libdelam.so.{abi}"
+    if soname != [wanted]:
+        wrong.append(f"SONAME {', '.join(soname) or 'is missing'}, but DELAM_ABI {abi} of the header asks for {wanted}")
 
     if options.archive:
         visible = set()
-        for line in output("readelf", "-Ws", options.archive).splitlines():
+        for line in output("readelf", "-Ws", *options.archive).splitlines():
             words = line.split()
             if len(words) == 8 and words[4] in ("GLOBAL", "WEAK") and words[5] == "DEFAULT" and words[6] != "UND":
                 if re.match(r"_ZN?K?5delam|_ZT[VIS]N5delam", words[7]):
@@ -119,18 +134,19 @@ def check_static(options):
     if options.experimental and os.path.exists(options.experimental):
         expected |= set(headers.read(options.experimental, headers.read(options.header)).functions)
     found = set()
-    for line in output("nm", "--extern-only", "--defined-only", options.archive).splitlines():
+    archive = options.archive[0]
+    for line in output("nm", "--extern-only", "--defined-only", archive).splitlines():
         words = line.split()
         if len(words) == 3:
             found.add(words[2])
     for name in sorted(expected - found):
-        wrong.append(f"{name}: in {options.list} or experimental.h, but not global in {options.archive}")
+        wrong.append(f"{name}: in {options.list} or experimental.h, but not global in {archive}")
     for name in sorted(found - expected):
-        wrong.append(f"{name}: global in {options.archive}, but neither in {options.list} nor in experimental.h")
-    groups = [line for line in output("readelf", "--section-groups", "--wide", options.archive).splitlines()
+        wrong.append(f"{name}: global in {archive}, but neither in {options.list} nor in experimental.h")
+    groups = [line for line in output("readelf", "--section-groups", "--wide", archive).splitlines()
               if "group section" in line]
     if groups:
-        wrong.append(f"{options.archive}: {len(groups)} section groups, which a linker exchanges for the host's of the "
+        wrong.append(f"{archive}: {len(groups)} section groups, which a linker exchanges for the host's of the "
                      f"same name: {groups[0].strip()}")
     if not wrong:
         print(f"{len(found)} global names, no section groups")
@@ -139,8 +155,9 @@ def check_static(options):
 
 def check_baseline(options):
     wrong = []
-    old = headers.read(options.baseline_header)
-    new = headers.read(options.header)
+    old_base = os.path.join(os.path.dirname(options.baseline_header), "delam.h") if options.base else None
+    old = read_header(options.baseline_header, old_base)
+    new = read_header(options.header, options.base)
     for name, function in {**old.functions, **old.callbacks}.items():
         today = new.functions.get(name) or new.callbacks.get(name)
         if today is None:
@@ -181,6 +198,9 @@ def check_abidiff(options):
         sys.exit(SKIPPED)
     if ".debug_info" not in output("readelf", "-SW", options.library):
         return [f"{options.library}: no debug information, abidiff would compare names alone"]
+    if options.base and " ompi_" not in output("nm", "-D", "--undefined-only", options.library):
+        print("skipped: the baseline has the types of Open MPI, the library those of another MPI")
+        sys.exit(SKIPPED)
     with tempfile.TemporaryDirectory() as folder:
         # Both sides through abidw: given headers and a library, abidiff 2.2 takes a changed parameter of a callback for
         # private.
@@ -204,15 +224,19 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("check", choices=("symbols", "static", "baseline", "abidiff", "abixml"))
     parser.add_argument("--library")
-    parser.add_argument("--archive", help="static archive: of the objects that the library is linked from (symbols), "
-                        "or the static library (static)")
+    parser.add_argument("--archive", nargs="+", help="static archive, or the objects themselves: of the objects that "
+                        "the library is linked from (symbols), or the static library (static)")
     parser.add_argument("--header", required=True)
+    parser.add_argument("--base", help="delam.h, where HEADER is that of a library on top of libdelam")
     parser.add_argument("--experimental", help="header outside the promise")
     parser.add_argument("--list")
     parser.add_argument("--cholmod", action="store_true", help="look at what is taken from CHOLMOD")
-    parser.add_argument("--baseline", default=os.path.join(HERE, "baseline", "delam.abi"))
-    parser.add_argument("--baseline-header", default=os.path.join(HERE, "baseline", "delam", "delam.h"))
+    parser.add_argument("--baseline", help="default: baseline/delam.abi, or with --base that of HEADER's name")
+    parser.add_argument("--baseline-header", help="default: baseline/delam/delam.h, or with --base that of HEADER's name")
     options = parser.parse_args()
+    name = os.path.basename(options.header)[:-2] if options.base else "delam"
+    options.baseline = options.baseline or os.path.join(HERE, "baseline", f"{name}.abi")
+    options.baseline_header = options.baseline_header or os.path.join(HERE, "baseline", "delam", f"{name}.h")
     try:
         wrong = {"symbols": check_symbols, "static": check_static, "baseline": check_baseline,
                  "abidiff": check_abidiff, "abixml": check_abixml}[options.check](options)

@@ -12,6 +12,9 @@ one as `known`, may have structs too:
     } NAME;
 
 A member begins on a line of its own. Functions and other structs have pointers to structs only.
+
+The header of a library on top of this one is promised too, and reads `known` without having structs. It alone may take
+MPI's types.
 """
 import re
 from dataclasses import dataclass
@@ -72,6 +75,7 @@ MEMBER = re.compile(r"([^;{}()]+?)(\w+)")
 POINTER_MEMBER = re.compile(r"([^;{}()]+?)\(\*(\w+)\)\(([^;{}()]*)\)")
 CONSTANT = re.compile(r"#define (DELAM_\w+)[ \t]+(\S+)")
 NUMBERS = {"int32_t", "int64_t", "double", "uint8_t"}
+MPI = {"MPI_Comm", "MPI_Fint"}
 
 
 def plain(text):
@@ -130,8 +134,8 @@ def types_of(member):
     return [member.result, *(p.type for p in member.parameters)] if isinstance(member, Function) else [member.type]
 
 
-def read(path, known=None):
-    """known: the promised Header, whose handles and callbacks this one, which is not promised, may use."""
+def read(path, known=None, promised=False):
+    """known: the promised Header, whose handles and callbacks this one may use. promised: this one is as well."""
     with open(path, encoding="utf-8") as file:
         text = file.read()
     handles = list(known.handles) if known else []
@@ -141,6 +145,8 @@ def read(path, known=None):
 
     def check_types(name, things):
         allowed = NUMBERS | {"void", "char"} | set(handles) | set(callbacks) | set(structs)
+        if known and promised:
+            allowed |= MPI
         for type_text in (t for thing in things for t in types_of(thing)):
             bare = type_text.replace("const ", "").rstrip("*")
             if bare not in allowed or (bare in structs and "*" not in type_text):
@@ -182,7 +188,7 @@ def read(path, known=None):
                 callbacks[function.name] = function
             check_types(function.name, [function])
             comment = ""
-        elif known and (match := STRUCT.match(text, at)):
+        elif known and not promised and (match := STRUCT.match(text, at)):
             struct = Struct(match.group(1), members_of(match.group(2), where, line + 1), comment, line)
             if match.group(3) != struct.name:
                 raise HeaderError(f"{where}: struct {struct.name} is named {match.group(3)} at its end")

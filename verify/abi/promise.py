@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""promise.py HEADER [--baseline FILE] [--write]: do the lines in brackets of HEADER still hold what those of the
+"""promise.py HEADER [--base DELAM.H] [--baseline FILE] [--write]: do the lines in brackets of HEADER still hold what those of the
 baseline promised? Prints what does not, by function; exit code 1 then. --write: prints what a new baseline would be.
+--base: HEADER is that of a library on top of libdelam.
 
 A line of the baseline is the name of a function or callback and its line in brackets, without `source` and
 `deprecated`, which may change. Compared are
@@ -22,12 +23,13 @@ import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import contract_lint as lint  # noqa: E402
+import gate  # noqa: E402
 import header as headers  # noqa: E402
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 KEPT = [field for field in lint.FIELDS if field not in ("source", "deprecated")]
 HEAD = ("# SPDX-License-Identifier: BSD-3-Clause\n"
-        "# The lines in brackets of delam.h as they were promised (../promise.py). Written by update.sh.\n")
+        "# The lines in brackets of {} as they were promised (../promise.py). Written by update.sh.\n")
 
 
 def interval(text):
@@ -155,18 +157,22 @@ def compare(function, old, new):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("header")
-    parser.add_argument("--baseline", default=os.path.join(HERE, "baseline", "contract.txt"))
+    parser.add_argument("--base", help="delam.h, where HEADER is that of a library on top of libdelam")
+    parser.add_argument("--baseline", help="default: baseline/contract.txt, with --base contract_NAME.txt")
     parser.add_argument("--write", action="store_true")
     options = parser.parse_args()
+    name = os.path.basename(options.header)
+    file = f"contract_{name[:-2]}.txt" if options.base else "contract.txt"
+    options.baseline = options.baseline or os.path.join(HERE, "baseline", file)
     try:
-        header = headers.read(options.header)
+        header = gate.read_header(options.header, options.base)
     except headers.HeaderError as error:
         print(error)
         sys.exit(1)
     functions = {**header.functions, **header.callbacks}
     today = {name: lint.fields_of(function.comment)[0] or {} for name, function in functions.items()}
     if options.write:
-        sys.stdout.write(HEAD)
+        sys.stdout.write(HEAD.format(name))
         for name in sorted(today):
             print(name, "[" + "; ".join(f"{key} {today[name][key]}" for key in KEPT if key in today[name]) + "]")
         return

@@ -55,6 +55,20 @@ if has cpp; then
     only cpp 'include/delam/(delam|cpp/[a-z]+)\.hpp|lib/cmake/delam/delam-cpp.*\.cmake' \
         include/delam/delam.hpp include/delam/cpp/solver.hpp
 fi
+if has petsc; then
+    only petsc 'lib/libdelam-petsc\.so\.[0-9.]+' "lib/libdelam-petsc.so.$ABI" "lib/libdelam-petsc.so.$VERSION"
+    petsc='include/delam/petsc\.h|lib/libdelam-petsc\.so|lib/cmake/delam/delam-petsc.*\.cmake|lib/pkgconfig/delam-petsc\.pc'
+    only petsc_development "$petsc" include/delam/petsc.h lib/libdelam-petsc.so lib/cmake/delam/delam-petsc.cmake \
+        lib/pkgconfig/delam-petsc.pc
+fi
+# Whoever has the core alone is not told of MPI.
+if grep -rliE '(^|[^a-z])mpi|petsc' "$work/development/include" "$work/development/lib/pkgconfig" 2>/dev/null ||
+    find "$work/development" "$work/runtime" | grep petsc; then
+    fail "these files of the core know MPI or libdelam-petsc"
+fi
+if has mpi; then
+    only mpi 'bin/delam-mpi' bin/delam-mpi
+fi
 if has fortran; then
     built='include/delam/fortran/.*\.mod|lib/libdelam_fortran\.a|lib/cmake/delam/delam-fortran.*\.cmake'
     only fortran "share/delam/fortran/.*\.f90|$built" \
@@ -67,7 +81,7 @@ fi
 
 quietly "$CMAKE" --install "$BUILD" --prefix "$work/all"
 if ! difference=$(diff <(cd "$work/all" && find . ! -type d | sort) \
-    <(for component in runtime development cli fortran cpp; do
+    <(for component in runtime development cli fortran cpp petsc petsc_development mpi; do
         [[ ! -d $work/$component ]] || (cd "$work/$component" && find . ! -type d)
     done | sort)); then
     fail "the whole (<) and its components (>) differ:"$'\n'"$difference"

@@ -12,6 +12,14 @@ packages=("libdelam$ABI" libdelam-dev)
 if has cli; then
     packages+=(delam)
 fi
+if has petsc; then
+    packages+=("libdelam-petsc$ABI" libdelam-petsc-dev)
+fi
+if has mpi; then
+    packages+=(delam-mpi)
+fi
+[[ $(find "$work/out" -maxdepth 1 -name '*.deb' | wc -l) == "${#packages[@]}" ]] ||
+    fail "expected ${packages[*]}: $(ls "$work/out")"
 for package in "${packages[@]}"; do
     file=$(find "$work/out" -maxdepth 1 -name "${package}_${VERSION}*.deb")
     [[ -n $file ]] || fail "no package $package: $(ls "$work/out")"
@@ -30,10 +38,18 @@ lacks() {
         fail "$1 has what it should not"
     fi
 }
+needs() {
+    dpkg-deb --field "$(find "$work/out" -maxdepth 1 -name "${1}_${VERSION}*.deb")" Depends
+}
 depends() {
-    local file
-    file=$(find "$work/out" -maxdepth 1 -name "${1}_${VERSION}*.deb")
-    dpkg-deb --field "$file" Depends | grep -q "$2" || fail "$1 does not depend on $2"
+    needs "$1" | grep -qF "$2" || fail "$1 does not depend on $2"
+}
+# alone PACKAGE: nothing of MPI is needed.
+alone() {
+    if needs "$1" | grep -E 'mpi|petsc|mumps'; then
+        fail "$1 depends on MPI or PETSc"
+    fi
+    lacks "$1" 'petsc|mpi'
 }
 holds "libdelam$ABI" "^\./usr/lib/.*libdelam\.so\.$ABI\$"
 holds "libdelam$ABI" '/LICENSE$'
@@ -71,6 +87,33 @@ if has cli; then
     depends delam libgmsh
     "$work/root/usr/bin/delam" --version
     quietly "$work/root/usr/bin/delam" check "$SOURCE/examples/fibre/fibre.toml"
+fi
+for package in "libdelam$ABI" libdelam-dev; do
+    alone "$package"
+done
+if has cli; then
+    alone delam
+fi
+if has petsc; then
+    holds "libdelam-petsc$ABI" "^\./usr/lib/.*libdelam-petsc\.so\.$ABI\$"
+    lacks "libdelam-petsc$ABI" '\.h$|/bin/|libdelam\.so|petsc\.so$'
+    depends "libdelam-petsc$ABI" "libdelam$ABI (= $VERSION)"
+    depends "libdelam-petsc$ABI" libpetsc
+    holds libdelam-petsc-dev '^\./usr/include/delam/petsc\.h$'
+    holds libdelam-petsc-dev 'cmake/delam/delam-petsc\.cmake$'
+    holds libdelam-petsc-dev 'pkgconfig/delam-petsc\.pc$'
+    holds libdelam-petsc-dev 'libdelam-petsc\.so$'
+    lacks libdelam-petsc-dev 'petsc\.so\.|/bin/|delam\.h$'
+    depends libdelam-petsc-dev "libdelam-petsc$ABI (= $VERSION)"
+    depends libdelam-petsc-dev "libdelam-dev (= $VERSION)"
+    needs libdelam-petsc-dev | grep -qE 'lib(openmpi|mpich)-dev|mpi-default-dev' || fail "libdelam-petsc-dev needs no mpi.h"
+fi
+if has mpi; then
+    holds delam-mpi '^\./usr/bin/delam-mpi$'
+    lacks delam-mpi '/include/|/lib/'
+    depends delam-mpi "libdelam-petsc$ABI (= $VERSION)"
+    depends delam-mpi "delam (= $VERSION)"
+    quietly "$work/root/usr/bin/delam-mpi" --version
 fi
 library=$(find "$work/root/usr/lib" -name "libdelam.so.$ABI")
 if readelf -S "$library" | grep -q '\.debug_info'; then

@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ * petsc.h of the baseline, without its comments. Written by update.sh. */
+#ifndef DELAM_PETSC_H
+#define DELAM_PETSC_H
+#include <mpi.h>
+#include <delam/delam.h>
+#ifdef __cplusplus
+extern "C" {
+#endif
+typedef struct delam_petsc delam_petsc;
+DELAM_API int32_t delam_petsc_create(MPI_Comm comm, delam_petsc **out);
+DELAM_API int32_t delam_petsc_create_fortran(MPI_Fint comm, delam_petsc **out);
+DELAM_API void delam_petsc_destroy(delam_petsc **petsc);
+DELAM_API const char *delam_petsc_message(const delam_petsc *petsc);
+DELAM_API int32_t delam_petsc_set_part(delam_petsc *petsc, int32_t dimension, int64_t node_count, const int64_t *nodes,
+                                       const double *coordinates, const int64_t *row_starts, const int64_t *columns,
+                                       const double *values);
+DELAM_API int32_t delam_petsc_take_scene(delam_petsc *petsc, const delam_mesh *mesh, const delam_problem *problem);
+DELAM_API int32_t delam_petsc_attach(delam_petsc *petsc, delam_problem *problem);
+typedef int32_t (*delam_petsc_work_callback)(void *user);
+DELAM_API int32_t delam_petsc_run(delam_petsc *petsc, delam_petsc_work_callback work, void *user);
+DELAM_API int32_t delam_petsc_value(delam_petsc *petsc, const char *key, double *value);
+#ifdef __cplusplus
+}
+#endif
+#endif
