@@ -2,7 +2,9 @@
 """What the tests of many processes share: starting delam and delam-mpi under a time limit, and expectations."""
 import atexit
 import contextlib
+import ctypes
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -48,6 +50,11 @@ with open(os.path.join(HERE, "rank.sh"), "w", encoding="utf-8") as script:
 os.chmod(script.name, 0o755)
 
 
+def with_parent():
+    """mpirun, and with it the ranks, ends if the test is killed."""
+    ctypes.CDLL(None).prctl(1, signal.SIGTERM)
+
+
 def alive(pid):
     """Running, or waiting to be: not what has ended and only its parent has not noticed."""
     try:
@@ -69,7 +76,8 @@ class Ranks:
         with open(self.said_path, "wb") as said:
             self.process = subprocess.Popen(
                 ["mpirun", "-n", str(count), os.path.join(HERE, "rank.sh"), DELAM_MPI, *words], env=environment,
-                stdin=subprocess.DEVNULL, stdout=said, stderr=subprocess.STDOUT, start_new_session=True)
+                stdin=subprocess.DEVNULL, stdout=said, stderr=subprocess.STDOUT, start_new_session=True,
+                preexec_fn=with_parent)
 
     def __enter__(self):
         return self
@@ -126,8 +134,11 @@ def expect(condition, what):
         failures.append(what)
 
 
-def last_lines(said, count=3):
-    return " | ".join(line for line in said.replace("\r", "\n").splitlines() if line.strip())[-200 * count:]
+def last_lines(said):
+    """What the program said last, or if it said nothing, mpirun."""
+    lines = [line.strip() for line in said.replace("\r", "\n").splitlines() if line.strip(" -\n")]
+    own = [line for line in lines if re.search(r"delam|error|^(run|solve|step)", line)]
+    return " | ".join(own[-3:] or lines[-3:])[-500:]
 
 
 def finish():
