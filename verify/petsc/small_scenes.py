@@ -208,6 +208,8 @@ point = [0.0, 0.0]
 direction = [0.0, -1.0]
 pattern = "open"
 """
+# Fewer cells than ranks.
+TINY = PEELED.replace("divisions = 24", "divisions = 3").replace("divisions = 2", "divisions = 1")
 CELL = ("mesh.cells_around=16", "time.steps=10", "time.end=0.6")
 
 
@@ -220,28 +222,43 @@ def quick():
         "brittle-local": example("enf-brittle-local", "geometry.h=0.003", "time.steps=6", "time.end=1.2"),
         "brittle-energetic": example("enf-brittle-energetic", "geometry.h=0.003", "time.steps=6", "time.end=1.2"),
         "mixed-frozen": example("mmf-ductile", "geometry.h=0.0015", "time.steps=8", "time.end=1.2"),
-        "mixed-converged": example("mmf-ductile-converged", "geometry.h=0.003", "time.steps=6", "time.end=1.2"),
+        "mixed-converged": example("mmf-ductile-converged", "geometry.h=0.003", "time.steps=3", "time.end=0.6"),
         "mixed-variational": example("mmf-ductile", "geometry.h=0.003", "time.steps=6", "time.end=1.2",
                                      "solver.mixity_rule=variational"),
         "stiff-1e17": example("mmf-brittle-energetic", "geometry.h=0.003", "time.steps=4", "solver.solution=local",
                               "laws[0].normal_stiffness=1e17", "laws[0].tangential_stiffness=1e17"),
         "two-interfaces": example("dcb-double", "geometry.divisions=40", "time.steps=4", "time.end=0.2"),
-        "prescribed-mean": example("mmb", "geometry.divisions=100", "time.steps=8"),
-        "thermal": example("laminate-thermal", "geometry.h=0.0005", "time.steps=12"),
+        "prescribed-mean": example("mmb", "geometry.divisions=100", "time.steps=3", "time.end=0.6"),
+        "thermal": example("laminate-thermal", "geometry.h=0.0005", "time.steps=5"),
         "fibre": example("fibre", *CELL),
-        "fibres": example("fibres-30", "mesh.fibres=3", "mesh.cells_around=12", "time.steps=6"),
+        "fibres": example("fibres-30", "mesh.fibres=3", "mesh.cells_around=12", "time.steps=5"),
         "dcb-3d": example("dcb-3d", "geometry.divisions=[16, 2]", "time.steps=4"),
-        "plies-3d": example("laminate-8", "geometry.divisions=[4, 3]", "time.steps=6"),
+        "plies-3d": example("laminate-8", "geometry.divisions=[4, 3]", "time.steps=4"),
         "cross-ply-3d": example("laminate-enf", "geometry.divisions=[20, 2]", "time.steps=3",
                                 "loads[0].box.lower=[0.048, 0.0, 0.003]", "loads[0].box.upper=[0.049, 0.030, 0.003]"),
         "floats": own(FLOATS),
-        "forces": own(FORCES),
+        "forces": own(FORCES, "time.steps=4"),
         "punch": own(PUNCH),
-        "quadratic": own(QUADRATIC),
-        "triangles": own(TRIANGLES),
+        "quadratic": own(QUADRATIC, "time.steps=4"),
+        "triangles": own(TRIANGLES, "time.steps=4"),
         "incompressible": own(NEARLY),
-        "gradient": own(GRADIENT),
+        "gradient": own(GRADIENT, "time.steps=3"),
         "griffith": own(GRIFFITH),
         "solid": own(SOLID),
+        "tiny": own(TINY),
         "projected": own(PROJECTED, blocks=unmatched()),
+    }
+
+
+def whole():
+    """Scenes of the size of their files, or nearly."""
+    return {
+        "whole-ductile": example("enf-ductile"),
+        "whole-brittle-local": example("enf-brittle-local"),
+        "whole-mixed-converged": example("mmf-ductile-converged"),
+        "whole-two-interfaces": example("dcb-double", "geometry.divisions=120", "time.steps=60"),
+        "whole-dcb-3d": example("dcb-3d", "geometry.divisions=[40, 6]", "time.steps=28"),
+        "whole-plies-3d": example("laminate-8", "geometry.divisions=[10, 6]", "time.steps=20"),
+        "whole-fibres": example("fibres-30", "mesh.fibres=6", "mesh.cells_around=16", "time.steps=12"),
+        "whole-thermal": example("laminate-thermal", "geometry.h=0.00025"),
     }
