@@ -22,8 +22,8 @@ if shutil.which("mpirun") is None:
     print("mpirun is not there")
     sys.exit(SKIPPED)
 
-# For Open MPI, which others ignore: more ranks than processors, and as root. A rank that waits yields its processor, and
-# none is bound to one: else a run beside other programs takes ten times as long.
+# For Open MPI, which others ignore: more ranks than processors, and as root. A rank that waits yields its processor,
+# and none is bound to one: else a run beside other programs takes ten times as long.
 ENVIRONMENT = dict(os.environ, OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1", OMPI_ALLOW_RUN_AS_ROOT="1",
                    OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMPI_MCA_rmaps_base_oversubscribe="1",
                    OMPI_MCA_mpi_yield_when_idle="1", OMPI_MCA_hwloc_base_binding_policy="none")

@@ -212,6 +212,8 @@ pattern = "open"
 TINY = PEELED.replace("divisions = 24", "divisions = 3").replace("divisions = 2", "divisions = 1")
 CELL = ("mesh.cells_around=16", "time.steps=10", "time.end=0.6")
 
+ON_FOUR = ("ductile", "brittle-energetic", "thermal", "fibres", "dcb-3d", "plies-3d", "punch", "tiny", "projected")
+
 
 def quick():
     """Name: scene file and settings."""
@@ -225,13 +227,14 @@ def quick():
         "mixed-converged": example("mmf-ductile-converged", "geometry.h=0.003", "time.steps=3", "time.end=0.6"),
         "mixed-variational": example("mmf-ductile", "geometry.h=0.003", "time.steps=6", "time.end=1.2",
                                      "solver.mixity_rule=variational"),
-        "stiff-1e17": example("mmf-brittle-energetic", "geometry.h=0.003", "time.steps=4", "solver.solution=local",
+        "stiff-1e17": example("mmf-brittle-energetic", "geometry.h=0.003", "time.steps=2", "solver.solution=local",
                               "laws[0].normal_stiffness=1e17", "laws[0].tangential_stiffness=1e17"),
         "two-interfaces": example("dcb-double", "geometry.divisions=40", "time.steps=4", "time.end=0.2"),
         "prescribed-mean": example("mmb", "geometry.divisions=100", "time.steps=3", "time.end=0.6"),
-        "thermal": example("laminate-thermal", "geometry.h=0.0005", "time.steps=5"),
+        "thermal": example("laminate-thermal", "geometry.h=0.0005", "time.steps=3"),
         "fibre": example("fibre", *CELL),
-        "fibres": example("fibres-30", "mesh.fibres=3", "mesh.cells_around=12", "time.steps=5"),
+        "fibres": example("fibres-30", "mesh.fibres=3", "mesh.cells_around=12", "time.steps=5",
+                          "solver.reduction=auto"),
         "dcb-3d": example("dcb-3d", "geometry.divisions=[16, 2]", "time.steps=4"),
         "plies-3d": example("laminate-8", "geometry.divisions=[4, 3]", "time.steps=4"),
         "cross-ply-3d": example("laminate-enf", "geometry.divisions=[20, 2]", "time.steps=3",
@@ -259,6 +262,7 @@ def whole():
         "whole-two-interfaces": example("dcb-double", "geometry.divisions=120", "time.steps=60"),
         "whole-dcb-3d": example("dcb-3d", "geometry.divisions=[40, 6]", "time.steps=28"),
         "whole-plies-3d": example("laminate-8", "geometry.divisions=[10, 6]", "time.steps=20"),
-        "whole-fibres": example("fibres-30", "mesh.fibres=6", "mesh.cells_around=16", "time.steps=12"),
+        "whole-fibres": example("fibres-30", "mesh.fibres=6", "mesh.cells_around=16", "time.steps=12",
+                                "solver.reduction=auto"),
         "whole-thermal": example("laminate-thermal", "geometry.h=0.00025"),
     }
