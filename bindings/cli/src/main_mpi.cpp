@@ -3,6 +3,7 @@
 // results; the bodies are solved by all ranks together (delam/petsc.h).
 #include <mpi.h>
 
+#include <csignal>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -21,10 +22,12 @@ namespace {
 
 constexpr const char* usage =
     "delam-mpi: as delam, on the processes of mpirun; see delam-mpi run --help.\n"
-    "    mpirun -n 4 delam-mpi [--petsc OPTIONS] run SCENE.toml --out FOLDER\n"
+    "    mpirun -n 4 delam-mpi [--petsc OPTIONS] [--counts] run SCENE.toml --out FOLDER\n"
     "  --petsc OPTIONS   options of PETSc for the bodies, e.g. \"-delam_pc_type bddc -delam_ksp_monitor\"; in front of "
     "the\n"
-    "                    command, beside those of the variable PETSC_OPTIONS\n";
+    "                    command, beside those of the variable PETSC_OPTIONS\n"
+    "  --counts          prints at the end what the solves took; in front of the command\n"
+    "Ctrl-C, or SIGTERM to rank 0 or mpirun, ends all ranks; finished steps are kept.\n";
 
 // Ends with the program, on all ranks at once.
 class Processes {
@@ -32,6 +35,11 @@ public:
     Processes(int& argc, char**& argv) {
         MPI_Init(&argc, &argv);
         MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+        // mpirun sends these to all ranks: rank 0 ends the run, and needs the others for that.
+        if (!first()) {
+            std::signal(SIGINT, SIG_IGN);
+            std::signal(SIGTERM, SIG_IGN);
+        }
     }
     ~Processes() { MPI_Finalize(); }
     Processes(const Processes&) = delete;
@@ -105,19 +113,46 @@ private:
     delam_petsc* petsc_;
 };
 
-// Takes --petsc OPTIONS out of the words and puts them behind those of the environment. False: OPTIONS are missing.
-bool take_petsc_options(int& argc, char** argv) {
-    if (argc < 2 || std::strcmp(argv[1], "--petsc") != 0) return true;
-    if (argc < 3) return false;
-    const char* before = std::getenv("PETSC_OPTIONS");
-    setenv("PETSC_OPTIONS", ((before != nullptr ? std::string(before) + " " : std::string()) + argv[2]).c_str(), 1);
-    for (int i = 3; i <= argc; ++i) argv[i - 2] = argv[i];
-    argc -= 2;
+void drop_words(int& argc, char** argv, int count) {
+    for (int i = 1 + count; i <= argc; ++i) argv[i - count] = argv[i];
+    argc -= count;
+}
+
+// Takes the options of this program out of the words, and puts those of PETSc behind those of the environment. False:
+// OPTIONS are missing.
+bool take_options(int& argc, char** argv, bool& counts) {
+    while (argc > 1) {
+        if (std::strcmp(argv[1], "--counts") == 0) {
+            counts = true;
+            drop_words(argc, argv, 1);
+        } else if (std::strcmp(argv[1], "--petsc") == 0) {
+            if (argc < 3) return false;
+            const char* before = std::getenv("PETSC_OPTIONS");
+            const std::string all = (before != nullptr ? std::string(before) + " " : std::string()) + argv[2];
+            setenv("PETSC_OPTIONS", all.c_str(), 1);
+            drop_words(argc, argv, 2);
+        } else {
+            break;
+        }
+    }
     return true;
 }
 
+// On all ranks.
+void say_counts(const Processes& processes, delam_petsc* petsc) {
+    std::string line = "counts:";
+    for (const char* key : {"solves", "iterations", "renewals", "factor_entries", "factor_flops", "memory_mb_max",
+                            "memory_mb_sum", "bytes_sent_max", "bytes_sent_sum", "messages_max", "messages_sum"}) {
+        double value = 0.0;
+        if (delam_petsc_value(petsc, key, &value) == DELAM_OK) line += fmt::format(" {} {:.10g}", key, value);
+    }
+    if (processes.first()) cli::say("{}\n", line);
+}
+
 int on_all_ranks(const Processes& processes, int argc, char** argv) {
-    const bool right = take_petsc_options(argc, argv) && argc > 1, help = right && std::strcmp(argv[1], "--help") == 0;
+    bool counts = false;
+    const bool right = take_options(argc, argv, counts) && argc > 1;
+    const bool help = right && std::strcmp(argv[1], "--help") == 0;
     if (!right || help) {
         if (processes.first() && help) cli::say("{}", usage);
         if (processes.first() && !help) cli::complain("{}", usage);
@@ -138,6 +173,7 @@ int on_all_ranks(const Processes& processes, int argc, char** argv) {
     } else {
         ranks.serve();
     }
+    if (counts) say_counts(processes, petsc);
     delam_petsc_destroy(&petsc);
     return code;  // rank 0's is that of mpirun
 }
