@@ -37,17 +37,17 @@ typedef struct delam_petsc delam_petsc; /* ranks that solve the bodies of a prob
 /* Creates a handle for the ranks of a communicator, which it duplicates; *out receives it. MPI has to be initialised.
  * If PETSc is not, the function initialises it, with the options in the variable PETSC_OPTIONS and without signal
  * handlers; it is then finalised when MPI is.
- * [null none; owns out caller; status argument, memory, internal; since 0.2] */
+ * [null none; owns out caller; status argument, memory, internal; since 0.1] */
 DELAM_API int32_t delam_petsc_create(MPI_Comm comm, delam_petsc **out);
 /* The same, for a communicator of Fortran.
- * [null none; owns out caller; status argument, memory, internal; since 0.2] */
+ * [null none; owns out caller; status argument, memory, internal; since 0.1] */
 DELAM_API int32_t delam_petsc_create_fortran(MPI_Fint comm, delam_petsc **out);
 /* Destroys a handle.
- * [null petsc, *petsc; owns petsc destroyed; status -; since 0.2] */
+ * [null petsc, *petsc; owns petsc destroyed; status -; since 0.1] */
 DELAM_API void delam_petsc_destroy(delam_petsc **petsc);
 /* Returns the text of the last status other than DELAM_OK, the same on all ranks; "" if there has been none; never
  * NULL. This function alone is not collective.
- * [owns result until the next call with this handle; status -; since 0.2] */
+ * [owns result until the next call with this handle; status -; since 0.1] */
 DELAM_API const char *delam_petsc_message(const delam_petsc *petsc);
 
 /* Sets what this rank adds to the stiffness of the bodies, which is the sum over all ranks. nodes: [node_count], each
@@ -56,7 +56,7 @@ DELAM_API const char *delam_petsc_message(const delam_petsc *petsc);
  * nodes, dimension*i + component for node i: row_starts [dimension*node_count+1], columns and values [entries]. Nodes of
  * the mesh that are in no part have no stiffness. A pair of nodes that an interface joins is best in one part.
  * Solvers made before are of no use afterwards.
- * [unit coordinates L finite, values F/L finite; null coordinates; status argument, state; since 0.2] */
+ * [unit coordinates L finite, values F/L finite; null coordinates; status argument, state; since 0.1] */
 DELAM_API int32_t delam_petsc_set_part(delam_petsc *petsc, int32_t dimension, int64_t node_count, const int64_t *nodes,
                                        const double *coordinates, const int64_t *row_starts, const int64_t *columns,
                                        const double *values);
@@ -65,16 +65,16 @@ DELAM_API int32_t delam_petsc_set_part(delam_petsc *petsc, int32_t dimension, in
  * loads. Cells on the two sides of an interface stay together. PTScotch divides; -delam_mat_partitioning_type chooses
  * another.
  * [null mesh and problem but on rank 0; status cancelled, argument, problem, numerical, state; source C. Chevalier, F.
- * Pellegrini, Parallel Comput. 34 (2008) 318-331; since 0.2] */
+ * Pellegrini, Parallel Comput. 34 (2008) 318-331; since 0.1] */
 DELAM_API int32_t delam_petsc_take_scene(delam_petsc *petsc, const delam_mesh *mesh, const delam_problem *problem);
 /* Gives rank 0's problem the engine (delam_experimental_problem_set_engine): the ranks solve its bodies from now on, in
  * solvers that are made, and work, inside delam_petsc_run. problem: on rank 0, NULL on the others.
- * [null problem but on rank 0; owns the engine the problem; status argument, state; since 0.2] */
+ * [null problem but on rank 0; owns the engine the problem; status argument, state; since 0.1] */
 DELAM_API int32_t delam_petsc_attach(delam_petsc *petsc, delam_problem *problem);
 /* Runs work(user) on rank 0, which may call everything of delam.h, while the other ranks work for the engine. Returns
  * what work returns, on all ranks; an exception of C++ that leaves work becomes a status. work must not call functions
  * of this header. work: on rank 0, ignored on the others.
- * [null work but on rank 0, user; status of work, state; source none; since 0.2] */
+ * [null work but on rank 0, user; status of work, state; source none; since 0.1] */
 DELAM_API int32_t delam_petsc_run(delam_petsc *petsc, int32_t (*work)(void *user), void *user);
 
 /* Returns a number by key. Counts begin when the handle is made.
@@ -85,7 +85,7 @@ DELAM_API int32_t delam_petsc_run(delam_petsc *petsc, int32_t (*work)(void *user
  *   bytes_sent_max, bytes_sent_sum  bytes that a rank has sent to single others or, on rank 0, to all (MUMPS' own are
  *                                   not counted): the largest, and of all ranks
  *   messages_max, messages_sum      messages, likewise
- * [unit value of key; null none; status argument, state; source none; since 0.2] */
+ * [unit value of key; null none; status argument, state; source none; since 0.1] */
 DELAM_API int32_t delam_petsc_value(delam_petsc *petsc, const char *key, double *value);
 
 #ifdef __cplusplus
