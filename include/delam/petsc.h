@@ -53,8 +53,8 @@ DELAM_API const char *delam_petsc_message(const delam_petsc *petsc);
 /* Sets what this rank adds to the stiffness of the bodies, which is the sum over all ranks. nodes: [node_count], each
  * once, in the numbers of the mesh of rank 0's problem; numbers beyond the mesh are nodes that only the ranks know.
  * coordinates: [node_count][dimension], which some preconditioners use. CSR with both triangles over the DOFs of these
- * nodes, dimension*i + component for node i: row_starts [dimension*node_count+1], columns and values [entries]. Nodes of
- * the mesh that are in no part have no stiffness. A pair of nodes that an interface joins is best in one part.
+ * nodes, dimension*i + component for node i: row_starts [dimension*node_count+1], columns and values [entries]. Nodes
+ * of the mesh that are in no part have no stiffness. A pair of nodes that an interface joins is best in one part.
  * Solvers made before are of no use afterwards.
  * [unit coordinates L finite, values F/L finite; null coordinates; status argument, state; since 0.1] */
 DELAM_API int32_t delam_petsc_set_part(delam_petsc *petsc, int32_t dimension, int64_t node_count, const int64_t *nodes,
