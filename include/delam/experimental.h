@@ -27,11 +27,12 @@ extern "C" {
  */
 
 /* The variables of a problem. Variable i < dofs is the displacement of DOF i of the mesh (dimension*node + component);
- * variable dofs + k is the jump k. DOFs in `replaced` are no variables: row r of T says u[replaced[r]] = sum over e in
- * [row_starts[r], row_starts[r+1]) of coefficients[e] * v[columns[e]]. Every other DOF is a variable of its own.
- * homes [jump_count]: for each jump a replaced DOF that depends on it, a different one for each;
- * the displacements at these DOFs could be the variables in the place of the jumps. U and f by patterns: entries
- * [starts[p], starts[p+1]) belong to pattern p. visible [visible_count]: variables. */
+ * variable dofs + k is the jump k. DOFs in `replaced` [replaced_count] are no variables: row r of T says u[replaced[r]]
+ * = sum over e in [row_starts[r], row_starts[r+1]) of coefficients[e] * v[columns[e]]. Every other DOF is a variable of
+ * its own. homes [jump_count]: for each jump a replaced DOF that depends on it, a
+ * different one for each; the displacements at these DOFs could be the variables in the place of the jumps. U
+ * (lift_dofs, lift_values) and f (force_dofs, force_values) by patterns: entries [lift_starts[p], lift_starts[p+1]) and
+ * [force_starts[p], force_starts[p+1]) belong to pattern p. visible [visible_count]: variables. */
 typedef struct delam_experimental_variables {
     int64_t dimension;
     int64_t dofs;
@@ -53,7 +54,7 @@ typedef struct delam_experimental_variables {
     const int64_t *visible;
 } delam_experimental_variables;
 
-/* Entries of a sparse matrix. Rows and columns are places in `visible`. */
+/* Entries of a sparse matrix, `count` of them. Rows and columns are places in `visible`. */
 typedef struct delam_experimental_entries {
     int64_t count;
     const int64_t *rows;
@@ -144,23 +145,25 @@ typedef struct delam_experimental_engine {
  * each of them is one elastic solid, which nothing but the problem's supports and interfaces holds. Solvers made from
  * then on use it. The option `reduction` must be `auto`, `subdomains` 0. No stiffness is assembled here.
  * [null engine; owns engine: what it points to, the host, until its function release is called; status argument; since
- * 0.2] */
+ * 0.1] */
 DELAM_API int32_t delam_experimental_problem_set_engine(delam_problem *problem,
                                                         const delam_experimental_engine *engine);
 
 /* Writes some of the problem's cells, with all that their stiffness follows from, as bytes that another process can
- * turn into a matrix (delam_experimental_part_matrix). cells: [count], ascending. *size receives the number of bytes;
- * call it with bytes NULL to get it, and again with bytes [capacity].
- * [null bytes, size; status argument, problem; source none; since 0.2] */
+ * turn into a matrix (delam_experimental_part_matrix). cells: [count] from 0 on, ascending, at least one, of bodies
+ * with a material; the host's own stiffness has no parts. *size receives the number of bytes; call it with bytes NULL
+ * to get it, and again with bytes [capacity].
+ * [null bytes, size; status cancelled, argument, problem; source none; since 0.1] */
 DELAM_API int32_t delam_experimental_problem_part(const delam_problem *problem, int64_t count, const int64_t *cells,
                                                   int64_t capacity, uint8_t *bytes, int64_t *size);
 /* Returns the stiffness of a part: CSR with both triangles over the DOFs of its nodes, dimension*i + component for
  * local node i. bytes: [size]. nodes [node_count] receives the nodes in the numbering of the problem's mesh, ascending,
- * coordinates [node_count][dimension] their places. Call it with NULL arrays to get *dimension, *node_count and
- * *entries, and again with row_starts [dimension*node_count+1], columns [entries] and values [entries].
+ * coordinates [node_count][dimension] their places. The matrices of all parts of a body, added up, are that of
+ * delam_problem_body_matrix. Call it with NULL arrays to get *dimension, *node_count and *entries, and again with
+ * row_starts [dimension*node_count+1], columns [entries] and values [entries].
  * [unit coordinates L, values F/L; null dimension, node_count, entries, nodes, coordinates, row_starts, columns,
  * values; status cancelled, argument, snapshot; source T. Hughes, The Finite Element Method (1987), chapters 3 and 4;
- * since 0.2] */
+ * since 0.1] */
 DELAM_API int32_t delam_experimental_part_matrix(delam_context *context, int64_t size, const uint8_t *bytes,
                                                  int64_t *dimension, int64_t *node_count, int64_t *entries,
                                                  int64_t *nodes, double *coordinates, int64_t *row_starts,
