@@ -19,7 +19,7 @@
  *              numbers have to be real, in double precision; the number of DOFs has to fit into its integers.
  *   threads    All calls of a rank come from a thread that may call MPI ("MPI's" in the brackets), one at a time.
  *   errors     If a rank fails where the others cannot know, in the middle of a step of PETSc or MPI that all of them
- *              share, it waits five minutes for them, then writes a line to the standard error and calls MPI_Abort.
+ *              share, it waits eight seconds for them, then writes a line to the standard error and calls MPI_Abort.
  *   memory     A problem that has the engine may outlive the delam_petsc; its solvers then return DELAM_ERROR_STATE.
  */
 #ifndef DELAM_PETSC_H

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "petsc/index.hpp"
+
 namespace delam::petsc {
 
 namespace {
-
-std::size_t at(PetscInt i) { return static_cast<std::size_t>(i); }
 
 double dot(std::span<const double> a, std::span<const double> b) {
     double sum = 0.0;

@@ -12,9 +12,8 @@ namespace {
 
 constexpr std::int64_t piece = std::int64_t{1} << 30;  // bytes of one message: MPI counts in int
 constexpr int tag = 7;
-// A rank that has failed waits that long for the others to notice. They may be in the middle of a long factorisation;
-// but if they wait for this rank, they never come.
-constexpr std::chrono::seconds patience{300};
+// A rank that has failed waits that long for the others to notice. If they wait for this rank, they never come.
+constexpr std::chrono::seconds patience{8};
 
 void wait_or_abort(MPI_Comm comm, MPI_Request& request, const std::string& why) {
     const auto until = std::chrono::steady_clock::now() + patience;

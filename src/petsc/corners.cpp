@@ -6,11 +6,11 @@
 #include <map>
 #include <numeric>
 
+#include "petsc/index.hpp"
+
 namespace delam::petsc {
 
 namespace {
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 // Which of the first `count` nodes the stiffness connects: for each the lowest of its body.
 std::vector<std::size_t> bodies_of(const LocalMatrix& stiffness, std::size_t count, std::size_t dimension) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "petsc/index.hpp"
 #include "petsc/places.hpp"
 
 namespace delam::petsc {
@@ -12,8 +13,6 @@ namespace {
 
 // Of the largest stiffness: what a place has on its diagonal to which this rank adds nothing.
 constexpr double nothing = 1e-6;
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 // Squares up a matrix of fewer places.
 void grow(LocalMatrix& matrix, PetscInt places) {

@@ -70,6 +70,7 @@ void Engine::renew(const delam_experimental_entries* entries, double* cost) {
     Operator::Entries copied;
     comm_.together([&] { copied = copy(entries); });
     const double worth = preconditioner_.renew(copied);
+    solve_.forget_rounding();
     counts_.renewals += 1.0;
     if (comm_.root()) *cost = worth;
 }

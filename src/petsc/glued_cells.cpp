@@ -5,12 +5,11 @@
 #include <numeric>
 
 #include "petsc/failure.hpp"
+#include "petsc/index.hpp"
 
 namespace delam::petsc {
 
 namespace {
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 void require(std::int32_t status, const char* call) {
     if (status != DELAM_OK) fail(status, call, " returned ", delam_status_name(status));

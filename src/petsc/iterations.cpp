@@ -30,7 +30,11 @@ PetscErrorCode apply_shell(PC shell, Vec r, Vec z) {
 }  // namespace
 
 Iterations::Iterations(const Bodies& bodies, const Operator& matrix, const Preconditioner& preconditioner)
-    : bodies_(bodies), operator_(matrix), preconditioner_(preconditioner) {}
+    : bodies_(bodies),
+      operator_(matrix),
+      preconditioner_(preconditioner),
+      residual_(bodies.vector()),
+      z_(bodies.vector()) {}
 
 void Iterations::create() {
     check(PCCreate(bodies_.comm().get(), shell_.out()));
@@ -67,7 +71,7 @@ KSPConvergedReason Iterations::decide(PetscInt iteration, double norm) {
     if (iteration == 1 && operator_.last_curvature() <= 0.0) return KSP_DIVERGED_INDEFINITE_MAT;
     idle_ = iteration == 0 || norm < 0.9 * lowest_ ? 0 : idle_ + 1;
     lowest_ = iteration == 0 ? norm : std::min(lowest_, norm);
-    norm_ = norm;
+    outcome_.norm = norm;
     outcome_.iterations = iteration;
     int decision = KSP_CONVERGED_ITERATING;
     if (bodies_.comm().root()) {
@@ -79,6 +83,11 @@ KSPConvergedReason Iterations::decide(PetscInt iteration, double norm) {
             decision = KSP_DIVERGED_BREAKDOWN;
     }
     bodies_.comm().broadcast(decision);
+    outcome_.reached = decision == KSP_CONVERGED_ATOL;
+    if (outcome_.reached) {
+        check(VecCopy(preconditioner_.last_residual(), residual_));
+        check(VecCopy(preconditioner_.last_z(), z_));
+    }
     outcome_.cancelled = decision == KSP_DIVERGED_BREAKDOWN;
     return static_cast<KSPConvergedReason>(decision);
 }
@@ -97,7 +106,7 @@ void Iterations::iterate(Vec r, Vec x) {
 Iterations::Outcome Iterations::run(Vec r, Vec z, Vec x, const Limits& limits) {
     limits_ = limits;
     outcome_ = {};
-    norm_ = lowest_ = 0.0;
+    lowest_ = 0.0;
     idle_ = 0;
     preconditioner_.expect(z);
     iterate(r, x);
@@ -108,11 +117,15 @@ Iterations::Outcome Iterations::run(Vec r, Vec z, Vec x, const Limits& limits) {
     outcome_.iterations = count;
     // The preconditioner is definite: if r.M r is not positive, that is rounding, and the run is over.
     if (reason == KSP_DIVERGED_INDEFINITE_MAT)
-        outcome_.definite = !(operator_.last_curvature() <= -flat * norm_ * norm_);
+        outcome_.definite = !(operator_.last_curvature() <= -flat * outcome_.norm * outcome_.norm);
     if (reason == KSP_DIVERGED_PC_FAILED) fail(DELAM_ERROR_NUMERICAL, "the preconditioner has failed");
     PetscReal greatest = 0.0, least = 0.0;
     if (count > 0) check(KSPComputeExtremeSingularValues(ksp_, &greatest, &least));
     if (least > 0.0) outcome_.least = std::min(1.0, least);
+    if (outcome_.reached) {
+        check(VecCopy(residual_, r));
+        check(VecCopy(z_, z));
+    }
     return outcome_;
 }
 

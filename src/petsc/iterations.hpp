@@ -27,8 +27,11 @@ public:
         double least = 1.0;  // eigenvalue met
         bool definite = true;
         bool cancelled = false;
+        double norm = 0.0;     // of the residual of the recursion
+        bool reached = false;  // the target, by the recursion
     };
-    // x = about A^-1 r, from zero. z: M r, which is known.
+    // x = about A^-1 r, from zero. z: M r, which is known; if the target is reached, r and z become those of the
+    // recursion at the end.
     Outcome run(Vec r, Vec z, Vec x, const Limits& limits);
 
 private:
@@ -45,7 +48,7 @@ private:
     Limits limits_;
     Outcome outcome_;
     double lowest_ = 0.0;
-    double norm_ = 0.0;
+    OwnedVec residual_, z_;
     int idle_ = 0;
 };
 

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <map>
 
+#include "petsc/index.hpp"
+
 namespace delam::petsc {
 
 namespace {
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 // Gauss' elimination with pivots: m and rest become 1 and m^-1 rest. At most three rows.
 void eliminate(std::vector<std::vector<double>>& m, std::vector<std::map<std::int64_t, double>>& rest) {

@@ -6,12 +6,11 @@
 #include <utility>
 
 #include "petsc/failure.hpp"
+#include "petsc/index.hpp"
 
 namespace delam::petsc {
 
 namespace {
-
-std::size_t at(PetscInt i) { return static_cast<std::size_t>(i); }
 
 template <class Term>
 void each(const LocalMatrix& a, const Term& term) {

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "petsc/local_variables.hpp"
 
+#include "petsc/index.hpp"
 #include "petsc/places.hpp"
 
 namespace delam::petsc {
 
 namespace {
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 std::int64_t dof_of(const LocalVariables& local, std::size_t place) {
     const auto d = at(local.dimension);

@@ -39,6 +39,8 @@ double Preconditioner::renew(const Operator::Entries& entries) {
 
 void Preconditioner::apply(Vec residual, Vec z) const {
     if (!ready_) fail(DELAM_ERROR_STATE, "there is no preconditioner: renew comes before solve");
+    last_residual_ = residual;
+    last_z_ = z;
     if (expected_ != nullptr) {
         check(VecCopy(std::exchange(expected_, nullptr), z));
         return;

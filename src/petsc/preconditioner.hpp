@@ -20,6 +20,9 @@ public:
     void apply(Vec residual, Vec z) const;
     // The next residual that apply gets has this z, which is known.
     void expect(Vec z) const { expected_ = z; }
+    // What apply has been given last, and its answer; valid until their owner, the KSP, goes on.
+    Vec last_residual() const { return last_residual_; }
+    Vec last_z() const { return last_z_; }
     double factor_entries() const { return inner_->factor_entries(); }
     double factor_flops() const { return inner_->factor_flops(); }
 
@@ -28,7 +31,7 @@ private:
     std::unique_ptr<InnerPreconditioner> inner_;
     bool ready_ = false;
     OwnedVec work_;
-    mutable Vec expected_ = nullptr;
+    mutable Vec expected_ = nullptr, last_residual_ = nullptr, last_z_ = nullptr;
 };
 
 }  // namespace delam::petsc

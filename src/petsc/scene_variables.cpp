@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <numeric>
 
+#include "petsc/index.hpp"
+
 namespace delam::petsc {
 
 namespace {
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 std::int64_t home_of(const delam_experimental_variables& v, std::int64_t variable) {
     if (variable < 0 || variable >= v.dofs + v.jump_count)

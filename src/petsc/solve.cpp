@@ -11,11 +11,14 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr int most_rounds = 8;
-constexpr double recursion_goal = 0.3;     // of the target, so that the true residual meets it too
-constexpr double gained = 0.5;             // a round that leaves more of the residual has met rounding
-constexpr double largest_residual = 1e-5;  // that rounding may excuse: an error of 1e-10 of the energy
-constexpr double rounding_slack = 30.0;    // the estimate of rounding is one of its size, not a bound
-constexpr double at_rounding = 3.0;        // times that estimate: another round would gain nothing
+constexpr double recursion_goal = 0.3;      // of the target, so that the true residual meets it too
+constexpr double gained = 0.5;              // a round that leaves more of the residual has met rounding
+constexpr double largest_residual = 1e-5;   // that rounding may excuse: an error of 1e-10 of the energy
+constexpr double rounding_slack = 30.0;     // the estimate of rounding is one of its size, not a bound
+constexpr double far_from_rounding = 1e-8;  // a residual of which rounding need not be known
+// Rounding units, of the terms of a component, by which a residual from a recursion may differ from the true one.
+constexpr double rounding_units = 16.0;
+constexpr double at_rounding = 3.0;  // times that estimate: another round would gain nothing
 
 }  // namespace
 
@@ -27,7 +30,7 @@ Solve::Solve(const Bodies& bodies, const Visible& visible, const Constraints& co
       operator_(matrix),
       preconditioner_(preconditioner),
       iterations_(bodies, matrix, preconditioner) {
-    for (OwnedVec* vector : {&right_, &rest_, &v_, &av_, &cv_, &r_, &z_, &x_, &work_, &best_, &best_z_})
+    for (OwnedVec* vector : {&recursion_, &right_, &rest_, &v_, &av_, &cv_, &r_, &z_, &x_, &work_, &best_, &best_z_})
         *vector = bodies.vector();
 }
 
@@ -69,9 +72,7 @@ double Solve::precondition() {
     return std::sqrt(std::abs(product));
 }
 
-// Each component of the residual has an error of the size of its largest terms times the rounding unit, with a random
-// sign.
-double Solve::rounding(const Question& question) {
+void Solve::residual_sizes(const Question& question) {
     bodies_.sizes(bodies_.state(question.theta, v_), work_);
     operator_.add_coupling_sizes(v_, work_);
     PetscInt count = 0;
@@ -80,14 +81,25 @@ double Solve::rounding(const Question& question) {
     check(VecGetLocalSize(work_, &count));
     check(VecGetArrayRead(right_, &right));
     check(VecGetArray(work_, &sizes));
+    for (PetscInt i = 0; i < count; ++i) sizes[i] += std::abs(right[i]);
+    check(VecRestoreArray(work_, &sizes));
+    check(VecRestoreArrayRead(right_, &right));
+}
+
+// Each component of the residual has an error of the size of its largest terms times the rounding unit, with a random
+// sign.
+double Solve::rounding(const Question& question) {
+    residual_sizes(question);
+    PetscInt count = 0;
+    PetscScalar* sizes = nullptr;
+    check(VecGetLocalSize(work_, &count));
+    check(VecGetArray(work_, &sizes));
     std::uint64_t seed = 1 + static_cast<std::uint64_t>(bodies_.comm().rank());
     for (PetscInt i = 0; i < count; ++i) {
-        sizes[i] += std::abs(right[i]);
         seed = seed * 6364136223846793005u + 1442695040888963407u;
         if ((seed >> 63U) == 0) sizes[i] = -sizes[i];
     }
     check(VecRestoreArray(work_, &sizes));
-    check(VecRestoreArrayRead(right_, &right));
     constraints_.gather(work_, cv_);
     preconditioner_.apply(cv_, av_);
     PetscScalar product = 0.0;
@@ -95,13 +107,63 @@ double Solve::rounding(const Question& question) {
     return std::numeric_limits<double>::epsilon() * std::sqrt(std::abs(product));
 }
 
+// Whether the true residual r is that of the recursion, but for what rounding does to each component.
+bool Solve::confirms(const Question& question, Vec recursion) {
+    if (constraints_.has_pivots()) return false;
+    residual_sizes(question);
+    PetscInt count = 0;
+    const PetscScalar *sizes = nullptr, *known = nullptr, *own = nullptr, *free = nullptr;
+    check(VecGetLocalSize(work_, &count));
+    check(VecGetArrayRead(work_, &sizes));
+    check(VecGetArrayRead(recursion, &known));
+    check(VecGetArrayRead(r_, &own));
+    check(VecGetArrayRead(constraints_.free(), &free));
+    double differing = 0.0;
+    constexpr double bound = rounding_units * std::numeric_limits<double>::epsilon();
+    for (PetscInt i = 0; i < count; ++i)
+        if (free[i] != 0.0 && !(std::abs(own[i] - known[i]) <= bound * sizes[i])) differing = 1.0;
+    check(VecRestoreArrayRead(work_, &sizes));
+    check(VecRestoreArrayRead(recursion, &known));
+    check(VecRestoreArrayRead(r_, &own));
+    check(VecRestoreArrayRead(constraints_.free(), &free));
+    return bodies_.comm().sum(differing) == 0.0;
+}
+
+// One run of the recursion from the residual r. True: nothing more to do. Leaves the true residual in r and returns the
+// size of the state; where the recursion has reached the target and its residual is the true one, its M r is taken
+// over.
+bool Solve::iterate(const Question& question, double tolerance, double norm, double& size, Result& result) {
+    Iterations::Limits limits{recursion_goal * std::max(tolerance, rounded_) * std::max(size, norm),
+                              question.limit - result.iterations, question.poll, question.user};
+    check(VecCopy(r_, recursion_));
+    const Iterations::Outcome outcome = iterations_.run(recursion_, z_, x_, limits);
+    result.iterations += outcome.iterations;
+    result.least = std::min(result.least, outcome.least);
+    result.definite = outcome.definite;
+    result.cancelled = outcome.cancelled;
+    if (!outcome.definite || outcome.cancelled) return true;
+    constraints_.spread(x_, cv_);
+    check(VecAXPY(v_, 1.0, cv_));
+    size = residual(question);
+    const bool rounding_matters = !(rounded_ > 0.0) && tolerance < far_from_rounding;
+    if (rounding_matters || !outcome.reached || !confirms(question, recursion_)) return false;
+    const double left = std::hypot(outcome.norm, rounded_ * size);
+    if (!(left <= std::max(tolerance, at_rounding * rounded_) * size)) return false;
+    check(VecCopy(v_, best_));
+    constraints_.spread(z_, best_z_);
+    if (outcome.norm > 0.0) check(VecScale(best_z_, left / outcome.norm));
+    result.norm = left;
+    result.size = size;
+    result.converged = true;
+    return true;
+}
+
 Result Solve::rounds(const Question& question) {
     const Communicator& comm = bodies_.comm();
     Result result;
-    double tolerance = question.tolerance, before = infinite, rounded = 0.0, least_residual = infinite;
-    Iterations::Limits limits{0.0, question.limit, question.poll, question.user};
+    double tolerance = question.tolerance, before = infinite, least_residual = infinite, size = residual(question);
     for (int round = 0;; ++round) {
-        const double size = residual(question), norm = precondition();
+        const double norm = precondition();
         if (!std::isfinite(norm)) fail(DELAM_ERROR_NUMERICAL, "the residual is not finite");
         const double relative = norm == 0.0 ? 0.0 : norm / std::max(size, norm);
         if (round == 0) {
@@ -111,8 +173,8 @@ Result Solve::rounds(const Question& question) {
             comm.broadcast(tolerance);
         }
         bool reached = relative <= tolerance;
-        if (!reached && round > 0 && !(rounded > 0.0) && size > 0.0) rounded = rounding(question) / size;
-        const double excused = (round == 0 ? recursion_goal : at_rounding) * rounded;
+        if (!reached && round > 0 && !(rounded_ > 0.0) && size > 0.0) rounded_ = rounding(question) / size;
+        const double excused = (round == 0 ? recursion_goal : at_rounding) * rounded_;
         reached = reached || relative <= std::min(largest_residual, excused);
         if (round == 0 || norm < before) {
             least_residual = relative;
@@ -121,24 +183,14 @@ Result Solve::rounds(const Question& question) {
             check(VecCopy(v_, best_));
             constraints_.spread(z_, best_z_);
         }
-        const std::int64_t left = question.limit - result.iterations;
-        std::int64_t over = !reached && left <= 0 ? 1 : 0;
+        std::int64_t over = !reached && question.limit <= result.iterations ? 1 : 0;
         comm.broadcast(over);
         if (reached || over != 0 || !(norm <= gained * before) || round == most_rounds) {
-            result.converged = reached || least_residual <= std::min(largest_residual, rounding_slack * rounded);
+            result.converged = reached || least_residual <= std::min(largest_residual, rounding_slack * rounded_);
             return result;
         }
         before = norm;
-        limits.target = recursion_goal * std::max(tolerance, rounded) * std::max(size, norm);
-        limits.iterations = left;
-        const Iterations::Outcome outcome = iterations_.run(r_, z_, x_, limits);
-        result.iterations += outcome.iterations;
-        result.least = std::min(result.least, outcome.least);
-        result.definite = outcome.definite;
-        result.cancelled = outcome.cancelled;
-        if (!outcome.definite || outcome.cancelled) return result;
-        constraints_.spread(x_, cv_);
-        check(VecAXPY(v_, 1.0, cv_));
+        if (iterate(question, tolerance, norm, size, result)) return result;
     }
 }
 

@@ -41,6 +41,8 @@ public:
           const Preconditioner& preconditioner);
 
     Result run(const Question& question, const KeptStates& kept);
+    // A new preconditioner measures rounding anew.
+    void forget_rounding() { rounded_ = 0.0; }
     Vec answer() const { return best_; }        // v, expressed variables included
     Vec correction() const { return best_z_; }  // M r there, likewise
 
@@ -49,7 +51,11 @@ private:
     double residual(const Question& question);  // r at v; returns the size of the state
     double precondition();                      // z = M r; returns sqrt(r.z)
     double rounding(const Question& question);
+    // The sizes of the terms of the residual, in work_.
+    void residual_sizes(const Question& question);
+    bool confirms(const Question& question, Vec recursion);
     Result rounds(const Question& question);
+    bool iterate(const Question& question, double tolerance, double norm, double& size, Result& result);
 
     const Bodies& bodies_;
     const Visible& visible_;
@@ -57,7 +63,8 @@ private:
     const Operator& operator_;
     const Preconditioner& preconditioner_;
     Iterations iterations_;
-    OwnedVec right_, rest_, v_, av_, cv_, r_, z_, x_, work_, best_, best_z_;
+    double rounded_ = 0.0;  // of the residual over the size, once it has been estimated
+    OwnedVec recursion_, right_, rest_, v_, av_, cv_, r_, z_, x_, work_, best_, best_z_;
 };
 
 }  // namespace delam::petsc

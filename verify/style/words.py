@@ -15,9 +15,9 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 # What may stand in the files listed only, as an expression over the code without comments and literals.
 RULES = [
     ("dynamic_cast", r"\bdynamic_cast\b", []),
-    ("a helper that makes an index of an integer, besides index() of base/numbers.hpp",
+    ("a helper that makes an index of an integer, besides index() of base/numbers.hpp and at() of petsc, which sees only public headers",
      r"\b(?:std::)?size_t \w+\([\w:]+ (\w+)\) (?:noexcept )?\{\s*return static_cast<(?:std::)?size_t>\(\1\);",
-     ["base/numbers.hpp"]),
+     ["base/numbers.hpp", "petsc/index.hpp"]),
     ("a loop for the largest absolute value of a list, besides max_abs() of base/numbers.hpp",
      r"for \((?:const )?(?:double|auto)&? (\w+) : [\w.()\[\]]+\)\s*\{?\s*(\w+) = std::max\(\2, std::abs\(\1\)\);",
      ["base/numbers.hpp"]),
