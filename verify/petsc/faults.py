@@ -15,11 +15,13 @@ import signal
 import subprocess
 import sys
 import time
+from concurrent.futures import ThreadPoolExecutor
 
 from launch import DELAM_MPI, ENVIRONMENT, EXAMPLES, Ranks, alone, expect, finish, folder, last_lines, on_ranks
 from scenes import Result
 
 PROMPT = 10.0  # s, in which all has ended
+START = 60.0  # s, where the ranks start first, perhaps beside other programs
 SCARCE = os.environ.get("DELAM_SCARCE_LIBRARY", "")  # scarce.c
 SCENE = os.path.join(EXAMPLES, "enf-ductile", "enf-ductile.toml")
 STEPS = 40
@@ -63,10 +65,10 @@ def at_step(ranks, out, step, limit=100.0):
     return None
 
 
-def ended(ranks, what, *patterns, codes=None):
+def ended(ranks, what, *patterns, codes=None, limit=PROMPT):
     """All ranks end in time, with a message; the exit code."""
     begun = time.monotonic()
-    code = ranks.wait(PROMPT)
+    code = ranks.wait(limit)
     took = time.monotonic() - begun
     said = ranks.said
     expect(code is not None, f"{what}: all ranks have ended after {took:.1f} s"
@@ -178,7 +180,7 @@ def memory():
             what = f"{limit} MB for rank {rank} of 2"
             out = os.path.join(folder(), "out")
             with Ranks(2, *command(out), wrap=f'[ "$DELAM_RANK" = {rank} ] && ulimit -v {limit}000') as ranks:
-                ended(ranks, what, "delam: .*memory", codes=(4,))
+                ended(ranks, what, "delam: .*memory", codes=(4,), limit=START)
 
 
 def disk():
@@ -206,26 +208,33 @@ def disk():
 def wrong_input():
     missing = os.path.join(folder(), "missing.toml")
     unheld = [word for setting in ('supports=[{ point = [0.0, 0.0], fix = ["y"] }]',) for word in ("--set", setting)]
-    for words, code, pattern in (
-            ([], 2, "delam-mpi:"),
-            (["--help"], 0, "--petsc OPTIONS"),
-            (["run", "--help"], 0, "--resume"),
-            (["--version"], 0, "ABI"),
-            (["fly"], 2, "subcommand|fly"),
-            (["run", missing, "--out", folder()], 2, "missing.toml"),
-            (command(folder(), "--set", "solver.nonsense=1"), 2, "nonsense"),
-            (command(folder(), "--set", "solver.reduction=condensed"), 2, "engine.*reduction"),
-            (command("/proc/nowhere"), 3, "/proc/nowhere"),
-            (command(folder(), *unheld), (2, 4), r"delam: \S"),
-            (["check", SCENE, *WORDS], 0, "unknowns"),
-            (["--petsc", "-delam_pc_type nonsense", *command(folder())], (2, 4), "nonsense"),
-            (["--petsc", "-delam_ksp_type nonsense", *command(folder())], (2, 4), "nonsense"),
-            (["--petsc", "-delam_mat_partitioning_type nonsense", *command(folder())], (2, 4), "nonsense"),
-            (["--petsc", "-delam_pc_factor_mat_solver_type nonsense", *command(folder())], (2, 4), "nonsense"),
-            (["--petsc"], 2, "delam-mpi:")):
+    cases = (
+        ([], 2, "delam-mpi:"),
+        (["--help"], 0, "--petsc OPTIONS"),
+        (["run", "--help"], 0, "--resume"),
+        (["--version"], 0, "ABI"),
+        (["fly"], 2, "subcommand|fly"),
+        (["run", missing, "--out", folder()], 2, "missing.toml"),
+        (command(folder(), "--set", "solver.nonsense=1"), 2, "nonsense"),
+        (command(folder(), "--set", "solver.reduction=condensed"), 2, "engine.*reduction"),
+        (command("/proc/nowhere"), 3, "/proc/nowhere"),
+        (command(folder(), *unheld), (2, 4), r"delam: \S"),
+        (["check", SCENE, *WORDS], 0, "unknowns"),
+        (["--petsc", "-delam_pc_type nonsense", *command(folder())], (2, 4), "nonsense"),
+        (["--petsc", "-delam_ksp_type nonsense", *command(folder())], (2, 4), "nonsense"),
+        (["--petsc", "-delam_mat_partitioning_type nonsense", *command(folder())], (2, 4), "nonsense"),
+        (["--petsc", "-delam_pc_factor_mat_solver_type nonsense", *command(folder())], (2, 4), "nonsense"),
+        (["--petsc"], 2, "delam-mpi:"))
+
+    def one(case):
+        words, code, pattern = case
         what = " ".join(words).replace(" ".join(WORDS), "..")[-100:]
         with Ranks(2, *words) as ranks:
-            ended(ranks, what, pattern, codes=code if isinstance(code, tuple) else (code,))
+            ended(ranks, what, pattern, codes=code if isinstance(code, tuple) else (code,), limit=START)
+
+    # mpirun takes a second to notice that its ranks have ended: some at a time.
+    with ThreadPoolExecutor(3) as pool:
+        list(pool.map(one, cases))
 
 
 ALL = {"kill": kill, "signal": signals, "memory": memory, "disk": disk, "input": wrong_input}
