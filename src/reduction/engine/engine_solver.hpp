@@ -31,6 +31,7 @@ public:
 
     const JumpSystem& system() const override { return system_; }
     std::int64_t state_size() const override;
+    void compare_energies(bool yes) override { comparing_ = yes; }
     bool set(std::vector<Zone::Coupling> couplings, std::span<const std::uint8_t> held) override;
     Answer solve(std::span<const double> theta, std::span<const double> row_force, double tolerance,
                  std::vector<double>& x, const Forcing& forcing = {}) override;
@@ -89,6 +90,7 @@ private:
     std::size_t newest_ = 0;
 
     std::vector<double> lagged_;  // [rows] springs of the preconditioner; empty: there is none
+    bool comparing_ = false;      // energies
     bool applied_ = false;        // the engine has what acts
     bool renewed_ = false;        // the engine's preconditioner is that of lagged_
     double cost_ = 1.0;           // of a new one, in iterations

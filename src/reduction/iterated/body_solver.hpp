@@ -27,6 +27,9 @@ public:
     // Numbers of a state.
     virtual std::int64_t state_size() const = 0;
 
+    // Whether the next states are wanted for their energies, to be compared: what a residual hides must then not be
+    // large either.
+    virtual void compare_energies(bool /*yes*/) {}
     // What acts from now on. False: the system is not positive definite, and nothing can be solved.
     virtual bool set(std::vector<Zone::Coupling> couplings, std::span<const std::uint8_t> held) = 0;
     // What may stay of the norm of a residual, given the norm at the start: as much, or what the tolerance allows.

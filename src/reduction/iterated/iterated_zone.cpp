@@ -44,6 +44,7 @@ void IteratedZone::forget_models() { model_ = before_ = {}; }
 void IteratedZone::ask_for_energies(double allowed) {
     forget_models();
     allowed_ = allowed;
+    solver_.compare_energies(allowed > 0.0);
 }
 
 bool IteratedZone::factor(std::span<const Coupling> couplings, std::span<const std::uint8_t> held) {
@@ -93,6 +94,7 @@ void IteratedZone::start_anew() {
     start_.clear();
     rounding_ = -1.0;
     allowed_ = 0.0;
+    solver_.compare_energies(false);
 }
 
 std::vector<double> IteratedZone::unknowns_at(const Response& response) const {

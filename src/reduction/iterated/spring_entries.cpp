@@ -56,4 +56,14 @@ std::vector<std::uint8_t> differing_rows(const JumpSystem& system, std::span<con
     return row;
 }
 
+bool any_softer(const JumpSystem& system, std::span<const double> springs) {
+    const std::vector<double> now = springs_of(system);
+    for (std::size_t r = 0; r < now.size(); ++r) {
+        if (system.prescribed()[r] != 0 || now[r] >= springs[r]) continue;
+        const double body = row_diagonal(system, r);
+        if (body + springs[r] > (1.0 + differs) * (body + now[r])) return true;
+    }
+    return false;
+}
+
 }  // namespace delam

@@ -35,5 +35,7 @@ inline constexpr double differs = 0.1;
 inline constexpr double differs_in_kind = 0.03;
 // [rows] 1: what acts on it differs from these springs [rows].
 std::vector<std::uint8_t> differing_rows(const JumpSystem& system, std::span<const double> springs);
+// Whether what acts on some row is softer than these springs.
+bool any_softer(const JumpSystem& system, std::span<const double> springs);
 
 }  // namespace delam
