@@ -182,6 +182,27 @@ START_TEST(zone_answers_as_the_dense_one) {
     const double off = (a[1].energy - a[0].energy) - (b[1].energy - b[0].energy);
     const double size = std::max(std::abs(a[0].energy), std::abs(b[0].energy));
     ck_assert_msg(std::abs(off) <= 1e-8 * size, "%s: energies off by %.2e of %.3g", c.name, off, size);
+
+    // Whether tangents leave a minimum at all.
+    int indefinite = 0, definite = 0;
+    for (const double share : {-1e-12, -1e-8, -1e-4, -1e-3, -3e-3, -1e-2, -3e-2, -0.1, -0.3, -1.0, -3.0}) {
+        const auto has_minimum = [&](Zone& zone) {
+            std::vector<Zone::Coupling> couplings;
+            std::vector<std::uint8_t> held(zone.jump_rows().size());
+            for (std::size_t z = 0; z < held.size(); ++z) {
+                const std::size_t r = index(zone.jump_rows()[z]);
+                held[z] = scene.springs.held[r];
+                const double s = scene.wanted[r] != 0 ? share * bulk->diagonal(0) : scene.springs.stiffness[r];
+                const auto at = static_cast<std::int64_t>(z);
+                if (held[z] == 0 && s != 0.0) couplings.push_back({at, at, s});
+            }
+            return zone.factor(couplings, held) && zone.solve(scene.theta, {}).definite;
+        };
+        const bool expected = has_minimum(*dense);
+        (expected ? definite : indefinite) += 1;
+        ck_assert_msg(has_minimum(*sparse) == expected, "%s: with tangents of %g of the bodies", c.name, share);
+    }
+    ck_assert(indefinite > 0 && (definite > 0 || c.floating));
 }
 END_TEST
 

@@ -23,6 +23,9 @@ constexpr std::int64_t least_attempt = 20;
 // Multiple of the estimated error below which a jump or force is in doubt, and the least eigenvalue that the estimate
 // takes for true, as of the library's own iteration (reanalysis.cpp).
 constexpr double in_doubt = 10.0, softest = 0.01;
+// Residual and iterations of the search for a direction without a minimum.
+constexpr double probed = 1e-3;
+constexpr std::int64_t longest_probe = 60;
 // Of the tolerance, where springs are softer than in the preconditioner.
 constexpr double cautious = 1e-3;
 // What a solve calls back. An exception waits until the engine has returned.
@@ -197,7 +200,35 @@ bool EngineSolver::set(std::vector<Zone::Coupling> couplings, std::span<const st
     // unnoticed. Energies are then compared with a new one. (The other way round a residual weighs too much.)
     const bool hidden = comparing_ && !lagged_.empty() && any_softer(system_, lagged_);
     if (lagged_.empty() || hidden || (debt_ > cost_ && changed())) renew_now();
-    return true;
+    return has_minimum();
+}
+
+// Conjugate gradients towards a load need not meet the direction in which the energy falls. Where it does, softening
+// rows move: from forces of random sign on these rows alone, the iteration meets it within a few steps, because all
+// other directions look alike to the preconditioner (the largest eigenvalue of what softening takes off, by Lanczos).
+bool EngineSolver::has_minimum() {
+    std::vector<std::uint8_t> softening(system_.rows().size(), 0);
+    bool any = false;
+    for (const Zone::Coupling& c : system_.couplings()) {
+        if (c.row == c.column && c.value >= 0.0) continue;
+        softening[index(c.row)] = softening[index(c.column)] = 1;
+        any = true;
+    }
+    if (!any) return true;
+    if (!renewed_) renew();
+    if (!applied_) apply();
+    std::vector<double> force(index(system_.count()), 0.0), state;
+    std::uint64_t seed = 1;
+    for (std::size_t r = 0; r < softening.size(); ++r) {
+        seed = seed * 6364136223846793005u + 1442695040888963407u;
+        if (softening[r] != 0) system_.add_row(r, (seed >> 63U) == 0 ? 1.0 : -1.0, force);
+    }
+    const std::vector<double> rest(bodies_.problem().patterns.size(), 0.0), right(system_.slaves().size(), 0.0);
+    const std::size_t before = newest_;
+    const Raw raw = ask(rest, force, right, {}, probed, longest_probe, {}, state);
+    kept_[newest_].clear();
+    newest_ = before;
+    return raw.answer.definite != 0;
 }
 
 // h of the rows and what springs and tangents do to what is prescribed of jumps.

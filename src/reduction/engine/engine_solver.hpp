@@ -59,6 +59,8 @@ private:
     void apply();  // what acts
     void renew_now();
     void renew();  // at lagged_
+    // Whether tangents that soften leave a minimum.
+    bool has_minimum();
     bool balanced(std::span<const double> theta, std::span<const double> force) const;
     std::vector<double> forces(std::span<const double> theta, std::span<const double> row_force) const;
     std::vector<double> rights(std::span<const double> theta) const;
