@@ -87,6 +87,8 @@ DELAM_API int32_t delam_petsc_run(delam_petsc *petsc, delam_petsc_work_callback 
  *   factor_entries, factor_flops    entries of the present factor and operations for it, of all ranks; 0 if there is
  *                                   none, or if it is not MUMPS'
  *   memory_mb_max, memory_mb_sum    most memory (10^6 bytes) of a process up to now: the largest, and of all ranks
+ *   operations_max, operations_sum  floating-point operations that PETSc has counted, those inside MUMPS left out: of
+ *                                   the busiest rank, and of all ranks
  *   bytes_sent_max, bytes_sent_sum  bytes that a rank has sent to single others or, on rank 0, to all (MUMPS' own are
  *                                   not counted): the largest, and of all ranks
  *   messages_max, messages_sum      messages, likewise

@@ -19,13 +19,22 @@ double peak_memory() {
     return 0.0;
 }
 
+// Operations that PETSc has counted on this rank, without those inside MUMPS.
+double petsc_operations() {
+    PetscLogDouble operations = 0.0;
+    return PetscGetFlops(&operations) == 0 ? operations : 0.0;
+}
+
 double petsc_bytes() { return petsc_isend_len + petsc_send_len; }
 double petsc_messages() { return petsc_isend_ct + petsc_send_ct; }
 
 }  // namespace
 
 Counters::Counters(const Communicator& comm)
-    : comm_(comm), bytes_before_(petsc_bytes()), messages_before_(petsc_messages()) {}
+    : comm_(comm),
+      operations_before_(petsc_operations()),
+      bytes_before_(petsc_bytes()),
+      messages_before_(petsc_messages()) {}
 
 double Counters::value(const char* key, const Engine::Counts& counts, const Preconditioner* preconditioner) const {
     enum class Over { same, sum, largest };
@@ -41,6 +50,8 @@ double Counters::value(const char* key, const Engine::Counts& counts, const Prec
         {"factor_flops", preconditioner == nullptr ? 0.0 : preconditioner->factor_flops(), Over::same},
         {"memory_mb_max", peak_memory(), Over::largest},
         {"memory_mb_sum", peak_memory(), Over::sum},
+        {"operations_max", petsc_operations() - operations_before_, Over::largest},
+        {"operations_sum", petsc_operations() - operations_before_, Over::sum},
         {"bytes_sent_max", comm_.bytes_sent() + petsc_bytes() - bytes_before_, Over::largest},
         {"bytes_sent_sum", comm_.bytes_sent() + petsc_bytes() - bytes_before_, Over::sum},
         {"messages_max", comm_.messages_sent() + petsc_messages() - messages_before_, Over::largest},

@@ -14,7 +14,7 @@ public:
 
 private:
     const Communicator& comm_;
-    double bytes_before_;
+    double operations_before_, bytes_before_;
     double messages_before_;
 };
 

@@ -43,6 +43,9 @@ void fail_petsc(PetscErrorCode code) {
     if (code == PETSC_ERR_ARG_UNKNOWN_TYPE || code == PETSC_ERR_MISSING_FACTOR || code == PETSC_ERR_SUP ||
         code == PETSC_ERR_USER_INPUT)
         status = DELAM_ERROR_ARGUMENT;
+    // MUMPS' solve says it in words: -13 is an allocation that failed, -9 and -8 are work arrays that are too small.
+    for (const char* memory : {"INFOG(1)=-13", "INFOG(1)=-9", "INFOG(1)=-8"})
+        if (recorded.find(memory) != std::string::npos) status = DELAM_ERROR_MEMORY;
     fail(status, "PETSc: ", kind != nullptr ? kind : "error", " (", recorded, ")");
 }
 

@@ -62,7 +62,7 @@ extern "C" void on_check_log(std::int32_t level, const char* text, void*) {
 
 }  // namespace
 
-int check(const std::string& scene_file, const std::vector<std::string>& settings, const Around& around) {
+int check(const std::string& scene_file, const std::vector<std::string>& settings, const Caller& caller) {
     const Scene scene = read_scene(scene_file, settings);
     Context context = new_context();
     const Interrupt interrupt(context.get());
@@ -74,7 +74,7 @@ int check(const std::string& scene_file, const std::vector<std::string>& setting
         planned = plan(model, scene);
         return 0;
     };
-    (void)(around ? around(model, make_plan) : make_plan());
+    (void)(caller.around ? caller.around(model, make_plan) : make_plan());
 
     std::int64_t primal = 0;
     std::int64_t dual = 0;

@@ -13,10 +13,15 @@ struct Model;
 // What solvers of the model are made and used in: calls the rest of the command and returns its exit code. Empty: the
 // command calls it itself. For programs that solve the bodies elsewhere.
 using Around = std::function<int(const Model& model, const std::function<int()>& rest)>;
+// The program whose commands these are: how people call it, and what it does around solvers.
+struct Caller {
+    std::string name = "delam";
+    Around around{};
+};
 
 // settings: KEY=VALUE, see setting.hpp. command: the line as typed, for result.json.
 int run(const std::string& scene_file, const std::vector<std::string>& settings, const std::string& folder, bool resume,
-        const std::string& command, const Around& around);
-int check(const std::string& scene_file, const std::vector<std::string>& settings, const Around& around);
+        const std::string& command, const Caller& caller);
+int check(const std::string& scene_file, const std::vector<std::string>& settings, const Caller& caller);
 
 }  // namespace cli

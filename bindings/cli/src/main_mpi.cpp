@@ -141,8 +141,9 @@ bool take_options(int& argc, char** argv, bool& counts) {
 // On all ranks.
 void say_counts(const Processes& processes, delam_petsc* petsc) {
     std::string line = "counts:";
-    for (const char* key : {"solves", "iterations", "renewals", "factor_entries", "factor_flops", "memory_mb_max",
-                            "memory_mb_sum", "bytes_sent_max", "bytes_sent_sum", "messages_max", "messages_sum"}) {
+    for (const char* key :
+         {"solves", "iterations", "renewals", "factor_entries", "factor_flops", "memory_mb_max", "memory_mb_sum",
+          "operations_max", "operations_sum", "bytes_sent_max", "bytes_sent_sum", "messages_max", "messages_sum"}) {
         double value = 0.0;
         if (delam_petsc_value(petsc, key, &value) == DELAM_OK) line += fmt::format(" {} {:.10g}", key, value);
     }
@@ -166,9 +167,10 @@ int on_all_ranks(const Processes& processes, int argc, char** argv) {
     int code = cli::exit_done;
     Ranks ranks(petsc);
     if (processes.first()) {
-        code = cli::program(argc, argv, [&](const cli::Model& model, const std::function<int()>& rest) {
+        const auto around = [&](const cli::Model& model, const std::function<int()>& rest) {
             return ranks.around(model, rest);
-        });
+        };
+        code = cli::program(argc, argv, {"mpirun delam-mpi", around});
         (void)Processes::shared(leave);
     } else {
         ranks.serve();

@@ -38,7 +38,7 @@ std::string joined(int count, char** words) {
     return out;
 }
 
-int guarded(int argc, char** argv, const Around& around) {
+int guarded(int argc, char** argv, const Caller& caller) {
     CLI::App app("delam: delamination of layered structures by energy minimisation");
     app.footer(footer);
     app.set_version_flag("--version",
@@ -74,13 +74,13 @@ int guarded(int argc, char** argv, const Around& around) {
     } catch (const CLI::ParseError& e) {
         return app.exit(e) == 0 ? exit_done : exit_scene;
     }
-    return run_command->parsed() ? run(scene, settings, folder, resume, joined(argc, argv), around)
-                                 : check(scene, settings, around);
+    return run_command->parsed() ? run(scene, settings, folder, resume, joined(argc, argv), caller)
+                                 : check(scene, settings, caller);
 }
 
-int reported(int argc, char** argv, const Around& around) {
+int reported(int argc, char** argv, const Caller& caller) {
     try {
-        return guarded(argc, argv, around);
+        return guarded(argc, argv, caller);
     } catch (const Failure& failure) {
         complain("delam: {}\n", failure.what());
         return failure.code();
@@ -95,12 +95,12 @@ int reported(int argc, char** argv, const Around& around) {
 
 }  // namespace
 
-int program(int argc, char** argv, const Around& around) {
+int program(int argc, char** argv, const Caller& caller) {
     // HDF5 would print its error stack and, after a full disk, try to write again at exit; the program handles both
     // itself.
     H5dont_atexit();
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-    int code = reported(argc, argv, around);
+    int code = reported(argc, argv, caller);
     // A full disk behind standard output shows here at the latest; a worse exit code is kept.
     errno = 0;
     const bool flushed = std::fflush(stdout) == 0;

@@ -6,6 +6,6 @@
 
 namespace cli {
 
-int program(int argc, char** argv, const Around& around);
+int program(int argc, char** argv, const Caller& caller);
 
 }  // namespace cli

@@ -247,8 +247,8 @@ std::string shell_word(const std::string& word) {
 }
 
 // The command that reproduces this result.
-std::string command_again(const Scene& scene, const std::string& folder_path) {
-    std::string out = fmt::format("delam run {} --out {}", shell_word(scene.file), shell_word(folder_path));
+std::string command_again(const Caller& caller, const Scene& scene, const std::string& folder_path) {
+    std::string out = fmt::format("{} run {} --out {}", caller.name, shell_word(scene.file), shell_word(folder_path));
     for (const std::string& setting : scene.settings) out += " --set " + shell_word(setting);
     return out;
 }
@@ -341,10 +341,10 @@ int analyse(const Analysis& of) {
 }  // namespace
 
 int run(const std::string& scene_file, const std::vector<std::string>& settings, const std::string& folder_path,
-        bool resume, const std::string& command, const Around& around) {
+        bool resume, const std::string& command, const Caller& caller) {
     if (folder_path.empty()) throw Failure(exit_scene, "--out: the name of the folder is empty");
     const Scene scene = read_scene(scene_file, settings);
-    const std::string again = command_again(scene, folder_path);
+    const std::string again = command_again(caller, scene, folder_path);
     Context context = new_context();
     const Interrupt interrupt(context.get());
     Progress progress(static_cast<std::int64_t>(scene.step_count()));
@@ -366,7 +366,7 @@ int run(const std::string& scene_file, const std::vector<std::string>& settings,
 
     const Analysis analysis{scene, model, state, folder, progress, command, again};
     const auto rest = [&] { return analyse(analysis); };
-    return around ? around(model, rest) : rest();
+    return caller.around ? caller.around(model, rest) : rest();
 }
 
 }  // namespace cli
