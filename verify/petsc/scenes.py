@@ -5,7 +5,7 @@
 Scenes on several numbers of ranks, each compared with the program of one process and with the first of these numbers:
 reactions, energies, debonded length, contact and the fields of the last step. Without NAME: all of small_scenes.py.
 
---brief   each scene on 1 and 2 ranks, or on 1 and 4
+--brief   fewer scenes, each on 1 and 2 ranks, or on 1 and 4
 --whole   larger scenes as well, on these ranks
 --loose   with the scenes' own damage_tolerance instead of a small one
 """
@@ -108,6 +108,8 @@ def main():
     scenes = small_scenes.quick()
     if options.whole:
         scenes.update(small_scenes.whole())
+    if options.brief:
+        scenes = {name: scene for name, scene in scenes.items() if name not in small_scenes.NOT_BRIEF}
     kind = "loose" if options.loose else "tight"
     for name in options.name or scenes:
         scene, settings = scenes[name]
