@@ -5,9 +5,9 @@
 #include <stddef.h>
 #include <stdlib.h>
 
-void* __libc_malloc(size_t size);
-void* __libc_calloc(size_t count, size_t size);
-void* __libc_realloc(void* block, size_t size);
+void *__libc_malloc(size_t size);
+void *__libc_calloc(size_t count, size_t size);
+void *__libc_realloc(void *block, size_t size);
 
 static size_t limit = (size_t)-1, armed = (size_t)-1;
 
@@ -17,21 +17,21 @@ static void arm(int number) {
 }
 
 __attribute__((constructor)) static void begin(void) {
-    const char* text = getenv("DELAM_SCARCE");
+    const char *text = getenv("DELAM_SCARCE");
     if (text == NULL) return;
     armed = (size_t)strtoull(text, NULL, 10);
     signal(SIGUSR1, arm);
 }
 
-static void* refused(void) {
+static void *refused(void) {
     errno = ENOMEM;
     return NULL;
 }
 
-void* malloc(size_t size) { return size >= limit ? refused() : __libc_malloc(size); }
+void *malloc(size_t size) { return size >= limit ? refused() : __libc_malloc(size); }
 
-void* calloc(size_t count, size_t size) {
+void *calloc(size_t count, size_t size) {
     return size > 0 && count >= limit / size ? refused() : __libc_calloc(count, size);
 }
 
-void* realloc(void* block, size_t size) { return size >= limit ? refused() : __libc_realloc(block, size); }
+void *realloc(void *block, size_t size) { return size >= limit ? refused() : __libc_realloc(block, size); }
