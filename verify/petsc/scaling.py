@@ -33,7 +33,9 @@ def laminate(columns, steps, stiffness, cells=24):
     # Strengths of 20 and 40 MPa, onsets below the toughness.
     text = text.replace("normal_onset = 2.0", f"normal_onset = {min(900.0, 2e14 / stiffness)}")
     text = text.replace("tangential_onset = 8.0", f"tangential_onset = {min(1700.0, 8e14 / stiffness)}")
-    text = text.replace("steps = 40", f"steps = {steps}").replace("every = 4", "every = 100")
+    # The first steps of the example: contact is found, and the notch begins to soften.
+    text = text.replace("steps = 40", f"steps = {steps}").replace("end = 1.0", f"end = {0.025 * steps}")
+    text = text.replace("every = 4", "every = 100")
     return re.sub(r"snapshots = .*\n", "", text)
 
 
