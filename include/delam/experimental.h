@@ -111,7 +111,7 @@ typedef struct delam_experimental_answer {
     int32_t definite;
 } delam_experimental_answer;
 
-/* An engine. size: sizeof(delam_experimental_engine); kept: number of answers that it keeps, at least 8. The functions
+/* An engine. size: sizeof(delam_experimental_engine); kept: number of answers that it keeps: 8. The functions
  * are called in the thread of the running call of the library, return 0 or a status of delam.h, and must not call the
  * library with objects of the same context.
  *   prepare   the variables from now on, valid until it returns; all places are empty. Fills diagonal [visible_count],
@@ -143,7 +143,8 @@ typedef struct delam_experimental_engine {
 /* Solves the bodies of the problem by an engine, which the library copies; NULL takes it back. Bodies without cells
  * (delam_mesh_add_host_body) then need no stiffness, and no other nodes than those at interfaces, supports and loads:
  * each of them is one elastic solid, which nothing but the problem's supports and interfaces holds. Solvers made from
- * then on use it. The option `reduction` must be `auto`, `subdomains` 0. No stiffness is assembled here.
+ * then on use it. The option `reduction` must be `auto`, `subdomains` 0. No stiffness is assembled here. A saved state
+ * goes on to the same results within the tolerances of the solves, not bit by bit.
  * [null engine; owns engine: what it points to, the host, until its function release is called; status argument; since
  * 0.1] */
 DELAM_API int32_t delam_experimental_problem_set_engine(delam_problem *problem,

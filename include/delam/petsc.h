@@ -43,7 +43,7 @@ DELAM_API int32_t delam_petsc_create(MPI_Comm comm, delam_petsc **out);
 /* The same, for a communicator comm of Fortran.
  * [null none; owns out caller; status argument, memory, internal; thread MPI's; since 0.1] */
 DELAM_API int32_t delam_petsc_create_fortran(MPI_Fint comm, delam_petsc **out);
-/* Destroys a handle and sets it to NULL.
+/* Destroys a handle and sets it to NULL; inside delam_petsc_run it does nothing.
  * [null petsc, *petsc; owns petsc destroyed; status -; since 0.1] */
 DELAM_API void delam_petsc_destroy(delam_petsc **petsc);
 /* Returns the text of the last status other than DELAM_OK, the same on all ranks; "" if there has been none; never

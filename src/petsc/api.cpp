@@ -26,7 +26,7 @@ int32_t call(delam_petsc* petsc, Work&& work) noexcept {
         Session& session = petsc->session;
         if (session.running()) return session.refuse("delam_petsc_run is running");
         return session.guard([&] {
-            work(session);
+            session.comm().in_step([&] { work(session); });
             return DELAM_OK;
         });
     } catch (...) {
@@ -56,7 +56,8 @@ int32_t delam_petsc_create_fortran(MPI_Fint comm, delam_petsc** out) {
 }
 
 void delam_petsc_destroy(delam_petsc** petsc) {
-    if (petsc == nullptr) return;
+    if (petsc == nullptr || *petsc == nullptr) return;
+    if ((*petsc)->session.running()) return;  // the others still serve
     delete *petsc;
     *petsc = nullptr;
 }

@@ -42,11 +42,11 @@ Communicator::~Communicator() {
     MPI_Comm_free(&agreed_);
 }
 
-void Communicator::agree(std::int32_t status, std::string text) const {
+void Communicator::agree(std::int32_t status, std::string text, bool impatient) const {
     int mine = status == DELAM_OK ? size_ : rank_, lowest = size_;
     MPI_Request request;
     MPI_Iallreduce(&mine, &lowest, 1, MPI_INT, MPI_MIN, agreed_, &request);
-    if (status == DELAM_OK)
+    if (status == DELAM_OK || !impatient)
         MPI_Wait(&request, MPI_STATUS_IGNORE);
     else
         wait_or_abort(agreed_, request, text);

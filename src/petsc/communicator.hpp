@@ -26,16 +26,17 @@ public:
     int size() const { return size_; }
     bool root() const { return rank_ == 0; }
 
-    // Runs work on each rank; if it throws on any, all ranks throw what the lowest of these has thrown.
+    // Runs work on each rank, work of its own; if it throws on any, all ranks throw what the lowest of these has
+    // thrown.
     template <class Work>
     void together(Work&& work) const {
-        Failure failure(DELAM_OK, "");
-        try {
-            work();
-        } catch (...) {
-            failure = current_failure();
-        }
-        agree(failure.status, failure.what());
+        agree(work, false);
+    }
+    // The same for work with steps that all ranks share: a rank that fails in such a step waits for the others, who may
+    // wait for it, for some seconds only.
+    template <class Work>
+    void in_step(Work&& work) const {
+        agree(work, true);
     }
 
     template <class Value>
@@ -89,8 +90,18 @@ public:
     double messages_sent() const { return messages_; }
 
 private:
+    template <class Work>
+    void agree(Work&& work, bool impatient) const {
+        Failure failure(DELAM_OK, "");
+        try {
+            work();
+        } catch (...) {
+            failure = current_failure();
+        }
+        agree(failure.status, failure.what(), impatient);
+    }
     // Throws on all ranks if a status is not DELAM_OK on any.
-    void agree(std::int32_t status, std::string text) const;
+    void agree(std::int32_t status, std::string text, bool impatient) const;
     void send_all(void* data, std::size_t bytes) const;
     std::vector<std::int64_t> exchange_sizes(const std::vector<std::int64_t>& bytes) const;
     void exchange_bytes(const std::vector<const void*>& data, const std::vector<std::int64_t>& bytes,

@@ -99,6 +99,7 @@ void Iterations::iterate(Vec r, Vec x) {
         check(KSPSolve(ksp_, r, x));
     } catch (...) {
         ksp_.reset();
+        preconditioner_.expect(nullptr);
         throw;
     }
 }

@@ -2,6 +2,7 @@
 #include "petsc/partition.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include "petsc/glued_cells.hpp"
 #include "petsc/options.hpp"
@@ -94,6 +95,29 @@ std::vector<int> partition_cells(const delam_mesh* mesh, int ranks) {
     return rank;
 }
 
+namespace {
+
+// A body without cells has its stiffness from the host, which no part carries.
+void require_cells(const delam_mesh* mesh) {
+    std::int64_t nodes = 0, cells = 0;
+    if (delam_mesh_size(mesh, nullptr, &nodes, &cells, nullptr, nullptr) != DELAM_OK) return;
+    std::vector<std::int32_t> of_node(static_cast<std::size_t>(nodes)), of_cell(static_cast<std::size_t>(cells)),
+        types(of_cell.size());
+    std::vector<std::int64_t> offsets(of_cell.size() + 1);
+    std::int64_t entries = 0;
+    const std::int32_t first = delam_mesh_node_bodies(mesh, nodes, of_node.data()),
+                       second =
+                           delam_mesh_cells(mesh, types.data(), of_cell.data(), offsets.data(), 0, nullptr, &entries);
+    if (first != DELAM_OK || second != DELAM_OK) fail(DELAM_ERROR_PROBLEM, "mesh: its bodies cannot be read");
+    const std::set<std::int32_t> with_cells(of_cell.begin(), of_cell.end());
+    for (const std::int32_t body : of_node)
+        if (body >= 0 && !with_cells.contains(body))
+            fail(DELAM_ERROR_PROBLEM, "body ", body,
+                 " has no cells: hand over its stiffness by parts (delam_petsc_set_part) instead of the scene");
+}
+
+}  // namespace
+
 Part receive_part(const Communicator& comm, const delam_mesh* mesh, const delam_problem* problem) {
     std::vector<std::vector<std::int64_t>> cells;
     std::int32_t dimension = 0;
@@ -102,6 +126,7 @@ Part receive_part(const Communicator& comm, const delam_mesh* mesh, const delam_
         if (const std::int32_t status = delam_mesh_size(mesh, &dimension, nullptr, nullptr, nullptr, nullptr);
             status != DELAM_OK)
             fail(status, "mesh: ", delam_status_name(status));
+        require_cells(mesh);
         const std::vector<int> rank = partition_cells(mesh, comm.size());
         cells.resize(static_cast<std::size_t>(comm.size()));
         for (std::size_t c = 0; c < rank.size(); ++c)

@@ -70,7 +70,7 @@ private:
             comm_.broadcast(which);
         }
         return guard([&] {
-            work();
+            comm_.in_step(work);
             return DELAM_OK;
         });
     }

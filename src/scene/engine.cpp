@@ -10,8 +10,7 @@ Engine::Engine(const delam_experimental_engine& functions) : functions_(function
     if (functions.size != size)
         fail(DELAM_ERROR_ARGUMENT, "engine: size = ", functions.size, ", allowed: ", size,
              " (sizeof(delam_experimental_engine) of this library)");
-    if (functions.kept < kept)
-        fail(DELAM_ERROR_ARGUMENT, "engine: kept = ", functions.kept, ", allowed: at least ", kept);
+    if (functions.kept != kept) fail(DELAM_ERROR_ARGUMENT, "engine: kept = ", functions.kept, ", allowed: ", kept);
     const struct {
         bool there;
         const char* name;
@@ -29,7 +28,7 @@ Engine::~Engine() {
 void Engine::require(std::int32_t status, const char* what) const {
     if (status == DELAM_OK) return;
     const char* said = functions_.message(functions_.user);
-    const bool known = status >= DELAM_ERROR_FILE && status <= DELAM_LIMIT;
+    const bool known = status == DELAM_CANCELLED || (status < 0 && status >= DELAM_ERROR_FILE);
     fail(known ? status : DELAM_ERROR_NUMERICAL, "engine: ", what, ": ",
          said != nullptr && *said != '\0' ? said : text("status ", status).c_str());
 }

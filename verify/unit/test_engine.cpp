@@ -401,6 +401,26 @@ START_TEST(bodies_that_only_the_engine_knows) {
 }
 END_TEST
 
+// All pairs bonded: the variables that the library knows are zero at any load, and say nothing about a state.
+START_TEST(states_without_jumps) {
+    const unit::LayerState scene(cases[0], 3);
+    Engined engined(scene.problem);
+    Monitor monitor;
+    EngineOperator op(engined.problem, monitor);
+    Springs springs = scene.springs;
+    std::fill(springs.held.begin(), springs.held.end(), std::uint8_t{1});
+    Response first, other;
+    op.solve(springs, scene.theta, first);
+    const std::vector<double> u = op.displacement(scene.theta, first);
+    std::vector<double> theta = scene.theta;
+    for (int i = 0; i < 12; ++i) {
+        for (double& t : theta) t *= 1.3;
+        op.solve(springs, theta, other);
+    }
+    expect_close(op.displacement(scene.theta, first), u, 1e-9, max_abs(u), "a bonded state, found again");
+}
+END_TEST
+
 // Two solvers of one problem take turns: the engine has room for the variables of one of them.
 START_TEST(solvers_take_turns) {
     const Problem plain = march_of(marches[0]);
@@ -488,6 +508,7 @@ int main() {
     tcase_add_test(test, energy_of_combinations);
     tcase_add_loop_test(test, marches_as_without_an_engine, 0, static_cast<int>(std::size(marches)));
     tcase_add_loop_test(test, bodies_that_only_the_engine_knows, 0, 3);
+    tcase_add_test(test, states_without_jumps);
     tcase_add_test(test, solvers_take_turns);
     tcase_add_test(test, failures_and_cancellation);
     suite_add_tcase(suite, test);

@@ -6,6 +6,7 @@
 #include <exception>
 #include <utility>
 
+#include "base/cancel_scope.hpp"
 #include "base/error.hpp"
 #include "base/numbers.hpp"
 #include "reduction/engine/engine_variables.hpp"
@@ -20,6 +21,7 @@ namespace {
 constexpr double fresh_iterations = 4.0;
 // Iterations beyond those of a fresh preconditioner after which an old one is given up.
 constexpr std::int64_t least_attempt = 20;
+constexpr double highest_cost = 1e6;
 // Multiple of the estimated error below which a jump or force is in doubt, and the least eigenvalue that the estimate
 // takes for true, as of the library's own iteration (reanalysis.cpp).
 constexpr double in_doubt = 10.0, softest = 0.01;
@@ -32,6 +34,7 @@ constexpr double cautious = 1e-3;
 struct Calls {
     const BodySolver::Forcing& forcing;
     Monitor& monitor;
+    bool reading;  // only a request made during the call stops it
     std::int64_t iteration = 0;
     std::exception_ptr stopped{};
 };
@@ -49,7 +52,11 @@ extern "C" double ask_enough(double first, void* user) {
 extern "C" std::int32_t ask_to_stop(void* user) {
     auto& calls = *static_cast<Calls*>(user);
     try {
-        if (!calls.stopped) calls.monitor.progress("linear solve", ++calls.iteration, 0);
+        if (calls.stopped) return 1;
+        if (calls.reading)
+            poll_cancel_now("linear solve");
+        else
+            calls.monitor.progress("linear solve", ++calls.iteration, 0);
     } catch (...) {
         calls.stopped = std::current_exception();
     }
@@ -117,7 +124,7 @@ std::int64_t EngineSolver::state_size() const { return static_cast<std::int64_t>
 void EngineSolver::claim() {
     if (engine_->owner == this) return;
     engine_->owner = nullptr;
-    monitor_.progress("engine", 0, 0);
+    poll_cancel_now("engine");
     const EngineVariables variables(bodies_);
     const delam_experimental_variables view = variables.view();
     std::vector<double> diagonal(index(system_.count()), 0.0);
@@ -128,6 +135,9 @@ void EngineSolver::claim() {
         if (!(diagonal[i] >= 0.0 && std::isfinite(diagonal[i])))
             fail(DELAM_ERROR_NUMERICAL, "engine: prepare: diagonal[", i, "] = ", diagonal[i], ", allowed: >= 0");
     system_.set_diagonal(std::move(diagonal));
+    for (std::size_t p = 0; p < load_sizes_.size(); ++p)
+        if (!(load_sizes_[p] >= 0.0 && std::isfinite(load_sizes_[p])))
+            fail(DELAM_ERROR_NUMERICAL, "engine: prepare: load_sizes[", p, "] = ", load_sizes_[p], ", allowed: >= 0");
     kept_.assign(index(Engine::kept), {});
     products_ = DenseMatrix(Engine::kept, Engine::kept);
     applied_ = renewed_ = false;
@@ -173,7 +183,7 @@ void EngineSolver::renew() {
     const delam_experimental_engine& engine = engine_->functions();
     ++renewals_;
     engine_->require(engine.renew(&view, &cost_, engine.user), "renew");
-    if (!(cost_ >= 1.0)) cost_ = 1.0;
+    cost_ = cost_ >= 1.0 ? std::min(cost_, highest_cost) : 1.0;
     renewed_ = true;
 }
 
@@ -189,9 +199,9 @@ void EngineSolver::renew_now() {
 
 bool EngineSolver::set(std::vector<Zone::Coupling> couplings, std::span<const std::uint8_t> held) {
     claim();
+    applied_ = false;
     system_.set(std::move(couplings), held);
     floating_.update();
-    applied_ = false;
     const auto changed = [this] {
         const std::vector<std::uint8_t> rows = differing_rows(system_, lagged_);
         return std::any_of(rows.begin(), rows.end(), [](std::uint8_t differs) { return differs != 0; });
@@ -226,9 +236,10 @@ bool EngineSolver::has_minimum() {
     const std::vector<double> rest(bodies_.problem().patterns.size(), 0.0), right(system_.slaves().size(), 0.0);
     const std::size_t before = newest_;
     const Raw raw = ask(rest, force, right, {}, probed, longest_probe, {}, state);
-    kept_[newest_].clear();
+    if (raw.answer.definite == 0) return false;
+    kept_[newest_].forget();
     newest_ = before;
-    return raw.answer.definite != 0;
+    return true;
 }
 
 // h of the rows and what springs and tangents do to what is prescribed of jumps.
@@ -282,7 +293,7 @@ std::size_t EngineSolver::free_place(std::span<const double> start) const {
 
 EngineSolver::Raw EngineSolver::ask(std::span<const double> theta, std::span<const double> force,
                                     std::span<const double> right, std::span<const double> start, double tolerance,
-                                    std::int64_t limit, const Forcing& forcing, std::vector<double>& x) {
+                                    std::int64_t limit, const Forcing& forcing, std::vector<double>& x, bool reading) {
     const std::size_t n = index(system_.count()), place = free_place(start);
     Raw raw;
     raw.correction.assign(n, 0.0);
@@ -295,7 +306,7 @@ EngineSolver::Raw EngineSolver::ask(std::span<const double> theta, std::span<con
     raw.answer.products = products.data();
     raw.answer.work = state.data() + at_.done;
     raw.answer.lifted = state.data() + at_.lifted;
-    Calls calls{forcing, monitor_};
+    Calls calls{forcing, monitor_, reading};
     delam_experimental_request request{};
     request.theta = theta.data();
     request.force = force.data();
@@ -307,17 +318,17 @@ EngineSolver::Raw EngineSolver::ask(std::span<const double> theta, std::span<con
     request.enough = forcing ? ask_enough : nullptr;
     request.poll = ask_to_stop;
     request.user = &calls;
-    kept_[place].clear();
+    kept_[place].forget();
     const delam_experimental_engine& engine = engine_->functions();
     const std::int32_t status = engine.solve(&request, &raw.answer, engine.user);
     if (calls.stopped) std::rethrow_exception(calls.stopped);
     engine_->require(status, "solve");
     raw.answer.values = raw.answer.balance = raw.answer.work = raw.answer.lifted = raw.answer.products = nullptr;
     if (raw.answer.definite == 0) return raw;
-    if (!std::all_of(state.begin(), state.end(), [](double v) { return std::isfinite(v); }))
-        fail(DELAM_ERROR_NUMERICAL, "engine: solve: the answer is not finite");
+    require_numbers(raw, state, products);
     state[at_.weights + place] = 1.0;
-    kept_[place].assign(state.begin(), state.begin() + static_cast<std::ptrdiff_t>(n));
+    kept_[place] = {
+        {state.begin(), state.begin() + static_cast<std::ptrdiff_t>(n)}, {theta.begin(), theta.end()}, true};
     for (std::size_t s = 0; s < kept_.size(); ++s)
         products_(static_cast<std::int64_t>(place), static_cast<std::int64_t>(s)) =
             products_(static_cast<std::int64_t>(s), static_cast<std::int64_t>(place)) = products[s];
@@ -337,9 +348,9 @@ BodySolver::Answer EngineSolver::solve(std::span<const double> theta, std::span<
     if (!applied_) apply();
     std::vector<double> start;
     if (x.size() == at_.size) {
-        if (const std::optional<std::vector<double>> known = known_weights(x)) {
+        if (const std::optional<std::vector<double>> known = known_weights(x, {})) {
             start = *known;
-        } else if (!kept_[newest_].empty()) {
+        } else if (kept_[newest_].there) {
             start.assign(kept_.size(), 0.0);
             start[newest_] = 1.0;
         }
@@ -350,7 +361,8 @@ BodySolver::Answer EngineSolver::solve(std::span<const double> theta, std::span<
     const Forcing carefully = [&](double first) { return careful * (enough = forcing(first)); };
     const std::int64_t most = bodies_.problem().options.linear_limit;
     const bool old = fresh_ > 0.0;
-    const auto attempt = static_cast<std::int64_t>(fresh_ + std::max(0.0, cost_ - debt_));
+    const auto attempt =
+        static_cast<std::int64_t>(std::min(fresh_ + std::max(0.0, cost_ - debt_), static_cast<double>(most)));
     const std::int64_t limit = old ? std::min(most, std::max(least_attempt, attempt)) : most;
     Raw raw = ask(theta, force, right, start, target, limit, forcing ? carefully : Forcing{}, x);
     std::int64_t iterations = raw.answer.iterations;
@@ -398,9 +410,25 @@ void EngineSolver::settle(std::vector<double>& x) const {
     if (floating_.free().empty()) return;
     const std::span<double> variables = std::span<double>(x).first(index(system_.count()));
     const std::vector<double> moved = floating_.settle(variables);
-    for (std::size_t i = 0; i < moved.size(); ++i)
+    for (std::size_t i = 0; i < moved.size(); ++i) {
         add_scaled(moved[i], floating_.free_combination(i),
                    std::span<double>(x).subspan(at_.rigid, at_.size - at_.rigid));
+        const std::vector<double> u = floating_.free_displacement(i);
+        for (std::size_t p = 0; p < bodies_.force().size(); ++p)
+            if (!bodies_.force()[p].empty()) x[at_.done + p] += moved[i] * dot(bodies_.force()[p], u);
+    }
+}
+
+void EngineSolver::require_numbers(const Raw& raw, std::span<const double> state,
+                                   std::span<const double> products) const {
+    const delam_experimental_answer& a = raw.answer;
+    const double scalars[] = {a.first, a.norm, a.size, a.least, a.rounding};
+    for (const std::span<const double> list :
+         {state, products, std::span<const double>(raw.correction), std::span<const double>(raw.correction_balance),
+          std::span<const double>(scalars)})
+        if (!std::all_of(list.begin(), list.end(), [](double v) { return std::isfinite(v); }))
+            fail(DELAM_ERROR_NUMERICAL, "engine: solve: the answer is not finite");
+    if (a.iterations < 0) fail(DELAM_ERROR_NUMERICAL, "engine: solve: iterations = ", a.iterations, ", allowed: >= 0");
 }
 
 std::vector<double> EngineSolver::held_forces(std::span<const double>, std::span<const double> x,

@@ -68,11 +68,12 @@ private:
     struct Raw;
     Raw ask(std::span<const double> theta, std::span<const double> force, std::span<const double> right,
             std::span<const double> start, double tolerance, std::int64_t limit, const Forcing& forcing,
-            std::vector<double>& x);
+            std::vector<double>& x, bool reading = false);
+    void require_numbers(const Raw& raw, std::span<const double> state, std::span<const double> products) const;
     SolveError error_of(const Raw& raw) const;
     std::size_t free_place(std::span<const double> start) const;
-    // The weights of a state, as long as the answers that they name are kept.
-    std::optional<std::vector<double>> known_weights(std::span<const double> x) const;
+    // The weights of a state, as long as the answers that they name are kept. theta: of the state; empty: any.
+    std::optional<std::vector<double>> known_weights(std::span<const double> x, std::span<const double> theta) const;
     std::vector<double> weights_of(std::span<const double> theta, std::span<const double> x);
     // Solves for the state whose variables are those of x; its weights.
     std::vector<double> solve_again(std::span<const double> theta, std::span<const double> x);
@@ -87,8 +88,13 @@ private:
     std::vector<double> load_sizes_;  // [patterns]
     std::vector<double> lift_force_;  // [patterns][patterns] U_p^T f_k
 
-    std::vector<std::vector<double>> kept_;  // [places] variables of the answer; empty: there is none
-    DenseMatrix products_;                   // [places][places]
+    struct Kept {
+        std::vector<double> variables, theta;
+        bool there = false;
+        void forget() { *this = {}; }
+    };
+    std::vector<Kept> kept_;  // [places]
+    DenseMatrix products_;    // [places][places]
     std::size_t newest_ = 0;
 
     std::vector<double> lagged_;  // [rows] springs of the preconditioner; empty: there is none

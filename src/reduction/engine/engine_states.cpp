@@ -17,16 +17,22 @@ constexpr double same_state = 1e-11;
 
 }  // namespace
 
-// Weights tell the truth as long as the combination has the variables of the state.
-std::optional<std::vector<double>> EngineSolver::known_weights(std::span<const double> x) const {
+// Weights tell the truth as long as the combination has the variables of the state, and its loads: where all pairs are
+// bonded, the variables are zero at any load.
+std::optional<std::vector<double>> EngineSolver::known_weights(std::span<const double> x,
+                                                               std::span<const double> theta) const {
     if (x.size() != at_.size) return {};
     const std::span<const double> weights = part(x, at_.weights, at_.rigid);
     std::vector<double> sum = floating_.in_variables(part(x, at_.rigid, at_.size));
+    std::vector<double> loads(theta.size(), 0.0);
     for (std::size_t s = 0; s < kept_.size(); ++s) {
         if (weights[s] == 0.0) continue;
-        if (kept_[s].empty()) return {};
-        add_scaled(weights[s], kept_[s], sum);
+        if (!kept_[s].there) return {};
+        add_scaled(weights[s], kept_[s].variables, sum);
+        for (std::size_t p = 0; p < loads.size(); ++p) loads[p] += weights[s] * kept_[s].theta[p];
     }
+    for (std::size_t p = 0; p < loads.size(); ++p)
+        if (!(std::abs(loads[p] - theta[p]) <= same_state * max_abs(theta))) return {};
     const double allowed = same_state * max_abs(x.first(sum.size()));
     for (std::size_t i = 0; i < sum.size(); ++i)
         if (!(std::abs(sum[i] - x[i]) <= allowed)) return {};
@@ -35,7 +41,7 @@ std::optional<std::vector<double>> EngineSolver::known_weights(std::span<const d
 
 std::vector<double> EngineSolver::weights_of(std::span<const double> theta, std::span<const double> x) {
     claim();
-    if (std::optional<std::vector<double>> known = known_weights(x)) return *std::move(known);
+    if (std::optional<std::vector<double>> known = known_weights(x, theta)) return *std::move(known);
     return solve_again(theta, x);
 }
 
@@ -64,8 +70,11 @@ std::vector<double> EngineSolver::solve_again(std::span<const double> theta, std
     engine_->require(engine.renew(&entries, &cost, engine.user), "renew");
     engine_->require(engine.set(&nothing, 0, nullptr, static_cast<std::int64_t>(n), all.data(), &nothing, engine.user),
                      "set");
-    (void)ask(theta, none, given, {}, finest, bodies_.problem().options.linear_limit, {}, state);
+    const Raw raw = ask(theta, none, given, {}, finest, bodies_.problem().options.linear_limit, {}, state, true);
     if (state.empty()) fail(DELAM_ERROR_NUMERICAL, "engine: the stiffness of the bodies is not positive definite");
+    if (raw.answer.converged == 0)
+        fail(DELAM_ERROR_NUMERICAL, "engine: the displacements of this state cannot be found again within ",
+             raw.answer.iterations, " iterations (option linear_limit)");
     const std::span<const double> weights = part(state, at_.weights, at_.rigid);
     return {weights.begin(), weights.end()};
 }
@@ -95,23 +104,27 @@ void EngineSolver::recover(std::span<const double> theta, std::span<const double
     stressed.assign(index(bodies_.dofs()), 0.0);
     const delam_experimental_engine& engine = engine_->functions();
     engine_->require(engine.recover(weights.data(), displacement.data(), stressed.data(), engine.user), "recover");
+    for (const std::vector<double>* field : {&displacement, &stressed})
+        if (!std::all_of(field->begin(), field->end(), [](double v) { return std::isfinite(v); }))
+            fail(DELAM_ERROR_NUMERICAL, "engine: recover: the fields are not finite");
     if (at_.rigid == at_.size) return;
     const std::vector<double> moved = floating_.rigid_displacement(part(x, at_.rigid, at_.size));
     for (std::size_t i = 0; i < moved.size(); ++i) displacement[i] += moved[i];
 }
 
-// Springs of the preconditioner, the debt, the iterations of its first solve.
+// Springs of the preconditioner, the debt, the iterations of its first solve, what it is worth.
 std::vector<double> EngineSolver::memory() const {
     std::vector<double> m = lagged_;
     if (m.empty()) return m;
     m.push_back(debt_);
     m.push_back(fresh_);
+    m.push_back(cost_);
     return m;
 }
 
 void EngineSolver::require_memory(std::span<const double> memory) const {
     if (memory.empty()) return;
-    const std::size_t expected = system_.rows().size() + 2;
+    const std::size_t expected = system_.rows().size() + 3;
     if (memory.size() != expected ||
         !std::all_of(memory.begin(), memory.end(), [](double m) { return m >= 0.0 && std::isfinite(m); }))
         fail(DELAM_ERROR_SNAPSHOT, "snapshot holds springs that the operator of an engine cannot have");
@@ -125,6 +138,7 @@ void EngineSolver::recall(std::span<const double> memory) {
                    memory.empty() ? memory.begin() : memory.begin() + static_cast<std::ptrdiff_t>(rows));
     debt_ = memory.empty() ? 0.0 : memory[rows];
     fresh_ = memory.empty() ? 0.0 : memory[rows + 1];
+    cost_ = memory.empty() ? 1.0 : memory[rows + 2];
     renewed_ = false;
 }
 
