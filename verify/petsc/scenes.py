@@ -24,6 +24,9 @@ from launch import alone, expect, finish, folder, last_lines, on_ranks
 TIGHT = "1e-10"
 # What a comparison may differ by, of the largest value of its kind; by the size of damage_tolerance.
 ALLOWED = {"tight": 1e-8, "loose": 2e-3}
+# A residual says little of soft motions, such as the bending of an arm that has come off: displacements may differ more
+# than what the interfaces and the energy feel.
+SOFT = 1e-6
 # A nearly incompressible body amplifies rounding. Scene: allowed of the tight comparison with the serial program.
 ROUNDED = {"incompressible": 1e-7}
 # What follows from the state and its history. With the variational mixity rule, what is called dissipated depends on
@@ -90,9 +93,10 @@ def compared(name, what, result, reference, allowed, exact):
         expect(reference is None, f"{name}: {what}: the same number of steps")
         return
     found, changed = result.differences(reference)
-    worst = max(found, key=found.get)
     numbers = " ".join(f"{kind} {value:.1e}" for kind, value in found.items())
-    right = found[worst] <= allowed and (changed == 0 or not exact)
+    right = changed == 0 or not exact
+    for kind, value in found.items():
+        right = right and value <= (max(allowed, SOFT) if kind == "displacement" else allowed)
     text = f"{name}: {what}: {numbers}, {changed} contact pairs differ"
     expect(right, text)
 
