@@ -25,8 +25,8 @@ TIGHT = "1e-10"
 # What a comparison may differ by, of the largest value of its kind; by the size of damage_tolerance.
 ALLOWED = {"tight": 1e-8, "loose": 2e-3}
 # A residual says little of soft motions, such as the bending of an arm that has come off: displacements may differ more
-# than what the interfaces and the energy feel.
-SOFT = 1e-6
+# than what the interfaces and the energy feel. Scene: allowed of them; seen up to 2.8e-7.
+SOFT = {"thermal": 1e-6}
 # A nearly incompressible body amplifies rounding. Scene: allowed of the tight comparison with the serial program.
 ROUNDED = {"incompressible": 1e-7}
 # What follows from the state and its history. With the variational mixity rule, what is called dissipated depends on
@@ -96,7 +96,7 @@ def compared(name, what, result, reference, allowed, exact):
     numbers = " ".join(f"{kind} {value:.1e}" for kind, value in found.items())
     right = changed == 0 or not exact
     for kind, value in found.items():
-        right = right and value <= (max(allowed, SOFT) if kind == "displacement" else allowed)
+        right = right and value <= (max(allowed, SOFT.get(name, 0.0)) if kind == "displacement" else allowed)
     text = f"{name}: {what}: {numbers}, {changed} contact pairs differ"
     expect(right, text)
 
