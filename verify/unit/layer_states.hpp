@@ -149,6 +149,20 @@ struct LayerState {
     }
 };
 
+// The front has advanced to x; every seventh pair behind it is closed.
+inline Springs advanced(const LayerState& scene, double x) {
+    Springs springs = scene.springs;
+    std::size_t pair = 0;
+    for (const InterfaceGeometry& face : scene.problem.mesh->interfaces())
+        for (std::size_t p = 0; p < face.node_a.size(); ++p, ++pair) {
+            const double at = scene.problem.mesh->node(face.node_a[p])[0];
+            if (at < 0.045 || at > x) continue;
+            for (std::size_t k = 0; k < scene.dim; ++k) springs.stiffness[pair * scene.dim + k] = 0.0;
+            springs.held[pair * scene.dim] = pair % 7 == 0 ? 1 : 0;
+        }
+    return springs;
+}
+
 struct ZoneAnswer {
     std::vector<double> jump, force;  // of the wanted rows
     double energy = 0.0;

@@ -76,19 +76,6 @@ void expect_close(std::span<const double> a, std::span<const double> b, double t
     ck_assert_msg(off <= tolerance * size, "%s: off by %.2e of %.3g", what.c_str(), off, size);
 }
 
-Springs advanced(const unit::LayerState& scene, double x) {
-    Springs springs = scene.springs;
-    std::size_t pair = 0;
-    for (const InterfaceGeometry& face : scene.problem.mesh->interfaces())
-        for (std::size_t p = 0; p < face.node_a.size(); ++p, ++pair) {
-            const double at = scene.problem.mesh->node(face.node_a[p])[0];
-            if (at < 0.045 || at > x) continue;
-            for (std::size_t k = 0; k < scene.dim; ++k) springs.stiffness[pair * scene.dim + k] = 0.0;
-            springs.held[pair * scene.dim] = pair % 7 == 0 ? 1 : 0;
-        }
-    return springs;
-}
-
 // A problem with an engine of its own.
 struct Engined {
     Problem problem;
@@ -116,7 +103,7 @@ START_TEST(answers_as_the_condensed_operator) {
     for (const double x : {0.0, 0.06, 0.07, 0.075}) {
         const std::string where = std::string(c.name) + ", front at " + std::to_string(x);
         for (double& t : theta) t *= 1.1;
-        const Springs springs = advanced(scene, x);
+        const Springs springs = unit::advanced(scene, x);
         condensed.solve(springs, theta, b);
         op.solve(springs, theta, a);
         ck_assert_int_eq(a.balanced, b.balanced);

@@ -88,20 +88,6 @@ constexpr unit::LayerCase cases[] = {
      .opening = unit::LayerCase::Opening::control},
 };
 
-// The front has advanced to x; every seventh pair behind it is closed.
-Springs advanced(const unit::LayerState& scene, double x) {
-    Springs springs = scene.springs;
-    std::size_t pair = 0;
-    for (const InterfaceGeometry& face : scene.problem.mesh->interfaces())
-        for (std::size_t p = 0; p < face.node_a.size(); ++p, ++pair) {
-            const double at = scene.problem.mesh->node(face.node_a[p])[0];
-            if (at < 0.045 || at > x) continue;
-            for (std::size_t k = 0; k < scene.dim; ++k) springs.stiffness[pair * scene.dim + k] = 0.0;
-            springs.held[pair * scene.dim] = pair % 7 == 0 ? 1 : 0;
-        }
-    return springs;
-}
-
 void expect_close(std::span<const double> a, std::span<const double> b, double tolerance, double size,
                   const std::string& what) {
     ck_assert_uint_eq(a.size(), b.size());
@@ -190,7 +176,7 @@ START_TEST(answers_as_the_condensed_operator) {
     for (const double x : {0.0, 0.06, 0.07, 0.075}) {
         const std::string where = std::string(c.name) + ", front at " + std::to_string(x);
         for (double& t : theta) t *= 1.1;
-        const Springs springs = advanced(scene, x);
+        const Springs springs = unit::advanced(scene, x);
         condensed.solve(springs, theta, b);
         iterated.solve(springs, theta, a);
         ck_assert_int_eq(a.balanced, b.balanced);
@@ -447,7 +433,7 @@ START_TEST(errors_are_estimated) {
         problem.options.linear_tolerance = tolerance;
         Iterated iterated(problem, monitor);
         for (const double x : {0.0, 0.06, 0.07, 0.075}) {
-            const Springs springs = advanced(scene, x);
+            const Springs springs = unit::advanced(scene, x);
             Response a, b;
             iterated.solve(springs, scene.theta, a);
             exact.solve(springs, scene.theta, b);
@@ -553,15 +539,15 @@ START_TEST(continues_bit_for_bit) {
     Monitor monitor;
     Iterated one(scene.problem, monitor), other(scene.problem, monitor);
     Response first, second;
-    for (const double x : {0.0, 0.05, 0.06}) one.solve(advanced(scene, x), scene.theta, first);
+    for (const double x : {0.0, 0.05, 0.06}) one.solve(unit::advanced(scene, x), scene.theta, first);
     const std::vector<double> memory = one.memory();
     ck_assert(!memory.empty());
     other.require_memory(memory);
     other.recall(memory);
     second = first;
     for (const double x : {0.065, 0.08}) {
-        one.solve(advanced(scene, x), scene.theta, first);
-        other.solve(advanced(scene, x), scene.theta, second);
+        one.solve(unit::advanced(scene, x), scene.theta, first);
+        other.solve(unit::advanced(scene, x), scene.theta, second);
         ck_assert(first.jump == second.jump && first.force == second.force && first.multipliers == second.multipliers);
         ck_assert(first.stored_bulk == second.stored_bulk && first.iterations == second.iterations);
     }
@@ -587,11 +573,11 @@ START_TEST(comes_back_without_factoring) {
         Monitor monitor;
         Iterated one(scene.problem, monitor), other(scene.problem, monitor);
         Response first, second, elsewhere;
-        one.solve(advanced(scene, 0.0), scene.theta, first);
+        one.solve(unit::advanced(scene, 0.0), scene.theta, first);
         const std::vector<double> memory = one.memory();
         for (const double x : {0.08, 0.11}) {
             one.recall({});
-            one.solve(advanced(scene, x), scene.theta, elsewhere);
+            one.solve(unit::advanced(scene, x), scene.theta, elsewhere);
         }
         const std::int64_t factors = one.factorisations();
         ck_assert_int_ge(factors, 3);
@@ -600,8 +586,8 @@ START_TEST(comes_back_without_factoring) {
         ck_assert(one.memory() == memory);
         other.recall(memory);
         second = first;
-        one.solve(advanced(scene, 0.05), scene.theta, first);
-        other.solve(advanced(scene, 0.05), scene.theta, second);
+        one.solve(unit::advanced(scene, 0.05), scene.theta, first);
+        other.solve(unit::advanced(scene, 0.05), scene.theta, second);
         ck_assert(first.jump == second.jump && first.multipliers == second.multipliers);
         ck_assert(one.memory() == other.memory());
     }
@@ -735,10 +721,10 @@ START_TEST(tightens_at_request) {
     Iterated iterated(scene.problem, monitor);
     Response first, second;
     for (const double x : {0.0, 0.06, 0.075}) {
-        iterated.solve(advanced(scene, x), scene.theta, first);
+        iterated.solve(unit::advanced(scene, x), scene.theta, first);
         second = first;
         ck_assert(iterated.aim(Accuracy::tight));
-        iterated.solve(advanced(scene, x), scene.theta, second);
+        iterated.solve(unit::advanced(scene, x), scene.theta, second);
         ck_assert(!iterated.aim(Accuracy::usual));
         ck_assert(second.converged && second.residual <= 1e-11);
         ck_assert(second.error.jump <= 1e-8 * max_abs(second.jump));
