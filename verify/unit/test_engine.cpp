@@ -408,6 +408,31 @@ START_TEST(states_without_jumps) {
 }
 END_TEST
 
+// Two forces that balance each other on a part that nothing holds: each does work along the motion that is taken out.
+START_TEST(forces_on_a_part_that_floats) {
+    unit::LayerState scene(cases[4], 5);
+    std::fill(scene.springs.stiffness.begin(), scene.springs.stiffness.end(), 0.0);
+    std::fill(scene.springs.held.begin(), scene.springs.held.end(), std::uint8_t{0});
+    const std::int64_t dof = 2 * (scene.problem.mesh->node_count() - 1);
+    for (const double value : {1e3, -1e3}) {
+        const std::string name = value > 0.0 ? "there" : "back";
+        scene.problem.patterns.push_back({name, {0.0, 1.0}, {0.0, 1.0}, Pattern::Drives::force});
+        scene.problem.forces.push_back({static_cast<std::int64_t>(scene.problem.patterns.size()) - 1, dof, value});
+        scene.theta.push_back(1.0);
+    }
+    Engined engined(scene.problem);
+    Monitor monitor;
+    EngineOperator op(engined.problem, monitor);
+    Response response;
+    op.solve(scene.springs, scene.theta, response);
+    ck_assert(response.balanced);
+    const std::vector<double> u = op.displacement(scene.theta, response);
+    const double exact = -1e3 * u[index(dof)];
+    expect_close(std::vector<double>{response.conjugate[scene.theta.size() - 2]}, std::vector<double>{exact}, 1e-9,
+                 std::max(std::abs(exact), 1e3 * max_abs(u)), "conjugate of a force");
+}
+END_TEST
+
 // Two solvers of one problem take turns: the engine has room for the variables of one of them.
 START_TEST(solvers_take_turns) {
     const Problem plain = march_of(marches[0]);
@@ -496,6 +521,7 @@ int main() {
     tcase_add_loop_test(test, marches_as_without_an_engine, 0, static_cast<int>(std::size(marches)));
     tcase_add_loop_test(test, bodies_that_only_the_engine_knows, 0, 3);
     tcase_add_test(test, states_without_jumps);
+    tcase_add_test(test, forces_on_a_part_that_floats);
     tcase_add_test(test, solvers_take_turns);
     tcase_add_test(test, failures_and_cancellation);
     suite_add_tcase(suite, test);
