@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "petsc/assembled_matrix.hpp"
 #include "petsc/options.hpp"
 
 namespace delam::petsc {
@@ -17,8 +18,8 @@ constexpr double slower = 20.0;
 }  // namespace
 
 AssembledPreconditioner::AssembledPreconditioner(const Bodies& bodies, const Visible& visible)
-    : bodies_(bodies), visible_(visible), work_(bodies.vector()) {
-    check(MatDuplicate(bodies.matrix(), MAT_COPY_VALUES, matrix_.out()));
+    : bodies_(bodies), visible_(visible), of_bodies_(assembled_matrix(bodies)), work_(bodies.vector()) {
+    check(MatDuplicate(of_bodies_, MAT_COPY_VALUES, matrix_.out()));
 }
 
 void AssembledPreconditioner::create() {
@@ -38,7 +39,7 @@ void AssembledPreconditioner::create() {
 
 double AssembledPreconditioner::renew(const Operator::Entries& entries) {
     check(MatZeroEntries(matrix_));
-    check(MatAXPY(matrix_, 1.0, bodies_.matrix(), SUBSET_NONZERO_PATTERN));
+    check(MatAXPY(matrix_, 1.0, of_bodies_, SUBSET_NONZERO_PATTERN));
     add_entries(entries);
     complete_diagonal();
     check(MatSetOption(matrix_, MAT_SYMMETRIC, PETSC_TRUE));
@@ -102,7 +103,7 @@ double AssembledPreconditioner::worth() {
     // MUMPS gives numbers beyond its integers in millions, with a minus.
     factor_entries_ = entries < 0 ? -1e6 * static_cast<double>(entries) : static_cast<double>(entries);
     MatInfo info;
-    check(MatGetInfo(bodies_.matrix(), MAT_GLOBAL_SUM, &info));
+    check(MatGetInfo(of_bodies_, MAT_GLOBAL_SUM, &info));
     return std::max(1.0, factor_flops_ / (slower * (4.0 * factor_entries_ + 6.0 * info.nz_used)));
 }
 

@@ -27,7 +27,8 @@ private:
 
     const Bodies& bodies_;
     const Visible& visible_;
-    OwnedMat matrix_;
+    OwnedMat of_bodies_;
+    OwnedMat matrix_;                                         // with entries
     std::map<std::pair<PetscInt, PetscInt>, double> places_;  // all that there ever were, on rank 0
     SparseEntries entries_;
     OwnedPc inner_;

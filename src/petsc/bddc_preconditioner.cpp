@@ -1,12 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "petsc/bddc_preconditioner.hpp"
 
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "petsc/corners.hpp"
 #include "petsc/options.hpp"
 
 namespace delam::petsc {
+
+namespace {
+
+bool has_cholmod() {
+    PetscBool type = PETSC_FALSE, matrix = PETSC_FALSE;
+    PetscErrorCode (*create)(Mat, MatFactorType, Mat*) = nullptr;
+    check(MatSolverTypeGet(MATSOLVERCHOLMOD, MATSEQAIJ, MAT_FACTOR_CHOLESKY, &type, &matrix, &create));
+    return type == PETSC_TRUE && matrix == PETSC_TRUE && create != nullptr;
+}
+
+}  // namespace
 
 BddcPreconditioner::BddcPreconditioner(const Bodies& bodies, const Visible& visible, const SceneVariables& scene)
     : bodies_(bodies), system_(bodies, visible, scene), residual_(bodies.vector()), z_(bodies.vector()) {
@@ -18,10 +31,13 @@ BddcPreconditioner::BddcPreconditioner(const Bodies& bodies, const Visible& visi
     const std::vector<PetscInt> points = corners(bodies, system_, has_coordinates_);
     check(ISCreateGeneral(bodies.comm().get(), petsc_int(points.size()), points.data(), PETSC_COPY_VALUES,
                           corners_.out()));
-    for (const char* solver : {"dirichlet", "neumann", "coarse"}) {
+    // CHOLMOD's factors of one rank take half of MUMPS' memory, and half of the time.
+    MatSolverType local = has_cholmod() ? MATSOLVERCHOLMOD : MATSOLVERMUMPS;
+    for (const auto& [solver, factors] :
+         {std::pair{"dirichlet", local}, {"neumann", local}, {"coarse", MATSOLVERMUMPS}}) {
         const std::string name = std::string("pc_bddc_") + solver;
         default_option((name + "_pc_type").c_str(), "cholesky");
-        default_option((name + "_pc_factor_mat_solver_type").c_str(), "mumps");
+        default_option((name + "_pc_factor_mat_solver_type").c_str(), factors);
         default_option((name + "_mat_mumps_icntl_14").c_str(), "60");
     }
 }
@@ -30,7 +46,9 @@ BddcPreconditioner::BddcPreconditioner(const Bodies& bodies, const Visible& visi
 double BddcPreconditioner::renew(const Operator::Entries& entries) {
     const LocalVariables& local = bodies_.local();
     bddc_.reset();
-    const OwnedMat own = system_.local_matrix(entries.rows, entries.columns, entries.values);
+    LocalMatrix bodies_alone;
+    bodies_.comm().together([&] { bodies_alone = system_.stiffness(); });
+    const OwnedMat own = system_.local_matrix(bodies_alone, entries.rows, entries.columns, entries.values);
     check(MatCreateIS(bodies_.comm().get(), local.dimension, local.owned, local.owned, PETSC_DETERMINE, PETSC_DETERMINE,
                       system_.mapping(), system_.mapping(), matrix_.out()));
     check(MatISSetLocalMat(matrix_, own));
@@ -47,8 +65,9 @@ double BddcPreconditioner::renew(const Operator::Entries& entries) {
     check(PCBDDCSetPrimalVerticesIS(bddc_, corners_));
     // Constraints for each body that crosses a cut, also where springs tie it to another: in contact they only resist
     // one component.
-    check(PCBDDCSetLocalAdjacencyGraph(bddc_, system_.stiffness().rows, system_.stiffness().start.data(),
-                                       system_.stiffness().column.data(), PETSC_COPY_VALUES));
+    check(PCBDDCSetLocalAdjacencyGraph(bddc_, bodies_alone.rows, bodies_alone.start.data(), bodies_alone.column.data(),
+                                       PETSC_COPY_VALUES));
+    bodies_alone = {};
     give_coordinates();
     set_up(bddc_);
     return usual_worth();

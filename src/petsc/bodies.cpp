@@ -16,24 +16,6 @@ double dot(std::span<const double> a, std::span<const double> b) {
     return sum;
 }
 
-// What stands on the diagonal where the congruence leaves nothing: places without a variable, which no vector ever
-// uses, get the stiffness of their DOF, so that the matrix is definite and its entries are of one size; variables of
-// other ranks a zero.
-std::vector<double> missing_diagonal(const LocalMatrix& stiffness, const LocalVariables& local) {
-    std::vector<double> own(at(local.places()), 0.0);
-    double typical = 0.0;
-    for (std::size_t r = 0; r < at(stiffness.rows); ++r)
-        for (auto e = at(stiffness.start[r]); e < at(stiffness.start[r + 1]); ++e)
-            if (at(stiffness.column[e]) == r) typical = std::max(typical, own[r] = stiffness.value[e]);
-    for (std::size_t i = 0; i < own.size(); ++i) {
-        if (local.is_variable[i] != 0)
-            own[i] = 0.0;
-        else if (!(own[i] > 0.0))
-            own[i] = typical > 0.0 ? typical : 1.0;
-    }
-    return own;
-}
-
 }  // namespace
 
 Bodies::Bodies(const Communicator& comm, const Part& part, const SceneVariables& scene)
@@ -49,7 +31,7 @@ Bodies::Bodies(const Communicator& comm, const Part& part, const SceneVariables&
     OwnedIs numbers;
     check(ISCreateGeneral(PETSC_COMM_SELF, local_.places(), local_.number.data(), PETSC_COPY_VALUES, numbers.out()));
     check(VecScatterCreate(layout_, numbers, here_, nullptr, fetch_.out()));
-    make_matrix();
+    make_diagonal();
     make_loads();
 }
 
@@ -60,32 +42,37 @@ OwnedVec Bodies::vector() const {
     return v;
 }
 
-void Bodies::make_matrix() {
-    LocalMatrix places;
+// Of T^T K T, without forming it: sum over the DOFs r, s of T_rc K_rs T_sc.
+void Bodies::make_diagonal() {
+    std::vector<double> sums;
     comm_.together([&] {
-        LocalMatrix& stiffness = const_cast<LocalMatrix&>(part_.stiffness);  // PETSc's arrays have no const
-        const PetscInt dofs = local_.transform.rows;
-        local_.transform.rows = stiffness.rows;  // those of orphans have no stiffness
-        const OwnedMat k = stiffness.borrow(), t = local_.transform.borrow();
-        local_.transform.rows = dofs;
-        OwnedMat product;
-        check(MatPtAP(k, t, MAT_INITIAL_MATRIX, PETSC_DEFAULT, product.out()));
-        places = with_diagonal(product, missing_diagonal(stiffness, local_));
+        sums.assign(at(local_.places()), 0.0);
+        const LocalMatrix &k = part_.stiffness, &t = local_.transform;
+        for (std::size_t r = 0; r < at(k.rows); ++r)
+            for (auto e = at(k.start[r]); e < at(k.start[r + 1]); ++e)
+                for (auto a = at(t.start[r]); a < at(t.start[r + 1]); ++a) {
+                    const auto s = at(k.column[e]);
+                    const auto first = t.column.begin() + t.start[s], last = t.column.begin() + t.start[s + 1];
+                    const auto b = std::lower_bound(first, last, t.column[a]);
+                    if (b != last && *b == t.column[a])
+                        sums[at(*b)] += t.value[a] * k.value[e] * t.value[at(b - t.column.begin())];
+                }
     });
-    OwnedMapping mapping;
-    check(ISLocalToGlobalMappingCreate(comm_.get(), 1, local_.places(), local_.number.data(), PETSC_COPY_VALUES,
-                                       mapping.out()));
-    OwnedMat unassembled;
-    check(MatCreateIS(comm_.get(), 1, local_.owned, local_.owned, PETSC_DETERMINE, PETSC_DETERMINE, mapping, mapping,
-                      unassembled.out()));
-    const OwnedMat borrowed = places.borrow();
-    check(MatISSetLocalMat(unassembled, borrowed));
-    check(MatAssemblyBegin(unassembled, MAT_FINAL_ASSEMBLY));
-    check(MatAssemblyEnd(unassembled, MAT_FINAL_ASSEMBLY));
-    check(MatConvert(unassembled, MATAIJ, MAT_INITIAL_MATRIX, matrix_.out()));
-    check(MatSetOption(matrix_, MAT_SYMMETRIC, PETSC_TRUE));
     diagonal_ = vector();
-    check(MatGetDiagonal(matrix_, diagonal_));
+    assemble(sums, diagonal_);
+}
+
+void Bodies::apply(Vec v, Vec av) const {
+    std::vector<double> places;
+    fetch(v, places);
+    comm_.together([&] {
+        std::vector<double> u(at(local_.dofs));
+        local_.transform.multiply(places, u);
+        const std::vector<double> forces = stiffness_times(u);
+        std::fill(places.begin(), places.end(), 0.0);
+        local_.transform.add_multiplied_transposed(forces, places);
+    });
+    assemble(places, av);
 }
 
 void Bodies::make_loads() {

@@ -18,7 +18,7 @@ struct BodyState {
     std::vector<double> lifted;        // U_p.(K u)
 };
 
-// The bodies in the variables v: the assembled matrix A = T^T K T, and the loads T^T (f_p - K U_p) of the patterns.
+// The bodies in the variables v: A = T^T K T, never formed here, and the loads T^T (f_p - K U_p) of the patterns.
 // Vectors have a place for each component of each node.
 class Bodies {
 public:
@@ -28,12 +28,13 @@ public:
     const Part& part() const { return part_; }
     const Numbering& numbering() const { return numbering_; }
     const LocalVariables& local() const { return local_; }
-    Mat matrix() const { return matrix_; }
-    Vec diagonal() const { return diagonal_; }
+    Vec diagonal() const { return diagonal_; }  // of A
     std::size_t patterns() const { return load_.size(); }
     Vec load(std::size_t pattern) const { return load_[pattern]; }
     OwnedVec vector() const;  // of zeros
 
+    // av = A v
+    void apply(Vec v, Vec av) const;
     // out = sum theta_p T^T (f_p - K U_p)
     void add_loads(std::span<const double> theta, Vec out) const;
     // u.K u for a v whose A v is known.
@@ -50,7 +51,7 @@ public:
     void fetch(Vec from, std::vector<double>& places) const;
 
 private:
-    void make_matrix();
+    void make_diagonal();
     void make_loads();
     std::vector<double> stiffness_times(std::span<const double> displacement) const;
 
@@ -61,7 +62,6 @@ private:
     OwnedVec layout_;
     OwnedVec here_;  // this rank's places
     OwnedScatter fetch_;
-    OwnedMat matrix_;
     OwnedVec diagonal_;
     std::vector<OwnedVec> force_;    // T^T f_p
     std::vector<OwnedVec> load_;     // T^T (f_p - K U_p)

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "petsc/index.hpp"
 #include "petsc/places.hpp"
@@ -14,17 +15,52 @@ namespace {
 // Of the largest stiffness: what a place has on its diagonal to which this rank adds nothing.
 constexpr double nothing = 1e-6;
 
-// Squares up a matrix of fewer places.
-void grow(LocalMatrix& matrix, PetscInt places) {
-    matrix.rows = matrix.columns = places;
-    matrix.start.resize(at(places) + 1, matrix.start.back());
+using Springs = std::map<std::pair<PetscInt, PetscInt>, double>;
+
+// Both have ascending columns; a spring may stand where the matrix has no entry.
+void add(LocalMatrix& matrix, const Springs& springs) {
+    LocalMatrix sum;
+    sum.rows = matrix.rows;
+    sum.columns = matrix.columns;
+    sum.start.reserve(matrix.start.size());
+    sum.column.reserve(matrix.column.size() + springs.size());
+    sum.value.reserve(matrix.value.size() + springs.size());
+    auto spring = springs.begin();
+    for (PetscInt r = 0; r < matrix.rows; ++r) {
+        auto e = at(matrix.start[at(r)]);
+        const auto last = at(matrix.start[at(r) + 1]);
+        while (true) {
+            const bool springs_left = spring != springs.end() && spring->first.first == r;
+            if (!springs_left && e == last) break;
+            const PetscInt c = !springs_left ? matrix.column[e]
+                               : e == last   ? spring->first.second
+                                             : std::min(matrix.column[e], spring->first.second);
+            double value = 0.0;
+            if (e != last && matrix.column[e] == c) value += matrix.value[e++];
+            if (springs_left && spring->first.second == c) value += (spring++)->second;
+            sum.column.push_back(c);
+            sum.value.push_back(value);
+        }
+        sum.start.push_back(petsc_int(sum.column.size()));
+    }
+    matrix = std::move(sum);
+}
+
+// Every place needs a diagonal: those without a variable are never used. All rows have an entry there.
+void complete_diagonal(LocalMatrix& matrix, const std::vector<std::uint8_t>& is_variable) {
+    double largest = 0.0;
+    for (const double x : matrix.value) largest = std::max(largest, x);
+    for (std::size_t i = 0; i < at(matrix.rows); ++i)
+        for (auto e = at(matrix.start[i]); e < at(matrix.start[i + 1]); ++e)
+            if (at(matrix.column[e]) == i && matrix.value[e] == 0.0)
+                matrix.value[e] = is_variable[i] == 0 ? largest : nothing * largest;
 }
 
 }  // namespace
 
 DisplacementSystem::DisplacementSystem(const Bodies& bodies, const Visible& visible, const SceneVariables& scene)
     : bodies_(bodies), jumps_(scene) {
-    bodies.comm().together([&] { make_stiffness(scene); });
+    bodies.comm().together([&] { make_transform(scene); });
     cover_visible(visible, scene);
     number();
     make_expansion(scene);
@@ -35,17 +71,16 @@ std::int64_t DisplacementSystem::dof_of(std::size_t place) const {
     return nodes_[place / d] * static_cast<std::int64_t>(d) + static_cast<std::int64_t>(place % d);
 }
 
-void DisplacementSystem::make_stiffness(const SceneVariables& scene) {
+void DisplacementSystem::make_transform(const SceneVariables& scene) {
     nodes_ = bodies_.part().nodes;
-    LocalMatrix& part = const_cast<LocalMatrix&>(bodies_.part().stiffness);  // PETSc's arrays have no const
     Places places(scene.dimension, nodes_);
-    LocalMatrix transform;
-    transform.rows = part.rows;
+    LocalMatrix& transform = transform_;
+    transform.rows = bodies_.part().stiffness.rows;
     const auto add = [&](std::int64_t home, double coefficient) {
         transform.column.push_back(places.of(home));
         transform.value.push_back(coefficient);
     };
-    for (std::size_t i = 0; i < at(part.rows); ++i) {
+    for (std::size_t i = 0; i < at(transform.rows); ++i) {
         const std::int64_t dof = dof_of(i), row = scene.place(dof);
         if (row < 0 || scene.is_home[at(row)] != 0)
             add(dof, 1.0);
@@ -57,10 +92,17 @@ void DisplacementSystem::make_stiffness(const SceneVariables& scene) {
     }
     transform.columns = petsc_int(nodes_.size() * at(scene.dimension));
     transform.sort_rows();
+}
+
+// Of one rank: its caller agrees with the others.
+LocalMatrix DisplacementSystem::stiffness() const {
+    // PETSc's arrays have no const.
+    LocalMatrix &part = const_cast<LocalMatrix&>(bodies_.part().stiffness),
+                &transform = const_cast<LocalMatrix&>(transform_);
     const OwnedMat k = part.borrow(), t = transform.borrow();
     OwnedMat product;
     check(MatPtAP(k, t, MAT_INITIAL_MATRIX, PETSC_DEFAULT, product.out()));
-    stiffness_ = with_diagonal(product, std::vector<double>(at(transform.columns), 0.0));
+    return with_diagonal(product, std::vector<double>(at(transform.columns), 0.0));
 }
 
 // A visible variable that no rank has, with all nodes it consists of, gets these on the rank that owns its home.
@@ -96,7 +138,7 @@ void DisplacementSystem::cover_visible(const Visible& visible, const SceneVariab
                 visible_[i].push_back({places.of(home), coefficient});
         }
         const auto count = nodes_.size() * at(scene.dimension);
-        grow(stiffness_, petsc_int(count));
+        transform_.columns = petsc_int(count);
         for (std::size_t i = 0; i < count; ++i) {
             const std::int64_t row = scene.place(dof_of(i));
             is_variable_.push_back(row < 0 || scene.is_home[at(row)] != 0 ? 1 : 0);
@@ -139,8 +181,9 @@ void DisplacementSystem::make_expansion(const SceneVariables& scene) {
     check(MatSetValuesCOO(expansion_, values.data(), INSERT_VALUES));
 }
 
-OwnedMat DisplacementSystem::local_matrix(const std::vector<std::int64_t>& rows,
-                                          const std::vector<std::int64_t>& columns, const std::vector<double>& values) {
+OwnedMat DisplacementSystem::local_matrix(LocalMatrix stiffness, const std::vector<std::int64_t>& rows,
+                                          const std::vector<std::int64_t>& columns,
+                                          const std::vector<double>& values) const {
     const Communicator& comm = bodies_.comm();
     std::vector<std::int64_t> r(rows), c(columns);
     std::vector<double> v(values), having;
@@ -155,33 +198,16 @@ OwnedMat DisplacementSystem::local_matrix(const std::vector<std::int64_t>& rows,
     comm.sum(all);
     OwnedMat matrix;
     comm.together([&] {
-        std::map<std::pair<PetscInt, PetscInt>, double> springs;
+        Springs springs;
         for (std::size_t e = 0; e < v.size(); ++e) {
             if (having[e] == 0.0 || v[e] == 0.0) continue;
             for (const Term& a : visible_[at(r[e])])
                 for (const Term& b : visible_[at(c[e])])
                     springs[{a.place, b.place}] += v[e] / all[e] * a.coefficient * b.coefficient;
         }
-        LocalMatrix added;
-        for (const auto& [place, value] : springs) {
-            while (added.rows <= place.first) added.start.push_back(added.start[at(added.rows++)]);
-            ++added.start.back();
-            added.column.push_back(place.second);
-            added.value.push_back(value);
-        }
-        grow(added, stiffness_.rows);
-        const OwnedMat borrowed = added.borrow();
-        check(MatDuplicate(OwnedMat(stiffness_.borrow()), MAT_COPY_VALUES, matrix.out()));
-        check(MatAXPY(matrix, 1.0, borrowed, DIFFERENT_NONZERO_PATTERN));
-        // Every place needs a diagonal: those without a variable are never used.
-        LocalMatrix whole = with_diagonal(matrix, std::vector<double>(at(stiffness_.rows), 0.0));
-        double largest = 0.0;
-        for (const double x : whole.value) largest = std::max(largest, x);
-        for (std::size_t i = 0; i < at(whole.rows); ++i)
-            for (auto e = at(whole.start[i]); e < at(whole.start[i + 1]); ++e)
-                if (at(whole.column[e]) == i && whole.value[e] == 0.0)
-                    whole.value[e] = is_variable_[i] == 0 ? largest : nothing * largest;
-        check(MatDuplicate(OwnedMat(whole.borrow()), MAT_COPY_VALUES, matrix.out()));
+        add(stiffness, springs);
+        complete_diagonal(stiffness, is_variable_);
+        check(MatDuplicate(OwnedMat(stiffness.borrow()), MAT_COPY_VALUES, matrix.out()));
         check(MatSetBlockSize(matrix, bodies_.local().dimension));
         check(MatSetOption(matrix, MAT_SYMMETRIC, PETSC_TRUE));
         check(MatSetOption(matrix, MAT_SPD, PETSC_TRUE));

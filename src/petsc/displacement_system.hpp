@@ -16,14 +16,14 @@ class DisplacementSystem {
 public:
     DisplacementSystem(const Bodies& bodies, const Visible& visible, const SceneVariables& scene);
 
-    // The local matrix with these entries (on rank 0). A spring that is zero leaves no entry.
-    OwnedMat local_matrix(const std::vector<std::int64_t>& rows, const std::vector<std::int64_t>& columns,
-                          const std::vector<double>& values);
+    // The stiffness of this rank, T_w^T K T_w: of the bodies alone, without springs.
+    LocalMatrix stiffness() const;
+    // The local matrix: the stiffness with these entries (on rank 0). A spring that is zero leaves no entry.
+    OwnedMat local_matrix(LocalMatrix stiffness, const std::vector<std::int64_t>& rows,
+                          const std::vector<std::int64_t>& columns, const std::vector<double>& values) const;
     ISLocalToGlobalMapping mapping() const { return mapping_; }
     // P^-1 in PETSc's numbers: v = P^-1 w.
     Mat expansion() const { return expansion_; }
-    // The bodies alone, without springs.
-    const LocalMatrix& stiffness() const { return stiffness_; }
     // Whether all components of a node are variables.
     bool is_whole(std::size_t node) const;
     // Places without a variable.
@@ -35,7 +35,7 @@ private:
         double coefficient;
     };
 
-    void make_stiffness(const SceneVariables& scene);
+    void make_transform(const SceneVariables& scene);
     void cover_visible(const Visible& visible, const SceneVariables& scene);
     void number();
     void make_expansion(const SceneVariables& scene);
@@ -44,8 +44,8 @@ private:
     const Bodies& bodies_;
     JumpExpansion jumps_;
     std::vector<std::int64_t> nodes_;
-    std::vector<std::uint8_t> is_variable_;  // of each place
-    LocalMatrix stiffness_;
+    std::vector<std::uint8_t> is_variable_;   // of each place
+    LocalMatrix transform_;                   // T_w
     std::vector<std::vector<Term>> visible_;  // in w, of those that this rank has; else empty
     OwnedMapping mapping_;
     OwnedMat expansion_;

@@ -24,7 +24,7 @@ public:
 
     Mat shell() const { return shell_; }
     // av = A v and cv = C v of all variables.
-    void apply_bodies(Vec v, Vec av) const { check(MatMult(bodies_.matrix(), v, av)); }
+    void apply_bodies(Vec v, Vec av) const { bodies_.apply(v, av); }
     void apply_couplings(Vec v, Vec cv) const;
     void apply(Vec y, Vec out) const;
     // sum of |v_i C_ij v_j|
