@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "petsc/assembled_matrix.hpp"
+#include "petsc/index.hpp"
 #include "petsc/options.hpp"
 
 namespace delam::petsc {
@@ -23,6 +24,7 @@ AssembledPreconditioner::AssembledPreconditioner(const Bodies& bodies, const Vis
 }
 
 void AssembledPreconditioner::create() {
+    inner_.reset();
     check(PCCreate(bodies_.comm().get(), inner_.out()));
     check(PCSetOptionsPrefix(inner_, options_prefix));
     check(MatSetOptionsPrefix(matrix_, options_prefix));
@@ -35,6 +37,37 @@ void AssembledPreconditioner::create() {
         check(PCFactorSetMatSolverType(inner_, MATSOLVERMUMPS));
     }
     check(PCSetFromOptions(inner_));
+    if (!is_direct()) give_rigid_motions();
+}
+
+// What multigrid takes to its coarser levels: v of the bodies that move as one rigid body, u = T v. Jumps are zero
+// then.
+void AssembledPreconditioner::give_rigid_motions() {
+    const LocalVariables& local = bodies_.local();
+    const std::vector<double>& x = bodies_.part().coordinates;
+    const double lacking = x.empty() && !bodies_.part().nodes.empty() ? 1.0 : 0.0;
+    if (bodies_.comm().sum(lacking) > 0.0) return;
+    // Writes f(place) at the places that this rank owns.
+    const auto fill = [&local](Vec v, std::size_t places, const auto& f) {
+        PetscScalar* value = nullptr;
+        check(VecGetArray(v, &value));
+        for (std::size_t i = 0; i < places; ++i)
+            if (local.owns(i)) value[local.number[i] - local.first] = f(i, value[local.number[i] - local.first]);
+        check(VecRestoreArray(v, &value));
+    };
+    const OwnedVec coordinates = bodies_.vector();
+    fill(coordinates, x.size(), [&x](std::size_t i, double) { return x[i]; });
+    Owned<MatNullSpace, MatNullSpaceDestroy> motions;
+    check(MatNullSpaceCreateRigidBody(coordinates, motions.out()));
+    PetscInt count = 0;
+    const Vec* motion = nullptr;
+    check(MatNullSpaceGetVecs(motions, nullptr, &count, &motion));
+    for (PetscInt k = 0; k < count; ++k)
+        fill(motion[k], at(local.places()), [&local](std::size_t i, double value) {
+            return local.is_variable[i] != 0 && local.is_jump[i] == 0 ? value : 0.0;
+        });
+    check(MatSetBlockSize(matrix_, local.dimension));
+    check(MatSetNearNullSpace(matrix_, motions));
 }
 
 double AssembledPreconditioner::renew(const Operator::Entries& entries) {
@@ -44,7 +77,8 @@ double AssembledPreconditioner::renew(const Operator::Entries& entries) {
     complete_diagonal();
     check(MatSetOption(matrix_, MAT_SYMMETRIC, PETSC_TRUE));
     check(MatSetOption(matrix_, MAT_SPD, PETSC_TRUE));
-    if (inner_ == nullptr) create();
+    // A factor keeps its structure; multigrid would keep the bounds of its smoothers, which springs have changed.
+    if (inner_ == nullptr || !is_direct()) create();
     check(PCSetOperators(inner_, matrix_, matrix_));
     set_up(inner_);
     return worth();
@@ -87,13 +121,16 @@ void AssembledPreconditioner::complete_diagonal() {
     if (bodies_.comm().sum(missing) > 0.0) check(MatDiagonalSet(matrix_, work_, ADD_VALUES));
 }
 
-double AssembledPreconditioner::worth() {
+bool AssembledPreconditioner::is_direct() const {
     PCType type = nullptr;
-    MatSolverType solver = nullptr;
     check(PCGetType(inner_, &type));
+    return std::strcmp(type, PCCHOLESKY) == 0 || std::strcmp(type, PCLU) == 0;
+}
+
+double AssembledPreconditioner::worth() {
+    MatSolverType solver = nullptr;
     factor_entries_ = factor_flops_ = 0.0;
-    const bool direct = std::strcmp(type, PCCHOLESKY) == 0 || std::strcmp(type, PCLU) == 0;
-    if (direct) check(PCFactorGetMatSolverType(inner_, &solver));
+    if (is_direct()) check(PCFactorGetMatSolverType(inner_, &solver));
     if (solver == nullptr || std::strcmp(solver, MATSOLVERMUMPS) != 0) return usual_worth();
     Mat factor = nullptr;
     PetscInt entries = 0;

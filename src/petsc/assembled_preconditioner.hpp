@@ -21,8 +21,10 @@ public:
 
 private:
     void create();
+    void give_rigid_motions();
     void add_entries(const Operator::Entries& entries);
     void complete_diagonal();
+    bool is_direct() const;
     double worth();
 
     const Bodies& bodies_;

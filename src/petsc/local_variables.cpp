@@ -34,6 +34,7 @@ void fill_transform(const SceneVariables& scene, Places& places, LocalVariables&
     for (std::size_t i = 0; i < at(t.columns); ++i) {
         const std::int64_t row = scene.place(dof_of(local, i));
         local.is_variable.push_back(row < 0 || scene.is_home[at(row)] != 0 ? 1 : 0);
+        local.is_jump.push_back(row >= 0 && scene.is_home[at(row)] != 0 ? 1 : 0);
     }
 }
 

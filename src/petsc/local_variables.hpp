@@ -25,6 +25,7 @@ struct LocalVariables {
     std::vector<std::int64_t> nodes;
     std::vector<PetscInt> number;           // PETSc's, of each place
     std::vector<std::uint8_t> is_variable;  // of each place
+    std::vector<std::uint8_t> is_jump;      // likewise
     PetscInt first = 0;                     // of the places that this rank owns
     PetscInt owned = 0;
     LocalMatrix transform;     // T
