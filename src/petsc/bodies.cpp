@@ -39,7 +39,7 @@ std::vector<double> missing_diagonal(const LocalMatrix& stiffness, const LocalVa
 Bodies::Bodies(const Communicator& comm, const Part& part, const SceneVariables& scene)
     : comm_(comm),
       part_(part),
-      numbering_(comm, part.nodes, scene.dofs / scene.dimension),
+      numbering_(comm, part.own(), scene.dofs / scene.dimension),
       local_(make_local_variables(comm, part, scene, numbering_)) {
     check(VecCreate(comm.get(), layout_.out()));
     check(VecSetSizes(layout_, local_.owned, PETSC_DETERMINE));
