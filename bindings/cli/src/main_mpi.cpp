@@ -3,12 +3,14 @@
 // results; the bodies are solved by all ranks together (delam/petsc.h).
 #include <mpi.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <string>
+#include <vector>
 
 #include <dlfcn.h>
 
@@ -61,8 +63,9 @@ void one_blas_thread() {
     if (void* set = dlsym(RTLD_DEFAULT, "openblas_set_num_threads")) reinterpret_cast<void (*)(int)>(set)(1);
 }
 
-// What is asked of the other ranks next.
-enum Next { leave, solve };
+// What is asked of the other ranks next: to solve cells that the library divides, or those of the partition that their
+// mesh file has.
+enum Next { leave, solve_divided, solve_partitions };
 
 class Ranks {
 public:
@@ -70,8 +73,12 @@ public:
 
     // On rank 0: the bodies go to all ranks, which then serve `rest`.
     int around(const cli::Model& model, const std::function<int()>& rest) {
-        (void)Processes::shared(solve);
-        call(delam_petsc_take_scene(petsc_, model.mesh.get(), model.problem.get()), model);
+        const std::vector<std::int32_t> rank = ranks_of(model);
+        (void)Processes::shared(rank.empty() ? solve_divided : solve_partitions);
+        call(rank.empty() ? delam_petsc_take_scene(petsc_, model.mesh.get(), model.problem.get())
+                          : delam_petsc_take_cells(petsc_, model.mesh.get(), model.problem.get(),
+                                                   static_cast<std::int64_t>(rank.size()), rank.data()),
+             model);
         call(delam_petsc_attach(petsc_, model.problem.get()), model);
         Work work{rest, cli::exit_numerical, {}};
         const std::int32_t status = delam_petsc_run(petsc_, run, &work);
@@ -81,8 +88,11 @@ public:
     }
     // On the others: until rank 0 has come to its end.
     void serve() {
-        while (Processes::shared(leave) == solve) {
-            if (delam_petsc_take_scene(petsc_, nullptr, nullptr) != DELAM_OK) continue;
+        for (int next = Processes::shared(leave); next != leave; next = Processes::shared(leave)) {
+            const std::int32_t taken = next == solve_divided
+                                           ? delam_petsc_take_scene(petsc_, nullptr, nullptr)
+                                           : delam_petsc_take_cells(petsc_, nullptr, nullptr, 0, nullptr);
+            if (taken != DELAM_OK) continue;
             if (delam_petsc_attach(petsc_, nullptr) != DELAM_OK) continue;
             (void)delam_petsc_run(petsc_, nullptr, nullptr);
         }
@@ -94,6 +104,22 @@ private:
         int code;
         std::exception_ptr failure;
     };
+    // The rank of each cell by the mesh file's partitions, if there are as many as ranks; else empty. Says which.
+    static std::vector<std::int32_t> ranks_of(const cli::Model& model) {
+        std::vector<std::int32_t> rank = model.partitions;
+        if (rank.empty()) return rank;
+        int ranks = 1;
+        MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+        const std::int32_t partitions = *std::max_element(rank.begin(), rank.end());
+        if (partitions != ranks) {
+            cli::say("bodies: divided anew, because the mesh file has {} partitions, and there are {} ranks\n",
+                     partitions, ranks);
+            return {};
+        }
+        for (std::int32_t& r : rank) --r;
+        cli::say("bodies: each of the {} ranks has a partition of the mesh file\n", ranks);
+        return rank;
+    }
     static std::int32_t run(void* user) {
         auto& work = *static_cast<Work*>(user);
         try {
