@@ -16,9 +16,9 @@ import subprocess
 import sys
 
 SKIPPED = 77
-LIMIT = 200.0  # s
+LIMIT = 900.0  # s, beside other programs
 BDDC = "bddc" in os.environ.get("PETSC_OPTIONS", "")
-TIMES = [0.25, 0.5, 0.75, 1.0]
+TIMES = [0.4, 0.7, 1.0]
 ALLOWED = 1e-7  # of a curve, relative; damage_tolerance is 1e-10
 
 
@@ -65,10 +65,10 @@ def expect(condition, what):
 def bodies_of(dimension):
     """A mesh of two arms, what sets their materials, and the name of their cells."""
     if dimension == 2:
-        mesh = delam.Mesh.layers(0.06, 24, [3e-3, 2e-3], [2, 2])
+        mesh = delam.Mesh.layers(0.06, 20, [3e-3, 2e-3], [2, 2])
         return mesh, lambda problem: (problem.set_plane("plane-stress"), problem.set_elastic(75e9, 0.3, 0),
                                       problem.set_elastic(135e9, 0.25, 1)), "quad4"
-    mesh = delam.Mesh.layers([0.03, 0.01], [12, 2], [1e-3, 1e-3], [1, 1], "hex8")
+    mesh = delam.Mesh.layers([0.03, 0.01], [10, 2], [1e-3, 1e-3], [1, 1], "hex8")
 
     def materials(problem):
         problem.set_orthotropic([135e9, 10e9, 10e9, 0.3, 0.3, 0.4, 5e9, 5e9, 3.5e9])
@@ -205,8 +205,6 @@ def ways(dimension):
         cut = None if mesh is None else sections(mesh, half) + half * (mesh.cells.bodies % max(ranks.size // half, 1))
         ranks.take_cells(mesh, problem, cut)
         solved(ranks, problem, f"{name}: cells cut along the interface", expected, BDDC)
-        ranks.take_scene(mesh, problem)
-        solved(ranks, problem, f"{name}: cells by PTScotch", expected)
 
 
 # ---- wrong input -------------------------------------------------------------------------------------------------------
@@ -306,7 +304,7 @@ def wrong_cells(ranks):
 def wrong_scene(ranks):
     problem = scene(2) if COMM.rank == 0 else None
     mesh = None if problem is None else problem.mesh
-    cells = 96
+    cells = 80
     for what, given, words in (("a rank too many", np.arange(cells) % (COMM.size + 1), (f" {COMM.size} of cell",)),
                                ("a negative rank", -np.arange(cells), ("-1 of cell 1",)),
                                ("too few cells", np.zeros(cells - 1, int), (str(cells - 1), str(cells)))):
