@@ -5,6 +5,8 @@
 
 #include "delam/petsc.h"
 #include "petsc/options.hpp"
+#include "petsc/own_cells.hpp"
+#include "petsc/rows.hpp"
 #include "petsc/session.hpp"
 
 static_assert(sizeof(PetscScalar) == sizeof(double),
@@ -80,6 +82,30 @@ int32_t delam_petsc_set_part(delam_petsc* petsc, int32_t dimension, int64_t node
 
 int32_t delam_petsc_take_scene(delam_petsc* petsc, const delam_mesh* mesh, const delam_problem* problem) {
     return call(petsc, [&](Session& session) { session.take_scene(mesh, problem); });
+}
+
+int32_t delam_petsc_take_cells(delam_petsc* petsc, const delam_mesh* mesh, const delam_problem* problem,
+                               int64_t cell_count, const int32_t* ranks) {
+    return call(petsc, [&](Session& session) {
+        const delam::petsc::GivenRanks given{cell_count, ranks};
+        session.take_scene(mesh, problem, &given);
+    });
+}
+
+int32_t delam_petsc_set_rows(delam_petsc* petsc, int32_t dimension, int64_t node_count, const int64_t* nodes,
+                             const double* coordinates, const int64_t* row_starts, const int64_t* columns,
+                             const double* values) {
+    return call(petsc, [&](Session& session) {
+        session.set_part(delam::petsc::make_rows(session.comm(), dimension, node_count, nodes, coordinates, row_starts,
+                                                 columns, values));
+    });
+}
+
+int32_t delam_petsc_set_cells(delam_petsc* petsc, const delam_mesh* mesh, const delam_problem* problem,
+                              int64_t node_count, const int64_t* nodes) {
+    return call(petsc, [&](Session& session) {
+        session.set_part(delam::petsc::make_own_cells(session.comm(), mesh, problem, node_count, nodes));
+    });
 }
 
 int32_t delam_petsc_attach(delam_petsc* petsc, delam_problem* problem) {

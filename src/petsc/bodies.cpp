@@ -21,7 +21,7 @@ double dot(std::span<const double> a, std::span<const double> b) {
 Bodies::Bodies(const Communicator& comm, const Part& part, const SceneVariables& scene)
     : comm_(comm),
       part_(part),
-      numbering_(comm, part.nodes, scene.dofs / scene.dimension),
+      numbering_(comm, part.own(), scene.dofs / scene.dimension),
       local_(make_local_variables(comm, part, scene, numbering_)) {
     check(VecCreate(comm.get(), layout_.out()));
     check(VecSetSizes(layout_, local_.owned, PETSC_DETERMINE));

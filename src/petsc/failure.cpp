@@ -63,4 +63,13 @@ Failure current_failure() {
     }
 }
 
+PetscErrorCode failed_in_callback() {
+    try {
+        recorded = current_failure().what();
+    } catch (...) {
+        recorded.clear();
+    }
+    return PETSC_ERR_LIB;
+}
+
 }  // namespace delam::petsc

@@ -41,6 +41,9 @@ inline void check(PetscErrorCode code) {
 
 // The status and text of the exception that is being handled.
 Failure current_failure();
+// Inside a function that PETSc calls, where no exception may pass: keeps the text of the exception that is being
+// handled for fail_petsc, and returns what the function returns.
+PetscErrorCode failed_in_callback();
 
 // PETSc counts in PetscInt, which has 32 bits unless PETSC was configured otherwise.
 template <class Integer>

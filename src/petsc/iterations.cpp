@@ -22,7 +22,7 @@ PetscErrorCode apply_shell(PC shell, Vec r, Vec z) {
     try {
         static_cast<const Preconditioner*>(context)->apply(r, z);
     } catch (...) {
-        return PETSC_ERR_LIB;
+        return failed_in_callback();
     }
     return 0;
 }
@@ -61,7 +61,7 @@ PetscErrorCode Iterations::test(KSP, PetscInt iteration, PetscReal norm, KSPConv
     try {
         *reason = static_cast<Iterations*>(self)->decide(iteration, norm);
     } catch (...) {
-        return PETSC_ERR_LIB;
+        return failed_in_callback();
     }
     return 0;
 }

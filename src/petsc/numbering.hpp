@@ -9,12 +9,13 @@
 
 namespace delam::petsc {
 
-// PETSc's numbers of the nodes. A node belongs to the lowest rank whose part has it, nodes of the mesh without any part
-// to rank 0; the nodes of a rank have consecutive numbers, in the order of the mesh. No rank knows the numbers of all
-// nodes: node n is written down on rank n / share, where the others ask for it. All calls are collective.
+// PETSc's numbers of the nodes. A node belongs to the lowest rank whose part has it as no ghost, nodes of the mesh
+// without any part to rank 0; the nodes of a rank have consecutive numbers, in the order of the mesh. No rank knows the
+// numbers of all nodes: node n is written down on rank n / share, where the others ask for it. All calls are
+// collective.
 class Numbering {
 public:
-    // nodes: of this rank's part. mesh_nodes: how many the mesh has.
+    // nodes: of this rank's part, without ghosts, which are other ranks'. mesh_nodes: how many the mesh has.
     Numbering(const Communicator& comm, std::span<const std::int64_t> nodes, std::int64_t mesh_nodes);
 
     PetscInt first() const { return first_; }

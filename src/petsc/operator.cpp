@@ -14,7 +14,7 @@ PetscErrorCode apply_shell(Mat shell, Vec x, Vec y) {
     try {
         static_cast<const Operator*>(context)->apply(x, y);
     } catch (...) {
-        return PETSC_ERR_LIB;
+        return failed_in_callback();
     }
     return 0;
 }

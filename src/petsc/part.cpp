@@ -20,23 +20,16 @@ void check_nodes(const std::vector<std::int64_t>& nodes) {
 
 LocalMatrix copy_rows(std::int64_t rows, const std::int64_t* row_starts, const std::int64_t* columns,
                       const double* values) {
+    check_rows(rows, row_starts, columns, values);
     LocalMatrix matrix;
     matrix.rows = matrix.columns = petsc_int(rows);
     if (rows == 0) return matrix;
-    if (row_starts == nullptr || row_starts[0] != 0)
-        fail(DELAM_ERROR_ARGUMENT, "row_starts: NULL or does not begin with 0");
-    for (std::int64_t r = 0; r < rows; ++r)
-        if (row_starts[r + 1] < row_starts[r]) fail(DELAM_ERROR_ARGUMENT, "row_starts: decreases after row ", r);
     const std::int64_t entries = row_starts[rows];
-    petsc_int(entries);
-    if (entries > 0 && (columns == nullptr || values == nullptr))
-        fail(DELAM_ERROR_ARGUMENT, "columns or values: NULL with ", entries, " entries");
     matrix.start.assign(row_starts, row_starts + rows + 1);
     matrix.column.reserve(static_cast<std::size_t>(entries));
     for (std::int64_t e = 0; e < entries; ++e) {
         if (columns[e] < 0 || columns[e] >= rows)
             fail(DELAM_ERROR_ARGUMENT, "columns: ", columns[e], " of entry ", e, " is not in [0, ", rows, ")");
-        if (!std::isfinite(values[e])) fail(DELAM_ERROR_ARGUMENT, "values: ", values[e], " of entry ", e);
         matrix.column.push_back(static_cast<PetscInt>(columns[e]));
     }
     matrix.value.assign(values, values + entries);
@@ -46,8 +39,21 @@ LocalMatrix copy_rows(std::int64_t rows, const std::int64_t* row_starts, const s
 
 }  // namespace
 
-Part make_part(std::int32_t dimension, std::int64_t node_count, const std::int64_t* nodes, const double* coordinates,
-               const std::int64_t* row_starts, const std::int64_t* columns, const double* values) {
+void check_rows(std::int64_t rows, const std::int64_t* row_starts, const std::int64_t* columns, const double* values) {
+    if (rows == 0) return;
+    if (row_starts == nullptr || row_starts[0] != 0)
+        fail(DELAM_ERROR_ARGUMENT, "row_starts: NULL or does not begin with 0");
+    for (std::int64_t r = 0; r < rows; ++r)
+        if (row_starts[r + 1] < row_starts[r]) fail(DELAM_ERROR_ARGUMENT, "row_starts: decreases after row ", r);
+    const std::int64_t entries = row_starts[rows];
+    petsc_int(entries);
+    if (entries > 0 && (columns == nullptr || values == nullptr))
+        fail(DELAM_ERROR_ARGUMENT, "columns or values: NULL with ", entries, " entries");
+    for (std::int64_t e = 0; e < entries; ++e)
+        if (!std::isfinite(values[e])) fail(DELAM_ERROR_ARGUMENT, "values: ", values[e], " of entry ", e);
+}
+
+Part make_nodes(std::int32_t dimension, std::int64_t node_count, const std::int64_t* nodes, const double* coordinates) {
     if (dimension != 2 && dimension != 3) fail(DELAM_ERROR_ARGUMENT, "dimension = ", dimension, ": has to be 2 or 3");
     if (node_count < 0) fail(DELAM_ERROR_ARGUMENT, "node_count = ", node_count, ": has to be at least 0");
     if (node_count > 0 && nodes == nullptr) fail(DELAM_ERROR_ARGUMENT, "nodes: NULL with ", node_count, " nodes");
@@ -58,8 +64,22 @@ Part make_part(std::int32_t dimension, std::int64_t node_count, const std::int64
     if (coordinates != nullptr) part.coordinates.assign(coordinates, coordinates + node_count * dimension);
     for (const double x : part.coordinates)
         if (!std::isfinite(x)) fail(DELAM_ERROR_ARGUMENT, "coordinates: ", x, " is not finite");
+    return part;
+}
+
+Part make_part(std::int32_t dimension, std::int64_t node_count, const std::int64_t* nodes, const double* coordinates,
+               const std::int64_t* row_starts, const std::int64_t* columns, const double* values) {
+    Part part = make_nodes(dimension, node_count, nodes, coordinates);
     part.stiffness = copy_rows(node_count * dimension, row_starts, columns, values);
     return part;
+}
+
+void require_same_dimension(const Communicator& comm, std::int32_t dimension) {
+    const std::int64_t largest = comm.largest(static_cast<std::int64_t>(dimension));
+    comm.together([&] {
+        if (dimension != largest)
+            fail(DELAM_ERROR_ARGUMENT, "dimension = ", dimension, ", but another rank has ", largest);
+    });
 }
 
 }  // namespace delam::petsc

@@ -2,8 +2,8 @@
 #include "petsc/partition.hpp"
 
 #include <algorithm>
-#include <set>
 
+#include "petsc/cell_bytes.hpp"
 #include "petsc/glued_cells.hpp"
 #include "petsc/options.hpp"
 
@@ -19,51 +19,6 @@ PetscInt* petsc_array(const std::vector<std::int64_t>& values) {
     check(PetscMalloc1(std::max<std::size_t>(1, values.size()), &array));
     for (std::size_t i = 0; i < values.size(); ++i) array[i] = petsc_int(values[i]);
     return array;
-}
-
-std::vector<std::uint8_t> part_bytes(const delam_problem* problem, const std::vector<std::int64_t>& cells) {
-    if (cells.empty()) return {};
-    std::int64_t size = 0;
-    const auto count = static_cast<std::int64_t>(cells.size());
-    std::int32_t status = delam_experimental_problem_part(problem, count, cells.data(), 0, nullptr, &size);
-    std::vector<std::uint8_t> bytes;
-    if (status == DELAM_OK) {
-        bytes.resize(static_cast<std::size_t>(size));
-        status = delam_experimental_problem_part(problem, count, cells.data(), size, bytes.data(), &size);
-    }
-    if (status != DELAM_OK)
-        fail(status, "delam_experimental_problem_part returned ", delam_status_name(status),
-             " (delam_context_message on rank 0 says why)");
-    return bytes;
-}
-
-Part part_of_bytes(std::int32_t dimension, const std::vector<std::uint8_t>& bytes) {
-    if (bytes.empty()) return make_part(dimension, 0, nullptr, nullptr, nullptr, nullptr, nullptr);
-    struct Context {
-        delam_context* handle = nullptr;
-        ~Context() { delam_context_destroy(&handle); }
-    } context;
-    std::int64_t dimensions = 0, nodes = 0, entries = 0;
-    const auto size = static_cast<std::int64_t>(bytes.size());
-    std::vector<std::int64_t> node, start, column;
-    std::vector<double> place, value;
-    const auto call = [&](bool all) {
-        const std::int32_t status = delam_experimental_part_matrix(
-            context.handle, size, bytes.data(), &dimensions, &nodes, &entries, all ? node.data() : nullptr,
-            all ? place.data() : nullptr, all ? start.data() : nullptr, all ? column.data() : nullptr,
-            all ? value.data() : nullptr);
-        if (status != DELAM_OK) fail(status, "delam_experimental_part_matrix: ", delam_context_message(context.handle));
-    };
-    if (delam_context_create(&context.handle) != DELAM_OK) fail(DELAM_ERROR_MEMORY, "not enough memory");
-    call(false);
-    node.resize(static_cast<std::size_t>(nodes));
-    place.resize(static_cast<std::size_t>(nodes * dimensions));
-    start.resize(static_cast<std::size_t>(nodes * dimensions) + 1);
-    column.resize(static_cast<std::size_t>(entries));
-    value.resize(static_cast<std::size_t>(entries));
-    call(true);
-    return make_part(static_cast<std::int32_t>(dimensions), nodes, node.data(), place.data(), start.data(),
-                     column.data(), value.data());
 }
 
 }  // namespace
@@ -97,28 +52,24 @@ std::vector<int> partition_cells(const delam_mesh* mesh, int ranks) {
 
 namespace {
 
-// A body without cells has its stiffness from the host, which no part carries.
-void require_cells(const delam_mesh* mesh) {
-    std::int64_t nodes = 0, cells = 0;
-    if (delam_mesh_size(mesh, nullptr, &nodes, &cells, nullptr, nullptr) != DELAM_OK) return;
-    std::vector<std::int32_t> of_node(static_cast<std::size_t>(nodes)), of_cell(static_cast<std::size_t>(cells)),
-        types(of_cell.size());
-    std::vector<std::int64_t> offsets(of_cell.size() + 1);
-    std::int64_t entries = 0;
-    const std::int32_t first = delam_mesh_node_bodies(mesh, nodes, of_node.data()),
-                       second =
-                           delam_mesh_cells(mesh, types.data(), of_cell.data(), offsets.data(), 0, nullptr, &entries);
-    if (first != DELAM_OK || second != DELAM_OK) fail(DELAM_ERROR_PROBLEM, "mesh: its bodies cannot be read");
-    const std::set<std::int32_t> with_cells(of_cell.begin(), of_cell.end());
-    for (const std::int32_t body : of_node)
-        if (body >= 0 && !with_cells.contains(body))
-            fail(DELAM_ERROR_PROBLEM, "body ", body,
-                 " has no cells: hand over its stiffness by parts (delam_petsc_set_part) instead of the scene");
+std::vector<int> checked(const GivenRanks& given, const delam_mesh* mesh, int size) {
+    std::int64_t cells = 0;
+    if (const std::int32_t status = delam_mesh_size(mesh, nullptr, nullptr, &cells, nullptr, nullptr);
+        status != DELAM_OK)
+        fail(status, "mesh: ", delam_status_name(status));
+    const auto& [count, rank] = given;
+    if (count != cells) fail(DELAM_ERROR_ARGUMENT, "cell_count = ", count, ", but the mesh has ", cells, " cells");
+    if (count > 0 && rank == nullptr) fail(DELAM_ERROR_ARGUMENT, "ranks: NULL with ", count, " cells");
+    for (std::int64_t c = 0; c < count; ++c)
+        if (rank[c] < 0 || rank[c] >= size)
+            fail(DELAM_ERROR_ARGUMENT, "ranks: ", rank[c], " of cell ", c, " is not in [0, ", size, ")");
+    return {rank, rank + count};
 }
 
 }  // namespace
 
-Part receive_part(const Communicator& comm, const delam_mesh* mesh, const delam_problem* problem) {
+Part receive_part(const Communicator& comm, const delam_mesh* mesh, const delam_problem* problem,
+                  const GivenRanks* given) {
     std::vector<std::vector<std::int64_t>> cells;
     std::int32_t dimension = 0;
     comm.together([&] {
@@ -127,7 +78,8 @@ Part receive_part(const Communicator& comm, const delam_mesh* mesh, const delam_
             status != DELAM_OK)
             fail(status, "mesh: ", delam_status_name(status));
         require_cells(mesh);
-        const std::vector<int> rank = partition_cells(mesh, comm.size());
+        const std::vector<int> rank =
+            given != nullptr ? checked(*given, mesh, comm.size()) : partition_cells(mesh, comm.size());
         cells.resize(static_cast<std::size_t>(comm.size()));
         for (std::size_t c = 0; c < rank.size(); ++c)
             cells[static_cast<std::size_t>(rank[c])].push_back(static_cast<std::int64_t>(c));
@@ -138,7 +90,7 @@ Part receive_part(const Communicator& comm, const delam_mesh* mesh, const delam_
     for (int r = comm.size() - 1; r >= 0; --r) {
         std::vector<std::uint8_t> bytes;
         comm.together([&] {
-            if (comm.root()) bytes = part_bytes(problem, cells[static_cast<std::size_t>(r)]);
+            if (comm.root()) bytes = part_bytes(problem, cells[static_cast<std::size_t>(r)], 0);
         });
         if (r == 0 && comm.root())
             mine = std::move(bytes);

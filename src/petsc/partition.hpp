@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "delam/experimental.h"
@@ -13,7 +14,15 @@ namespace delam::petsc {
 // same rank, so that no cut runs along an interface.
 std::vector<int> partition_cells(const delam_mesh* mesh, int ranks);
 
-// Rank 0's mesh and problem (NULL elsewhere), divided; returns what falls to this rank. Collective.
-Part receive_part(const Communicator& comm, const delam_mesh* mesh, const delam_problem* problem);
+// A host's own partition: [count] the rank of each cell.
+struct GivenRanks {
+    std::int64_t count = 0;
+    const std::int32_t* rank = nullptr;
+};
+
+// Rank 0's mesh and problem (NULL elsewhere), divided as `given` says there or else by partition_cells; returns what
+// falls to this rank. Collective.
+Part receive_part(const Communicator& comm, const delam_mesh* mesh, const delam_problem* problem,
+                  const GivenRanks* given);
 
 }  // namespace delam::petsc

@@ -23,7 +23,12 @@ bool bddc_is_chosen() {
 Preconditioner::Preconditioner(const Bodies& bodies, const Visible& visible, const Constraints& constraints,
                                const SceneVariables& scene)
     : constraints_(constraints), work_(bodies.vector()) {
-    if (bddc_is_chosen())
+    const bool bddc = bddc_is_chosen();
+    if (bddc && bodies.part().of_rows)
+        fail(DELAM_ERROR_ARGUMENT,
+             "-delam_pc_type bddc needs the stiffness of each rank's own cells, which rows of the assembled stiffness "
+             "(delam_petsc_set_rows) do not tell: hand over parts or cells, or take another preconditioner");
+    if (bddc)
         inner_ = std::make_unique<BddcPreconditioner>(bodies, visible, scene);
     else
         inner_ = std::make_unique<AssembledPreconditioner>(bodies, visible);

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "petsc/callbacks.hpp"
-#include "petsc/partition.hpp"
 
 namespace delam::petsc {
 
@@ -30,23 +29,18 @@ std::int32_t Session::refuse(const char* why) {
 }
 
 void Session::set_part(Part part) {
-    const auto dimension = static_cast<std::int64_t>(part.dimension);
-    const std::int64_t largest = comm_.largest(dimension);
-    comm_.together([&] {
-        if (dimension != largest)
-            fail(DELAM_ERROR_ARGUMENT, "dimension = ", dimension, ", but another rank has ", largest);
-    });
+    require_same_dimension(comm_, part.dimension);
     engine_.reset();
     part_ = std::move(part);
     has_part_ = true;
 }
 
-void Session::take_scene(const delam_mesh* mesh, const delam_problem* problem) {
+void Session::take_scene(const delam_mesh* mesh, const delam_problem* problem, const GivenRanks* given) {
     comm_.together([&] {
         const bool given = mesh != nullptr && problem != nullptr;
         if (comm_.root() && !given) fail(DELAM_ERROR_ARGUMENT, "mesh or problem is NULL on rank 0");
     });
-    set_part(receive_part(comm_, mesh, problem));
+    set_part(receive_part(comm_, mesh, problem, given));
 }
 
 void Session::attach(delam_problem* problem) {
@@ -122,7 +116,10 @@ Engine& Session::engine() const {
 std::int32_t Session::prepare(const delam_experimental_variables* variables, double* diagonal, double* load_sizes) {
     return command(Command::prepare, [&] {
         comm_.together([&] {
-            if (!has_part_) fail(DELAM_ERROR_STATE, "there are no parts: delam_petsc_set_part comes first");
+            if (!has_part_)
+                fail(DELAM_ERROR_STATE,
+                     "there are no parts: delam_petsc_set_part, _set_rows, _set_cells, _take_scene or _take_cells "
+                     "comes first");
             if (comm_.root() && variables->dimension != part_.dimension)
                 fail(DELAM_ERROR_ARGUMENT, "the mesh has dimension ", variables->dimension, ", the parts ",
                      part_.dimension);

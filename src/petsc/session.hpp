@@ -7,6 +7,7 @@
 #include "delam/petsc.h"
 #include "petsc/counters.hpp"
 #include "petsc/engine.hpp"
+#include "petsc/partition.hpp"
 
 namespace delam::petsc {
 
@@ -43,7 +44,7 @@ public:
     }
 
     void set_part(Part part);
-    void take_scene(const delam_mesh* mesh, const delam_problem* problem);
+    void take_scene(const delam_mesh* mesh, const delam_problem* problem, const GivenRanks* given = nullptr);
     void attach(delam_problem* problem);
     std::int32_t run(std::int32_t (*work)(void* user), void* user);
     double value(const char* key) const;

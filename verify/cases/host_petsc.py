@@ -5,11 +5,17 @@
 A host of examples/host-petsc on some ranks prints the numbers of the library alone, for the same scene with cells of
 the library's own: up to 1e-7 of the largest of each column. On two ranks it is also given wrong arguments, which end it
 with exit code 2. Exits with 77 where mpirun, or what a host in Python needs, is missing.
+
+HOST may be host_petsc_gmsh.py, for which Gmsh's library makes the files of the ranks from beam.geo.
 """
+import ctypes
+import ctypes.util
 import os
+import pathlib
 import shutil
 import subprocess
 import sys
+import tempfile
 
 TOLERANCE = 1e-7
 SKIPPED = 77
@@ -45,12 +51,40 @@ def alone():
     return rows
 
 
-def on_ranks(ranks, host, argument):
+def cut_mesh(ranks, geometry, folder):
+    """As gmsh -3 -part RANKS -part_split -format msh22; the path without _RANK.msh, None where there is no Gmsh."""
+    name = ctypes.util.find_library("gmsh")
+    if name is None:
+        return None
+    library, error = ctypes.CDLL(name), ctypes.c_int()
+
+    def call(function, *arguments):
+        getattr(library, function)(*arguments, ctypes.byref(error))
+        if error.value != 0:
+            raise RuntimeError(f"{function} of {name} returned {error.value}")
+
+    text = geometry.read_text(encoding="utf-8").replace("cells = 30 ", f"cells = {CELLS} ")
+    copy, path = os.path.join(folder, "beam.geo"), os.path.join(folder, "beam")
+    pathlib.Path(copy).write_text(text, encoding="utf-8")
+    call("gmshInitialize", 0, None, 0)
+    call("gmshOptionSetNumber", b"General.Terminal", ctypes.c_double(0))
+    call("gmshOpen", copy.encode())
+    call("gmshModelMeshGenerate", 3)
+    call("gmshOptionSetNumber", b"Mesh.MshFileVersion", ctypes.c_double(2.2))
+    if ranks > 1:
+        call("gmshModelMeshPartition", ranks)
+        call("gmshOptionSetNumber", b"Mesh.PartitionSplitMeshFiles", ctypes.c_double(1))
+    call("gmshWrite", (path + (".msh" if ranks > 1 else "_1.msh")).encode())
+    call("gmshFinalize")
+    return path
+
+
+def on_ranks(ranks, host, *arguments):
     told = subprocess.run(["mpirun", "--version"], capture_output=True, text=True, check=False).stdout
     options = ["--allow-run-as-root", "--oversubscribe"] if "Open MPI" in told or "OpenRTE" in told else []
     environment = dict(os.environ, OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1")
-    return subprocess.run(["mpirun", *options, "-n", str(ranks), *host, argument], env=environment, capture_output=True,
-                          text=True, check=False)
+    return subprocess.run(["mpirun", *options, "-n", str(ranks), *host, *arguments], env=environment,
+                          capture_output=True, text=True, check=False)
 
 
 def differences(expected, found):
@@ -59,7 +93,7 @@ def differences(expected, found):
             for one, other in zip(zip(*expected), zip(*found))]
 
 
-def main():
+def main(folder):
     ranks, host = int(sys.argv[1]), sys.argv[2:]
     if shutil.which("mpirun") is None:
         print("skipped: mpirun is not there")
@@ -68,7 +102,14 @@ def main():
     if needs is not None and needs.returncode != 0:
         print("skipped: mpi4py is not there")
         return SKIPPED
-    done = on_ranks(ranks, host, str(CELLS))
+    right, wrong = [str(CELLS)], ["2"]
+    geometry = pathlib.Path(host[-1]).with_name("beam.geo")
+    if host[-1].endswith("_gmsh.py"):
+        right, wrong = [cut_mesh(ranks, geometry, folder)], []
+        if right == [None]:
+            print("skipped: Gmsh's library is not there")
+            return SKIPPED
+    done = on_ranks(ranks, host, *right)
     lines = done.stdout.splitlines()
     if done.returncode != 0 or len(lines) != STEPS + 1:
         print(f"exit code {done.returncode} and {len(lines)} lines, expected 0 and {STEPS + 1}:\n"
@@ -85,12 +126,13 @@ def main():
     if not all(difference <= TOLERANCE for difference in worst):
         print(f"expected at most {TOLERANCE:g}:\n{done.stdout}", *expected, sep="\n")
         return 1
-    wrong = on_ranks(ranks, host, "2") if ranks == 2 else None
-    if wrong is not None and (wrong.returncode != 2 or "usage" not in wrong.stderr):
-        print(f"exit code {wrong.returncode}, expected 2, with wrong arguments:\n{wrong.stdout}{wrong.stderr}")
+    done = on_ranks(ranks, host, *wrong) if ranks == 2 else None
+    if done is not None and (done.returncode != 2 or "usage" not in done.stderr):
+        print(f"exit code {done.returncode}, expected 2, with wrong arguments:\n{done.stdout}{done.stderr}")
         return 1
     return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    with tempfile.TemporaryDirectory() as place:
+        sys.exit(main(place))

@@ -3,7 +3,8 @@
 """faults.py [NAME ...]
 
 What goes wrong on one rank, or from outside, ends all ranks in time and with a message, and nothing finished is lost:
-kills, signals, too little memory, a full disk, wrong input. NAME: kill, signal, memory, disk, input; without: all.
+kills, signals, an exception on one rank, too little memory, a full disk, wrong input. NAME: kill, signal, step, memory,
+disk, input; without: all.
 """
 import contextlib
 import json
@@ -22,6 +23,8 @@ from scenes import Result
 
 PROMPT = 10.0  # s, in which all has ended
 START = 60.0  # s, where the ranks start first, perhaps beside other programs
+PATIENCE = 8.0  # s, in which a rank that has failed waits for the others (src/petsc/communicator.cpp)
+ENGINE = os.environ.get("DELAM_TEST_ENGINE", "")  # test_engine.cpp
 SCARCE = os.environ.get("DELAM_SCARCE_LIBRARY", "")  # scarce.c
 SCENE = os.path.join(EXAMPLES, "enf-ductile", "enf-ductile.toml")
 STEPS = 40
@@ -157,6 +160,26 @@ def signals():
     expect(code == 0, f"{what}: the run comes to its end: {code}")
 
 
+def step():
+    """Rank 0 throws in the middle of a step of PETSc, where rank 1 waits for it."""
+    if not ENGINE:
+        print("the test of the engine is not built: left out")
+        return
+    what = "an exception in the middle of a step of PETSc"
+    with Ranks(2, "lose", program=ENGINE) as ranks:
+        until = time.monotonic() + START
+        while "a rank is lost now" not in ranks.said and time.monotonic() < until:
+            time.sleep(0.02)
+        begun = time.monotonic()
+        ended(ranks, what, "a rank is lost now",
+              "libdelam-petsc: one rank has failed and the others wait for it: .*thrown in a step", limit=PATIENCE + PROMPT)
+        took = time.monotonic() - begun
+        expect(took > PATIENCE - 1.0, f"{what}: ended after {took:.1f} s, {PATIENCE:g} of them patience")
+    with Ranks(1, "lose", program=ENGINE) as ranks:
+        code = ranks.wait(START)
+        expect(code == 0 and "0 failures" in ranks.said, f"{what}, alone, is a status: {code}, {last_lines(ranks.said)}")
+
+
 def memory():
     if not SCARCE:
         return
@@ -237,7 +260,7 @@ def wrong_input():
         list(pool.map(one, cases))
 
 
-ALL = {"kill": kill, "signal": signals, "memory": memory, "disk": disk, "input": wrong_input}
+ALL = {"kill": kill, "signal": signals, "step": step, "memory": memory, "disk": disk, "input": wrong_input}
 
 
 def main():

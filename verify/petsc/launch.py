@@ -65,16 +65,16 @@ def alive(pid):
 
 
 class Ranks:
-    """delam-mpi on a number of ranks; `said` is what it writes, both streams. Ends with the block, ranks included."""
+    """delam-mpi, or another program, on a number of ranks; `said` is what it writes, both streams. Ends with the block, ranks included."""
 
-    def __init__(self, count, *words, wrap="", preload=""):
+    def __init__(self, count, *words, wrap="", preload="", program=DELAM_MPI):
         self.count = count
         self.pids = folder()
         self.said_path = os.path.join(self.pids, "said")
         environment = dict(ENVIRONMENT, DELAM_PIDS=self.pids, DELAM_WRAP=wrap, DELAM_PRELOAD=preload)
         with open(self.said_path, "wb") as said:
             self.process = subprocess.Popen(
-                ["mpirun", "-n", str(count), os.path.join(HERE, "rank.sh"), DELAM_MPI, *words], env=environment,
+                ["mpirun", "-n", str(count), os.path.join(HERE, "rank.sh"), program, *words], env=environment,
                 stdin=subprocess.DEVNULL, stdout=said, stderr=subprocess.STDOUT, start_new_session=True,
                 preexec_fn=with_parent)
 

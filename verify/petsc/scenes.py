@@ -85,6 +85,9 @@ def solve(name, scene, words, ranks):
     right = code in (0, 1) and os.path.exists(os.path.join(out, "result.json"))
     expect(right, f"{name}: {f'{ranks} ranks' if ranks else 'serial'} come to the end"
            + ("" if right else f": exit {code}: {last_lines(said)}"))
+    expected = small_scenes.SAYS.get(name, {}).get(ranks, "")
+    if expected:
+        expect(expected in said, f"{name}: {ranks} ranks say: {expected}")
     return (Result(out), code, counted(said)) if right else None
 
 

@@ -168,8 +168,15 @@ pattern = "open"
 """ + RISES.format("open", 1e-3)
 
 
-def unmatched():
-    """Two blocks of quadrilaterals, 12 below 17, as text of Gmsh."""
+def unmatched(partitions=0):
+    """Two blocks of quadrilaterals, 12 below 17, as text of Gmsh. partitions: of each block, one behind the other, from
+    the left below and from the right above, so that few cells have their own partition across the interface."""
+    def tags(group, place):
+        if partitions == 0:
+            return f"2 {group} {group}"
+        part = int(place * partitions)
+        return f"4 {group} {group} 1 {1 + (part if group == 1 else partitions - 1 - part)}"
+
     nodes, cells, bodies = [], [], ((1, 0.0, 12, "lower"), (2, 0.003, 17, "upper"))
     for group, bottom, count, _ in bodies:
         first = len(nodes) + 1
@@ -177,12 +184,12 @@ def unmatched():
         for j in range(2):
             for i in range(count):
                 a = first + j * (count + 1) + i
-                cells.append((group, a, a + 1, a + count + 2, a + count + 1))
+                cells.append((tags(group, (i + 0.5) / count), a, a + 1, a + count + 2, a + count + 1))
     lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", str(len(bodies))]
     lines += [f'2 {group} "{name}"' for group, _, _, name in bodies] + ["$EndPhysicalNames", "$Nodes", str(len(nodes))]
     lines += [f"{i} {x!r} {y!r} 0" for i, (x, y) in enumerate(nodes, start=1)] + ["$EndNodes", "$Elements",
                                                                                  str(len(cells))]
-    lines += [f"{i} 3 2 {c[0]} {c[0]} {c[1]} {c[2]} {c[3]} {c[4]}" for i, c in enumerate(cells, start=1)]
+    lines += [f"{i} 3 {c[0]} {c[1]} {c[2]} {c[3]} {c[4]}" for i, c in enumerate(cells, start=1)]
     return "\n".join([*lines, "$EndElements", ""])
 
 
@@ -214,6 +221,10 @@ CELL = ("mesh.cells_around=16", "time.steps=10", "time.end=0.6")
 
 # Left to the long tier, like others of the quick one.
 NOT_BRIEF = ("triangles", "incompressible", "gradient", "mixed-variational", "two-interfaces", "solid")
+# What delam-mpi says on a number of ranks.
+SAYS = {"partitioned": {1: "divided anew, because the mesh file has 2 partitions, and there are 1 ranks",
+                        2: "each of the 2 ranks has a partition of the mesh file",
+                        4: "divided anew, because the mesh file has 2 partitions, and there are 4 ranks"}}
 ON_FOUR = ("ductile", "brittle-energetic", "fibres", "dcb-3d", "plies-3d", "punch", "tiny", "projected")
 
 
@@ -253,6 +264,7 @@ def quick():
         "solid": own(SOLID),
         "tiny": own(TINY),
         "projected": own(PROJECTED, blocks=unmatched()),
+        "partitioned": own(PROJECTED, blocks=unmatched(2)),
     }
 
 

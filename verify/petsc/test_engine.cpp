@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The engine on PETSc against a dense direct solution: this program plays the library's core. Run it with mpirun on 1,
-// 2, 4 ranks. Options of PETSc choose the preconditioner.
+// 2, 4 ranks. Options of PETSc choose the preconditioner. With the word `lose` rank 0 fails in the middle of a step
+// that all ranks share (faults.py).
 #include <algorithm>
 #include <cstdlib>
 #include <stdexcept>
@@ -218,7 +219,27 @@ std::int32_t work(void* user) {
 
 std::int32_t throws(void*) { throw std::runtime_error("thrown at work"); }
 
-void run_case(Layers layers, std::int64_t hidden) {
+// A failure of one rank in the middle of a step of PETSc, where the others wait for it and cannot know.
+std::int32_t throws_in_step(void*) { throw std::runtime_error("thrown in a step"); }
+
+std::int32_t lose(void* user) {
+    const Case& c = *static_cast<Case*>(user);
+    const Variables v = make_variables(c.layers, c.hidden);
+    const EngineClient client(given, v);
+    Acting acting;
+    acting.theta = {1.0, 0.5};
+    acting.couplings = springs(c, v, 1e9, 0, 0);
+    double cost = 0.0;
+    require(client.set(acting), "set");
+    require(client.renew(acting.couplings, &cost), "renew");
+    std::printf("a rank is lost now\n");
+    std::fflush(stdout);
+    const Answered a = client.solve(acting, 0, {}, 1e-12, throws_in_step);
+    expect(a.status < 0, "a solve whose callback throws", a.status, -1.0);
+    return DELAM_OK;
+}
+
+void run_case(Layers layers, std::int64_t hidden, delam_petsc_work_callback job = work) {
     int rank = 0, size = 1;
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     MPI_Comm_size(MPI_COMM_WORLD, &size);
@@ -247,7 +268,7 @@ void run_case(Layers layers, std::int64_t hidden) {
                               mine.row_starts.data(), mine.columns.data(), mine.values.data()));
     int problem = 0;  // a stand-in: this program's own function receives it
     good(delam_petsc_attach(c.petsc, rank == 0 ? reinterpret_cast<delam_problem*>(&problem) : nullptr));
-    good(delam_petsc_run(c.petsc, work, &c));
+    good(delam_petsc_run(c.petsc, job, &c));
     const std::int32_t thrown = delam_petsc_run(c.petsc, throws, nullptr);
     expect(thrown == DELAM_ERROR_INTERNAL && std::string(delam_petsc_message(c.petsc)) == "thrown at work", "thrown",
            thrown, 0.0);
@@ -277,9 +298,14 @@ int main(int argc, char** argv) {
     solid.dimension = 3;
     solid.along = 4;
     solid.across = 2;
-    run_case(flat, 0);
-    run_case(flat, 5);
-    run_case(solid, 0);
+    const bool lost = argc > 1 && std::string(argv[1]) == "lose";
+    if (lost) {
+        run_case(flat, 0, lose);
+    } else {
+        run_case(flat, 0);
+        run_case(flat, 5);
+        run_case(solid, 0);
+    }
     int all = 0;
     MPI_Allreduce(&failures, &all, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
     int rank = 0;

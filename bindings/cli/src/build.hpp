@@ -2,6 +2,7 @@
 // Builds the library's objects from a scene.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "handles.hpp"
@@ -17,6 +18,7 @@ struct Model {
     std::vector<InterfaceData> interfaces;  // in the order of the mesh's interfaces
     std::vector<bool> adheres;              // per interface: whether any pair adheres at the start
     std::vector<Place> constraint_places;   // for each constraint of the problem: its place in the scene
+    std::vector<std::int32_t> partitions;   // of each cell, from 1 on, as the mesh file has them; empty: it has none
 };
 
 // Attributes the constraints added to the problem since the last call to `place`.

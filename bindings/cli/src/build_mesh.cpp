@@ -209,6 +209,8 @@ void build_from(Model& model, const Scene& scene) {
              delam_mesh_add_conforming_cells(handle, block.type, static_cast<std::int64_t>(block.bodies.size()),
                                              block.connectivity.data(), block.bodies.data(), 0),
              place);
+    for (const CellBlock& block : data.blocks)
+        model.partitions.insert(model.partitions.end(), block.partitions.begin(), block.partitions.end());
     add_named_interfaces(model, scene);
     add_other_interfaces(model, scene);
 }

@@ -3,12 +3,14 @@
 // results; the bodies are solved by all ranks together (delam/petsc.h).
 #include <mpi.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <string>
+#include <vector>
 
 #include <dlfcn.h>
 
@@ -22,11 +24,16 @@ namespace {
 
 constexpr const char* usage =
     "delam-mpi: as delam, on the processes of mpirun; see delam-mpi run --help.\n"
-    "    mpirun -n 4 delam-mpi [--petsc OPTIONS] [--counts] run SCENE.toml --out FOLDER\n"
+    "    mpirun -n 4 delam-mpi [--petsc OPTIONS] [--counts] [--divide] run SCENE.toml --out FOLDER\n"
     "  --petsc OPTIONS   options of PETSc for the bodies, e.g. \"-delam_pc_type bddc -delam_ksp_monitor\"; in front of "
     "the\n"
     "                    command, beside those of the variable PETSC_OPTIONS\n"
     "  --counts          prints at the end what the solves took; in front of the command\n"
+    "  --divide          divides a mesh that Gmsh has partitioned anew, so that cells on the two sides of an "
+    "interface\n"
+    "                    stay together; in front of the command. Without it a mesh with as many partitions as "
+    "processes\n"
+    "                    stays as it is\n"
     "Ctrl-C, or SIGTERM to rank 0 or mpirun, ends all ranks; finished steps are kept.\n";
 
 // Ends with the program, on all ranks at once.
@@ -61,17 +68,22 @@ void one_blas_thread() {
     if (void* set = dlsym(RTLD_DEFAULT, "openblas_set_num_threads")) reinterpret_cast<void (*)(int)>(set)(1);
 }
 
-// What is asked of the other ranks next.
-enum Next { leave, solve };
+// What is asked of the other ranks next: to solve cells that the library divides, or those of the partition that their
+// mesh file has.
+enum Next { leave, solve_divided, solve_partitions };
 
 class Ranks {
 public:
-    explicit Ranks(delam_petsc* petsc) : petsc_(petsc) {}
+    Ranks(delam_petsc* petsc, bool divide) : petsc_(petsc), divide_(divide) {}
 
     // On rank 0: the bodies go to all ranks, which then serve `rest`.
     int around(const cli::Model& model, const std::function<int()>& rest) {
-        (void)Processes::shared(solve);
-        call(delam_petsc_take_scene(petsc_, model.mesh.get(), model.problem.get()), model);
+        const std::vector<std::int32_t> rank = ranks_of(model);
+        (void)Processes::shared(rank.empty() ? solve_divided : solve_partitions);
+        call(rank.empty() ? delam_petsc_take_scene(petsc_, model.mesh.get(), model.problem.get())
+                          : delam_petsc_take_cells(petsc_, model.mesh.get(), model.problem.get(),
+                                                   static_cast<std::int64_t>(rank.size()), rank.data()),
+             model);
         call(delam_petsc_attach(petsc_, model.problem.get()), model);
         Work work{rest, cli::exit_numerical, {}};
         const std::int32_t status = delam_petsc_run(petsc_, run, &work);
@@ -81,8 +93,11 @@ public:
     }
     // On the others: until rank 0 has come to its end.
     void serve() {
-        while (Processes::shared(leave) == solve) {
-            if (delam_petsc_take_scene(petsc_, nullptr, nullptr) != DELAM_OK) continue;
+        for (int next = Processes::shared(leave); next != leave; next = Processes::shared(leave)) {
+            const std::int32_t taken = next == solve_divided
+                                           ? delam_petsc_take_scene(petsc_, nullptr, nullptr)
+                                           : delam_petsc_take_cells(petsc_, nullptr, nullptr, 0, nullptr);
+            if (taken != DELAM_OK) continue;
             if (delam_petsc_attach(petsc_, nullptr) != DELAM_OK) continue;
             (void)delam_petsc_run(petsc_, nullptr, nullptr);
         }
@@ -94,6 +109,23 @@ private:
         int code;
         std::exception_ptr failure;
     };
+    // The rank of each cell by the mesh file's partitions, if there are as many as ranks; else empty. Says which of
+    // both.
+    std::vector<std::int32_t> ranks_of(const cli::Model& model) const {
+        std::vector<std::int32_t> rank = model.partitions;
+        if (rank.empty() || divide_) return {};
+        int ranks = 1;
+        MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+        const std::int32_t partitions = *std::max_element(rank.begin(), rank.end());
+        if (partitions != ranks) {
+            cli::say("bodies: divided anew, because the mesh file has {} partitions, and there are {} ranks\n",
+                     partitions, ranks);
+            return {};
+        }
+        for (std::int32_t& r : rank) --r;
+        cli::say("bodies: each of the {} ranks has a partition of the mesh file\n", ranks);
+        return rank;
+    }
     static std::int32_t run(void* user) {
         auto& work = *static_cast<Work*>(user);
         try {
@@ -111,6 +143,7 @@ private:
             said.empty() ? own : said);
     }
     delam_petsc* petsc_;
+    bool divide_;  // in spite of the mesh file's partitions
 };
 
 void drop_words(int& argc, char** argv, int count) {
@@ -120,10 +153,13 @@ void drop_words(int& argc, char** argv, int count) {
 
 // Takes the options of this program out of the words, and puts those of PETSc behind those of the environment. False:
 // OPTIONS are missing.
-bool take_options(int& argc, char** argv, bool& counts) {
+bool take_options(int& argc, char** argv, bool& counts, bool& divide) {
     while (argc > 1) {
         if (std::strcmp(argv[1], "--counts") == 0) {
             counts = true;
+            drop_words(argc, argv, 1);
+        } else if (std::strcmp(argv[1], "--divide") == 0) {
+            divide = true;
             drop_words(argc, argv, 1);
         } else if (std::strcmp(argv[1], "--petsc") == 0) {
             if (argc < 3) return false;
@@ -151,8 +187,8 @@ void say_counts(const Processes& processes, delam_petsc* petsc) {
 }
 
 int on_all_ranks(const Processes& processes, int argc, char** argv) {
-    bool counts = false;
-    const bool right = take_options(argc, argv, counts) && argc > 1;
+    bool counts = false, divide = false;
+    const bool right = take_options(argc, argv, counts, divide) && argc > 1;
     const bool help = right && std::strcmp(argv[1], "--help") == 0;
     if (!right || help) {
         if (processes.first() && help) cli::say("{}", usage);
@@ -165,7 +201,7 @@ int on_all_ranks(const Processes& processes, int argc, char** argv) {
         return cli::exit_numerical;
     }
     int code = cli::exit_done;
-    Ranks ranks(petsc);
+    Ranks ranks(petsc, divide);
     if (processes.first()) {
         const auto around = [&](const cli::Model& model, const std::function<int()>& rest) {
             return ranks.around(model, rest);

@@ -14,6 +14,7 @@ struct CellBlock {
     std::int32_t type;                       ///< a delam_cell_type
     std::vector<std::int64_t> connectivity;  ///< [cells][nodes per cell] in delam's node order, 0-based
     std::vector<std::int32_t> bodies;        ///< [cells] label of each cell's body, an index of MeshData::body_names
+    std::vector<std::int32_t> partitions{};  ///< [cells] from 1 on, 0: none; empty: the file knows no partitions
 };
 
 /**

@@ -54,6 +54,7 @@ public:
         find_dimension();
         read_nodes();
         read_cells();
+        keep_partitions();
         read_sets();
         return std::move(mesh_);
     }
@@ -117,9 +118,34 @@ private:
         return static_cast<std::int32_t>(names.size() - 1);
     }
 
+    // A partitioned mesh has each entity in pieces, one for each partition, and the borders between partitions, which
+    // are pieces of an entity of a higher dimension. An entity that is no piece is its own parent.
+    static std::pair<int, int> parent_of(int dimension, int entity) {
+        int parent_dimension = -1;
+        int parent = -1;
+        gmsh::model::getParent(dimension, entity, parent_dimension, parent);
+        return parent < 0 ? std::pair(dimension, entity) : std::pair(parent_dimension, parent);
+    }
+    // 0: in none.
+    std::int32_t partition_of(int entity) const {
+        std::vector<int> partitions;
+        gmsh::model::getPartitions(mesh_.dimension, entity, partitions);
+        return partitions.empty() ? 0 : partitions.front();
+    }
+
+    // Partitions of all cells, or of none.
+    void keep_partitions() {
+        const bool all = std::all_of(mesh_.blocks.begin(), mesh_.blocks.end(), [](const CellBlock& block) {
+            return std::all_of(block.partitions.begin(), block.partitions.end(), [](std::int32_t p) { return p > 0; });
+        });
+        if (all) return;
+        for (CellBlock& block : mesh_.blocks) block.partitions.clear();
+    }
+
     // The body to which an entity of the highest dimension belongs; "": none.
     std::string body_of(int entity, bool grouped) const {
-        if (!grouped) return fmt::format("{}-{}", entity_names[mesh_.dimension], entity);
+        if (!grouped)
+            return fmt::format("{}-{}", entity_names[mesh_.dimension], parent_of(mesh_.dimension, entity).second);
         std::vector<int> groups;
         gmsh::model::getPhysicalGroupsForEntity(mesh_.dimension, entity, groups);
         std::set<std::string> names;
@@ -146,13 +172,13 @@ private:
                 fail(fmt::format("element {} of {} {} is in no physical group, so in no body", tags[0].at(0),
                                  entity_names[dimension], entity));
             for (std::size_t i = 0; i < types.size(); ++i)
-                add_cells(types[i], tags[i], nodes[i], label(body),
+                add_cells(types[i], tags[i], nodes[i], label(body), partition_of(entity),
                           fmt::format("{} {}", entity_names[dimension], entity));
         }
     }
 
     void add_cells(int gmsh_type, const std::vector<std::size_t>& tags, const std::vector<std::size_t>& nodes,
-                   std::int32_t body, const std::string& entity) {
+                   std::int32_t body, std::int32_t partition, const std::string& entity) {
         const CellFormat* from = format_of_gmsh(gmsh_type);
         if (from == nullptr)
             fail(fmt::format("element {} of {} is a {}: {} are known", tags.at(0), entity, type_name(gmsh_type),
@@ -164,6 +190,7 @@ private:
                 block.connectivity.push_back(
                     number(nodes.at(c * per_cell + (from->gmsh_order.empty() ? i : from->gmsh_order[i])), tags[c]));
             block.bodies.push_back(body);
+            block.partitions.push_back(partition);
         }
     }
 
@@ -181,7 +208,7 @@ private:
     CellBlock& block_of(std::int32_t type) {
         for (CellBlock& block : mesh_.blocks)
             if (block.type == type) return block;
-        mesh_.blocks.push_back({type, {}, {}});
+        mesh_.blocks.push_back({type, {}, {}, {}});
         return mesh_.blocks.back();
     }
 
@@ -190,10 +217,13 @@ private:
         gmsh::model::getPhysicalGroups(groups);
         for (const auto& [dimension, group] : groups) {
             if (dimension >= mesh_.dimension) continue;
-            const std::string name = group_name(dimension, group);
-            auto& nodes_of_set = mesh_.node_sets[name];
             std::vector<int> entities;
             gmsh::model::getEntitiesForPhysicalGroup(dimension, group, entities);
+            // Gmsh puts borders between partitions into groups with the number of the body's.
+            std::erase_if(entities, [at = dimension](int entity) { return parent_of(at, entity).first != at; });
+            if (entities.empty()) continue;
+            const std::string name = group_name(dimension, group);
+            auto& nodes_of_set = mesh_.node_sets[name];
             for (const int entity : entities) {
                 std::vector<int> types;
                 std::vector<std::vector<std::size_t>> tags;

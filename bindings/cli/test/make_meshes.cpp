@@ -111,6 +111,12 @@ int main(int count, char** words) {
             gmsh::option::setNumber("Mesh.Binary", 0);
             gmsh::option::setNumber("Mesh.SaveGroupsOfNodes", 1);
             gmsh::write(folder + "/" + c.name + ".inp");
+            if (c.order > 1) continue;
+            gmsh::model::mesh::partition(3);
+            for (const double version : {2.2, 4.1}) {
+                gmsh::option::setNumber("Mesh.MshFileVersion", version);
+                gmsh::write(folder + "/" + c.name + (version < 3 ? "-22" : "-41") + "p.msh");
+            }
         }
     } catch (const std::string& text) {
         std::fprintf(stderr, "make_meshes: %s\n", text.c_str());

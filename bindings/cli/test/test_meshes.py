@@ -89,6 +89,12 @@ for cell in ("tri3", "quad4", "tri6", "quad8", "quad9") + SOLID:
             stretched(blocks, name, "z" if cell in SOLID else "y", 4, 2, name)
         else:
             expect(delam("check", scene(blocks, name, BONDED + pulled("z" if cell in SOLID else "y")))[0] == 0, name)
+# A partitioned mesh is the same for one process: its bodies and sets are whole, and borders of partitions are no sets.
+for cell in ("tri3", "quad4", "tet4", "hex8"):
+    for form in ("22p", "41p"):
+        stretched(blocks, f"{cell}-{form}.msh", "z" if cell in SOLID else "y", 4, 2, f"{cell}-{form}.msh")
+border = '[[supports]]\nset = "curve-1"\nfix = ["x"]\n'
+expect_error(delam("check", scene(blocks, "quad4-41p.msh", BONDED + pulled("y") + border)), 2, "curve-1", "it has: bottom,")
 for cell, words in (("hex27", r"element \d+ of volume 1 is a Hexahedron 27"), ("tri10", "is a Triangle")):
     expect_error(delam("check", scene(blocks, cell + "-41a.msh", "")), 2, words, "are known")
 

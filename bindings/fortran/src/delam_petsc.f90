@@ -7,7 +7,8 @@ module delam_petsc
   implicit none
   private
   public :: delam_petsc_create, delam_petsc_destroy, delam_petsc_message, delam_petsc_set_part, &
-            delam_petsc_take_scene, delam_petsc_attach, delam_petsc_run, delam_petsc_value
+            delam_petsc_take_scene, delam_petsc_take_cells, delam_petsc_set_rows, delam_petsc_set_cells, &
+            delam_petsc_attach, delam_petsc_run, delam_petsc_value
 
   ! Signature of `work`; pass c_funloc of such a procedure.
   abstract interface
@@ -53,6 +54,34 @@ module delam_petsc
       type(c_ptr), value :: petsc, mesh, problem
       integer(c_int32_t) :: status
     end function delam_petsc_take_scene
+    function delam_petsc_take_cells(petsc, mesh, problem, cell_count, ranks) &
+        bind(c, name="delam_petsc_take_cells") result(status)
+      import :: c_ptr, c_int32_t, c_int64_t
+      type(c_ptr), value :: petsc, mesh, problem
+      integer(c_int64_t), value :: cell_count
+      integer(c_int32_t), intent(in), optional :: ranks(*)
+      integer(c_int32_t) :: status
+    end function delam_petsc_take_cells
+    function delam_petsc_set_rows(petsc, dimension, node_count, nodes, coordinates, row_starts, columns, values) &
+        bind(c, name="delam_petsc_set_rows") result(status)
+      import :: c_ptr, c_int32_t, c_int64_t, c_double
+      type(c_ptr), value :: petsc
+      integer(c_int32_t), value :: dimension
+      integer(c_int64_t), value :: node_count
+      integer(c_int64_t), intent(in), optional :: nodes(*)
+      real(c_double), intent(in), optional :: coordinates(*)
+      integer(c_int64_t), intent(in), optional :: row_starts(*), columns(*)
+      real(c_double), intent(in), optional :: values(*)
+      integer(c_int32_t) :: status
+    end function delam_petsc_set_rows
+    function delam_petsc_set_cells(petsc, mesh, problem, node_count, nodes) &
+        bind(c, name="delam_petsc_set_cells") result(status)
+      import :: c_ptr, c_int32_t, c_int64_t
+      type(c_ptr), value :: petsc, mesh, problem
+      integer(c_int64_t), value :: node_count
+      integer(c_int64_t), intent(in), optional :: nodes(*)
+      integer(c_int32_t) :: status
+    end function delam_petsc_set_cells
     function delam_petsc_attach(petsc, problem) bind(c, name="delam_petsc_attach") result(status)
       import :: c_ptr, c_int32_t
       type(c_ptr), value :: petsc, problem

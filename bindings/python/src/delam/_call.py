@@ -149,11 +149,7 @@ class Context:
         """
         call = Call(self)
         status, message = self._locked(call, other, self._checked, call, function, arguments, whole, long)
-        for level, line in call.lines:
-            text = line.decode(errors="replace")
-            # An error's text, and an outcome's, go with the exception or warning.
-            if level > 0 and text != message:
-                _logger.log(logging.WARNING if level == 1 else logging.INFO, "%s", text)
+        self._log(call, message)
         if call.exception is not None:
             exception, call.exception = call.exception, None
             try:
@@ -163,6 +159,23 @@ class Context:
         if status != _raw.DELAM_OK and status not in outcomes:
             raise error_of(status, message)
         return status, message
+
+    def beside(self, function, *arguments, other=None):
+        """Calls a function of another library that uses objects of this context, and of another: its status, and the
+        last error that libdelam has told meanwhile, or ""."""
+        call = Call(self)
+        status, _ = self._locked(call, other, self._checked, call, function, arguments, True, False)
+        self._log(call, "")
+        told = [line.decode(errors="replace") for level, line in call.lines if level == 0]
+        return status, told[-1] if told else ""
+
+    @staticmethod
+    def _log(call, message):
+        for level, line in call.lines:
+            text = line.decode(errors="replace")
+            # An error's text, and an outcome's, go with the exception or warning.
+            if level > 0 and text != message:
+                _logger.log(logging.WARNING if level == 1 else logging.INFO, "%s", text)
 
     def text(self, function, *arguments):
         """Calls a function that returns text; None stays None."""

@@ -5,7 +5,7 @@
     import delam.petsc
 
     with delam.petsc.Ranks(MPI.COMM_WORLD) as ranks:
-        ranks.set_part(nodes, coordinates, stiffness)    each rank: what it adds to the stiffness of the bodies
+        ranks.set_part(nodes, stiffness, coordinates)    each rank: what it adds to the stiffness of the bodies
         problem = ranks.run(make_problem)                rank 0 describes the scene; None on the others
         ranks.attach(problem)
         history = ranks.run(lambda: delam.Solver(problem).history(times))
@@ -29,7 +29,7 @@ from typing import TYPE_CHECKING
 from numpy.typing import ArrayLike
 
 from . import _library, _raw
-from ._arrays import floats, indices, pointer
+from ._arrays import floats, gate, indices, pointer
 from ._call import integer, text
 from .errors import ArgumentError, DelamError, HandleError, StateError, error_of
 from .mesh import Mesh
@@ -48,6 +48,10 @@ _FUNCTIONS = {
     "delam_petsc_set_part": (c_int32, (c_void_p, c_int32, c_int64, POINTER(c_int64), POINTER(c_double),
                                        POINTER(c_int64), POINTER(c_int64), POINTER(c_double))),
     "delam_petsc_take_scene": (c_int32, (c_void_p, c_void_p, c_void_p)),
+    "delam_petsc_take_cells": (c_int32, (c_void_p, c_void_p, c_void_p, c_int64, POINTER(c_int32))),
+    "delam_petsc_set_rows": (c_int32, (c_void_p, c_int32, c_int64, POINTER(c_int64), POINTER(c_double),
+                                       POINTER(c_int64), POINTER(c_int64), POINTER(c_double))),
+    "delam_petsc_set_cells": (c_int32, (c_void_p, c_void_p, c_void_p, c_int64, POINTER(c_int64))),
     "delam_petsc_attach": (c_int32, (c_void_p, c_void_p)),
     "delam_petsc_run": (c_int32, (c_void_p, _WORK, c_void_p)),
     "delam_petsc_value": (c_int32, (c_void_p, c_char_p, POINTER(c_double))),
@@ -149,11 +153,16 @@ class Ranks:
         self._agreed = error
         raise error from cause
 
-    def _call(self, function, *arguments):
-        status = function(self._handle, *arguments)
+    def _call(self, function, *arguments, problem=None):
+        """problem: this rank's, which the function uses, and of which libdelam tells what is wrong."""
+        if problem is None:
+            status, told = function(self._handle, *arguments), ""
+        else:
+            status, told = problem.context.beside(function, self._handle, *arguments, other=problem.mesh.context)
         if status != _raw.DELAM_OK:
             message = self._library.delam_petsc_message(self._handle).decode(errors="replace")
-            self._raise(error_of(status, message))
+            told = next(filter(None, self._comm.allgather(told)), "")
+            self._raise(error_of(status, f"{message}: {told}" if told else message))
 
     def _together(self, function):
         """What the function returns; an error of some rank is raised on all of them."""
@@ -178,6 +187,9 @@ class Ranks:
             raise ArgumentError(f"{name} = {value!r}, expected a {kind.__name__} on rank 0")
         return ctypes.cast(value._handle, c_void_p)
 
+    def _only_first(self, value):
+        return value if self.rank == 0 else None
+
     # ---- parts
 
     def set_part(self, nodes: ArrayLike, matrix: object, coordinates: ArrayLike | None = None,
@@ -192,6 +204,25 @@ class Ranks:
 
         A rank may have no nodes. Nodes of the mesh that are in no part have no stiffness. A pair of nodes that an
         interface joins is best in one part."""
+        self._set("delam_petsc_set_part", nodes, matrix, coordinates, dimension)
+
+    def set_rows(self, nodes: ArrayLike, matrix: object, coordinates: ArrayLike | None = None,
+                 dimension: int = 3) -> None:
+        """Rows of the assembled stiffness of the bodies, without supports, in place of set_part.
+
+        nodes        those whose rows this rank has, in the numbers of set_part; each on one rank only
+        matrix       a delam.Sparse or a matrix of scipy.sparse in rows (CSR), both triangles; row dimension * i +
+                     component of nodes[i], column dimension * node + component for nodes of any rank
+        coordinates  [nodes][dimension]: on all ranks or on none
+
+        A rank may have no nodes. All rows together have to be symmetric, which is checked, with a positive diagonal.
+        PETSc's option -delam_pc_type bddc is refused."""
+        # Columns in the place of rows are for symmetric matrices alone.
+        if getattr(matrix, "format", "csr") == "csc":
+            matrix = matrix.tocsr()
+        self._set("delam_petsc_set_rows", nodes, matrix, coordinates, dimension)
+
+    def _set(self, function, nodes, matrix, coordinates, dimension):
         def arrays():
             count = indices("nodes", nodes)
             size = count.size * integer("dimension", dimension, 32)
@@ -206,14 +237,44 @@ class Ranks:
             return count, places, row_starts, columns, values
 
         count, places, *rows = self._together(arrays)
-        self._call(self._library.delam_petsc_set_part, dimension, count.size, pointer(count), pointer(places),
+        self._call(getattr(self._library, function), dimension, count.size, pointer(count), pointer(places),
                    *map(pointer, rows))
+
+    def set_cells(self, problem: Problem | None, nodes: ArrayLike | None = None) -> None:
+        """The stiffness of cells that this rank has described with delam, in place of set_part.
+
+        problem  of a mesh of this rank's own, with materials but no interfaces, supports or loads, which are those of
+                 rank 0's problem, over bodies without cells. None: this rank has no cells
+        nodes    for each node of this mesh its number for set_part; each once
+
+        Eigenstrains are refused as loads are."""
+        def handles():
+            if problem is None and nodes is None:
+                return None, None, None
+            if not isinstance(problem, Problem):
+                raise ArgumentError(f"problem = {problem!r}, expected a Problem, or None without nodes")
+            return *(ctypes.cast(one._handle, c_void_p) for one in (problem.mesh, problem)), indices("nodes", nodes)
+
+        mesh, own, numbers = self._together(handles)
+        self._call(self._library.delam_petsc_set_cells, mesh, own, 0 if numbers is None else numbers.size,
+                   pointer(numbers), problem=problem)
 
     def take_scene(self, mesh: Mesh | None, problem: Problem | None) -> None:
         """Divides the cells of rank 0's mesh among the ranks, in place of set_part. None on the other ranks; the
         problem has to be complete but for its loads."""
         handles = self._together(lambda: (self._first("mesh", mesh, Mesh), self._first("problem", problem, Problem)))
-        self._call(self._library.delam_petsc_take_scene, *handles)
+        self._call(self._library.delam_petsc_take_scene, *handles, problem=self._only_first(problem))
+
+    def take_cells(self, mesh: Mesh | None, problem: Problem | None, ranks: ArrayLike | None = None) -> None:
+        """As take_scene, with a partition of the host's own. ranks: on rank 0, the rank of each cell of the mesh. Cells
+        on the two sides of an interface are best on one rank."""
+        def arguments():
+            handles = self._first("mesh", mesh, Mesh), self._first("problem", problem, Problem)
+            given = gate("ranks", ranks, "int32", (None,)) if self.rank == 0 else None
+            return *handles, 0 if given is None else given.size, given
+
+        *handles, given = self._together(arguments)
+        self._call(self._library.delam_petsc_take_cells, *handles, pointer(given), problem=self._only_first(problem))
 
     # ---- work
 
@@ -221,7 +282,7 @@ class Ranks:
         """The ranks solve the bodies of rank 0's problem from now on, in solvers that are made, and work, in `run`.
         None on the other ranks."""
         handle = self._together(lambda: self._first("problem", problem, Problem))
-        self._call(self._library.delam_petsc_attach, handle)
+        self._call(self._library.delam_petsc_attach, handle, problem=self._only_first(problem))
 
     def run(self, function: Callable | None = None):
         """Calls function() on rank 0, which may use everything of the package but these Ranks, while the other ranks

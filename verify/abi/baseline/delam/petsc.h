@@ -16,6 +16,13 @@ DELAM_API int32_t delam_petsc_set_part(delam_petsc *petsc, int32_t dimension, in
                                        const double *coordinates, const int64_t *row_starts, const int64_t *columns,
                                        const double *values);
 DELAM_API int32_t delam_petsc_take_scene(delam_petsc *petsc, const delam_mesh *mesh, const delam_problem *problem);
+DELAM_API int32_t delam_petsc_take_cells(delam_petsc *petsc, const delam_mesh *mesh, const delam_problem *problem,
+                                         int64_t cell_count, const int32_t *ranks);
+DELAM_API int32_t delam_petsc_set_rows(delam_petsc *petsc, int32_t dimension, int64_t node_count, const int64_t *nodes,
+                                       const double *coordinates, const int64_t *row_starts, const int64_t *columns,
+                                       const double *values);
+DELAM_API int32_t delam_petsc_set_cells(delam_petsc *petsc, const delam_mesh *mesh, const delam_problem *problem,
+                                        int64_t node_count, const int64_t *nodes);
 DELAM_API int32_t delam_petsc_attach(delam_petsc *petsc, delam_problem *problem);
 typedef int32_t (*delam_petsc_work_callback)(void *user);
 DELAM_API int32_t delam_petsc_run(delam_petsc *petsc, delam_petsc_work_callback work, void *user);
