@@ -116,9 +116,16 @@ void require_cells(const delam_mesh* mesh) {
                  " has no cells: hand over its stiffness by parts (delam_petsc_set_part) instead of the scene");
 }
 
+// Nothing but from rank 0.
+std::vector<std::vector<std::int64_t>> outgoing(const Communicator& comm,
+                                                std::vector<std::vector<std::int64_t>> lists) {
+    comm.together([&] { lists.resize(static_cast<std::size_t>(comm.size())); });
+    return lists;
+}
+
 }  // namespace
 
-Part receive_part(const Communicator& comm, const delam_mesh* mesh, const delam_problem* problem) {
+ReceivedPart receive_part(const Communicator& comm, const delam_mesh* mesh, const delam_problem* problem) {
     std::vector<std::vector<std::int64_t>> cells;
     std::int32_t dimension = 0;
     comm.together([&] {
@@ -134,7 +141,8 @@ Part receive_part(const Communicator& comm, const delam_mesh* mesh, const delam_
     });
     comm.broadcast(dimension);
     // One rank after the other, so that rank 0 holds the bytes of one part at a time.
-    std::vector<std::uint8_t> mine;
+    ReceivedPart received;
+    std::vector<std::uint8_t>& mine = received.cells.bytes;
     for (int r = comm.size() - 1; r >= 0; --r) {
         std::vector<std::uint8_t> bytes;
         comm.together([&] {
@@ -147,9 +155,9 @@ Part receive_part(const Communicator& comm, const delam_mesh* mesh, const delam_
         else if (comm.rank() == r)
             mine = comm.receive();
     }
-    Part part;
-    comm.together([&] { part = part_of_bytes(dimension, mine); });
-    return part;
+    received.cells.cells = comm.exchange(outgoing(comm, std::move(cells)))[0];
+    comm.together([&] { received.part = part_of_bytes(dimension, mine); });
+    return received;
 }
 
 }  // namespace delam::petsc

@@ -6,6 +6,7 @@
 #include "delam/experimental.h"
 #include "petsc/communicator.hpp"
 #include "petsc/part.hpp"
+#include "petsc/part_state.hpp"
 
 namespace delam::petsc {
 
@@ -13,7 +14,12 @@ namespace delam::petsc {
 // same rank, so that no cut runs along an interface.
 std::vector<int> partition_cells(const delam_mesh* mesh, int ranks);
 
+struct ReceivedPart {
+    Part part;
+    PartCells cells;
+};
+
 // Rank 0's mesh and problem (NULL elsewhere), divided; returns what falls to this rank. Collective.
-Part receive_part(const Communicator& comm, const delam_mesh* mesh, const delam_problem* problem);
+ReceivedPart receive_part(const Communicator& comm, const delam_mesh* mesh, const delam_problem* problem);
 
 }  // namespace delam::petsc

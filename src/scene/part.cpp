@@ -18,6 +18,7 @@
 #include "base/error.hpp"
 #include "base/numbers.hpp"
 #include "body/assembly.hpp"
+#include "body/rotation.hpp"
 #include "delam/delam.h"
 
 namespace delam {
@@ -311,6 +312,23 @@ void SoundPart::add_cells(const Part& part) {
 
 SparseMatrix SoundPart::stiffness(const Poll& poll) const {
     return assemble_stiffness(mesh_, cells_, nodes_, models_, 1, poll);
+}
+
+std::vector<double> SoundPart::in_order(const std::vector<double>& of_mesh) const {
+    const std::size_t columns = of_mesh.size() / cells_.size();
+    std::vector<double> rows(of_mesh.size());
+    for (std::size_t c = 0; c < cells_.size(); ++c)
+        std::copy_n(of_mesh.begin() + static_cast<std::ptrdiff_t>(index(cells_[c]) * columns), columns,
+                    rows.begin() + static_cast<std::ptrdiff_t>(c * columns));
+    return rows;
+}
+
+std::vector<double> SoundPart::stress(std::span<const double> displacement, std::span<const Strain> strain) const {
+    return in_order(centre_stress(mesh_, models_, displacement, strain));
+}
+
+std::vector<double> SoundPart::rotation(std::span<const double> displacement) const {
+    return in_order(centre_rotation(mesh_, displacement));
 }
 
 std::int64_t SoundPart::entries() const { return stiffness_entries(mesh_, cells_, nodes_); }

@@ -168,8 +168,8 @@ pattern = "open"
 """ + RISES.format("open", 1e-3)
 
 
-def unmatched():
-    """Two blocks of quadrilaterals, 12 below 17, as text of Gmsh."""
+def unmatched(triangles=False):
+    """Two blocks of quadrilaterals, 12 below 17, as text of Gmsh; triangles: the upper quadrilaterals are halved."""
     nodes, cells, bodies = [], [], ((1, 0.0, 12, "lower"), (2, 0.003, 17, "upper"))
     for group, bottom, count, _ in bodies:
         first = len(nodes) + 1
@@ -177,12 +177,16 @@ def unmatched():
         for j in range(2):
             for i in range(count):
                 a = first + j * (count + 1) + i
-                cells.append((group, a, a + 1, a + count + 2, a + count + 1))
+                corners = (a, a + 1, a + count + 2, a + count + 1)
+                if triangles and group == 2:
+                    cells += [(group, *corners[:3]), (group, corners[0], *corners[2:])]
+                else:
+                    cells.append((group, *corners))
     lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", str(len(bodies))]
     lines += [f'2 {group} "{name}"' for group, _, _, name in bodies] + ["$EndPhysicalNames", "$Nodes", str(len(nodes))]
     lines += [f"{i} {x!r} {y!r} 0" for i, (x, y) in enumerate(nodes, start=1)] + ["$EndNodes", "$Elements",
                                                                                  str(len(cells))]
-    lines += [f"{i} 3 2 {c[0]} {c[0]} {c[1]} {c[2]} {c[3]} {c[4]}" for i, c in enumerate(cells, start=1)]
+    lines += [f"{i} {len(c) - 2} 2 {c[0]} {c[0]} {' '.join(map(str, c[1:]))}" for i, c in enumerate(cells, start=1)]
     return "\n".join([*lines, "$EndElements", ""])
 
 
@@ -253,6 +257,7 @@ def quick():
         "solid": own(SOLID),
         "tiny": own(TINY),
         "projected": own(PROJECTED, blocks=unmatched()),
+        "mixed-cells": own(PROJECTED, blocks=unmatched(triangles=True)),
     }
 
 
