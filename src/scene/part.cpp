@@ -220,7 +220,7 @@ Part part_of(const Problem& problem, std::span<const std::int64_t> cells) {
     std::vector<std::int32_t> number(problem.orientation->axes.size(), -1);
     for (std::size_t i = 0; i < cells.size(); ++i) {
         const std::int32_t own = problem.orientation->of_cell[index(cells[i])];
-        if (own < 0 || part.orthotropic[index(part.body[i])] == 0) continue;
+        if (own < 0) continue;  // isotropic cells have axes, too: those of their eigenstrains
         if (number[index(own)] < 0) {
             const Axes& axes = problem.orientation->axes[index(own)];
             number[index(own)] = static_cast<std::int32_t>(part.axes.size() / axes.size());

@@ -30,7 +30,7 @@ struct Part {
     std::vector<std::int32_t> orthotropic;   // [bodies] 1, or 0: isotropic
     std::vector<double> constants;           // [bodies][9] as in Orthotropic; isotropic: E, nu, then zeros
     std::vector<double> axes;                // [axes][9] as in Axes, those in use
-    std::vector<std::int32_t> axes_of_cell;  // [cells] -1: global, or the same in all axes
+    std::vector<std::int32_t> axes_of_cell;  // [cells] -1: global
 };
 
 // cells: ascending, in range. Error(DELAM_ERROR_PROBLEM) names a body whose material is missing, or whose stiffness the
