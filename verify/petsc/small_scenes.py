@@ -257,7 +257,7 @@ def quick():
         "solid": own(SOLID),
         "tiny": own(TINY),
         "projected": own(PROJECTED, blocks=unmatched()),
-        "mixed-cells": own(PROJECTED, blocks=unmatched(triangles=True)),
+        "mixed-cells": own(PROJECTED, "time.steps=2", "time.end=0.12", blocks=unmatched(triangles=True)),
     }
 
 

@@ -37,6 +37,7 @@ Field stored(const BulkField& field, const Field& rows);
 // The values of one field in a file: a dataset without chunks, whose bytes lie one behind the other.
 struct Room {
     BulkField field;
+    std::int64_t rows = 0;    // of nodes or cells
     std::int64_t offset = 0;  // of its first byte
 };
 struct FileRange {

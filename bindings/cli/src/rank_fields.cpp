@@ -74,8 +74,7 @@ void require_file(int code, const char* doing) {
     if (code != MPI_SUCCESS) throw Trouble(DELAM_ERROR_FILE, fmt::format("{}: {}", doing, reason_of(code)));
 }
 
-// Of MPI, closed if nobody has done so. A file of several ranks that some could not open stays open: to close it takes
-// all of them.
+// Of MPI. Each rank opens it alone: what fails then fails on one rank, and nobody waits for it.
 class File {
 public:
     File(MPI_Comm comm, const std::string& path, int mode) {
@@ -99,21 +98,6 @@ public:
         MPI_Type_contiguous(static_cast<int>(columns), MPI_DOUBLE, &type_);
         MPI_Type_commit(&type_);
     }
-    // Some rows of a matrix, by their numbers, ascending: runs of them.
-    RowType(const RowType& row, std::size_t columns, const std::vector<std::int64_t>& rows) {
-        std::vector<int> lengths;
-        std::vector<MPI_Aint> begins;
-        for (std::size_t i = 0; i < rows.size(); ++i) {
-            if (i > 0 && rows[i] == rows[i - 1] + 1) {
-                ++lengths.back();
-                continue;
-            }
-            lengths.push_back(1);
-            begins.push_back(static_cast<MPI_Aint>(rows[i]) * static_cast<MPI_Aint>(8 * columns));
-        }
-        MPI_Type_create_hindexed(static_cast<int>(lengths.size()), lengths.data(), begins.data(), row.get(), &type_);
-        MPI_Type_commit(&type_);
-    }
     ~RowType() { MPI_Type_free(&type_); }
     RowType(const RowType&) = delete;
     RowType& operator=(const RowType&) = delete;
@@ -123,31 +107,27 @@ private:
     MPI_Datatype type_ = MPI_DATATYPE_NULL;
 };
 
-// Writes these rows into the matrix that begins at an offset of the file. All ranks take part in every call, those that
-// have failed as well: only the first failure counts.
-void write_matrix(MPI_Comm comm, MPI_File file, const Room& room, const Field& values,
-                  const std::vector<std::int64_t>& rows, int& code) {
-    const std::size_t columns = room.field.columns;
-    const auto note = [&code](int own) {
-        if (code == MPI_SUCCESS) code = own;
-    };
-    const RowType row(columns), where(row, columns, rows);
-    // An empty view is none for some implementations: who has no rows sees the matrix, and writes nothing.
-    note(MPI_File_set_view(file, room.offset, row.get(), rows.empty() ? row.get() : where.get(), "native",
-                           MPI_INFO_NULL));
-    const std::int64_t at_a_time = piece / static_cast<std::int64_t>(8 * columns);
-    const auto count = static_cast<std::int64_t>(rows.size());
-    std::int64_t rounds = (count + at_a_time - 1) / at_a_time;
-    MPI_Allreduce(MPI_IN_PLACE, &rounds, 1, MPI_INT64_T, MPI_MAX, comm);
-    for (std::int64_t r = 0; r < rounds; ++r) {
-        const std::int64_t first = std::min(count, r * at_a_time), now = std::min(count - first, at_a_time);
+// Doubles that lie one behind the other.
+int write_doubles(MPI_File file, std::int64_t offset, const std::vector<double>& values) {
+    constexpr std::int64_t at_a_time = piece / 8;
+    const auto count = static_cast<std::int64_t>(values.size());
+    for (std::int64_t at = 0; at < count; at += at_a_time) {
+        const int now = static_cast<int>(std::min(at_a_time, count - at));
         MPI_Status status{};
-        note(MPI_File_write_all(file, values.values.data() + first * static_cast<std::int64_t>(columns),
-                                static_cast<int>(now), row.get(), &status));
+        if (const int code = MPI_File_write_at(file, offset + 8 * at, values.data() + at, now, MPI_DOUBLE, &status);
+            code != MPI_SUCCESS)
+            return code;
         int written = 0;
-        MPI_Get_count(&status, row.get(), &written);
-        if (written != static_cast<int>(now)) note(MPI_ERR_NO_SPACE);
+        MPI_Get_count(&status, MPI_DOUBLE, &written);
+        if (written != now) return MPI_ERR_NO_SPACE;
     }
+    return MPI_SUCCESS;
+}
+
+std::vector<int> begins_of(const std::vector<int>& counts) {
+    std::vector<int> begins(counts.size(), 0);
+    std::partial_sum(counts.begin(), counts.end() - 1, begins.begin() + 1);
+    return begins;
 }
 
 }  // namespace
@@ -362,6 +342,7 @@ void RankFields::write(const std::string& path, const std::vector<Room>& rooms) 
         telling.put(room.field.name);
         telling.put(static_cast<std::int32_t>(room.field.of_nodes ? 1 : 0));
         telling.put(static_cast<std::int64_t>(room.field.columns));
+        telling.put(room.rows);
         telling.put(room.offset);
     }
     everywhere(telling.bytes(), path);
@@ -377,22 +358,64 @@ void RankFields::write_rows(Told& told) {
             room.field.name = told.text();
             room.field.of_nodes = told.get<std::int32_t>() != 0;
             room.field.columns = static_cast<std::size_t>(told.get<std::int64_t>());
+            room.rows = told.get<std::int64_t>();
             room.offset = told.get<std::int64_t>();
         }
     });
-    File file(comm_, path, MPI_MODE_WRONLY);
+    File file(MPI_COMM_SELF, path, MPI_MODE_WRONLY);
     together([&] { require_file(file.code(), "open"); });
     int code = MPI_SUCCESS;
     for (const Room& room : rooms) {
-        std::vector<std::int64_t> rows;
-        Field values;
-        together([&] { values = rows_to_write(room.field, rows); });
-        write_matrix(comm_, file.get(), room, values, rows, code);
+        std::int64_t first = 0;
+        const std::vector<double> rows = block_of_rows(room, first);
+        const std::int64_t row_bytes = 8 * static_cast<std::int64_t>(room.field.columns);
+        const int written = write_doubles(file.get(), room.offset + first * row_bytes, rows);
+        if (code == MPI_SUCCESS) code = written;
     }
     if (const int synced = MPI_File_sync(file.get()); code == MPI_SUCCESS) code = synced;
     file.close();
     require_file(code, "write");
     require_file(file.code(), "close");
+}
+
+// The rows of a part lie scattered in a field. The ranks therefore exchange them, so that each has a block of rows, and
+// writes it in one piece. (MPI_File_write_all would do the same, but Open MPI 4.1 does not tell when a write fails.)
+std::vector<double> RankFields::block_of_rows(const Room& room, std::int64_t& first) const {
+    const std::int64_t share = std::max<std::int64_t>(1, (room.rows + size_ - 1) / size_);
+    const std::size_t columns = room.field.columns;
+    first = std::min(room.rows, share * rank_);
+    const std::int64_t count = std::min(room.rows, first + share) - first;
+    std::vector<std::int64_t> mine, arrived;
+    Field values;
+    std::vector<int> sent, received;
+    std::vector<double> rows, block;
+    together([&] {
+        values = rows_to_write(room.field, mine);
+        sent.resize(static_cast<std::size_t>(size_));
+        received.resize(sent.size());
+        for (const std::int64_t row : mine) ++sent[static_cast<std::size_t>(row / share)];
+    });
+    MPI_Alltoall(sent.data(), 1, MPI_INT, received.data(), 1, MPI_INT, comm_);
+    std::vector<int> from, to;
+    together([&] {
+        from = begins_of(sent);
+        to = begins_of(received);
+        arrived.resize(static_cast<std::size_t>(to.back()) + static_cast<std::size_t>(received.back()));
+        rows.resize(arrived.size() * columns);
+        block.resize(static_cast<std::size_t>(count) * columns);
+        if (static_cast<std::int64_t>(arrived.size()) != count)
+            throw Trouble(DELAM_ERROR_INTERNAL, fmt::format("{}: {} rows of {} arrived from the parts", room.field.name,
+                                                            arrived.size(), count));
+    });
+    const RowType row(columns);
+    MPI_Alltoallv(mine.data(), sent.data(), from.data(), MPI_INT64_T, arrived.data(), received.data(), to.data(),
+                  MPI_INT64_T, comm_);
+    MPI_Alltoallv(values.values.data(), sent.data(), from.data(), row.get(), rows.data(), received.data(), to.data(),
+                  row.get(), comm_);
+    for (std::size_t i = 0; i < arrived.size(); ++i)
+        std::copy_n(rows.begin() + static_cast<std::ptrdiff_t>(i * columns), columns,
+                    block.begin() + (arrived[i] - first) * static_cast<std::ptrdiff_t>(columns));
+    return block;
 }
 
 // ---- the result

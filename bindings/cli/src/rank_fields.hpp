@@ -39,8 +39,10 @@ private:
     // Rank 0 has all ranks do this.
     void everywhere(const std::vector<std::uint8_t>& bytes, const std::string& path) const;
     Field field(const std::string& key) const;
-    // Rows of a field, as a file has them, of the nodes or cells that this rank writes, and their numbers, ascending.
+    // Rows of a field, as a file has them, of the nodes or cells that this rank gives, and their numbers, ascending.
     Field rows_to_write(const BulkField& field, std::vector<std::int64_t>& rows) const;
+    // Some rows of a whole field, from `first` on, that this rank writes: as many as others do.
+    std::vector<double> block_of_rows(const Room& room, std::int64_t& first) const;
     std::vector<std::int64_t> nodes(std::vector<std::int32_t>& owned) const;
     std::vector<std::int64_t> cells() const;
     void call(std::int32_t status) const;

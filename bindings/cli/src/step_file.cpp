@@ -182,9 +182,11 @@ void write_step_file(const std::string& path, const Model& model, delam_solver* 
     std::vector<Room> rooms;
     BulkSource source;
     source.write = [&, &node_count = node_rows, &cell_count = cell_rows](hid_t group) {
-        for (const BulkField& field : wanted)
-            rooms.push_back({field, h5::reserve(group, field.name, field.of_nodes ? node_count : cell_count,
-                                                static_cast<std::int64_t>(field.columns))});
+        for (const BulkField& field : wanted) {
+            const std::int64_t rows = field.of_nodes ? node_count : cell_count;
+            rooms.push_back(
+                {field, rows, h5::reserve(group, field.name, rows, static_cast<std::int64_t>(field.columns))});
+        }
     };
     source.displacement = [&](std::int64_t node) {
         return &displacement[3 * static_cast<std::size_t>(std::lower_bound(nodes.begin(), nodes.end(), node) -
