@@ -229,6 +229,8 @@ typedef struct {
     delam_problem *problem;
     delam_solver *solver;
     int64_t opening; /* the load pattern */
+    delam_petsc *petsc;
+    double largest; /* displacement of a node that libdelam does not know, m */
 } scene;
 
 /* Each call of the library goes through here: on failure tell what the context says, and return the status. */
@@ -379,6 +381,44 @@ static int32_t write_row(scene *s, int step) {
     return DELAM_OK;
 }
 
+/* The task of each rank: the largest displacement of the nodes that only the ranks know, for rank 0. */
+static int32_t find_largest(int64_t size, const uint8_t *bytes, void *user) {
+    scene *s = user;
+    int64_t count = 0, i;
+    int64_t *nodes = NULL;
+    double *u = NULL;
+    double largest = 0.0;
+    int32_t status = delam_petsc_part_nodes(s->petsc, 0, NULL, NULL, &count);
+    (void)size;
+    (void)bytes;
+    if (status == DELAM_OK && count > 0) {
+        nodes = malloc((size_t)count * sizeof *nodes);
+        u = malloc(3 * (size_t)count * sizeof *u);
+        status = nodes == NULL || u == NULL ? DELAM_ERROR_MEMORY
+                                            : delam_petsc_part_nodes(s->petsc, count, nodes, NULL, NULL);
+        if (status == DELAM_OK) status = delam_petsc_part_field(s->petsc, "displacement", 3 * count, u, NULL, NULL);
+        for (i = 0; i < count && status == DELAM_OK; ++i) {
+            const double length2 = u[3 * i] * u[3 * i] + u[3 * i + 1] * u[3 * i + 1] + u[3 * i + 2] * u[3 * i + 2];
+            if (nodes[i] >= other_nodes(&s->g) && length2 > largest * largest) largest = sqrt(length2);
+        }
+        free(nodes);
+        free(u);
+    }
+    MPI_Reduce(&largest, &s->largest, 1, MPI_DOUBLE, MPI_MAX, 0, MPI_COMM_WORLD); /* all ranks come here */
+    return status;
+}
+
+static int32_t tell_displacement(scene *s) {
+    int32_t status = delam_petsc_recover(s->petsc, s->solver);
+    if (status == DELAM_OK) status = delam_petsc_everywhere(s->petsc, 0, NULL);
+    if (status != DELAM_OK) {
+        fprintf(stderr, "host_petsc: displacement: %s\n", delam_petsc_message(s->petsc));
+        return status;
+    }
+    printf("largest displacement of nodes that only the ranks know: %.9e m\n", s->largest);
+    return DELAM_OK;
+}
+
 static int32_t march(void *user) {
     scene *s = user;
     int step;
@@ -392,7 +432,7 @@ static int32_t march(void *user) {
         status = write_row(s, step);
         if (status != DELAM_OK) return status;
     }
-    return DELAM_OK;
+    return tell_displacement(s);
 }
 
 /* ---- all ranks -------------------------------------------------------------------------------------------------- */
@@ -415,11 +455,12 @@ static int work(delam_petsc *petsc, int rank, scene *s, part *p) {
         return 1;
     if (failed(petsc, rank, delam_petsc_run(petsc, make_scene, s), "scene")) return 1;
     if (failed(petsc, rank, delam_petsc_attach(petsc, s->problem), "engine")) return 1;
+    if (failed(petsc, rank, delam_petsc_set_task(petsc, find_largest, s), "task")) return 1;
     return failed(petsc, rank, delam_petsc_run(petsc, march, s), "march");
 }
 
 int main(int argc, char **argv) {
-    scene s = {{30, 0, 0}, NULL, NULL, NULL, NULL, NULL, 0};
+    scene s = {{30, 0, 0}, NULL, NULL, NULL, NULL, NULL, 0, NULL, 0.0};
     part p = {0, NULL, NULL, NULL, NULL, NULL};
     delam_petsc *petsc = NULL;
     int rank, ranks, result;
@@ -435,6 +476,7 @@ int main(int argc, char **argv) {
     s.g.first = s.g.along * rank / ranks;
     s.g.last = s.g.along * (rank + 1) / ranks;
     result = failed(petsc, rank, delam_petsc_create(MPI_COMM_WORLD, &petsc), "PETSc");
+    s.petsc = petsc;
     if (result == 0) result = work(petsc, rank, &s, &p);
     delam_solver_destroy(&s.solver);
     delam_problem_destroy(&s.problem);

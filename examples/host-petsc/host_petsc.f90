@@ -195,15 +195,17 @@ contains
 
 end module host_bodies
 
-! What libdelam knows: on rank 0, in functions that delam_petsc_run calls.
+! What libdelam knows: on rank 0, in functions that delam_petsc_run calls. And the task of all ranks.
 module host_scene
-  use, intrinsic :: iso_c_binding, only: c_ptr, c_int32_t
+  use, intrinsic :: iso_c_binding, only: c_ptr, c_int32_t, c_int64_t, c_null_ptr, c_null_char
   use, intrinsic :: iso_fortran_env, only: error_unit
+  use mpi_f08
   use delam, dp => delam_real, ip => delam_index
+  use delam_petsc
   use host_bodies
   implicit none
   private
-  public :: make_scene, march, problem
+  public :: make_scene, march, find_largest, problem
 
   real(dp), parameter :: notch = 15e-3_dp   ! m
   integer, parameter :: steps = 10
@@ -212,6 +214,8 @@ module host_scene
   type(delam_mesh) :: mesh
   type(delam_law) :: law
   type(delam_problem) :: problem
+  type(c_ptr), public :: petsc = c_null_ptr
+  real(dp) :: largest                       ! displacement of a node that libdelam does not know, m; on rank 0
   integer :: status = DELAM_OK              ! of the last call
   character(500) :: message = ''
 
@@ -365,7 +369,34 @@ contains
       values(4) = values(4)/width   ! in space libdelam counts the debonded area
       print '(i4, 4(1x, es16.9))', step, values
     end do
+    status = delam_petsc_recover(petsc, solver%handle())
+    if (status == DELAM_OK) status = delam_petsc_everywhere(petsc, 0_ip)
+    message = delam_text(delam_petsc_message(petsc))
+    if (failed()) return
+    print '(a, es15.9, a)', 'largest displacement of nodes that only the ranks know: ', largest, ' m'
   end subroutine all_steps
+
+  ! The task of each rank: the largest displacement of the nodes that only the ranks know, for rank 0.
+  function find_largest(size, bytes, user) bind(c) result(answer)
+    integer(c_int64_t), value :: size
+    type(c_ptr), value :: bytes, user
+    integer(c_int32_t) :: answer
+    integer(ip), allocatable :: nodes(:)
+    real(dp), allocatable :: u(:,:)
+    real(dp) :: own
+    integer(ip) :: count
+    own = 0
+    answer = delam_petsc_part_nodes(petsc, 0_ip, count=count)
+    if (answer == DELAM_OK .and. count > 0) then
+      allocate (nodes(count), u(3, count))
+      answer = delam_petsc_part_nodes(petsc, count, nodes)
+      if (answer == DELAM_OK) answer = delam_petsc_part_field(petsc, 'displacement' // c_null_char, 3*count, u)
+      ! libdelam counts nodes from 0 here.
+      if (answer == DELAM_OK) own = maxval(norm2(u, 1), nodes >= other_nodes())
+      own = max(own, 0.0_dp)
+    end if
+    call MPI_Reduce(own, largest, 1, MPI_DOUBLE_PRECISION, MPI_MAX, 0, MPI_COMM_WORLD)   ! all ranks come here
+  end function find_largest
 
 end module host_scene
 
@@ -378,7 +409,6 @@ program host_petsc
   use host_bodies
   use host_scene
   implicit none
-  type(c_ptr) :: petsc = c_null_ptr
   integer :: rank, ranks, result
 
   call MPI_Init()
@@ -431,6 +461,7 @@ contains
                                     columns, values), 'part')) return
     if (failed(delam_petsc_run(petsc, c_funloc(make_scene), c_null_ptr), 'scene')) return
     if (failed(delam_petsc_attach(petsc, problem%handle()), 'engine')) return   ! NULL but on rank 0
+    if (failed(delam_petsc_set_task(petsc, c_funloc(find_largest), c_null_ptr), 'task')) return
     done = .not. failed(delam_petsc_run(petsc, c_funloc(march), c_null_ptr), 'march')
   end function done
 

@@ -128,7 +128,7 @@ def make_problem(grid):
     return problem
 
 
-def march(problem):
+def march(problem, ranks):
     problem.check()
     print("step          load/m       reaction/N     dissipated/J       debonded/m")
     with delam.Solver(problem, not_converged="raise") as solver:
@@ -139,9 +139,19 @@ def march(problem):
                 "load:opening", "reaction:opening", "dissipated", "debonded_length"))
             # In space libdelam counts the debonded area.
             print(f"{step:4d} {load:16.9e} {reaction:16.9e} {dissipated:16.9e} {debonded / WIDTH:16.9e}", flush=True)
+        ranks.recover(solver)
+        ranks.everywhere()
 
 
 # ---- all ranks ------------------------------------------------------------------------------------------------------
+
+def tell_displacement(comm, ranks, grid):
+    """The task of each rank: the largest displacement of the nodes that only the ranks know, which rank 0 prints."""
+    lengths = np.linalg.norm(ranks.part_field("displacement"), axis=1)
+    largest = comm.reduce(lengths[ranks.part_nodes()[0] >= grid.others].max(initial=0.0), op=MPI.MAX)
+    if comm.rank == 0:
+        print(f"largest displacement of nodes that only the ranks know: {largest:.9e} m", flush=True)
+
 
 def work(comm):
     along = int(sys.argv[1]) if sys.argv[1:] and sys.argv[1].isdecimal() else 0 if sys.argv[1:] else 30
@@ -155,7 +165,8 @@ def work(comm):
             ranks.set_part(*make_part(grid, along * ranks.rank // ranks.size, along * (ranks.rank + 1) // ranks.size))
             problem = ranks.run(lambda: make_problem(grid))
             ranks.attach(problem)
-            ranks.run(lambda: march(problem))
+            ranks.set_task(lambda _: tell_displacement(comm, ranks, grid))
+            ranks.run(lambda: march(problem, ranks))
     except delam.DelamError as error:
         # Every rank is here.
         if comm.rank == 0:

@@ -123,7 +123,7 @@ typedef struct delam_experimental_answer {
  *             *cost how many iterations it is worth.
  *   solve     see above.
  *   recover   the displacements of a combination of kept answers, weights [kept]: u in displacement [dofs], and K u in
- *             force [dofs].
+ *             force [dofs]. Both are NULL in delam_experimental_solver_recover: the engine then keeps them for itself.
  *   release   frees the engine: called once, when the last problem or solver that holds it is gone. May be NULL.
  *   message   says why the last call failed. */
 typedef struct delam_experimental_engine {
@@ -169,6 +169,28 @@ DELAM_API int32_t delam_experimental_part_matrix(delam_context *context, int64_t
                                                  int64_t *dimension, int64_t *node_count, int64_t *entries,
                                                  int64_t *nodes, double *coordinates, int64_t *row_starts,
                                                  int64_t *columns, double *values);
+/* Computes fields at the centres of a part's cells: stress [cell_count][4 or 6] and rotation [cell_count][1 or 3], as
+ * the fields `stress` and `rotation` of delam_solver_field have them. bytes: [size]. displacement: [node_count]
+ * [dimension], at the part's nodes. bodies [body_count]: labels, each once, with the eigenstrains [body_count][6] of
+ * these bodies; others have none. node_count and cell_count have to be those of the part.
+ * [unit displacement L finite, eigenstrains 1 finite, stress F/L2, rotation rad; null stress, rotation; status
+ * cancelled, argument, snapshot; source T. Hughes, The Finite Element Method (1987), chapters 3 and 4; since 0.1] */
+DELAM_API int32_t delam_experimental_part_fields(delam_context *context, int64_t size, const uint8_t *bytes,
+                                                 int64_t node_count, const double *displacement, int64_t body_count,
+                                                 const int32_t *bodies, const double *eigenstrains, int64_t cell_count,
+                                                 double *stress, double *rotation);
+
+/* Has the engine of a solver's problem recover the displacements of its present state, pending or committed, and keep
+ * them: for those whom the engine serves. The library does not get them.
+ * [null none; status cancelled, numerical, state; source none; since 0.1] */
+DELAM_API int32_t delam_experimental_solver_recover(delam_solver *solver);
+/* Returns the eigenstrains of the bodies in the present state: the sum over the patterns of factor times strain, xx,
+ * yy, zz, 2xy, 2yz, 2zx in material axes. *count receives the number of bodies in the mesh, or 0 if the problem has no
+ * eigenstrains; call it with NULL arrays for that, and again with bodies [capacity] for their labels and eigenstrains
+ * [capacity][6].
+ * [unit eigenstrains 1; null bodies, eigenstrains, count; status argument; source none; since 0.1] */
+DELAM_API int32_t delam_experimental_solver_eigenstrains(delam_solver *solver, int64_t capacity, int32_t *bodies,
+                                                         double *eigenstrains, int64_t *count);
 
 #ifdef __cplusplus
 }

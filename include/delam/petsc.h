@@ -15,8 +15,9 @@
  * adds to the stiffness (delam_petsc_set_part), or its rows of it (delam_petsc_set_rows).
  *
  * The rules at the head of delam.h apply here as well, and besides:
- *   ranks      Every call is collective: all ranks of the communicator make the same calls in the same order, and get
- *              the same status. Only the arrays may differ, as each function says.
+ *   ranks      Calls are collective: all ranks of the communicator make the same calls in the same order, and get the
+ *              same status. Only the arrays may differ, as each function says. Not collective are delam_petsc_message
+ *              and the functions that say "one rank alone" or "rank 0 alone".
  *   options    PETSc's options with the prefix delam_ choose the solver, e.g. in the variable PETSC_OPTIONS:
  *              -delam_pc_type bddc, -delam_ksp_monitor. The default is a Cholesky factorisation by MUMPS. PETSc's type
  *              numbers have to be real, in double precision; the number of DOFs has to fit into its integers.
@@ -50,7 +51,7 @@ DELAM_API int32_t delam_petsc_create_fortran(MPI_Fint comm, delam_petsc **out);
  * [null petsc, *petsc; owns petsc destroyed; status -; since 0.1] */
 DELAM_API void delam_petsc_destroy(delam_petsc **petsc);
 /* Returns the text of the last status other than DELAM_OK, the same on all ranks; "" if there has been none; never
- * NULL. This function alone is not collective.
+ * NULL. Not collective.
  * [owns result until the next call with this handle; status -; since 0.1] */
 DELAM_API const char *delam_petsc_message(const delam_petsc *petsc);
 
@@ -108,11 +109,57 @@ DELAM_API int32_t delam_petsc_attach(delam_petsc *petsc, delam_problem *problem)
  * [null user; status returned; thread call's; since 0.1] */
 typedef int32_t (*delam_petsc_work_callback)(void *user);
 /* Runs work(user) on rank 0, which may call everything of delam.h, while the other ranks work for the engine. Returns
- * what work returns, on all ranks; an exception of C++ that leaves work becomes a status. work must not call functions
- * of this header. work: on rank 0, ignored on the others.
+ * what work returns, on all ranks; an exception of C++ that leaves work becomes a status. Of the functions of this
+ * header, work may call only those of one rank or rank 0 alone. work: on rank 0, ignored on the others.
  * [null work but on rank 0, user; owns work and user: the host, until the call returns; status argument, state,
  * returned; source none; since 0.1] */
 DELAM_API int32_t delam_petsc_run(delam_petsc *petsc, delam_petsc_work_callback work, void *user);
+
+/* What all ranks do when rank 0 says so. bytes: [size], those of rank 0. It may communicate with the other ranks, over
+ * a communicator of the host, and call the functions of one rank alone. It must not call those that need the ranks for
+ * a solve. Returns DELAM_OK, or another number: why it failed says delam_petsc_explain.
+ * [null user; status returned; thread call's; since 0.1] */
+typedef int32_t (*delam_petsc_task_callback)(int64_t size, const uint8_t *bytes, void *user);
+/* Sets the task of each rank, for delam_petsc_everywhere; it replaces an earlier one. Each rank has a function and user
+ * of its own: addresses are not the same in two processes.
+ * [null user; owns task and user: the host, as long as petsc is run; status argument, state; source none; since 0.1] */
+DELAM_API int32_t delam_petsc_set_task(delam_petsc *petsc, delam_petsc_task_callback task, void *user);
+/* Rank 0 alone, in the work of delam_petsc_run: runs the task of all ranks, of rank 0 as well, with these bytes [size],
+ * and waits for all. If it fails on some ranks, by its number or by an exception of C++, the status is that of the
+ * lowest of them, and so is the message on all ranks; work may go on. While others wait for a rank that has failed,
+ * `errors` above holds.
+ * [null bytes; status argument, internal, memory, state; source none; since 0.1] */
+DELAM_API int32_t delam_petsc_everywhere(delam_petsc *petsc, int64_t size, const uint8_t *bytes);
+/* One rank alone, in its task: text says why the task is about to fail. It becomes the message.
+ * [null none; status argument; source none; since 0.1] */
+DELAM_API int32_t delam_petsc_explain(delam_petsc *petsc, const char *text);
+
+/* Rank 0 alone, in the work of delam_petsc_run: has each rank recover the displacements of a solver's present state,
+ * pending or committed, at the nodes of its part. No rank gets all of them, as rank 0 does by delam_solver_field, which
+ * changes nothing here. The ranks keep what they have until the next call or other parts: it is that state which the
+ * functions below describe, however far the solver has gone on.
+ * [status cancelled, memory, numerical, state; source none; since 0.1] */
+DELAM_API int32_t delam_petsc_recover(delam_petsc *petsc, delam_solver *solver);
+/* One rank alone, in its task, in work or afterwards: the nodes of the fields of delam_petsc_part_field. They are those
+ * of its part, in the order of the part (ascending after delam_petsc_take_scene), and behind them, on rank 0, those of
+ * the mesh that no part has. owned: 1 where no lower rank has the node, else 0. nodes and owned: [capacity]. *count
+ * receives how many there are.
+ * [null nodes, owned, count; status argument, state; source none; since 0.1] */
+DELAM_API int32_t delam_petsc_part_nodes(delam_petsc *petsc, int64_t capacity, int64_t *nodes, int32_t *owned,
+                                         int64_t *count);
+/* One rank alone: the cells of its part in rank 0's mesh, ascending, from 0 on; none but after delam_petsc_take_scene.
+ * cells: [capacity]. *count receives how many there are.
+ * [null cells, count; status argument; source none; since 0.1] */
+DELAM_API int32_t delam_petsc_part_cells(delam_petsc *petsc, int64_t capacity, int64_t *cells, int64_t *count);
+/* One rank alone, in its task, in work or afterwards: a field of the state recovered last (delam_petsc_recover).
+ *   displacement  [nodes][dimension]  u, at the nodes of delam_petsc_part_nodes
+ *   force         [nodes][dimension]  K u, the sum over all ranks: in equilibrium what acts on the node
+ *   stress        [cells][4 or 6]     at the centres of the cells of delam_petsc_part_cells, as by delam_solver_field
+ *   rotation      [cells][1 or 3]     likewise
+ * values: [capacity], row after row. *rows and *columns receive the shape.
+ * [unit values of key; null values, rows, columns; status argument, memory, state; source none; since 0.1] */
+DELAM_API int32_t delam_petsc_part_field(delam_petsc *petsc, const char *key, int64_t capacity, double *values,
+                                         int64_t *rows, int64_t *columns);
 
 /* Writes a number, by key, to *value. Counts begin when the handle is made.
  *   solves, iterations, renewals    solves of the engine, their iterations, renewals of the preconditioner

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "capi/handles.hpp"
+#include "evolution/solver.hpp"
 #include "scene/engine.hpp"
 #include "scene/part.hpp"
 
@@ -63,5 +64,65 @@ int32_t delam_experimental_part_matrix(delam_context* context, int64_t size, con
         if (dimension != nullptr) *dimension = part.dimension;
         if (node_count != nullptr) *node_count = static_cast<std::int64_t>(part.nodes.size());
         if (entries != nullptr) *entries = counted;
+    });
+}
+
+int32_t delam_experimental_part_fields(delam_context* context, int64_t size, const uint8_t* bytes, int64_t node_count,
+                                       const double* displacement, int64_t body_count, const int32_t* bodies,
+                                       const double* eigenstrains, int64_t cell_count, double* stress,
+                                       double* rotation) {
+    return guard_read(context, [&] {
+        require_count(size, "size");
+        require_pointer(bytes, "bytes");
+        require_count(node_count, "node_count");
+        require_count(body_count, "body_count");
+        require_count(cell_count, "cell_count");
+        require_array(displacement, node_count, "displacement");
+        require_array(bodies, body_count, "bodies");
+        require_array(eigenstrains, body_count, "eigenstrains");
+        require_finite(eigenstrains, 6 * body_count, "eigenstrains");
+        const Part part = load_part({bytes, static_cast<std::size_t>(size)});
+        const SoundPart sound(part);
+        const Mesh& mesh = sound.mesh();
+        if (node_count != mesh.node_count())
+            fail(DELAM_ERROR_ARGUMENT, "node_count = ", node_count, ", but the part has ", mesh.node_count(), " nodes");
+        if (cell_count != mesh.cell_count())
+            fail(DELAM_ERROR_ARGUMENT, "cell_count = ", cell_count, ", but the part has ", mesh.cell_count(), " cells");
+        require_finite(displacement, node_count * mesh.dimension(), "displacement");
+        const std::span u(displacement, static_cast<std::size_t>(node_count * mesh.dimension()));
+        std::vector<Strain> strains(body_count > 0 ? part.labels.size() : 0);
+        for (std::int64_t b = 0; b < body_count; ++b) {
+            if (std::find(bodies, bodies + b, bodies[b]) != bodies + b)
+                fail(DELAM_ERROR_ARGUMENT, "bodies[", b, "] = ", bodies[b], " occurs twice");
+            const auto at = std::lower_bound(part.labels.begin(), part.labels.end(), bodies[b]);
+            if (at == part.labels.end() || *at != bodies[b]) continue;
+            std::copy_n(eigenstrains + 6 * b, 6, strains[static_cast<std::size_t>(at - part.labels.begin())].begin());
+        }
+        const std::vector<double> stresses = stress == nullptr ? std::vector<double>() : sound.stress(u, strains);
+        const std::vector<double> rotations = rotation == nullptr ? std::vector<double>() : sound.rotation(u);
+        std::copy(stresses.begin(), stresses.end(), stress);
+        std::copy(rotations.begin(), rotations.end(), rotation);
+    });
+}
+
+int32_t delam_experimental_solver_recover(delam_solver* solver) {
+    return guard_read(solver, [&] {
+        if (!solver->core->recover_in_engine())
+            fail(DELAM_ERROR_STATE, "solver: its problem has no engine (delam_experimental_problem_set_engine)");
+    });
+}
+
+int32_t delam_experimental_solver_eigenstrains(delam_solver* solver, int64_t capacity, int32_t* bodies,
+                                               double* eigenstrains, int64_t* count) {
+    return guard_read(solver, [&] {
+        const std::vector<Strain> strains = solver->core->eigenstrains();
+        const auto needed = static_cast<std::int64_t>(strains.size());
+        if (bodies != nullptr || eigenstrains != nullptr) require_capacity(capacity, needed, "bodies, eigenstrains");
+        for (std::int64_t b = 0; b < needed; ++b) {
+            if (bodies != nullptr) bodies[b] = solver->core->problem().mesh->body_label(static_cast<std::int32_t>(b));
+            if (eigenstrains != nullptr)
+                std::copy_n(strains[static_cast<std::size_t>(b)].begin(), 6, eigenstrains + 6 * b);
+        }
+        if (count != nullptr) *count = needed;
     });
 }

@@ -75,6 +75,8 @@ public:
     const std::vector<double>& displacement() const;
     // Of any state of this solver.
     std::vector<double> displacement(const State& state) const;
+    // The engine of the host recovers the displacements of state() and keeps them; false: there is none.
+    bool recover_in_engine() const { return stepper_.op().recover_in_engine(state().theta, state().response); }
     // Reactions of the constraints, [constraints].
     std::vector<double> reaction() const { return stepper_.op().reaction(state().theta, state().response); }
     // d2E / dtheta2 at fixed adhesion and contact set of state(), [patterns][patterns].

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The functions of petsc.h. None of them lets an exception escape.
+#include <algorithm>
 #include <new>
 #include <string>
+#include <vector>
 
 #include "delam/petsc.h"
 #include "petsc/options.hpp"
@@ -34,6 +36,24 @@ int32_t call(delam_petsc* petsc, Work&& work) noexcept {
     } catch (...) {
         return DELAM_ERROR_MEMORY;
     }
+}
+
+// A call of one rank alone.
+template <class Work>
+int32_t here(delam_petsc* petsc, Work&& work) noexcept {
+    if (petsc == nullptr) return DELAM_ERROR_HANDLE;
+    try {
+        int32_t status = DELAM_OK;
+        const int32_t own = petsc->session.guard_here([&] { status = work(petsc->session); });
+        return own != DELAM_OK ? own : status;
+    } catch (...) {
+        return DELAM_ERROR_MEMORY;
+    }
+}
+
+void require_room(int64_t capacity, int64_t needed, const char* what) {
+    if (capacity < needed)
+        delam::petsc::fail(DELAM_ERROR_ARGUMENT, what, ": capacity ", capacity, ", but there are ", needed);
 }
 
 }  // namespace
@@ -124,6 +144,67 @@ int32_t delam_petsc_run(delam_petsc* petsc, int32_t (*work)(void* user), void* u
     } catch (...) {
         return DELAM_ERROR_MEMORY;
     }
+}
+
+int32_t delam_petsc_set_task(delam_petsc* petsc, int32_t (*task)(int64_t size, const uint8_t* bytes, void* user),
+                             void* user) {
+    return call(petsc, [&](Session& session) { session.set_task(task, user); });
+}
+
+int32_t delam_petsc_everywhere(delam_petsc* petsc, int64_t size, const uint8_t* bytes) {
+    return here(petsc, [&](Session& session) {
+        if (size < 0) delam::petsc::fail(DELAM_ERROR_ARGUMENT, "size = ", size, ": has to be at least 0");
+        if (size > 0 && bytes == nullptr) delam::petsc::fail(DELAM_ERROR_ARGUMENT, "bytes: NULL with size ", size);
+        return session.everywhere(size, bytes);
+    });
+}
+
+int32_t delam_petsc_explain(delam_petsc* petsc, const char* text) {
+    return here(petsc, [&](Session& session) {
+        if (text == nullptr) delam::petsc::fail(DELAM_ERROR_ARGUMENT, "text is NULL");
+        session.explain(text);
+        return DELAM_OK;
+    });
+}
+
+int32_t delam_petsc_recover(delam_petsc* petsc, delam_solver* solver) {
+    return here(petsc, [&](Session& session) { return session.recover_parts(solver); });
+}
+
+int32_t delam_petsc_part_nodes(delam_petsc* petsc, int64_t capacity, int64_t* nodes, int32_t* owned, int64_t* count) {
+    return here(petsc, [&](Session& session) {
+        const delam::petsc::PartState& state = session.part_state();
+        const auto needed = static_cast<int64_t>(state.nodes().size());
+        if (nodes != nullptr || owned != nullptr) require_room(capacity, needed, "nodes, owned");
+        if (nodes != nullptr) std::copy(state.nodes().begin(), state.nodes().end(), nodes);
+        if (owned != nullptr) std::copy(state.owned().begin(), state.owned().end(), owned);
+        if (count != nullptr) *count = needed;
+        return DELAM_OK;
+    });
+}
+
+int32_t delam_petsc_part_cells(delam_petsc* petsc, int64_t capacity, int64_t* cells, int64_t* count) {
+    return here(petsc, [&](Session& session) {
+        const std::vector<int64_t>& all = session.part_cells().cells;
+        const auto needed = static_cast<int64_t>(all.size());
+        if (cells != nullptr) require_room(capacity, needed, "cells");
+        if (cells != nullptr) std::copy(all.begin(), all.end(), cells);
+        if (count != nullptr) *count = needed;
+        return DELAM_OK;
+    });
+}
+
+int32_t delam_petsc_part_field(delam_petsc* petsc, const char* key, int64_t capacity, double* values, int64_t* rows,
+                               int64_t* columns) {
+    return here(petsc, [&](Session& session) {
+        if (key == nullptr) delam::petsc::fail(DELAM_ERROR_ARGUMENT, "key is NULL");
+        const delam::petsc::PartState::Field field = session.part_field(key);
+        if (values != nullptr) require_room(capacity, field.rows * field.columns, "values");
+        if (values != nullptr) std::copy(field.values->begin(), field.values->end(), values);
+        if (rows != nullptr) *rows = field.rows;
+        if (columns != nullptr) *columns = field.columns;
+        return DELAM_OK;
+    });
 }
 
 int32_t delam_petsc_value(delam_petsc* petsc, const char* key, double* value) {

@@ -160,16 +160,23 @@ double Engine::relative_rounding(const BodyState& state, Vec v, Vec work) const 
     return state.stored > 0.0 ? std::numeric_limits<double>::epsilon() * terms / state.stored : 0.0;
 }
 
-void Engine::recover(const double* weights, double* displacement, double* force) {
+bool Engine::recover(const double* weights, double* displacement, double* force, PartState& kept) {
     std::vector<double> shared;
+    bool keeps = displacement == nullptr && force == nullptr;
     comm_.together([&] {
         if (comm_.root()) shared.assign(weights, weights + KeptStates::count);
     });
     comm_.broadcast(shared);
+    comm_.broadcast(keeps);
     const OwnedVec v = bodies_.vector();
     const std::vector<double> theta = kept_.combine(shared, v);
+    if (keeps) {
+        kept.take(bodies_, bodies_.state(theta, v));
+        return true;
+    }
     if (fields_ == nullptr) fields_ = std::make_unique<MeshFields>(bodies_, scene_.dofs);
     fields_->gather(bodies_.state(theta, v), displacement, force);
+    return false;
 }
 
 }  // namespace delam::petsc

@@ -6,6 +6,7 @@
 
 #include "delam/experimental.h"
 #include "petsc/mesh_fields.hpp"
+#include "petsc/part_state.hpp"
 #include "petsc/solve.hpp"
 
 namespace delam::petsc {
@@ -28,7 +29,8 @@ public:
     void renew(const delam_experimental_entries* entries, double* cost);
     // Whether it was not given up.
     bool solve(const delam_experimental_request* request, delam_experimental_answer* answer);
-    void recover(const double* weights, double* displacement, double* force);
+    // Where rank 0 has no arrays for them, each rank keeps the fields of its part, in `kept`: true.
+    bool recover(const double* weights, double* displacement, double* force, PartState& kept);
     const Preconditioner& preconditioner() const { return preconditioner_; }
 
 private:

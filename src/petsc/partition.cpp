@@ -66,10 +66,17 @@ std::vector<int> checked(const GivenRanks& given, const delam_mesh* mesh, int si
     return {rank, rank + count};
 }
 
+// Nothing but from rank 0.
+std::vector<std::vector<std::int64_t>> outgoing(const Communicator& comm,
+                                                std::vector<std::vector<std::int64_t>> lists) {
+    comm.together([&] { lists.resize(static_cast<std::size_t>(comm.size())); });
+    return lists;
+}
+
 }  // namespace
 
-Part receive_part(const Communicator& comm, const delam_mesh* mesh, const delam_problem* problem,
-                  const GivenRanks* given) {
+ReceivedPart receive_part(const Communicator& comm, const delam_mesh* mesh, const delam_problem* problem,
+                          const GivenRanks* given) {
     std::vector<std::vector<std::int64_t>> cells;
     std::int32_t dimension = 0;
     comm.together([&] {
@@ -86,7 +93,8 @@ Part receive_part(const Communicator& comm, const delam_mesh* mesh, const delam_
     });
     comm.broadcast(dimension);
     // One rank after the other, so that rank 0 holds the bytes of one part at a time.
-    std::vector<std::uint8_t> mine;
+    ReceivedPart received;
+    std::vector<std::uint8_t>& mine = received.cells.bytes;
     for (int r = comm.size() - 1; r >= 0; --r) {
         std::vector<std::uint8_t> bytes;
         comm.together([&] {
@@ -99,9 +107,9 @@ Part receive_part(const Communicator& comm, const delam_mesh* mesh, const delam_
         else if (comm.rank() == r)
             mine = comm.receive();
     }
-    Part part;
-    comm.together([&] { part = part_of_bytes(dimension, mine); });
-    return part;
+    received.cells.cells = comm.exchange(outgoing(comm, std::move(cells)))[0];
+    comm.together([&] { received.part = part_of_bytes(dimension, mine); });
+    return received;
 }
 
 }  // namespace delam::petsc

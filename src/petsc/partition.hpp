@@ -7,6 +7,7 @@
 #include "delam/experimental.h"
 #include "petsc/communicator.hpp"
 #include "petsc/part.hpp"
+#include "petsc/part_state.hpp"
 
 namespace delam::petsc {
 
@@ -20,9 +21,14 @@ struct GivenRanks {
     const std::int32_t* rank = nullptr;
 };
 
+struct ReceivedPart {
+    Part part;
+    PartCells cells;
+};
+
 // Rank 0's mesh and problem (NULL elsewhere), divided as `given` says there or else by partition_cells; returns what
 // falls to this rank. Collective.
-Part receive_part(const Communicator& comm, const delam_mesh* mesh, const delam_problem* problem,
-                  const GivenRanks* given);
+ReceivedPart receive_part(const Communicator& comm, const delam_mesh* mesh, const delam_problem* problem,
+                          const GivenRanks* given);
 
 }  // namespace delam::petsc

@@ -28,10 +28,12 @@ std::int32_t Session::refuse(const char* why) {
     return DELAM_ERROR_STATE;
 }
 
-void Session::set_part(Part part) {
+void Session::set_part(Part part, PartCells cells) {
     require_same_dimension(comm_, part.dimension);
     engine_.reset();
     part_ = std::move(part);
+    cells_ = std::move(cells);
+    state_.clear();
     has_part_ = true;
 }
 
@@ -40,7 +42,8 @@ void Session::take_scene(const delam_mesh* mesh, const delam_problem* problem, c
         const bool given = mesh != nullptr && problem != nullptr;
         if (comm_.root() && !given) fail(DELAM_ERROR_ARGUMENT, "mesh or problem is NULL on rank 0");
     });
-    set_part(receive_part(comm_, mesh, problem, given));
+    ReceivedPart received = receive_part(comm_, mesh, problem, given);
+    set_part(std::move(received.part), std::move(received.cells));
 }
 
 void Session::attach(delam_problem* problem) {
@@ -56,6 +59,14 @@ void Session::attach(delam_problem* problem) {
         fail(status, "delam_experimental_problem_set_engine returned ", delam_status_name(status),
              " (delam_context_message on rank 0 says why)");
     });
+}
+
+void Session::set_task(Task task, void* user) {
+    comm_.together([&] {
+        if (task == nullptr) fail(DELAM_ERROR_ARGUMENT, "task is NULL on rank ", comm_.rank());
+    });
+    task_ = task;
+    task_user_ = user;
 }
 
 std::int32_t Session::run(std::int32_t (*work)(void* user), void* user) {
@@ -104,6 +115,12 @@ void Session::serve() {
             case Command::recover:
                 recover(nullptr, nullptr, nullptr);
                 break;
+            case Command::share_strains:
+                share_strains({}, {});
+                break;
+            case Command::task:
+                run_task(0, nullptr);
+                break;
         }
     }
 }
@@ -147,7 +164,71 @@ std::int32_t Session::solve(const delam_experimental_request* request, delam_exp
 }
 
 std::int32_t Session::recover(const double* weights, double* displacement, double* force) {
-    return command(Command::recover, [&] { engine().recover(weights, displacement, force); });
+    return command(Command::recover, [&] { kept_ = engine().recover(weights, displacement, force, state_); });
+}
+
+std::int32_t Session::share_strains(std::vector<std::int32_t> bodies, std::vector<double> strains) {
+    return command(Command::share_strains, [&] {
+        comm_.broadcast(bodies);
+        comm_.broadcast(strains);
+        state_.set_eigenstrains(std::move(bodies), std::move(strains));
+    });
+}
+
+// A solver of another engine, or of none, does not come here for its displacements.
+std::int32_t Session::recover_parts(delam_solver* solver) {
+    if (!comm_.root() || !running_) return refuse("only rank 0 may call this, in the work of delam_petsc_run");
+    if (in_task_) return refuse("a task (delam_petsc_set_task) is running: the ranks can do nothing else");
+    kept_ = false;
+    std::int32_t status = delam_experimental_solver_recover(solver);
+    if (status == DELAM_OK && !kept_)
+        return refuse(
+            "the ranks are not the engine of the solver's problem: delam_petsc_attach comes before the solver");
+    std::int64_t count = 0;
+    std::vector<std::int32_t> bodies;
+    std::vector<double> strains;
+    if (status == DELAM_OK) status = delam_experimental_solver_eigenstrains(solver, 0, nullptr, nullptr, &count);
+    if (status == DELAM_OK) {
+        bodies.resize(static_cast<std::size_t>(count));
+        strains.resize(6 * bodies.size());
+        status = delam_experimental_solver_eigenstrains(solver, count, bodies.data(), strains.data(), &count);
+    }
+    if (status == DELAM_OK) return share_strains(std::move(bodies), std::move(strains));
+    message_ = std::string("the state cannot be recovered: ") + delam_status_name(status) +
+               " (delam_context_message says why)";
+    return status;
+}
+
+const PartState& Session::part_state() const {
+    if (!state_.known())
+        fail(DELAM_ERROR_STATE, "no state of these parts has been recovered: delam_petsc_recover comes first");
+    return state_;
+}
+
+std::int32_t Session::everywhere(std::int64_t size, const std::uint8_t* bytes) {
+    if (!comm_.root() || !running_) return refuse("only rank 0 may call this, in the work of delam_petsc_run");
+    if (task_ == nullptr) return refuse("there is no task: delam_petsc_set_task comes first");
+    return run_task(size, bytes);
+}
+
+std::int32_t Session::run_task(std::int64_t size, const std::uint8_t* bytes) {
+    return command(Command::task, [&] {
+        std::vector<std::uint8_t> told;
+        comm_.together([&] {
+            if (comm_.root()) told.assign(bytes, bytes + size);
+        });
+        comm_.broadcast(told);
+        struct During {
+            bool& running;
+            explicit During(bool& flag) : running(flag) { running = true; }
+            ~During() { running = false; }
+        } during(in_task_);
+        explained_.clear();
+        const std::int32_t status = task_(static_cast<std::int64_t>(told.size()), told.data(), task_user_);
+        if (status == DELAM_OK) return;
+        if (!explained_.empty()) fail(status, explained_);
+        fail(status, "the task of rank ", comm_.rank(), " returned ", delam_status_name(status));
+    });
 }
 
 double Session::value(const char* key) const {

@@ -43,12 +43,32 @@ public:
         }
     }
 
-    void set_part(Part part);
+    void set_part(Part part, PartCells cells = {});
     void take_scene(const delam_mesh* mesh, const delam_problem* problem, const GivenRanks* given = nullptr);
     void attach(delam_problem* problem);
+    using Task = std::int32_t (*)(std::int64_t size, const std::uint8_t* bytes, void* user);
+    void set_task(Task task, void* user);
     std::int32_t run(std::int32_t (*work)(void* user), void* user);
+    // On rank 0, in its work.
+    std::int32_t everywhere(std::int64_t size, const std::uint8_t* bytes);
+    std::int32_t recover_parts(delam_solver* solver);
     double value(const char* key) const;
     bool running() const { return running_; }
+    // On this rank alone.
+    void explain(const char* text) { explained_ = text; }
+    const PartState& part_state() const;
+    const PartCells& part_cells() const { return cells_; }
+    PartState::Field part_field(const char* key) { return state_.field(key, cells_); }
+    // Runs work of this rank alone and turns what it throws into a status.
+    template <class Work>
+    std::int32_t guard_here(Work&& work) {
+        try {
+            work();
+            return DELAM_OK;
+        } catch (...) {
+            return failed();
+        }
+    }
 
     // The engine's commands: rank 0 calls them with its pointers, the others with NULL.
     std::int32_t prepare(const delam_experimental_variables* variables, double* diagonal, double* load_sizes);
@@ -60,7 +80,7 @@ public:
     std::int32_t refuse(const char* why);
 
 private:
-    enum class Command : std::int32_t { stop, prepare, set, renew, solve, recover };
+    enum class Command : std::int32_t { stop, prepare, set, renew, solve, recover, share_strains, task };
 
     std::int32_t failed();
     // On rank 0: tells the others what to do, and does it with them.
@@ -68,6 +88,7 @@ private:
     std::int32_t command(Command which, Work&& work) {
         if (comm_.root()) {
             if (!running_) return refuse("the engine works only inside delam_petsc_run");
+            if (in_task_) return refuse("a task (delam_petsc_set_task) is running: the ranks can do nothing else");
             comm_.broadcast(which);
         }
         return guard([&] {
@@ -77,11 +98,20 @@ private:
     }
     void serve();
     Engine& engine() const;
+    std::int32_t run_task(std::int64_t size, const std::uint8_t* bytes);
+    std::int32_t share_strains(std::vector<std::int32_t> bodies, std::vector<double> strains);
 
     Communicator comm_;
     std::string message_;
     Part part_;
     bool has_part_ = false;
+    PartCells cells_;  // of part_, where it came from rank 0's scene
+    PartState state_;
+    bool kept_ = false;  // the last command `recover` left the fields with the ranks
+    Task task_ = nullptr;
+    void* task_user_ = nullptr;
+    std::string explained_;  // by the task that runs
+    bool in_task_ = false;
     bool running_ = false;
     Engine::Counts counts_;
     Counters counters_;

@@ -79,6 +79,10 @@ public:
     virtual std::vector<double> reaction(std::span<const double> theta, const Response& response) const = 0;
     // Displacements [mesh DOFs] of a response of this operator.
     virtual std::vector<double> displacement(std::span<const double> theta, const Response& response) const = 0;
+    // Has the engine of the host recover them, and keep them. False: there is no engine, and they are here.
+    virtual bool recover_in_engine(std::span<const double> /*theta*/, const Response& /*response*/) const {
+        return false;
+    }
     // Largest out-of-balance force, F, at a node for the displacements above, with the response's interface forces and
     // reactions.
     virtual double equilibrium_defect(std::span<const double> theta, const Response& response) const = 0;

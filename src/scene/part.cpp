@@ -18,6 +18,7 @@
 #include "base/error.hpp"
 #include "base/numbers.hpp"
 #include "body/assembly.hpp"
+#include "body/rotation.hpp"
 #include "delam/delam.h"
 
 namespace delam {
@@ -219,7 +220,7 @@ Part part_of(const Problem& problem, std::span<const std::int64_t> cells) {
     std::vector<std::int32_t> number(problem.orientation->axes.size(), -1);
     for (std::size_t i = 0; i < cells.size(); ++i) {
         const std::int32_t own = problem.orientation->of_cell[index(cells[i])];
-        if (own < 0 || part.orthotropic[index(part.body[i])] == 0) continue;
+        if (own < 0) continue;  // isotropic cells have axes, too: those of their eigenstrains
         if (number[index(own)] < 0) {
             const Axes& axes = problem.orientation->axes[index(own)];
             number[index(own)] = static_cast<std::int32_t>(part.axes.size() / axes.size());
@@ -311,6 +312,23 @@ void SoundPart::add_cells(const Part& part) {
 
 SparseMatrix SoundPart::stiffness(const Poll& poll) const {
     return assemble_stiffness(mesh_, cells_, nodes_, models_, 1, poll);
+}
+
+std::vector<double> SoundPart::in_order(const std::vector<double>& of_mesh) const {
+    const std::size_t columns = of_mesh.size() / cells_.size();
+    std::vector<double> rows(of_mesh.size());
+    for (std::size_t c = 0; c < cells_.size(); ++c)
+        std::copy_n(of_mesh.begin() + static_cast<std::ptrdiff_t>(index(cells_[c]) * columns), columns,
+                    rows.begin() + static_cast<std::ptrdiff_t>(c * columns));
+    return rows;
+}
+
+std::vector<double> SoundPart::stress(std::span<const double> displacement, std::span<const Strain> strain) const {
+    return in_order(centre_stress(mesh_, models_, displacement, strain));
+}
+
+std::vector<double> SoundPart::rotation(std::span<const double> displacement) const {
+    return in_order(centre_rotation(mesh_, displacement));
 }
 
 std::int64_t SoundPart::entries() const { return stiffness_entries(mesh_, cells_, nodes_); }

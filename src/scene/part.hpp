@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/monitor.hpp"
+#include "body/eigenstrain.hpp"
 #include "body/model.hpp"
 #include "linalg/sparse.hpp"
 #include "mesh/mesh.hpp"
@@ -29,7 +30,7 @@ struct Part {
     std::vector<std::int32_t> orthotropic;   // [bodies] 1, or 0: isotropic
     std::vector<double> constants;           // [bodies][9] as in Orthotropic; isotropic: E, nu, then zeros
     std::vector<double> axes;                // [axes][9] as in Axes, those in use
-    std::vector<std::int32_t> axes_of_cell;  // [cells] -1: global, or the same in all axes
+    std::vector<std::int32_t> axes_of_cell;  // [cells] -1: global
 };
 
 // cells: ascending, in range. Error(DELAM_ERROR_PROBLEM) names a body whose material is missing, or whose stiffness the
@@ -54,8 +55,15 @@ public:
     SparseMatrix stiffness(const Poll& poll = {}) const;
     std::int64_t entries() const;  // of the stiffness
 
+    // At the centres of the cells, in the order of the part (centre_stress, centre_rotation). displacement: [nodes of
+    // the part][dimension]; strain: eigenstrains by body of the part, or none at all.
+    std::vector<double> stress(std::span<const double> displacement, std::span<const Strain> strain) const;
+    std::vector<double> rotation(std::span<const double> displacement) const;
+
 private:
     void add_cells(const Part& part);
+    // Rows of cells of mesh_, in the order of the part.
+    std::vector<double> in_order(const std::vector<double>& of_mesh) const;
 
     Mesh mesh_;
     std::vector<std::int64_t> nodes_;  // of mesh_: all

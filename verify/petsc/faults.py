@@ -19,7 +19,7 @@ import time
 from concurrent.futures import ThreadPoolExecutor
 
 from launch import DELAM_MPI, ENVIRONMENT, EXAMPLES, Ranks, alone, expect, finish, folder, last_lines, on_ranks
-from scenes import Result
+from scenes import FIELDS, Result
 
 PROMPT = 10.0  # s, in which all has ended
 START = 60.0  # s, where the ranks start first, perhaps beside other programs
@@ -28,8 +28,9 @@ ENGINE = os.environ.get("DELAM_TEST_ENGINE", "")  # test_engine.cpp
 SCARCE = os.environ.get("DELAM_SCARCE_LIBRARY", "")  # scarce.c
 SCENE = os.path.join(EXAMPLES, "enf-ductile", "enf-ductile.toml")
 STEPS = 40
-WORDS = [word for setting in ("geometry.h=0.003", f"time.steps={STEPS}", "output.every=1000",
-                              "solver.damage_tolerance=1e-10") for word in ("--set", setting)]
+# Fields of every third step, so that something happens while they are written, too.
+WORDS = [word for setting in ("geometry.h=0.003", f"time.steps={STEPS}", "output.every=3",
+                              "solver.damage_tolerance=1e-10", FIELDS) for word in ("--set", setting)]
 ALLOWED = 1e-7
 reference = None
 
@@ -213,6 +214,15 @@ def disk():
             resource.prlimit(ranks.pid(0), resource.RLIMIT_FSIZE, (1000, 1000))
         ended(ranks, "files of 1000 bytes at most", "cannot|too large|full", "--resume|start again", codes=(3,))
     goes_on(out, "files of 1000 bytes at most", 2)
+    # On another rank, which writes its rows of the fields, and its share of the result.
+    what = "files of 1000 bytes at most on rank 1"
+    out = os.path.join(folder(), "out")
+    with Ranks(2, *command(out)) as ranks:
+        done = at_step(ranks, out, 3)
+        if done is not None:
+            resource.prlimit(ranks.pid(1), resource.RLIMIT_FSIZE, (1000, 1000))
+        ended(ranks, what, r"cannot write .*h5", "--resume|start again", codes=(3,), limit=START)
+    goes_on(out, what, 2)
     small = folder()
     mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=64k", "tmpfs", small], capture_output=True,
                              check=False)

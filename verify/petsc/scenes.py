@@ -3,7 +3,8 @@
 """scenes.py [--brief] [--ranks 1,2,4] [--whole] [--loose] [NAME ...]
 
 Scenes on several numbers of ranks, each compared with the program of one process and with the first of these numbers:
-reactions, energies, debonded length, contact and the fields of the last step. Without NAME: all of small_scenes.py.
+reactions, energies, debonded length, contact and the fields of all steps that are written. Without NAME: all of
+small_scenes.py.
 
 --brief   fewer scenes, each on 1 and 2 ranks, or on 1 and 4
 --whole   larger scenes as well, on these ranks
@@ -29,6 +30,8 @@ ALLOWED = {"tight": 1e-8, "loose": 2e-3}
 SOFT = {"thermal": 1e-6}
 # A nearly incompressible body amplifies rounding. Scene: allowed of the tight comparison with the serial program.
 ROUNDED = {"incompressible": 1e-7}
+FIELDS = 'output.fields=["displacement", "stress", "rotation", "zeta", "jump", "traction", "contact"]'
+MOTIONS = ("displacement", "faces", "rotation", "turned")
 # What follows from the state and its history. With the variational mixity rule, what is called dissipated depends on
 # the way of the minimisation within a step, and only the split of the _slides does not.
 ENERGIES = ("stored_bulk", "stored_interface", "work")
@@ -45,8 +48,14 @@ class Result:
                      if name not in ("solution", "mixity_rule")}
         self.adhesion, self.contact = [], []
         with h5py.File(os.path.join(out, "fields.h5"), "r") as file:
-            last = file["steps"][sorted(file["steps"])[-1]]
-            self.displacement = last["displacement"][()]
+            self.steps = sorted(file["steps"])
+            # Of nodes, of cells, and the places of interfaces: all steps.
+            self.fields = {name: np.stack([file["steps"][step][name][()] for step in self.steps])
+                           for name in ("displacement", "stress", "rotation")}
+            self.fields["faces"] = np.concatenate([file["steps"][step][name]["displacement"][()].ravel()
+                                                   for step in self.steps for name in sorted(file["interfaces"])])
+            self.turned = [file["steps"][step].attrs["rotation_max"] for step in self.steps]
+            last = file["steps"][self.steps[-1]]
             for name in sorted(file["interfaces"]):
                 if "zeta" in last[name]:
                     self.adhesion.append(last[name]["zeta"][()].ravel())
@@ -64,7 +73,11 @@ class Result:
                  "energy": max(of(a[name], b[name], energy) for name in self.energies),
                  "debonded": of(a["debonded_length"], b["debonded_length"], b["debonded_length"].max()),
                  "adhesion": max((of(*pair, 1.0) for pair in zip(self.adhesion, other.adhesion)), default=0.0),
-                 "displacement": of(self.displacement, other.displacement, np.abs(other.displacement).max())}
+                 "turned": of(np.array(self.turned), np.array(other.turned), max(other.turned))}
+        if self.steps != other.steps or any(self.fields[name].shape != other.fields[name].shape for name in self.fields):
+            raise ValueError(f"fields of other steps or shapes: {self.steps}, {other.steps}")
+        found.update({name: of(self.fields[name], other.fields[name], np.abs(other.fields[name]).max(initial=0.0))
+                      for name in self.fields})
         pairs = int(np.abs(a["contact_pairs"] - b["contact_pairs"]).max())
         changed = sum(int((x != y).sum()) for x, y in zip(self.contact, other.contact))
         return found, max(pairs, changed)
@@ -99,7 +112,7 @@ def compared(name, what, result, reference, allowed, exact):
     numbers = " ".join(f"{kind} {value:.1e}" for kind, value in found.items())
     right = changed == 0 or not exact
     for kind, value in found.items():
-        right = right and value <= (max(allowed, SOFT.get(name, 0.0)) if kind == "displacement" else allowed)
+        right = right and value <= (max(allowed, SOFT.get(name, 0.0)) if kind in MOTIONS else allowed)
     text = f"{name}: {what}: {numbers}, {changed} contact pairs differ"
     expect(right, text)
 
@@ -122,7 +135,7 @@ def main():
         scene, settings = scenes[name]
         if kind == "tight":
             settings = [*settings, f"solver.damage_tolerance={TIGHT}"]
-        words = [word for setting in settings for word in ("--set", setting)]
+        words = [word for setting in [*settings, FIELDS] for word in ("--set", setting)]
         allowed = ALLOWED[kind]
         serial = solve(name, scene, words, 0)
         first = None

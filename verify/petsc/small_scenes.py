@@ -168,9 +168,10 @@ pattern = "open"
 """ + RISES.format("open", 1e-3)
 
 
-def unmatched(partitions=0):
+def unmatched(partitions=0, triangles=False):
     """Two blocks of quadrilaterals, 12 below 17, as text of Gmsh. partitions: of each block, one behind the other, from
-    the left below and from the right above, so that few cells have their own partition across the interface."""
+    the left below and from the right above, so that few cells have their own partition across the interface. triangles:
+    the upper quadrilaterals are halved."""
     def tags(group, place):
         if partitions == 0:
             return f"2 {group} {group}"
@@ -184,12 +185,14 @@ def unmatched(partitions=0):
         for j in range(2):
             for i in range(count):
                 a = first + j * (count + 1) + i
-                cells.append((tags(group, (i + 0.5) / count), a, a + 1, a + count + 2, a + count + 1))
+                corners = (a, a + 1, a + count + 2, a + count + 1)
+                halves = [corners[:3], (corners[0], *corners[2:])] if triangles and group == 2 else [corners]
+                cells += [(tags(group, (i + 0.5) / count), *half) for half in halves]
     lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", str(len(bodies))]
     lines += [f'2 {group} "{name}"' for group, _, _, name in bodies] + ["$EndPhysicalNames", "$Nodes", str(len(nodes))]
     lines += [f"{i} {x!r} {y!r} 0" for i, (x, y) in enumerate(nodes, start=1)] + ["$EndNodes", "$Elements",
                                                                                  str(len(cells))]
-    lines += [f"{i} 3 {c[0]} {c[1]} {c[2]} {c[3]} {c[4]}" for i, c in enumerate(cells, start=1)]
+    lines += [f"{i} {len(c) - 2} {c[0]} {' '.join(map(str, c[1:]))}" for i, c in enumerate(cells, start=1)]
     return "\n".join([*lines, "$EndElements", ""])
 
 
@@ -265,6 +268,7 @@ def quick():
         "tiny": own(TINY),
         "projected": own(PROJECTED, blocks=unmatched()),
         "partitioned": own(PROJECTED, blocks=unmatched(2)),
+        "mixed-cells": own(PROJECTED, "time.steps=2", "time.end=0.12", blocks=unmatched(triangles=True)),
     }
 
 

@@ -8,15 +8,18 @@
 
 namespace cli {
 
+class Bulk;
 struct Model;
 
 // What solvers of the model are made and used in: calls the rest of the command and returns its exit code. Empty: the
 // command calls it itself. For programs that solve the bodies elsewhere.
 using Around = std::function<int(const Model& model, const std::function<int()>& rest)>;
-// The program whose commands these are: how people call it, and what it does around solvers.
+// The program whose commands these are: how people call it, what it does around solvers, and where the fields of nodes
+// and cells are; null: here.
 struct Caller {
     std::string name = "delam";
     Around around{};
+    Bulk* bulk = nullptr;
 };
 
 // settings: KEY=VALUE, see setting.hpp. command: the line as typed, for result.json.

@@ -123,7 +123,7 @@ std::vector<XdmfBlock> write_mesh(const Model& model, const Scene& scene, hid_t 
 
 }  // namespace
 
-Fields::Fields(std::string folder, const Scene& scene) : folder_(std::move(folder)) {
+Fields::Fields(std::string folder, const Scene& scene, Bulk* bulk) : folder_(std::move(folder)), bulk_(bulk) {
     const std::size_t last = scene.step_count();
     for (std::size_t k = 0; k <= last; k += static_cast<std::size_t>(scene.output.every)) chosen_.insert(k);
     chosen_.insert(last);
@@ -137,8 +137,13 @@ Fields::Fields(std::string folder, const Scene& scene) : folder_(std::move(folde
 std::string Fields::step_path(std::size_t step) const { return fmt::format("{}/step_{:08d}.h5", folder_, step); }
 
 void Fields::write_step(const Model& model, delam_solver* solver, const Scene& scene, std::size_t step) {
-    const std::string bytes = step_bytes(model, solver, scene, static_cast<std::int64_t>(step), scene.times[step]);
     const std::string path = step_path(step);
+    if (bulk_ != nullptr) {
+        write_step_file(path, model, solver, scene, static_cast<std::int64_t>(step), scene.times[step], *bulk_);
+        unsynchronised_.push_back(path);  // its name is new in the folder
+        return;
+    }
+    const std::string bytes = step_bytes(model, solver, scene, static_cast<std::int64_t>(step), scene.times[step]);
     if (std::filesystem::exists(path)) {
         // A saved state may count on the file that is there.
         write_atomic(path, bytes);
@@ -164,6 +169,7 @@ double Fields::assemble(const Model& model, const Scene& scene, std::size_t last
     double rotation = 0;
     std::vector<XdmfStep> steps;
     std::vector<XdmfBlock> blocks;
+    std::vector<FileRange> ranges;  // for the processes that have the fields
     h5::File file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), path);
     {
         h5::attribute(file.get(), "title", scene.title);
@@ -179,7 +185,12 @@ double Fields::assemble(const Model& model, const Scene& scene, std::size_t last
             if (step > last) break;
             const std::string name = fmt::format("{:08d}", step);
             const h5::File from(H5Fopen(step_path(step).c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), step_path(step));
-            h5::require(H5Ocopy(from.get(), "step", group.get(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), path);
+            if (bulk_ != nullptr) {
+                const std::vector<FileRange> of_step = copy_step(step_path(step), group.get(), name, scene);
+                ranges.insert(ranges.end(), of_step.begin(), of_step.end());
+            } else {
+                h5::require(H5Ocopy(from.get(), "step", group.get(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), path);
+            }
             const h5::Group own(H5Gopen2(from.get(), "step", H5P_DEFAULT), step_path(step));
             rotation = std::max(rotation, h5::read_number(own.get(), "rotation_max"));
             steps.push_back({name, scene.times[step]});
@@ -187,6 +198,10 @@ double Fields::assemble(const Model& model, const Scene& scene, std::size_t last
         h5::require(H5Fflush(file.get(), H5F_SCOPE_GLOBAL), path);
     }
     file.close(path);
+    if (!ranges.empty()) {
+        fill_holes(path);
+        bulk_->copy(path, ranges);
+    }
     synchronise(path);
     write_atomic(folder_ + "/fields.xdmf", xdmf_text(blocks, steps, scene.output.fields));
     return rotation;

@@ -8,14 +8,15 @@
 #include <vector>
 
 #include "build.hpp"
+#include "bulk_fields.hpp"
 #include "concept.hpp"
 
 namespace cli {
 
 class Fields {
 public:
-    // folder: for the step files.
-    Fields(std::string folder, const Scene& scene);
+    // folder: for the step files. bulk: where the fields are; null: here.
+    Fields(std::string folder, const Scene& scene, Bulk* bulk);
 
     // Every n-th step, the first, the last and those nearest to the snapshot instants.
     [[nodiscard]] bool chosen(std::size_t step) const { return chosen_.contains(step); }
@@ -32,6 +33,7 @@ private:
     [[nodiscard]] std::string step_path(std::size_t step) const;
 
     std::string folder_;
+    Bulk* bulk_;
     std::set<std::size_t> chosen_;
     std::vector<std::string> unsynchronised_;
 };

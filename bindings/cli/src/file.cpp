@@ -85,6 +85,16 @@ void require_room(const std::string& path, std::int64_t bytes) {
         throw OutputFailure(path, system_text(code) + " (" + std::to_string(bytes) + " bytes are needed)");
 }
 
+void fill_holes(const std::string& path) {
+    Descriptor file(path, O_RDWR);
+    struct stat about = {};
+    if (::fstat(file.get(), &about) != 0) throw OutputFailure(path, system_text(errno));
+    if (about.st_size > 0 && ::fallocate(file.get(), 0, 0, about.st_size) != 0 && errno != EOPNOTSUPP &&
+        errno != ENOSYS)
+        throw OutputFailure(path, system_text(errno) + " (" + std::to_string(about.st_size) + " bytes are needed)");
+    file.close();
+}
+
 void synchronise(const std::string& path) {
     const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
     if (descriptor < 0) throw OutputFailure(path, system_text(errno));

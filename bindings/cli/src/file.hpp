@@ -17,6 +17,8 @@ void remove_file(const std::string& path);
 // Reserves space beside `path` and frees it again, to detect a full disk before calling a library that cannot recover
 // from one.
 void require_room(const std::string& path, std::int64_t bytes);
+// Takes the space of a file's whole length, where the file system can: those who write into it later then find it.
+void fill_holes(const std::string& path);
 // Flushes to disk, including the entries of `folder`.
 void synchronise(const std::string& path);
 

@@ -82,6 +82,39 @@ void write(hid_t parent, const std::string& name, const std::vector<T>& values, 
         require(H5Dwrite(data.get(), type_of<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), name);
 }
 
+// Room for a matrix of doubles, whose bytes others write: one behind the other, from the returned offset of the file
+// on.
+inline std::int64_t reserve(hid_t parent, const std::string& name, std::int64_t rows, std::int64_t columns) {
+    const hsize_t shape[2] = {static_cast<hsize_t>(rows), static_cast<hsize_t>(columns)};
+    const Space space(H5Screate_simple(2, shape, nullptr), name);
+    const Properties properties(H5Pcreate(H5P_DATASET_CREATE), name);
+    require(H5Pset_obj_track_times(properties.get(), false), name);
+    require(H5Pset_layout(properties.get(), H5D_CONTIGUOUS), name);
+    require(H5Pset_alloc_time(properties.get(), H5D_ALLOC_TIME_EARLY), name);
+    require(H5Pset_fill_time(properties.get(), H5D_FILL_TIME_NEVER), name);
+    const Data data(
+        H5Dcreate2(parent, name.c_str(), H5T_NATIVE_DOUBLE, space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT),
+        name);
+    const haddr_t offset = H5Dget_offset(data.get());
+    if (offset == HADDR_UNDEF) throw OutputFailure(name, "HDF5 gave it no place in the file");
+    return static_cast<std::int64_t>(offset);
+}
+
+// Where such a matrix lies; offset -1: its bytes do not lie one behind the other.
+struct Extent {
+    std::int64_t offset = -1, rows = 0, columns = 0;
+};
+inline Extent extent(hid_t parent, const std::string& name) {
+    const Data data(H5Dopen2(parent, name.c_str(), H5P_DEFAULT), name);
+    const Space space(H5Dget_space(data.get()), name);
+    hsize_t shape[2] = {0, 0};
+    if (H5Sget_simple_extent_ndims(space.get()) != 2 || H5Sget_simple_extent_dims(space.get(), shape, nullptr) < 0)
+        throw OutputFailure(name, "HDF5 finds no matrix there (file damaged?)");
+    const haddr_t offset = H5Dget_offset(data.get());
+    return {offset == HADDR_UNDEF ? -1 : static_cast<std::int64_t>(offset), static_cast<std::int64_t>(shape[0]),
+            static_cast<std::int64_t>(shape[1])};
+}
+
 template <class T>
 void attribute(hid_t parent, const std::string& name, T value) {
     const Space space(H5Screate(H5S_SCALAR), name);

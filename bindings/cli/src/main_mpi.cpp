@@ -18,6 +18,7 @@
 #include "delam/petsc.h"
 #include "error.hpp"
 #include "program.hpp"
+#include "rank_fields.hpp"
 #include "say.hpp"
 
 namespace {
@@ -46,6 +47,7 @@ public:
         if (!first()) {
             std::signal(SIGINT, SIG_IGN);
             std::signal(SIGTERM, SIG_IGN);
+            std::signal(SIGXFSZ, SIG_IGN);  // a file too large gives an error code, as on rank 0
         }
     }
     ~Processes() { MPI_Finalize(); }
@@ -202,11 +204,12 @@ int on_all_ranks(const Processes& processes, int argc, char** argv) {
     }
     int code = cli::exit_done;
     Ranks ranks(petsc, divide);
+    cli::RankFields fields(petsc);
     if (processes.first()) {
         const auto around = [&](const cli::Model& model, const std::function<int()>& rest) {
             return ranks.around(model, rest);
         };
-        code = cli::program(argc, argv, {"mpirun delam-mpi", around});
+        code = cli::program(argc, argv, {"mpirun delam-mpi", around, &fields});
         (void)Processes::shared(leave);
     } else {
         ranks.serve();

@@ -58,13 +58,13 @@ auto to_the_end(Work&& work) {
 // One run: the analysis and its files.
 class Run {
 public:
-    Run(const Scene& scene, const Model& model, Solver solver, bool converged, OutputFolder& folder)
+    Run(const Scene& scene, const Model& model, Solver solver, bool converged, OutputFolder& folder, Bulk* bulk)
         : scene_(scene),
           model_(model),
           solver_(std::move(solver)),
           folder_(folder),
           history_(model, scene),
-          fields_(folder.running(), scene),
+          fields_(folder.running(), scene, bulk),
           running_history_(folder.running() + "/history.csv"),
           running_state_(folder.running() + "/state.bin"),
           running_origin_(folder.running() + "/origin.json") {
@@ -288,17 +288,18 @@ struct Analysis {
     Progress& progress;
     const std::string& command;  // as typed
     const std::string& again;    // that reproduces the result
+    Bulk* bulk;
 };
 
 // Everything after the words of the beginning.
 int analyse(const Analysis& of) {
-    const auto& [scene, model, state, folder, progress, command, again] = of;
+    const auto& [scene, model, state, folder, progress, command, again, bulk] = of;
     bool converged = true;
     Solver solver = new_solver(model, scene, converged);
     if (!converged) say("warning: the displacement of the initial state did not converge\n");
     Outcome outcome;
     outcome.command = command;
-    Run work(scene, model, std::move(solver), converged, folder);
+    Run work(scene, model, std::move(solver), converged, folder, bulk);
     Exit code = exit_done;
     try {
         if (state)
@@ -364,7 +365,7 @@ int run(const std::string& scene_file, const std::vector<std::string>& settings,
     for (const std::string& text : warnings_of(model, scene)) say("warning: {}\n", text);
     std::fflush(stdout);
 
-    const Analysis analysis{scene, model, state, folder, progress, command, again};
+    const Analysis analysis{scene, model, state, folder, progress, command, again, caller.bulk};
     const auto rest = [&] { return analyse(analysis); };
     return caller.around ? caller.around(model, rest) : rest();
 }

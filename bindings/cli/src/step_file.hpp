@@ -1,14 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The fields of one step as the bytes of a small HDF5 file (group "step"). The file is made in memory, so that only
-// this program's own checked writes touch the disk during the analysis.
+// The fields of one step as a small HDF5 file (group "step"). `delam` makes it in memory, so that only this program's
+// own checked writes touch the disk during the analysis. On many processes, the file is made with room for the fields
+// of nodes and cells, which the processes then fill.
 #pragma once
 
 #include <string>
+#include <vector>
+
+#include <hdf5.h>
 
 #include "build.hpp"
+#include "bulk_fields.hpp"
 
 namespace cli {
 
 std::string step_bytes(const Model& model, delam_solver* solver, const Scene& scene, std::int64_t step, double time);
+// The same as a file, by many processes. A file that is there is replaced, at once.
+void write_step_file(const std::string& path, const Model& model, delam_solver* solver, const Scene& scene,
+                     std::int64_t step, double time, Bulk& bulk);
+
+// Copies the step of a file that write_step_file has made to a new group of another file, with room in the place of the
+// values of nodes and cells. Returns what the processes have to copy.
+std::vector<FileRange> copy_step(const std::string& path, hid_t parent, const std::string& name, const Scene& scene);
 
 }  // namespace cli

@@ -117,6 +117,53 @@ class Parts:
             pass
 
     @classmethod
+    def fields(cls, comm, ranks, made):
+        """What each rank has of a recovered state is what rank 0 can gather."""
+        import numpy as np
+
+        import delam
+        seen = {}
+
+        def look(names):
+            nodes, owned = ranks.part_nodes()
+            for name in names:
+                rows = (nodes[owned], ranks.part_field(name)[owned]) if name in ("displacement", "force") else (
+                    ranks.part_cells(), ranks.part_field(name))
+                parts = comm.gather(rows)
+                if comm.rank == 0:
+                    numbers, values = (np.concatenate(part) for part in zip(*parts))
+                    assert (np.sort(numbers) == np.arange(len(numbers))).all(), name
+                    seen[name] = values[np.argsort(numbers)]
+
+        def task(data):
+            if data == "fail" and comm.rank == 1:
+                raise KeyError("spoon")
+            if data == "refuse" and comm.rank == 1:
+                raise delam.ArgumentError("too hot")
+            if isinstance(data, list):
+                look(data)
+
+        cls.raised(delam.StateError, ranks.part_nodes, "recovered")
+        cls.raised(delam.ArgumentError, lambda: ranks.set_task(3 if comm.rank == 1 else task), "rank 1")
+        cls.raised(delam.StateError, ranks.everywhere, "rank 0")
+        ranks.set_task(task)
+
+        def work():
+            cls.raised(delam.petsc.WorkError, lambda: ranks.everywhere("fail"), "KeyError", "spoon")
+            cls.raised(delam.ArgumentError, lambda: ranks.everywhere("refuse"), "too hot")
+            cls.raised(delam.ArgumentError, lambda: ranks.part_field("spoon"), "spoon")
+            solver = made[0]
+            ranks.recover(solver)
+            names = ["displacement", "stress", "rotation", "force"]
+            ranks.everywhere(names)
+            for name in names[:3]:
+                own = solver.field(name).reshape(len(seen[name]), -1)
+                assert np.abs(seen[name] - own).max() <= 1e-12 * np.abs(own).max(), name
+            # In equilibrium the nodal forces of the bodies are those of supports and interfaces: they add up to nothing.
+            assert np.abs(seen["force"].sum(axis=0)).max() <= 1e-7 * np.abs(seen["force"]).max()
+        ranks.run(work)
+
+    @classmethod
     def march(cls, comm):
         """The cells of rank 0's mesh on all ranks, against the library alone; then solvers without their ranks."""
         import delam
@@ -133,6 +180,7 @@ class Parts:
                 solver = delam.Solver(problem)
                 return solver, solver.history(times)["reaction:opening"]
             made = ranks.run(march)
+            cls.fields(comm, ranks, made)
             assert ranks.value("solves") > 0.0
             if first:
                 worst = abs(made[1] - own).max() / abs(own).max()

@@ -10,6 +10,7 @@ class EngineOperator final : public SparseOperator {
 public:
     // The problem has an engine and must outlive the operator.
     EngineOperator(const Problem& problem, Monitor& monitor);
+    bool recover_in_engine(std::span<const double> theta, const Response& response) const override;
     std::string description() const override;
 };
 

@@ -42,6 +42,8 @@ public:
     double energy_rounding(std::span<const double>, std::span<const double>) override { return rounding_; }
     void recover(std::span<const double> theta, std::span<const double> x, std::vector<double>& displacement,
                  std::vector<double>& stressed) override;
+    // The same, but the engine keeps them.
+    void recover_in_engine(std::span<const double> theta, std::span<const double> x);
     std::int64_t factorisations() const override { return renewals_; }
     std::vector<double> memory() const override;
     void recall(std::span<const double> memory) override;
@@ -75,8 +77,8 @@ private:
     // The weights of a state, as long as the answers that they name are kept. theta: of the state; empty: any.
     std::optional<std::vector<double>> known_weights(std::span<const double> x, std::span<const double> theta) const;
     std::vector<double> weights_of(std::span<const double> theta, std::span<const double> x);
-    // Solves for the state whose variables are those of x; its weights.
-    std::vector<double> solve_again(std::span<const double> theta, std::span<const double> x);
+    // Solves for the state whose variables are those of x, without its rigid motions or with them; its weights.
+    std::vector<double> solve_again(std::span<const double> theta, std::span<const double> x, bool with_rigid = false);
     void settle(std::vector<double>& x) const;
 
     const BodySystem& bodies_;

@@ -47,9 +47,11 @@ std::vector<double> EngineSolver::weights_of(std::span<const double> theta, std:
 
 // With all trailing variables given, the rest of the bodies is definite. The engine's preconditioner is then one for
 // other solves no longer.
-std::vector<double> EngineSolver::solve_again(std::span<const double> theta, std::span<const double> x) {
+std::vector<double> EngineSolver::solve_again(std::span<const double> theta, std::span<const double> x,
+                                              bool with_rigid) {
     const std::size_t n = index(system_.count());
-    const std::vector<double> moved = floating_.in_variables(part(x, at_.rigid, at_.size));
+    const std::vector<double> moved =
+        with_rigid ? std::vector<double>(n, 0.0) : floating_.in_variables(part(x, at_.rigid, at_.size));
     std::vector<double> given(n), none(n, 0.0), state;
     std::vector<std::int64_t> all(n);
     std::vector<Triplet> stiff;
@@ -110,6 +112,20 @@ void EngineSolver::recover(std::span<const double> theta, std::span<const double
     if (at_.rigid == at_.size) return;
     const std::vector<double> moved = floating_.rigid_displacement(part(x, at_.rigid, at_.size));
     for (std::size_t i = 0; i < moved.size(); ++i) displacement[i] += moved[i];
+}
+
+// Rigid motions of nodes that only the engine knows follow from the variables: where there are any, these are given as
+// they are, and the bodies solved for once more.
+void EngineSolver::recover_in_engine(std::span<const double> theta, std::span<const double> x) {
+    std::vector<double> weights;
+    if (x.size() == at_.size && max_abs(part(x, at_.rigid, at_.size)) > 0.0) {
+        claim();
+        weights = solve_again(theta, x, true);
+    } else {
+        weights = weights_of(theta, x);
+    }
+    const delam_experimental_engine& engine = engine_->functions();
+    engine_->require(engine.recover(weights.data(), nullptr, nullptr, engine.user), "recover");
 }
 
 // Springs of the preconditioner, the debt, the iterations of its first solve, what it is worth.

@@ -47,6 +47,7 @@ protected:
     Monitor& monitor() const { return monitor_; }
     const BodySystem& bodies() const { return *bodies_; }
     BodySolver& solver() const { return solver_; }
+    void note_recovery() const { ++recoveries_; }
 
 private:
     double tolerance() const;

@@ -22,11 +22,13 @@ from __future__ import annotations
 import ctypes
 import os
 import pathlib
+import pickle
 from collections.abc import Callable
-from ctypes import POINTER, c_char_p, c_double, c_int32, c_int64, c_void_p
+from ctypes import POINTER, c_char_p, c_double, c_int32, c_int64, c_uint8, c_void_p
 from typing import TYPE_CHECKING
 
-from numpy.typing import ArrayLike
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from . import _library, _raw
 from ._arrays import floats, gate, indices, pointer
@@ -34,6 +36,7 @@ from ._call import integer, text
 from .errors import ArgumentError, DelamError, HandleError, StateError, error_of
 from .mesh import Mesh
 from .problem import Problem, _rows_of
+from .solver import Solver
 
 if TYPE_CHECKING:
     from mpi4py import MPI
@@ -41,6 +44,7 @@ if TYPE_CHECKING:
 SONAME = f"libdelam-petsc.so.{_raw.DELAM_ABI}"
 VARIABLE = "DELAM_PETSC_LIBRARY"
 _WORK = ctypes.CFUNCTYPE(c_int32, c_void_p)
+_TASK = ctypes.CFUNCTYPE(c_int32, c_int64, POINTER(c_uint8), c_void_p)
 # Without the two functions that make a handle: the type of a communicator is known only with mpi4py.
 _FUNCTIONS = {
     "delam_petsc_destroy": (None, (POINTER(c_void_p),)),
@@ -54,13 +58,22 @@ _FUNCTIONS = {
     "delam_petsc_set_cells": (c_int32, (c_void_p, c_void_p, c_void_p, c_int64, POINTER(c_int64))),
     "delam_petsc_attach": (c_int32, (c_void_p, c_void_p)),
     "delam_petsc_run": (c_int32, (c_void_p, _WORK, c_void_p)),
+    "delam_petsc_set_task": (c_int32, (c_void_p, _TASK, c_void_p)),
+    "delam_petsc_everywhere": (c_int32, (c_void_p, c_int64, POINTER(c_uint8))),
+    "delam_petsc_explain": (c_int32, (c_void_p, c_char_p)),
+    "delam_petsc_recover": (c_int32, (c_void_p, c_void_p)),
+    "delam_petsc_part_nodes": (c_int32, (c_void_p, c_int64, POINTER(c_int64), POINTER(c_int32), POINTER(c_int64))),
+    "delam_petsc_part_cells": (c_int32, (c_void_p, c_int64, POINTER(c_int64), POINTER(c_int64))),
+    "delam_petsc_part_field": (c_int32, (c_void_p, c_char_p, c_int64, POINTER(c_double), POINTER(c_int64),
+                                         POINTER(c_int64))),
     "delam_petsc_value": (c_int32, (c_void_p, c_char_p, POINTER(c_double))),
 }
 _loaded = []
 
 
 class WorkError(DelamError, RuntimeError):
-    """The function of Ranks.run raised something that is not a DelamError, which is the cause on rank 0."""
+    """The function of Ranks.run, or the task of a rank, raised something that is not a DelamError. It is the cause on the
+    rank where that happened."""
 
 
 def _candidates():
@@ -116,12 +129,17 @@ class Ranks:
         self.size: int = comm.size
         self._agreed = None  # an error that all ranks have
         self._running = False
+        self._task = None  # the C function that holds the task
+        self._raised = None  # by the last task of this rank
 
     # ---- handle
 
-    def _check(self):
+    def _check_open(self):
         if not self._pointer:
             raise HandleError("these Ranks are closed")
+
+    def _check(self):
+        self._check_open()
         # The other ranks would not answer.
         if self._running:
             raise StateError("these Ranks are running a function")
@@ -160,9 +178,19 @@ class Ranks:
         else:
             status, told = problem.context.beside(function, self._handle, *arguments, other=problem.mesh.context)
         if status != _raw.DELAM_OK:
-            message = self._library.delam_petsc_message(self._handle).decode(errors="replace")
+            message = self._message()
             told = next(filter(None, self._comm.allgather(told)), "")
             self._raise(error_of(status, f"{message}: {told}" if told else message))
+
+    def _here(self, function, *arguments):
+        """A call of this rank alone, which may be inside `run`."""
+        self._check_open()
+        status = function(self._pointer, *arguments)
+        if status != _raw.DELAM_OK:
+            raise error_of(status, self._message())
+
+    def _message(self):
+        return self._library.delam_petsc_message(self._pointer).decode(errors="replace")
 
     def _together(self, function):
         """What the function returns; an error of some rank is raised on all of them."""
@@ -285,8 +313,8 @@ class Ranks:
         self._call(self._library.delam_petsc_attach, handle, problem=self._only_first(problem))
 
     def run(self, function: Callable | None = None):
-        """Calls function() on rank 0, which may use everything of the package but these Ranks, while the other ranks
-        work for it. Returns its result on rank 0, None on the others. What it raises is raised on all ranks: a
+        """Calls function() on rank 0, which may use everything of the package, and of these Ranks `everywhere`,
+        `recover` and the fields of its part, while the other ranks work for it. Returns its result on rank 0, None on the others. What it raises is raised on all ranks: a
         DelamError as such, another exception as WorkError (on rank 0 with the exception as its cause). What is no
         Exception, such as KeyboardInterrupt, is raised again on rank 0 and is a WorkError on the others."""
         handle = self._handle
@@ -317,12 +345,90 @@ class Ranks:
             told = False, f"{type(failure).__name__}: {failure}"
         told = self._comm.bcast(told)
         if told is None:
-            self._raise(error_of(status, self._library.delam_petsc_message(self._handle).decode(errors="replace")))
+            self._raise(error_of(status, self._message()))
         ours, message = told
         if failure is not None and (ours or not isinstance(failure, Exception)):
             self._agreed = failure
             raise failure
         self._raise(error_of(status, message) if ours else WorkError(message), failure)
+
+    # ---- what all ranks do in the work of rank 0
+
+    def set_task(self, function: Callable) -> None:
+        """What this rank does in `everywhere`: function(data), a function of its own. It may communicate with the other
+        ranks and read the fields of its part, but not solve. All ranks call this."""
+        def checked():
+            if not callable(function):
+                raise ArgumentError(f"function = {function!r}, expected one that can be called")
+
+        self._together(checked)
+
+        @_TASK
+        def task(size, data, _):
+            self._raised = None
+            try:
+                function(pickle.loads(ctypes.string_at(data, size)))
+            except BaseException as exception:
+                self._raised = exception
+                ours = isinstance(exception, DelamError)
+                told = str(exception) if ours else f"{type(exception).__name__}: {exception}"
+                self._library.delam_petsc_explain(self._pointer, told.encode())
+                return (exception.status if ours else 0) or _raw.DELAM_ERROR_INTERNAL
+            return _raw.DELAM_OK
+
+        self._call(self._library.delam_petsc_set_task, task, None)
+        self._task = task
+
+    def everywhere(self, data: object = None) -> None:
+        """On rank 0, in the function of `run`: all ranks call their task with these data, which pickle can copy, rank 0
+        as well. Raises what the lowest rank has raised: on rank 0 itself as such; of another rank a DelamError, or
+        WorkError where it was none or an internal error. The function of `run` may catch it and go on."""
+        self._check_open()
+        copied = np.frombuffer(pickle.dumps(data), dtype=np.uint8)
+        self._raised = None
+        status = self._library.delam_petsc_everywhere(self._pointer, copied.size, pointer(copied))
+        if self._raised is not None:
+            raise self._raised
+        if status == _raw.DELAM_ERROR_INTERNAL:
+            raise WorkError(self._message())
+        if status != _raw.DELAM_OK:
+            raise error_of(status, self._message())
+
+    def recover(self, solver: Solver) -> None:
+        """On rank 0, in the function of `run`: each rank recovers the displacements of the solver's present state at the
+        nodes of its part, for `part_field`, and keeps them until the next call. No rank gets all of them."""
+        if not isinstance(solver, Solver):
+            raise ArgumentError(f"solver = {solver!r}, expected a Solver")
+        self._here(self._library.delam_petsc_recover, ctypes.cast(solver._handle, c_void_p))
+
+    def part_nodes(self) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
+        """Nodes of the fields of this rank, after `recover`: those of its part in their order, on rank 0 also those of
+        the mesh that no part has; and which of them no lower rank has."""
+        count = c_int64()
+        self._here(self._library.delam_petsc_part_nodes, 0, None, None, ctypes.byref(count))
+        nodes, owned = np.empty(count.value, dtype=np.int64), np.empty(count.value, dtype=np.int32)
+        self._here(self._library.delam_petsc_part_nodes, count.value, pointer(nodes), pointer(owned), None)
+        return nodes, owned != 0
+
+    def part_cells(self) -> NDArray[np.int64]:
+        """Cells of this rank in rank 0's mesh; none but after `take_scene`."""
+        count = c_int64()
+        self._here(self._library.delam_petsc_part_cells, 0, None, ctypes.byref(count))
+        cells = np.empty(count.value, dtype=np.int64)
+        self._here(self._library.delam_petsc_part_cells, count.value, pointer(cells), None)
+        return cells
+
+    def part_field(self, name: str) -> NDArray[np.float64]:
+        """Of the state recovered last (`recover`), on this rank alone: "displacement" and "force" (K u) at the nodes of
+        `part_nodes`, "stress" and "rotation" of the cells of `part_cells`, as the fields of a solver have them."""
+        key, rows, columns = text("name", name), c_int64(), c_int64()
+        field = self._library.delam_petsc_part_field
+        self._here(field, key, 0, None, ctypes.byref(rows), ctypes.byref(columns))
+        values = np.empty((rows.value, columns.value))
+        self._here(field, key, values.size, pointer(values), None, None)
+        return values
+
+    # ---- numbers
 
     def value(self, name: str) -> float:
         """A number by its name, of all ranks; include/delam/petsc.h lists them."""

@@ -26,6 +26,16 @@ DELAM_API int32_t delam_petsc_set_cells(delam_petsc *petsc, const delam_mesh *me
 DELAM_API int32_t delam_petsc_attach(delam_petsc *petsc, delam_problem *problem);
 typedef int32_t (*delam_petsc_work_callback)(void *user);
 DELAM_API int32_t delam_petsc_run(delam_petsc *petsc, delam_petsc_work_callback work, void *user);
+typedef int32_t (*delam_petsc_task_callback)(int64_t size, const uint8_t *bytes, void *user);
+DELAM_API int32_t delam_petsc_set_task(delam_petsc *petsc, delam_petsc_task_callback task, void *user);
+DELAM_API int32_t delam_petsc_everywhere(delam_petsc *petsc, int64_t size, const uint8_t *bytes);
+DELAM_API int32_t delam_petsc_explain(delam_petsc *petsc, const char *text);
+DELAM_API int32_t delam_petsc_recover(delam_petsc *petsc, delam_solver *solver);
+DELAM_API int32_t delam_petsc_part_nodes(delam_petsc *petsc, int64_t capacity, int64_t *nodes, int32_t *owned,
+                                         int64_t *count);
+DELAM_API int32_t delam_petsc_part_cells(delam_petsc *petsc, int64_t capacity, int64_t *cells, int64_t *count);
+DELAM_API int32_t delam_petsc_part_field(delam_petsc *petsc, const char *key, int64_t capacity, double *values,
+                                         int64_t *rows, int64_t *columns);
 DELAM_API int32_t delam_petsc_value(delam_petsc *petsc, const char *key, double *value);
 #ifdef __cplusplus
 }
