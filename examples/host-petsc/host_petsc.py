@@ -145,10 +145,11 @@ def march(problem, ranks):
 
 # ---- all ranks ------------------------------------------------------------------------------------------------------
 
-def tell_displacement(comm, ranks, grid):
-    """The task of each rank: the largest displacement of the nodes that only the ranks know, which rank 0 prints."""
+def tell_displacement(comm, ranks, known):
+    """The task of each rank: the largest displacement of the nodes that only the ranks know, which rank 0 prints. known:
+    how many nodes rank 0's mesh has."""
     lengths = np.linalg.norm(ranks.part_field("displacement"), axis=1)
-    largest = comm.reduce(lengths[ranks.part_nodes()[0] >= grid.others].max(initial=0.0), op=MPI.MAX)
+    largest = comm.reduce(lengths[ranks.part_nodes()[0] >= known].max(initial=0.0), op=MPI.MAX)
     if comm.rank == 0:
         print(f"largest displacement of nodes that only the ranks know: {largest:.9e} m", flush=True)
 
@@ -165,7 +166,7 @@ def work(comm):
             ranks.set_part(*make_part(grid, along * ranks.rank // ranks.size, along * (ranks.rank + 1) // ranks.size))
             problem = ranks.run(lambda: make_problem(grid))
             ranks.attach(problem)
-            ranks.set_task(lambda _: tell_displacement(comm, ranks, grid))
+            ranks.set_task(lambda _: tell_displacement(comm, ranks, grid.others))
             ranks.run(lambda: march(problem, ranks))
     except delam.DelamError as error:
         # Every rank is here.

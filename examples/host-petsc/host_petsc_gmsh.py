@@ -13,7 +13,7 @@ from mpi4py import MPI
 
 import delam
 import delam.petsc
-from host_petsc import HEIGHT, LENGTH, NOTCH, POISSON, YOUNG, march
+from host_petsc import HEIGHT, LENGTH, NOTCH, POISSON, YOUNG, march, tell_displacement
 
 HEXAHEDRON = 5  # of Gmsh
 FACES = np.array([[0, 1, 2, 3], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]])
@@ -143,7 +143,8 @@ def work(comm):
             ranks.set_cells(part.problem(), numbers)
             problem = ranks.run(lambda: make_problem(known))
             ranks.attach(problem)
-            ranks.run(lambda: march(problem))
+            ranks.set_task(lambda _: tell_displacement(comm, ranks, len(tags)))
+            ranks.run(lambda: march(problem, ranks))
     except delam.DelamError as error:
         # Every rank is here.
         if comm.rank == 0:
