@@ -46,9 +46,14 @@ BddcPreconditioner::BddcPreconditioner(const Bodies& bodies, const Visible& visi
 double BddcPreconditioner::renew(const Operator::Entries& entries) {
     const LocalVariables& local = bodies_.local();
     bddc_.reset();
-    LocalMatrix bodies_alone;
-    bodies_.comm().together([&] { bodies_alone = system_.stiffness(); });
-    const OwnedMat own = system_.local_matrix(bodies_alone, entries.rows, entries.columns, entries.values);
+    LocalMatrix stiffness;
+    std::vector<PetscInt> start, column;
+    bodies_.comm().together([&] {
+        stiffness = system_.stiffness();
+        start = stiffness.start;
+        column = stiffness.column;
+    });
+    const OwnedMat own = system_.local_matrix(std::move(stiffness), entries.rows, entries.columns, entries.values);
     check(MatCreateIS(bodies_.comm().get(), local.dimension, local.owned, local.owned, PETSC_DETERMINE, PETSC_DETERMINE,
                       system_.mapping(), system_.mapping(), matrix_.out()));
     check(MatISSetLocalMat(matrix_, own));
@@ -65,9 +70,9 @@ double BddcPreconditioner::renew(const Operator::Entries& entries) {
     check(PCBDDCSetPrimalVerticesIS(bddc_, corners_));
     // Constraints for each body that crosses a cut, also where springs tie it to another: in contact they only resist
     // one component.
-    check(PCBDDCSetLocalAdjacencyGraph(bddc_, bodies_alone.rows, bodies_alone.start.data(), bodies_alone.column.data(),
+    check(PCBDDCSetLocalAdjacencyGraph(bddc_, petsc_int(start.size()) - 1, start.data(), column.data(),
                                        PETSC_COPY_VALUES));
-    bodies_alone = {};
+    start = column = {};
     give_coordinates();
     set_up(bddc_);
     return usual_worth();

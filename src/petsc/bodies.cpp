@@ -31,6 +31,11 @@ Bodies::Bodies(const Communicator& comm, const Part& part, const SceneVariables&
     OwnedIs numbers;
     check(ISCreateGeneral(PETSC_COMM_SELF, local_.places(), local_.number.data(), PETSC_COPY_VALUES, numbers.out()));
     check(VecScatterCreate(layout_, numbers, here_, nullptr, fetch_.out()));
+    comm.together([&] {
+        places_.assign(at(local_.places()), 0.0);
+        displacement_.assign(at(local_.dofs), 0.0);
+        force_of_part_.assign(at(local_.dofs), 0.0);
+    });
     make_diagonal();
     make_loads();
 }
@@ -63,16 +68,13 @@ void Bodies::make_diagonal() {
 }
 
 void Bodies::apply(Vec v, Vec av) const {
-    std::vector<double> places;
-    fetch(v, places);
-    comm_.together([&] {
-        std::vector<double> u(at(local_.dofs));
-        local_.transform.multiply(places, u);
-        const std::vector<double> forces = stiffness_times(u);
-        std::fill(places.begin(), places.end(), 0.0);
-        local_.transform.add_multiplied_transposed(forces, places);
-    });
-    assemble(places, av);
+    fetch(v, places_);
+    local_.transform.multiply(places_, displacement_);
+    const auto rows = at(part_.stiffness.rows);  // orphans, behind these, have no stiffness
+    part_.stiffness.multiply(std::span(displacement_).first(rows), std::span(force_of_part_).first(rows));
+    std::fill(places_.begin(), places_.end(), 0.0);
+    local_.transform.add_multiplied_transposed(force_of_part_, places_);
+    assemble(places_, av);
 }
 
 void Bodies::make_loads() {

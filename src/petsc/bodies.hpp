@@ -58,15 +58,16 @@ private:
     const Communicator& comm_;
     const Part& part_;
     Numbering numbering_;
-    mutable LocalVariables local_;  // PETSc borrows its arrays and does not change them
+    LocalVariables local_;
     OwnedVec layout_;
     OwnedVec here_;  // this rank's places
     OwnedScatter fetch_;
     OwnedVec diagonal_;
-    std::vector<OwnedVec> force_;    // T^T f_p
-    std::vector<OwnedVec> load_;     // T^T (f_p - K U_p)
-    std::vector<OwnedVec> lifted_;   // T^T K U_p
-    std::vector<double> lift_lift_;  // U_p.K U_q
+    std::vector<OwnedVec> force_;                                        // T^T f_p
+    std::vector<OwnedVec> load_;                                         // T^T (f_p - K U_p)
+    std::vector<OwnedVec> lifted_;                                       // T^T K U_p
+    std::vector<double> lift_lift_;                                      // U_p.K U_q
+    mutable std::vector<double> places_, displacement_, force_of_part_;  // of `apply`, which then cannot fail
 };
 
 }  // namespace delam::petsc
