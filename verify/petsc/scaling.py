@@ -6,8 +6,9 @@ of the interfaces.
     python3 verify/petsc/scaling.py DELAM_MPI [--ranks 1,2,4,8,16] [--only TABLE ...]
 
 Counts, not times: the ranks may be more than the cores. Tables (--only): laminate (constant size per rank, for several
-stiffnesses), strong (constant size), fibre, weave, time (the only one that is timed, on as many ranks as there are idle
-cores). Each row is one analysis; the counts are those that `delam-mpi --counts` prints.
+stiffnesses), strong (constant size), fibre, weave, factors (what a rank has of BDDC's local factors), time (the only one
+that is timed, on as many ranks as there are idle cores). Each row is one analysis; the counts are those that
+`delam-mpi --counts` prints.
 """
 import argparse
 import os
@@ -48,12 +49,12 @@ def example(name, changes):
     return text
 
 
-def counts_of(program, text, ranks, options, limit=3000):
-    """What a run prints as its counts, and the seconds that it took."""
+def run(program, text, ranks, options, limit=3000, of_mpirun=()):
+    """What a run prints, and the seconds that it took."""
     with tempfile.TemporaryDirectory() as folder:
         scene = pathlib.Path(folder) / "scene.toml"
         scene.write_text(text, encoding="utf-8")
-        command = ["mpirun", "--allow-run-as-root", "--oversubscribe", "-n", str(ranks), program]
+        command = ["mpirun", "--allow-run-as-root", "--oversubscribe", *of_mpirun, "-n", str(ranks), program]
         if options:
             command += ["--petsc", options]
         command += ["--counts", "run", str(scene), "--out", str(pathlib.Path(folder) / "out")]
@@ -61,11 +62,30 @@ def counts_of(program, text, ranks, options, limit=3000):
         begin = time.monotonic()
         done = subprocess.run(command, capture_output=True, text=True, env=environment, timeout=limit, check=False)
         seconds = time.monotonic() - begin
-    line = next((line for line in done.stdout.splitlines() if line.startswith("counts:")), None)
-    if line is None or done.returncode not in (0, 1):
+    if "counts:" not in done.stdout or done.returncode not in (0, 1):
         raise SystemExit(f"scaling.py: {' '.join(command)}\n{done.stdout[-2000:]}\n{done.stderr[-2000:]}")
-    words = line.split()[1:]
+    return done.stdout, seconds
+
+
+def counts_of(program, text, ranks, options):
+    """The counts of a run, and the seconds that it took."""
+    said, seconds = run(program, text, ranks, options)
+    words = next(line for line in said.splitlines() if line.startswith("counts:")).split()[1:]
     return {**dict(zip(words[::2], map(float, words[1::2]))), "seconds": seconds}
+
+
+def local_factors(program, text, ranks):
+    """Of each rank, the entries of the two factors that BDDC has of its matrix at the first preconditioner, as MUMPS
+    counts them in its analysis."""
+    options = SOLVERS["bddc"]
+    for solver in ("dirichlet", "neumann"):
+        options += f" -delam_pc_bddc_{solver}_pc_factor_mat_solver_type mumps -delam_pc_bddc_{solver}_mat_mumps_icntl_4 2"
+    said, _ = run(program, text, ranks, options, of_mpirun=["--tag-output"])
+    entries = [[] for _ in range(ranks)]
+    for rank, count in re.findall(r"\[1,(\d+)\]<stdout>: -- \(20\) Number of entries in factors \(estim\.\) *= *(\d+)",
+                                  said):
+        entries[int(rank)].append(int(count))
+    return [sum(both[:2]) for both in entries]
 
 
 def row(cells):
@@ -98,15 +118,16 @@ def table_laminate(program, ranks):
 
 
 def table_fibre(program, ranks):
-    scenes = {"fibre": lambda n: example("fibre", {"steps = 200": "steps = 20"})}
-    iterations_table(program, "A fibre in a periodic cell, constant size, 20 load steps", scenes, ranks,
+    scenes = {"fibre": lambda n: example("fibre", {"steps = 200": "steps = 10", "end = 1.0": "end = 0.5",
+                                                   "snapshots = [0.3, 0.4, 0.6, 1.0]\n": ""})}
+    iterations_table(program, "A fibre in a periodic cell, constant size, 10 load steps", scenes, ranks,
                      ("mumps", "bddc"))
 
 
 def table_weave(program, ranks):
-    scenes = {"weave": lambda n: example("weave", {"steps = 20": "steps = 3", "end = 1.0": "end = 0.3",
+    scenes = {"weave": lambda n: example("weave", {"steps = 20": "steps = 2", "end = 1.0": "end = 0.2",
                                                    "snapshots = [0.25, 0.5, 0.75, 1.0]\n": ""})}
-    iterations_table(program, "A weave in a periodic cell, constant size, 3 load steps", scenes, ranks,
+    iterations_table(program, "A weave in a periodic cell, constant size, 2 load steps", scenes, ranks,
                      ("mumps", "bddc"))
 
 
@@ -126,6 +147,17 @@ def table_strong(program, ranks):
                  f"{c['messages_sum'] / per:.0f}"])
 
 
+def table_factors(program, ranks):
+    head("Entries of BDDC's two local factors at constant size (laminate of 16 columns, 85,000 displacements)",
+         ["ranks", "mean of a rank", "busiest over mean", "least over mean"])
+    for n in ranks:
+        if n == 1:
+            continue
+        entries = local_factors(program, laminate(16, 1, 1e14), n)
+        mean = sum(entries) / n
+        row([n, f"{mean:.2e}", f"{max(entries) / mean:.2f}", f"{min(entries) / mean:.2f}"])
+
+
 def table_time(program, _ranks):
     head("Seconds, the same analysis on one and two ranks (idle cores)", ["solver", "ranks", "seconds", "times faster"])
     text = laminate(24, 3, 1e14, 48)
@@ -138,7 +170,7 @@ def table_time(program, _ranks):
 
 
 TABLES = {"laminate": table_laminate, "fibre": table_fibre, "weave": table_weave, "strong": table_strong,
-          "time": table_time}
+          "factors": table_factors, "time": table_time}
 
 
 def main():
