@@ -11,6 +11,7 @@ that is timed, on as many ranks as there are idle cores). Each row is one analys
 `delam-mpi --counts` prints.
 """
 import argparse
+import contextlib
 import os
 import pathlib
 import re
@@ -49,8 +50,9 @@ def example(name, changes):
     return text
 
 
-def run(program, text, ranks, options, limit=3000, of_mpirun=()):
-    """What a run prints, and the seconds that it took."""
+@contextlib.contextmanager
+def started(program, text, ranks, options, of_mpirun=()):
+    """A run, whose output can be read; ended in the end."""
     with tempfile.TemporaryDirectory() as folder:
         scene = pathlib.Path(folder) / "scene.toml"
         scene.write_text(text, encoding="utf-8")
@@ -59,18 +61,22 @@ def run(program, text, ranks, options, limit=3000, of_mpirun=()):
             command += ["--petsc", options]
         command += ["--counts", "run", str(scene), "--out", str(pathlib.Path(folder) / "out")]
         environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1", "OMPI_MCA_mpi_yield_when_idle": "1"}
-        begin = time.monotonic()
-        done = subprocess.run(command, capture_output=True, text=True, env=environment, timeout=limit, check=False)
-        seconds = time.monotonic() - begin
-    if "counts:" not in done.stdout or done.returncode not in (0, 1):
-        raise SystemExit(f"scaling.py: {' '.join(command)}\n{done.stdout[-2000:]}\n{done.stderr[-2000:]}")
-    return done.stdout, seconds
+        with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                              env=environment) as process:
+            yield process
+            process.terminate()
 
 
 def counts_of(program, text, ranks, options):
     """The counts of a run, and the seconds that it took."""
-    said, seconds = run(program, text, ranks, options)
-    words = next(line for line in said.splitlines() if line.startswith("counts:")).split()[1:]
+    begin = time.monotonic()
+    with started(program, text, ranks, options) as process:
+        said = process.communicate()[0]
+    seconds = time.monotonic() - begin
+    line = next((line for line in said.splitlines() if line.startswith("counts:")), None)
+    if line is None or process.returncode not in (0, 1):
+        raise SystemExit(f"scaling.py: {ranks} ranks, {options}\n{said[-3000:]}")
+    words = line.split()[1:]
     return {**dict(zip(words[::2], map(float, words[1::2]))), "seconds": seconds}
 
 
@@ -80,12 +86,15 @@ def local_factors(program, text, ranks):
     options = SOLVERS["bddc"]
     for solver in ("dirichlet", "neumann"):
         options += f" -delam_pc_bddc_{solver}_pc_factor_mat_solver_type mumps -delam_pc_bddc_{solver}_mat_mumps_icntl_4 2"
-    said, _ = run(program, text, ranks, options, of_mpirun=["--tag-output"])
     entries = [[] for _ in range(ranks)]
-    for rank, count in re.findall(r"\[1,(\d+)\]<stdout>: -- \(20\) Number of entries in factors \(estim\.\) *= *(\d+)",
-                                  said):
-        entries[int(rank)].append(int(count))
-    return [sum(both[:2]) for both in entries]
+    line_of_mumps = re.compile(r"\[1,(\d+)\]<stdout>: -- \(20\) Number of entries in factors \(estim\.\) *= *(\d+)")
+    with started(program, text, ranks, options, of_mpirun=["--tag-output"]) as process:
+        for line in process.stdout:
+            if found := line_of_mumps.match(line):
+                entries[int(found[1])].append(int(found[2]))
+            if all(len(both) >= 2 for both in entries):
+                return [sum(both[:2]) for both in entries]
+    raise SystemExit(f"scaling.py: {ranks} ranks: MUMPS' analyses do not show")
 
 
 def row(cells):
