@@ -218,17 +218,21 @@ std::int32_t Session::run_task(std::int64_t size, const std::uint8_t* bytes) {
             if (comm_.root()) told.assign(bytes, bytes + size);
         });
         comm_.broadcast(told);
-        struct During {
-            bool& running;
-            explicit During(bool& flag) : running(flag) { running = true; }
-            ~During() { running = false; }
-        } during(in_task_);
-        explained_.clear();
-        const std::int32_t status = task_(static_cast<std::int64_t>(told.size()), told.data(), task_user_);
-        if (status == DELAM_OK) return;
-        if (!explained_.empty()) fail(status, explained_);
-        fail(status, "the task of rank ", comm_.rank(), " returned ", delam_status_name(status));
+        comm_.in_task([&] { call_task(told); });
     });
+}
+
+void Session::call_task(const std::vector<std::uint8_t>& told) {
+    struct During {
+        bool& running;
+        explicit During(bool& flag) : running(flag) { running = true; }
+        ~During() { running = false; }
+    } during(in_task_);
+    explained_.clear();
+    const std::int32_t status = task_(static_cast<std::int64_t>(told.size()), told.data(), task_user_);
+    if (status == DELAM_OK) return;
+    if (!explained_.empty()) fail(status, explained_);
+    fail(status, "the task of rank ", comm_.rank(), " returned ", delam_status_name(status));
 }
 
 double Session::value(const char* key) const {

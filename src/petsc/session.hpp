@@ -99,6 +99,7 @@ private:
     void serve();
     Engine& engine() const;
     std::int32_t run_task(std::int64_t size, const std::uint8_t* bytes);
+    void call_task(const std::vector<std::uint8_t>& told);
     std::int32_t share_strains(std::vector<std::int32_t> bodies, std::vector<double> strains);
 
     Communicator comm_;
