@@ -123,7 +123,10 @@ typedef struct delam_experimental_answer {
  *             *cost how many iterations it is worth.
  *   solve     see above.
  *   recover   the displacements of a combination of kept answers, weights [kept]: u in displacement [dofs], and K u in
- *             force [dofs]. Both are NULL in delam_experimental_solver_recover: the engine then keeps them for itself.
+ *             force [dofs]. force is NULL in delam_experimental_solver_recover: the engine then keeps them for itself.
+ *             displacement is NULL as well, or has rigid motions of bodies, which the engine adds to u; K u stays. An
+ *             engine with nodes that the mesh lacks does not know how these move: it returns DELAM_ERROR_PROBLEM and
+ *             keeps nothing. The library then solves anew, by set, renew and solve.
  *   release   frees the engine: called once, when the last problem or solver that holds it is gone. May be NULL.
  *   message   says why the last call failed. */
 typedef struct delam_experimental_engine {

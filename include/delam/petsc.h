@@ -24,6 +24,7 @@
  *   threads    All calls of a rank come from a thread that may call MPI ("MPI's" in the brackets), one at a time.
  *   errors     If a rank fails where the others cannot know, in the middle of a step of PETSc or MPI that all of them
  *              share, it waits eight seconds for them, then writes a line to the standard error and calls MPI_Abort.
+ *              In tasks (delam_petsc_everywhere) it waits as long as the others work.
  *   memory     A problem that has the engine may outlive the delam_petsc; its solvers then return DELAM_ERROR_STATE.
  */
 #ifndef DELAM_PETSC_H
@@ -50,8 +51,8 @@ DELAM_API int32_t delam_petsc_create_fortran(MPI_Fint comm, delam_petsc **out);
 /* Destroys a handle and sets it to NULL; inside delam_petsc_run it does nothing.
  * [null petsc, *petsc; owns petsc destroyed; status -; since 0.1] */
 DELAM_API void delam_petsc_destroy(delam_petsc **petsc);
-/* Returns the text of the last status other than DELAM_OK, the same on all ranks; "" if there has been none; never
- * NULL. Not collective.
+/* Returns the text of the last status other than DELAM_OK; "" if there has been none; never NULL. A collective call
+ * that fails leaves the same text on all ranks, a call of one rank alone on that rank only. Not collective.
  * [owns result until the next call with this handle; status -; since 0.1] */
 DELAM_API const char *delam_petsc_message(const delam_petsc *petsc);
 
@@ -117,7 +118,8 @@ DELAM_API int32_t delam_petsc_run(delam_petsc *petsc, delam_petsc_work_callback 
 
 /* What all ranks do when rank 0 says so. bytes: [size], those of rank 0. It may communicate with the other ranks, over
  * a communicator of the host, and call the functions of one rank alone. It must not call those that need the ranks for
- * a solve. Returns DELAM_OK, or another number: why it failed says delam_petsc_explain.
+ * a solve. Returns DELAM_OK, or another number; delam_petsc_explain tells why. A rank must not return while others wait
+ * for it in communication of the host: before such a step the task has to let the ranks agree that none has failed.
  * [null user; status returned; thread call's; since 0.1] */
 typedef int32_t (*delam_petsc_task_callback)(int64_t size, const uint8_t *bytes, void *user);
 /* Sets the task of each rank, for delam_petsc_everywhere; it replaces an earlier one. Each rank has a function and user
@@ -126,9 +128,10 @@ typedef int32_t (*delam_petsc_task_callback)(int64_t size, const uint8_t *bytes,
 DELAM_API int32_t delam_petsc_set_task(delam_petsc *petsc, delam_petsc_task_callback task, void *user);
 /* Rank 0 alone, in the work of delam_petsc_run: runs the task of all ranks, of rank 0 as well, with these bytes [size],
  * and waits for all. If it fails on some ranks, by its number or by an exception of C++, the status is that of the
- * lowest of them, and so is the message on all ranks; work may go on. While others wait for a rank that has failed,
- * `errors` above holds.
- * [null bytes; status argument, internal, memory, state; source none; since 0.1] */
+ * lowest of them, and so is the message on all ranks; work may go on. A rank that has failed waits for the others
+ * however long they work, and after eight seconds writes a line to the standard error. If they wait for it in turn,
+ * nobody ever returns.
+ * [null bytes; status argument, internal, memory, state, returned; source none; since 0.1] */
 DELAM_API int32_t delam_petsc_everywhere(delam_petsc *petsc, int64_t size, const uint8_t *bytes);
 /* One rank alone, in its task: text says why the task is about to fail. It becomes the message.
  * [null none; status argument; source none; since 0.1] */
@@ -137,24 +140,31 @@ DELAM_API int32_t delam_petsc_explain(delam_petsc *petsc, const char *text);
 /* Rank 0 alone, in the work of delam_petsc_run: has each rank recover the displacements of a solver's present state,
  * pending or committed, at the nodes of its part. No rank gets all of them, as rank 0 does by delam_solver_field, which
  * changes nothing here. The ranks keep what they have until the next call or other parts: it is that state which the
- * functions below describe, however far the solver has gone on.
+ * functions below describe, however far the solver has gone on. Where a part that nothing holds has moved rigidly, and
+ * ranks have nodes beyond the mesh, this takes a solve with a new preconditioner, and the next step another one: the
+ * steps may then differ by what the solves leave.
  * [status cancelled, memory, numerical, state; source none; since 0.1] */
 DELAM_API int32_t delam_petsc_recover(delam_petsc *petsc, delam_solver *solver);
 /* One rank alone, in its task, in work or afterwards: the nodes of the fields of delam_petsc_part_field. They are those
- * of its part, in the order of the part (ascending after delam_petsc_take_scene), and behind them, on rank 0, those of
- * the mesh that no part has. owned: 1 where no lower rank has the node, else 0. nodes and owned: [capacity]. *count
- * receives how many there are.
+ * of its part, and behind them, on rank 0, those of the mesh that no part has. owned: 1 on one of the ranks that have
+ * the node, on the others 0. nodes and owned: [capacity]. *count receives how many there are. By what made the part:
+ *   delam_petsc_take_scene, _take_cells  nodes of the rank's cells, ascending; the lowest rank with a node owns it
+ *   delam_petsc_set_part                 its nodes in their order; likewise
+ *   delam_petsc_set_cells                those of its cells, in the order of its own mesh; likewise
+ *   delam_petsc_set_rows                 its nodes in their order; behind them ghosts, those of other ranks in its
+ *                                        columns, as they first occur there; the rank with a node's rows owns it
  * [null nodes, owned, count; status argument, state; source none; since 0.1] */
 DELAM_API int32_t delam_petsc_part_nodes(delam_petsc *petsc, int64_t capacity, int64_t *nodes, int32_t *owned,
                                          int64_t *count);
-/* One rank alone: the cells of its part in rank 0's mesh, ascending, from 0 on; none but after delam_petsc_take_scene.
- * cells: [capacity]. *count receives how many there are.
+/* One rank alone: the cells of its part in rank 0's mesh, ascending, from 0 on, after delam_petsc_take_scene and
+ * delam_petsc_take_cells; none after the other functions. cells: [capacity]. *count receives how many there are.
  * [null cells, count; status argument; source none; since 0.1] */
 DELAM_API int32_t delam_petsc_part_cells(delam_petsc *petsc, int64_t capacity, int64_t *cells, int64_t *count);
 /* One rank alone, in its task, in work or afterwards: a field of the state recovered last (delam_petsc_recover).
  *   displacement  [nodes][dimension]  u, at the nodes of delam_petsc_part_nodes
  *   force         [nodes][dimension]  K u, the sum over all ranks: in equilibrium what acts on the node
- *   stress        [cells][4 or 6]     at the centres of the cells of delam_petsc_part_cells, as by delam_solver_field
+ *   stress        [cells][4 or 6]     at the centres of the cells of delam_petsc_part_cells, as by delam_solver_field;
+ *                                     DELAM_ERROR_STATE after delam_experimental_solver_recover by itself
  *   rotation      [cells][1 or 3]     likewise
  * values: [capacity], row after row. *rows and *columns receive the shape.
  * [unit values of key; null values, rows, columns; status argument, memory, state; source none; since 0.1] */

@@ -15,19 +15,6 @@ constexpr int tag = 7;
 // A rank that has failed waits that long for the others to notice. If they wait for this rank, they never come.
 constexpr std::chrono::seconds patience{8};
 
-void wait_or_abort(MPI_Comm comm, MPI_Request& request, const std::string& why) {
-    const auto until = std::chrono::steady_clock::now() + patience;
-    int done = 0;
-    while (true) {
-        MPI_Test(&request, &done, MPI_STATUS_IGNORE);
-        if (done != 0) return;
-        if (std::chrono::steady_clock::now() > until) break;
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    std::fprintf(stderr, "libdelam-petsc: one rank has failed and the others wait for it: %s\n", why.c_str());
-    MPI_Abort(comm, 1);
-}
-
 }  // namespace
 
 Communicator::Communicator(MPI_Comm comm) {
@@ -42,14 +29,30 @@ Communicator::~Communicator() {
     MPI_Comm_free(&agreed_);
 }
 
-void Communicator::agree(std::int32_t status, std::string text, bool impatient) const {
+bool Communicator::come_in_time(MPI_Request& request) {
+    const auto until = std::chrono::steady_clock::now() + patience;
+    int done = 0;
+    while (true) {
+        MPI_Test(&request, &done, MPI_STATUS_IGNORE);
+        if (done != 0) return true;
+        if (std::chrono::steady_clock::now() > until) return false;
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+}
+
+void Communicator::agree(std::int32_t status, std::string text, Waits waits) const {
     int mine = status == DELAM_OK ? size_ : rank_, lowest = size_;
     MPI_Request request;
     MPI_Iallreduce(&mine, &lowest, 1, MPI_INT, MPI_MIN, agreed_, &request);
-    if (status == DELAM_OK || !impatient)
-        MPI_Wait(&request, MPI_STATUS_IGNORE);
-    else
-        wait_or_abort(agreed_, request, text);
+    if (status != DELAM_OK && waits != Waits::long_as_it_takes && !come_in_time(request)) {
+        if (waits == Waits::then_aborts) {
+            std::fprintf(stderr, "libdelam-petsc: one rank has failed and the others wait for it: %s\n", text.c_str());
+            MPI_Abort(agreed_, 1);
+        }
+        std::fprintf(stderr, "libdelam-petsc: the task of rank %d has failed, which waits for the others: %s\n", rank_,
+                     text.c_str());
+    }
+    MPI_Wait(&request, MPI_STATUS_IGNORE);
     count(4.0, 1.0);
     if (lowest == size_) return;
     MPI_Bcast(&status, 1, MPI_INT32_T, lowest, agreed_);

@@ -30,13 +30,19 @@ public:
     // thrown.
     template <class Work>
     void together(Work&& work) const {
-        agree(work, false);
+        agree(work, Waits::long_as_it_takes);
     }
     // The same for work with steps that all ranks share: a rank that fails in such a step waits for the others, who may
     // wait for it, for some seconds only.
     template <class Work>
     void in_step(Work&& work) const {
-        agree(work, true);
+        agree(work, Waits::then_aborts);
+    }
+    // The same as `together` for work of a host, which may take any time: a rank that has failed says so if it waits
+    // long, because the host may have made the others wait for it.
+    template <class Work>
+    void in_task(Work&& work) const {
+        agree(work, Waits::then_says_so);
     }
 
     template <class Value>
@@ -90,18 +96,22 @@ public:
     double messages_sent() const { return messages_; }
 
 private:
+    // What a rank that has failed does until the others agree.
+    enum class Waits { long_as_it_takes, then_says_so, then_aborts };
     template <class Work>
-    void agree(Work&& work, bool impatient) const {
+    void agree(Work&& work, Waits waits) const {
         Failure failure(DELAM_OK, "");
         try {
             work();
         } catch (...) {
             failure = current_failure();
         }
-        agree(failure.status, failure.what(), impatient);
+        agree(failure.status, failure.what(), waits);
     }
     // Throws on all ranks if a status is not DELAM_OK on any.
-    void agree(std::int32_t status, std::string text, bool impatient) const;
+    void agree(std::int32_t status, std::string text, Waits waits) const;
+    // Waits some seconds: whether the others have come.
+    static bool come_in_time(MPI_Request& request);
     void send_all(void* data, std::size_t bytes) const;
     std::vector<std::int64_t> exchange_sizes(const std::vector<std::int64_t>& bytes) const;
     void exchange_bytes(const std::vector<const void*>& data, const std::vector<std::int64_t>& bytes,

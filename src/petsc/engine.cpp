@@ -160,23 +160,62 @@ double Engine::relative_rounding(const BodyState& state, Vec v, Vec work) const 
     return state.stored > 0.0 ? std::numeric_limits<double>::epsilon() * terms / state.stored : 0.0;
 }
 
-bool Engine::recover(const double* weights, double* displacement, double* force, PartState& kept) {
+Recovered Engine::recover(const double* weights, double* displacement, double* force,
+                          const PartState::Eigenstrains& eigenstrains, PartState& kept) {
     std::vector<double> shared;
-    bool keeps = displacement == nullptr && force == nullptr;
+    bool keeps = force == nullptr, moves = keeps && displacement != nullptr;
     comm_.together([&] {
         if (comm_.root()) shared.assign(weights, weights + KeptStates::count);
     });
     comm_.broadcast(shared);
     comm_.broadcast(keeps);
+    comm_.broadcast(moves);
+    if (moves && has_other_nodes()) return Recovered::nothing;
     const OwnedVec v = bodies_.vector();
     const std::vector<double> theta = kept_.combine(shared, v);
-    if (keeps) {
-        kept.take(bodies_, bodies_.state(theta, v));
-        return true;
+    BodyState state = bodies_.state(theta, v);
+    if (!keeps) {
+        if (fields_ == nullptr) fields_ = std::make_unique<MeshFields>(bodies_, scene_.dofs);
+        fields_->gather(state, displacement, force);
+        return Recovered::on_root;
     }
-    if (fields_ == nullptr) fields_ = std::make_unique<MeshFields>(bodies_, scene_.dofs);
-    fields_->gather(bodies_.state(theta, v), displacement, force);
-    return false;
+    if (moves) {
+        const std::vector<double> moved = here(displacement);
+        for (std::size_t i = 0; i < moved.size(); ++i) state.displacement[i] += moved[i];
+    }
+    PartState::Eigenstrains at_state;
+    comm_.together([&] { at_state = eigenstrains; });
+    comm_.broadcast(at_state.known);
+    comm_.broadcast(at_state.bodies);
+    comm_.broadcast(at_state.strains);
+    kept.take(bodies_, std::move(state), std::move(at_state));
+    return Recovered::on_ranks;
+}
+
+bool Engine::has_other_nodes() const {
+    const std::vector<std::int64_t>& nodes = bodies_.part().nodes;
+    const std::int64_t of_mesh = scene_.dofs / bodies_.local().dimension;
+    const bool has = std::any_of(nodes.begin(), nodes.end(), [&](std::int64_t node) { return node >= of_mesh; });
+    return comm_.largest(std::int64_t{has ? 1 : 0}) != 0;
+}
+
+// Of rank 0's field over the mesh, the rows of this rank's nodes.
+std::vector<double> Engine::here(const double* field) const {
+    const LocalVariables& local = bodies_.local();
+    std::vector<std::vector<std::int64_t>> asked;
+    std::vector<std::vector<double>> told;
+    comm_.together([&] {
+        asked.resize(static_cast<std::size_t>(comm_.size()));
+        told.resize(asked.size());
+        asked[0].assign(local.nodes.begin(), local.nodes.begin() + local.dofs / local.dimension);
+    });
+    const std::vector<std::vector<std::int64_t>> wanted = comm_.exchange(asked);
+    comm_.together([&] {
+        for (std::size_t r = 0; r < wanted.size(); ++r)
+            for (const std::int64_t node : wanted[r])
+                told[r].insert(told[r].end(), field + local.dimension * node, field + local.dimension * (node + 1));
+    });
+    return comm_.exchange(told)[0];
 }
 
 }  // namespace delam::petsc

@@ -11,6 +11,8 @@
 
 namespace delam::petsc {
 
+enum class Recovered : std::int32_t { nothing, on_root, on_ranks };
+
 // What delam_experimental_engine asks for, as the ranks do it together: one object from `prepare` to the next. All
 // functions are collective; their pointers are those of rank 0, and NULL elsewhere.
 class Engine {
@@ -29,12 +31,17 @@ public:
     void renew(const delam_experimental_entries* entries, double* cost);
     // Whether it was not given up.
     bool solve(const delam_experimental_request* request, delam_experimental_answer* answer);
-    // Where rank 0 has no arrays for them, each rank keeps the fields of its part, in `kept`: true.
-    bool recover(const double* weights, double* displacement, double* force, PartState& kept);
+    // Where rank 0 has no force to fill, each rank keeps the fields of its part, in `kept`, with rank 0's eigenstrains.
+    // displacement then has rigid motions, which are added, or is NULL. Nothing: the ranks have nodes that the mesh
+    // lacks, whose motions are not known.
+    Recovered recover(const double* weights, double* displacement, double* force,
+                      const PartState::Eigenstrains& eigenstrains, PartState& kept);
     const Preconditioner& preconditioner() const { return preconditioner_; }
 
 private:
     Question share(const delam_experimental_request* request) const;
+    bool has_other_nodes() const;
+    std::vector<double> here(const double* field) const;
     void answer(const Question& question, delam_experimental_answer* out);
     double relative_rounding(const BodyState& state, Vec v, Vec work) const;
 

@@ -11,7 +11,7 @@
 namespace delam::petsc {
 
 // u is what this rank's rows of T give; K u is the sum of what all ranks have at a node.
-void PartState::take(const Bodies& bodies, BodyState state) {
+void PartState::take(const Bodies& bodies, BodyState state, Eigenstrains eigenstrains) {
     const LocalVariables& local = bodies.local();
     const OwnedVec sum = bodies.vector();
     std::vector<double> places;
@@ -34,15 +34,10 @@ void PartState::take(const Bodies& bodies, BodyState state) {
         for (const std::vector<double>* field : {&found.displacement_, &found.force_})
             if (!std::all_of(field->begin(), field->end(), [](double v) { return std::isfinite(v); }))
                 fail(DELAM_ERROR_NUMERICAL, "the displacements or nodal forces of the state are not finite");
+        found.eigenstrains_ = std::move(eigenstrains);
         found.known_ = true;
     });
     *this = std::move(found);
-}
-
-void PartState::set_eigenstrains(std::vector<std::int32_t> bodies, std::vector<double> strains) {
-    strained_ = std::move(bodies);
-    strains_ = std::move(strains);
-    has_cells_ = false;
 }
 
 void PartState::compute_cells(const PartCells& cells) {
@@ -57,8 +52,9 @@ void PartState::compute_cells(const PartCells& cells) {
         if (delam_context_create(&context.handle) != DELAM_OK) fail(DELAM_ERROR_MEMORY, "not enough memory");
         const std::int32_t status = delam_experimental_part_fields(
             context.handle, static_cast<std::int64_t>(cells.bytes.size()), cells.bytes.data(), part_nodes_,
-            displacement_.data(), static_cast<std::int64_t>(strained_.size()), strained_.data(), strains_.data(),
-            static_cast<std::int64_t>(cells.cells.size()), stress_.data(), rotation_.data());
+            displacement_.data(), static_cast<std::int64_t>(eigenstrains_.bodies.size()), eigenstrains_.bodies.data(),
+            eigenstrains_.strains.data(), static_cast<std::int64_t>(cells.cells.size()), stress_.data(),
+            rotation_.data());
         if (status != DELAM_OK) fail(status, "delam_experimental_part_fields: ", delam_context_message(context.handle));
     }
     has_cells_ = true;
@@ -72,6 +68,10 @@ PartState::Field PartState::field(const std::string& key, const PartCells& cells
     const auto nodes = static_cast<std::int64_t>(nodes_.size()), count = static_cast<std::int64_t>(cells.cells.size());
     if (key == "displacement") return {&displacement_, nodes, dimension_};
     if (key == "force") return {&force_, nodes, dimension_};
+    if (key == "stress" && !eigenstrains_.known)
+        fail(DELAM_ERROR_STATE,
+             "the eigenstrains of this state are not known, which delam_petsc_recover sends, other than "
+             "delam_experimental_solver_recover");
     compute_cells(cells);
     if (key == "stress") return {&stress_, count, dimension_ == 2 ? 4 : 6};
     return {&rotation_, count, dimension_ == 2 ? 1 : 3};

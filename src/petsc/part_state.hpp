@@ -26,9 +26,13 @@ public:
         std::int64_t columns;
     };
 
-    void take(const Bodies& bodies, BodyState state);
-    // Of bodies, by label, at this state.
-    void set_eigenstrains(std::vector<std::int32_t> bodies, std::vector<double> strains);
+    // Of bodies, by label, at a state; unknown where a host has had it recovered by the library's own function.
+    struct Eigenstrains {
+        bool known = false;
+        std::vector<std::int32_t> bodies;
+        std::vector<double> strains;
+    };
+    void take(const Bodies& bodies, BodyState state, Eigenstrains eigenstrains);
     void clear() { *this = {}; }
 
     bool known() const { return known_; }
@@ -47,8 +51,7 @@ private:
     std::vector<std::int64_t> nodes_;
     std::vector<std::int32_t> owned_;
     std::vector<double> displacement_, force_;
-    std::vector<std::int32_t> strained_;
-    std::vector<double> strains_;
+    Eigenstrains eigenstrains_;
     bool has_cells_ = false;  // what follows
     std::vector<double> stress_, rotation_;
 };

@@ -115,9 +115,6 @@ void Session::serve() {
             case Command::recover:
                 recover(nullptr, nullptr, nullptr);
                 break;
-            case Command::share_strains:
-                share_strains({}, {});
-                break;
             case Command::task:
                 run_task(0, nullptr);
                 break;
@@ -164,15 +161,11 @@ std::int32_t Session::solve(const delam_experimental_request* request, delam_exp
 }
 
 std::int32_t Session::recover(const double* weights, double* displacement, double* force) {
-    return command(Command::recover, [&] { kept_ = engine().recover(weights, displacement, force, state_); });
-}
-
-std::int32_t Session::share_strains(std::vector<std::int32_t> bodies, std::vector<double> strains) {
-    return command(Command::share_strains, [&] {
-        comm_.broadcast(bodies);
-        comm_.broadcast(strains);
-        state_.set_eigenstrains(std::move(bodies), std::move(strains));
-    });
+    Recovered done = Recovered::nothing;
+    const std::int32_t status = command(
+        Command::recover, [&] { done = engine().recover(weights, displacement, force, eigenstrains_, state_); });
+    kept_ = status == DELAM_OK && done == Recovered::on_ranks;
+    return status == DELAM_OK && done == Recovered::nothing ? DELAM_ERROR_PROBLEM : status;
 }
 
 // A solver of another engine, or of none, does not come here for its displacements.
@@ -180,20 +173,25 @@ std::int32_t Session::recover_parts(delam_solver* solver) {
     if (!comm_.root() || !running_) return refuse("only rank 0 may call this, in the work of delam_petsc_run");
     if (in_task_) return refuse("a task (delam_petsc_set_task) is running: the ranks can do nothing else");
     kept_ = false;
-    std::int32_t status = delam_experimental_solver_recover(solver);
-    if (status == DELAM_OK && !kept_)
+    std::int64_t count = 0;
+    PartState::Eigenstrains found;
+    std::int32_t status = delam_experimental_solver_eigenstrains(solver, 0, nullptr, nullptr, &count);
+    if (status == DELAM_OK) {
+        found.bodies.resize(static_cast<std::size_t>(count));
+        found.strains.resize(6 * found.bodies.size());
+        found.known = true;
+        status =
+            delam_experimental_solver_eigenstrains(solver, count, found.bodies.data(), found.strains.data(), &count);
+    }
+    if (status == DELAM_OK) {
+        eigenstrains_ = std::move(found);
+        status = delam_experimental_solver_recover(solver);
+        eigenstrains_ = {};
+    }
+    if (status == DELAM_OK && kept_) return DELAM_OK;
+    if (status == DELAM_OK)
         return refuse(
             "the ranks are not the engine of the solver's problem: delam_petsc_attach comes before the solver");
-    std::int64_t count = 0;
-    std::vector<std::int32_t> bodies;
-    std::vector<double> strains;
-    if (status == DELAM_OK) status = delam_experimental_solver_eigenstrains(solver, 0, nullptr, nullptr, &count);
-    if (status == DELAM_OK) {
-        bodies.resize(static_cast<std::size_t>(count));
-        strains.resize(6 * bodies.size());
-        status = delam_experimental_solver_eigenstrains(solver, count, bodies.data(), strains.data(), &count);
-    }
-    if (status == DELAM_OK) return share_strains(std::move(bodies), std::move(strains));
     message_ = std::string("the state cannot be recovered: ") + delam_status_name(status) +
                " (delam_context_message says why)";
     return status;
@@ -218,17 +216,21 @@ std::int32_t Session::run_task(std::int64_t size, const std::uint8_t* bytes) {
             if (comm_.root()) told.assign(bytes, bytes + size);
         });
         comm_.broadcast(told);
-        struct During {
-            bool& running;
-            explicit During(bool& flag) : running(flag) { running = true; }
-            ~During() { running = false; }
-        } during(in_task_);
-        explained_.clear();
-        const std::int32_t status = task_(static_cast<std::int64_t>(told.size()), told.data(), task_user_);
-        if (status == DELAM_OK) return;
-        if (!explained_.empty()) fail(status, explained_);
-        fail(status, "the task of rank ", comm_.rank(), " returned ", delam_status_name(status));
+        comm_.in_task([&] { call_task(told); });
     });
+}
+
+void Session::call_task(const std::vector<std::uint8_t>& told) {
+    struct During {
+        bool& running;
+        explicit During(bool& flag) : running(flag) { running = true; }
+        ~During() { running = false; }
+    } during(in_task_);
+    explained_.clear();
+    const std::int32_t status = task_(static_cast<std::int64_t>(told.size()), told.data(), task_user_);
+    if (status == DELAM_OK) return;
+    if (!explained_.empty()) fail(status, explained_);
+    fail(status, "the task of rank ", comm_.rank(), " returned ", delam_status_name(status));
 }
 
 double Session::value(const char* key) const {

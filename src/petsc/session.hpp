@@ -80,7 +80,7 @@ public:
     std::int32_t refuse(const char* why);
 
 private:
-    enum class Command : std::int32_t { stop, prepare, set, renew, solve, recover, share_strains, task };
+    enum class Command : std::int32_t { stop, prepare, set, renew, solve, recover, task };
 
     std::int32_t failed();
     // On rank 0: tells the others what to do, and does it with them.
@@ -99,7 +99,7 @@ private:
     void serve();
     Engine& engine() const;
     std::int32_t run_task(std::int64_t size, const std::uint8_t* bytes);
-    std::int32_t share_strains(std::vector<std::int32_t> bodies, std::vector<double> strains);
+    void call_task(const std::vector<std::uint8_t>& told);
 
     Communicator comm_;
     std::string message_;
@@ -107,7 +107,8 @@ private:
     bool has_part_ = false;
     PartCells cells_;  // of part_, where it came from rank 0's scene
     PartState state_;
-    bool kept_ = false;  // the last command `recover` left the fields with the ranks
+    bool kept_ = false;                     // the last command `recover` left the fields with the ranks
+    PartState::Eigenstrains eigenstrains_;  // on rank 0, of the state that it has the ranks recover
     Task task_ = nullptr;
     void* task_user_ = nullptr;
     std::string explained_;  // by the task that runs

@@ -27,7 +27,7 @@ named in it or in the comment above a struct or function that uses the struct.
 
 Callbacks are the host's: their own statuses are not in src/capi, their numbers need no source, and each has a thread;
 owns is there when a text is given, status is '-' where nothing is returned. "returned" among the statuses: the running
-call returns what the callback did.
+call returns what the callback did, which it or an earlier call for the same object was given.
 """
 import argparse
 import glob
@@ -186,7 +186,10 @@ def check(function, header, listed, implemented, fuzzed=None):
     else:
         only = status.startswith("only ")
         words = set(split(status[5:] if only else status)) - {"usual"}
-        if callback or any(p.type in header.callbacks for p in parameters):
+        # A callback that runs in this call was given to it, or earlier to a function of the same object.
+        same = [f for f in header.functions.values() if parameters and f.parameters[:1] and
+                f.parameters[0].type == parameters[0].type]
+        if callback or any(p.type in header.callbacks for f in [function, *same] for p in f.parameters):
             words -= {"returned"}
         for word in sorted(words - STATUSES):
             gaps.append(f"status: '{word}' is not known; known are {', '.join(sorted(STATUSES))}")

@@ -69,6 +69,10 @@ public:
         force.assign(at(dofs_), -1.0);
         return engine_.recover(weights.data(), displacement.data(), force.data(), engine_.user);
     }
+    // The ranks keep the fields, with these displacements added.
+    std::int32_t keep(const Values& weights, Values* moved) const {
+        return engine_.recover(weights.data(), moved == nullptr ? nullptr : moved->data(), nullptr, engine_.user);
+    }
     std::size_t kept() const { return at(engine_.kept); }
     std::size_t visible() const { return visible_; }
     const char* message() const { return engine_.message(engine_.user); }

@@ -176,6 +176,13 @@ def step():
               "libdelam-petsc: one rank has failed and the others wait for it: .*thrown in a step", limit=PATIENCE + PROMPT)
         took = time.monotonic() - begun
         expect(took > PATIENCE - 1.0, f"{what}: ended after {took:.1f} s, {PATIENCE:g} of them patience")
+    what = "a task that fails on one rank while the other works longer than that"
+    with Ranks(2, "late", program=ENGINE) as ranks:
+        code = ranks.wait(START)
+        expect(code == 0 and "0 failures" in ranks.said, f"{what}: {code}, {last_lines(ranks.said)}")
+        expect("the task of rank 1 has failed, which waits for the others: the last rank's disk" in ranks.said,
+               f"{what}: says so")
+    what = "an exception in the middle of a step of PETSc"
     with Ranks(1, "lose", program=ENGINE) as ranks:
         code = ranks.wait(START)
         expect(code == 0 and "0 failures" in ranks.said, f"{what}, alone, is a status: {code}, {last_lines(ranks.said)}")

@@ -155,6 +155,10 @@ def main():
                 compared(name, f"{ranks} ranks and the serial program", result, serial[0],
                          max(allowed, ROUNDED.get(name, 0.0)), kind == "tight")
                 expect(code == serial[1], f"{name}: {ranks} ranks end as the serial program does: {code}, {serial[1]}")
+            if ranks == 1 and name in small_scenes.UNTOUCHED:
+                rarely = solve(name, scene, [*words, "--set", "output.every=1000"], 1)
+                expect(rarely is not None and rarely[2] == effort,
+                       f"{name}: fields of each step take no solve: {effort}, rarely {rarely and rarely[2]}")
             if first is None:
                 first = (ranks, result)
             else:

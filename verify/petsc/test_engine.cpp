@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The engine on PETSc against a dense direct solution: this program plays the library's core. Run it with mpirun on 1,
 // 2, 4 ranks. Options of PETSc choose the preconditioner. With the word `lose` rank 0 fails in the middle of a step
-// that all ranks share (faults.py).
+// that all ranks share; with `late` the last rank's task fails while the others work long (faults.py).
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <stdexcept>
 #include <string>
+#include <thread>
 
 #include "delam/petsc.h"
 #include "engine_client.hpp"
@@ -109,6 +111,36 @@ void compare(const char* name, const EngineClient& client, const DenseReference&
     small("size", std::abs(a.raw.size / std::sqrt(std::abs(stored) + coupled) - 1.0), 1e-6);
 }
 
+// The ranks keep a state, moved along x: only nodes of the mesh are known to move. Without delam_petsc_recover nobody
+// knows its eigenstrains.
+void keep_on_ranks(const Case& c, const EngineClient& client, const Values& weights, const Values& u) {
+    Values moved(u.size(), 0.0), own(u.size() + at(c.layers.dimension * (c.hidden + 1)));
+    for (std::size_t i = 0; i < moved.size(); i += at(c.layers.dimension)) moved[i] = 0.5;
+    const std::int32_t kept = client.keep(weights, &moved);
+    expect(kept == (c.hidden > 0 ? DELAM_ERROR_PROBLEM : DELAM_OK), "motions of nodes beyond the mesh", kept, 0.0);
+    if (c.hidden > 0) moved.assign(moved.size(), 0.0);
+    if (c.hidden > 0) expect(client.keep(weights, nullptr) == DELAM_OK, "keep", 1.0, 0.0);
+    std::int64_t rows = 0, columns = 0, count = 0;
+    std::vector<std::int64_t> nodes(own.size());
+    require(delam_petsc_part_nodes(c.petsc, static_cast<std::int64_t>(nodes.size()), nodes.data(), nullptr, &count),
+            "nodes");
+    require(delam_petsc_part_field(c.petsc, "displacement", static_cast<std::int64_t>(own.size()), own.data(), &rows,
+                                   &columns),
+            "displacement");
+    double worst = 0.0, largest = 0.0;
+    for (std::int64_t i = 0; i < rows * columns; ++i) {
+        const std::size_t dof = at(columns * nodes[at(i / columns)] + i % columns);
+        if (dof >= u.size()) continue;
+        worst = std::max(worst, std::abs(own[at(i)] - u[dof] - moved[dof]));
+        largest = std::max(largest, std::abs(u[dof] + moved[dof]));
+    }
+    expect(rows == count && rows > 0, "rows", static_cast<double>(rows), static_cast<double>(count));
+    small("displacement of the ranks", worst, 1e-14 * largest);
+    const std::int32_t status = delam_petsc_part_field(c.petsc, "stress", 0, nullptr, &rows, &columns);
+    expect(status == DELAM_ERROR_STATE, "stress without eigenstrains", status, DELAM_ERROR_STATE);
+    expect(delam_petsc_part_field(c.petsc, "rotation", 0, nullptr, &rows, &columns) == DELAM_OK, "rotation", 1.0, 0.0);
+}
+
 // A sequence as a march has it: stiffer and stiffer springs, debonding with an old preconditioner, contact,
 // constraints.
 void sequence(const Case& c, const Variables& v, const EngineClient& client, double k) {
@@ -171,6 +203,8 @@ void sequence(const Case& c, const Variables& v, const EngineClient& client, dou
     weights[0] = 1.0;
     weights[5] = -2.0;
     expect(client.recover(weights, u, f) == DELAM_OK, "recover", 0.0, 0.0);
+
+    keep_on_ranks(c, client, weights, u);
 
     // All visible ones are given: the state between them.
     Acting held;
@@ -239,6 +273,32 @@ std::int32_t lose(void* user) {
     return DELAM_OK;
 }
 
+// Longer than a rank that has failed in a step of PETSc waits.
+constexpr int long_work = 10;  // s
+
+std::int32_t work_or_fail(std::int64_t size, const std::uint8_t*, void* user) {
+    int rank = 0, ranks = 1;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+    if (size == 0) return DELAM_OK;
+    if (rank + 1 == ranks) {
+        delam_petsc_explain(static_cast<Case*>(user)->petsc, "the last rank's disk is full");
+        return DELAM_ERROR_FILE;
+    }
+    std::this_thread::sleep_for(std::chrono::seconds(long_work));
+    return DELAM_OK;
+}
+
+std::int32_t late(void* user) {
+    const Case& c = *static_cast<Case*>(user);
+    const std::uint8_t byte = 1;
+    const std::int32_t status = delam_petsc_everywhere(c.petsc, 1, &byte);
+    expect(status == DELAM_ERROR_FILE, "a task that fails on one rank", status, DELAM_ERROR_FILE);
+    expect(std::string(delam_petsc_message(c.petsc)) == "the last rank's disk is full", "its message", 1.0, 0.0);
+    expect(delam_petsc_everywhere(c.petsc, 0, nullptr) == DELAM_OK, "the next task", 1.0, 0.0);
+    return DELAM_OK;
+}
+
 void run_case(Layers layers, std::int64_t hidden, delam_petsc_work_callback job = work) {
     int rank = 0, size = 1;
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
@@ -268,6 +328,7 @@ void run_case(Layers layers, std::int64_t hidden, delam_petsc_work_callback job 
                               mine.row_starts.data(), mine.columns.data(), mine.values.data()));
     int problem = 0;  // a stand-in: this program's own function receives it
     good(delam_petsc_attach(c.petsc, rank == 0 ? reinterpret_cast<delam_problem*>(&problem) : nullptr));
+    good(delam_petsc_set_task(c.petsc, work_or_fail, &c));
     good(delam_petsc_run(c.petsc, job, &c));
     const std::int32_t thrown = delam_petsc_run(c.petsc, throws, nullptr);
     expect(thrown == DELAM_ERROR_INTERNAL && std::string(delam_petsc_message(c.petsc)) == "thrown at work", "thrown",
@@ -298,9 +359,11 @@ int main(int argc, char** argv) {
     solid.dimension = 3;
     solid.along = 4;
     solid.across = 2;
-    const bool lost = argc > 1 && std::string(argv[1]) == "lose";
-    if (lost) {
+    const std::string word = argc > 1 ? argv[1] : "";
+    if (word == "lose") {
         run_case(flat, 0, lose);
+    } else if (word == "late") {
+        run_case(flat, 0, late);
     } else {
         run_case(flat, 0);
         run_case(flat, 5);

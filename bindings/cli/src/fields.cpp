@@ -186,7 +186,7 @@ double Fields::assemble(const Model& model, const Scene& scene, std::size_t last
             const std::string name = fmt::format("{:08d}", step);
             const h5::File from(H5Fopen(step_path(step).c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), step_path(step));
             if (bulk_ != nullptr) {
-                const std::vector<FileRange> of_step = copy_step(step_path(step), group.get(), name, scene);
+                const std::vector<FileRange> of_step = copy_step(from.get(), step_path(step), group.get(), name, scene);
                 ranges.insert(ranges.end(), of_step.begin(), of_step.end());
             } else {
                 h5::require(H5Ocopy(from.get(), "step", group.get(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), path);

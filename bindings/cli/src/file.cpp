@@ -89,9 +89,13 @@ void fill_holes(const std::string& path) {
     Descriptor file(path, O_RDWR);
     struct stat about = {};
     if (::fstat(file.get(), &about) != 0) throw OutputFailure(path, system_text(errno));
-    if (about.st_size > 0 && ::fallocate(file.get(), 0, 0, about.st_size) != 0 && errno != EOPNOTSUPP &&
-        errno != ENOSYS)
-        throw OutputFailure(path, system_text(errno) + " (" + std::to_string(about.st_size) + " bytes are needed)");
+    int code = 0;
+    // A signal whose handler does not restart calls may interrupt it.
+    do {
+        code = about.st_size > 0 && ::fallocate(file.get(), 0, 0, about.st_size) != 0 ? errno : 0;
+    } while (code == EINTR);
+    if (code != 0 && code != EOPNOTSUPP && code != ENOSYS)
+        throw OutputFailure(path, system_text(code) + " (" + std::to_string(about.st_size) + " bytes are needed)");
     file.close();
 }
 

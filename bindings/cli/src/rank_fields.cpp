@@ -79,13 +79,19 @@ class File {
 public:
     File(MPI_Comm comm, const std::string& path, int mode) {
         code_ = MPI_File_open(comm, path.c_str(), mode, MPI_INFO_NULL, &file_);
+        if (code_ != MPI_SUCCESS) file_ = MPI_FILE_NULL;
     }
-    void close() {
-        code_ = MPI_File_close(&file_);
+    ~File() { (void)close(); }
+    File(const File&) = delete;
+    File& operator=(const File&) = delete;
+    int close() {
+        if (file_ == MPI_FILE_NULL) return MPI_SUCCESS;
+        const int code = MPI_File_close(&file_);
         file_ = MPI_FILE_NULL;
+        return code;
     }
     MPI_File get() const { return file_; }
-    int code() const { return code_; }
+    int code() const { return code_; }  // of opening it
 
 private:
     MPI_File file_ = MPI_FILE_NULL;
@@ -122,6 +128,40 @@ int write_doubles(MPI_File file, std::int64_t offset, const std::vector<double>&
         if (written != now) return MPI_ERR_NO_SPACE;
     }
     return MPI_SUCCESS;
+}
+
+// Of ranges that lie one behind the other, the bytes from first to last.
+void copy_share(const std::string& path, const std::vector<FileRange>& ranges, std::int64_t first, std::int64_t last) {
+    std::vector<char> bytes(static_cast<std::size_t>(std::min(piece, last - first)));
+    File to(MPI_COMM_SELF, path, MPI_MODE_WRONLY);
+    require_file(to.code(), "open");
+    const auto require_all = [](MPI_Status& status, int count, const char* doing) {
+        int done = 0;
+        MPI_Get_count(&status, MPI_BYTE, &done);
+        if (done != count) require_file(MPI_ERR_IO, doing);
+    };
+    std::int64_t before = 0;
+    for (const FileRange& range : ranges) {
+        const std::int64_t begin = std::max(first, before), end = std::min(last, before + range.bytes);
+        if (begin < end) {
+            const File from(MPI_COMM_SELF, range.from, MPI_MODE_RDONLY);
+            require_file(from.code(), "open");
+            for (std::int64_t at = begin; at < end; at += piece) {
+                const int now = static_cast<int>(std::min(piece, end - at));
+                MPI_Status status{};
+                require_file(
+                    MPI_File_read_at(from.get(), range.offset + at - before, bytes.data(), now, MPI_BYTE, &status),
+                    "read");
+                require_all(status, now, "read");
+                require_file(MPI_File_write_at(to.get(), range.to + at - before, bytes.data(), now, MPI_BYTE, &status),
+                             "write");
+                require_all(status, now, "write");
+            }
+        }
+        before += range.bytes;
+    }
+    require_file(MPI_File_sync(to.get()), "write");
+    require_file(to.close(), "close");
 }
 
 std::vector<int> begins_of(const std::vector<int>& counts) {
@@ -271,8 +311,12 @@ Field RankFields::rows_to_write(const BulkField& of, std::vector<std::int64_t>& 
 
 std::vector<double> RankFields::recover(const Model& model, delam_solver* solver,
                                         const std::vector<std::int64_t>& nodes) {
-    if (const std::int32_t status = delam_petsc_recover(petsc_, solver); status != DELAM_OK)
-        cli::call(model.context.get(), status, std::string("displacements"));
+    if (const std::int32_t status = delam_petsc_recover(petsc_, solver); status != DELAM_OK) {
+        if (status == DELAM_CANCELLED) throw Failure(exit_interrupted, "interrupted");
+        // The context knows why only where the library itself has failed.
+        const std::string said = delam_petsc_message(petsc_), own = delam_context_message(model.context.get());
+        throw Failure(exit_numerical, "displacements: " + said + (own.empty() ? "" : ": " + own));
+    }
     Telling telling(Job::gather);
     telling.put(static_cast<std::int64_t>(nodes.size()));
     for (const std::int64_t node : nodes) telling.put(node);
@@ -373,9 +417,11 @@ void RankFields::write_rows(Told& told) {
         if (code == MPI_SUCCESS) code = written;
     }
     if (const int synced = MPI_File_sync(file.get()); code == MPI_SUCCESS) code = synced;
-    file.close();
-    require_file(code, "write");
-    require_file(file.code(), "close");
+    const int closed = file.close();
+    together([&] {
+        require_file(code, "write");
+        require_file(closed, "close");
+    });
 }
 
 // The rows of a part lie scattered in a field. The ranks therefore exchange them, so that each has a block of rows, and
@@ -435,49 +481,20 @@ void RankFields::copy(const std::string& path, const std::vector<FileRange>& ran
 
 // All ranges, one behind the other, are cut into as many pieces as there are ranks. Each rank reads and writes alone.
 void RankFields::copy_ranges(Told& told) {
-    const std::string path = told.text();
-    std::vector<FileRange> ranges(static_cast<std::size_t>(told.get<std::int64_t>()));
-    std::int64_t total = 0;
-    for (FileRange& range : ranges) {
-        range.from = told.text();
-        range.offset = told.get<std::int64_t>();
-        range.bytes = told.get<std::int64_t>();
-        range.to = told.get<std::int64_t>();
-        total += range.bytes;
-    }
-    const std::int64_t share = (total + size_ - 1) / size_, first = share * rank_, last = first + share;
-    std::vector<char> bytes(static_cast<std::size_t>(std::min(piece, share)));
-    File to(MPI_COMM_SELF, path, MPI_MODE_WRONLY);
-    require_file(to.code(), "open");
-    int code = MPI_SUCCESS;
-    const auto note = [&code](int own) {
-        if (code == MPI_SUCCESS) code = own;
-    };
-    std::int64_t before = 0;
-    for (const FileRange& range : ranges) {
-        const std::int64_t begin = std::max(first, before), end = std::min(last, before + range.bytes);
-        if (begin < end) {
-            File from(MPI_COMM_SELF, range.from, MPI_MODE_RDONLY);
-            note(from.code());
-            for (std::int64_t at = begin; at < end && code == MPI_SUCCESS; at += piece) {
-                const int now = static_cast<int>(std::min(piece, end - at));
-                int done = 0;
-                MPI_Status status{};
-                note(MPI_File_read_at(from.get(), range.offset + at - before, bytes.data(), now, MPI_BYTE, &status));
-                MPI_Get_count(&status, MPI_BYTE, &done);
-                if (done != now) note(MPI_ERR_IO);
-                note(MPI_File_write_at(to.get(), range.to + at - before, bytes.data(), now, MPI_BYTE, &status));
-                MPI_Get_count(&status, MPI_BYTE, &done);
-                if (done != now) note(MPI_ERR_NO_SPACE);
-            }
-            if (from.code() == MPI_SUCCESS) from.close();
+    together([&] {
+        const std::string path = told.text();
+        std::vector<FileRange> ranges(static_cast<std::size_t>(told.get<std::int64_t>()));
+        std::int64_t total = 0;
+        for (FileRange& range : ranges) {
+            range.from = told.text();
+            range.offset = told.get<std::int64_t>();
+            range.bytes = told.get<std::int64_t>();
+            range.to = told.get<std::int64_t>();
+            total += range.bytes;
         }
-        before += range.bytes;
-    }
-    note(MPI_File_sync(to.get()));
-    to.close();
-    require_file(code, "copy");
-    require_file(to.code(), "close");
+        const std::int64_t share = (total + size_ - 1) / size_;
+        copy_share(path, ranges, share * rank_, share * (rank_ + 1));
+    });
 }
 
 }  // namespace cli

@@ -209,9 +209,9 @@ void write_step_file(const std::string& path, const Model& model, delam_solver* 
     }
 }
 
-std::vector<FileRange> copy_step(const std::string& path, hid_t parent, const std::string& name, const Scene& scene) {
-    const h5::File file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), path);
-    const h5::Group from(H5Gopen2(file.get(), "step", H5P_DEFAULT), path);
+std::vector<FileRange> copy_step(hid_t file, const std::string& path, hid_t parent, const std::string& name,
+                                 const Scene& scene) {
+    const h5::Group from(H5Gopen2(file, "step", H5P_DEFAULT), path);
     const h5::Group to(h5::new_group(parent, name), "fields.h5");
     h5::attribute(to.get(), "step", static_cast<std::int64_t>(h5::read_number(from.get(), "step")));
     for (const char* number : {"time", "rotation_max"})

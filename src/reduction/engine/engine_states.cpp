@@ -114,17 +114,17 @@ void EngineSolver::recover(std::span<const double> theta, std::span<const double
     for (std::size_t i = 0; i < moved.size(); ++i) displacement[i] += moved[i];
 }
 
-// Rigid motions of nodes that only the engine knows follow from the variables: where there are any, these are given as
-// they are, and the bodies solved for once more.
+// The kept answers lack the rigid motions, which the engine gets as displacements of the mesh. An engine with other
+// nodes refuses them: with all variables given as they are, the bodies are then solved for once more.
 void EngineSolver::recover_in_engine(std::span<const double> theta, std::span<const double> x) {
-    std::vector<double> weights;
-    if (x.size() == at_.size && max_abs(part(x, at_.rigid, at_.size)) > 0.0) {
-        claim();
-        weights = solve_again(theta, x, true);
-    } else {
-        weights = weights_of(theta, x);
-    }
+    std::vector<double> weights = weights_of(theta, x);
     const delam_experimental_engine& engine = engine_->functions();
+    if (x.size() == at_.size && max_abs(part(x, at_.rigid, at_.size)) > 0.0) {
+        std::vector<double> moved = floating_.rigid_displacement(part(x, at_.rigid, at_.size));
+        const std::int32_t status = engine.recover(weights.data(), moved.data(), nullptr, engine.user);
+        if (status != DELAM_ERROR_PROBLEM) return engine_->require(status, "recover");
+        weights = solve_again(theta, x, true);
+    }
     engine_->require(engine.recover(weights.data(), nullptr, nullptr, engine.user), "recover");
 }
 

@@ -382,7 +382,8 @@ class Ranks:
     def everywhere(self, data: object = None) -> None:
         """On rank 0, in the function of `run`: all ranks call their task with these data, which pickle can copy, rank 0
         as well. Raises what the lowest rank has raised: on rank 0 itself as such; of another rank a DelamError, or
-        WorkError where it was none or an internal error. The function of `run` may catch it and go on."""
+        WorkError where it was none or an internal error. The function of `run` may catch it and go on. In a task that
+        communicates, all ranks have to agree first that none has failed: they would wait for it for ever."""
         self._check_open()
         copied = np.frombuffer(pickle.dumps(data), dtype=np.uint8)
         self._raised = None
@@ -402,8 +403,9 @@ class Ranks:
         self._here(self._library.delam_petsc_recover, ctypes.cast(solver._handle, c_void_p))
 
     def part_nodes(self) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
-        """Nodes of the fields of this rank, after `recover`: those of its part in their order, on rank 0 also those of
-        the mesh that no part has; and which of them no lower rank has."""
+        """Nodes of the fields of this rank, after `recover`: those of its part in their order (delam/petsc.h), on
+        rank 0 also those of the mesh that no part has; and which of them this rank owns, exactly one of those that have
+        it."""
         count = c_int64()
         self._here(self._library.delam_petsc_part_nodes, 0, None, None, ctypes.byref(count))
         nodes, owned = np.empty(count.value, dtype=np.int64), np.empty(count.value, dtype=np.int32)
