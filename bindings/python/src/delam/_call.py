@@ -162,10 +162,17 @@ class Context:
 
     def beside(self, function, *arguments, other=None):
         """Calls a function of another library that uses objects of this context, and of another: its status, and the
-        last error that libdelam has told meanwhile, or ""."""
+        last error that libdelam has told meanwhile, or "". Ctrl-C, and what a callback has raised, is raised when the
+        function has ended."""
         call = Call(self)
         status, _ = self._locked(call, other, self._checked, call, function, arguments, True, False)
         self._log(call, "")
+        if call.exception is not None:
+            exception, call.exception = call.exception, None
+            try:
+                raise exception
+            finally:
+                del exception
         told = [line.decode(errors="replace") for level, line in call.lines if level == 0]
         return status, told[-1] if told else ""
 
