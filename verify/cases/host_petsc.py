@@ -4,7 +4,8 @@
 
 A host of examples/host-petsc on some ranks prints the numbers of the library alone, for the same scene with cells of
 the library's own: up to 1e-7 of the largest of each column. On two ranks it is also given wrong arguments, which end it
-with exit code 2, or with files that rank 1 cannot use, which end all ranks with exit code 1. Exits with 77 where mpirun, or what a host in Python needs, is missing.
+with exit code 2, or with files that rank 1 cannot use, which end all ranks with exit code 1. Exits with 77
+where mpirun, or what a host in Python needs, is missing.
 
 HOST may be host_petsc_gmsh.py, for which Gmsh's library makes the files of the ranks from beam.geo.
 """

@@ -166,7 +166,7 @@ class Parts:
             # A solver that the ranks do not solve for.
             other = delam.Solver(support.double_cantilever(4))
             cls.raised(delam.StateError, lambda: ranks.recover(other), "engine")
-            # In equilibrium the nodal forces of the bodies are those of supports and interfaces: they add up to nothing.
+            # In equilibrium the nodal forces of the bodies are those of supports and interfaces, which add up to 0.
             assert np.abs(seen["force"].sum(axis=0)).max() <= 1e-7 * np.abs(seen["force"]).max()
         ranks.run(work)
 

@@ -211,8 +211,8 @@ class Context:
         return status, message
 
     def _locked(self, call, other, function, *arguments):
-        """Calls while this thread holds this context, and another if there is one. Ctrl-C cannot come between `with` and
-        the lock, so none stays locked."""
+        """Calls while this thread holds this context, and another if there is one. Ctrl-C cannot come between `with`
+        and the lock, so none stays locked."""
         if other is not None and other is not self:
             first, second = sorted((self, other), key=id)
             first._refuse_reentry()
@@ -305,8 +305,8 @@ class Object:
         self.close()
 
     def cancel(self):
-        """Asks a call that runs with this object in another thread to stop at its next check; it raises Cancelled. If none
-        is running, the request waits for the next step, or for the creation or loading of a solver."""
+        """Asks a call that runs with this object in another thread to stop at its next check; it raises Cancelled. If
+        none is running, the request waits for the next step, or for the creation or loading of a solver."""
         self.context.cancel()
 
 

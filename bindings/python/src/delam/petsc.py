@@ -403,9 +403,9 @@ class Ranks:
             raise error from own
 
     def recover(self, solver: Solver) -> None:
-        """On rank 0, in the function of `run`: each rank recovers the displacements of the solver's present state at the
-        nodes of its part, for `part_field`, and keeps them until the next call. No rank gets all of them. Ctrl-C waits
-        for the end."""
+        """On rank 0, in the function of `run`: each rank recovers the displacements of the solver's present state at
+        the nodes of its part, for `part_field`, and keeps them until the next call. No rank gets all of them. Ctrl-C
+        is raised when it has ended."""
         if not isinstance(solver, Solver):
             raise ArgumentError(f"solver = {solver!r}, expected a Solver")
         self._check_open()
