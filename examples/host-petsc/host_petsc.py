@@ -146,8 +146,8 @@ def march(problem, ranks):
 # ---- all ranks ------------------------------------------------------------------------------------------------------
 
 def tell_displacement(comm, ranks, known):
-    """The task of each rank: the largest displacement of the nodes that only the ranks know, which rank 0 prints. known:
-    how many nodes rank 0's mesh has."""
+    """The task of each rank: the largest displacement of the nodes that only the ranks know, which rank 0 prints.
+    known: how many nodes rank 0's mesh has."""
     lengths = np.linalg.norm(ranks.part_field("displacement"), axis=1)
     largest = comm.reduce(lengths[ranks.part_nodes()[0] >= known].max(initial=0.0), op=MPI.MAX)
     if comm.rank == 0:

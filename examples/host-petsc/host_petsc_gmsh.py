@@ -20,7 +20,7 @@ FACES = np.array([[0, 1, 2, 3], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3,
 ARMS = {"lower": 0, "upper": 1}
 
 
-# ---- a rank's file -----------------------------------------------------------------------------------------------------
+# ---- a rank's file ---------------------------------------------------------------------------------------------------
 
 def sections(path):
     """The lines of each section of a file of Gmsh, without their count."""
@@ -48,6 +48,8 @@ class Part:
 
     def __init__(self, path):
         tags, places, self.arms, cells = read_part(path)
+        if len(cells) == 0:
+            raise ValueError(f"{path} has no hexahedra")
         self.tags, local = np.unique(cells, return_inverse=True)
         self.cells = local.reshape(-1, 8)
         order = np.argsort(tags)
@@ -73,7 +75,7 @@ class Part:
         return problem
 
 
-# ---- what libdelam knows of the whole, on rank 0 -----------------------------------------------------------------------
+# ---- what libdelam knows of the whole, on rank 0 ---------------------------------------------------------------------
 
 class Known:
     """The nodes that rank 0 knows, whose numbers are their places in `tags`."""
@@ -123,14 +125,27 @@ def make_problem(known):
     return problem
 
 
-# ---- all ranks ---------------------------------------------------------------------------------------------------------
+# ---- all ranks -------------------------------------------------------------------------------------------------------
 
-def work(comm):
-    if len(sys.argv) != 2:
-        if comm.rank == 0:
-            print("usage: host_petsc_gmsh.py MESH     each rank reads MESH_1.msh, MESH_2.msh, ..", file=sys.stderr)
-        return 2
-    part = Part(f"{sys.argv[1]}_{comm.rank + 1}.msh")
+class PartError(Exception):
+    """A rank cannot read or describe its part. All ranks raise it."""
+
+
+def together(comm, function, *arguments):
+    """What the function returns on this rank. If it fails on one rank, no rank goes on to wait for it."""
+    result, failure = None, None
+    try:
+        result = function(*arguments)
+    except Exception as error:
+        failure = f"rank {comm.rank}: {type(error).__name__}: {error}"
+    failures = [text for text in comm.allgather(failure) if text is not None]
+    if failures:
+        raise PartError(failures[0])
+    return result
+
+
+def delaminate(comm, part, own):
+    """own: the problem of this rank's part."""
     parts = comm.gather(part.known())
     known = Known(parts) if comm.rank == 0 else None
     tags = comm.bcast(None if known is None else known.tags)
@@ -138,17 +153,28 @@ def work(comm):
     place = np.searchsorted(tags, part.tags)
     is_known = tags[np.minimum(place, len(tags) - 1)] == part.tags
     numbers = np.where(is_known, place, len(tags) + part.tags)
-    try:
-        with delam.petsc.Ranks(comm) as ranks:
-            ranks.set_cells(part.problem(), numbers)
-            problem = ranks.run(lambda: make_problem(known))
-            ranks.attach(problem)
-            ranks.set_task(lambda _: tell_displacement(comm, ranks, len(tags)))
-            ranks.run(lambda: march(problem, ranks))
-    except delam.DelamError as error:
-        # Every rank is here.
+    with delam.petsc.Ranks(comm) as ranks:
+        ranks.set_cells(own, numbers)
+        problem = ranks.run(lambda: make_problem(known))
+        ranks.attach(problem)
+        ranks.set_task(lambda _: tell_displacement(comm, ranks, len(tags)))
+        ranks.run(lambda: march(problem, ranks))
+
+
+def work(comm):
+    if len(sys.argv) != 2:
         if comm.rank == 0:
-            print(f"host_petsc_gmsh: {error.name}: {error}", file=sys.stderr)
+            print("usage: host_petsc_gmsh.py MESH     each rank reads MESH_1.msh, MESH_2.msh, ..", file=sys.stderr)
+        return 2
+    try:
+        part = together(comm, Part, f"{sys.argv[1]}_{comm.rank + 1}.msh")
+        own = together(comm, part.problem)
+        delaminate(comm, part, own)
+    except (PartError, delam.DelamError) as error:
+        # It is the same on all ranks: each call above and in delaminate that can fail is one of all ranks.
+        if comm.rank == 0:
+            name = f"{error.name}: " if isinstance(error, delam.DelamError) else ""
+            print(f"host_petsc_gmsh: {name}{error}", file=sys.stderr)
         return 1
     return 0
 

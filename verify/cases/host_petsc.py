@@ -4,7 +4,8 @@
 
 A host of examples/host-petsc on some ranks prints the numbers of the library alone, for the same scene with cells of
 the library's own: up to 1e-7 of the largest of each column. On two ranks it is also given wrong arguments, which end it
-with exit code 2. Exits with 77 where mpirun, or what a host in Python needs, is missing.
+with exit code 2, or with files that rank 1 cannot use, which end all ranks with exit code 1. Exits with 77
+where mpirun, or what a host in Python needs, is missing.
 
 HOST may be host_petsc_gmsh.py, for which Gmsh's library makes the files of the ranks from beam.geo.
 """
@@ -16,9 +17,11 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 
 TOLERANCE = 1e-7
 SKIPPED = 77
+LIMIT = 30.0  # s, in which all ranks have started and ended, beside other programs
 CELLS = 18
 LENGTH, WIDTH, HEIGHT, NOTCH, ACROSS, UPWARDS, STEPS = 45e-3, 9e-3, 1.5e-3, 15e-3, 3, 2, 10
 KEYS = "load:opening", "reaction:opening", "dissipated", "debonded_length"
@@ -85,12 +88,44 @@ def cut_mesh(ranks, geometry, folder):
     return path
 
 
-def on_ranks(ranks, host, *arguments):
+def on_ranks(ranks, host, *arguments, limit=None):
     told = subprocess.run(["mpirun", "--version"], capture_output=True, text=True, check=False).stdout
     options = ["--allow-run-as-root", "--oversubscribe"] if "Open MPI" in told or "OpenRTE" in told else []
     environment = dict(os.environ, OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1")
     return subprocess.run(["mpirun", *options, "-n", str(ranks), *host, *arguments], env=environment,
-                          capture_output=True, text=True, check=False)
+                          capture_output=True, text=True, check=False, timeout=limit)
+
+
+def broken_parts(host, path):
+    """Whether all ranks end in time, with a message, where the file of rank 1 is missing or of no use."""
+    part = pathlib.Path(path + "_2.msh")
+    lines = part.read_text(encoding="utf-8").splitlines()
+    cells = [n for n, line in enumerate(lines) if len(line.split()) > 12 and line.split()[1] == "5"]
+    inverted, empty = list(lines), [line for n, line in enumerate(lines) if n not in cells]
+    for n in cells[:1]:
+        words = lines[n].split()
+        inverted[n] = " ".join(words[:-8] + words[-4:] + words[-8:-4])
+    good = len(cells) > 0
+    for what, content, word in (("an inverted cell", inverted, "MeshError"), ("no cells", empty, "no hexahedra"),
+                                ("a file that ends early", lines[:len(lines) // 2], "rank 1"),
+                                ("no file", None, "FileNotFoundError")):
+        if content is None:
+            part.unlink()
+        else:
+            part.write_text("\n".join(content) + "\n", encoding="utf-8")
+        begun = time.monotonic()
+        try:
+            done = on_ranks(2, host, path, limit=LIMIT)
+        except subprocess.TimeoutExpired:
+            print(f"{what} on rank 1: still at work after {LIMIT:g} s")
+            good = False
+            continue
+        said = [line for line in done.stderr.splitlines() if line.startswith("host_petsc_gmsh: rank 1: ")]
+        print(f"{what} on rank 1: exit code {done.returncode} after {time.monotonic() - begun:.1f} s: {said}")
+        if done.returncode != 1 or len(said) != 1 or word not in said[0]:
+            print(f"expected exit code 1 and {word}:\n{done.stdout}{done.stderr}")
+            good = False
+    return good
 
 
 def differences(expected, found):
@@ -139,6 +174,8 @@ def main(folder):
     done = on_ranks(ranks, host, *wrong) if ranks == 2 else None
     if done is not None and (done.returncode != 2 or "usage" not in done.stderr):
         print(f"exit code {done.returncode}, expected 2, with wrong arguments:\n{done.stdout}{done.stderr}")
+        return 1
+    if ranks == 2 and wrong == [] and not broken_parts(host, right[0]):
         return 1
     return 0
 

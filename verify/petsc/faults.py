@@ -173,7 +173,8 @@ def step():
             time.sleep(0.02)
         begun = time.monotonic()
         ended(ranks, what, "a rank is lost now",
-              "libdelam-petsc: one rank has failed and the others wait for it: .*thrown in a step", limit=PATIENCE + PROMPT)
+              "libdelam-petsc: one rank has failed and the others wait for it: .*thrown in a step",
+              limit=PATIENCE + PROMPT)
         took = time.monotonic() - begun
         expect(took > PATIENCE - 1.0, f"{what}: ended after {took:.1f} s, {PATIENCE:g} of them patience")
     what = "a task that fails on one rank while the other works longer than that"
@@ -185,7 +186,8 @@ def step():
     what = "an exception in the middle of a step of PETSc"
     with Ranks(1, "lose", program=ENGINE) as ranks:
         code = ranks.wait(START)
-        expect(code == 0 and "0 failures" in ranks.said, f"{what}, alone, is a status: {code}, {last_lines(ranks.said)}")
+        expect(code == 0 and "0 failures" in ranks.said,
+               f"{what}, alone, is a status: {code}, {last_lines(ranks.said)}")
 
 
 def memory():

@@ -4,8 +4,8 @@
 
 What the ranks of a host may hand over to libdelam-petsc: rows of the assembled stiffness (set_rows), cells of a mesh of
 their own (set_cells), cells of rank 0's mesh by the host's own partition (take_cells). Each way gives the curve of the
-library alone, in the plane and in space; with -delam_pc_type bddc in PETSC_OPTIONS rows are refused. Wrong input, also
-on one rank alone, ends on all ranks with one status and message.
+library alone, in the plane and in space, and each rank its displacements (recover); with -delam_pc_type bddc in
+PETSC_OPTIONS rows are refused. Wrong input, also on one rank alone, ends on all ranks with one status and message.
 
 The ranks run this file, too, with the word `work`. Exits with 77 where mpirun or mpi4py is missing.
 """
@@ -30,8 +30,8 @@ def start(count):
                        OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMPI_MCA_rmaps_base_oversubscribe="1",
                        OMPI_MCA_mpi_yield_when_idle="1")
     try:
-        return subprocess.run(["mpirun", "-n", count, sys.executable, "-m", "mpi4py", __file__, "work"], env=environment,
-                              timeout=LIMIT, check=False).returncode
+        return subprocess.run(["mpirun", "-n", count, sys.executable, "-m", "mpi4py", __file__, "work"],
+                              env=environment, timeout=LIMIT, check=False).returncode
     except subprocess.TimeoutExpired:
         print(f"still at work after {LIMIT:g} s")
         return 1
@@ -60,7 +60,7 @@ def expect(condition, what):
             failures.append(what)
 
 
-# ---- scenes: two arms that are pulled apart ---------------------------------------------------------------------------
+# ---- scenes: two arms that are pulled apart --------------------------------------------------------------------------
 
 def bodies_of(dimension):
     """A mesh of two arms, what sets their materials, and the name of their cells."""
@@ -104,9 +104,15 @@ def scene(dimension):
     return problem
 
 
-def curve(problem):
-    history = delam.Solver(problem, not_converged="raise").history(TIMES)
-    return np.array([history[key] for key in ("reaction:opening", "dissipated", "debonded_length")])
+def at_end(problem, ranks=None):
+    """The curve; with ranks they recover the last state, without them its displacements follow."""
+    solver = delam.Solver(problem, not_converged="raise")
+    history = solver.history(TIMES)
+    curve = np.array([history[key] for key in ("reaction:opening", "dissipated", "debonded_length")])
+    if ranks is None:
+        return curve, solver.field("displacement")
+    ranks.recover(solver)
+    return curve
 
 
 def stiffness(problem):
@@ -161,23 +167,37 @@ def own_cells(dimension, change=None):
     return problem, np.append(nodes, 10**6 + COMM.rank)
 
 
-# ---- the ways ----------------------------------------------------------------------------------------------------------
+# ---- the ways -------------------------------------------------------------------------------------------------------
 
 def solved(ranks, problem, what, expected, may_fail=False):
-    """may_fail: it may also say that it has not converged."""
+    """expected: at_end of the library alone. may_fail: it may also say that it has not converged."""
     ranks.attach(problem)
     before = ranks.value("solves")
     try:
-        found = ranks.run(lambda: curve(problem))
+        found = ranks.run(lambda: at_end(problem, ranks))
     except delam.NotConverged as error:
         expect(may_fail, f"{what}: {error}")
         return
     right = ranks.value("solves") > before and (BDDC or ranks.value("factor_entries") > 0)
+    curve, displacement = expected
+    worst = 0.0
     if COMM.rank == 0:
-        worst = (np.abs(found - expected).max(axis=1) / np.abs(expected).max(axis=1)).max()
-        expect(right and worst < ALLOWED and expected[2, -1] > expected[2, 0], f"{what}: differs by {worst:.1e}")
-    else:
-        expect(right, "")
+        worst = (np.abs(found - curve).max(axis=1) / np.abs(curve).max(axis=1)).max()
+        right = right and curve[2, -1] > curve[2, 0]
+    expect(right and worst < ALLOWED, f"{what}: differs by {worst:.1e}")
+    recovered(ranks, what, displacement)
+
+
+def recovered(ranks, what, displacement):
+    """Each node of the mesh belongs to one rank, and all that have it know its displacement."""
+    nodes, owned = ranks.part_nodes()
+    together = np.sort(np.concatenate(COMM.allgather(nodes[owned])))
+    expect(np.array_equal(together, np.arange(len(displacement))), f"{what}: each node is owned once")
+    values = ranks.part_field("displacement")
+    inside = values.shape == (len(nodes), displacement.shape[1]) and np.isin(nodes, np.arange(len(displacement))).all()
+    worst = np.abs(values - displacement[nodes]).max(initial=0.0) / np.abs(displacement).max() if inside else np.inf
+    worst = COMM.allreduce(worst, MPI.MAX)
+    expect(worst < ALLOWED, f"{what}: the displacements of the ranks differ by {worst:.1e}")
 
 
 def ways(dimension):
@@ -185,7 +205,7 @@ def ways(dimension):
     everything = scene(dimension)  # for the stiffness of rows
     problem = scene(dimension) if COMM.rank == 0 else None
     mesh = None if problem is None else problem.mesh
-    expected = curve(scene(dimension)) if COMM.rank == 0 else None
+    expected = COMM.bcast(at_end(scene(dimension)) if COMM.rank == 0 else None)
     with delam.petsc.Ranks(COMM) as ranks:
         nodes, rows, places = own_rows(everything)
         ranks.set_rows(nodes, rows, places, dimension)
@@ -199,15 +219,16 @@ def ways(dimension):
         solved(ranks, problem, f"{name}: own cells", expected)
         ranks.take_cells(mesh, problem, None if mesh is None else sections(mesh, ranks.size))
         solved(ranks, problem, f"{name}: cells by sections", expected)
-        # Each body of its own ranks: the interface is a cut from end to end. In space, with a tolerance of 1e-13, that
-        # is too much for BDDC.
+        # Each body of its own ranks: the interface is a cut from end to end. With a tolerance of 1e-13 that is too much
+        # for BDDC: in space, and in the plane on two ranks in the last step (src/petsc/README.md).
         half = max(ranks.size // 2, 1)
         cut = None if mesh is None else sections(mesh, half) + half * (mesh.cells.bodies % max(ranks.size // half, 1))
         ranks.take_cells(mesh, problem, cut)
-        solved(ranks, problem, f"{name}: cells cut along the interface", expected, BDDC)
+        solved(ranks, problem, f"{name}: cells cut along the interface", expected,
+               may_fail=BDDC and COMM.size > 1)
 
 
-# ---- wrong input -------------------------------------------------------------------------------------------------------
+# ---- wrong input ----------------------------------------------------------------------------------------------------
 
 def refused(kind, call, what, *words):
     """The same error on all ranks, with these words."""
@@ -255,8 +276,8 @@ def wrong_rows(ranks):
     for here, neighbour in other.items():
         if neighbour is not None:
             words = [f"row {dof}", f"column {neighbour}", "12345", f"{whole[dof, neighbour]:.6g}"]
-            change(f"an entry that differs from its mirror image on {'this' if here else 'another'} rank", words, None, 0,
-                   int(neighbour), 12345.0)
+            change(f"an entry that differs from its mirror image on {'this' if here else 'another'} rank", words, None,
+                   0, int(neighbour), 12345.0)
             change("an entry that is missing", [f"{whole[dof, neighbour]:.6g}"], None, 0, int(neighbour), 0.0)
     if count > 1:
         taken = int(COMM.bcast(nodes[0], 0))

@@ -65,7 +65,8 @@ def alive(pid):
 
 
 class Ranks:
-    """delam-mpi, or another program, on a number of ranks; `said` is what it writes, both streams. Ends with the block, ranks included."""
+    """delam-mpi, or another program, on a number of ranks; `said` is what it writes, both streams. Ends with
+    the block, ranks included."""
 
     def __init__(self, count, *words, wrap="", preload="", program=DELAM_MPI):
         self.count = count

@@ -149,7 +149,8 @@ def table_strong(program, ranks):
             if n == 1:
                 continue
             c = counts_of(program, laminate(16, 3, 1e14), n, options)
-            share = {key: c[f"{key}_max"] * n / max(1.0, c[f"{key}_sum"]) for key in ("operations", "bytes_sent", "messages")}
+            share = {key: c[f"{key}_max"] * n / max(1.0, c[f"{key}_sum"])
+                     for key in ("operations", "bytes_sent", "messages")}
             per = max(1.0, c["iterations"]) * n
             row([solver, n, f"{c['iterations']:.0f}", f"{share['operations']:.2f}", f"{share['bytes_sent']:.2f}",
                  f"{share['messages']:.2f}", f"{c['memory_mb_max']:.0f}", f"{c['bytes_sent_sum'] / per:.0f}",

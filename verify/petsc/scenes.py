@@ -77,7 +77,8 @@ class Result:
                  "debonded": of(a["debonded_length"], b["debonded_length"], b["debonded_length"].max()),
                  "adhesion": max((of(*pair, 1.0) for pair in zip(self.adhesion, other.adhesion)), default=0.0),
                  "turned": of(np.array(self.turned), np.array(other.turned), max(other.turned))}
-        if self.steps != other.steps or any(self.fields[name].shape != other.fields[name].shape for name in self.fields):
+        if self.steps != other.steps or any(self.fields[name].shape != other.fields[name].shape
+                                            for name in self.fields):
             raise ValueError(f"fields of other steps or shapes: {self.steps}, {other.steps}")
         found.update({name: of(self.fields[name], other.fields[name], np.abs(other.fields[name]).max(initial=0.0))
                       for name in self.fields})

@@ -13,6 +13,8 @@ import scanner
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 WIDTH, FUNCTION, FILE = 120, 80, 500
+PYTHON = ("examples/", "verify/petsc/", "bindings/python/src/delam/petsc.py", "bindings/python/src/delam/_call.py",
+          "bindings/python/test/test_petsc.py")  # the Python files whose width is checked
 CODE = {".c", ".h", ".cpp", ".hpp", ".cmake", ".f90", ".jl"}
 FOLDERS = ("include", "src", "bindings", "verify", "examples")
 
@@ -25,7 +27,8 @@ def sources():
         paths = [ROOT / line for line in listed.stdout.splitlines()]
     else:
         paths = [p for folder in FOLDERS for p in (ROOT / folder).rglob("*")]
-    kept = (p for p in paths if p.suffix in CODE or p.name == "CMakeLists.txt")
+    kept = (p for p in paths if p.suffix in CODE or p.name == "CMakeLists.txt" or
+            (p.suffix == ".py" and p.relative_to(ROOT).as_posix().startswith(PYTHON)))
     return sorted(p for p in kept if p.is_file() and "verify/abi/baseline/" not in p.as_posix())
 
 

@@ -30,11 +30,9 @@ constexpr const char* usage =
     "the\n"
     "                    command, beside those of the variable PETSC_OPTIONS\n"
     "  --counts          prints at the end what the solves took; in front of the command\n"
-    "  --divide          divides a mesh that Gmsh has partitioned anew, so that cells on the two sides of an "
-    "interface\n"
-    "                    stay together; in front of the command. Without it a mesh with as many partitions as "
-    "processes\n"
-    "                    stays as it is\n"
+    "  --divide          divides the mesh again, although Gmsh has partitioned it, so that cells on the two\n"
+    "                    sides of an interface stay together; in front of the command. Without it a mesh with\n"
+    "                    as many partitions as processes stays as it is\n"
     "Ctrl-C, or SIGTERM to rank 0 or mpirun, ends all ranks; finished steps are kept.\n";
 
 // Ends with the program, on all ranks at once.

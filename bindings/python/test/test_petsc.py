@@ -138,6 +138,8 @@ class Parts:
         def task(data):
             if data == "fail" and comm.rank == 1:
                 raise KeyError("spoon")
+            if data == "fail together":
+                raise KeyError(f"spoon of rank {comm.rank}")
             if data == "refuse" and comm.rank == 1:
                 raise delam.ArgumentError("too hot")
             if isinstance(data, list):
@@ -150,6 +152,8 @@ class Parts:
 
         def work():
             cls.raised(delam.petsc.WorkError, lambda: ranks.everywhere("fail"), "KeyError", "spoon")
+            error = cls.raised(delam.petsc.WorkError, lambda: ranks.everywhere("fail together"), "spoon of rank 0")
+            assert isinstance(error.__cause__, KeyError)
             cls.raised(delam.ArgumentError, lambda: ranks.everywhere("refuse"), "too hot")
             cls.raised(delam.ArgumentError, lambda: ranks.part_field("spoon"), "spoon")
             solver = made[0]
@@ -159,9 +163,26 @@ class Parts:
             for name in names[:3]:
                 own = solver.field(name).reshape(len(seen[name]), -1)
                 assert np.abs(seen[name] - own).max() <= 1e-12 * np.abs(own).max(), name
-            # In equilibrium the nodal forces of the bodies are those of supports and interfaces: they add up to nothing.
+            # A solver that the ranks do not solve for.
+            other = delam.Solver(support.double_cantilever(4))
+            cls.raised(delam.StateError, lambda: ranks.recover(other), "engine")
+            # In equilibrium the nodal forces of the bodies are those of supports and interfaces, which add up to 0.
             assert np.abs(seen["force"].sum(axis=0)).max() <= 1e-7 * np.abs(seen["force"]).max()
         ranks.run(work)
+
+        # What leaves the work after a task is the same on all ranks; whoever has the original has it as the cause.
+        for data, having in (("fail", (1,)), ("fail together", (0, 1))):
+            error = cls.raised(delam.petsc.WorkError, lambda data=data: ranks.run(lambda: ranks.everywhere(data)),
+                               "KeyError", "spoon")
+            assert isinstance(error.__cause__, KeyError) == (comm.rank in having), data
+        cls.raised(delam.ArgumentError, lambda: ranks.run(lambda: ranks.everywhere("refuse")), "too hot")
+
+        # The cause belongs to the task that failed last, not to one that rank 0 has dealt with.
+        def goes_on():
+            cls.raised(delam.petsc.WorkError, lambda: ranks.everywhere("fail"))
+            raise ValueError("fork")
+        error = cls.raised(delam.petsc.WorkError, lambda: ranks.run(goes_on), "ValueError", "fork")
+        assert isinstance(error.__cause__, ValueError) == (comm.rank == 0)
 
     @classmethod
     def march(cls, comm):
@@ -186,6 +207,10 @@ class Parts:
                 worst = abs(made[1] - own).max() / abs(own).max()
                 assert worst < 1e-7, worst
                 cls.raised(delam.StateError, lambda: made[0].advance(1.25))
+            # Of parts that are others now: the reason is libdelam's.
+            ranks.take_scene(problem.mesh if first else None, problem)
+            cls.raised(delam.StateError, lambda: ranks.run(lambda: ranks.recover(made[0])), "cannot be recovered",
+                       "parts have changed")
         if first:
             cls.raised(delam.StateError, lambda: made[0].advance(1.25))
 

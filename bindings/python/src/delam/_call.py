@@ -162,10 +162,17 @@ class Context:
 
     def beside(self, function, *arguments, other=None):
         """Calls a function of another library that uses objects of this context, and of another: its status, and the
-        last error that libdelam has told meanwhile, or ""."""
+        last error that libdelam has told meanwhile, or "". Ctrl-C, and what a callback has raised, is raised when the
+        function has ended."""
         call = Call(self)
         status, _ = self._locked(call, other, self._checked, call, function, arguments, True, False)
         self._log(call, "")
+        if call.exception is not None:
+            exception, call.exception = call.exception, None
+            try:
+                raise exception
+            finally:
+                del exception
         told = [line.decode(errors="replace") for level, line in call.lines if level == 0]
         return status, told[-1] if told else ""
 
@@ -204,8 +211,8 @@ class Context:
         return status, message
 
     def _locked(self, call, other, function, *arguments):
-        """Calls while this thread holds this context, and another if there is one. Ctrl-C cannot come between `with` and
-        the lock, so none stays locked."""
+        """Calls while this thread holds this context, and another if there is one. Ctrl-C cannot come between `with`
+        and the lock, so none stays locked."""
         if other is not None and other is not self:
             first, second = sorted((self, other), key=id)
             first._refuse_reentry()
@@ -298,8 +305,8 @@ class Object:
         self.close()
 
     def cancel(self):
-        """Asks a call that runs with this object in another thread to stop at its next check; it raises Cancelled. If none
-        is running, the request waits for the next step, or for the creation or loading of a solver."""
+        """Asks a call that runs with this object in another thread to stop at its next check; it raises Cancelled. If
+        none is running, the request waits for the next step, or for the creation or loading of a solver."""
         self.context.cancel()
 
 

@@ -72,8 +72,8 @@ _loaded = []
 
 
 class WorkError(DelamError, RuntimeError):
-    """The function of Ranks.run, or the task of a rank, raised something that is not a DelamError. It is the cause on the
-    rank where that happened."""
+    """The function of Ranks.run, or the task of a rank, raised something that is not a DelamError. What leaves `run` is
+    raised on all ranks, with the original as its cause on each rank that has one."""
 
 
 def _candidates():
@@ -130,6 +130,7 @@ class Ranks:
         self._agreed = None  # an error that all ranks have
         self._running = False
         self._task = None  # the C function that holds the task
+        self._tasks = 0  # that have run, the same number on all ranks
         self._raised = None  # by the last task of this rank
 
     # ---- handle
@@ -314,9 +315,10 @@ class Ranks:
 
     def run(self, function: Callable | None = None):
         """Calls function() on rank 0, which may use everything of the package, and of these Ranks `everywhere`,
-        `recover` and the fields of its part, while the other ranks work for it. Returns its result on rank 0, None on the others. What it raises is raised on all ranks: a
-        DelamError as such, another exception as WorkError (on rank 0 with the exception as its cause). What is no
-        Exception, such as KeyboardInterrupt, is raised again on rank 0 and is a WorkError on the others."""
+        `recover` and the fields of its part, while the other ranks work for it. Returns its result on rank 0, None on
+        the others. What it raises is raised on all ranks: a DelamError as such, another exception as WorkError (on rank
+        0 with the exception as its cause). What is no Exception, such as KeyboardInterrupt, is raised again on rank 0
+        and is a WorkError on the others."""
         handle = self._handle
         results, failures = [], []
 
@@ -339,18 +341,20 @@ class Ranks:
             return results[0] if self.rank == 0 else None
         failure = failures[0] if failures else None
         told = None
-        if isinstance(failure, DelamError):
-            told = True, str(failure)
-        elif failure is not None:
-            told = False, f"{type(failure).__name__}: {failure}"
+        if failure is not None:
+            ours = isinstance(failure, DelamError)
+            told = (failure.status if ours and not isinstance(failure, WorkError) else None,
+                    str(failure) if ours else f"{type(failure).__name__}: {failure}", getattr(failure, "_task", None))
         told = self._comm.bcast(told)
         if told is None:
             self._raise(error_of(status, self._message()))
-        ours, message = told
-        if failure is not None and (ours or not isinstance(failure, Exception)):
+        known, message, task = told
+        if failure is not None and (isinstance(failure, DelamError) or not isinstance(failure, Exception)):
             self._agreed = failure
             raise failure
-        self._raise(error_of(status, message) if ours else WorkError(message), failure)
+        if self.rank != 0 and task is not None and task == self._tasks:
+            failure = self._raised  # of this rank's share of the task that failed
+        self._raise(WorkError(message) if known is None else error_of(known, message), failure)
 
     # ---- what all ranks do in the work of rank 0
 
@@ -365,6 +369,7 @@ class Ranks:
 
         @_TASK
         def task(size, data, _):
+            self._tasks += 1
             self._raised = None
             try:
                 function(pickle.loads(ctypes.string_at(data, size)))
@@ -381,26 +386,36 @@ class Ranks:
 
     def everywhere(self, data: object = None) -> None:
         """On rank 0, in the function of `run`: all ranks call their task with these data, which pickle can copy, rank 0
-        as well. Raises what the lowest rank has raised: on rank 0 itself as such; of another rank a DelamError, or
-        WorkError where it was none or an internal error. The function of `run` may catch it and go on. In a task that
-        communicates, all ranks have to agree first that none has failed: they would wait for it for ever."""
+        as well. Raises what the lowest rank has raised: a DelamError, or WorkError where it was none or an internal
+        error; on rank 0 with the original as its cause, if rank 0 is that rank. The function of `run` may catch it and
+        go on; if it does not, `run` raises the same on all ranks. What is no Exception is raised as such on rank 0. In
+        a task that communicates, all ranks have to agree first that none has failed: they would wait for it for
+        ever."""
         self._check_open()
         copied = np.frombuffer(pickle.dumps(data), dtype=np.uint8)
         self._raised = None
         status = self._library.delam_petsc_everywhere(self._pointer, copied.size, pointer(copied))
-        if self._raised is not None:
-            raise self._raised
-        if status == _raw.DELAM_ERROR_INTERNAL:
-            raise WorkError(self._message())
+        own = self._raised
+        if own is not None and (isinstance(own, DelamError) or not isinstance(own, Exception)):
+            raise own
         if status != _raw.DELAM_OK:
-            raise error_of(status, self._message())
+            message = self._message()
+            error = WorkError(message) if status == _raw.DELAM_ERROR_INTERNAL else error_of(status, message)
+            error._task = self._tasks
+            raise error from own
 
     def recover(self, solver: Solver) -> None:
-        """On rank 0, in the function of `run`: each rank recovers the displacements of the solver's present state at the
-        nodes of its part, for `part_field`, and keeps them until the next call. No rank gets all of them."""
+        """On rank 0, in the function of `run`: each rank recovers the displacements of the solver's present state at
+        the nodes of its part, for `part_field`, and keeps them until the next call. No rank gets all of them. Ctrl-C
+        is raised when it has ended."""
         if not isinstance(solver, Solver):
             raise ArgumentError(f"solver = {solver!r}, expected a Solver")
-        self._here(self._library.delam_petsc_recover, ctypes.cast(solver._handle, c_void_p))
+        self._check_open()
+        status, told = solver.context.beside(self._library.delam_petsc_recover, self._pointer,
+                                             ctypes.cast(solver._handle, c_void_p))
+        if status != _raw.DELAM_OK:
+            message = self._message()
+            raise error_of(status, f"{message}: {told}" if told else message)
 
     def part_nodes(self) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
         """Nodes of the fields of this rank, after `recover`: those of its part in their order (delam/petsc.h), on
