@@ -75,15 +75,15 @@ DELAM_API int32_t delam_petsc_set_part(delam_petsc *petsc, int32_t dimension, in
 DELAM_API int32_t delam_petsc_take_scene(delam_petsc *petsc, const delam_mesh *mesh, const delam_problem *problem);
 /* The same with the host's own partition, e.g. that of its mesh generator. ranks: [cell_count], for each cell of rank
  * 0's mesh its rank, in [0, number of ranks); ignored on the other ranks. Cells on the two sides of an interface may
- * have different ranks. With -delam_pc_type bddc in space, solves may then end without convergence, which the solvers
- * say, where a whole interface is a cut.
+ * have different ranks. Where a whole interface is a cut, solves with -delam_pc_type bddc may end without convergence,
+ * which the solvers say.
  * [null mesh, problem and ranks but on rank 0; status cancelled, argument, problem, numerical, state;
  * source none; since 0.1] */
 DELAM_API int32_t delam_petsc_take_cells(delam_petsc *petsc, const delam_mesh *mesh, const delam_problem *problem,
                                          int64_t cell_count, const int32_t *ranks);
 /* Sets rows of the assembled stiffness of the bodies, without supports, in the place of a part. nodes: [node_count],
  * those whose rows this rank has, in the numbers of delam_petsc_set_part; each on one rank only. coordinates:
- * [node_count][dimension], which nothing uses yet. CSR with both triangles: row dimension*i + component is that of
+ * [node_count][dimension], which some preconditioners use. CSR with both triangles: row dimension*i + component is that of
  * nodes[i], columns are dimension*node + component for nodes of any rank. row_starts [dimension*node_count+1], columns
  * and values [entries]; repeated entries add up. All ranks together have to be symmetric to 1e-9 of the geometric mean
  * of the two diagonal entries, which have to be positive. -delam_pc_type bddc, which needs the ranks' own cells, is
@@ -96,8 +96,8 @@ DELAM_API int32_t delam_petsc_set_rows(delam_petsc *petsc, int32_t dimension, in
  * rank's own, NULL on a rank without cells. The mesh has its nodes and cells, the problem their plane assumption,
  * materials, formulations and orientations. nodes: [node_count], for each node of this mesh its number for
  * delam_petsc_set_part, each once; nodes that no cell has do not count. Rank 0's problem, over a mesh of bodies without
- * cells, has the interfaces, supports and loads: of these the rank's own must have none, eigenstrains included, which
- * only cells of rank 0's mesh (delam_petsc_take_scene) can have. Both objects may be destroyed afterwards.
+ * cells, has the interfaces, supports and loads. The rank's own problem must not have any of these, nor eigenstrains:
+ * only cells of rank 0's mesh (delam_petsc_take_scene) can have those. Both objects may be destroyed afterwards.
  * [null mesh, problem, nodes; status cancelled, argument, problem, state; source T. Hughes, The Finite Element Method
  * (1987), chapters 3 and 4; since 0.1] */
 DELAM_API int32_t delam_petsc_set_cells(delam_petsc *petsc, const delam_mesh *mesh, const delam_problem *problem,
