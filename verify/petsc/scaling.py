@@ -6,8 +6,8 @@ of the interfaces.
     python3 verify/petsc/scaling.py DELAM_MPI [--ranks 1,2,4,8,16] [--only TABLE ...]
 
 Counts, not times: the ranks may be more than the cores. Tables (--only): laminate (constant size per rank, for several
-stiffnesses), strong (constant size), fibre, weave, factors (what a rank has of BDDC's local factors), time (the only one
-that is timed, on as many ranks as there are idle cores). Each row is one analysis; the counts are those that
+stiffnesses), strong (constant size), fibre, weave, factors (what a rank has of BDDC's local factors), time (the only
+one that is timed, on as many ranks as there are idle cores). Each row is one analysis; the counts are those that
 `delam-mpi --counts` prints.
 """
 import argparse
@@ -85,9 +85,10 @@ def local_factors(program, text, ranks):
     counts them in its analysis."""
     options = SOLVERS["bddc"]
     for solver in ("dirichlet", "neumann"):
-        options += f" -delam_pc_bddc_{solver}_pc_factor_mat_solver_type mumps -delam_pc_bddc_{solver}_mat_mumps_icntl_4 2"
+        prefix = f" -delam_pc_bddc_{solver}_"
+        options += f"{prefix}pc_factor_mat_solver_type mumps{prefix}mat_mumps_icntl_4 2"
     entries = [[] for _ in range(ranks)]
-    line_of_mumps = re.compile(r"\[1,(\d+)\]<stdout>: -- \(20\) Number of entries in factors \(estim\.\) *= *(\d+)")
+    line_of_mumps = re.compile(r"\[1,(\d+)\]<stdout>: -- \(20\) Number of entries in factors .estim.. *= *(\d+)")
     with started(program, text, ranks, options, of_mpirun=["--tag-output"]) as process:
         for line in process.stdout:
             if found := line_of_mumps.match(line):
