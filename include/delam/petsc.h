@@ -84,10 +84,11 @@ DELAM_API int32_t delam_petsc_take_cells(delam_petsc *petsc, const delam_mesh *m
 /* Sets rows of the assembled stiffness of the bodies, without supports, in the place of a part. nodes: [node_count],
  * those whose rows this rank has, in the numbers of delam_petsc_set_part; each on one rank only. coordinates:
  * [node_count][dimension], which some preconditioners use. CSR with both triangles: row dimension*i + component is that
- * of nodes[i], columns are dimension*node + component for nodes of any rank. row_starts [dimension*node_count+1], columns
- * and values [entries]; repeated entries add up. All ranks together have to be symmetric to 1e-9 of the geometric mean
- * of the two diagonal entries, which have to be positive. -delam_pc_type bddc, which needs the ranks' own cells, is
- * refused. DELAM_ERROR_ARGUMENT: the message names the node and both ranks, or row, column and both values.
+ * of nodes[i], columns are dimension*node + component for nodes of any rank. row_starts [dimension*node_count+1],
+ * columns and values [entries]; repeated entries add up. All ranks together have to be symmetric to 1e-9 of the
+ * geometric mean of the two diagonal entries, which have to be positive. -delam_pc_type bddc, which needs the ranks'
+ * own cells, is refused. DELAM_ERROR_ARGUMENT: the message names the node and both ranks, or row, column and both
+ * values.
  * [unit coordinates L finite, values F/L finite; null coordinates; status argument, state; since 0.1] */
 DELAM_API int32_t delam_petsc_set_rows(delam_petsc *petsc, int32_t dimension, int64_t node_count, const int64_t *nodes,
                                        const double *coordinates, const int64_t *row_starts, const int64_t *columns,
