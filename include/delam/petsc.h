@@ -23,7 +23,7 @@
  *              numbers have to be real, in double precision; the number of DOFs has to fit into its integers.
  *   threads    All calls of a rank come from a thread that may call MPI ("MPI's" in the brackets), one at a time.
  *   errors     If a rank fails where the others cannot know, in the middle of a step of PETSc or MPI that all of them
- *              share, it waits eight seconds for them, then writes a line to the standard error and calls MPI_Abort.
+ *              share, it waits eight seconds for them, then writes a line to PETSC_STDERR and calls MPI_Abort.
  *              In tasks (delam_petsc_everywhere) it waits as long as the others work.
  *   memory     A problem that has the engine may outlive the delam_petsc; its solvers then return DELAM_ERROR_STATE.
  */
@@ -130,7 +130,7 @@ DELAM_API int32_t delam_petsc_set_task(delam_petsc *petsc, delam_petsc_task_call
 /* Rank 0 alone, in the work of delam_petsc_run: runs the task of all ranks, of rank 0 as well, with these bytes [size],
  * and waits for all. If it fails on some ranks, by its number or by an exception of C++, the status is that of the
  * lowest of them, and so is the message on all ranks; work may go on. A rank that has failed waits for the others
- * however long they work, and after eight seconds writes a line to the standard error. If they wait for it in turn,
+ * however long they work, and after eight seconds writes a line to PETSC_STDERR. If they wait for it in turn,
  * nobody ever returns.
  * [null bytes; status argument, internal, memory, state, returned; source none; since 0.1] */
 DELAM_API int32_t delam_petsc_everywhere(delam_petsc *petsc, int64_t size, const uint8_t *bytes);

@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <thread>
+
+#include <petscsys.h>
 
 namespace delam::petsc {
 
@@ -14,6 +15,9 @@ constexpr std::int64_t piece = std::int64_t{1} << 30;  // bytes of one message: 
 constexpr int tag = 7;
 // A rank that has failed waits that long for the others to notice. If they wait for this rank, they never come.
 constexpr std::chrono::seconds patience{8};
+
+// No other rank can be told any more. PETSc's error stream is the host's to redirect (PETSC_STDERR, PetscVFPrintf).
+void say(const std::string& text) { PetscFPrintf(PETSC_COMM_SELF, PETSC_STDERR, "%s\n", text.c_str()); }
 
 }  // namespace
 
@@ -46,11 +50,11 @@ void Communicator::agree(std::int32_t status, std::string text, Waits waits) con
     MPI_Iallreduce(&mine, &lowest, 1, MPI_INT, MPI_MIN, agreed_, &request);
     if (status != DELAM_OK && waits != Waits::long_as_it_takes && !come_in_time(request)) {
         if (waits == Waits::then_aborts) {
-            std::fprintf(stderr, "libdelam-petsc: one rank has failed and the others wait for it: %s\n", text.c_str());
+            say("libdelam-petsc: one rank has failed and the others wait for it: " + text);
             MPI_Abort(agreed_, 1);
         }
-        std::fprintf(stderr, "libdelam-petsc: the task of rank %d has failed, which waits for the others: %s\n", rank_,
-                     text.c_str());
+        say("libdelam-petsc: the task of rank " + std::to_string(rank_) +
+            " has failed, which waits for the others: " + text);
     }
     MPI_Wait(&request, MPI_STATUS_IGNORE);
     count(4.0, 1.0);

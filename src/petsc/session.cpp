@@ -39,8 +39,8 @@ void Session::set_part(Part part, PartCells cells) {
 
 void Session::take_scene(const delam_mesh* mesh, const delam_problem* problem, const GivenRanks* given) {
     comm_.together([&] {
-        const bool given = mesh != nullptr && problem != nullptr;
-        if (comm_.root() && !given) fail(DELAM_ERROR_ARGUMENT, "mesh or problem is NULL on rank 0");
+        if (comm_.root() && (mesh == nullptr || problem == nullptr))
+            fail(DELAM_ERROR_ARGUMENT, "mesh or problem is NULL on rank 0");
     });
     ReceivedPart received = receive_part(comm_, mesh, problem, given);
     set_part(std::move(received.part), std::move(received.cells));
