@@ -223,7 +223,7 @@ TINY = PEELED.replace("divisions = 24", "divisions = 3").replace("divisions = 2"
 CELL = ("mesh.cells_around=16", "time.steps=10", "time.end=0.6")
 
 # Left to the long tier, like others of the quick one.
-NOT_BRIEF = ("thermal", "triangles", "incompressible", "gradient", "mixed-variational", "two-interfaces", "solid")
+NOT_BRIEF = ("triangles", "incompressible", "gradient", "mixed-variational", "two-interfaces", "solid")
 # What delam-mpi says on a number of ranks.
 SAYS = {"partitioned": {1: "divided anew, because the mesh file has 2 partitions, and there are 1 ranks",
                         2: "each of the 2 ranks has a partition of the mesh file",
@@ -250,7 +250,9 @@ def quick():
                               "laws[0].normal_stiffness=1e17", "laws[0].tangential_stiffness=1e17"),
         "two-interfaces": example("dcb-double", "geometry.divisions=40", "time.steps=4", "time.end=0.2"),
         "prescribed-mean": example("mmb", "geometry.divisions=100", "time.steps=3", "time.end=0.6"),
-        "thermal": example("laminate-thermal", "geometry.h=0.0005", "time.steps=5", "solver.mixity_rule=frozen"),
+        # Not at frozen mixity: its last step jumps, the toughness of a pair is then that of the mixity at which an
+        # iteration of the step has met it, and the way of the iterations differs between runs by rounding.
+        "thermal": example("laminate-thermal", "geometry.h=0.0005", "time.steps=5"),
         "fibre": example("fibre", *CELL),
         "fibres": example("fibres-30", "mesh.fibres=3", "mesh.cells_around=12", "time.steps=5",
                           "solver.reduction=auto"),
