@@ -223,7 +223,7 @@ TINY = PEELED.replace("divisions = 24", "divisions = 3").replace("divisions = 2"
 CELL = ("mesh.cells_around=16", "time.steps=10", "time.end=0.6")
 
 # Left to the long tier, like others of the quick one.
-NOT_BRIEF = ("triangles", "incompressible", "gradient", "mixed-variational", "two-interfaces", "solid")
+NOT_BRIEF = ("thermal", "triangles", "incompressible", "gradient", "mixed-variational", "two-interfaces", "solid")
 # What delam-mpi says on a number of ranks.
 SAYS = {"partitioned": {1: "divided anew, because the mesh file has 2 partitions, and there are 1 ranks",
                         2: "each of the 2 ranks has a partition of the mesh file",
