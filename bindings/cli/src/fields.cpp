@@ -170,7 +170,7 @@ double Fields::assemble(const Model& model, const Scene& scene, std::size_t last
     std::vector<XdmfStep> steps;
     std::vector<XdmfBlock> blocks;
     std::vector<FileRange> ranges;  // for the processes that have the fields
-    h5::File file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), path);
+    h5::File file(h5::create(path), path);
     {
         h5::attribute(file.get(), "title", scene.title);
         h5::attribute(file.get(), "version", std::string(delam_version()));
@@ -184,7 +184,7 @@ double Fields::assemble(const Model& model, const Scene& scene, std::size_t last
         for (const std::size_t step : chosen_) {
             if (step > last) break;
             const std::string name = fmt::format("{:08d}", step);
-            const h5::File from(H5Fopen(step_path(step).c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), step_path(step));
+            const h5::File from(h5::open(step_path(step)), step_path(step));
             if (bulk_ != nullptr) {
                 const std::vector<FileRange> of_step = copy_step(from.get(), step_path(step), group.get(), name, scene);
                 ranges.insert(ranges.end(), of_step.begin(), of_step.end());

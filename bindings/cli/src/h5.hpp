@@ -2,7 +2,9 @@
 // Owners of HDF5 identifiers and the few calls that the program needs. Every failure is an OutputFailure.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -42,6 +44,23 @@ using Data = Id<H5Dclose>;
 using Attribute = Id<H5Aclose>;
 using Properties = Id<H5Pclose>;
 using Type = Id<H5Tclose>;
+
+// HDF5 1.10 ends by a signal where it gets no memory for what it keeps of a file. Throws std::bad_alloc before, if this
+// much is not there.
+inline void require_memory() {
+    constexpr std::size_t of_a_file = std::size_t{1} << 20;
+    ::operator delete(::operator new(of_a_file));
+}
+
+// In a folder or, with access, in memory; an earlier file is replaced.
+inline hid_t create(const std::string& path, hid_t access = H5P_DEFAULT) {
+    require_memory();
+    return H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
+}
+inline hid_t open(const std::string& path) {
+    require_memory();
+    return H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+}
 
 inline void require(herr_t status, const std::string& what) {
     if (status < 0) throw OutputFailure(what, "HDF5 could not write (disk full?)");

@@ -13,13 +13,14 @@
 #include <fmt/format.h>
 
 #include "call.hpp"
+#include "ranged_file.hpp"
 
 namespace cli {
 
 namespace {
 
 enum class Job : std::int32_t { gather, write, copy };
-// Bytes of one call of MPI, which counts in int.
+// Bytes that are copied at a time.
 constexpr std::int64_t piece = std::int64_t{1} << 26;
 
 // What rank 0 tells the others.
@@ -63,40 +64,9 @@ Trouble current_trouble() {
     }
 }
 
-std::string reason_of(int code) {
-    char text[MPI_MAX_ERROR_STRING] = {};
-    int length = 0;
-    if (MPI_Error_string(code, text, &length) != MPI_SUCCESS) return fmt::format("MPI's error {}", code);
-    return {text, static_cast<std::size_t>(length)};
-}
-
 void require_file(int code, const char* doing) {
-    if (code != MPI_SUCCESS) throw Trouble(DELAM_ERROR_FILE, fmt::format("{}: {}", doing, reason_of(code)));
+    if (code != 0) throw Trouble(DELAM_ERROR_FILE, fmt::format("{}: {}", doing, std::strerror(code)));
 }
-
-// Of MPI. Each rank opens it alone: what fails then fails on one rank, and nobody waits for it.
-class File {
-public:
-    File(MPI_Comm comm, const std::string& path, int mode) {
-        code_ = MPI_File_open(comm, path.c_str(), mode, MPI_INFO_NULL, &file_);
-        if (code_ != MPI_SUCCESS) file_ = MPI_FILE_NULL;
-    }
-    ~File() { (void)close(); }
-    File(const File&) = delete;
-    File& operator=(const File&) = delete;
-    int close() {
-        if (file_ == MPI_FILE_NULL) return MPI_SUCCESS;
-        const int code = MPI_File_close(&file_);
-        file_ = MPI_FILE_NULL;
-        return code;
-    }
-    MPI_File get() const { return file_; }
-    int code() const { return code_; }  // of opening it
-
-private:
-    MPI_File file_ = MPI_FILE_NULL;
-    int code_ = MPI_SUCCESS;
-};
 
 class RowType {
 public:
@@ -113,54 +83,26 @@ private:
     MPI_Datatype type_ = MPI_DATATYPE_NULL;
 };
 
-// Doubles that lie one behind the other.
-int write_doubles(MPI_File file, std::int64_t offset, const std::vector<double>& values) {
-    constexpr std::int64_t at_a_time = piece / 8;
-    const auto count = static_cast<std::int64_t>(values.size());
-    for (std::int64_t at = 0; at < count; at += at_a_time) {
-        const int now = static_cast<int>(std::min(at_a_time, count - at));
-        MPI_Status status{};
-        if (const int code = MPI_File_write_at(file, offset + 8 * at, values.data() + at, now, MPI_DOUBLE, &status);
-            code != MPI_SUCCESS)
-            return code;
-        int written = 0;
-        MPI_Get_count(&status, MPI_DOUBLE, &written);
-        if (written != now) return MPI_ERR_NO_SPACE;
-    }
-    return MPI_SUCCESS;
-}
-
 // Of ranges that lie one behind the other, the bytes from first to last.
 void copy_share(const std::string& path, const std::vector<FileRange>& ranges, std::int64_t first, std::int64_t last) {
     std::vector<char> bytes(static_cast<std::size_t>(std::min(piece, last - first)));
-    File to(MPI_COMM_SELF, path, MPI_MODE_WRONLY);
+    RangedFile to(path, RangedFile::Mode::write);
     require_file(to.code(), "open");
-    const auto require_all = [](MPI_Status& status, int count, const char* doing) {
-        int done = 0;
-        MPI_Get_count(&status, MPI_BYTE, &done);
-        if (done != count) require_file(MPI_ERR_IO, doing);
-    };
     std::int64_t before = 0;
     for (const FileRange& range : ranges) {
         const std::int64_t begin = std::max(first, before), end = std::min(last, before + range.bytes);
         if (begin < end) {
-            const File from(MPI_COMM_SELF, range.from, MPI_MODE_RDONLY);
+            RangedFile from(range.from, RangedFile::Mode::read);
             require_file(from.code(), "open");
             for (std::int64_t at = begin; at < end; at += piece) {
-                const int now = static_cast<int>(std::min(piece, end - at));
-                MPI_Status status{};
-                require_file(
-                    MPI_File_read_at(from.get(), range.offset + at - before, bytes.data(), now, MPI_BYTE, &status),
-                    "read");
-                require_all(status, now, "read");
-                require_file(MPI_File_write_at(to.get(), range.to + at - before, bytes.data(), now, MPI_BYTE, &status),
-                             "write");
-                require_all(status, now, "write");
+                const std::int64_t now = std::min(piece, end - at);
+                require_file(from.read(range.offset + at - before, bytes.data(), now), "read");
+                require_file(to.write(range.to + at - before, bytes.data(), now), "write");
             }
         }
         before += range.bytes;
     }
-    require_file(MPI_File_sync(to.get()), "write");
+    require_file(to.sync(), "write");
     require_file(to.close(), "close");
 }
 
@@ -406,17 +348,17 @@ void RankFields::write_rows(Told& told) {
             room.offset = told.get<std::int64_t>();
         }
     });
-    File file(MPI_COMM_SELF, path, MPI_MODE_WRONLY);
+    RangedFile file(path, RangedFile::Mode::write);
     together([&] { require_file(file.code(), "open"); });
-    int code = MPI_SUCCESS;
+    int code = 0;
     for (const Room& room : rooms) {
         std::int64_t first = 0;
         const std::vector<double> rows = block_of_rows(room, first);
         const std::int64_t row_bytes = 8 * static_cast<std::int64_t>(room.field.columns);
-        const int written = write_doubles(file.get(), room.offset + first * row_bytes, rows);
-        if (code == MPI_SUCCESS) code = written;
+        const int written = file.write(room.offset + first * row_bytes, rows.data(), 8 * std::ssize(rows));
+        if (code == 0) code = written;
     }
-    if (const int synced = MPI_File_sync(file.get()); code == MPI_SUCCESS) code = synced;
+    if (const int synced = file.sync(); code == 0) code = synced;
     const int closed = file.close();
     together([&] {
         require_file(code, "write");
@@ -425,7 +367,8 @@ void RankFields::write_rows(Told& told) {
 }
 
 // The rows of a part lie scattered in a field. The ranks therefore exchange them, so that each has a block of rows, and
-// writes it in one piece. (MPI_File_write_all would do the same, but Open MPI 4.1 does not tell when a write fails.)
+// writes it in one piece. (MPI_File_write_all would do the same, but Open MPI 4.1 does not tell when a write fails, and
+// a rank without memory for MPI_File_open ends by a signal.)
 std::vector<double> RankFields::block_of_rows(const Room& room, std::int64_t& first) const {
     const std::int64_t share = std::max<std::int64_t>(1, (room.rows + size_ - 1) / size_);
     const std::size_t columns = room.field.columns;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The fields of nodes and cells on the ranks of delam-mpi. Each rank computes those of its part and writes its rows
-// into files that rank 0 has laid out; no rank has all rows of a field. The files are written by MPI-IO: Debian's HDF5
+// into files that rank 0 has laid out; no rank has all rows of a field. Each writes a range of its own: Debian's HDF5
 // for many processes has the symbols of the one that this program has already.
 #pragma once
 

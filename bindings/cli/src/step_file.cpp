@@ -140,7 +140,7 @@ std::pair<std::int64_t, std::int64_t> mesh_rows(const Model& model) {
 std::string step_bytes(const Model& model, delam_solver* solver, const Scene& scene, std::int64_t step, double time) {
     const h5::Properties access(H5Pcreate(H5P_FILE_ACCESS), "fields.h5");
     h5::require(H5Pset_fapl_core(access.get(), std::size_t{1} << 20, false), "fields.h5");
-    const h5::File file(H5Fcreate("step", H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), "fields.h5");
+    const h5::File file(h5::create("step", access.get()), "fields.h5");
     Field displacement;
     BulkSource source;
     source.write = [&](hid_t group) {
@@ -194,7 +194,7 @@ void write_step_file(const std::string& path, const Model& model, delam_solver* 
     };
     source.largest_rotation = [&] { return bulk.largest_rotation(); };
     try {
-        h5::File file(H5Fcreate(beside.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), beside);
+        h5::File file(h5::create(beside), beside);
         write_step(file.get(), model, solver, scene, step, time, source);
         h5::require(H5Fflush(file.get(), H5F_SCOPE_GLOBAL), beside);
         file.close(beside);
