@@ -417,20 +417,23 @@ DELAM_API int32_t delam_mesh_find_patch(const delam_mesh *mesh, int32_t body, co
  * Numbers, set by key with delam_law_set (delam_law_parameter_info lists those of each kind):
  *   normal_stiffness, tangential_stiffness  k_n, k_t               F/L3  > 0
  *   normal_onset, tangential_onset          Go at B = 0, at B = 1  F/L   > 0
+ *   normal_strength, tangential_strength    instead of the onset of that mode, the peak s of its traction: Go is
+ *                                           s^2/(2 k_n) or s^2/(2 k_t)  F/L2  > 0
  *   normal_toughness, tangential_toughness  Gc at B = 0, at B = 1  F/L   >= onset
  *   plateau                                 [0, 1)    trapezoidal only
  *   gradient                                coefficient kappa >= 0 (F L, default 0) of the energy kappa/2 |grad zeta|^2
  * The text `criterion`, set with delam_law_set_text, selects how onset and toughness depend on the mixity. Below, G is
  * the onset Go(B) or the toughness Gc(B); G_n and G_t are its values at B = 0 and B = 1, i.e. the numbers normal_...
- * and tangential_... above. The exponents of a criterion are numbers > 0 with default 2; a change of the criterion
- * resets them to 2:
+ * and tangential_... above. The text `onset_criterion` selects another criterion for the onset alone: with power and
+ * onset_exponent = 1, damage begins at (t_n/s_n)^2 + (t_t/s_t)^2 = 1, t being tractions and s their peaks in the pure
+ * modes. The exponents of a criterion are numbers > 0 with default 2; a change of the criterion resets them to 2:
  *   valoroso-champaney (default)  ((1-B) G/G_n)^p + (B G/G_t)^q = 1 (Eng. Fract. Mech. 73, 2006), p and q:
  *                                 onset_exponent_1, onset_exponent_2, toughness_exponent_1, toughness_exponent_2
  *   power                         the same with p = q: onset_exponent, toughness_exponent
  *   benzeggagh-kenane             G = G_n + (G_t - G_n) B^eta (Compos. Sci. Technol. 56, 1996), eta:
  *                                 onset_exponent, toughness_exponent
  * Gc(B) >= Go(B) must hold for every mixity B in [0,1]. A key that does not belong to the kind or to the criterion
- * gives DELAM_ERROR_ARGUMENT.
+ * gives DELAM_ERROR_ARGUMENT. Of an onset and a strength of the same mode, the one set last counts.
  * With kappa > 0, the damage of all pairs of an interface is coupled and follows from one minimisation. It spreads over
  * a length of about sqrt(kappa/Gc), which the mesh of the interface must resolve. The gradient term acts only on faces
  * whose pairs all have an initial adhesion > 0.
@@ -439,7 +442,7 @@ DELAM_API int32_t delam_law_create(delam_context *context, const char *kind, del
 /* Sets a number of a law by its key; delam_law_create lists the keys and their ranges.
  * [unit value of key in its range; null none; status argument; since 0.1] */
 DELAM_API int32_t delam_law_set(delam_law *law, const char *key, double value);
-/* Sets a text of a law by its key: `criterion`, to a value from the list at delam_law_create.
+/* Sets a text of a law by its key: `criterion` or `onset_criterion`, to a value from the list at delam_law_create.
  * [null none; status argument; since 0.1] */
 DELAM_API int32_t delam_law_set_text(delam_law *law, const char *key, const char *value);
 /* Sets the softening curve of a tabulated law: straight lines through the points (xi, s), from (0, 1) to (1, 0). xi, s:

@@ -49,7 +49,7 @@ const LawParameter& require_parameter(const Law& law, const std::string& key, co
         if (key != p.key || type != p.type) continue;
         if (((p.kinds >> law.softening.index()) & 1u) != 0)
             fail(DELAM_ERROR_ARGUMENT, "law parameter '", key, "' does not belong to criterion ",
-                 name_of(law.criterion), "; known are ", known);
+                 name_of(p.of_onset ? law.criterion_of_onset() : law.criterion), "; known are ", known);
         fail(DELAM_ERROR_ARGUMENT, "law parameter '", key, "' does not belong to kind ", law.kind().name,
              "; known are ", known.empty() ? "none" : known);
     }
@@ -118,7 +118,10 @@ int32_t delam_law_set_text(delam_law* law, const char* key, const char* value) {
         Criterion criterion;
         if (!criterion_of(value, criterion))
             fail(DELAM_ERROR_ARGUMENT, key, " = '", value, "' is not known; known are ", parameter.range.words);
-        law->core->set_criterion(criterion);
+        if (key == std::string("criterion"))
+            law->core->set_criterion(criterion);
+        else
+            law->core->set_onset_criterion(criterion);
     });
 }
 

@@ -21,7 +21,7 @@ constexpr double rounding = 1e-12;  // relative amount by which Gc may fall shor
 double mixity_of(double x) { return 1.0 / (1.0 + std::exp(-x)); }
 double excess(const Law& law, double x) {
     const double b = mixity_of(x);
-    const double onset = toughness_at(law.criterion, law.onset_modes(), b);
+    const double onset = toughness_at(law.criterion_of_onset(), law.onset_modes(), b);
     return std::log(toughness_at(law.criterion, law.total_modes(), b) / onset);
 }
 
@@ -41,8 +41,9 @@ std::pair<double, double> least_excess(const Law& law) {
     constexpr double highest = 36.5;
     std::vector<double> x{lowest, highest};
     for (int i = 1; i < 1024; ++i) x.push_back(std::log(i / (1024.0 - i)));
-    for (const Modes& modes : {law.onset_modes(), law.total_modes()}) {
-        const double centre = crossing(law.criterion, modes);
+    for (const auto& [criterion, modes] :
+         {std::pair(law.criterion_of_onset(), law.onset_modes()), std::pair(law.criterion, law.total_modes())}) {
+        const double centre = crossing(criterion, modes);
         x.push_back(centre);
         for (double distance = 0.002; distance < 1500.0; distance += 0.002 + 0.02 * distance) {
             x.push_back(centre - distance);
@@ -92,14 +93,14 @@ void require_admissible(const Law& law) {
         fail(DELAM_ERROR_PROBLEM, "law: tangential_toughness ", total.tangential, " < tangential_onset ",
              onset.tangential);
 
-    // G(B) grows with G_n and G_t, so with the same exponents on both sides the pure modes decide. With different ones
-    // Gc may dip below Go in between.
-    if (onset.first == total.first && onset.second == total.second) return;
+    // G(B) grows with G_n and G_t, so with the same criterion and exponents on both sides the pure modes decide. With
+    // different ones Gc may dip below Go in between.
+    if (law.criterion_of_onset() == law.criterion && onset.first == total.first && onset.second == total.second) return;
     const auto [x, value] = least_excess(law);
     if (value >= -rounding) return;
     const double b = mixity_of(x);
     fail(DELAM_ERROR_PROBLEM, "law: toughness ", toughness_at(law.criterion, total, b), " < onset ",
-         toughness_at(law.criterion, onset, b), " at mixity B = ", b,
+         toughness_at(law.criterion_of_onset(), onset, b), " at mixity B = ", b,
          " although the pure modes are fine: Gc(B) >= Go(B) is needed for every B in [0,1]; change the exponents");
 }
 

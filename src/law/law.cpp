@@ -18,6 +18,7 @@ bool Law::set(const std::string& key, double value) {
     if (p->value != nullptr) {
         this->*p->value = value;
         if (p->second != nullptr) this->*p->second = value;
+        if (p->instead_of != nullptr) this->*p->instead_of = 0.0;
     } else if (p->write != nullptr) {
         p->write(softening, value);
     }
@@ -27,12 +28,19 @@ bool Law::set(const std::string& key, double value) {
 void Law::set_criterion(Criterion chosen) {
     if (chosen == criterion) return;
     criterion = chosen;
-    onset_exponent_1 = onset_exponent_2 = toughness_exponent_1 = toughness_exponent_2 = 2.0;
+    toughness_exponent_1 = toughness_exponent_2 = 2.0;
+    if (!onset_criterion) onset_exponent_1 = onset_exponent_2 = 2.0;
+}
+
+void Law::set_onset_criterion(Criterion chosen) {
+    if (chosen != criterion_of_onset()) onset_exponent_1 = onset_exponent_2 = 2.0;
+    onset_criterion = chosen;
 }
 
 void Law::validate() const {
     for (const LawParameter& p : law_parameters()) {
         if (!applies(p, *this) || p.type != std::string("real")) continue;
+        if (p.instead_of != nullptr && this->*p.instead_of > 0.0) continue;
         const double value = p.value != nullptr ? this->*p.value : p.read(softening);
         if (!p.range.allows(value)) fail(DELAM_ERROR_PROBLEM, "law: ", p.key, " ", value, ": must be ", p.range.words);
     }
@@ -50,12 +58,23 @@ void Law::validate() const {
 
 bool Law::depends_on_mixity() const {
     if (host() != nullptr) return true;
-    return delam::depends_on_mixity(criterion, onset_modes()) || delam::depends_on_mixity(criterion, total_modes());
+    return delam::depends_on_mixity(criterion_of_onset(), onset_modes()) ||
+           delam::depends_on_mixity(criterion, total_modes());
 }
+
+namespace {
+
+// The traction before any damage, k [u], has its peak s at the driving energy k [u]^2/2 = s^2/(2 k).
+double onset_of(double given, double strength, double stiffness) {
+    return strength > 0.0 ? strength / stiffness * strength / 2.0 : given;
+}
+
+}  // namespace
 
 Modes Law::onset_modes() const {
     if (!softens()) return total_modes();
-    return {normal_onset, tangential_onset, onset_exponent_1, onset_exponent_2};
+    return {onset_of(normal_onset, normal_strength, normal_stiffness),
+            onset_of(tangential_onset, tangential_strength, tangential_stiffness), onset_exponent_1, onset_exponent_2};
 }
 Modes Law::total_modes() const {
     return {normal_toughness, tangential_toughness, toughness_exponent_1, toughness_exponent_2};
@@ -63,13 +82,14 @@ Modes Law::total_modes() const {
 
 Toughness Law::toughness(double mixity) const {
     if (const HostSoftening* given = host()) return given->toughness(mixity);
-    const double onset = toughness_at(criterion, onset_modes(), mixity);
+    const double onset = toughness_at(criterion_of_onset(), onset_modes(), mixity);
     return {onset, std::max(onset, toughness_at(criterion, total_modes(), mixity)), mixity};
 }
 
 ToughnessSlope Law::toughness_slope(double mixity) const {
     if (const HostSoftening* given = host()) return given->toughness_slope(mixity);
-    return {toughness_slope_at(criterion, onset_modes(), mixity), toughness_slope_at(criterion, total_modes(), mixity)};
+    return {toughness_slope_at(criterion_of_onset(), onset_modes(), mixity),
+            toughness_slope_at(criterion, total_modes(), mixity)};
 }
 
 double Law::least_onset() const {

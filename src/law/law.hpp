@@ -14,6 +14,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <variant>
@@ -29,6 +30,8 @@ struct Law {
     double tangential_stiffness = 0.0;  // k_t
     double normal_onset = 0.0;          // G^o_n, F/L; none of Griffith's law, nor of one that the host gives
     double tangential_onset = 0.0;
+    double normal_strength = 0.0;  // s_n, F/L2: instead of the onset, G^o_n = s_n^2/(2 k_n); 0: the onset is given
+    double tangential_strength = 0.0;
     double normal_toughness = 0.0;  // G^c_n
     double tangential_toughness = 0.0;
     double onset_exponent_1 = 2.0;  // p, q or eta of the onset; the criteria with one exponent read the first
@@ -37,12 +40,16 @@ struct Law {
     double toughness_exponent_2 = 2.0;
     double gradient = 0.0;  // kappa >= 0 of the gradient term kappa/2 |grad zeta|^2, F L; 0: none
     Criterion criterion = Criterion::valoroso_champaney;
+    std::optional<Criterion> onset_criterion;  // of the onset where it is not that of the toughness
     Softening softening;
 
     // Sets a number by its public name (delam_law_set), whatever its value; false: the law has no such number.
     bool set(const std::string& key, double value);
-    // Another criterion starts with its own exponents, 2.
+    // The criterion of the toughness, and of the onset as long as the onset has none of its own. Another criterion starts
+    // with its own exponents, 2.
     void set_criterion(Criterion chosen);
+    void set_onset_criterion(Criterion chosen);
+    Criterion criterion_of_onset() const { return onset_criterion.value_or(criterion); }
     // Throws Error(DELAM_ERROR_PROBLEM) naming the parameter, its value and range, or the mixity where Gc(B) < Go(B),
     // or where the callbacks of the host contradict each other.
     void validate() const;

@@ -31,6 +31,15 @@ constexpr LawParameter number(const char* key, const char* unit, const char* ini
     return {key, "real", unit, initial, positive, meaning, kinds, criteria, value, second};
 }
 
+constexpr LawParameter instead(LawParameter row, double Law::*other) {
+    row.instead_of = other;
+    return row;
+}
+constexpr LawParameter of_onset(LawParameter row) {
+    row.of_onset = true;
+    return row;
+}
+
 // Of all shapes. The last row stands behind what the shapes add.
 constexpr LawParameter common[] = {
     {"criterion",
@@ -38,28 +47,49 @@ constexpr LawParameter common[] = {
      "-",
      "valoroso-champaney",
      {"valoroso-champaney, power, benzeggagh-kenane", -no_bound, no_bound, true, true},
-     "how the toughness depends on the mixity B; setting another one sets the exponents to their defaults",
+     "how toughness and onset depend on the mixity B; setting another one sets the exponents to their defaults",
      computed,
+     any},
+    {"onset_criterion",
+     "text",
+     "-",
+     "that of criterion",
+     {"valoroso-champaney, power, benzeggagh-kenane", -no_bound, no_bound, true, true},
+     "how the onset depends on the mixity B, where not as the toughness does; setting another one sets the exponents of "
+     "the onset to their defaults",
+     softens,
      any},
     number("normal_stiffness", "F/L3", "", "k_n: traction over opening before any damage", any, any,
            &Law::normal_stiffness),
     number("tangential_stiffness", "F/L3", "", "k_t: traction over slip before any damage", any, any,
            &Law::tangential_stiffness),
-    number("normal_onset", "F/L", "", "G^o_n: driving energy at which damage begins in opening", softens, any,
-           &Law::normal_onset),
-    number("tangential_onset", "F/L", "", "G^o_t: driving energy at which damage begins in sliding", softens, any,
-           &Law::tangential_onset),
+    instead(number("normal_onset", "F/L", "", "G^o_n: driving energy at which damage begins in opening", softens, any,
+                   &Law::normal_onset),
+            &Law::normal_strength),
+    instead(number("tangential_onset", "F/L", "", "G^o_t: driving energy at which damage begins in sliding", softens,
+                   any, &Law::tangential_onset),
+            &Law::tangential_strength),
+    instead(number("normal_strength", "F/L2", "that of normal_onset",
+                   "instead of normal_onset: the largest traction in opening, G^o_n = s^2/(2 k_n)", softens, any,
+                   &Law::normal_strength),
+            &Law::normal_onset),
+    instead(number("tangential_strength", "F/L2", "that of tangential_onset",
+                   "instead of tangential_onset: the largest traction in sliding, G^o_t = s^2/(2 k_t)", softens, any,
+                   &Law::tangential_strength),
+            &Law::tangential_onset),
     number("normal_toughness", "F/L", "", "G^c_n >= G^o_n: energy to debond completely in opening", computed, any,
            &Law::normal_toughness),
     number("tangential_toughness", "F/L", "", "G^c_t >= G^o_t: energy to debond completely in sliding", computed, any,
            &Law::tangential_toughness),
-    number("onset_exponent_1", "-", "2", "p of the onset: ((1-B) G/G_n)^p + (B G/G_t)^q = 1", softens, two_exponents,
-           &Law::onset_exponent_1),
-    number("onset_exponent_2", "-", "2", "q of the onset", softens, two_exponents, &Law::onset_exponent_2),
+    of_onset(number("onset_exponent_1", "-", "2", "p of the onset: ((1-B) G/G_n)^p + (B G/G_t)^q = 1", softens,
+                    two_exponents, &Law::onset_exponent_1)),
+    of_onset(
+        number("onset_exponent_2", "-", "2", "q of the onset", softens, two_exponents, &Law::onset_exponent_2)),
     number("toughness_exponent_1", "-", "2", "p of the toughness", computed, two_exponents, &Law::toughness_exponent_1),
     number("toughness_exponent_2", "-", "2", "q of the toughness", computed, two_exponents, &Law::toughness_exponent_2),
-    number("onset_exponent", "-", "2", "of the onset: p = q of the power law, eta of G_n + (G_t - G_n) B^eta", softens,
-           one_exponent, &Law::onset_exponent_1, &Law::onset_exponent_2),
+    of_onset(number("onset_exponent", "-", "2",
+                    "of the onset: p = q of the power law, eta of G_n + (G_t - G_n) B^eta", softens, one_exponent,
+                    &Law::onset_exponent_1, &Law::onset_exponent_2)),
     number("toughness_exponent", "-", "2", "likewise of the toughness", computed, one_exponent,
            &Law::toughness_exponent_1, &Law::toughness_exponent_2),
     {"gradient", "real", "F L", "0", not_negative, "kappa of the gradient term kappa/2 |grad zeta|^2", any, any,
@@ -119,7 +149,8 @@ constexpr auto parameters = joined(std::type_identity<Softening>{});
 std::span<const LawParameter> law_parameters() { return parameters; }
 
 bool applies(const LawParameter& p, const Law& law) {
-    const unsigned kind = bit(law.softening.index()), criterion = bit(static_cast<std::size_t>(law.criterion));
+    const Criterion governing = p.of_onset ? law.criterion_of_onset() : law.criterion;
+    const unsigned kind = bit(law.softening.index()), criterion = bit(static_cast<std::size_t>(governing));
     return (p.kinds & kind) != 0 && (p.criteria & criterion) != 0;
 }
 

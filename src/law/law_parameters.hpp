@@ -21,6 +21,8 @@ struct LawParameter {
     unsigned criteria;                           // bit i: criterion i has it
     double Law::*value = nullptr;                // null: it belongs to the shape
     double Law::*second = nullptr;               // set along with it
+    double Law::*instead_of = nullptr;           // one of the two is given, the other is 0
+    bool of_onset = false;                       // the criterion is that of the onset
     double (*read)(const Softening&) = nullptr;  // of a number of the shape
     void (*write)(Softening&, double) = nullptr;
 };

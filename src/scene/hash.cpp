@@ -111,10 +111,13 @@ void add_law(Fnv& fnv, const Law& law) {
         fnv.add(law.*member);
     };
     for (const LawParameter& parameter : law_parameters()) {
+        if (parameter.instead_of != nullptr && !(law.*parameter.value > 0.0)) continue;  // the other one is given
+        if (parameter.instead_of != nullptr && *parameter.initial != '\0') fnv.add(std::string(parameter.key));
         add(parameter.value);
         add(parameter.second);
     }
     fnv.add(std::string(name_of(law.criterion)));
+    if (law.criterion_of_onset() != law.criterion) fnv.add(std::string(name_of(law.criterion_of_onset())));
     fnv.add(std::string(law.kind().name));
     law.hash_shape([&](const auto& held) { fnv.add(held); });
 }

@@ -14,7 +14,6 @@
 #include <fmt/format.h>
 
 #include "abaqus_elements.hpp"
-#include "cell_shape.hpp"
 #include "reader.hpp"
 
 namespace cli::abaqus {
@@ -116,8 +115,10 @@ private:
             take_set(card, open_->element_sets, "ELSET");
         } else if (word == "SURFACE") {
             take_surface(card);
-        } else if (word == "SOLID SECTION") {
+        } else if (word == "SOLID SECTION" || word == "SHELL SECTION") {
             open_->sections.push_back({open_, card.required("ELSET"), card.place});
+        } else if (word == "COHESIVE SECTION") {
+            open_->cohesive_sections.push_back({open_, card.required("ELSET"), card.place});
         } else if (word == "PART") {
             begin_part(card);
         } else if (word == "INSTANCE") {
@@ -182,6 +183,7 @@ private:
             std::for_each(surface.nodes.begin(), surface.nodes.end(), renew);
         }
         std::for_each(instance.sections.begin(), instance.sections.end(), renew);
+        std::for_each(instance.cohesive_sections.begin(), instance.cohesive_sections.end(), renew);
         if (card.lines.size() > 2) throw SceneFailure(card.lines[2].place, "at most two lines are expected");
         if (!card.lines.empty()) {
             const std::vector<double> by = numbers(card.lines[0], 3);
@@ -228,7 +230,7 @@ private:
     void take_elements(const InpCard& card) {
         card.only({"TYPE", "ELSET"});
         const ElementType& type = type_named(card);
-        const std::size_t per_element = shape_of(type.cell).nodes;
+        const std::size_t per_element = type.nodes();
         if (!type.note.empty()) set_note(fmt::format("{}: {}", type.name, type.note));
         if (!type.formulation.empty())
             set_note(

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "cell_shape.hpp"
 #include "delam/delam.h"
 #include "reader.hpp"
 
@@ -42,9 +43,20 @@ constexpr ElementType element_types[] = {
     {"C3D10M", DELAM_TET10, "", "", plain},
     {"C3D20", DELAM_HEX20, "", "", ""},
     {"C3D20R", DELAM_HEX20, "", "", full},
+    {"SC8R", DELAM_HEX8, "incompatible", "", "a solid cell here"},
+    {"COH2D4", -1, "", "", "", 2},
+    {"COH3D6", -1, "", "", "", 3},
+    {"COH3D8", -1, "", "", "", 4},
 };
 
 }  // namespace
+
+std::size_t ElementType::nodes() const { return cohesive() ? 2 * face_nodes : shape_of(cell).nodes; }
+
+std::int32_t ElementType::dimension() const {
+    if (!cohesive()) return shape_of(cell).dimension;
+    return face_nodes == 2 ? 2 : 3;
+}
 
 const ElementType& type_named(const InpCard& card) {
     const std::string name = upper(card.required("TYPE"));
@@ -53,10 +65,6 @@ const ElementType& type_named(const InpCard& card) {
         if (type.name == name) return type;
         known.emplace_back(type.name);
     }
-    if (name.rfind("COH", 0) == 0)
-        throw SceneFailure(card.place, "type " + name +
-                                           ": cohesive elements are not read: remove them, "
-                                           "[[interfaces]] hold bodies that touch");
     throw SceneFailure(
         card.place, fmt::format("type {} is not read{}; these are: {}", name, suggestion(name, known), listing(known)));
 }

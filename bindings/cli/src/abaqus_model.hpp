@@ -75,6 +75,7 @@ struct Part {
     std::map<std::string, Set> element_sets;
     std::map<std::string, Surface> surfaces;
     std::vector<Entry> sections;  // their element sets
+    std::vector<Entry> cohesive_sections;
     std::size_t order = 0;        // position among the parts of the mesh
     std::int64_t first_node = 0;  // number in the mesh
 };
@@ -82,6 +83,8 @@ struct Part {
 struct ElementAt {
     const Part* scope;
     std::size_t index;
+    [[nodiscard]] const Element& element() const { return scope->elements[index]; }
+    [[nodiscard]] const ElementType& type() const { return *element().type; }
     bool operator<(const ElementAt& other) const {
         return std::pair(scope->order, index) < std::pair(other.scope->order, other.index);
     }

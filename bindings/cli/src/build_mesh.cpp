@@ -221,7 +221,7 @@ public:
     RegionPairs(const Model& model, const Scene& scene, std::int64_t index, const Place& place)
         : dimension_(static_cast<std::size_t>(scene.geometry.dimension)),
           slack_(1e-6 * scene.geometry.smallest_edge),
-          sets_(scene.mesh->node_sets) {
+          mesh_(*scene.mesh) {
         const delam_context* context = model.context.get();
         const delam_mesh* mesh = model.mesh.get();
         std::int64_t pairs = 0;
@@ -243,11 +243,12 @@ public:
     }
 
     [[nodiscard]] std::vector<std::int64_t> in(const Region& region) const {
+        if (region.outside) return outside(region.set);
         std::vector<Where> where(node_b_.size(), Where::outside);
         if (region.set.empty()) {
             for (std::size_t i = 0; i < node_b_.size(); ++i) where[i] = in_box(region, i);
         } else {
-            const std::vector<std::int64_t>& set = sets_.at(region.set);
+            const std::vector<std::int64_t>& set = mesh_.node_sets.at(region.set);
             for (std::size_t i = 0; i < node_b_.size(); ++i)
                 if (std::binary_search(set.begin(), set.end(), origins_[static_cast<std::size_t>(node_b_[i])]))
                     where[i] = Where::edge;
@@ -272,6 +273,41 @@ public:
 private:
     enum class Where { outside, edge, inside };
 
+    // The pairs without a face in the set, which is one of faces or else one of nodes that hold all corners of a face.
+    [[nodiscard]] std::vector<std::int64_t> outside(const std::string& name) const {
+        const std::size_t corners = dimension_ == 2 ? 2 : per_face_ % 3 == 0 ? 3 : 4;
+        const auto key_of = [](auto begin, auto end) {
+            std::set<std::int64_t> key(begin, end);  // a triangle among quadrilaterals repeats a corner
+            key.erase(-1);
+            return key;
+        };
+        std::set<std::set<std::int64_t>> known;
+        const auto faces = mesh_.face_sets.find(name);
+        if (faces != mesh_.face_sets.end())
+            for (const auto& face : faces->second) {
+                const auto all = static_cast<std::size_t>(std::find(face.begin(), face.end(), -1) - face.begin());
+                const std::size_t of_it = dimension_ == 2 ? 2 : all % 3 == 0 ? 3 : 4;
+                known.insert(key_of(face.begin(), face.begin() + static_cast<std::ptrdiff_t>(of_it)));
+            }
+        const std::vector<std::int64_t>& nodes = mesh_.node_sets.at(name);
+        std::vector<bool> held(node_b_.size(), false);
+        for (std::size_t f = 0; f < faces_.size(); f += per_face_) {
+            std::vector<std::int64_t> at;
+            for (std::size_t i = 0; i < corners; ++i)
+                at.push_back(origins_[static_cast<std::size_t>(node_b_[static_cast<std::size_t>(faces_[f + i])])]);
+            const bool in_set = faces != mesh_.face_sets.end()
+                                    ? known.contains(key_of(at.begin(), at.end()))
+                                    : std::all_of(at.begin(), at.end(), [&](std::int64_t node) {
+                                          return std::binary_search(nodes.begin(), nodes.end(), node);
+                                      });
+            for (std::size_t i = 0; i < per_face_ && in_set; ++i) held[static_cast<std::size_t>(faces_[f + i])] = true;
+        }
+        std::vector<std::int64_t> out;
+        for (std::size_t i = 0; i < held.size(); ++i)
+            if (!held[i]) out.push_back(static_cast<std::int64_t>(i));
+        return out;
+    }
+
     [[nodiscard]] Where in_box(const Region& region, std::size_t pair) const {
         const double* at = coordinates_.data() + static_cast<std::size_t>(node_b_[pair]) * dimension_;
         Where out = Where::inside;
@@ -284,7 +320,7 @@ private:
 
     std::size_t dimension_;
     double slack_;
-    const std::map<std::string, std::vector<std::int64_t>>& sets_;
+    const MeshData& mesh_;
     std::size_t per_face_ = 1;
     std::vector<std::int64_t> node_b_;
     std::vector<std::int64_t> faces_;
@@ -310,8 +346,8 @@ bool set_mesh_adhesion(const Model& model, const Scene& scene, std::int64_t inde
     std::vector<double> initial(static_cast<std::size_t>(count), 1.0);
     for (const Region& region : data.regions) {
         const std::vector<std::int64_t> chosen = pairs.in(region);
-        // A region for several interfaces may lie on only some of them.
-        if (chosen.empty() && (data.a.empty() || is_pattern(data.a + data.b))) continue;
+        // A region for several interfaces may lie on only some of them, and a set may hold all faces.
+        if (chosen.empty() && (region.outside || data.a.empty() || is_pattern(data.a + data.b))) continue;
         if (chosen.empty())
             throw SceneFailure(region.place,
                                "no pair of the interface is in this region (pairs at its edge are its "

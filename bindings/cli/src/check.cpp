@@ -64,6 +64,7 @@ extern "C" void on_check_log(std::int32_t level, const char* text, void*) {
 
 int check(const std::string& scene_file, const std::vector<std::string>& settings, const Caller& caller) {
     const Scene scene = read_scene(scene_file, settings);
+    if (scene.imported) say_import(*scene.imported, [](const std::string& text) { say("{}\n", text); });
     Context context = new_context();
     const Interrupt interrupt(context.get());
     delam_context_set_log(context.get(), on_check_log, nullptr);

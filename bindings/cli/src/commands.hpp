@@ -25,6 +25,8 @@ struct Caller {
 // settings: KEY=VALUE, see setting.hpp. command: the line as typed, for result.json.
 int run(const std::string& scene_file, const std::vector<std::string>& settings, const std::string& folder, bool resume,
         const std::string& command, const Caller& caller);
+// Writes the scene of an Abaqus input file; scene_file "": to standard output. replace: also where there is a file.
+int import(const std::string& deck, const std::string& scene_file, bool replace);
 int check(const std::string& scene_file, const std::vector<std::string>& settings, const Caller& caller);
 
 }  // namespace cli

@@ -17,6 +17,13 @@ struct CellBlock {
     std::vector<std::int32_t> partitions{};  ///< [cells] from 1 on, 0: none; empty: the file knows no partitions
 };
 
+/** Cohesive elements of a file, which are no cells: the faces of bodies that they hold together. */
+struct CohesiveSet {
+    std::string name;   ///< of their set of elements
+    std::string faces;  ///< of the set of these faces: `name`, unless nodes have it
+    std::vector<std::array<std::int64_t, 9>> lower, upper;  ///< [elements] nodes of each face, -1 padded
+};
+
 /**
  * A mesh as files and generators give it: bodies that touch share their nodes, and what is wanted of a part of
  * the mesh later is said by names.
@@ -32,6 +39,7 @@ struct MeshData {
     std::vector<std::vector<double>> periods;        ///< [n][dimension] periods of a cell; empty: not periodic
     std::vector<std::string> formulations;  ///< by label, what the element types of the file ask for; empty: standard
     std::string plane;                      ///< "plane-strain" or "plane-stress" where the file says so; else empty
+    std::vector<CohesiveSet> cohesive;      ///< what holds bodies together in the file
     std::vector<std::string> notes;         ///< what was decided on the way, for people
 };
 

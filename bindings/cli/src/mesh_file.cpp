@@ -2,6 +2,8 @@
 #include "mesh_file.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -41,6 +43,11 @@ void drop_orphans(MeshData& mesh) {
         for (auto& face : faces)
             for (std::int64_t& node : face)
                 if (node >= 0) renumber(node);
+    for (CohesiveSet& set : mesh.cohesive)
+        for (auto* faces : {&set.lower, &set.upper})
+            for (auto& face : *faces)
+                for (std::int64_t& node : face)
+                    if (node >= 0) renumber(node);
 }
 
 // Twice the area of the polygon of the corners, positive if they run counter-clockwise.
@@ -71,6 +78,28 @@ void turn_clockwise_cells(MeshData& mesh) {
 }
 
 }  // namespace
+
+double shortest_edge(const MeshData& mesh) {
+    const auto dimension = static_cast<std::size_t>(mesh.dimension);
+    double least = std::numeric_limits<double>::infinity();
+    for (const CellBlock& block : mesh.blocks) {
+        const CellShape& shape = shape_of(block.type);
+        for (std::size_t c = 0; c < block.bodies.size(); ++c)
+            for (const auto& side : shape.sides) {
+                for (std::size_t i = 0; i < shape.side_corners; ++i) {
+                    const auto node = [&](std::size_t k) {
+                        return mesh.nodes.data() +
+                               dimension * static_cast<std::size_t>(block.connectivity[c * shape.nodes + side[k]]);
+                    };
+                    double square = 0;
+                    for (std::size_t a = 0; a < dimension; ++a)
+                        square += std::pow(node(i)[a] - node((i + 1) % shape.side_corners)[a], 2);
+                    least = std::min(least, std::sqrt(square));
+                }
+            }
+    }
+    return least;
+}
 
 void tidy(MeshData& mesh) {
     drop_orphans(mesh);

@@ -25,6 +25,9 @@ MeshFile read_mesh(const std::string& path, const std::vector<std::string>& bodi
 constexpr std::int64_t most_mesh_bytes = std::int64_t{1} << 30;
 void require_mesh_size(const std::string& path, std::int64_t bytes, const Place& place);
 
+// From corner to corner, along the sides of cells.
+double shortest_edge(const MeshData& mesh);
+
 // Drops nodes that belong to no cell and no set; reverses clockwise plane cells and notes how many.
 void tidy(MeshData& mesh);
 

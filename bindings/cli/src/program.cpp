@@ -69,11 +69,21 @@ int guarded(int argc, char** argv, const Caller& caller) {
     CLI::App* check_command = app.add_subcommand("check", "validate a scene and print what would be computed, and how");
     check_command->add_option("scene", scene, "scene file (TOML, see SCENE.md)")->required();
     with_settings(check_command);
+    CLI::App* import_command = app.add_subcommand(
+        "import", "write the scene of an Abaqus input file; run and check take such files as they are");
+    std::string deck;
+    bool replace = false;
+    import_command->add_option("deck", deck, "input file with cohesive elements or surfaces (.inp, see SCENE.md)")
+        ->required();
+    import_command->add_option("--out,-o", folder, "the scene file (default: standard output)");
+    import_command->add_flag("--replace", replace, "overwrite the scene file if it is there");
+    import_command->footer(footer);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
         return app.exit(e) == 0 ? exit_done : exit_scene;
     }
+    if (import_command->parsed()) return import(deck, folder, replace);
     return run_command->parsed() ? run(scene, settings, folder, resume, joined(argc, argv), caller)
                                  : check(scene, settings, caller);
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <locale>
 #include <map>
 #include <sstream>
@@ -268,12 +269,14 @@ Scene read_scene(const std::string& file, const std::vector<std::string>& settin
     Scene scene;
     scene.file = file;
     scene.settings = settings;
-    const std::string bytes = read_bytes(file, most_scene_bytes);
+    if (is_deck(file)) scene.imported = import_deck(file, std::filesystem::path(file).filename().string());
+    const std::string bytes = scene.imported ? scene.imported->text : read_bytes(file, most_scene_bytes);
+    const std::string source = file + (scene.imported ? ", as delam import writes it" : "");
     toml::table parsed;
     try {
-        parsed = parsed_text(bytes, {file, "", 0}, file);
+        parsed = parsed_text(bytes, {source, "", 0}, source);
     } catch (const toml::parse_error& e) {
-        throw SceneFailure({file, "", static_cast<int>(e.source().begin.line)},
+        throw SceneFailure({source, "", static_cast<int>(e.source().begin.line)},
                            "not TOML: " + std::string(e.description()));
     }
     for (const std::string& setting : settings) apply_setting(parsed, setting);
@@ -283,7 +286,7 @@ Scene read_scene(const std::string& file, const std::vector<std::string>& settin
     scene.content_hash = hash_text(content.str());
     scene.file_hash = hash_text(bytes);
 
-    const Table root(parsed, {file, "", 0});
+    const Table root(parsed, {source, "", 0});
     if (!root.has("schema")) root.fail("schema", "is missing: schema = 1 is expected");
     if (const auto schema = root.whole("schema", 1); schema != 1)
         root.fail("schema", fmt::format("{} is not known to this program: 1 is", schema));

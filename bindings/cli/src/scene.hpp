@@ -13,6 +13,7 @@
 #include <variant>
 #include <vector>
 
+#include "deck_scene.hpp"
 #include "error.hpp"
 #include "mesh_data.hpp"
 
@@ -71,6 +72,7 @@ struct Region {
     std::array<double, 3> lower{};
     std::array<double, 3> upper{};
     std::string set;
+    bool outside = false;  // of a set: the faces that are not in it
     double adhesion = 0;
     Place place;
 };
@@ -234,6 +236,7 @@ struct Units {
 
 struct Scene {
     std::string file;
+    std::optional<ImportedScene> imported;  // the file is no scene but a deck of Abaqus
     std::string title;
     std::string file_hash;              // of the bytes
     std::string content_hash;           // of the content with the settings; comments, order and layout do not matter

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // [mesh], its [[bodies]] and their [[interfaces]].
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <limits>
 
 #include <fmt/format.h>
 
+#include "body_pieces.hpp"
 #include "cell_shape.hpp"
 #include "hash.hpp"
 #include "mesh_file.hpp"
@@ -18,29 +17,6 @@ namespace cli {
 
 namespace {
 
-// The shortest edge, from corner to corner along the sides of cells.
-double shortest_edge(const MeshData& mesh) {
-    const auto dimension = static_cast<std::size_t>(mesh.dimension);
-    double least = std::numeric_limits<double>::infinity();
-    for (const CellBlock& block : mesh.blocks) {
-        const CellShape& shape = shape_of(block.type);
-        for (std::size_t c = 0; c < block.bodies.size(); ++c)
-            for (const auto& side : shape.sides) {
-                for (std::size_t i = 0; i < shape.side_corners; ++i) {
-                    const auto node = [&](std::size_t k) {
-                        return mesh.nodes.data() +
-                               dimension * static_cast<std::size_t>(block.connectivity[c * shape.nodes + side[k]]);
-                    };
-                    double square = 0;
-                    for (std::size_t a = 0; a < dimension; ++a)
-                        square += std::pow(node(i)[a] - node((i + 1) % shape.side_corners)[a], 2);
-                    least = std::min(least, std::sqrt(square));
-                }
-            }
-    }
-    return least;
-}
-
 void require_body(const Table& table, std::string_view key, const std::string& name, const Scene& scene) {
     const auto& names = scene.mesh->body_names;
     if (std::none_of(names.begin(), names.end(), [&](const std::string& n) { return fits(name, n); }))
@@ -50,8 +26,8 @@ void require_body(const Table& table, std::string_view key, const std::string& n
 }
 
 Region read_region(const Table& table, const Scene& scene, bool with_value) {
-    table.only(with_value ? std::vector<std::string>{"lower", "upper", "set", "value"}
-                          : std::vector<std::string>{"lower", "upper", "set"});
+    table.only(with_value ? std::vector<std::string>{"lower", "upper", "set", "outside", "value"}
+                          : std::vector<std::string>{"lower", "upper", "set", "outside"});
     Region region;
     region.place = table.place();
     region.adhesion = with_value ? table.number("value", fraction) : 0;
@@ -59,8 +35,10 @@ Region read_region(const Table& table, const Scene& scene, bool with_value) {
     if (box == table.has("set")) table.fail("set", "give either set = \"NAME\" or lower and upper");
     if (!box) {
         region.set = set_name(table, "set", scene);
+        region.outside = table.flag("outside", false);
         return region;
     }
+    if (table.has("outside")) table.fail("outside", "is for set = \"NAME\"");
     const auto dimension = static_cast<std::size_t>(scene.geometry.dimension);
     const std::vector<double> lower = table.numbers("lower", any_number, dimension);
     const std::vector<double> upper = table.numbers("upper", any_number, dimension);
@@ -74,7 +52,7 @@ Region read_region(const Table& table, const Scene& scene, bool with_value) {
 }
 
 MeshFile mesh_of_file(const Table& table, const Scene& scene) {
-    table.only({"file", "bodies", "plane"});
+    table.only({"file", "bodies", "pieces", "plane"});
     const std::string name = table.text("file");
     if (name.empty()) table.fail("file", "is empty: the name of a mesh is expected, relative to the scene file");
     const std::string path = (std::filesystem::path(scene.file).parent_path() / name).string();
@@ -102,6 +80,8 @@ void read_mesh_table(const Table& root, Scene& scene) {
     if (table.has("file") == table.has("generator")) table.fail("file", "give either file or generator");
     MeshFile file = table.has("file") ? mesh_of_file(table, scene) : MeshFile{read_generator(table), ""};
     MeshData& mesh = file.mesh;
+    if (table.has("pieces") && !table.has("file")) table.fail("pieces", "is for file");
+    if (table.flag("pieces", false)) split_into_pieces(mesh);
     Geometry& geometry = scene.geometry;
     geometry.place = table.place();
     geometry.dimension = mesh.dimension;

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Bodies of a mesh that consist of several pieces.
+#pragma once
+
+#include "mesh_data.hpp"
+
+namespace cli {
+
+// Makes a body of each piece, which is what nodes of the file connect: NAME becomes NAME-1, NAME-2, .. in the order of
+// the cells. A body of one piece keeps its name.
+void split_into_pieces(MeshData& mesh);
+
+}  // namespace cli

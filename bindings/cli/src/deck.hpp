@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What an input file of Abaqus says beside its mesh: materials, sections, interactions and the steps of the analysis, as
+// written there. Data alone: deck_cards.hpp reads it, deck_scene.hpp makes a scene of it.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "abaqus_model.hpp"
+#include "error.hpp"
+#include "inp_cards.hpp"
+#include "reader.hpp"
+
+namespace cli::abaqus {
+
+using Numbers = std::vector<double>;
+
+// *DAMAGE INITIATION and *DAMAGE EVOLUTION, of a material or of a surface interaction.
+struct DamageCards {
+    std::string initiation;  // MAXS, QUADS, ..; empty: none
+    Numbers strengths;
+    Place initiation_place;
+    std::string evolution;  // ENERGY or DISPLACEMENT; empty: none
+    std::string softening = "LINEAR";
+    std::string mixed_mode;  // BK, POWER LAW; empty: none
+    double power = 0;
+    std::vector<Numbers> values;
+    Place evolution_place;
+};
+
+struct MaterialCards {
+    std::string name;
+    std::string elastic;  // TYPE of *ELASTIC; empty: none
+    Numbers constants;
+    DamageCards damage;
+    Place place;
+};
+
+struct Section {
+    std::string material;
+    std::string orientation;
+    double angle = 0;         // of the one ply of a composite, degrees about its normal
+    std::string thickness{};  // of cohesive elements: SPECIFIED or GEOMETRY
+    double value = 1;         // the specified thickness
+    Place place;              // of the card, by which the mesh knows it
+};
+
+struct Orientation {
+    std::string name;
+    Numbers points;  // a and b, then the origin
+    int about = 1;
+    double angle = 0;  // degrees
+    Place place;
+};
+
+struct InteractionCards {
+    std::string name;
+    bool cohesive = false;
+    Numbers stiffness;
+    std::string eligibility;
+    DamageCards damage;
+    Place place;
+};
+
+struct ContactPair {
+    std::string interaction;
+    Entry slave, master;  // surfaces
+    std::string bonded{};   // of *INITIAL CONDITIONS, TYPE=CONTACT: the set of nodes that adhere; empty: all
+    Place place;
+};
+
+struct Amplitude {
+    std::string name;
+    bool total_time = false;
+    bool absolute = false;
+    bool smooth = false;
+    std::vector<std::pair<double, double>> points;
+    Place place;
+};
+
+// A line of *BOUNDARY, *CLOAD or *DSLOAD.
+struct LoadLine {
+    Entry where;
+    int first = 0, last = 0;   // degrees of freedom, 1 to 6; of a distributed load 0
+    std::string distributed;   // P, TRVEC
+    double magnitude = 0;
+    Numbers direction{};       // of TRVEC
+    std::string amplitude{};
+};
+
+struct Step {
+    std::string name;
+    double first_increment = 1;
+    double period = 1;
+    bool ramp = true;  // what has no amplitude grows over the step
+    bool new_boundaries = false, new_forces = false;  // those of earlier steps end
+    std::vector<LoadLine> boundaries, forces;
+    Place place;
+};
+
+struct Deck {
+    std::string title;
+    std::vector<MaterialCards> materials;
+    std::vector<Section> sections;
+    std::vector<Orientation> orientations;
+    std::vector<InteractionCards> interactions;
+    std::vector<ContactPair> pairs;
+    std::vector<Amplitude> amplitudes;
+    std::vector<LoadLine> held;  // *BOUNDARY before the first step
+    std::vector<Step> steps;
+    bool general_contact = false;
+    std::vector<std::string> changed;   // for people: what the scene does otherwise
+    std::vector<std::string> left_out;
+};
+
+// The object of this name, whatever its case. Throws SceneFailure at `place`.
+template <class T>
+const T& named(const std::vector<T>& all, const std::string& name, const char* what, const Place& place) {
+    std::vector<std::string> known;
+    for (const T& each : all) {
+        if (upper(each.name) == upper(name)) return each;
+        known.push_back(each.name);
+    }
+    throw SceneFailure(place, std::string(what) + " \"" + name + "\" is not there" + suggestion(name, known));
+}
+
+}  // namespace cli::abaqus

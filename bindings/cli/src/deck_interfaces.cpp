@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "deck_interfaces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "deck_bodies.hpp"
+#include "deck_laws.hpp"
+#include "mesh_file.hpp"
+#include "toml_text.hpp"
+
+namespace cli::abaqus {
+
+namespace {
+
+// A small part more than the distance of the faces, so that rounding of coordinates does not part them.
+constexpr double allowance = 1.001;
+
+struct Held {
+    std::int32_t a = 0, b = 0;
+    std::string law;      // empty: contact
+    std::string set;      // the faces or nodes that adhere; empty: all
+    double gap = 0;       // between the faces; 0: they coincide
+    bool matching = true;
+    Place place;
+};
+
+class Interfaces {
+public:
+    Interfaces(Deck& deck, const Model& model, const MeshData& mesh)
+        : deck_(deck), model_(model), mesh_(mesh), faces_(mesh), edge_(shortest_edge(mesh)) {
+        for (const BodyPair& pair : pairs_of_bodies(mesh, faces_, edge_)) touching_[{pair.a, pair.b}] = pair;
+    }
+
+    std::string text() {
+        for (const CohesiveSet& set : mesh_.cohesive) add_cohesive(set);
+        for (const ContactPair& pair : deck_.pairs) add_pair(pair);
+        for (const auto& [key, pair] : touching_) require_one_way(pair);
+        std::string out = laws_;
+        for (const Held& held : held_) out += entry(held);
+        for (const auto& [key, pair] : touching_) {
+            if (find(pair.a, pair.b) != nullptr) continue;
+            out += fmt::format("[[interfaces]]\na = {}\nb = {}\n{} = true\n\n", body(pair.a), body(pair.b),
+                               pair.shared > 0 ? "bonded" : "contact");
+            if (pair.shared == 0 && !deck_.general_contact)
+                deck_.changed.push_back(fmt::format("{} and {} touch and have nothing between them: here they are in contact",
+                                                    body(pair.a), body(pair.b)));
+        }
+        return out;
+    }
+
+private:
+    [[nodiscard]] std::string body(std::int32_t label) const {
+        return toml_text(mesh_.body_names[static_cast<std::size_t>(label)]);
+    }
+
+    Held* find(std::int32_t a, std::int32_t b) {
+        for (Held& held : held_)
+            if (std::minmax(held.a, held.b) == std::minmax(a, b)) return &held;
+        return nullptr;
+    }
+
+    // Bodies that share some nodes and have doubled ones elsewhere would be bonded and free at once.
+    void require_one_way(const BodyPair& pair) {
+        const Held* held = find(pair.a, pair.b);
+        if (pair.shared == 0 || (pair.doubled == 0 && held == nullptr)) return;
+        throw SceneFailure(held != nullptr ? held->place : model_.file,
+                           fmt::format("{} and {} share the nodes of {} sides, where they would be bonded, and have nodes "
+                                       "of their own elsewhere: an interface has one law; double all its nodes",
+                                       body(pair.a), body(pair.b), pair.shared));
+    }
+
+    void add(const Held& held) {
+        const Held* other = find(held.a, held.b);
+        if (other == nullptr) {
+            held_.push_back(held);
+        } else if (other->law != held.law || other->set != held.set) {
+            throw SceneFailure(held.place, fmt::format("{} and {} are held together by {} already: an interface has one "
+                                                       "law and one set",
+                                                       body(held.a), body(held.b), other->place.text()));
+        }
+    }
+
+    // The section of a set of cohesive elements, in whatever part it stands.
+    const Section& section_of(const CohesiveSet& set) const {
+        for (const Part* scope : model_.scopes())
+            for (const Entry& entry : scope->cohesive_sections) {
+                const Entry resolved = model_.resolved_scope(entry);
+                const auto known = resolved.scope->element_sets.find(upper(resolved.text));
+                const std::string& name =
+                    known == resolved.scope->element_sets.end() ? resolved.text : known->second.name;
+                if (full_name(*resolved.scope, name) != set.name) continue;
+                for (const Section& section : deck_.sections)
+                    if (section.place.file == entry.place.file && section.place.line == entry.place.line) return section;
+            }
+        throw SceneFailure(model_.file, fmt::format("the cohesive elements \"{}\" have no *COHESIVE SECTION", set.name));
+    }
+
+    [[nodiscard]] double distance(std::int64_t a, std::int64_t b) const {
+        double square = 0;
+        for (std::int32_t i = 0; i < mesh_.dimension; ++i) {
+            const double d = mesh_.nodes[static_cast<std::size_t>(a * mesh_.dimension + i)] -
+                             mesh_.nodes[static_cast<std::size_t>(b * mesh_.dimension + i)];
+            square += d * d;
+        }
+        return std::sqrt(square);
+    }
+
+    // Of the nodes of a cohesive element; in the plane they go round.
+    [[nodiscard]] double gap_of(const Face& lower, const Face& upper) const {
+        const auto count = static_cast<std::size_t>(std::find(lower.begin(), lower.end(), -1) - lower.begin());
+        double out = 0;
+        for (std::size_t k = 0; k < count; ++k)
+            out = std::max(out, distance(lower[k], upper[mesh_.dimension == 2 ? count - 1 - k : k]));
+        return out;
+    }
+
+    [[nodiscard]] std::int32_t one_body(const Face& face, const CohesiveSet& set, const Place& place) const {
+        const std::vector<std::int32_t> bodies = faces_.of(face);
+        if (bodies.size() == 1) return bodies[0];
+        throw SceneFailure(place, bodies.empty()
+                                      ? fmt::format("an element of \"{}\" has a face that is no side of a cell", set.name)
+                                      : fmt::format("an element of \"{}\" has a face between {} and {}: its nodes must be "
+                                                    "those of one of them",
+                                                    set.name, body(bodies[0]), body(bodies[1])));
+    }
+
+    void add_cohesive(const CohesiveSet& set) {
+        const Section& section = section_of(set);
+        std::map<std::pair<std::int32_t, std::int32_t>, double> gaps;  // by lower and upper body
+        double sum = 0;
+        for (std::size_t i = 0; i < set.lower.size(); ++i) {
+            const std::int32_t a = one_body(set.lower[i], set, section.place);
+            const std::int32_t b = one_body(set.upper[i], set, section.place);
+            if (a == b)
+                throw SceneFailure(section.place,
+                                   fmt::format("an element of \"{}\" lies within {}: nodes connect its two sides "
+                                               "elsewhere, and a body has no interface with itself",
+                                               set.name, body(a)));
+            const double gap = gap_of(set.lower[i], set.upper[i]);
+            sum += gap;
+            // Elements may stand either way up.
+            const auto key = gaps.contains({b, a}) ? std::pair(b, a) : std::pair(a, b);
+            gaps[key] = std::max(gaps[key], gap);
+        }
+        const MaterialCards& material = named(deck_.materials, section.material, "material", section.place);
+        const double mean = sum / static_cast<double>(set.lower.size());
+        const double thickness = section.thickness == "GEOMETRY" ? mean : section.value;
+        if (!(thickness > 1e-9 * edge_))
+            throw SceneFailure(section.place, "THICKNESS=GEOMETRY, and the elements have none");
+        const std::string law = cohesive_law(material, thickness);
+        for (const auto& [bodies, gap] : gaps) {
+            const bool apart = gap > 1e-6 * edge_;
+            if (apart)
+                deck_.changed.push_back(fmt::format("\"{}\" is {:.6g} thick: the faces beside it are projected upon each "
+                                                    "other, and it has no volume",
+                                                    set.name, gap));
+            add({bodies.first, bodies.second, law, set.faces, apart ? gap * allowance : 0.0, !apart, section.place});
+        }
+    }
+
+    std::string cohesive_law(const MaterialCards& material, double thickness) {
+        if (material.elastic != "TRACTION")
+            throw SceneFailure(material.place, fmt::format("material \"{}\" of cohesive elements needs *ELASTIC, "
+                                                           "TYPE=TRACTION",
+                                                           material.name));
+        Numbers stiffness = material.constants;
+        for (double& k : stiffness) k /= thickness;
+        return new_law(material.name, stiffness, thickness, material.damage, material.place);
+    }
+
+    // The law of this name and thickness, made where it is new.
+    std::string new_law(const std::string& name, const Numbers& stiffness, double thickness, const DamageCards& damage,
+                        const Place& place) {
+        const auto [known, fresh] = law_names_.emplace(std::pair(name, thickness), name);
+        if (!fresh) return known->second;
+        std::size_t alike = 0;
+        for (const auto& [key, other] : law_names_) alike += key.first == name ? 1 : 0;
+        if (alike > 1) known->second = fmt::format("{} ({})", name, alike);
+        laws_ += law_text(known->second, stiffness, thickness, damage, mesh_.dimension, place, deck_.changed) + "\n";
+        return known->second;
+    }
+
+    [[nodiscard]] std::string surface_name(const Entry& raw) const {
+        const Entry entry = model_.resolved_scope(raw);
+        const auto surface = entry.scope->surfaces.find(upper(entry.text));
+        const std::string name =
+            surface == entry.scope->surfaces.end() ? "" : full_name(*entry.scope, surface->second.name);
+        if (!mesh_.face_sets.contains(name))
+            throw SceneFailure(raw.place, fmt::format("\"{}\": a *SURFACE of sides of elements is expected", raw.text));
+        return name;
+    }
+
+    [[nodiscard]] std::set<std::int32_t> bodies_of(const std::string& surface) const {
+        std::set<std::int32_t> out;
+        for (const Face& face : mesh_.face_sets.at(surface))
+            for (const std::int32_t each : faces_.of(face)) out.insert(each);
+        return out;
+    }
+
+    // b is the slave's body, whose nodes make the pairs.
+    void add_pair(const ContactPair& pair) {
+        const InteractionCards& interaction =
+            named(deck_.interactions, pair.interaction, "surface interaction", pair.place);
+        const std::string slave = surface_name(pair.slave);
+        const std::string master = surface_name(pair.master);
+        std::string law;
+        if (interaction.cohesive)
+            law = new_law(interaction.name, interaction.stiffness, 1.0, interaction.damage, interaction.place);
+        const std::set<std::int32_t> slaves = bodies_of(slave), masters = bodies_of(master);
+        std::size_t added = 0;
+        for (const std::int32_t b : slaves)
+            for (const std::int32_t a : masters) {
+                if (a == b) continue;
+                const auto touching = touching_.find(std::minmax(a, b));
+                // Surfaces of several bodies hold those together that touch; those of two need not match.
+                if (touching == touching_.end() && slaves.size() * masters.size() > 1) continue;
+                std::string set = law.empty() ? "" : slave;
+                if (!law.empty() && !pair.bonded.empty()) set = bonded_set(pair);
+                add({a, b, law, set, 0.0, touching != touching_.end(), pair.place});
+                ++added;
+            }
+        if (added == 0)
+            throw SceneFailure(pair.place, fmt::format("no body of \"{}\" touches one of \"{}\"", pair.slave.text,
+                                                       pair.master.text));
+    }
+
+    [[nodiscard]] std::string bonded_set(const ContactPair& pair) const {
+        const Entry entry = model_.resolved_scope({pair.slave.scope, pair.bonded, pair.place});
+        const auto set = entry.scope->node_sets.find(upper(entry.text));
+        const std::string name = set == entry.scope->node_sets.end() ? "" : full_name(*entry.scope, set->second.name);
+        if (!mesh_.node_sets.contains(name))
+            throw SceneFailure(pair.place, "node set \"" + pair.bonded + "\" is not there, or empty");
+        return name;
+    }
+
+    [[nodiscard]] std::string entry(const Held& held) const {
+        std::string out = fmt::format("[[interfaces]]\na = {}\nb = {}\n", body(held.a), body(held.b));
+        out += held.law.empty() ? "contact = true\n" : fmt::format("law = {}\n", toml_text(held.law));
+        if (!held.matching) out += "projected = true\n";
+        if (held.gap > 0) out += fmt::format("gap = {}\n", toml_number(held.gap));
+        if (!held.set.empty())
+            out += fmt::format("notch = [{{ set = {}, outside = true }}]\n", toml_text(held.set));
+        return out + "\n";
+    }
+
+    Deck& deck_;
+    const Model& model_;
+    const MeshData& mesh_;
+    FaceBodies faces_;
+    double edge_;
+    std::map<std::pair<std::int32_t, std::int32_t>, BodyPair> touching_;
+    std::vector<Held> held_;
+    std::map<std::pair<std::string, double>, std::string> law_names_;
+    std::string laws_;
+};
+
+}  // namespace
+
+std::string interfaces_text(Deck& deck, const Model& model, const MeshData& mesh) {
+    return Interfaces(deck, model, mesh).text();
+}
+
+}  // namespace cli::abaqus

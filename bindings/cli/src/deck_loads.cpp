@@ -1,0 +1,362 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "deck_loads.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "deck_bodies.hpp"
+#include "toml_text.hpp"
+
+namespace cli::abaqus {
+
+namespace {
+
+using Points = std::vector<std::pair<double, double>>;  // instants and values
+
+constexpr std::int64_t most_single_nodes = 200;
+constexpr const char* axis_names[] = {"x", "y", "z"};
+
+double between(const Points& points, double x) {
+    if (x <= points.front().first) return points.front().second;
+    for (std::size_t i = 1; i < points.size(); ++i)
+        if (x <= points[i].first) {
+            const auto& [a, fa] = points[i - 1];
+            const auto& [b, fb] = points[i];
+            return fa + (fb - fa) * (x - a) / (b - a);
+        }
+    return points.back().second;
+}
+
+// The values of an amplitude as straight lines; a SMOOTH STEP, whose parts are polynomials of fifth order, in 16 each.
+Points lines_of(const Amplitude& amplitude) {
+    if (!amplitude.smooth) return amplitude.points;
+    Points out{amplitude.points.front()};
+    for (std::size_t i = 1; i < amplitude.points.size(); ++i)
+        for (int k = 1; k <= 16; ++k) {
+            const double x = k / 16.0;
+            const auto& [a, fa] = amplitude.points[i - 1];
+            const auto& [b, fb] = amplitude.points[i];
+            out.emplace_back(a + (b - a) * x, fa + (fb - fa) * x * x * x * (10 - 15 * x + 6 * x * x));
+        }
+    return out;
+}
+
+// What one line of the deck prescribes, over all steps.
+struct History {
+    LoadLine line;  // the first of its kind
+    bool force = false;
+    Points points{{0.0, 0.0}};
+    const LoadLine* follows = nullptr;  // the last line that prescribed it
+    bool active = true;                 // this step, or an earlier one that still holds, prescribes it
+
+    [[nodiscard]] double peak() const {
+        double out = 0;
+        for (const auto& [time, value] : points)
+            if (std::abs(value) > std::abs(out)) out = value;
+        return out;
+    }
+};
+
+class Loads {
+public:
+    Loads(Deck& deck, const Model& model, const MeshData& mesh) : deck_(deck), model_(model), mesh_(mesh) {}
+
+    std::string text() {
+        for (const LoadLine& line : deck_.held)
+            for (int dof = line.first; dof <= line.last; ++dof) at_one(line, false, dof);
+        for (const Step& step : deck_.steps) march(step);
+        std::string out = time_text();
+        std::string loads;
+        std::map<std::string, std::vector<int>> held;  // places with nothing but 0
+        std::vector<std::string> order;
+        for (const auto& key : keys_) {
+            const History& history = histories_.at(key);
+            if (history.force) {
+                loads += force_text(history);
+            } else if (history.peak() != 0) {
+                for (const std::string& place : places_of(history.line.where))
+                    loads += fmt::format("[[loads]]\n{}component = [\"{}\"]\npattern = {}\ncoefficient = {}\n\n", place,
+                                         axis_names[key.dof - 1], toml_text(pattern_of(history)),
+                                         toml_number(history.peak()));
+            } else {
+                for (const std::string& place : places_of(history.line.where)) {
+                    if (!held.contains(place)) order.push_back(place);
+                    held[place].push_back(key.dof);
+                }
+            }
+        }
+        for (const std::string& place : order) {
+            std::vector<std::string> axes;
+            std::sort(held[place].begin(), held[place].end());
+            for (const int dof : held[place]) axes.emplace_back(axis_names[dof - 1]);
+            out += fmt::format("[[supports]]\n{}fix = {}\n\n", place, toml_list(axes));
+        }
+        return patterns_ + out + loads;
+    }
+
+private:
+    struct Key {
+        std::string place;
+        int dof;
+        std::string distributed;
+        bool operator<(const Key& other) const {
+            return std::tie(place, dof, distributed) < std::tie(other.place, other.dof, other.distributed);
+        }
+    };
+
+    // Null: the mesh has no such degree of freedom.
+    History* at_one(const LoadLine& line, bool force, int dof) {
+        if (dof > mesh_.dimension && line.distributed.empty()) {
+            const std::string text = dof > 3 ? "degrees of freedom 4 to 6: nodes of solids do not rotate"
+                                             : "degree of freedom 3: a plane mesh has none";
+            if (std::find(deck_.left_out.begin(), deck_.left_out.end(), text) == deck_.left_out.end())
+                deck_.left_out.push_back(text);
+            return nullptr;
+        }
+        const Key key{(force ? "force " : "") + upper(line.where.text), dof, line.distributed};
+        const auto [found, fresh] = histories_.emplace(key, History{line, force});
+        if (fresh) {
+            keys_.push_back(key);
+            if (time_ > 0 && !force)
+                throw SceneFailure(line.where.place,
+                                   "is prescribed from a later step on, and was free before: this is not imported");
+            if (time_ > 0) found->second.points.emplace_back(time_, 0.0);
+        }
+        found->second.active = true;
+        return &found->second;
+    }
+
+    void march(const Step& step) {
+        const double end = time_ + step.period;
+        for (auto& [key, history] : histories_)
+            if (history.force ? step.new_forces : step.new_boundaries) history.active = false;
+        std::set<const History*> given;
+        for (const bool force : {false, true})
+            for (const LoadLine& line : force ? step.forces : step.boundaries)
+                for (int dof = line.first; dof <= line.last; ++dof) {
+                    History* history = at_one(line, force, dof);
+                    if (history == nullptr) continue;
+                    history->follows = &line;
+                    given.insert(history);
+                    extend(*history, step, line, end);
+                }
+        for (auto& [key, history] : histories_) {
+            if (given.contains(&history)) continue;
+            if (!history.active && !history.force)
+                throw SceneFailure(step.place, fmt::format("OP=NEW frees \"{}\", degree of freedom {}, in this step: "
+                                                           "supports that end are not imported",
+                                                           history.line.where.text, key.dof));
+            if (!history.active)
+                history.points.emplace_back(end, 0.0);  // falls over the step, as in Abaqus
+            else if (history.follows != nullptr && in_total_time(*history.follows))
+                extend(history, step, *history.follows, end);
+            else
+                history.points.emplace_back(end, history.points.back().second);
+        }
+        const auto increments = static_cast<std::int64_t>(std::ceil(step.period / step.first_increment * (1 - 1e-9)));
+        if (increments > 100000)
+            throw SceneFailure(step.place, fmt::format("{} increments: at most 100000 are expected", increments));
+        for (std::int64_t i = 1; i <= increments; ++i)
+            instants_.push_back(i == increments ? end
+                                                : time_ + step.period * static_cast<double>(i) /
+                                                              static_cast<double>(increments));
+        sizes_.push_back(step.period / static_cast<double>(increments));
+        time_ = end;
+    }
+
+    [[nodiscard]] const Amplitude* amplitude_of(const LoadLine& line) const {
+        if (line.amplitude.empty()) return nullptr;
+        return &named(deck_.amplitudes, line.amplitude, "amplitude", line.where.place);
+    }
+    [[nodiscard]] bool in_total_time(const LoadLine& line) const {
+        const Amplitude* amplitude = amplitude_of(line);
+        return amplitude != nullptr && amplitude->total_time;
+    }
+
+    // Goes on from the last point to the end of the step.
+    void extend(History& history, const Step& step, const LoadLine& line, double end) {
+        const double last = history.points.back().second;
+        const Amplitude* amplitude = amplitude_of(line);
+        Points next;
+        if (amplitude == nullptr) {
+            next = {{time_, step.ramp ? last : line.magnitude}, {end, line.magnitude}};
+        } else {
+            const double origin = amplitude->total_time ? 0.0 : time_;
+            const double factor = amplitude->absolute ? 1.0 : line.magnitude;
+            const Points lines = lines_of(*amplitude);
+            next.emplace_back(time_, factor * between(lines, time_ - origin));
+            for (const auto& [x, value] : lines)
+                if (x + origin > time_ && x + origin < end) next.emplace_back(x + origin, factor * value);
+            next.emplace_back(end, factor * between(lines, end - origin));
+        }
+        if (next.front().second != last) {
+            const double first = time_ + std::min(step.first_increment, step.period);
+            const double value = between(next, first);
+            std::erase_if(next, [&](const auto& point) { return point.first <= first; });
+            next.insert(next.begin(), {first, value});
+            deck_.changed.push_back(fmt::format("{}: \"{}\" jumps at the beginning of a step, from {} to {}; here it moves "
+                                                "over the first increment",
+                                                line.where.place.text(), line.where.text, last, value));
+        } else {
+            next.erase(next.begin());
+        }
+        history.points.insert(history.points.end(), next.begin(), next.end());
+    }
+
+    std::string time_text() {
+        const auto [least, most] = std::minmax_element(sizes_.begin(), sizes_.end());
+        if (*most - *least <= 1e-9 * *most)
+            return fmt::format("[time]\nstart = 0.0\nend = {}\nsteps = {}\n\n", toml_number(time_), instants_.size());
+        std::vector<double> all{0.0};
+        all.insert(all.end(), instants_.begin(), instants_.end());
+        return fmt::format("[time]\ninstants = {}\n\n", toml_list(all));
+    }
+
+    // The pattern of these points over their peak, made where there is none yet.
+    std::string pattern_of(const History& history) {
+        Points points;
+        for (const auto& [time, value] : history.points) {
+            const double factor = value / history.peak();
+            if (points.size() > 1) {
+                const auto& [a, fa] = points[points.size() - 2];
+                const double straight = fa + (factor - fa) * (points.back().first - a) / (time - a);
+                if (std::abs(straight - points.back().second) <= 1e-14) points.pop_back();
+            }
+            points.emplace_back(time, factor);
+        }
+        for (const auto& [name, known, force] : made_)
+            if (known == points && force == history.force) return name;
+        const std::string base = history.force ? "force" : "displacement";
+        std::size_t alike = 1;
+        for (const auto& [name, known, force] : made_) alike += force == history.force ? 1 : 0;
+        const std::string name = alike == 1 ? base : fmt::format("{}-{}", base, alike);
+        made_.emplace_back(name, points, history.force);
+        std::vector<double> times, values;
+        for (const auto& [time, value] : points) {
+            times.push_back(time);
+            values.push_back(value);
+        }
+        patterns_ += fmt::format("[[patterns]]\nname = {}\ntimes = {}\nvalues = {}\n\n", toml_text(name), toml_list(times),
+                                 toml_list(values));
+        return name;
+    }
+
+    [[nodiscard]] const Node* node_of(const Entry& raw, std::int64_t& number) const {
+        const Entry entry = model_.resolved_scope(raw);
+        const auto id = inp_whole(entry.text);
+        if (!id) return nullptr;
+        number = node_number(*entry.scope, *id, entry.place);
+        return &entry.scope->nodes[entry.scope->node_of.at(*id)];
+    }
+
+    [[nodiscard]] std::string point_text(const std::array<double, 3>& at, std::int32_t body) const {
+        const std::vector<double> x(at.begin(), at.begin() + mesh_.dimension);
+        return fmt::format("point = {}\nbody = {}\n", toml_list(x),
+                           toml_text(mesh_.body_names[static_cast<std::size_t>(body)]));
+    }
+
+    // The lines of a place in the scene; a node of several bodies is one in each.
+    [[nodiscard]] std::vector<std::string> places_of(const Entry& raw) const {
+        std::int64_t number = 0;
+        if (const Node* node = node_of(raw, number)) {
+            std::vector<std::string> out;
+            for (const std::int32_t body : bodies_at(mesh_, number)) out.push_back(point_text(node->at, body));
+            if (out.empty())
+                throw SceneFailure(raw.place, "node " + raw.text + " belongs to no body: reference nodes are not imported");
+            return out;
+        }
+        return {fmt::format("set = {}\n", toml_text(set_name(raw)))};
+    }
+
+    [[nodiscard]] std::string set_name(const Entry& raw) const {
+        const Entry entry = model_.resolved_scope(raw);
+        const auto set = entry.scope->node_sets.find(upper(entry.text));
+        const std::string name =
+            set == entry.scope->node_sets.end() ? "" : full_name(*entry.scope, set->second.name);
+        if (!mesh_.node_sets.contains(name))
+            throw SceneFailure(raw.place, "node set \"" + raw.text + "\" is not there, or empty");
+        return name;
+    }
+
+    [[nodiscard]] std::string surface_name(const Entry& raw) const {
+        const Entry entry = model_.resolved_scope(raw);
+        const auto surface = entry.scope->surfaces.find(upper(entry.text));
+        if (surface == entry.scope->surfaces.end())
+            throw SceneFailure(raw.place, "surface \"" + raw.text + "\" is not there");
+        return full_name(*entry.scope, surface->second.name);
+    }
+
+    std::string force_text(const History& history) {
+        const double peak = history.peak();
+        if (peak == 0) return "";
+        const Entry& where = history.line.where;
+        const std::string pattern = fmt::format("pattern = {}\n", toml_text(pattern_of(history)));
+        if (history.line.distributed == "P")
+            return fmt::format("[[forces]]\nset = {}\n{}pressure = {}\n\n", toml_text(surface_name(where)), pattern,
+                               toml_number(peak));
+        std::vector<double> force(static_cast<std::size_t>(mesh_.dimension), 0.0);
+        if (history.line.distributed == "TRVEC") {
+            double length = 0;
+            for (const double x : history.line.direction) length += x * x;
+            if (history.line.direction.size() < force.size() || !(length > 0))
+                throw SceneFailure(where.place, "a magnitude and a direction are expected");
+            for (std::size_t a = 0; a < force.size(); ++a)
+                force[a] = peak * history.line.direction[a] / std::sqrt(length);
+            return fmt::format("[[forces]]\nset = {}\n{}traction = {}\n\n", toml_text(surface_name(where)), pattern,
+                               toml_list(force));
+        }
+        force[static_cast<std::size_t>(history.line.first - 1)] = peak;
+        // *CLOAD gives each node of a set the whole force.
+        std::string out;
+        for (const auto& [at, body] : nodes_of(where))
+            out += fmt::format("[[forces]]\n{}{}force = {}\n\n", point_text(at, body), pattern, toml_list(force));
+        return out;
+    }
+
+    // Each with the first of its bodies.
+    [[nodiscard]] std::vector<std::pair<std::array<double, 3>, std::int32_t>> nodes_of(const Entry& raw) const {
+        std::int64_t number = 0;
+        std::vector<std::int64_t> numbers;
+        if (node_of(raw, number) != nullptr)
+            numbers.push_back(number);
+        else
+            numbers = mesh_.node_sets.at(set_name(raw));
+        if (static_cast<std::int64_t>(numbers.size()) > most_single_nodes)
+            throw SceneFailure(raw.place, fmt::format("forces at {} nodes: at most {} are imported; give a surface a "
+                                                      "traction (*DSLOAD)",
+                                                      numbers.size(), most_single_nodes));
+        std::vector<std::pair<std::array<double, 3>, std::int32_t>> out;
+        for (const std::int64_t node : numbers) {
+            const std::vector<std::int32_t> bodies = bodies_at(mesh_, node);
+            if (bodies.empty()) throw SceneFailure(raw.place, "a node of \"" + raw.text + "\" belongs to no body");
+            std::array<double, 3> at{};
+            for (std::size_t a = 0; a < static_cast<std::size_t>(mesh_.dimension); ++a)
+                at[a] = mesh_.nodes[static_cast<std::size_t>(node * mesh_.dimension) + a];
+            out.emplace_back(at, bodies.front());
+        }
+        return out;
+    }
+
+    Deck& deck_;
+    const Model& model_;
+    const MeshData& mesh_;
+    std::map<Key, History> histories_;
+    std::vector<Key> keys_;  // in the order of the deck
+    std::vector<std::tuple<std::string, Points, bool>> made_;
+    std::string patterns_;
+    std::vector<double> instants_, sizes_;
+    double time_ = 0;
+};
+
+}  // namespace
+
+std::string loads_text(Deck& deck, const Model& model, const MeshData& mesh) {
+    return Loads(deck, model, mesh).text();
+}
+
+}  // namespace cli::abaqus

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The steps of a deck as [[patterns]], [[supports]], [[loads]], [[forces]] and [time] of a scene.
+#pragma once
+
+#include <string>
+
+#include "deck.hpp"
+#include "mesh_data.hpp"
+
+namespace cli::abaqus {
+
+// model, mesh: of the same file, with the same numbers of nodes. Throws SceneFailure at lines that cannot be taken.
+std::string loads_text(Deck& deck, const Model& model, const MeshData& mesh);
+
+}  // namespace cli::abaqus

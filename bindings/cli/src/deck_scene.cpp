@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "deck_scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "abaqus_cards.hpp"
+#include "abaqus_mesh.hpp"
+#include "body_pieces.hpp"
+#include "deck_bodies.hpp"
+#include "deck_cards.hpp"
+#include "deck_interfaces.hpp"
+#include "deck_loads.hpp"
+#include "say.hpp"
+#include "toml_text.hpp"
+
+namespace cli::abaqus {
+
+namespace {
+
+using Vector = std::array<double, 3>;
+
+Vector cross(const Vector& a, const Vector& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+Vector unit(const Vector& v, const Place& place) {
+    const double length = std::hypot(v[0], v[1], v[2]);
+    if (!(length > 0)) throw SceneFailure(place, "the points lie on one line: they give no axes");
+    return {v[0] / length, v[1] / length, v[2] / length};
+}
+
+// Axes 1, 2, 3 turned about one of them.
+void turn(std::array<Vector, 3>& axes, int about, double degrees) {
+    const double c = std::cos(degrees * std::numbers::pi / 180);
+    const double s = std::sin(degrees * std::numbers::pi / 180);
+    const auto i = static_cast<std::size_t>(about % 3);
+    const auto j = static_cast<std::size_t>((about + 1) % 3);
+    const Vector a = axes[i], b = axes[j];
+    for (std::size_t k = 0; k < 3; ++k) {
+        axes[i][k] = c * a[k] + s * b[k];
+        axes[j][k] = c * b[k] - s * a[k];
+    }
+}
+
+// Near-zeros of rotations by right angles would hide the axes from a reader.
+std::vector<double> tidy_axis(const Vector& v) {
+    std::vector<double> out;
+    for (const double x : v) out.push_back(std::abs(x) < 1e-15 ? 0.0 : x);
+    return out;
+}
+
+class SceneWriter {
+public:
+    SceneWriter(Deck& deck, const Model& model, const MeshData& mesh, const std::vector<std::string>& plain_names)
+        : deck_(deck), model_(model), mesh_(mesh), plain_names_(plain_names) {}
+
+    std::string text(const std::string& mesh_name, bool pieces) {
+        std::string out = "schema = 1\n";
+        if (!deck_.title.empty()) out += fmt::format("title = {}\n", toml_text(deck_.title));
+        out += fmt::format("\n[mesh]\nfile = {}\n", toml_text(mesh_name));
+        if (pieces) out += "pieces = true       # what no nodes connect is a body of its own\n";
+        out += "\n" + bodies_and_materials() + interfaces_text(deck_, model_, mesh_) + loads_text(deck_, model_, mesh_);
+        return out;
+    }
+
+private:
+    // The section of a body, by the name that it has before it is split.
+    const Section& section_of(const std::string& plain) const {
+        for (const Part* scope : model_.scopes())
+            for (const Entry& entry : scope->sections) {
+                const Entry resolved = model_.resolved_scope(entry);
+                const auto set = resolved.scope->element_sets.find(upper(resolved.text));
+                const std::string& name =
+                    set == resolved.scope->element_sets.end() ? resolved.text : set->second.name;
+                if (full_name(*resolved.scope, name) != plain) continue;
+                for (const Section& section : deck_.sections)
+                    if (section.place.file == entry.place.file && section.place.line == entry.place.line)
+                        return section;
+            }
+        throw SceneFailure(model_.file, fmt::format("\"{}\" has no *SOLID SECTION", plain));
+    }
+
+    std::string bodies_and_materials() {
+        std::string bodies;
+        std::set<std::string> used;
+        for (std::size_t i = 0; i < plain_names_.size(); ++i) {
+            const std::string& plain = plain_names_[i];
+            const Section& section = section_of(plain);
+            const MaterialCards& material = named(deck_.materials, section.material, "material", section.place);
+            used.insert(material.name);
+            // One entry for all pieces of a body.
+            const bool whole = std::find(mesh_.body_names.begin(), mesh_.body_names.end(), plain) != mesh_.body_names.end();
+            bodies += fmt::format("[[bodies]]\nname = {}\nmaterial = {}\n{}\n", toml_text(whole ? plain : plain + "-*"),
+                                  toml_text(material.name), axes_text(section));
+        }
+        std::string out;
+        for (const MaterialCards& material : deck_.materials)
+            if (used.contains(material.name)) out += material_text(material);
+        return out + bodies;
+    }
+
+    std::string axes_text(const Section& section) const {
+        if (section.orientation.empty() && section.angle == 0) return "";
+        std::array<Vector, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+        if (!section.orientation.empty()) {
+            const Orientation& o = named(deck_.orientations, section.orientation, "orientation", section.place);
+            const auto from_origin = [&](std::size_t at) {
+                return Vector{o.points[at] - o.points[6], o.points[at + 1] - o.points[7], o.points[at + 2] - o.points[8]};
+            };
+            axes[0] = unit(from_origin(0), o.place);
+            axes[2] = unit(cross(axes[0], from_origin(3)), o.place);
+            axes[1] = cross(axes[2], axes[0]);
+            turn(axes, o.about, o.angle);
+        }
+        turn(axes, 3, section.angle);
+        return fmt::format("axes = [{}, {}]\n", toml_list(tidy_axis(axes[0])), toml_list(tidy_axis(axes[1])));
+    }
+
+    std::string material_text(const MaterialCards& m) {
+        const Numbers& c = m.constants;
+        std::string out = fmt::format("[[materials]]\nname = {}\n", toml_text(m.name));
+        const auto key = [&](const char* name, double value) { out += fmt::format("{} = {}\n", name, toml_number(value)); };
+        if (m.elastic == "ISOTROPIC") {
+            key("young", c[0]);
+            key("poisson", c[1]);
+        } else if (m.elastic == "ENGINEERING CONSTANTS") {
+            const char* const names[] = {"E1", "E2", "E3", "nu12", "nu13", "nu23", "G12", "G13", "G23"};
+            for (std::size_t i = 0; i < 9; ++i) key(names[i], c[i]);
+        } else if (m.elastic == "LAMINA") {
+            const double nu23 = c[1] / (2 * c[5]) - 1;
+            if (!(std::abs(nu23) < 1))
+                throw SceneFailure(m.place, fmt::format("E2 = {} and G23 = {} make nu23 = {}: a lamina that is the same "
+                                                        "across its fibres has it in (-1, 1); give ENGINEERING CONSTANTS",
+                                                        c[1], c[5], nu23));
+            deck_.changed.push_back(fmt::format("material \"{}\": LAMINA says nothing of the third direction; E3 = E2, "
+                                                "nu13 = nu12, nu23 = E2/(2 G23) - 1 = {:.4g}",
+                                                m.name, nu23));
+            const std::pair<const char*, double> values[] = {{"E1", c[0]},   {"E2", c[1]},   {"E3", c[1]},
+                                                             {"nu12", c[2]}, {"nu13", c[2]}, {"nu23", nu23},
+                                                             {"G12", c[3]},  {"G13", c[4]},  {"G23", c[5]}};
+            for (const auto& [name, value] : values) key(name, value);
+        } else {
+            throw SceneFailure(m.place, fmt::format("material \"{}\" of a body has {}", m.name,
+                                                    m.elastic.empty() ? "no *ELASTIC" : "*ELASTIC, TYPE=" + m.elastic));
+        }
+        return out + "\n";
+    }
+
+    Deck& deck_;
+    const Model& model_;
+    const MeshData& mesh_;
+    const std::vector<std::string>& plain_names_;
+};
+
+std::string header(const ImportedScene& scene, const std::string& deck) {
+    std::string out = fmt::format("# From {} by delam import.\n", deck);
+    const auto list = [&](const char* title, const std::vector<std::string>& texts) {
+        if (texts.empty()) return;
+        out += fmt::format("# {}:\n", title);
+        for (const std::string& text : texts) out += "#   " + text + "\n";
+    };
+    list("Changed", scene.changed);
+    list("Left out", scene.left_out);
+    return out + "\n";
+}
+
+}  // namespace
+
+}  // namespace cli::abaqus
+
+namespace cli {
+
+bool is_deck(const std::string& path) { return path.ends_with(".inp") || path.ends_with(".INP"); }
+
+void say_import(const ImportedScene& scene, void (*line)(const std::string&)) {
+    for (const std::string& text : scene.taken) line("taken     " + text);
+    for (const std::string& text : scene.changed) line("changed   " + text);
+    for (const std::string& text : scene.left_out) line("left out  " + text);
+}
+
+ImportedScene import_deck(const std::string& deck_path, const std::string& mesh_name) {
+    using namespace abaqus;
+    const Place place{deck_path, "", 0};
+    std::string bytes;
+    const std::vector<InpCard> cards = read_cards(deck_path, place, bytes);
+    Model model;
+    take_cards(cards, deck_path, model);
+    Deck deck = read_deck(cards, deck_path, model.root);
+    MeshData mesh = mesh_of(model, {}, place);
+    const std::vector<std::string> plain_names = mesh.body_names;
+    split_into_pieces(mesh);
+    const bool pieces = mesh.body_names != plain_names;
+
+    ImportedScene out;
+    const std::string text = SceneWriter(deck, model, mesh, plain_names).text(mesh_name, pieces);
+    for (const std::string& note : mesh.notes)
+        if (note.rfind("ignored: ", 0) != 0) out.changed.push_back(note);
+    out.changed.insert(out.changed.end(), deck.changed.begin(), deck.changed.end());
+    out.left_out = deck.left_out;
+    std::int64_t cells = 0, held = 0;
+    for (const CellBlock& block : mesh.blocks) cells += static_cast<std::int64_t>(block.bodies.size());
+    for (const CohesiveSet& set : mesh.cohesive) held += static_cast<std::int64_t>(set.lower.size());
+    out.taken.push_back(fmt::format("{} in {}", counted(cells, "cell"),
+                                    mesh.body_names.size() == 1 ? "1 body" : fmt::format("{} bodies", mesh.body_names.size())));
+    if (held > 0) out.taken.push_back(counted(held, "cohesive element"));
+    out.taken.push_back(counted(static_cast<std::int64_t>(deck.steps.size()), "step"));
+    out.text = header(out, deck_path) + text;
+    return out;
+}
+
+}  // namespace cli

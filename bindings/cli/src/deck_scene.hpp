@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// An Abaqus input file as a scene: the mesh stays in the file, everything else is written for people to read and change.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "error.hpp"
+
+namespace cli {
+
+// By the ending of its name.
+bool is_deck(const std::string& path);
+
+struct ImportedScene {
+    std::string text;                   // TOML
+    std::vector<std::string> taken;     // what became what, for people
+    std::vector<std::string> changed;   // what the scene does otherwise
+    std::vector<std::string> left_out;  // what it does not have
+};
+
+// mesh_name: by which the scene names the deck, relative to its own folder. Throws SceneFailure with file, line and
+// keyword where the deck says something that the scene could only guess.
+ImportedScene import_deck(const std::string& deck, const std::string& mesh_name);
+
+// Calls line(..) with each text of what was taken, changed and left out.
+void say_import(const ImportedScene& scene, void (*line)(const std::string&));
+
+}  // namespace cli

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "commands.hpp"
+#include "deck_scene.hpp"
+#include "error.hpp"
+#include "file.hpp"
+#include "say.hpp"
+
+namespace cli {
+
+int import(const std::string& deck, const std::string& scene_file, bool replace) {
+    namespace fs = std::filesystem;
+    const fs::path folder = scene_file.empty() ? fs::path() : fs::path(scene_file).parent_path();
+    // Names on another drive or through links that do not resolve stay as they are.
+    std::error_code code;
+    fs::path mesh = fs::proximate(deck, folder.empty() ? fs::path(".") : folder, code);
+    if (code) mesh = fs::absolute(deck);
+    const ImportedScene scene = import_deck(deck, mesh.generic_string());
+    if (scene_file.empty()) {
+        say("{}", scene.text);
+        say_import(scene, [](const std::string& text) { complain("{}\n", text); });
+        return exit_done;
+    }
+    if (!replace && fs::exists(scene_file, code))
+        throw Failure(exit_output, scene_file + " is there already: --replace overwrites it");
+    write_atomic(scene_file, scene.text);
+    say_import(scene, [](const std::string& text) { say("{}\n", text); });
+    say("wrote     {}: look at it, then delam check {}\n", scene_file, scene_file);
+    return exit_done;
+}
+
+}  // namespace cli

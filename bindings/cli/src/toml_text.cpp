@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "toml_text.hpp"
+
+#include <fmt/format.h>
+
+namespace cli {
+
+namespace {
+
+template <class T, class Write>
+std::string list_of(const std::vector<T>& values, Write&& write) {
+    std::string out;
+    for (const T& value : values) out += (out.empty() ? "" : ", ") + write(value);
+    return "[" + out + "]";
+}
+
+}  // namespace
+
+std::string toml_text(const std::string& text) {
+    std::string out = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\') out += '\\';
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+            out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+        else
+            out += c;
+    }
+    return out + "\"";
+}
+
+std::string toml_number(double value) {
+    std::string text = fmt::format("{}", value);
+    if (text.find_first_of(".en") == std::string::npos) text += ".0";
+    return text;
+}
+
+std::string toml_list(const std::vector<double>& values) { return list_of(values, toml_number); }
+std::string toml_list(const std::vector<std::string>& texts) { return list_of(texts, toml_text); }
+
+}  // namespace cli
