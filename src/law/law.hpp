@@ -45,8 +45,8 @@ struct Law {
 
     // Sets a number by its public name (delam_law_set), whatever its value; false: the law has no such number.
     bool set(const std::string& key, double value);
-    // The criterion of the toughness, and of the onset as long as the onset has none of its own. Another criterion starts
-    // with its own exponents, 2.
+    // The criterion of the toughness, and of the onset as long as the onset has none of its own. Another criterion
+    // starts with its own exponents, 2.
     void set_criterion(Criterion chosen);
     void set_onset_criterion(Criterion chosen);
     Criterion criterion_of_onset() const { return onset_criterion.value_or(criterion); }

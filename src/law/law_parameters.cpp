@@ -55,7 +55,8 @@ constexpr LawParameter common[] = {
      "-",
      "that of criterion",
      {"valoroso-champaney, power, benzeggagh-kenane", -no_bound, no_bound, true, true},
-     "how the onset depends on the mixity B, where not as the toughness does; setting another one sets the exponents of "
+     "how the onset depends on the mixity B, where not as the toughness does; setting another one sets the exponents "
+     "of "
      "the onset to their defaults",
      softens,
      any},
@@ -83,13 +84,11 @@ constexpr LawParameter common[] = {
            &Law::tangential_toughness),
     of_onset(number("onset_exponent_1", "-", "2", "p of the onset: ((1-B) G/G_n)^p + (B G/G_t)^q = 1", softens,
                     two_exponents, &Law::onset_exponent_1)),
-    of_onset(
-        number("onset_exponent_2", "-", "2", "q of the onset", softens, two_exponents, &Law::onset_exponent_2)),
+    of_onset(number("onset_exponent_2", "-", "2", "q of the onset", softens, two_exponents, &Law::onset_exponent_2)),
     number("toughness_exponent_1", "-", "2", "p of the toughness", computed, two_exponents, &Law::toughness_exponent_1),
     number("toughness_exponent_2", "-", "2", "q of the toughness", computed, two_exponents, &Law::toughness_exponent_2),
-    of_onset(number("onset_exponent", "-", "2",
-                    "of the onset: p = q of the power law, eta of G_n + (G_t - G_n) B^eta", softens, one_exponent,
-                    &Law::onset_exponent_1, &Law::onset_exponent_2)),
+    of_onset(number("onset_exponent", "-", "2", "of the onset: p = q of the power law, eta of G_n + (G_t - G_n) B^eta",
+                    softens, one_exponent, &Law::onset_exponent_1, &Law::onset_exponent_2)),
     number("toughness_exponent", "-", "2", "likewise of the toughness", computed, one_exponent,
            &Law::toughness_exponent_1, &Law::toughness_exponent_2),
     {"gradient", "real", "F L", "0", not_negative, "kappa of the gradient term kappa/2 |grad zeta|^2", any, any,

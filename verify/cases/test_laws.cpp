@@ -346,7 +346,7 @@ CASE_TEST(hash_and_keys) {
 
     // Every key of every kind can be read, is of a known type, and says whether it must be given.
     const std::pair<const char*, std::int64_t> counts[] = {
-        {"piecewise-linear", 14}, {"exponential", 14}, {"trapezoidal", 15}, {"tabulated", 15},
+        {"piecewise-linear", 17}, {"exponential", 17}, {"trapezoidal", 18}, {"tabulated", 18},
         {"griffith", 9},          {"host", 3},         {"cubic", 0}};
     for (const auto& [kind, count] : counts) {
         cases::expect(delam_law_parameter_count(kind) == count, kind);
@@ -423,6 +423,67 @@ CASE_TEST(kinds_and_bounds) {
                   "a kind beyond the last");
 }
 
+// A law by its strengths, with a quadratic onset and the toughness of Benzeggagh and Kenane, set in any order.
+CASE_TEST(strengths_and_onset_criterion) {
+    const Scene scene = imposed({0.0, 1.0}, {0.0, 1.0}, {0.0, 1.0});
+    const double kn = 4e14, kt = 1e14, sn = 60e6, st = 90e6, gn = 300.0, gt = 800.0, eta = 2.3;
+    for (const bool onset_first : {false, true}) {
+        delam_law* raw = nullptr;
+        scene.require(delam_law_create(scene.context(), "piecewise-linear", &raw), "delam_law_create");
+        const Law law(raw);
+        const auto text = [&](const char* key, const char* value) {
+            scene.require(delam_law_set_text(raw, key, value), key);
+        };
+        const auto set = [&](const char* key, double value) { scene.require(delam_law_set(raw, key, value), key); };
+        const auto onset = [&] {
+            text("onset_criterion", "power");
+            set("onset_exponent", 1.0);
+            set("normal_strength", sn);
+            set("tangential_strength", st);
+        };
+        if (onset_first) onset();
+        text("criterion", "benzeggagh-kenane");
+        set("toughness_exponent", eta);
+        set("normal_stiffness", kn);
+        set("tangential_stiffness", kt);
+        set("normal_toughness", gn);
+        set("tangential_toughness", gt);
+        if (!onset_first) onset();
+        std::vector<double> mixity, go(11), gc(11);
+        for (int i = 0; i <= 10; ++i) mixity.push_back(i / 10.0);
+        scene.require(delam_law_toughness(raw, 11, mixity.data(), go.data(), gc.data()), "delam_law_toughness");
+        for (std::size_t i = 0; i < mixity.size(); ++i) {
+            const double b = mixity[i];
+            // (t_n/s_n)^2 + (t_t/s_t)^2 = 1 with t^2 = 2 k Y of each mode.
+            const double quadratic = 1.0 / ((1.0 - b) * 2.0 * kn / (sn * sn) + b * 2.0 * kt / (st * st));
+            cases::expect_near(go[i], quadratic, 1e-13, quadratic, "onset");
+            const double kenane = gn + (gt - gn) * std::pow(b, eta);
+            cases::expect_near(gc[i], kenane, 1e-13, kenane, "toughness");
+        }
+        // Of an onset and a strength, the last one counts.
+        set("normal_onset", 2.0);
+        scene.require(delam_law_toughness(raw, 1, mixity.data(), go.data(), nullptr), "onset again");
+        cases::expect_near(go[0], 2.0, 0.0, 1.0, "onset again");
+        set("normal_strength", sn);
+        scene.require(delam_law_toughness(raw, 1, mixity.data(), go.data(), nullptr), "strength again");
+        cases::expect_near(go[0], sn * sn / (2.0 * kn), 1e-15, 1.0, "strength again");
+        // A peak at jumps of the pure modes.
+        const double jump[] = {sn / kn, 0.0};
+        double adhesion = 0.0, traction[2] = {};
+        const double zero = 0.0, one = 1.0;
+        scene.require(delam_law_respond(raw, 2, 1, jump, &zero, &one, &adhesion, traction), "delam_law_respond");
+        cases::expect_near(traction[0], sn, 1e-12, sn, "peak");
+        set("normal_strength", 1e3 * sn);
+        cases::expect(delam_law_check(raw) == DELAM_ERROR_PROBLEM, "a strength beyond the toughness");
+    }
+    delam_law* raw = nullptr;
+    scene.require(delam_law_create(scene.context(), "griffith", &raw), "griffith");
+    const Law brittle(raw);
+    for (const char* key : {"normal_strength", "tangential_strength"})
+        cases::expect(delam_law_set(raw, key, 1.0) == DELAM_ERROR_ARGUMENT, key);
+    cases::expect(delam_law_set_text(raw, "onset_criterion", "power") == DELAM_ERROR_ARGUMENT, "onset_criterion");
+}
+
 }  // namespace
 
 int main() {
@@ -434,6 +495,7 @@ int main() {
     tcase_add_test(tests, callback_fails);
     tcase_add_test(tests, hash_and_keys);
     tcase_add_test(tests, kinds_and_bounds);
+    tcase_add_test(tests, strengths_and_onset_criterion);
     suite_add_tcase(suite, tests);
     return cases::run_suite(suite);
 }

@@ -16,7 +16,8 @@ struct ElementType {
     std::string_view formulation;
     std::string_view plane;
     std::string_view note;
-    std::size_t face_nodes = 0;  // of a cohesive element: nodes of its lower face, which come first, and of its upper one
+    std::size_t face_nodes =
+        0;  // of a cohesive element: nodes of its lower face, which come first, and of its upper one
 
     [[nodiscard]] bool cohesive() const { return face_nodes > 0; }
     [[nodiscard]] std::size_t nodes() const;

@@ -105,9 +105,10 @@ private:
         if (mesh_.body_names.empty()) {
             for (const Part* scope : model_.scopes())
                 for (const Element& element : scope->elements)
-                    if (!element.type->cohesive()) assign_body(element.set.empty() ? (scope->name.empty() ? "body" : scope->name)
-                                                    : body_name({scope, element.set, element.place}),
-                                {scope, std::to_string(element.id), element.place});
+                    if (!element.type->cohesive())
+                        assign_body(element.set.empty() ? (scope->name.empty() ? "body" : scope->name)
+                                                        : body_name({scope, element.set, element.place}),
+                                    {scope, std::to_string(element.id), element.place});
             return;
         }
         for (const Part* scope : model_.scopes())
@@ -170,9 +171,8 @@ private:
                 model_.collect_elements(section, members);
                 for (const ElementAt& at : members) {
                     if (!at.type().cohesive())
-                        throw SceneFailure(section.place,
-                                           fmt::format("\"{}\": element {} ({}) is no cohesive element", section.text,
-                                                       at.element().id, at.type().name));
+                        throw SceneFailure(section.place, fmt::format("\"{}\": element {} ({}) is no cohesive element",
+                                                                      section.text, at.element().id, at.type().name));
                     set_of[at] = body_name(section);
                 }
             }
@@ -182,9 +182,9 @@ private:
                 const Element& element = scope->elements[i];
                 if (!element.type->cohesive()) continue;
                 const auto known = set_of.find({scope, i});
-                std::string name = known != set_of.end()     ? known->second
-                                   : element.set.empty()     ? full_name(*scope, "cohesive")
-                                                             : body_name({scope, element.set, element.place});
+                std::string name = known != set_of.end() ? known->second
+                                   : element.set.empty() ? full_name(*scope, "cohesive")
+                                                         : body_name({scope, element.set, element.place});
                 add_cohesive_element(*scope, element, name, in_cell);
             }
         for (CohesiveSet& set : mesh_.cohesive) {
@@ -213,11 +213,12 @@ private:
             if (k % half == 0) faces[k / half].fill(-1);
             const std::int64_t node = node_number(scope, element.nodes[k], element.place);
             if (!in_cell[static_cast<std::size_t>(node)])
-                throw SceneFailure(element.place,
-                                   fmt::format("node {} of the cohesive element {} belongs to no cell: cohesive elements "
-                                               "share their nodes with the bodies that they hold together (*TIE is not "
-                                               "read)",
-                                               full_name(scope, std::to_string(element.nodes[k])), element.id));
+                throw SceneFailure(
+                    element.place,
+                    fmt::format("node {} of the cohesive element {} belongs to no cell: cohesive elements "
+                                "share their nodes with the bodies that they hold together (*TIE is not "
+                                "read)",
+                                full_name(scope, std::to_string(element.nodes[k])), element.id));
             faces[k / half][k % half] = node;
         }
         set->lower.push_back(faces[0]);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What an input file of Abaqus says beside its mesh: materials, sections, interactions and the steps of the analysis, as
-// written there. Data alone: deck_cards.hpp reads it, deck_scene.hpp makes a scene of it.
+// What an input file of Abaqus says beside its mesh: materials, sections, interactions and the steps of the analysis,
+// as written there. Data alone: deck_cards.hpp reads it, deck_scene.hpp makes a scene of it.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -65,8 +66,8 @@ struct InteractionCards {
 
 struct ContactPair {
     std::string interaction;
-    Entry slave, master;  // surfaces
-    std::string bonded{};   // of *INITIAL CONDITIONS, TYPE=CONTACT: the set of nodes that adhere; empty: all
+    Entry slave, master;   // surfaces
+    std::string bonded{};  // of *INITIAL CONDITIONS, TYPE=CONTACT: the set of nodes that adhere; empty: all
     Place place;
 };
 
@@ -82,10 +83,10 @@ struct Amplitude {
 // A line of *BOUNDARY, *CLOAD or *DSLOAD.
 struct LoadLine {
     Entry where;
-    int first = 0, last = 0;   // degrees of freedom, 1 to 6; of a distributed load 0
-    std::string distributed;   // P, TRVEC
+    int first = 0, last = 0;  // degrees of freedom, 1 to 6; of a distributed load 0
+    std::string distributed;  // P, TRVEC
     double magnitude = 0;
-    Numbers direction{};       // of TRVEC
+    Numbers direction{};  // of TRVEC
     std::string amplitude{};
 };
 
@@ -93,7 +94,7 @@ struct Step {
     std::string name;
     double first_increment = 1;
     double period = 1;
-    bool ramp = true;  // what has no amplitude grows over the step
+    bool ramp = true;                                 // what has no amplitude grows over the step
     bool new_boundaries = false, new_forces = false;  // those of earlier steps end
     std::vector<LoadLine> boundaries, forces;
     Place place;
@@ -110,9 +111,14 @@ struct Deck {
     std::vector<LoadLine> held;  // *BOUNDARY before the first step
     std::vector<Step> steps;
     bool general_contact = false;
-    std::vector<std::string> changed;   // for people: what the scene does otherwise
+    std::vector<std::string> changed;  // for people: what the scene does otherwise
     std::vector<std::string> left_out;
 };
+
+// Adds a line for people, once.
+inline void add_once(std::vector<std::string>& texts, const std::string& text) {
+    if (std::find(texts.begin(), texts.end(), text) == texts.end()) texts.push_back(text);
+}
 
 // The object of this name, whatever its case. Throws SceneFailure at `place`.
 template <class T>

@@ -11,7 +11,7 @@
 
 namespace cli::abaqus {
 
-using Face = std::array<std::int64_t, 9>;  // nodes, -1 padded
+using Face = std::array<std::int64_t, 9>;   // nodes, -1 padded
 using FaceKey = std::vector<std::int64_t>;  // its corners, ascending
 
 // The bodies on a side of cells. A side on which two bodies meet has two, unless the nodes are doubled.

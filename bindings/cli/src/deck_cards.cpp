@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "deck_step_cards.hpp"
 #include "reader.hpp"
 
 namespace cli::abaqus {
@@ -14,16 +15,39 @@ namespace cli::abaqus {
 namespace {
 
 // Requests for output, settings of a solver, and what quasi-static steps without temperatures do not need.
-const std::set<std::string> not_needed{
-    "CONDUCTIVITY",       "CONTACT CONTROLS",  "CONTACT FILE",   "CONTACT OUTPUT",      "CONTACT PRINT",
-    "CONTROLS",           "DAMPING",           "DENSITY",        "EL FILE",             "EL PRINT",
-    "ELEMENT OUTPUT",     "ENERGY OUTPUT",     "ENERGY PRINT",   "EXPANSION",           "FILE FORMAT",
-    "FILE OUTPUT",        "HOURGLASS STIFFNESS", "MONITOR",      "NODE FILE",           "NODE OUTPUT",
-    "NODE PRINT",         "OUTPUT",            "PHYSICAL CONSTANTS", "PREPRINT",        "PRINT",
-    "RESTART",            "SECTION CONTROLS",  "SOLVER CONTROLS", "SPECIFIC HEAT",      "TIME POINTS",
-    "TRANSVERSE SHEAR STIFFNESS"};
+const std::set<std::string> not_needed{"CONDUCTIVITY",
+                                       "CONTACT CONTROLS",
+                                       "CONTACT FILE",
+                                       "CONTACT OUTPUT",
+                                       "CONTACT PRINT",
+                                       "CONTROLS",
+                                       "DAMPING",
+                                       "DENSITY",
+                                       "EL FILE",
+                                       "EL PRINT",
+                                       "ELEMENT OUTPUT",
+                                       "ENERGY OUTPUT",
+                                       "ENERGY PRINT",
+                                       "EXPANSION",
+                                       "FILE FORMAT",
+                                       "FILE OUTPUT",
+                                       "HOURGLASS STIFFNESS",
+                                       "MONITOR",
+                                       "NODE FILE",
+                                       "NODE OUTPUT",
+                                       "NODE PRINT",
+                                       "OUTPUT",
+                                       "PHYSICAL CONSTANTS",
+                                       "PREPRINT",
+                                       "PRINT",
+                                       "RESTART",
+                                       "SECTION CONTROLS",
+                                       "SOLVER CONTROLS",
+                                       "SPECIFIC HEAT",
+                                       "TIME POINTS",
+                                       "TRANSVERSE SHEAR STIFFNESS"};
 // Of the mesh, which abaqus_cards.cpp reads.
-const std::set<std::string> of_mesh{"NODE",     "ELEMENT", "NSET",         "ELSET",        "SURFACE",      "PART",
+const std::set<std::string> of_mesh{"NODE",     "ELEMENT",  "NSET",         "ELSET",    "SURFACE",     "PART",
                                     "END PART", "ASSEMBLY", "END ASSEMBLY", "INSTANCE", "END INSTANCE"};
 // What the scene does otherwise, by keyword: said once.
 const std::pair<const char*, const char*> otherwise[] = {
@@ -32,31 +56,9 @@ const std::pair<const char*, const char*> otherwise[] = {
     {"SURFACE BEHAVIOR", "*SURFACE BEHAVIOR: contact is exact, without a penalty"},
 };
 
-Numbers numbers_of(const InpLine& line, std::size_t from = 0) {
-    Numbers out;
-    for (std::size_t i = from; i < line.fields.size(); ++i)
-        out.push_back(line.fields[i].empty() ? 0.0 : inp_number(line.fields[i], line.place));
-    return out;
-}
-
-// Lines of eight numbers each are one row.
-Numbers row_of(const InpCard& card) {
-    Numbers out;
-    for (const InpLine& line : card.lines) {
-        const Numbers more = numbers_of(line);
-        out.insert(out.end(), more.begin(), more.end());
-    }
-    return out;
-}
-
-const InpLine& first_line(const InpCard& card) {
-    if (card.lines.empty()) throw SceneFailure(card.place, "a data line is expected");
-    return card.lines.front();
-}
-
 class DeckReader {
 public:
-    DeckReader(const std::string& path, const Part& root) : path_(path), root_(root) {}
+    DeckReader(const std::string& path, const Part& root) : path_(path), root_(root), steps_(deck_, root) {}
 
     Deck read(const std::vector<InpCard>& cards) {
         for (const InpCard& card : cards) take(card);
@@ -75,12 +77,10 @@ private:
             return;
         }
         for (const auto& [keyword, text] : otherwise)
-            if (word == keyword) return change(text);
+            if (word == keyword) return add_once(deck_.changed, text);
+        if (steps_.take(card)) return;
         using Take = void (DeckReader::*)(const InpCard&);
         static const std::pair<const char*, Take> known[] = {
-            {"AMPLITUDE", &DeckReader::take_amplitude},
-            {"BOUNDARY", &DeckReader::take_boundary},
-            {"CLOAD", &DeckReader::take_forces},
             {"COHESIVE BEHAVIOR", &DeckReader::take_behavior},
             {"COHESIVE SECTION", &DeckReader::take_cohesive_section},
             {"CONTACT", &DeckReader::take_general_contact},
@@ -89,18 +89,13 @@ private:
             {"CONTACT PROPERTY ASSIGNMENT", &DeckReader::take_assignment},
             {"DAMAGE EVOLUTION", &DeckReader::take_evolution},
             {"DAMAGE INITIATION", &DeckReader::take_initiation},
-            {"DSLOAD", &DeckReader::take_distributed},
-            {"DYNAMIC", &DeckReader::take_procedure},
             {"ELASTIC", &DeckReader::take_elastic},
-            {"END STEP", &DeckReader::end_step},
             {"HEADING", &DeckReader::take_heading},
             {"INITIAL CONDITIONS", &DeckReader::take_initial},
             {"MATERIAL", &DeckReader::take_material},
             {"ORIENTATION", &DeckReader::take_orientation},
             {"SHELL SECTION", &DeckReader::take_section},
             {"SOLID SECTION", &DeckReader::take_section},
-            {"STATIC", &DeckReader::take_procedure},
-            {"STEP", &DeckReader::take_step},
             {"SURFACE INTERACTION", &DeckReader::take_interaction},
         };
         for (const auto& [keyword, function] : known)
@@ -108,16 +103,6 @@ private:
         throw SceneFailure(card.place,
                            "this keyword would change the result and cannot be imported; take it out of a copy of the "
                            "deck to go on without it, or write the scene by hand (SCENE.md)");
-    }
-
-    void change(const std::string& text) {
-        if (std::find(deck_.changed.begin(), deck_.changed.end(), text) == deck_.changed.end())
-            deck_.changed.push_back(text);
-    }
-
-    static void refuse(const InpCard& card, const std::string& name, const std::string& value,
-                       const std::string& known) {
-        throw SceneFailure(card.place, fmt::format("{}={} is not imported: {} is", name, value, known));
     }
 
     void take_heading(const InpCard& card) {
@@ -140,7 +125,8 @@ private:
     DamageCards& damage_of_material() { return deck_.materials.back().damage; }
     DamageCards& damage_of_interaction() { return deck_.interactions.back().damage; }
     DamageCards& damage(const InpCard& card) {
-        if (damage_of_ == nullptr) throw SceneFailure(card.place, "a *MATERIAL or *SURFACE INTERACTION is expected first");
+        if (damage_of_ == nullptr)
+            throw SceneFailure(card.place, "a *MATERIAL or *SURFACE INTERACTION is expected first");
         return (this->*damage_of_)();
     }
     MaterialCards& material(const InpCard& card) {
@@ -163,9 +149,8 @@ private:
                                   : m.elastic == "LAMINA"                ? 6
                                   : m.elastic == "ENGINEERING CONSTANTS" ? 9
                                                                          : 0;
-        if (count == 0)
-            refuse(card, "TYPE", m.elastic, "ISOTROPIC, ENGINEERING CONSTANTS, LAMINA or TRACTION");
-        m.constants = row_of(card);
+        if (count == 0) card.refuse("TYPE", m.elastic, "ISOTROPIC, ENGINEERING CONSTANTS, LAMINA or TRACTION");
+        m.constants = card.row();
         // A temperature may follow, and another row would be for another temperature.
         if (m.constants.size() < count || m.constants.size() > count + 1)
             throw SceneFailure(card.place, fmt::format("{} numbers: {} constants, at one temperature, are expected",
@@ -179,38 +164,38 @@ private:
         DamageCards& d = damage(card);
         d.initiation = upper(card.required("CRITERION"));
         if (d.initiation != "MAXS" && d.initiation != "QUADS" && d.initiation != "MAXE" && d.initiation != "QUADE")
-            refuse(card, "CRITERION", d.initiation, "MAXS, QUADS, MAXE or QUADE");
-        d.strengths = numbers_of(first_line(card));
+            card.refuse("CRITERION", d.initiation, "MAXS, QUADS, MAXE or QUADE");
+        d.strengths = card.first_line().numbers();
         d.initiation_place = card.place;
         if (d.strengths.size() < 2) throw SceneFailure(card.place, "two or three values are expected");
         d.strengths.resize(3, d.strengths[1]);
     }
 
     void take_evolution(const InpCard& card) {
-        card.only({"TYPE", "SOFTENING", "MIXED MODE BEHAVIOR", "MODE MIX RATIO", "POWER", "DEGRADATION",
-                   "DEPENDENCIES"});
+        card.only(
+            {"TYPE", "SOFTENING", "MIXED MODE BEHAVIOR", "MODE MIX RATIO", "POWER", "DEGRADATION", "DEPENDENCIES"});
         require_constant(card);
         DamageCards& d = damage(card);
         d.evolution = upper(card.required("TYPE"));
         if (d.evolution != "ENERGY" && d.evolution != "DISPLACEMENT")
-            refuse(card, "TYPE", d.evolution, "ENERGY or DISPLACEMENT");
+            card.refuse("TYPE", d.evolution, "ENERGY or DISPLACEMENT");
         if (card.has("SOFTENING")) d.softening = upper(card.required("SOFTENING"));
         if (d.softening != "LINEAR" && d.softening != "EXPONENTIAL" && d.softening != "TABULAR")
-            refuse(card, "SOFTENING", d.softening, "LINEAR, EXPONENTIAL or TABULAR");
+            card.refuse("SOFTENING", d.softening, "LINEAR, EXPONENTIAL or TABULAR");
         if (card.has("MIXED MODE BEHAVIOR")) d.mixed_mode = upper(card.required("MIXED MODE BEHAVIOR"));
         if (d.mixed_mode == "MODE INDEPENDENT") d.mixed_mode.clear();
         if (!d.mixed_mode.empty() && d.mixed_mode != "BK" && d.mixed_mode != "POWER LAW")
-            refuse(card, "MIXED MODE BEHAVIOR", d.mixed_mode, "BK or POWER LAW");
+            card.refuse("MIXED MODE BEHAVIOR", d.mixed_mode, "BK or POWER LAW");
         if (card.has("MODE MIX RATIO") && upper(card.required("MODE MIX RATIO")) != "ENERGY")
-            refuse(card, "MODE MIX RATIO", card.required("MODE MIX RATIO"), "ENERGY");
+            card.refuse("MODE MIX RATIO", card.required("MODE MIX RATIO"), "ENERGY");
         if (!d.mixed_mode.empty()) {
             d.power = inp_number(card.required("POWER"), card.place);
             if (!(d.power > 0)) throw SceneFailure(card.place, fmt::format("POWER={}: must be > 0", d.power));
         }
         if (card.has("DEGRADATION") && upper(card.required("DEGRADATION")) != "MAXIMUM")
-            refuse(card, "DEGRADATION", card.required("DEGRADATION"), "MAXIMUM");
-        first_line(card);
-        for (const InpLine& line : card.lines) d.values.push_back(numbers_of(line));
+            card.refuse("DEGRADATION", card.required("DEGRADATION"), "MAXIMUM");
+        (void)card.first_line();
+        for (const InpLine& line : card.lines) d.values.push_back(line.numbers());
         d.evolution_place = card.place;
     }
 
@@ -219,11 +204,11 @@ private:
         require_constant(card);
         if (deck_.interactions.empty()) throw SceneFailure(card.place, "a *SURFACE INTERACTION is expected first");
         if (card.has("TYPE") && upper(card.required("TYPE")) != "UNCOUPLED")
-            refuse(card, "TYPE", card.required("TYPE"), "UNCOUPLED");
+            card.refuse("TYPE", card.required("TYPE"), "UNCOUPLED");
         InteractionCards& interaction = deck_.interactions.back();
         interaction.cohesive = true;
         interaction.eligibility = upper(card.parameter("ELIGIBILITY"));
-        interaction.stiffness = row_of(card);
+        interaction.stiffness = card.row();
         if (interaction.stiffness.size() < 2)
             throw SceneFailure(card.place,
                                "no stiffness: Abaqus would take that of its contact; give Knn, Kss, Ktt, about "
@@ -232,8 +217,8 @@ private:
     }
 
     void take_section(const InpCard& card) {
-        card.only({"ELSET", "MATERIAL", "ORIENTATION", "CONTROLS", "COMPOSITE", "STACK DIRECTION", "SYMMETRIC",
-                   "LAYUP", "OFFSET", "POISSON", "SECTION INTEGRATION"});
+        card.only({"ELSET", "MATERIAL", "ORIENTATION", "CONTROLS", "COMPOSITE", "STACK DIRECTION", "SYMMETRIC", "LAYUP",
+                   "OFFSET", "POISSON", "SECTION INTEGRATION"});
         Section section;
         section.place = card.place;
         section.orientation = card.parameter("ORIENTATION");
@@ -258,16 +243,19 @@ private:
     void take_cohesive_section(const InpCard& card) {
         card.only({"ELSET", "MATERIAL", "RESPONSE", "THICKNESS", "CONTROLS", "ORIENTATION", "STACK DIRECTION"});
         if (const std::string response = upper(card.required("RESPONSE")); response != "TRACTION SEPARATION")
-            refuse(card, "RESPONSE", response, "TRACTION SEPARATION");
-        if (card.has("CONTROLS")) change("CONTROLS of cohesive elements: no viscosity; jumps of the crack are found by energy");
+            card.refuse("RESPONSE", response, "TRACTION SEPARATION");
+        if (card.has("CONTROLS"))
+            add_once(deck_.changed,
+                     "CONTROLS of cohesive elements: no viscosity; jumps of the crack are found by energy");
         Section section;
         section.material = card.required("MATERIAL");
         section.thickness = card.has("THICKNESS") ? upper(card.required("THICKNESS")) : "SPECIFIED";
         if (section.thickness != "SPECIFIED" && section.thickness != "GEOMETRY")
-            refuse(card, "THICKNESS", section.thickness, "SPECIFIED or GEOMETRY");
+            card.refuse("THICKNESS", section.thickness, "SPECIFIED or GEOMETRY");
         if (!card.lines.empty() && !card.lines[0].fields.empty() && !card.lines[0].fields[0].empty())
             section.value = inp_number(card.lines[0].fields[0], card.lines[0].place);
-        if (!(section.value > 0)) throw SceneFailure(card.place, fmt::format("thickness {}: must be > 0", section.value));
+        if (!(section.value > 0))
+            throw SceneFailure(card.place, fmt::format("thickness {}: must be > 0", section.value));
         section.place = card.place;
         deck_.sections.push_back(std::move(section));
     }
@@ -275,18 +263,18 @@ private:
     void take_orientation(const InpCard& card) {
         card.only({"NAME", "DEFINITION", "SYSTEM"});
         if (card.has("DEFINITION") && upper(card.required("DEFINITION")) != "COORDINATES")
-            refuse(card, "DEFINITION", card.required("DEFINITION"), "COORDINATES");
+            card.refuse("DEFINITION", card.required("DEFINITION"), "COORDINATES");
         if (card.has("SYSTEM") && upper(card.required("SYSTEM")) != "RECTANGULAR")
-            refuse(card, "SYSTEM", card.required("SYSTEM"), "RECTANGULAR");
+            card.refuse("SYSTEM", card.required("SYSTEM"), "RECTANGULAR");
         Orientation orientation;
         orientation.name = card.required("NAME");
         orientation.place = card.place;
-        orientation.points = numbers_of(first_line(card));
+        orientation.points = card.first_line().numbers();
         if (orientation.points.size() != 6 && orientation.points.size() != 9)
             throw SceneFailure(card.lines[0].place, "6 or 9 coordinates are expected");
         orientation.points.resize(9, 0.0);
         if (card.lines.size() > 1) {
-            const Numbers turn = numbers_of(card.lines[1]);
+            const Numbers turn = card.lines[1].numbers();
             if (turn.size() != 2 || (turn[0] != 1 && turn[0] != 2 && turn[0] != 3))
                 throw SceneFailure(card.lines[1].place, "an axis, 1 to 3, and an angle are expected");
             orientation.about = static_cast<int>(turn[0]);
@@ -322,161 +310,26 @@ private:
         for (const InpLine& line : card.lines) {
             const std::string& name = line.fields.back();
             if (named(deck_.interactions, name, "surface interaction", line.place).cohesive)
-                throw SceneFailure(line.place, "general contact with *COHESIVE BEHAVIOR is not imported: give the "
-                                               "surfaces that adhere as *CONTACT PAIR");
+                throw SceneFailure(line.place,
+                                   "general contact with *COHESIVE BEHAVIOR is not imported: give the "
+                                   "surfaces that adhere as *CONTACT PAIR");
         }
     }
 
     void take_initial(const InpCard& card) {
         const std::string type = upper(card.required("TYPE"));
         if (type != "CONTACT")
-            throw SceneFailure(card.place, "TYPE=" + type + " is not imported: CONTACT (the set of nodes that adhere) is");
+            throw SceneFailure(card.place,
+                               "TYPE=" + type + " is not imported: CONTACT (the set of nodes that adhere) is");
         for (const InpLine& line : card.lines) {
-            if (line.fields.size() != 3) throw SceneFailure(line.place, "slave, master and a set of nodes are expected");
+            if (line.fields.size() != 3)
+                throw SceneFailure(line.place, "slave, master and a set of nodes are expected");
             const auto pair = std::find_if(deck_.pairs.begin(), deck_.pairs.end(), [&](const ContactPair& p) {
                 return upper(p.slave.text) == upper(line.fields[0]) && upper(p.master.text) == upper(line.fields[1]);
             });
-            if (pair == deck_.pairs.end()) throw SceneFailure(line.place, "there is no *CONTACT PAIR of these surfaces");
+            if (pair == deck_.pairs.end())
+                throw SceneFailure(line.place, "there is no *CONTACT PAIR of these surfaces");
             pair->bonded = line.fields[2];
-        }
-    }
-
-    void take_amplitude(const InpCard& card) {
-        card.only({"NAME", "DEFINITION", "TIME", "VALUE", "SMOOTH"});
-        Amplitude amplitude;
-        amplitude.name = card.required("NAME");
-        amplitude.place = card.place;
-        amplitude.total_time = upper(card.parameter("TIME")) == "TOTAL TIME";
-        amplitude.absolute = upper(card.parameter("VALUE")) == "ABSOLUTE";
-        const std::string definition = card.has("DEFINITION") ? upper(card.required("DEFINITION")) : "TABULAR";
-        amplitude.smooth = definition == "SMOOTH STEP";
-        if (definition != "TABULAR" && definition != "SMOOTH STEP")
-            refuse(card, "DEFINITION", definition, "TABULAR or SMOOTH STEP");
-        if (card.has("SMOOTH")) change("*AMPLITUDE, SMOOTH: straight lines between its points");
-        const Numbers values = row_of(card);
-        if (values.size() < 2 || values.size() % 2 != 0) throw SceneFailure(card.place, "pairs of time and value are expected");
-        for (std::size_t i = 0; i < values.size(); i += 2) {
-            if (i > 0 && !(values[i] > values[i - 2]))
-                throw SceneFailure(card.place, fmt::format("time {} after {}: times must grow", values[i], values[i - 2]));
-            amplitude.points.emplace_back(values[i], values[i + 1]);
-        }
-        deck_.amplitudes.push_back(std::move(amplitude));
-    }
-
-    void take_step(const InpCard& card) {
-        card.only({"NAME", "NLGEOM", "INC", "AMPLITUDE", "UNSYMM", "EXTRAPOLATION", "CONVERT SDI"});
-        Step step;
-        step.name = card.parameter("NAME");
-        step.place = card.place;
-        if (card.has("AMPLITUDE")) step.ramp = upper(card.required("AMPLITUDE")) == "RAMP";
-        if (card.has("NLGEOM") && upper(card.parameter("NLGEOM")) != "NO")
-            change("NLGEOM: small displacements and rotations; the program warns where cells rotate by more than 0.1 rad");
-        deck_.steps.push_back(std::move(step));
-        in_step_ = true;
-    }
-
-    Step& step(const InpCard& card) {
-        if (!in_step_) throw SceneFailure(card.place, "a *STEP is expected first");
-        return deck_.steps.back();
-    }
-    void end_step(const InpCard&) { in_step_ = false; }
-
-    void take_procedure(const InpCard& card) {
-        Step& s = step(card);
-        if (card.has("RIKS"))
-            throw SceneFailure(card.place, "RIKS is not imported: prescribe displacements; jumps are found by energy");
-        if (card.keyword == "DYNAMIC") {
-            if (upper(card.parameter("APPLICATION")) != "QUASI-STATIC")
-                throw SceneFailure(card.place, "dynamic steps are not imported, but for APPLICATION=QUASI-STATIC");
-            change("*DYNAMIC: without inertia");
-        }
-        if (card.has("STABILIZE")) change("STABILIZE: no viscosity; jumps of the crack are found by energy");
-        if (card.lines.empty()) return;
-        const Numbers values = numbers_of(card.lines[0]);
-        if (!values.empty() && values[0] > 0) s.first_increment = values[0];
-        if (values.size() > 1 && values[1] > 0) s.period = values[1];
-        s.first_increment = std::min(s.first_increment, s.period);
-    }
-
-    std::vector<LoadLine>& boundaries() { return in_step_ ? deck_.steps.back().boundaries : deck_.held; }
-
-    // OP=NEW: what earlier steps have prescribed ends, unless this step gives it again.
-    static bool renews(const InpCard& card) {
-        const std::string op = card.has("OP") ? upper(card.required("OP")) : "MOD";
-        if (op != "MOD" && op != "NEW") refuse(card, "OP", op, "MOD or NEW");
-        return op == "NEW";
-    }
-
-    void take_boundary(const InpCard& card) {
-        card.only({"AMPLITUDE", "OP", "TYPE", "FIXED"});
-        if (renews(card)) step(card).new_boundaries = true;
-        if (card.has("TYPE") && upper(card.required("TYPE")) != "DISPLACEMENT")
-            refuse(card, "TYPE", card.required("TYPE"), "DISPLACEMENT");
-        if (card.has("FIXED")) throw SceneFailure(card.place, "FIXED is not imported: give the displacement");
-        for (const InpLine& line : card.lines) {
-            if (line.fields.size() < 2) throw SceneFailure(line.place, "a node or set and a degree of freedom are expected");
-            LoadLine load;
-            load.where = {&root_, line.fields[0], line.place};
-            load.amplitude = card.parameter("AMPLITUDE");
-            for (const auto& [name, dofs] : named_supports())
-                if (upper(line.fields[1]) == name) {
-                    for (const int dof : dofs) {
-                        load.first = load.last = dof;
-                        boundaries().push_back(load);
-                    }
-                    load.first = -1;
-                }
-            if (load.first < 0) continue;
-            load.first = static_cast<int>(inp_whole(line.fields[1], line.place));
-            load.last = line.fields.size() > 2 && !line.fields[2].empty()
-                            ? static_cast<int>(inp_whole(line.fields[2], line.place))
-                            : load.first;
-            if (load.first < 1 || load.last > 6 || load.last < load.first)
-                throw SceneFailure(line.place, fmt::format("degrees of freedom {} to {}: 1 to 6 are expected", load.first,
-                                                           load.last));
-            if (line.fields.size() > 3) load.magnitude = inp_number(line.fields[3], line.place);
-            if (!in_step_ && load.magnitude != 0)
-                throw SceneFailure(line.place, "a displacement other than 0 is expected within a *STEP");
-            boundaries().push_back(std::move(load));
-        }
-    }
-
-    static std::vector<std::pair<std::string, std::vector<int>>> named_supports() {
-        return {{"ENCASTRE", {1, 2, 3}}, {"PINNED", {1, 2, 3}}, {"XSYMM", {1}}, {"YSYMM", {2}},
-                {"ZSYMM", {3}},          {"XASYMM", {2, 3}},    {"YASYMM", {1, 3}}, {"ZASYMM", {1, 2}}};
-    }
-
-    void take_forces(const InpCard& card) {
-        card.only({"AMPLITUDE", "OP"});
-        if (renews(card)) step(card).new_forces = true;
-        for (const InpLine& line : card.lines) {
-            if (line.fields.size() < 3) throw SceneFailure(line.place, "a node or set, a degree of freedom and a force are expected");
-            LoadLine load;
-            load.where = {&root_, line.fields[0], line.place};
-            load.amplitude = card.parameter("AMPLITUDE");
-            load.first = load.last = static_cast<int>(inp_whole(line.fields[1], line.place));
-            if (load.first < 1 || load.first > 3)
-                throw SceneFailure(line.place, fmt::format("degree of freedom {}: 1 to 3 are expected", load.first));
-            load.magnitude = inp_number(line.fields[2], line.place);
-            step(card).forces.push_back(std::move(load));
-        }
-    }
-
-    void take_distributed(const InpCard& card) {
-        card.only({"AMPLITUDE", "OP", "FOLLOWER", "ORIENTATION", "CONSTANT RESULTANT"});
-        if (renews(card)) step(card).new_forces = true;
-        if (card.has("ORIENTATION")) throw SceneFailure(card.place, "ORIENTATION is not imported");
-        for (const InpLine& line : card.lines) {
-            if (line.fields.size() < 3) throw SceneFailure(line.place, "a surface, P or TRVEC, and a magnitude are expected");
-            LoadLine load;
-            load.where = {&root_, line.fields[0], line.place};
-            load.amplitude = card.parameter("AMPLITUDE");
-            load.distributed = upper(line.fields[1]);
-            if (load.distributed != "P" && load.distributed != "TRVEC")
-                throw SceneFailure(line.place, "\"" + line.fields[1] + "\" is not imported: P and TRVEC are");
-            load.magnitude = inp_number(line.fields[2], line.place);
-            if (load.distributed == "TRVEC") load.direction = numbers_of(line, 3);
-            step(card).forces.push_back(std::move(load));
         }
     }
 
@@ -484,7 +337,7 @@ private:
     const Part& root_;
     Deck deck_;
     DamageCards& (DeckReader::*damage_of_)() = nullptr;
-    bool in_step_ = false;
+    StepReader steps_;
     std::set<std::string> left_;
 };
 

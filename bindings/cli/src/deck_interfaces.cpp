@@ -23,9 +23,9 @@ constexpr double allowance = 1.001;
 
 struct Held {
     std::int32_t a = 0, b = 0;
-    std::string law;      // empty: contact
-    std::string set;      // the faces or nodes that adhere; empty: all
-    double gap = 0;       // between the faces; 0: they coincide
+    std::string law;  // empty: contact
+    std::string set;  // the faces or nodes that adhere; empty: all
+    double gap = 0;   // between the faces; 0: they coincide
     bool matching = true;
     Place place;
 };
@@ -48,8 +48,9 @@ public:
             out += fmt::format("[[interfaces]]\na = {}\nb = {}\n{} = true\n\n", body(pair.a), body(pair.b),
                                pair.shared > 0 ? "bonded" : "contact");
             if (pair.shared == 0 && !deck_.general_contact)
-                deck_.changed.push_back(fmt::format("{} and {} touch and have nothing between them: here they are in contact",
-                                                    body(pair.a), body(pair.b)));
+                deck_.changed.push_back(
+                    fmt::format("{} and {} touch and have nothing between them: here they are in contact", body(pair.a),
+                                body(pair.b)));
         }
         return out;
     }
@@ -69,10 +70,11 @@ private:
     void require_one_way(const BodyPair& pair) {
         const Held* held = find(pair.a, pair.b);
         if (pair.shared == 0 || (pair.doubled == 0 && held == nullptr)) return;
-        throw SceneFailure(held != nullptr ? held->place : model_.file,
-                           fmt::format("{} and {} share the nodes of {} sides, where they would be bonded, and have nodes "
-                                       "of their own elsewhere: an interface has one law; double all its nodes",
-                                       body(pair.a), body(pair.b), pair.shared));
+        throw SceneFailure(
+            held != nullptr ? held->place : model_.file,
+            fmt::format("{} and {} share the nodes of {} sides, where they would be bonded, and have nodes "
+                        "of their own elsewhere: an interface has one law; double all its nodes",
+                        body(pair.a), body(pair.b), pair.shared));
     }
 
     void add(const Held& held) {
@@ -80,9 +82,10 @@ private:
         if (other == nullptr) {
             held_.push_back(held);
         } else if (other->law != held.law || other->set != held.set) {
-            throw SceneFailure(held.place, fmt::format("{} and {} are held together by {} already: an interface has one "
-                                                       "law and one set",
-                                                       body(held.a), body(held.b), other->place.text()));
+            throw SceneFailure(held.place,
+                               fmt::format("{} and {} are held together by {} already: an interface has one "
+                                           "law and one set",
+                                           body(held.a), body(held.b), other->place.text()));
         }
     }
 
@@ -96,9 +99,11 @@ private:
                     known == resolved.scope->element_sets.end() ? resolved.text : known->second.name;
                 if (full_name(*resolved.scope, name) != set.name) continue;
                 for (const Section& section : deck_.sections)
-                    if (section.place.file == entry.place.file && section.place.line == entry.place.line) return section;
+                    if (section.place.file == entry.place.file && section.place.line == entry.place.line)
+                        return section;
             }
-        throw SceneFailure(model_.file, fmt::format("the cohesive elements \"{}\" have no *COHESIVE SECTION", set.name));
+        throw SceneFailure(model_.file,
+                           fmt::format("the cohesive elements \"{}\" have no *COHESIVE SECTION", set.name));
     }
 
     [[nodiscard]] double distance(std::int64_t a, std::int64_t b) const {
@@ -123,11 +128,11 @@ private:
     [[nodiscard]] std::int32_t one_body(const Face& face, const CohesiveSet& set, const Place& place) const {
         const std::vector<std::int32_t> bodies = faces_.of(face);
         if (bodies.size() == 1) return bodies[0];
-        throw SceneFailure(place, bodies.empty()
-                                      ? fmt::format("an element of \"{}\" has a face that is no side of a cell", set.name)
-                                      : fmt::format("an element of \"{}\" has a face between {} and {}: its nodes must be "
-                                                    "those of one of them",
-                                                    set.name, body(bodies[0]), body(bodies[1])));
+        throw SceneFailure(
+            place, bodies.empty() ? fmt::format("an element of \"{}\" has a face that is no side of a cell", set.name)
+                                  : fmt::format("an element of \"{}\" has a face between {} and {}: its nodes must be "
+                                                "those of one of them",
+                                                set.name, body(bodies[0]), body(bodies[1])));
     }
 
     void add_cohesive(const CohesiveSet& set) {
@@ -157,9 +162,10 @@ private:
         for (const auto& [bodies, gap] : gaps) {
             const bool apart = gap > 1e-6 * edge_;
             if (apart)
-                deck_.changed.push_back(fmt::format("\"{}\" is {:.6g} thick: the faces beside it are projected upon each "
-                                                    "other, and it has no volume",
-                                                    set.name, gap));
+                deck_.changed.push_back(
+                    fmt::format("\"{}\" is {:.6g} thick: the faces beside it are projected upon each "
+                                "other, and it has no volume",
+                                set.name, gap));
             add({bodies.first, bodies.second, law, set.faces, apart ? gap * allowance : 0.0, !apart, section.place});
         }
     }
@@ -226,8 +232,8 @@ private:
                 ++added;
             }
         if (added == 0)
-            throw SceneFailure(pair.place, fmt::format("no body of \"{}\" touches one of \"{}\"", pair.slave.text,
-                                                       pair.master.text));
+            throw SceneFailure(
+                pair.place, fmt::format("no body of \"{}\" touches one of \"{}\"", pair.slave.text, pair.master.text));
     }
 
     [[nodiscard]] std::string bonded_set(const ContactPair& pair) const {
@@ -244,8 +250,7 @@ private:
         out += held.law.empty() ? "contact = true\n" : fmt::format("law = {}\n", toml_text(held.law));
         if (!held.matching) out += "projected = true\n";
         if (held.gap > 0) out += fmt::format("gap = {}\n", toml_number(held.gap));
-        if (!held.set.empty())
-            out += fmt::format("notch = [{{ set = {}, outside = true }}]\n", toml_text(held.set));
+        if (!held.set.empty()) out += fmt::format("notch = [{{ set = {}, outside = true }}]\n", toml_text(held.set));
         return out + "\n";
     }
 

@@ -62,6 +62,14 @@ struct History {
     }
 };
 
+// Made of points whose largest is 1, which the factor multiplies by `peak`.
+struct Pattern {
+    std::string name;
+    Points points;
+    bool force;
+    double peak;
+};
+
 class Loads {
 public:
     Loads(Deck& deck, const Model& model, const MeshData& mesh) : deck_(deck), model_(model), mesh_(mesh) {}
@@ -79,10 +87,12 @@ public:
             if (history.force) {
                 loads += force_text(history);
             } else if (history.peak() != 0) {
+                const auto [pattern, coefficient] = pattern_of(history);
                 for (const std::string& place : places_of(history.line.where))
-                    loads += fmt::format("[[loads]]\n{}component = [\"{}\"]\npattern = {}\ncoefficient = {}\n\n", place,
-                                         axis_names[key.dof - 1], toml_text(pattern_of(history)),
-                                         toml_number(history.peak()));
+                    loads += fmt::format(
+                        "[[loads]]\n{}component = [\"{}\"]\npattern = {}\n{}\n", place, axis_names[key.dof - 1],
+                        toml_text(pattern),
+                        coefficient == 1 ? "" : fmt::format("coefficient = {}\n", toml_number(coefficient)));
             } else {
                 for (const std::string& place : places_of(history.line.where)) {
                     if (!held.contains(place)) order.push_back(place);
@@ -114,8 +124,7 @@ private:
         if (dof > mesh_.dimension && line.distributed.empty()) {
             const std::string text = dof > 3 ? "degrees of freedom 4 to 6: nodes of solids do not rotate"
                                              : "degree of freedom 3: a plane mesh has none";
-            if (std::find(deck_.left_out.begin(), deck_.left_out.end(), text) == deck_.left_out.end())
-                deck_.left_out.push_back(text);
+            add_once(deck_.left_out, text);
             return nullptr;
         }
         const Key key{(force ? "force " : "") + upper(line.where.text), dof, line.distributed};
@@ -162,9 +171,8 @@ private:
         if (increments > 100000)
             throw SceneFailure(step.place, fmt::format("{} increments: at most 100000 are expected", increments));
         for (std::int64_t i = 1; i <= increments; ++i)
-            instants_.push_back(i == increments ? end
-                                                : time_ + step.period * static_cast<double>(i) /
-                                                              static_cast<double>(increments));
+            instants_.push_back(
+                i == increments ? end : time_ + step.period * static_cast<double>(i) / static_cast<double>(increments));
         sizes_.push_back(step.period / static_cast<double>(increments));
         time_ = end;
     }
@@ -199,9 +207,10 @@ private:
             const double value = between(next, first);
             std::erase_if(next, [&](const auto& point) { return point.first <= first; });
             next.insert(next.begin(), {first, value});
-            deck_.changed.push_back(fmt::format("{}: \"{}\" jumps at the beginning of a step, from {} to {}; here it moves "
-                                                "over the first increment",
-                                                line.where.place.text(), line.where.text, last, value));
+            deck_.changed.push_back(
+                fmt::format("{}: \"{}\" jumps at the beginning of a step, from {} to {}; here it moves "
+                            "over the first increment",
+                            line.where.place.text(), line.where.text, last, value));
         } else {
             next.erase(next.begin());
         }
@@ -217,33 +226,38 @@ private:
         return fmt::format("[time]\ninstants = {}\n\n", toml_list(all));
     }
 
-    // The pattern of these points over their peak, made where there is none yet.
-    std::string pattern_of(const History& history) {
+    // A pattern, and what its factor is multiplied by to give these values. The first of several that are in proportion
+    // gives the factor its values, so that the reaction is the force there; the factor of forces goes to 1.
+    std::pair<std::string, double> pattern_of(const History& history) {
         Points points;
+        std::vector<double> values;
         for (const auto& [time, value] : history.points) {
-            const double factor = value / history.peak();
+            const double share = value / history.peak();
             if (points.size() > 1) {
                 const auto& [a, fa] = points[points.size() - 2];
-                const double straight = fa + (factor - fa) * (points.back().first - a) / (time - a);
-                if (std::abs(straight - points.back().second) <= 1e-14) points.pop_back();
+                const double straight = fa + (share - fa) * (points.back().first - a) / (time - a);
+                if (std::abs(straight - points.back().second) <= 1e-14) {
+                    points.pop_back();
+                    values.pop_back();
+                }
             }
-            points.emplace_back(time, factor);
+            points.emplace_back(time, share);
+            values.push_back(history.force ? share : value);
         }
-        for (const auto& [name, known, force] : made_)
-            if (known == points && force == history.force) return name;
-        const std::string base = history.force ? "force" : "displacement";
         std::size_t alike = 1;
-        for (const auto& [name, known, force] : made_) alike += force == history.force ? 1 : 0;
-        const std::string name = alike == 1 ? base : fmt::format("{}-{}", base, alike);
-        made_.emplace_back(name, points, history.force);
-        std::vector<double> times, values;
-        for (const auto& [time, value] : points) {
-            times.push_back(time);
-            values.push_back(value);
+        for (const Pattern& known : made_) {
+            if (known.force != history.force) continue;
+            if (known.points == points) return {known.name, history.peak() / known.peak};
+            ++alike;
         }
-        patterns_ += fmt::format("[[patterns]]\nname = {}\ntimes = {}\nvalues = {}\n\n", toml_text(name), toml_list(times),
-                                 toml_list(values));
-        return name;
+        const std::string base = history.force ? "force" : "displacement";
+        const double unit = history.force ? 1.0 : history.peak();
+        made_.push_back({alike == 1 ? base : fmt::format("{}-{}", base, alike), points, history.force, unit});
+        std::vector<double> times;
+        for (const auto& [time, share] : points) times.push_back(time);
+        patterns_ += fmt::format("[[patterns]]\nname = {}\ntimes = {}\nvalues = {}\n\n", toml_text(made_.back().name),
+                                 toml_list(times), toml_list(values));
+        return {made_.back().name, history.peak() / unit};
     }
 
     [[nodiscard]] const Node* node_of(const Entry& raw, std::int64_t& number) const {
@@ -267,7 +281,8 @@ private:
             std::vector<std::string> out;
             for (const std::int32_t body : bodies_at(mesh_, number)) out.push_back(point_text(node->at, body));
             if (out.empty())
-                throw SceneFailure(raw.place, "node " + raw.text + " belongs to no body: reference nodes are not imported");
+                throw SceneFailure(raw.place,
+                                   "node " + raw.text + " belongs to no body: reference nodes are not imported");
             return out;
         }
         return {fmt::format("set = {}\n", toml_text(set_name(raw)))};
@@ -276,8 +291,7 @@ private:
     [[nodiscard]] std::string set_name(const Entry& raw) const {
         const Entry entry = model_.resolved_scope(raw);
         const auto set = entry.scope->node_sets.find(upper(entry.text));
-        const std::string name =
-            set == entry.scope->node_sets.end() ? "" : full_name(*entry.scope, set->second.name);
+        const std::string name = set == entry.scope->node_sets.end() ? "" : full_name(*entry.scope, set->second.name);
         if (!mesh_.node_sets.contains(name))
             throw SceneFailure(raw.place, "node set \"" + raw.text + "\" is not there, or empty");
         return name;
@@ -292,10 +306,10 @@ private:
     }
 
     std::string force_text(const History& history) {
-        const double peak = history.peak();
-        if (peak == 0) return "";
+        if (history.peak() == 0) return "";
         const Entry& where = history.line.where;
-        const std::string pattern = fmt::format("pattern = {}\n", toml_text(pattern_of(history)));
+        const auto [name, peak] = pattern_of(history);
+        const std::string pattern = fmt::format("pattern = {}\n", toml_text(name));
         if (history.line.distributed == "P")
             return fmt::format("[[forces]]\nset = {}\n{}pressure = {}\n\n", toml_text(surface_name(where)), pattern,
                                toml_number(peak));
@@ -347,7 +361,7 @@ private:
     const MeshData& mesh_;
     std::map<Key, History> histories_;
     std::vector<Key> keys_;  // in the order of the deck
-    std::vector<std::tuple<std::string, Points, bool>> made_;
+    std::vector<Pattern> made_;
     std::string patterns_;
     std::vector<double> instants_, sizes_;
     double time_ = 0;
@@ -355,8 +369,6 @@ private:
 
 }  // namespace
 
-std::string loads_text(Deck& deck, const Model& model, const MeshData& mesh) {
-    return Loads(deck, model, mesh).text();
-}
+std::string loads_text(Deck& deck, const Model& model, const MeshData& mesh) { return Loads(deck, model, mesh).text(); }
 
 }  // namespace cli::abaqus

@@ -76,8 +76,7 @@ private:
             for (const Entry& entry : scope->sections) {
                 const Entry resolved = model_.resolved_scope(entry);
                 const auto set = resolved.scope->element_sets.find(upper(resolved.text));
-                const std::string& name =
-                    set == resolved.scope->element_sets.end() ? resolved.text : set->second.name;
+                const std::string& name = set == resolved.scope->element_sets.end() ? resolved.text : set->second.name;
                 if (full_name(*resolved.scope, name) != plain) continue;
                 for (const Section& section : deck_.sections)
                     if (section.place.file == entry.place.file && section.place.line == entry.place.line)
@@ -95,7 +94,8 @@ private:
             const MaterialCards& material = named(deck_.materials, section.material, "material", section.place);
             used.insert(material.name);
             // One entry for all pieces of a body.
-            const bool whole = std::find(mesh_.body_names.begin(), mesh_.body_names.end(), plain) != mesh_.body_names.end();
+            const bool whole =
+                std::find(mesh_.body_names.begin(), mesh_.body_names.end(), plain) != mesh_.body_names.end();
             bodies += fmt::format("[[bodies]]\nname = {}\nmaterial = {}\n{}\n", toml_text(whole ? plain : plain + "-*"),
                                   toml_text(material.name), axes_text(section));
         }
@@ -111,7 +111,8 @@ private:
         if (!section.orientation.empty()) {
             const Orientation& o = named(deck_.orientations, section.orientation, "orientation", section.place);
             const auto from_origin = [&](std::size_t at) {
-                return Vector{o.points[at] - o.points[6], o.points[at + 1] - o.points[7], o.points[at + 2] - o.points[8]};
+                return Vector{o.points[at] - o.points[6], o.points[at + 1] - o.points[7],
+                              o.points[at + 2] - o.points[8]};
             };
             axes[0] = unit(from_origin(0), o.place);
             axes[2] = unit(cross(axes[0], from_origin(3)), o.place);
@@ -125,7 +126,9 @@ private:
     std::string material_text(const MaterialCards& m) {
         const Numbers& c = m.constants;
         std::string out = fmt::format("[[materials]]\nname = {}\n", toml_text(m.name));
-        const auto key = [&](const char* name, double value) { out += fmt::format("{} = {}\n", name, toml_number(value)); };
+        const auto key = [&](const char* name, double value) {
+            out += fmt::format("{} = {}\n", name, toml_number(value));
+        };
         if (m.elastic == "ISOTROPIC") {
             key("young", c[0]);
             key("poisson", c[1]);
@@ -135,12 +138,14 @@ private:
         } else if (m.elastic == "LAMINA") {
             const double nu23 = c[1] / (2 * c[5]) - 1;
             if (!(std::abs(nu23) < 1))
-                throw SceneFailure(m.place, fmt::format("E2 = {} and G23 = {} make nu23 = {}: a lamina that is the same "
-                                                        "across its fibres has it in (-1, 1); give ENGINEERING CONSTANTS",
-                                                        c[1], c[5], nu23));
-            deck_.changed.push_back(fmt::format("material \"{}\": LAMINA says nothing of the third direction; E3 = E2, "
-                                                "nu13 = nu12, nu23 = E2/(2 G23) - 1 = {:.4g}",
-                                                m.name, nu23));
+                throw SceneFailure(m.place,
+                                   fmt::format("E2 = {} and G23 = {} make nu23 = {}: a lamina that is the same "
+                                               "across its fibres has it in (-1, 1); give ENGINEERING CONSTANTS",
+                                               c[1], c[5], nu23));
+            deck_.changed.push_back(
+                fmt::format("material \"{}\": LAMINA says nothing of the third direction; E3 = E2, "
+                            "nu13 = nu12, nu23 = E2/(2 G23) - 1 = {:.4g}",
+                            m.name, nu23));
             const std::pair<const char*, double> values[] = {{"E1", c[0]},   {"E2", c[1]},   {"E3", c[1]},
                                                              {"nu12", c[2]}, {"nu13", c[2]}, {"nu23", nu23},
                                                              {"G12", c[3]},  {"G13", c[4]},  {"G23", c[5]}};
@@ -185,20 +190,19 @@ void say_import(const ImportedScene& scene, void (*line)(const std::string&)) {
 }
 
 ImportedScene import_deck(const std::string& deck_path, const std::string& mesh_name) {
-    using namespace abaqus;
     const Place place{deck_path, "", 0};
     std::string bytes;
     const std::vector<InpCard> cards = read_cards(deck_path, place, bytes);
-    Model model;
-    take_cards(cards, deck_path, model);
-    Deck deck = read_deck(cards, deck_path, model.root);
-    MeshData mesh = mesh_of(model, {}, place);
+    abaqus::Model model;
+    abaqus::take_cards(cards, deck_path, model);
+    abaqus::Deck deck = abaqus::read_deck(cards, deck_path, model.root);
+    MeshData mesh = abaqus::mesh_of(model, {}, place);
     const std::vector<std::string> plain_names = mesh.body_names;
     split_into_pieces(mesh);
     const bool pieces = mesh.body_names != plain_names;
 
     ImportedScene out;
-    const std::string text = SceneWriter(deck, model, mesh, plain_names).text(mesh_name, pieces);
+    const std::string text = abaqus::SceneWriter(deck, model, mesh, plain_names).text(mesh_name, pieces);
     for (const std::string& note : mesh.notes)
         if (note.rfind("ignored: ", 0) != 0) out.changed.push_back(note);
     out.changed.insert(out.changed.end(), deck.changed.begin(), deck.changed.end());
@@ -206,11 +210,12 @@ ImportedScene import_deck(const std::string& deck_path, const std::string& mesh_
     std::int64_t cells = 0, held = 0;
     for (const CellBlock& block : mesh.blocks) cells += static_cast<std::int64_t>(block.bodies.size());
     for (const CohesiveSet& set : mesh.cohesive) held += static_cast<std::int64_t>(set.lower.size());
-    out.taken.push_back(fmt::format("{} in {}", counted(cells, "cell"),
-                                    mesh.body_names.size() == 1 ? "1 body" : fmt::format("{} bodies", mesh.body_names.size())));
+    out.taken.push_back(
+        fmt::format("{} in {}", counted(cells, "cell"),
+                    mesh.body_names.size() == 1 ? "1 body" : fmt::format("{} bodies", mesh.body_names.size())));
     if (held > 0) out.taken.push_back(counted(held, "cohesive element"));
     out.taken.push_back(counted(static_cast<std::int64_t>(deck.steps.size()), "step"));
-    out.text = header(out, deck_path) + text;
+    out.text = abaqus::header(out, deck_path) + text;
     return out;
 }
 

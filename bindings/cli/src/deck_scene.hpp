@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An Abaqus input file as a scene: the mesh stays in the file, everything else is written for people to read and change.
+// An Abaqus input file as a scene: the mesh stays in the file, everything else is written for people to read and
+// change.
 #pragma once
 
 #include <string>

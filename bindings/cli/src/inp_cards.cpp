@@ -163,6 +163,31 @@ std::string InpCard::required(const std::string& name) const {
     return value;
 }
 
+std::vector<double> InpLine::numbers(std::size_t first) const {
+    std::vector<double> out;
+    for (std::size_t i = first; i < fields.size(); ++i)
+        out.push_back(fields[i].empty() ? 0.0 : inp_number(fields[i], place));
+    return out;
+}
+
+const InpLine& InpCard::first_line() const {
+    if (lines.empty()) throw SceneFailure(place, "a data line is expected");
+    return lines.front();
+}
+
+std::vector<double> InpCard::row() const {
+    std::vector<double> out;
+    for (const InpLine& line : lines) {
+        const std::vector<double> more = line.numbers();
+        out.insert(out.end(), more.begin(), more.end());
+    }
+    return out;
+}
+
+void InpCard::refuse(const std::string& name, const std::string& value, const std::string& known) const {
+    throw SceneFailure(place, fmt::format("{}={} is not imported: {} is", name, value, known));
+}
+
 void InpCard::only(const std::vector<std::string>& names) const {
     for (const auto& [key, value] : parameters)
         if (std::find(names.begin(), names.end(), key) == names.end())

@@ -15,6 +15,9 @@ struct InpLine {
     std::vector<std::string> fields;  // between the commas, trimmed
     bool continues = false;           // ends with a comma
     Place place;
+
+    // The fields from `first` on; an empty one is 0.
+    [[nodiscard]] std::vector<double> numbers(std::size_t first = 0) const;
 };
 
 struct InpCard {
@@ -27,6 +30,11 @@ struct InpCard {
     // "" if it is missing.
     [[nodiscard]] std::string parameter(const std::string& name) const;
     [[nodiscard]] std::string required(const std::string& name) const;
+    [[nodiscard]] const InpLine& first_line() const;
+    // The numbers of all lines, where a row takes several.
+    [[nodiscard]] std::vector<double> row() const;
+    // Refuses a value of a parameter.
+    [[noreturn]] void refuse(const std::string& name, const std::string& value, const std::string& known) const;
     // Refuses any parameter that is not listed.
     void only(const std::vector<std::string>& names) const;
 };

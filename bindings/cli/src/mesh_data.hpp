@@ -19,8 +19,8 @@ struct CellBlock {
 
 /** Cohesive elements of a file, which are no cells: the faces of bodies that they hold together. */
 struct CohesiveSet {
-    std::string name;   ///< of their set of elements
-    std::string faces;  ///< of the set of these faces: `name`, unless nodes have it
+    std::string name;                                       ///< of their set of elements
+    std::string faces;                                      ///< of the set of these faces: `name`, unless nodes have it
     std::vector<std::array<std::int64_t, 9>> lower, upper;  ///< [elements] nodes of each face, -1 padded
 };
 

@@ -10,7 +10,7 @@ namespace cli {
 
 namespace {
 
-std::vector<std::string> parts(std::string_view text, char separator) {
+std::vector<std::string> pieces_of(std::string_view text, char separator) {
     std::vector<std::string> out;
     while (!text.empty()) {
         const std::size_t end = std::min(text.find(separator), text.size());
@@ -24,11 +24,11 @@ std::vector<std::string> parts(std::string_view text, char separator) {
 
 Rows rows_of(std::string_view history) {
     Rows out;
-    const std::vector<std::string> rows = parts(history, '\n');
+    const std::vector<std::string> rows = pieces_of(history, '\n');
     if (rows.empty()) return out;
-    const std::vector<std::string> titles = parts(rows.front(), ',');
+    const std::vector<std::string> titles = pieces_of(rows.front(), ',');
     for (std::size_t i = 1; i < rows.size(); ++i) {
-        const std::vector<std::string> cells = parts(rows[i], ',');
+        const std::vector<std::string> cells = pieces_of(rows[i], ',');
         Row of;
         for (std::size_t k = 0; k < std::min(titles.size(), cells.size()); ++k)
             of.emplace(titles[k], number_in(cells[k]));

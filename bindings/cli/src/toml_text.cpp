@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "toml_text.hpp"
 
+#include <charconv>
+#include <cmath>
+#include <iterator>
+
 #include <fmt/format.h>
 
 namespace cli {
@@ -29,7 +33,13 @@ std::string toml_text(const std::string& text) {
 }
 
 std::string toml_number(double value) {
+    // Moduli as 1.26e+11, not with all their zeros.
+    constexpr double large = 1e6;
     std::string text = fmt::format("{}", value);
+    if (std::abs(value) >= large) {
+        char buffer[32];
+        text.assign(buffer, std::to_chars(std::begin(buffer), std::end(buffer), value).ptr);
+    }
     if (text.find_first_of(".en") == std::string::npos) text += ".0";
     return text;
 }

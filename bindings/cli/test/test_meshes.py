@@ -457,7 +457,8 @@ def inp(old, new, *patterns, text=FLAT, keys=""):
     refused("bad.inp", text.replace(old, new, 1), *patterns, keys=keys)
 
 
-inp("TYPE=CPE3", "TYPE=COH2D4", r"bad\.inp:16: \*ELEMENT: type COH2D4: cohesive elements are not read")
+inp("TYPE=CPE3", "TYPE=COHAX4", r"bad\.inp:16: \*ELEMENT: type COHAX4 is not read")
+inp("TYPE=CPE3", "TYPE=COH2D4", r"bad\.inp:17: \*ELEMENT: 3 nodes: COH2D4 has 4")
 inp("TYPE=CPE3", "TYPE=CPE3H", r"bad\.inp:16: \*ELEMENT: type CPE3H is not read \(did you mean 'CPE3'")
 inp("20, 3, 4, 6", "20, 3, 4", r"bad\.inp:17: \*ELEMENT: 2 nodes: CPE3 has 3")
 inp("20, 3, 4, 6", "20, 3, 4, 66", r"bad\.inp:17: \*ELEMENT: node 66 is not there")

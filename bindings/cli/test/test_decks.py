@@ -1,0 +1,428 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Input files of Abaqus with cohesive elements or surfaces: what they become, and what is refused."""
+import csv
+import json
+import math
+import os
+import re
+
+import decks
+from decks import Beam
+from support import delam, expect, expect_error, finish, folder, read
+
+HAND = f"""
+schema = 1
+[geometry]
+dimension = DIMENSION
+length = 0.06
+SIZE
+[[materials]]
+name = "Ply"
+E1 = {decks.E1}
+E2 = {decks.E2}
+nu12 = {decks.NU12}
+nu23 = {decks.NU23}
+G12 = {decks.G12}
+formulation = "incompatible"
+[[layers]]
+name = "lower"
+thickness = 0.0015
+divisions = 2
+material = "Ply"
+[[layers]]
+name = "upper"
+thickness = 0.0015
+divisions = 2
+material = "Ply"
+[[laws]]
+name = "Resin"
+normal_stiffness = {decks.STIFFNESS}
+tangential_stiffness = {decks.STIFFNESS}
+normal_onset = {decks.NORMAL ** 2 / 2 / decks.STIFFNESS}
+tangential_onset = {decks.SHEAR ** 2 / 2 / decks.STIFFNESS}
+normal_toughness = {decks.G_I}
+tangential_toughness = {decks.G_II}
+criterion = "benzeggagh-kenane"
+toughness_exponent = {decks.ETA}
+onset_criterion = "power"
+onset_exponent = 1.0
+[[interfaces]]
+lower = "lower"
+upper = "upper"
+law = "Resin"
+notch = [{{ from = 0.0, to = 0.03 }}]
+[[patterns]]
+name = "open"
+times = [0, 1]
+values = [0, 0.001]
+[time]
+end = 1.0
+steps = 20
+"""
+
+
+def hand(plane):
+    """The beam of decks.abaqus, written as a scene: its text."""
+    size = "divisions = 40" if plane else "width = 0.006\ndivisions = [40, 2]"
+    text = HAND.replace("DIMENSION", "2" if plane else "3").replace("SIZE", size)
+    width = [] if plane else [0.006]
+    origin = [0.0] * len(width)
+    axes = ["x", "y"] if plane else ["x", "y", "z"]
+    text += (f"[[supports]]\nbox = {{ lower = {[0.06, *origin, 0.0]}, upper = {[0.06, *width, 0.003]} }}\n"
+             f"fix = {json.dumps(axes)}\n")
+    for height, sign in ((0.003, 1.0), (0.0, -1.0)):
+        text += (f"[[loads]]\nbox = {{ lower = {[0.0, *origin, height]}, upper = {[0.0, *width, height]} }}\n"
+                 f"direction = {[0.0, *origin, sign]}\npattern = \"open\"\n")
+    return text
+
+
+def saved(text, name="deck.inp", place=None):
+    path = os.path.join(place or folder(), name)
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(text)
+    return path
+
+
+def history(path):
+    out = os.path.join(folder(), "out")
+    code, _, error = delam("run", path, "--out", out)
+    expect(code == 0, f"{os.path.basename(path)} runs: exit {code} {error.strip()[:300]}")
+    if code != 0:
+        return None
+    with open(os.path.join(out, "history.csv"), newline="", encoding="utf-8") as file:
+        return [{k: float(v) for k, v in row.items() if k not in ("solution", "mixity_rule")}
+                for row in csv.DictReader(file)]
+
+
+def off(rows, reference, key):
+    largest = max(abs(row[key]) for row in reference) or 1.0
+    return max(abs(a[key] - b[key]) for a, b in zip(rows, reference, strict=True)) / largest
+
+
+def same(what, path, reference, allowed=1e-8):
+    rows = history(path)
+    if rows is None or reference is None:
+        return
+    found = {key: off(rows, reference, key) for key in ("reaction", "dissipated", "stored_bulk")}
+    expect(max(found.values()) <= allowed, f"{what}: {found}")
+
+
+def imported(text, code=0):
+    """The scene of a deck, and what was said of it."""
+    status, scene, said = delam("import", saved(text))
+    expect(status == code, f"import: exit {status}" + (f" {said.strip()}" if status != code else ""))
+    return scene, said
+
+
+def check_dialects():
+    for plane in (True, False):
+        beam = Beam(nx=40, ny=0 if plane else 2, nz=2)
+        reference = history(saved(hand(plane), "scene.toml"))
+        expect(reference is not None and reference[-1]["dissipated"] > 0, "the crack of the reference grows")
+        name = "plane" if plane else "space"
+        same(f"{name}, flat", saved(decks.abaqus(beam)), reference)
+        same(f"{name}, parts", saved(decks.parts(beam)), reference)
+        same(f"{name}, surfaces", saved(decks.surfaces(beam)), reference)
+        same(f"{name}, surfaces, bonded set", saved(decks.surfaces(beam, initial=True)), reference)
+        apart = Beam(nx=40, ny=beam.ny, nz=2, gap=1e-5)
+        same(f"{name}, thick cohesive elements", saved(decks.abaqus(apart)), reference, 1e-7)
+
+
+def check_two_commands():
+    """A scene that is written is the one that runs from the deck."""
+    place = folder()
+    deck = saved(decks.abaqus(Beam(nx=20, ny=0)), place=place)
+    scene = os.path.join(place, "sub", "scene.toml")
+    os.mkdir(os.path.dirname(scene))
+    code, said, _ = delam("import", deck, "--out", scene)
+    expect(code == 0 and "changed   NLGEOM" in said and "taken     10 cohesive elements" in said, "what import says")
+    same("the scene that import wrote, in another folder", scene, history(deck), 0.0)
+    before = read(scene)
+    expect_error(delam("import", deck, "--out", scene), 3, "is there already", "--replace")
+    expect(read(scene) == before, "the scene is as it was")
+    expect(delam("import", deck, "--out", scene, "--replace")[0] == 0, "--replace")
+    expect_error(delam("import", os.path.join(place, "none.inp")), 2, "none.inp")
+    expect_error(delam("import", deck, "--out", os.path.join(place, "none", "scene.toml")), 3, "none/scene.toml")
+    code, said, _ = delam("check", deck)
+    expect(code == 0 and 'law "Resin"' in said and "changed   NLGEOM" in said, "check says what the deck became")
+
+
+def numbers(scene, key):
+    return [float(word) for word in re.findall(rf"^{key} = (\S+)", scene, re.M)]
+
+
+def check_laws():
+    beam = Beam(nx=4, ny=0, nz=1)
+
+    def law(**of_resin):
+        text = decks.abaqus(beam, **of_resin)
+        scene, said = imported(text)
+        expect(delam("check", saved(text))[0] == 0, f"{of_resin} can be run")
+        return scene, said
+
+    scene, said = law(initiation="MAXS")
+    expect(numbers(scene, "onset_exponent") == [100.0] and "MAXS as a power law" in said, "MAXS")
+
+    scene, _ = law(evolution="*Damage Evolution, type=ENERGY, mixed mode behavior=POWER LAW, power=1.5\n280., 790., 790.\n")
+    expect('criterion = "power"\ntoughness_exponent = 1.5' in scene, "power law")
+    scene, said = law(evolution="*Damage Evolution, type=ENERGY, softening=EXPONENTIAL\n280.,\n")
+    expect('kind = "exponential"' in scene and "exponential softening" in said, "exponential")
+    expect(numbers(scene, "normal_toughness") == numbers(scene, "tangential_toughness") == [280.0], "one toughness")
+    # Displacement beyond the onset at the end: the area under the triangle.
+    scene, said = law(evolution="*Damage Evolution, type=DISPLACEMENT\n2e-5,\n")
+    wanted = [s * (s / decks.STIFFNESS + 2e-5) / 2 for s in (decks.NORMAL, decks.SHEAR)]
+    found = numbers(scene, "normal_toughness") + numbers(scene, "tangential_toughness")
+    expect(all(math.isclose(a, b, rel_tol=1e-12) for a, b in zip(found, wanted)), f"displacement: {found}, {wanted}")
+    expect("the deck gives displacements" in said, "displacements are said")
+    # D of a straight line down is that of the bilinear law.
+    onset, end = decks.NORMAL / decks.STIFFNESS, 2e-5
+    rows = [((d / end) * (onset + end) / (onset + d), d) for d in (end * k / 8 for k in range(9))]
+    table = "".join(f"{d!r}, {x!r}\n" for d, x in rows)
+    scene, said = law(evolution=f"*Damage Evolution, type=DISPLACEMENT, softening=TABULAR\n{table}")
+    curve = [tuple(map(float, pair)) for pair in re.findall(r"^    \[(\S+), (\S+)\],", scene, re.M)]
+    expect(len(curve) == 9 and max(abs(s - (1 - x)) for x, s in curve) < 1e-12, f"tabulated curve {curve}")
+    expect("D in Abaqus" in said, "that Abaqus differs between the points is said")
+    area = sum((b[0] - a[0]) * (a[1] + b[1]) / 2 for a, b in zip(curve, curve[1:])) * end
+    expect(math.isclose(numbers(scene, "normal_toughness")[0], decks.NORMAL * (onset / 2 + area), rel_tol=1e-9), "its area")
+
+
+def check_thickness():
+    """Stiffnesses per strain: the same law from a tenth of the thickness and of the modulus."""
+    beam = Beam(nx=40, ny=0)
+    text = decks.abaqus(beam)
+    scaled = text.replace("response=TRACTION SEPARATION\n", "response=TRACTION SEPARATION, thickness=SPECIFIED\n0.1,\n")
+    scaled = scaled.replace(f"{decks.STIFFNESS}, {decks.STIFFNESS}, {decks.STIFFNESS}", "1e13, 1e13, 1e13")
+    same("a specified thickness", saved(scaled), history(saved(text)))
+    gap = 1e-5
+    geometry = decks.abaqus(Beam(nx=40, ny=0, gap=gap)).replace(
+        "response=TRACTION SEPARATION", "response=TRACTION SEPARATION, thickness=GEOMETRY")
+    k = decks.STIFFNESS * gap
+    geometry = geometry.replace(f"{decks.STIFFNESS}, {decks.STIFFNESS}, {decks.STIFFNESS}", f"{k}, {k}, {k}")
+    same("the thickness of the geometry", saved(geometry), history(saved(text)), 1e-6)
+    strain = text.replace("criterion=QUADS", "criterion=QUADE").replace(
+        f"{decks.NORMAL}, {decks.SHEAR}, {decks.SHEAR}",
+        f"{decks.NORMAL / decks.STIFFNESS}, {decks.SHEAR / decks.STIFFNESS}, {decks.SHEAR / decks.STIFFNESS}")
+    same("strengths as strains", saved(strain), history(saved(text)))
+
+
+def check_steps():
+    beam = Beam(nx=20, ny=0)
+    text = decks.abaqus(beam)
+    step = text[text.index("*Step"):]
+    amplitude = "*Amplitude, name=Saw\n0., 0., 0.4, 1., 0.7, 0.2, 1., 1.\n"
+    driven = text.replace("*Step", amplitude + "*Step", 1).replace("*Boundary\nTop", "*Boundary, amplitude=saw\nTop")
+    scene, _ = imported(driven)
+    expect("times = [0.0, 0.4, 0.7, 1.0]\nvalues = [0.0, 0.001, 0.0002, 0.001]" in scene, "amplitude")
+    # A second step of half the length and another increment, back to the start, with a force on top.
+    second = ("*Step\n*Static\n0.1, 0.5\n*Boundary\nTop, 2, 2, 0.\nBottom, 2, 2, 0.\n*Cload\nTop, 1, 3.5\n*End Step\n")
+    scene, _ = imported(text + second)
+    expect("times = [0.0, 1.0, 1.5]\nvalues = [0.0, 0.001, 0.0]" in scene, "two steps")
+    expect("times = [0.0, 1.0, 1.5]\nvalues = [0.0, 0.0, 1.0]" in scene and "force = [3.5, 0.0]" in scene, "a force")
+    instants = [float(word) for word in re.search(r"instants = \[(.*)\]", scene).group(1).split(",")]
+    expect(len(instants) == 26 and instants[-1] == 1.5 and math.isclose(instants[21], 1.1), f"instants {instants[19:23]}")
+    expect(delam("check", saved(text + second))[0] == 0, "two steps can be run")
+    # A jump at the beginning of a step takes its first increment.
+    scene, said = imported(text.replace("*Step, name=Open,", "*Step, name=Open, amplitude=STEP,"))
+    expect("times = [0.0, 0.05, 1.0]\nvalues = [0.0, 0.001, 0.001]" in scene and "jumps at the beginning" in said, "a jump")
+    smooth = driven.replace("*Amplitude, name=Saw\n0., 0., 0.4, 1., 0.7, 0.2, 1., 1.\n",
+                            "*Amplitude, name=Saw, definition=SMOOTH STEP\n0., 0., 1., 1.\n")
+    scene, _ = imported(smooth)
+    values = [float(word) for word in re.search(r"^values = \[(.*)\]", scene, re.M).group(1).split(",")]
+    # The point in the middle, where the curve is straight, is left out.
+    expect(len(values) == 16 and math.isclose(values[4], 0.001 * 0.103515625), "smooth step")
+    nodes = beam.set_at(0, (1,), (2,))
+    scene, _ = imported(text.replace("*Boundary\nTop, 2, 2", f"*Boundary\n{nodes[0]}, 2, 2"))
+    expect('point = [0.0, 0.003]\nbody = "Arms-2"' in scene, "a node by its number")
+    last = beam.nx * beam.nz * 2
+    pressed = text.replace("*Solid Section", f"*Surface, name=Roof\nRoof-cells, S3\n*Elset, elset=Roof-cells, generate\n"
+                           f"{last - beam.nx + 1}, {last}\n*Solid Section", 1)
+    pressed = pressed.replace("*Output,", "*Dsload\nRoof, P, 2e5\n*Output,", 1)
+    scene, _ = imported(pressed)
+    expect('set = "Roof"' in scene and "pressure = 200000.0" in scene, "a pressure")
+    expect(delam("check", saved(pressed))[0] == 0, "a pressure can be run")
+    expect(step.startswith("*Step"), "the deck has a step")
+
+
+def check_axes():
+    beam = Beam(nx=4, ny=2, nz=1)
+    text = decks.abaqus(beam).replace("type=C3D8I", "type=SC8R")
+    shell = text.replace("*Solid Section, elset=Arms, material=Ply\n,\n",
+                         "*Orientation, name=Ori\n0., 1., 0., -1., 0., 0.\n3, 0.\n"
+                         "*Shell Section, elset=Arms, composite, orientation=Ori\n0.0015, 3, Ply, 30.\n")
+    scene, said = imported(shell)
+    axes = [float(word) for word in re.findall(r"-?[\d.]+(?:e-?\d+)?", re.search(r"axes = (.*)", scene).group(1))]
+    # Axis 1 is y, turned by 30 degrees towards -x about z.
+    wanted = [-0.5, math.sqrt(0.75), 0, -math.sqrt(0.75), -0.5, 0]
+    expect(all(math.isclose(a, b, abs_tol=1e-12) for a, b in zip(axes, wanted, strict=True)), f"axes {axes}")
+    expect("SC8R: a solid cell here" in said, "continuum shells are said")
+    expect(delam("check", saved(shell))[0] == 0, "continuum shells can be run")
+    lamina = shell.replace(decks.PLY, f"*Material, name=Ply\n*Elastic, type=LAMINA\n{decks.E1}, {decks.E2}, 0.3, 5e9, 5e9, 3.6e9\n")
+    scene, said = imported(lamina)
+    expect(numbers(scene, "E3") == [decks.E2] and "LAMINA says nothing" in said, "lamina")
+    expect(math.isclose(numbers(scene, "nu23")[0], decks.E2 / 7.2e9 - 1), "nu23 of a lamina")
+
+
+def check_bonded():
+    """Bodies that share nodes are bonded: the same beam with its arms in two sections each."""
+    beam = Beam(nx=40, ny=0)
+    text = decks.abaqus(beam)
+    row = beam.nx
+    first = f"*Elset, elset=Outer\n{decks.lines([*range(1, row + 1), *range(3 * row + 1, 4 * row + 1)])}"
+    inner = f"*Elset, elset=Inner, generate\n{row + 1}, {3 * row}\n"
+    split = text.replace("*Solid Section, elset=Arms, material=Ply\n,\n", first + inner +
+                         "*Solid Section, elset=Outer, material=Ply\n*Solid Section, elset=Inner, material=Ply\n")
+    scene, _ = imported(split)
+    expect(scene.count("bonded = true") == 2, "two bonded interfaces")
+    same("bonded sections", saved(split), history(saved(text)), 1e-7)
+
+
+REFUSED = [
+    ("*Boundary\nClamp, ENCASTRE", "*Boundary\nClamps, ENCASTRE", r"node set \"Clamps\" is not there"),
+    ("*Boundary\nClamp, ENCASTRE", "*Boundary\nClamp, 1, 3, 0.1", r"within a \*STEP"),
+    ("*Boundary\nClamp, ENCASTRE", "*Boundary\nClamp, 7", r"1 to 6"),
+    ("material=Resin", "material=Rosin", r"material \"Rosin\" is not there.*Resin"),
+    ("type=TRACTION", "type=COUPLED TRACTION", r"COUPLED TRACTION is not imported"),
+    ("response=TRACTION SEPARATION", "response=CONTINUUM", r"RESPONSE=CONTINUUM"),
+    ("criterion=QUADS", "criterion=LEPP", r"CRITERION=LEPP"),
+    ("*Damage Initiation, criterion=QUADS\n", "** \n", r"TYPE|keyword|numbers|constants"),
+    ("mixed mode behavior=BK, power=2.3", "mixed mode behavior=BK", r"POWER= is missing"),
+    ("mixed mode behavior=BK, power=2.3", "mixed mode behavior=BK, power=0", r"must be > 0"),
+    ("type=ENERGY", "type=HYSTERESIS ENERGY", r"HYSTERESIS ENERGY"),
+    ("280.0, 790.0, 790.0", "-280.0, 790.0, 790.0", r"toughness -280.*> 0"),
+    ("12000000.0, 20000000.0, 20000000.0", "0., 20000000.0, 20000000.0", r"QUADS 0.*> 0"),
+    ("*Static\n", "*Static, riks\n", r"RIKS is not imported"),
+    ("*Static\n", "*Frequency\n", r"FREQUENCY.*would change the result"),
+    ("nlgeom=YES,", "perturbation,", r"PERTURBATION"),
+    ("*Material, name=Ply\n", "*Plastic\n1e6, 0.\n*Material, name=Ply\n", r"PLASTIC.*would change the result"),
+    ("type=ENGINEERING CONSTANTS", "type=ANISOTROPIC", r"ANISOTROPIC is not imported"),
+    ("*Cohesive Section, elset=Cohesive,", "*Cohesive Section, elset=Arms,", r"is no cohesive element"),
+    ("*Step,", "*Tie, name=T\nA, B\n*Step,", r"TIE"),
+    ("*End Step\n", "", r"\*STEP is not ended"),
+    ("Top, 2, 2, 0.001", "Top, 2, 2, abc", r"\"abc\".*number"),
+]
+
+
+def check_refusals():
+    text = decks.abaqus(Beam(nx=6, ny=0, nz=1))
+    for old, new, pattern in REFUSED:
+        assert old in text, old
+        expect_error(delam("import", saved(text.replace(old, new, 1))), 2, r"deck\.inp(:\d+)?: ", pattern)
+    expect_error(delam("import", saved(decks.mesh(Beam(nx=2, ny=0, nz=1)))), 2, "no \\*STEP")
+    # A body that is connected around the end of the cohesive elements has no interface with itself.
+    beam = Beam(nx=6, ny=0, nz=1)
+    text = decks.abaqus(beam)
+    closed = [beam.node(1, 6, 0, 0), beam.node(0, 6, 0, 1)]
+    lines = [re.sub(rf"\b{closed[0]}\b", str(closed[1]), line) if re.match(r"\d+, \d+, \d+, \d+, \d+$", line) else line
+             for line in text.splitlines()]
+    expect_error(delam("import", saved("\n".join(lines) + "\n")), 2, "lies within", "no interface with itself")
+    # Different in the two directions of sliding, which only space has.
+    space = decks.abaqus(Beam(nx=4, ny=1, nz=1))
+    expect_error(delam("import", saved(space.replace("12000000.0, 20000000.0, 20000000.0", "12e6, 20e6, 25e6"))), 2,
+                 "two directions of sliding")
+    glue = decks.surfaces(Beam(nx=4, ny=0, nz=1))
+    k = decks.STIFFNESS
+    expect_error(delam("import", saved(glue.replace(f"*Cohesive behavior\n{k}, {k}, {k}\n", "*Cohesive behavior\n"))), 2,
+                 "no stiffness")
+    expect_error(delam("import", saved(glue.replace("Above, Below\n", "Above, Beneath\n"))), 2, "Beneath")
+
+
+DOUBLED = """$MeshFormat
+2.2 0 8
+$EndMeshFormat
+$PhysicalNames
+3
+2 1 "plate"
+1 2 "bottom"
+1 3 "top"
+$EndPhysicalNames
+$Nodes
+8
+1 0 0 0
+2 1 0 0
+3 1 1 0
+4 0 1 0
+5 0 1 0
+6 1 1 0
+7 1 2 0
+8 0 2 0
+$EndNodes
+$Elements
+4
+1 3 2 1 1 1 2 3 4
+2 3 2 1 2 5 6 7 8
+3 1 2 2 1 1 2
+4 1 2 3 2 8 7
+$EndElements
+"""
+OF_DOUBLED = """
+schema = 1
+[mesh]
+file = "doubled.msh"
+pieces = true
+[[materials]]
+name = "m"
+young = 1e9
+poisson = 0.0
+[[bodies]]
+name = "plate-*"
+material = "m"
+[[laws]]
+name = "law"
+normal_stiffness = 1e9
+tangential_stiffness = 1e9
+normal_strength = 1e5
+tangential_strength = 1e5
+normal_toughness = 20.0
+tangential_toughness = 20.0
+[[interfaces]]
+a = "plate-1"
+b = "plate-2"
+law = "law"
+[[patterns]]
+name = "p"
+times = [0, 1]
+values = [0, 1e-3]
+[[supports]]
+set = "bottom"
+fix = ["x", "y"]
+[[supports]]
+set = "top"
+fix = ["x"]
+[[loads]]
+set = "top"
+component = ["y"]
+pattern = "p"
+[time]
+end = 1.0
+steps = 10
+"""
+
+
+def check_doubled_nodes():
+    """A mesh of Gmsh whose nodes are doubled along a line within one physical surface, as its plug-in Crack leaves it."""
+    place = folder()
+    saved(DOUBLED, "doubled.msh", place)
+    scene = saved(OF_DOUBLED, "scene.toml", place)
+    rows = history(scene)
+    # Two bars of height 1 and the interface in series, until the strength is reached; then all of the energy is lost.
+    first = rows[1]["reaction"]
+    expect(math.isclose(first, 1e-4 / (2 / 1e9 + 1 / 1e9), rel_tol=1e-9), f"bars and interface in series: {first}")
+    expect(math.isclose(rows[-1]["dissipated"], 20.0, rel_tol=1e-9), f"the bar breaks: {rows[-1]['dissipated']}")
+    code, out, _ = delam("check", scene)
+    expect(code == 0 and 'body "plate" consists of 2 pieces: "plate-1" to "plate-2"' in out, "check says so")
+    expect_error(delam("check", saved(OF_DOUBLED.replace("pieces = true\n", ""), "whole.toml", place)), 2, "plate-")
+    expect_error(delam("check", saved(OF_DOUBLED.replace('law = "law"', 'law = "law"\nnotch = [{ lower = [0, 0], '
+                                                         'upper = [1, 1], outside = true }]'), "box.toml", place)), 2,
+                 "outside", "is for set")
+
+
+check_dialects()
+check_doubled_nodes()
+check_two_commands()
+check_laws()
+check_thickness()
+check_steps()
+check_axes()
+check_bonded()
+check_refusals()
+finish()
