@@ -116,7 +116,7 @@ struct Deck {
 };
 
 // Adds a line for people, once.
-inline void add_once(std::vector<std::string>& texts, const std::string& text) {
+inline void say_once(std::vector<std::string>& texts, const std::string& text) {
     if (std::find(texts.begin(), texts.end(), text) == texts.end()) texts.push_back(text);
 }
 

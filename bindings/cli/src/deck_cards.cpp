@@ -77,7 +77,7 @@ private:
             return;
         }
         for (const auto& [keyword, text] : otherwise)
-            if (word == keyword) return add_once(deck_.changed, text);
+            if (word == keyword) return say_once(deck_.changed, text);
         if (steps_.take(card)) return;
         using Take = void (DeckReader::*)(const InpCard&);
         static const std::pair<const char*, Take> known[] = {
@@ -245,7 +245,7 @@ private:
         if (const std::string response = upper(card.required("RESPONSE")); response != "TRACTION SEPARATION")
             card.refuse("RESPONSE", response, "TRACTION SEPARATION");
         if (card.has("CONTROLS"))
-            add_once(deck_.changed,
+            say_once(deck_.changed,
                      "CONTROLS of cohesive elements: no viscosity; jumps of the crack are found by energy");
         Section section;
         section.material = card.required("MATERIAL");

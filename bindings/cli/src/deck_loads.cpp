@@ -124,7 +124,7 @@ private:
         if (dof > mesh_.dimension && line.distributed.empty()) {
             const std::string text = dof > 3 ? "degrees of freedom 4 to 6: nodes of solids do not rotate"
                                              : "degree of freedom 3: a plane mesh has none";
-            add_once(deck_.left_out, text);
+            say_once(deck_.left_out, text);
             return nullptr;
         }
         const Key key{(force ? "force " : "") + upper(line.where.text), dof, line.distributed};

@@ -45,7 +45,7 @@ void StepReader::take_amplitude(const InpCard& card) {
     amplitude.smooth = definition == "SMOOTH STEP";
     if (definition != "TABULAR" && definition != "SMOOTH STEP")
         card.refuse("DEFINITION", definition, "TABULAR or SMOOTH STEP");
-    if (card.has("SMOOTH")) add_once(deck_.changed, "*AMPLITUDE, SMOOTH: straight lines between its points");
+    if (card.has("SMOOTH")) say_once(deck_.changed, "*AMPLITUDE, SMOOTH: straight lines between its points");
     const Numbers values = card.row();
     if (values.size() < 2 || values.size() % 2 != 0)
         throw SceneFailure(card.place, "pairs of time and value are expected");
@@ -64,7 +64,7 @@ void StepReader::take_step(const InpCard& card) {
     step.place = card.place;
     if (card.has("AMPLITUDE")) step.ramp = upper(card.required("AMPLITUDE")) == "RAMP";
     if (card.has("NLGEOM") && upper(card.parameter("NLGEOM")) != "NO")
-        add_once(
+        say_once(
             deck_.changed,
             "NLGEOM: small displacements and rotations; the program warns where cells rotate by more than 0.1 rad");
     deck_.steps.push_back(std::move(step));
@@ -84,10 +84,10 @@ void StepReader::take_procedure(const InpCard& card) {
     if (card.keyword == "DYNAMIC") {
         if (upper(card.parameter("APPLICATION")) != "QUASI-STATIC")
             throw SceneFailure(card.place, "dynamic steps are not imported, but for APPLICATION=QUASI-STATIC");
-        add_once(deck_.changed, "*DYNAMIC: without inertia");
+        say_once(deck_.changed, "*DYNAMIC: without inertia");
     }
     if (card.has("STABILIZE"))
-        add_once(deck_.changed, "STABILIZE: no viscosity; jumps of the crack are found by energy");
+        say_once(deck_.changed, "STABILIZE: no viscosity; jumps of the crack are found by energy");
     if (card.lines.empty()) return;
     const Numbers values = card.lines[0].numbers();
     if (!values.empty() && values[0] > 0) s.first_increment = values[0];
