@@ -177,8 +177,9 @@ def table_factors(program, ranks):
 
 
 def table_time(program, _ranks):
-    head("Seconds, the same analysis on one and two ranks, in turn (idle cores; laminate of 43,000 displacements, 3 load "
-         "steps, MUMPS)", ["pair", "one rank", "two ranks", "times faster", "the bodies' part", "on two", "times faster"])
+    head("Seconds, the same analysis on one and two ranks, in turn (idle cores; laminate of 43,000 displacements, "
+         "3 load steps, MUMPS)",
+         ["pair", "one rank", "two ranks", "times faster", "the bodies' part", "on two", "times faster"])
     text = laminate(8, 3, 1e14)
     for pair in range(1, 4):
         one, two = (counts_of(program, text, n, "-log_view") for n in (1, 2))

@@ -25,7 +25,7 @@ from launch import alone, expect, finish, folder, last_lines, on_ranks
 TIGHT = "1e-10"
 # What a comparison may differ by, of the largest value of its kind; by the size of damage_tolerance.
 ALLOWED = {"tight": 1e-8, "loose": 2e-3}
-# On more ranks than this, four or more to a core, only marches of few solves: a solve takes a quarter of a second there.
+# On more ranks than this, four or more to a core, only marches of few solves: each takes a quarter of a second there.
 MANY, MOST_SOLVES = 4, 200
 # A nearly incompressible body amplifies rounding. Scene: allowed of the tight comparison with the serial program.
 ROUNDED = {"incompressible": 1e-7}

@@ -163,7 +163,8 @@ def check_laws():
     scene, said = law(initiation="MAXS")
     expect(numbers(scene, "onset_exponent") == [100.0] and "MAXS as a power law" in said, "MAXS")
 
-    scene, _ = law(evolution="*Damage Evolution, type=ENERGY, mixed mode behavior=POWER LAW, power=1.5\n280., 790., 790.\n")
+    scene, _ = law(evolution="*Damage Evolution, type=ENERGY, mixed mode behavior=POWER LAW, power=1.5\n"
+                             "280., 790., 790.\n")
     expect('criterion = "power"\ntoughness_exponent = 1.5' in scene, "power law")
     scene, said = law(evolution="*Damage Evolution, type=ENERGY, softening=EXPONENTIAL\n280.,\n")
     expect('kind = "exponential"' in scene and "exponential softening" in said, "exponential")
@@ -183,7 +184,8 @@ def check_laws():
     expect(len(curve) == 9 and max(abs(s - (1 - x)) for x, s in curve) < 1e-12, f"tabulated curve {curve}")
     expect("D in Abaqus" in said, "that Abaqus differs between the points is said")
     area = sum((b[0] - a[0]) * (a[1] + b[1]) / 2 for a, b in zip(curve, curve[1:])) * end
-    expect(math.isclose(numbers(scene, "normal_toughness")[0], decks.NORMAL * (onset / 2 + area), rel_tol=1e-9), "its area")
+    toughness = decks.NORMAL * (onset / 2 + area)
+    expect(math.isclose(numbers(scene, "normal_toughness")[0], toughness, rel_tol=1e-9), "its area")
 
 
 def check_thickness():
@@ -219,11 +221,13 @@ def check_steps():
     expect("times = [0.0, 1.0, 1.5]\nvalues = [0.0, 0.001, 0.0]" in scene, "two steps")
     expect("times = [0.0, 1.0, 1.5]\nvalues = [0.0, 0.0, 1.0]" in scene and "force = [3.5, 0.0]" in scene, "a force")
     instants = [float(word) for word in re.search(r"instants = \[(.*)\]", scene).group(1).split(",")]
-    expect(len(instants) == 26 and instants[-1] == 1.5 and math.isclose(instants[21], 1.1), f"instants {instants[19:23]}")
+    expect(len(instants) == 26 and instants[-1] == 1.5 and math.isclose(instants[21], 1.1),
+           f"instants {instants[19:23]}")
     expect(delam("check", saved(text + second))[0] == 0, "two steps can be run")
     # A jump at the beginning of a step takes its first increment.
     scene, said = imported(text.replace("*Step, name=Open,", "*Step, name=Open, amplitude=STEP,"))
-    expect("times = [0.0, 0.05, 1.0]\nvalues = [0.0, 0.001, 0.001]" in scene and "jumps at the beginning" in said, "a jump")
+    expect("times = [0.0, 0.05, 1.0]\nvalues = [0.0, 0.001, 0.001]" in scene and "jumps at the beginning" in said,
+           "a jump")
     smooth = driven.replace("*Amplitude, name=Saw\n0., 0., 0.4, 1., 0.7, 0.2, 1., 1.\n",
                             "*Amplitude, name=Saw, definition=SMOOTH STEP\n0., 0., 1., 1.\n")
     scene, _ = imported(smooth)
@@ -234,8 +238,8 @@ def check_steps():
     scene, _ = imported(text.replace("*Boundary\nTop, 2, 2", f"*Boundary\n{nodes[0]}, 2, 2"))
     expect('point = [0.0, 0.003]\nbody = "Arms-2"' in scene, "a node by its number")
     last = beam.nx * beam.nz * 2
-    pressed = text.replace("*Solid Section", f"*Surface, name=Roof\nRoof-cells, S3\n*Elset, elset=Roof-cells, generate\n"
-                           f"{last - beam.nx + 1}, {last}\n*Solid Section", 1)
+    pressed = text.replace("*Solid Section", "*Surface, name=Roof\nRoof-cells, S3\n"
+                           f"*Elset, elset=Roof-cells, generate\n{last - beam.nx + 1}, {last}\n*Solid Section", 1)
     pressed = pressed.replace("*Output,", "*Dsload\nRoof, P, 2e5\n*Output,", 1)
     scene, _ = imported(pressed)
     expect('set = "Roof"' in scene and "pressure = 200000.0" in scene, "a pressure")
@@ -256,7 +260,8 @@ def check_axes():
     expect(all(math.isclose(a, b, abs_tol=1e-12) for a, b in zip(axes, wanted, strict=True)), f"axes {axes}")
     expect("SC8R: a solid cell here" in said, "continuum shells are said")
     expect(delam("check", saved(shell))[0] == 0, "continuum shells can be run")
-    lamina = shell.replace(decks.PLY, f"*Material, name=Ply\n*Elastic, type=LAMINA\n{decks.E1}, {decks.E2}, 0.3, 5e9, 5e9, 3.6e9\n")
+    lamina = shell.replace(decks.PLY, "*Material, name=Ply\n*Elastic, type=LAMINA\n"
+                           f"{decks.E1}, {decks.E2}, 0.3, 5e9, 5e9, 3.6e9\n")
     scene, said = imported(lamina)
     expect(numbers(scene, "E3") == [decks.E2] and "LAMINA says nothing" in said, "lamina")
     expect(math.isclose(numbers(scene, "nu23")[0], decks.E2 / 7.2e9 - 1), "nu23 of a lamina")
@@ -321,8 +326,8 @@ def check_refusals():
                  "two directions of sliding")
     glue = decks.surfaces(Beam(nx=4, ny=0, nz=1))
     k = decks.STIFFNESS
-    expect_error(delam("import", saved(glue.replace(f"*Cohesive behavior\n{k}, {k}, {k}\n", "*Cohesive behavior\n"))), 2,
-                 "no stiffness")
+    soft = glue.replace(f"*Cohesive behavior\n{k}, {k}, {k}\n", "*Cohesive behavior\n")
+    expect_error(delam("import", saved(soft)), 2, "no stiffness")
     expect_error(delam("import", saved(glue.replace("Above, Below\n", "Above, Beneath\n"))), 2, "Beneath")
 
 
@@ -399,7 +404,7 @@ steps = 10
 
 
 def check_doubled_nodes():
-    """A mesh of Gmsh whose nodes are doubled along a line within one physical surface, as its plug-in Crack leaves it."""
+    """A mesh of Gmsh whose nodes are doubled along a line within one physical surface, as by its plug-in Crack."""
     place = folder()
     saved(DOUBLED, "doubled.msh", place)
     scene = saved(OF_DOUBLED, "scene.toml", place)

@@ -36,7 +36,8 @@ class Parameters(unittest.TestCase):
         self.assertEqual(bounds["normal_stiffness"], (0.0, np.inf, True, True))
         self.assertNotIn("criterion", bounds)
         for kind in kinds:
-            self.assertEqual(set(delam.Law.bounds(kind)) | {"criterion"}, set(delam.Law.parameters(kind)) | {"criterion"})
+            texts = {"criterion", "onset_criterion"}
+            self.assertEqual(set(delam.Law.bounds(kind)) | texts, set(delam.Law.parameters(kind)) | texts)
         with self.assertRaises(delam.ArgumentError):
             delam.Law.bounds("bilinear")
 
