@@ -27,6 +27,8 @@ int run(const std::string& scene_file, const std::vector<std::string>& settings,
         const std::string& command, const Caller& caller);
 // Writes the scene of an Abaqus input file; scene_file "": to standard output. replace: also where there is a file.
 int import(const std::string& deck, const std::string& scene_file, bool replace);
+// Lists the options of [solver] and the parameters of the laws.
+int options(bool json);
 int check(const std::string& scene_file, const std::vector<std::string>& settings, const Caller& caller);
 
 }  // namespace cli

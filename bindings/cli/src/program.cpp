@@ -78,11 +78,16 @@ int guarded(int argc, char** argv, const Caller& caller) {
     import_command->add_option("--out,-o", folder, "the scene file (default: standard output)");
     import_command->add_flag("--replace", replace, "overwrite the scene file if it is there");
     import_command->footer(footer);
+    CLI::App* options_command =
+        app.add_subcommand("options", "list the options of [solver] and the parameters of laws");
+    bool json = false;
+    options_command->add_flag("--json", json, "for programs");
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
         return app.exit(e) == 0 ? exit_done : exit_scene;
     }
+    if (options_command->parsed()) return options(json);
     if (import_command->parsed()) return import(deck, folder, replace);
     return run_command->parsed() ? run(scene, settings, folder, resume, joined(argc, argv), caller)
                                  : check(scene, settings, caller);

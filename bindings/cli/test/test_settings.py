@@ -87,4 +87,17 @@ limits = {"preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (1000,
 _, _, error = delam("run", scene, "--out", narrow, "--set", "title=it's one", **limits)
 expect(re.search(r"delam run \S+ --out \S+ --set 'title=it'\\''s one'", error),
        f"the hint is whole: {error.splitlines()}")
+# What can be set is listed, and each default of the list can be set.
+code, out, _ = delam("options", "--json")
+listed = json.loads(out)
+expect(code == 0 and len(listed["options"]) > 20 and len({row["key"] for row in listed["options"]}) ==
+       len(listed["options"]), "options as JSON")
+for row in listed["options"]:
+    value = row["default"]
+    inside = row["type"] == "text" or row["bounds"]["lower"] is None or float(value) >= row["bounds"]["lower"]
+    expect(inside, f"default of {row['key']} is in its bounds: {value}, {row['range']}")
+code, text, _ = delam("options")
+expect(code == 0 and all(f"\n{row['key']}" in text for law in listed["laws"] for row in law["parameters"]),
+       "all parameters of laws in the list for people")
+expect(all(f"\n{row['key']}" in text for row in listed["options"]), "all options in the list for people")
 finish()
