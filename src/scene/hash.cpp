@@ -111,8 +111,11 @@ void add_law(Fnv& fnv, const Law& law) {
         fnv.add(law.*member);
     };
     for (const LawParameter& parameter : law_parameters()) {
-        if (parameter.instead_of != nullptr && !(law.*parameter.value > 0.0)) continue;  // the other one is given
-        if (parameter.instead_of != nullptr && *parameter.initial != '\0') fnv.add(std::string(parameter.key));
+        // Of an onset and a strength, the one that is given; laws by onsets have the hashes that they had before.
+        const bool strength = parameter.instead_of != nullptr && *parameter.initial != '\0';
+        const bool other = parameter.instead_of != nullptr && law.*parameter.instead_of > 0.0;
+        if ((strength || other) && !(law.*parameter.value > 0.0)) continue;
+        if (strength) fnv.add(std::string(parameter.key));
         add(parameter.value);
         add(parameter.second);
     }

@@ -195,6 +195,7 @@ private:
             const std::array<double, 3> a{turn[0], turn[1], turn[2]};
             const std::array<double, 3> b{turn[3], turn[4], turn[5]};
             if (a == b) throw SceneFailure(card.lines[1].place, "the two points of the axis of rotation are the same");
+            instance.rotated = true;
             for (Node& node : instance.nodes) node.at = rotated(node.at, a, b, turn[6] * std::numbers::pi / 180);
         }
         open_ = &instance;

@@ -76,6 +76,7 @@ struct Part {
     std::map<std::string, Surface> surfaces;
     std::vector<Entry> sections;  // their element sets
     std::vector<Entry> cohesive_sections;
+    bool rotated = false;         // an instance: by its second data line
     std::size_t order = 0;        // position among the parts of the mesh
     std::int64_t first_node = 0;  // number in the mesh
 };

@@ -34,7 +34,7 @@ private:
 
 }  // namespace
 
-void split_into_pieces(MeshData& mesh) {
+std::vector<std::size_t> split_into_pieces(MeshData& mesh) {
     std::size_t cells = 0;
     for (const CellBlock& block : mesh.blocks) cells += block.bodies.size();
     Pieces pieces(cells);
@@ -60,23 +60,28 @@ void split_into_pieces(MeshData& mesh) {
     std::map<std::size_t, std::int32_t> label_of;  // by first cell
     std::vector<std::string> names;
     std::vector<std::string> formulations;
+    std::vector<std::size_t> counts;
     for (std::size_t body = 0; body < found.size(); ++body) {
+        const std::string& name = mesh.body_names[body];
+        const bool taken = std::any_of(mesh.body_names.begin(), mesh.body_names.end(),
+                                       [&](const std::string& other) { return other.starts_with(name + "-"); });
+        const auto piece = [&](std::size_t i) { return fmt::format("{}-{}{}", name, taken ? "piece-" : "", i + 1); };
         for (std::size_t i = 0; i < found[body].size(); ++i) {
             label_of[found[body][i]] = static_cast<std::int32_t>(names.size());
-            const std::string& name = mesh.body_names[body];
-            names.push_back(found[body].size() == 1 ? name : fmt::format("{}-{}", name, i + 1));
+            names.push_back(found[body].size() == 1 ? name : piece(i));
             if (!mesh.formulations.empty()) formulations.push_back(mesh.formulations[body]);
         }
-        if (found[body].size() > 1)
-            mesh.notes.push_back(fmt::format("body \"{}\" consists of {} pieces: \"{}-1\" to \"{}-{}\"",
-                                             mesh.body_names[body], found[body].size(), mesh.body_names[body],
-                                             mesh.body_names[body], found[body].size()));
+        counts.push_back(found[body].size());
+        if (counts.back() > 1)
+            mesh.notes.push_back(fmt::format("body \"{}\" consists of {} pieces: \"{}\" to \"{}\"", name, counts.back(),
+                                             piece(0), piece(counts.back() - 1)));
     }
     cell = 0;
     for (CellBlock& block : mesh.blocks)
         for (std::int32_t& body : block.bodies) body = label_of.at(pieces.first_of(cell++));
     mesh.body_names = std::move(names);
     mesh.formulations = std::move(formulations);
+    return counts;
 }
 
 }  // namespace cli

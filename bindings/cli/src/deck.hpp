@@ -44,13 +44,17 @@ struct Section {
     double angle = 0;         // of the one ply of a composite, degrees about its normal
     std::string thickness{};  // of cohesive elements: SPECIFIED or GEOMETRY
     double value = 1;         // the specified thickness
-    Place place;              // of the card, by which the mesh knows it
+    double width = 1;         // out of the plane
+    bool shell = false;
+    std::string part{};  // in which it and its orientation stand
+    Place place;         // of the card, by which the mesh knows it
 };
 
 struct Orientation {
     std::string name;
-    Numbers points;  // a and b, then the origin
-    int about = 1;
+    std::string part;  // in which it stands; "": outside
+    Numbers points;    // a and b, then the origin
+    int about = 0;     // 0: not said
     double angle = 0;  // degrees
     Place place;
 };
@@ -94,8 +98,8 @@ struct Step {
     std::string name;
     double first_increment = 1;
     double period = 1;
-    bool ramp = true;                                 // what has no amplitude grows over the step
-    bool new_boundaries = false, new_forces = false;  // those of earlier steps end
+    bool ramp = true;  // what has no amplitude grows over the step
+    bool new_boundaries = false, new_forces = false, new_distributed = false;  // those before end
     std::vector<LoadLine> boundaries, forces;
     Place place;
 };
@@ -111,6 +115,7 @@ struct Deck {
     std::vector<LoadLine> held;  // *BOUNDARY before the first step
     std::vector<Step> steps;
     bool general_contact = false;
+    double width = 0;                  // of a plane mesh; 0: not known yet
     std::vector<std::string> changed;  // for people: what the scene does otherwise
     std::vector<std::string> left_out;
 };

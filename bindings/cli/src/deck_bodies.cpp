@@ -121,6 +121,20 @@ std::vector<BodyPair> pairs_of_bodies(const MeshData& mesh, const FaceBodies& fa
     return list;
 }
 
+std::int64_t coinciding_faces(const MeshData& mesh, const std::vector<Face>& faces, const std::vector<Face>& others,
+                              double shortest_edge) {
+    Coincidence coincidence(mesh, 1e-6 * shortest_edge);
+    const auto place_of = [&](const Face& face) {
+        FaceKey place = key_of(face, mesh.dimension);
+        for (std::int64_t& node : place) node = coincidence.first(node);
+        std::sort(place.begin(), place.end());
+        return place;
+    };
+    std::set<FaceKey> known;
+    for (const Face& face : others) known.insert(place_of(face));
+    return std::count_if(faces.begin(), faces.end(), [&](const Face& face) { return known.contains(place_of(face)); });
+}
+
 std::vector<std::int32_t> bodies_at(const MeshData& mesh, std::int64_t node) {
     std::vector<std::int32_t> out;
     for (const CellBlock& block : mesh.blocks) {

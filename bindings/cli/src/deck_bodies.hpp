@@ -35,6 +35,10 @@ struct BodyPair {
 // Nodes coincide within 1e-6 of the shortest edge.
 std::vector<BodyPair> pairs_of_bodies(const MeshData& mesh, const FaceBodies& faces, double shortest_edge);
 
+// How many of the faces coincide with one of the others.
+std::int64_t coinciding_faces(const MeshData& mesh, const std::vector<Face>& faces, const std::vector<Face>& others,
+                              double shortest_edge);
+
 // Nodes in cells of each body, ascending labels.
 std::vector<std::int32_t> bodies_at(const MeshData& mesh, std::int64_t node);
 

@@ -71,6 +71,8 @@ public:
 private:
     void take(const InpCard& card) {
         const std::string& word = card.keyword;
+        if (word == "PART") part_ = card.required("NAME");
+        if (word == "END PART") part_.clear();
         if (of_mesh.contains(word)) return;
         if (not_needed.contains(word)) {
             left_.insert(word);
@@ -162,6 +164,7 @@ private:
         card.only({"CRITERION", "DEPENDENCIES", "TOLERANCE"});
         require_constant(card);
         DamageCards& d = damage(card);
+        if (!d.initiation.empty()) throw SceneFailure(card.place, "is given twice for one law");
         d.initiation = upper(card.required("CRITERION"));
         if (d.initiation != "MAXS" && d.initiation != "QUADS" && d.initiation != "MAXE" && d.initiation != "QUADE")
             card.refuse("CRITERION", d.initiation, "MAXS, QUADS, MAXE or QUADE");
@@ -176,6 +179,7 @@ private:
             {"TYPE", "SOFTENING", "MIXED MODE BEHAVIOR", "MODE MIX RATIO", "POWER", "DEGRADATION", "DEPENDENCIES"});
         require_constant(card);
         DamageCards& d = damage(card);
+        if (!d.evolution.empty()) throw SceneFailure(card.place, "is given twice for one law");
         d.evolution = upper(card.required("TYPE"));
         if (d.evolution != "ENERGY" && d.evolution != "DISPLACEMENT")
             card.refuse("TYPE", d.evolution, "ENERGY or DISPLACEMENT");
@@ -222,9 +226,16 @@ private:
         Section section;
         section.place = card.place;
         section.orientation = card.parameter("ORIENTATION");
+        section.part = part_;
+        section.shell = card.keyword == "SHELL SECTION";
         if (!card.has("COMPOSITE")) {
             section.material = card.required("MATERIAL");
+            if (!section.shell && !card.lines.empty() && !card.lines[0].fields.empty() &&
+                !card.lines[0].fields[0].empty())
+                section.width = positive_number(card.lines[0].fields[0], card.lines[0].place);
         } else {
+            if (card.has("STACK DIRECTION") && card.required("STACK DIRECTION") != "3")
+                card.refuse("STACK DIRECTION", card.required("STACK DIRECTION"), "3");
             if (card.lines.size() != 1)
                 throw SceneFailure(card.place, fmt::format("a composite of {}: one ply in each element is imported; "
                                                            "give the plies elements of their own",
@@ -236,6 +247,12 @@ private:
                 section.angle = inp_number(line.fields[3], line.place);
         }
         deck_.sections.push_back(std::move(section));
+    }
+
+    static double positive_number(const std::string& field, const Place& place) {
+        const double value = inp_number(field, place);
+        if (!(value > 0)) throw SceneFailure(place, fmt::format("thickness {}: must be > 0", value));
+        return value;
     }
 
     static std::string counted_plies(std::size_t number) { return std::to_string(number) + " plies"; }
@@ -252,10 +269,17 @@ private:
         section.thickness = card.has("THICKNESS") ? upper(card.required("THICKNESS")) : "SPECIFIED";
         if (section.thickness != "SPECIFIED" && section.thickness != "GEOMETRY")
             card.refuse("THICKNESS", section.thickness, "SPECIFIED or GEOMETRY");
-        if (!card.lines.empty() && !card.lines[0].fields.empty() && !card.lines[0].fields[0].empty())
-            section.value = inp_number(card.lines[0].fields[0], card.lines[0].place);
-        if (!(section.value > 0))
-            throw SceneFailure(card.place, fmt::format("thickness {}: must be > 0", section.value));
+        if (card.has("STACK DIRECTION"))
+            throw SceneFailure(card.place,
+                               "STACK DIRECTION is not imported: the first half of the nodes of a cohesive "
+                               "element is one face, the second half the other");
+        if (!card.lines.empty()) {
+            const InpLine& line = card.lines[0];
+            if (!line.fields.empty() && !line.fields[0].empty())
+                section.value = positive_number(line.fields[0], line.place);
+            if (line.fields.size() > 1 && !line.fields[1].empty())
+                section.width = positive_number(line.fields[1], line.place);
+        }
         section.place = card.place;
         deck_.sections.push_back(std::move(section));
     }
@@ -268,17 +292,21 @@ private:
             card.refuse("SYSTEM", card.required("SYSTEM"), "RECTANGULAR");
         Orientation orientation;
         orientation.name = card.required("NAME");
+        orientation.part = part_;
         orientation.place = card.place;
+        for (const Orientation& other : deck_.orientations)
+            if (upper(other.name) == upper(orientation.name) && other.part == part_)
+                throw SceneFailure(card.place, "there is another orientation \"" + other.name + "\"");
         orientation.points = card.first_line().numbers();
         if (orientation.points.size() != 6 && orientation.points.size() != 9)
             throw SceneFailure(card.lines[0].place, "6 or 9 coordinates are expected");
         orientation.points.resize(9, 0.0);
         if (card.lines.size() > 1) {
             const Numbers turn = card.lines[1].numbers();
-            if (turn.size() != 2 || (turn[0] != 1 && turn[0] != 2 && turn[0] != 3))
+            if (turn.empty() || turn.size() > 2 || (turn[0] != 1 && turn[0] != 2 && turn[0] != 3))
                 throw SceneFailure(card.lines[1].place, "an axis, 1 to 3, and an angle are expected");
             orientation.about = static_cast<int>(turn[0]);
-            orientation.angle = turn[1];
+            if (turn.size() == 2) orientation.angle = turn[1];
         }
         deck_.orientations.push_back(std::move(orientation));
     }
@@ -338,6 +366,7 @@ private:
     Deck deck_;
     DamageCards& (DeckReader::*damage_of_)() = nullptr;
     StepReader steps_;
+    std::string part_;  // that is open
     std::set<std::string> left_;
 };
 

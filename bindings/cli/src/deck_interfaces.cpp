@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <utility>
@@ -138,7 +139,7 @@ private:
     void add_cohesive(const CohesiveSet& set) {
         const Section& section = section_of(set);
         std::map<std::pair<std::int32_t, std::int32_t>, double> gaps;  // by lower and upper body
-        double sum = 0;
+        double sum = 0, least = std::numeric_limits<double>::infinity(), most = 0;
         for (std::size_t i = 0; i < set.lower.size(); ++i) {
             const std::int32_t a = one_body(set.lower[i], set, section.place);
             const std::int32_t b = one_body(set.upper[i], set, section.place);
@@ -149,6 +150,8 @@ private:
                                                set.name, body(a)));
             const double gap = gap_of(set.lower[i], set.upper[i]);
             sum += gap;
+            least = std::min(least, gap);
+            most = std::max(most, gap);
             // Elements may stand either way up.
             const auto key = gaps.contains({b, a}) ? std::pair(b, a) : std::pair(a, b);
             gaps[key] = std::max(gaps[key], gap);
@@ -158,6 +161,10 @@ private:
         const double thickness = section.thickness == "GEOMETRY" ? mean : section.value;
         if (!(thickness > 1e-9 * edge_))
             throw SceneFailure(section.place, "THICKNESS=GEOMETRY, and the elements have none");
+        if (section.thickness == "GEOMETRY" && most - least > 1e-3 * most)
+            throw SceneFailure(section.place, fmt::format("THICKNESS=GEOMETRY, and the elements are {:.6g} to {:.6g} "
+                                                          "thick: one law has one stiffness; give a section to each",
+                                                          least, most));
         const std::string law = cohesive_law(material, thickness);
         for (const auto& [bodies, gap] : gaps) {
             const bool apart = gap > 1e-6 * edge_;
@@ -177,16 +184,16 @@ private:
                                                            material.name));
         Numbers stiffness = material.constants;
         for (double& k : stiffness) k /= thickness;
-        return new_law(material.name, stiffness, thickness, material.damage, material.place);
+        return new_law("material", material.name, stiffness, thickness, material.damage, material.place);
     }
 
     // The law of this name and thickness, made where it is new.
-    std::string new_law(const std::string& name, const Numbers& stiffness, double thickness, const DamageCards& damage,
-                        const Place& place) {
-        const auto [known, fresh] = law_names_.emplace(std::pair(name, thickness), name);
+    std::string new_law(const std::string& of, const std::string& name, const Numbers& stiffness, double thickness,
+                        const DamageCards& damage, const Place& place) {
+        const auto [known, fresh] = law_names_.emplace(std::pair(of + " " + name, thickness), name);
         if (!fresh) return known->second;
         std::size_t alike = 0;
-        for (const auto& [key, other] : law_names_) alike += key.first == name ? 1 : 0;
+        for (const auto& [key, other] : law_names_) alike += key.first.ends_with(" " + name) ? 1 : 0;
         if (alike > 1) known->second = fmt::format("{} ({})", name, alike);
         laws_ += law_text(known->second, stiffness, thickness, damage, mesh_.dimension, place, deck_.changed) + "\n";
         return known->second;
@@ -217,7 +224,9 @@ private:
         const std::string master = surface_name(pair.master);
         std::string law;
         if (interaction.cohesive)
-            law = new_law(interaction.name, interaction.stiffness, 1.0, interaction.damage, interaction.place);
+            law = new_law("interaction", interaction.name, interaction.stiffness, 1.0, interaction.damage,
+                          interaction.place);
+        if (interaction.cohesive) require_extent(pair, interaction, slave, master);
         const std::set<std::int32_t> slaves = bodies_of(slave), masters = bodies_of(master);
         std::size_t added = 0;
         for (const std::int32_t b : slaves)
@@ -234,6 +243,30 @@ private:
         if (added == 0)
             throw SceneFailure(
                 pair.place, fmt::format("no body of \"{}\" touches one of \"{}\"", pair.slave.text, pair.master.text));
+    }
+
+    // What adheres is what the slave surface has, or its bonded nodes; the master must not say less.
+    void require_extent(const ContactPair& pair, const InteractionCards& interaction, const std::string& slave,
+                        const std::string& master) {
+        const bool specified = interaction.eligibility == "SPECIFIED CONTACTS";
+        if (specified == pair.bonded.empty())
+            throw SceneFailure(pair.place,
+                               "ELIGIBILITY=SPECIFIED CONTACTS and *INITIAL CONDITIONS, TYPE=CONTACT are "
+                               "imported together: one of them is missing");
+        if (!interaction.eligibility.empty() && !specified && interaction.eligibility != "CURRENT CONTACTS")
+            throw SceneFailure(interaction.place, "ELIGIBILITY=" + interaction.eligibility +
+                                                      " is not imported: CURRENT and SPECIFIED CONTACTS are");
+        const auto& faces = mesh_.face_sets.at(slave);
+        const auto opposite = coinciding_faces(mesh_, faces, mesh_.face_sets.at(master), edge_);
+        if (opposite == 0)
+            deck_.changed.push_back(
+                fmt::format("\"{}\" and \"{}\" do not match: the slave adheres wherever it meets "
+                            "the body of the master",
+                            pair.slave.text, pair.master.text));
+        else if (!specified && opposite < static_cast<std::int64_t>(faces.size()))
+            throw SceneFailure(pair.place, fmt::format("{} of the {} sides of \"{}\" lie opposite \"{}\": only these "
+                                                       "would adhere; make the slave surface as small",
+                                                       opposite, faces.size(), pair.slave.text, pair.master.text));
     }
 
     [[nodiscard]] std::string bonded_set(const ContactPair& pair) const {

@@ -37,6 +37,26 @@ struct Mode {
 
 using Curve = std::vector<std::array<double, 2>>;
 
+// Between two points D is straight in Abaqus, and the traction, (1 - D) times a straight line, may rise far above both.
+void require_no_hump(const DamageCards& damage, const Mode& mode) {
+    constexpr double allowed = 0.05;  // of the peak
+    for (std::size_t i = 1; i < damage.values.size(); ++i) {
+        const Numbers &a = damage.values[i - 1], &b = damage.values[i];
+        for (const double x : {0.25, 0.5, 0.75}) {
+            const double d = a[0] + x * (b[0] - a[0]), jump = a[1] + x * (b[1] - a[1]);
+            const double traction = (1 - d) * (1 + jump / mode.at_onset());
+            const double before = (1 - a[0]) * (1 + a[1] / mode.at_onset());
+            if (traction > before + allowed)
+                throw SceneFailure(
+                    damage.evolution_place,
+                    fmt::format("between the displacements {} and {}, the traction of Abaqus' straight D "
+                                "rises to {:.3g} times the strength: give more points there, or "
+                                "TYPE=ENERGY",
+                                a[1], b[1], traction));
+        }
+    }
+}
+
 // Points of D over the jump beyond the onset, as traction over its peak, with straight lines between them.
 Curve softening_of(const DamageCards& damage, const Mode& mode) {
     const std::vector<Numbers>& rows = damage.values;
@@ -56,6 +76,7 @@ Curve softening_of(const DamageCards& damage, const Mode& mode) {
                                            out.back()[1], traction, row[1]));
         out.push_back({row[1] / rows.back()[1], std::min(traction, out.empty() ? 1.0 : out.back()[1])});
     }
+    require_no_hump(damage, mode);
     return out;
 }
 
@@ -85,13 +106,16 @@ Numbers toughness_of(const std::string& name, const DamageCards& damage, const M
     const Place& place = damage.evolution_place;
     if (damage.evolution == "ENERGY") {
         Numbers energy = damage.values[0];
+        if (energy.empty()) throw SceneFailure(place, "a toughness is expected");
         if (damage.mixed_mode.empty()) return {energy[0], energy[0]};
         if (energy.size() < 2) throw SceneFailure(place, "the toughness of two or three modes is expected");
         if (damage.mixed_mode == "POWER LAW") require_isotropic(energy, "toughness", dimension, place);
         energy.resize(2);
         return energy;
     }
-    const double end = damage.softening == "TABULAR" ? damage.values.back().at(1) : damage.values[0][0];
+    if (damage.softening == "TABULAR") (void)softening_of(damage, modes[0]);
+    if (damage.values[0].empty()) throw SceneFailure(place, "a displacement is expected");
+    const double end = damage.softening == "TABULAR" ? damage.values.back()[1] : damage.values[0][0];
     Numbers out;
     for (const Mode& mode : modes)
         out.push_back(damage.softening == "TABULAR"
@@ -106,6 +130,11 @@ Numbers toughness_of(const std::string& name, const DamageCards& damage, const M
                             "Abaqus, where the area beyond the onset is {:+.2g} % different",
                             name, 100 * (other / lines - 1)));
     }
+    const bool same_onset = std::abs(modes[0].at_onset() - modes[1].at_onset()) <= 1e-9 * modes[0].at_onset();
+    if (damage.softening == "TABULAR" && !same_onset)
+        throw SceneFailure(place,
+                           "SOFTENING=TABULAR is imported for modes whose jumps at the onset are the same: the "
+                           "curve of a law is that of all modes");
     const bool alike = std::abs(modes[0].at_onset() - modes[1].at_onset()) <= 1e-9 * modes[0].at_onset() &&
                        std::abs(modes[0].strength - modes[1].strength) <= 1e-9 * modes[0].strength;
     if (!alike)

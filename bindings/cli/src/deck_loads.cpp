@@ -19,6 +19,7 @@ namespace {
 using Points = std::vector<std::pair<double, double>>;  // instants and values
 
 constexpr std::int64_t most_single_nodes = 200;
+constexpr double most_increments = 100000;
 constexpr const char* axis_names[] = {"x", "y", "z"};
 
 double between(const Points& points, double x) {
@@ -53,6 +54,7 @@ struct History {
     Points points{{0.0, 0.0}};
     const LoadLine* follows = nullptr;  // the last line that prescribed it
     bool active = true;                 // this step, or an earlier one that still holds, prescribes it
+    std::size_t before = 1;             // points of the steps before this one
 
     [[nodiscard]] double peak() const {
         double out = 0;
@@ -78,6 +80,7 @@ public:
         for (const LoadLine& line : deck_.held)
             for (int dof = line.first; dof <= line.last; ++dof) at_one(line, false, dof);
         for (const Step& step : deck_.steps) march(step);
+        say_width();
         std::string out = time_text();
         std::string loads;
         std::map<std::string, std::vector<int>> held;  // places with nothing but 0
@@ -142,16 +145,26 @@ private:
 
     void march(const Step& step) {
         const double end = time_ + step.period;
-        for (auto& [key, history] : histories_)
-            if (history.force ? step.new_forces : step.new_boundaries) history.active = false;
+        for (auto& [key, history] : histories_) {
+            history.before = history.points.size();
+            const bool ends = !history.force            ? step.new_boundaries
+                              : key.distributed.empty() ? step.new_forces
+                                                        : step.new_distributed;
+            if (ends) history.active = false;
+        }
         std::set<const History*> given;
         for (const bool force : {false, true})
             for (const LoadLine& line : force ? step.forces : step.boundaries)
                 for (int dof = line.first; dof <= line.last; ++dof) {
                     History* history = at_one(line, force, dof);
                     if (history == nullptr) continue;
+                    if (line.direction != history->line.direction)
+                        throw SceneFailure(line.where.place,
+                                           "TRVEC in another direction than before is not imported: "
+                                           "give the surface another name");
                     history->follows = &line;
-                    given.insert(history);
+                    // Of several lines of a step for the same place, the last one counts.
+                    if (!given.insert(history).second) history->points.resize(history->before);
                     extend(*history, step, line, end);
                 }
         for (auto& [key, history] : histories_) {
@@ -160,16 +173,21 @@ private:
                 throw SceneFailure(step.place, fmt::format("OP=NEW frees \"{}\", degree of freedom {}, in this step: "
                                                            "supports that end are not imported",
                                                            history.line.where.text, key.dof));
+            LoadLine ended = history.line;
+            ended.magnitude = 0;
+            ended.amplitude.clear();
             if (!history.active)
-                history.points.emplace_back(end, 0.0);  // falls over the step, as in Abaqus
+                extend(history, step, ended, end);
             else if (history.follows != nullptr && in_total_time(*history.follows))
                 extend(history, step, *history.follows, end);
             else
                 history.points.emplace_back(end, history.points.back().second);
         }
-        const auto increments = static_cast<std::int64_t>(std::ceil(step.period / step.first_increment * (1 - 1e-9)));
-        if (increments > 100000)
-            throw SceneFailure(step.place, fmt::format("{} increments: at most 100000 are expected", increments));
+        const double wanted = std::ceil(step.period / step.first_increment * (1 - 1e-9));
+        if (!(wanted + static_cast<double>(instants_.size()) <= most_increments))
+            throw SceneFailure(step.place, fmt::format("{:.6g} increments of {}: at most {} in all steps", wanted,
+                                                       step.first_increment, most_increments));
+        const auto increments = static_cast<std::int64_t>(wanted);
         for (std::int64_t i = 1; i <= increments; ++i)
             instants_.push_back(
                 i == increments ? end : time_ + step.period * static_cast<double>(i) / static_cast<double>(increments));
@@ -215,6 +233,14 @@ private:
             next.erase(next.begin());
         }
         history.points.insert(history.points.end(), next.begin(), next.end());
+    }
+
+    void say_width() {
+        if (mesh_.dimension == 2 && deck_.width > 0 && deck_.width != 1)
+            deck_.changed.push_back(
+                fmt::format("the plane mesh is {} thick: the scene is per unit of thickness, and its "
+                            "reactions and energies are to be multiplied by this",
+                            deck_.width));
     }
 
     std::string time_text() {
@@ -324,16 +350,19 @@ private:
             return fmt::format("[[forces]]\nset = {}\n{}traction = {}\n\n", toml_text(surface_name(where)), pattern,
                                toml_list(force));
         }
-        force[static_cast<std::size_t>(history.line.first - 1)] = peak;
+        // The scene is per unit of thickness.
+        const double width = mesh_.dimension == 2 && deck_.width > 0 ? deck_.width : 1.0;
+        force[static_cast<std::size_t>(history.line.first - 1)] = peak / width;
         // *CLOAD gives each node of a set the whole force.
         std::string out;
-        for (const auto& [at, body] : nodes_of(where))
+        for (const auto& [at, body] : nodes_of(history))
             out += fmt::format("[[forces]]\n{}{}force = {}\n\n", point_text(at, body), pattern, toml_list(force));
         return out;
     }
 
     // Each with the first of its bodies.
-    [[nodiscard]] std::vector<std::pair<std::array<double, 3>, std::int32_t>> nodes_of(const Entry& raw) const {
+    [[nodiscard]] std::vector<std::pair<std::array<double, 3>, std::int32_t>> nodes_of(const History& history) {
+        const Entry& raw = history.line.where;
         std::int64_t number = 0;
         std::vector<std::int64_t> numbers;
         if (node_of(raw, number) != nullptr)
@@ -346,6 +375,11 @@ private:
                                                       numbers.size(), most_single_nodes));
         std::vector<std::pair<std::array<double, 3>, std::int32_t>> out;
         for (const std::int64_t node : numbers) {
+            // A later line replaces the force of an earlier one only where both have the same place.
+            if (!loaded_.insert({node, history.line.first}).second)
+                throw SceneFailure(raw.place, fmt::format("a node of \"{}\" has a force from another line by another "
+                                                          "name: give each node one",
+                                                          raw.text));
             const std::vector<std::int32_t> bodies = bodies_at(mesh_, node);
             if (bodies.empty()) throw SceneFailure(raw.place, "a node of \"" + raw.text + "\" belongs to no body");
             std::array<double, 3> at{};
@@ -360,7 +394,8 @@ private:
     const Model& model_;
     const MeshData& mesh_;
     std::map<Key, History> histories_;
-    std::vector<Key> keys_;  // in the order of the deck
+    std::vector<Key> keys_;                          // in the order of the deck
+    std::set<std::pair<std::int64_t, int>> loaded_;  // nodes and degrees of freedom with a force of their own
     std::vector<Pattern> made_;
     std::string patterns_;
     std::vector<double> instants_, sizes_;

@@ -19,6 +19,7 @@
 #include "deck_loads.hpp"
 #include "say.hpp"
 #include "toml_text.hpp"
+#include "wildcard.hpp"
 
 namespace cli::abaqus {
 
@@ -57,21 +58,25 @@ std::vector<double> tidy_axis(const Vector& v) {
 
 class SceneWriter {
 public:
-    SceneWriter(Deck& deck, const Model& model, const MeshData& mesh, const std::vector<std::string>& plain_names)
-        : deck_(deck), model_(model), mesh_(mesh), plain_names_(plain_names) {}
+    SceneWriter(Deck& deck, const Model& model, const MeshData& mesh, const std::vector<std::string>& plain_names,
+                const std::vector<std::size_t>& pieces)
+        : deck_(deck), model_(model), mesh_(mesh), plain_names_(plain_names), pieces_(pieces) {}
 
     std::string text(const std::string& mesh_name, bool pieces) {
         std::string out = "schema = 1\n";
-        if (!deck_.title.empty()) out += fmt::format("title = {}\n", toml_text(deck_.title));
+        if (!deck_.title.empty()) out += fmt::format("title = {}\n", toml_text(as_utf8(deck_.title)));
         out += fmt::format("\n[mesh]\nfile = {}\n", toml_text(mesh_name));
         if (pieces) out += "pieces = true       # what no nodes connect is a body of its own\n";
-        out += "\n" + bodies_and_materials() + interfaces_text(deck_, model_, mesh_) + loads_text(deck_, model_, mesh_);
+        out += "\n";
+        out += bodies_and_materials();
+        out += interfaces_text(deck_, model_, mesh_);
+        out += loads_text(deck_, model_, mesh_);
         return out;
     }
 
 private:
     // The section of a body, by the name that it has before it is split.
-    const Section& section_of(const std::string& plain) const {
+    const Section& section_of(const std::string& plain, bool& rotated) const {
         for (const Part* scope : model_.scopes())
             for (const Entry& entry : scope->sections) {
                 const Entry resolved = model_.resolved_scope(entry);
@@ -79,25 +84,44 @@ private:
                 const std::string& name = set == resolved.scope->element_sets.end() ? resolved.text : set->second.name;
                 if (full_name(*resolved.scope, name) != plain) continue;
                 for (const Section& section : deck_.sections)
-                    if (section.place.file == entry.place.file && section.place.line == entry.place.line)
+                    if (section.place.file == entry.place.file && section.place.line == entry.place.line) {
+                        rotated = resolved.scope->rotated;
                         return section;
+                    }
             }
         throw SceneFailure(model_.file, fmt::format("\"{}\" has no *SOLID SECTION", plain));
+    }
+
+    // A scene in the plane is per unit of thickness; the thickness of the deck has to be one.
+    void require_width(const Section& section) {
+        if (mesh_.dimension == 3) return;
+        if (deck_.width == 0) deck_.width = section.width;
+        if (section.width != deck_.width)
+            throw SceneFailure(section.place,
+                               fmt::format("a thickness of {} and one of {} in one plane mesh: they must "
+                                           "be the same",
+                                           deck_.width, section.width));
     }
 
     std::string bodies_and_materials() {
         std::string bodies;
         std::set<std::string> used;
+        // In a plane mesh, cohesive elements have a width too.
+        for (const Section& section : deck_.sections)
+            if (!section.thickness.empty()) require_width(section);
+        std::size_t begin = 0;  // of its pieces
         for (std::size_t i = 0; i < plain_names_.size(); ++i) {
             const std::string& plain = plain_names_[i];
-            const Section& section = section_of(plain);
+            bool rotated = false;
+            const Section& section = section_of(plain, rotated);
+            require_width(section);
             const MaterialCards& material = named(deck_.materials, section.material, "material", section.place);
             used.insert(material.name);
-            // One entry for all pieces of a body.
-            const bool whole =
-                std::find(mesh_.body_names.begin(), mesh_.body_names.end(), plain) != mesh_.body_names.end();
-            bodies += fmt::format("[[bodies]]\nname = {}\nmaterial = {}\n{}\n", toml_text(whole ? plain : plain + "-*"),
-                                  toml_text(material.name), axes_text(section));
+            const std::string rest =
+                fmt::format("material = {}\n{}\n", toml_text(material.name), axes_text(section, rotated));
+            for (const std::string& name : entries_for(plain, begin, begin + pieces_[i]))
+                bodies += fmt::format("[[bodies]]\nname = {}\n{}", toml_text(name), rest);
+            begin += pieces_[i];
         }
         std::string out;
         for (const MaterialCards& material : deck_.materials)
@@ -105,11 +129,51 @@ private:
         return out + bodies;
     }
 
-    std::string axes_text(const Section& section) const {
-        if (section.orientation.empty() && section.angle == 0) return "";
+    // One entry for all pieces of a body, if its name fits no other.
+    [[nodiscard]] std::vector<std::string> entries_for(const std::string& plain, std::size_t begin,
+                                                       std::size_t end) const {
+        const auto& names = mesh_.body_names;
+        const std::string all = plain + "-*";
+        bool alone = end - begin > 1;
+        for (std::size_t i = 0; i < names.size(); ++i)
+            if (fits(all, names[i]) != (i >= begin && i < end)) alone = false;
+        if (alone) return {all};
+        return {names.begin() + static_cast<std::ptrdiff_t>(begin), names.begin() + static_cast<std::ptrdiff_t>(end)};
+    }
+
+    const Orientation& orientation_of(const Section& section) const {
+        for (const std::string& part : {section.part, std::string()})
+            for (const Orientation& each : deck_.orientations)
+                if (each.part == part && upper(each.name) == upper(section.orientation)) return each;
+        return named(std::vector<Orientation>(), section.orientation, "orientation", section.place);
+    }
+
+    // The angle of a ply, and an orientation of a shell, are about the normal of the plies, which must be axis 3 here.
+    void require_third_axis(const Section& section) const {
+        const bool said = !section.orientation.empty() && orientation_of(section).about == 3;
+        if (section.angle != 0 && !said)
+            throw SceneFailure(section.place,
+                               "the angle of a ply is imported with an *ORIENTATION whose second line is "
+                               "3, ..: axis 3 is the normal of the plies");
+        if (section.shell && !section.orientation.empty() && !said)
+            throw SceneFailure(section.place,
+                               "the *ORIENTATION of a shell section needs a second line 3, ..: axis 3 is "
+                               "the normal of the plies");
+    }
+
+    std::string axes_text(const Section& section, bool rotated) {
+        require_third_axis(section);
+        if (section.orientation.empty() && section.angle == 0) {
+            if (section.shell)
+                say_once(deck_.changed, "*SHELL SECTION without ORIENTATION: material axes 1, 2, 3 are x, y, z");
+            return "";
+        }
+        if (rotated)
+            throw SceneFailure(section.place,
+                               "ORIENTATION in an instance that is rotated is not imported: rotate the part");
         std::array<Vector, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
         if (!section.orientation.empty()) {
-            const Orientation& o = named(deck_.orientations, section.orientation, "orientation", section.place);
+            const Orientation& o = orientation_of(section);
             const auto from_origin = [&](std::size_t at) {
                 return Vector{o.points[at] - o.points[6], o.points[at + 1] - o.points[7],
                               o.points[at + 2] - o.points[8]};
@@ -117,7 +181,7 @@ private:
             axes[0] = unit(from_origin(0), o.place);
             axes[2] = unit(cross(axes[0], from_origin(3)), o.place);
             axes[1] = cross(axes[2], axes[0]);
-            turn(axes, o.about, o.angle);
+            turn(axes, o.about == 0 ? 1 : o.about, o.angle);
         }
         turn(axes, 3, section.angle);
         return fmt::format("axes = [{}, {}]\n", toml_list(tidy_axis(axes[0])), toml_list(tidy_axis(axes[1])));
@@ -161,6 +225,7 @@ private:
     const Model& model_;
     const MeshData& mesh_;
     const std::vector<std::string>& plain_names_;
+    const std::vector<std::size_t>& pieces_;  // how many each of them consists of
 };
 
 std::string header(const ImportedScene& scene, const std::string& deck) {
@@ -198,11 +263,11 @@ ImportedScene import_deck(const std::string& deck_path, const std::string& mesh_
     abaqus::Deck deck = abaqus::read_deck(cards, deck_path, model.root);
     MeshData mesh = abaqus::mesh_of(model, {}, place);
     const std::vector<std::string> plain_names = mesh.body_names;
-    split_into_pieces(mesh);
+    const std::vector<std::size_t> parts = split_into_pieces(mesh);
     const bool pieces = mesh.body_names != plain_names;
 
     ImportedScene out;
-    const std::string text = abaqus::SceneWriter(deck, model, mesh, plain_names).text(mesh_name, pieces);
+    const std::string text = abaqus::SceneWriter(deck, model, mesh, plain_names, parts).text(mesh_name, pieces);
     for (const std::string& note : mesh.notes)
         if (note.rfind("ignored: ", 0) != 0) out.changed.push_back(note);
     out.changed.insert(out.changed.end(), deck.changed.begin(), deck.changed.end());

@@ -2,6 +2,7 @@
 #include "deck_step_cards.hpp"
 
 #include <algorithm>
+#include <cstdint>
 
 #include <fmt/format.h>
 
@@ -15,6 +16,14 @@ namespace {
 const std::pair<const char*, std::vector<int>> named_supports[] = {
     {"ENCASTRE", {1, 2, 3}}, {"PINNED", {1, 2, 3}}, {"XSYMM", {1}},     {"YSYMM", {2}},
     {"ZSYMM", {3}},          {"XASYMM", {2, 3}},    {"YASYMM", {1, 3}}, {"ZASYMM", {1, 2}}};
+
+// 1 to `most`, of a field.
+int degree_of_freedom(const std::string& field, int most, const Place& place) {
+    const std::int64_t value = inp_whole(field, place);
+    if (value < 1 || value > most)
+        throw SceneFailure(place, fmt::format("degree of freedom {}: 1 to {} are expected", value, most));
+    return static_cast<int>(value);
+}
 
 }  // namespace
 
@@ -89,10 +98,10 @@ void StepReader::take_procedure(const InpCard& card) {
     if (card.has("STABILIZE"))
         say_once(deck_.changed, "STABILIZE: no viscosity; jumps of the crack are found by energy");
     if (card.lines.empty()) return;
+    if (card.lines.size() > 1) throw SceneFailure(card.lines[1].place, "one line is expected");
     const Numbers values = card.lines[0].numbers();
-    if (!values.empty() && values[0] > 0) s.first_increment = values[0];
     if (values.size() > 1 && values[1] > 0) s.period = values[1];
-    s.first_increment = std::min(s.first_increment, s.period);
+    s.first_increment = !values.empty() && values[0] > 0 ? std::min(values[0], s.period) : s.period;
 }
 
 std::vector<LoadLine>& StepReader::boundaries() { return in_step_ ? deck_.steps.back().boundaries : deck_.held; }
@@ -125,13 +134,11 @@ void StepReader::take_boundary(const InpCard& card) {
                 load.first = -1;
             }
         if (load.first < 0) continue;
-        load.first = static_cast<int>(inp_whole(line.fields[1], line.place));
-        load.last = line.fields.size() > 2 && !line.fields[2].empty()
-                        ? static_cast<int>(inp_whole(line.fields[2], line.place))
-                        : load.first;
-        if (load.first < 1 || load.last > 6 || load.last < load.first)
-            throw SceneFailure(line.place,
-                               fmt::format("degrees of freedom {} to {}: 1 to 6 are expected", load.first, load.last));
+        load.first = load.last = degree_of_freedom(line.fields[1], 6, line.place);
+        if (line.fields.size() > 2 && !line.fields[2].empty())
+            load.last = degree_of_freedom(line.fields[2], 6, line.place);
+        if (load.last < load.first)
+            throw SceneFailure(line.place, fmt::format("degrees of freedom {} to {}: none", load.first, load.last));
         if (line.fields.size() > 3) load.magnitude = inp_number(line.fields[3], line.place);
         if (!in_step_ && load.magnitude != 0)
             throw SceneFailure(line.place, "a displacement other than 0 is expected within a *STEP");
@@ -148,9 +155,7 @@ void StepReader::take_forces(const InpCard& card) {
         LoadLine load;
         load.where = {&root_, line.fields[0], line.place};
         load.amplitude = card.parameter("AMPLITUDE");
-        load.first = load.last = static_cast<int>(inp_whole(line.fields[1], line.place));
-        if (load.first < 1 || load.first > 3)
-            throw SceneFailure(line.place, fmt::format("degree of freedom {}: 1 to 3 are expected", load.first));
+        load.first = load.last = degree_of_freedom(line.fields[1], 3, line.place);
         load.magnitude = inp_number(line.fields[2], line.place);
         step(card).forces.push_back(std::move(load));
     }
@@ -158,7 +163,7 @@ void StepReader::take_forces(const InpCard& card) {
 
 void StepReader::take_distributed(const InpCard& card) {
     card.only({"AMPLITUDE", "OP", "FOLLOWER", "ORIENTATION", "CONSTANT RESULTANT"});
-    if (renews(card)) step(card).new_forces = true;
+    if (renews(card)) step(card).new_distributed = true;
     if (card.has("ORIENTATION")) throw SceneFailure(card.place, "ORIENTATION is not imported");
     for (const InpLine& line : card.lines) {
         if (line.fields.size() < 3)

@@ -84,7 +84,8 @@ public:
             ++number;
             const Place place{path, "", number};
             if (line.find('\0') != std::string::npos) throw SceneFailure(place, "not a text file");
-            if (trimmed(line).empty() || line.rfind("**", 0) == 0) continue;
+            line = trimmed(line);
+            if (line.empty() || line.rfind("**", 0) == 0) continue;
             if (line.front() == '*') {
                 while (trimmed(line).back() == ',') {
                     std::string next;
@@ -103,7 +104,8 @@ public:
                 continue;
             }
             if (cards.empty()) throw SceneFailure(place, "a keyword line (*NAME) is expected first");
-            InpLine data{split(line), trimmed(line).back() == ',', place};
+            InpLine data{split(line), line.back() == ',', place};
+            for (std::string& field : data.fields) field = unquoted(field);
             data.place.path = "*" + cards.back().keyword;
             cards.back().lines.push_back(std::move(data));
         }

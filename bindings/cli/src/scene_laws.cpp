@@ -79,6 +79,10 @@ void read_laws(const Table& root, Scene& scene) {
                 law.parameters.emplace_back(key, table.number(key, range));
             }
         }
+        for (const char* mode : {"normal", "tangential"})
+            if (table.has(std::string(mode) + "_onset") && table.has(std::string(mode) + "_strength"))
+                table.fail(std::string(mode) + "_strength",
+                           fmt::format("is given instead of {}_onset: give one", mode));
         law.place = table.place();
         scene.laws.push_back(std::move(law));
     }

@@ -81,7 +81,7 @@ void read_mesh_table(const Table& root, Scene& scene) {
     MeshFile file = table.has("file") ? mesh_of_file(table, scene) : MeshFile{read_generator(table), ""};
     MeshData& mesh = file.mesh;
     if (table.has("pieces") && !table.has("file")) table.fail("pieces", "is for file");
-    if (table.flag("pieces", false)) split_into_pieces(mesh);
+    if (table.flag("pieces", false)) (void)split_into_pieces(mesh);
     Geometry& geometry = scene.geometry;
     geometry.place = table.place();
     geometry.dimension = mesh.dimension;

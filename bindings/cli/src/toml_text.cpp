@@ -32,6 +32,33 @@ std::string toml_text(const std::string& text) {
     return out + "\"";
 }
 
+std::string as_utf8(const std::string& text) {
+    std::size_t left = 0;  // bytes of a character that follow
+    bool right = true;
+    for (const char c : text) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (left > 0) {
+            right = right && (byte & 0xc0U) == 0x80U;
+            --left;
+        } else if (byte >= 0x80U) {
+            left = byte >= 0xf0U ? 3 : byte >= 0xe0U ? 2 : 1;
+            right = right && byte >= 0xc2U && byte <= 0xf4U;
+        }
+    }
+    if (right && left == 0) return text;
+    std::string out;
+    for (const char c : text) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (byte < 0x80U) {
+            out += c;
+        } else {
+            out += static_cast<char>(0xc0U | (byte >> 6U));
+            out += static_cast<char>(0x80U | (byte & 0x3fU));
+        }
+    }
+    return out;
+}
+
 std::string toml_number(double value) {
     // Moduli as 1.26e+11, not with all their zeros.
     constexpr double large = 1e6;

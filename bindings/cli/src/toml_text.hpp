@@ -9,6 +9,8 @@ namespace cli {
 
 // In quotes, with what TOML needs escaped.
 std::string toml_text(const std::string& text);
+// The same; a text that is not UTF-8 is taken for Latin-1.
+std::string as_utf8(const std::string& text);
 // The fewest digits that give the same number again.
 std::string toml_number(double value);
 // "[1.0, 2.0]"

@@ -144,7 +144,8 @@ def surfaces(beam, displacement=0.001, steps=20, initial=False):
             f"*Surface, name=Below, type=ELEMENT\nE-below, {side_below}\n"
             f"*Surface, name=Above, type=ELEMENT\nE-above, {side_above}\n" + PLY +
             "*Solid section, Elset=Lower, Material=Ply\n*Solid section, Elset=Upper, Material=Ply\n"
-            "*Surface interaction, Name=Glue\n*Cohesive behavior\n" + f"{STIFFNESS}, {STIFFNESS}, {STIFFNESS}\n" +
+            "*Surface interaction, Name=Glue\n*Cohesive behavior" +
+            (", eligibility=SPECIFIED CONTACTS" if initial else "") + f"\n{STIFFNESS}, {STIFFNESS}, {STIFFNESS}\n" +
             resin()[resin().index("*Damage Initiation"):] + "*Surface behavior, Pressure-overclosure=Hard\n"
             "*Contact pair, Interaction=Glue, Type=Surface to surface\nAbove, Below\n")
     if initial:

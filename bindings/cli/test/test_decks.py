@@ -175,15 +175,21 @@ def check_laws():
     found = numbers(scene, "normal_toughness") + numbers(scene, "tangential_toughness")
     expect(all(math.isclose(a, b, rel_tol=1e-12) for a, b in zip(found, wanted)), f"displacement: {found}, {wanted}")
     expect("the deck gives displacements" in said, "displacements are said")
-    # D of a straight line down is that of the bilinear law.
-    onset, end = decks.NORMAL / decks.STIFFNESS, 2e-5
-    rows = [((d / end) * (onset + end) / (onset + d), d) for d in (end * k / 8 for k in range(9))]
+    # D of a straight line down is that of the bilinear law. Both modes have the same jump at the onset.
+    onset, end = decks.NORMAL / 1e12, 2e-5
+    rows = [((d / end) * (onset + end) / (onset + d), d) for d in (end * k / 16 for k in range(17))]
     table = "".join(f"{d!r}, {x!r}\n" for d, x in rows)
-    scene, said = law(evolution=f"*Damage Evolution, type=DISPLACEMENT, softening=TABULAR\n{table}")
+    tabular = decks.abaqus(beam, evolution=f"*Damage Evolution, type=DISPLACEMENT, softening=TABULAR\n{table}")
+    k = decks.STIFFNESS
+    tabular = tabular.replace(f"{k}, {k}, {k}", f"1e12, {decks.SHEAR / onset!r}, {decks.SHEAR / onset!r}")
+    scene, said = imported(tabular)
+    expect(delam("check", saved(tabular))[0] == 0, "a tabulated law can be run")
     curve = [tuple(map(float, pair)) for pair in re.findall(r"^    \[(\S+), (\S+)\],", scene, re.M)]
-    expect(len(curve) == 9 and max(abs(s - (1 - x)) for x, s in curve) < 1e-12, f"tabulated curve {curve}")
+    expect(len(curve) == 17 and max(abs(s - (1 - x)) for x, s in curve) < 1e-12, f"tabulated curve {curve}")
     expect("D in Abaqus" in said, "that Abaqus differs between the points is said")
     area = sum((b[0] - a[0]) * (a[1] + b[1]) / 2 for a, b in zip(curve, curve[1:])) * end
+    expect_error(delam("import", saved(tabular.replace("1e12, ", "1e14, ", 1))), 2,
+                 "traction rises beyond the onset")
     toughness = decks.NORMAL * (onset / 2 + area)
     expect(math.isclose(numbers(scene, "normal_toughness")[0], toughness, rel_tol=1e-9), "its area")
 
@@ -247,6 +253,61 @@ def check_steps():
     expect(step.startswith("*Step"), "the deck has a step")
 
 
+def check_repeated_lines():
+    """Of several lines of a step for the same place the last counts, and each kind of load has its own OP=NEW."""
+    text = decks.abaqus(Beam(nx=6, ny=0, nz=1))
+    scene, _ = imported(text.replace("Top, 2, 2, 0.001", "Top, 2, 2, 0.5\nTop, 2, 2, 0.001"))
+    expect("values = [0.0, 0.001]" in scene and "0.5" not in scene.split("[[patterns]]")[1].split("[time]")[0],
+           "the last line counts")
+    blank = text.replace("*Boundary\nTop", "  *Boundary\nTop").replace("** a comment", "   ** a comment")
+    expect("coefficient = -1.0" in imported(blank)[0], "keywords behind blanks")
+    roof = ("*Surface, name=Roof\n12, S3\n")
+    pressed = text.replace("*Solid Section", roof + "*Solid Section", 1)
+    pressed = pressed.replace("*Output,", "*Dsload\nRoof, P, 10.\n*Output,", 1)
+    second = "*Step\n*Static\n0.1, 1.\n*Cload, op=NEW\nTop, 1, 3.\n*End Step\n"
+    scene, _ = imported(pressed + second)
+    expect("times = [0.0, 1.0, 2.0]\nvalues = [0.0, 1.0, 1.0]" in scene, "a pressure stays where OP=NEW is of *CLOAD")
+    third = second.replace("*Cload, op=NEW\nTop, 1, 3.", "*Dsload, op=NEW\n")
+    scene, _ = imported(pressed + third)
+    expect("times = [0.0, 1.0, 2.0]\nvalues = [0.0, 1.0, 0.0]" in scene, "and falls where it is of *DSLOAD")
+    turned = pressed.replace("Roof, P, 10.", "Roof, TRVEC, 10., 1., 0.")
+    turned += second.replace("*Cload, op=NEW\nTop, 1, 3.", "*Dsload\nRoof, TRVEC, 10., 0., 1.")
+    expect_error(delam("import", saved(turned)), 2, "another direction")
+    top = Beam(nx=6, ny=0, nz=1).set_at(0, (1,), (1,))[0]
+    twice = text.replace("*Output,", f"*Cload\nTop, 1, 10.\n{top}, 1, 4.\n*Output,", 1)
+    expect_error(delam("import", saved(twice)), 2, "another line")
+    # A scene in the plane is per unit of thickness.
+    thick = text.replace("material=Ply\n,\n", "material=Ply\n0.02,\n").replace(
+        "response=TRACTION SEPARATION\n", "response=TRACTION SEPARATION\n, 0.02\n")
+    scene, said = imported(thick.replace("*Output,", "*Cload\nTop, 1, 10.\n*Output,", 1))
+    expect("force = [500.0, 0.0]" in scene and "0.02 thick" in said, "a force in a plane of some thickness")
+    scene, _ = imported(text.replace("DCB with", "Tr\xe4ger with"))
+    expect("Tr\xe4ger" in scene, "a heading that is not ASCII")
+    path = saved("", "latin.inp")
+    with open(path, "wb") as file:
+        file.write(text.replace("DCB with", "Tr\xe4ger with").encode("latin-1"))
+    expect(delam("check", path)[0] == 0, "a heading in Latin-1")
+
+
+def check_parts_of_their_own():
+    """Orientations of the same name in two parts; an instance that is rotated."""
+    cell = ("*Node\n1, 0, 0, 0\n2, 1, 0, 0\n3, 1, 1, 0\n4, 0, 1, 0\n"
+            "5, 0, 0, 1\n6, 1, 0, 1\n7, 1, 1, 1\n8, 0, 1, 1\n"
+            "*Element, type=C3D8, elset=All\n1, 1, 2, 3, 4, 5, 6, 7, 8\n")
+    part = ("*Part, name={0}\n" + cell + "*Orientation, name=Ori-1\n{1}\n3, 0.\n"
+            "*Solid Section, elset=All, material=Ply, orientation=Ori-1\n,\n*End Part\n")
+    text = (part.format("A", "1., 0., 0., 0., 1., 0.") + part.format("B", "0., 1., 0., -1., 0., 0.") +
+            "*Assembly, name=X\n*Instance, name=A-1, part=A\n*End Instance\n"
+            "*Instance, name=B-1, part=B\n0., 0., 5.\n*End Instance\n*End Assembly\n" + decks.PLY +
+            "*Step\n*Static\n1., 1.\n*End Step\n")
+    scene, _ = imported(text)
+    expect(re.findall(r"axes = .*", scene) == ["axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]",
+                                               "axes = [[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]]"],
+           "each part has its own orientation")
+    expect_error(delam("import", saved(text.replace("0., 0., 5.\n", "0., 0., 5.\n0., 0., 0., 0., 0., 1., 90.\n"))), 2,
+                 "instance that is rotated")
+
+
 def check_axes():
     beam = Beam(nx=4, ny=2, nz=1)
     text = decks.abaqus(beam).replace("type=C3D8I", "type=SC8R")
@@ -282,6 +343,14 @@ def check_bonded():
 
 
 REFUSED = [
+    ("*Damage Evolution", "*Damage Initiation, criterion=QUADS\n1., 1., 1.\n*Damage Evolution", "given twice"),
+    ("*Solid Section, elset=Arms, material=Ply\n,\n", "*Solid Section, elset=Arms, material=Ply\n0.02,\n",
+     "a thickness of 1 and one of 0.02"),
+    ("*Static\n0.05, 1.", "*Static\n1e-300, 1.", "increments of 1e-300"),
+    ("1e-9, 0.05\n", "1e-9, 0.05\n1., 2.\n", "one line is expected"),
+    ("Top, 2, 2,", "Top, 4294967299, 4294967299,", "degree of freedom 4294967299"),
+    ("type=ENERGY, mixed mode behavior=BK, power=2.3\n280.0", "type=DISPLACEMENT, softening=TABULAR\n0.0\n280.0",
+     "rows of D"),
     ("*Boundary\nClamp, ENCASTRE", "*Boundary\nClamps, ENCASTRE", r"node set \"Clamps\" is not there"),
     ("*Boundary\nClamp, ENCASTRE", "*Boundary\nClamp, 1, 3, 0.1", r"within a \*STEP"),
     ("*Boundary\nClamp, ENCASTRE", "*Boundary\nClamp, 7", r"1 to 6"),
@@ -428,6 +497,8 @@ check_laws()
 check_thickness()
 check_steps()
 check_axes()
+check_repeated_lines()
+check_parts_of_their_own()
 check_bonded()
 check_refusals()
 finish()
