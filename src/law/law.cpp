@@ -40,8 +40,8 @@ void Law::set_onset_criterion(Criterion chosen) {
 void Law::validate() const {
     for (const LawParameter& p : law_parameters()) {
         if (!applies(p, *this) || p.type != std::string("real")) continue;
-        if (p.instead_of != nullptr && this->*p.instead_of > 0.0) continue;
         const double value = p.value != nullptr ? this->*p.value : p.read(softening);
+        if (p.instead_of != nullptr && value == 0.0 && this->*p.instead_of != 0.0) continue;
         if (!p.range.allows(value)) fail(DELAM_ERROR_PROBLEM, "law: ", p.key, " ", value, ": must be ", p.range.words);
     }
     std::visit(
