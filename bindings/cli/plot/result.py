@@ -66,9 +66,11 @@ class Result:
         units = self.about["units"]
         flat = self.about["scene"]["dimension"] == 2
         self.length, self.time = units["length"], units["time"]
-        self.force = f"{units['force']}/{units['length']}" if flat else units["force"]
-        work = "J" if (units["force"], units["length"]) == ("N", "m") else f"{units['force']} {units['length']}"
-        self.energy = f"{work}/{units['length']}" if flat else work
+        force, length = units["force"], units["length"]
+        known = bool(force and length)  # else numbers go without units
+        self.force = force if not flat else f"{force}/{length}" if known else ""
+        work = "J" if (force, length) == ("N", "m") else f"{force} {length}" if known else ""
+        self.energy = f"{work}/{length}" if flat and known else work
 
     def jump_times(self):
         """Instants of the larger jumps."""

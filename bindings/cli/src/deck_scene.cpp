@@ -71,6 +71,7 @@ public:
         out += bodies_and_materials();
         out += interfaces_text(deck_, model_, mesh_);
         out += loads_text(deck_, model_, mesh_);
+        out += "# For labels: the deck does not say which units it has.\n[units]\nlength = \"\"\nforce = \"\"\n";
         return out;
     }
 

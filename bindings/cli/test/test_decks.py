@@ -138,6 +138,7 @@ def check_two_commands():
     expect(code == 0 and "changed   NLGEOM" in said and "taken     10 cohesive elements" in said, "what import says")
     same("the scene that import wrote, in another folder", scene, history(deck), 0.0)
     before = read(scene)
+    expect('[units]\nlength = ""\nforce = ""\n' in before.decode(), "a deck has no units to label pictures with")
     expect_error(delam("import", deck, "--out", scene), 3, "is there already", "--replace")
     expect(read(scene) == before, "the scene is as it was")
     expect(delam("import", deck, "--out", scene, "--replace")[0] == 0, "--replace")
