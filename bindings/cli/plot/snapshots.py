@@ -41,8 +41,11 @@ def load_text(result, time):
         factor, unit = result.stress_unit()
         return (f"strain {component} {100 * strain[row]:.3g} %, stress {four_digits(stress[row] / factor)} {unit}")
     _, drives, load, reaction = result.patterns()[0]
-    return (f"load {four_digits(result.history[load][row])}" + (f" {result.length}" if drives != "force" else "") +
-            (f", reaction {four_digits(result.history[reaction][row])} {result.force}" if drives != "force" else ""))
+    text = f"load {four_digits(result.history[load][row])}"
+    if drives == "force":
+        return text
+    # Without a name of a unit no blank is left before the comma.
+    return f"{text} {result.length}".rstrip() + f", reaction {four_digits(result.history[reaction][row])} {result.force}"
 
 
 def draw_plane(ax, file, step, scale, light_mesh):
