@@ -149,14 +149,14 @@ def table_weave(program, ranks):
 
 
 def table_strong(program, ranks):
-    head("Work of a rank at constant size (laminate of 16 columns, 3 load steps): the busiest rank over the mean",
+    head("Work of a rank at constant size (laminate of 16 columns, 2 load steps): the busiest rank over the mean",
          ["solver", "ranks", "iterations", "operations", "bytes sent", "messages", "memory of a rank, MB",
           "bytes per iteration and rank", "messages per iteration and rank"])
     for solver, options in SOLVERS.items():
         for n in ranks:
             if n == 1:
                 continue
-            c = counts_of(program, laminate(16, 3, 1e14), n, options)
+            c = counts_of(program, laminate(16, 2, 1e14), n, options)
             share = {key: c[f"{key}_max"] * n / max(1.0, c[f"{key}_sum"])
                      for key in ("operations", "bytes_sent", "messages")}
             per = max(1.0, c["iterations"]) * n

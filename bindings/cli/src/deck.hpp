@@ -120,6 +120,19 @@ struct Deck {
     std::vector<std::string> left_out;
 };
 
+// The section of a set of elements, and the part or instance in which the set is. Null: it has none.
+struct SectionOf {
+    const Section* section = nullptr;
+    const Part* scope = nullptr;
+};
+// name: that of the set in the scene. sections: Part::sections or Part::cohesive_sections.
+SectionOf section_named(const Deck& deck, const Model& model, std::vector<Entry> Part::*sections,
+                        const std::string& name);
+
+// The names that sets of nodes and surfaces have in the scene; "": there is none.
+std::string node_set_name(const Model& model, const Entry& raw);
+std::string surface_name(const Model& model, const Entry& raw);
+
 // Adds a line for people, once.
 inline void say_once(std::vector<std::string>& texts, const std::string& text) {
     if (std::find(texts.begin(), texts.end(), text) == texts.end()) texts.push_back(text);

@@ -2,7 +2,6 @@
 #include "deck_cards.hpp"
 
 #include <algorithm>
-#include <functional>
 #include <set>
 
 #include <fmt/format.h>
@@ -141,6 +140,12 @@ private:
         if (card.has("DEPENDENCIES")) throw SceneFailure(card.place, "DEPENDENCIES: constants alone are imported");
     }
 
+    // Further lines are for other temperatures.
+    static void require_one_line(const InpCard& card) {
+        if (card.lines.size() > 1)
+            throw SceneFailure(card.lines[1].place, "one line is expected: values at one temperature are imported");
+    }
+
     void take_elastic(const InpCard& card) {
         card.only({"TYPE", "MODULI", "DEPENDENCIES"});
         require_constant(card);
@@ -168,6 +173,7 @@ private:
         d.initiation = upper(card.required("CRITERION"));
         if (d.initiation != "MAXS" && d.initiation != "QUADS" && d.initiation != "MAXE" && d.initiation != "QUADE")
             card.refuse("CRITERION", d.initiation, "MAXS, QUADS, MAXE or QUADE");
+        require_one_line(card);
         d.strengths = card.first_line().numbers();
         d.initiation_place = card.place;
         if (d.strengths.size() < 2) throw SceneFailure(card.place, "two or three values are expected");
@@ -198,6 +204,9 @@ private:
         }
         if (card.has("DEGRADATION") && upper(card.required("DEGRADATION")) != "MAXIMUM")
             card.refuse("DEGRADATION", card.required("DEGRADATION"), "MAXIMUM");
+        if (d.evolution == "DISPLACEMENT" && !d.mixed_mode.empty())
+            throw SceneFailure(card.place, "MIXED MODE BEHAVIOR=" + d.mixed_mode + " needs TYPE=ENERGY");
+        if (d.softening != "TABULAR") require_one_line(card);
         (void)card.first_line();
         for (const InpLine& line : card.lines) d.values.push_back(line.numbers());
         d.evolution_place = card.place;
@@ -237,9 +246,10 @@ private:
             if (card.has("STACK DIRECTION") && card.required("STACK DIRECTION") != "3")
                 card.refuse("STACK DIRECTION", card.required("STACK DIRECTION"), "3");
             if (card.lines.size() != 1)
-                throw SceneFailure(card.place, fmt::format("a composite of {}: one ply in each element is imported; "
-                                                           "give the plies elements of their own",
-                                                           counted_plies(card.lines.size())));
+                throw SceneFailure(card.place,
+                                   fmt::format("a composite of {} plies: one ply in each element is imported; "
+                                               "give the plies elements of their own",
+                                               card.lines.size()));
             const InpLine& line = card.lines[0];
             if (line.fields.size() < 3) throw SceneFailure(line.place, "thickness, points, material are expected");
             section.material = line.fields[2];
@@ -254,8 +264,6 @@ private:
         if (!(value > 0)) throw SceneFailure(place, fmt::format("thickness {}: must be > 0", value));
         return value;
     }
-
-    static std::string counted_plies(std::size_t number) { return std::to_string(number) + " plies"; }
 
     void take_cohesive_section(const InpCard& card) {
         card.only({"ELSET", "MATERIAL", "RESPONSE", "THICKNESS", "CONTROLS", "ORIENTATION", "STACK DIRECTION"});
@@ -313,9 +321,8 @@ private:
 
     void take_pair(const InpCard& card) {
         if (!card.has("INTERACTION")) throw SceneFailure(card.place, "INTERACTION= is missing");
-        for (const char* word : {"ADJUST", "TIED", "CLEARANCE"})
-            if (card.has(word) && std::string(word) == "TIED")
-                throw SceneFailure(card.place, "TIED is not imported: bodies that share nodes are bonded");
+        if (card.has("TIED"))
+            throw SceneFailure(card.place, "TIED is not imported: bodies that share nodes are bonded");
         for (const InpLine& line : card.lines) {
             if (line.fields.size() < 2) throw SceneFailure(line.place, "a slave and a master surface are expected");
             deck_.pairs.push_back({card.required("INTERACTION"),

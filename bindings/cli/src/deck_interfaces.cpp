@@ -79,32 +79,20 @@ private:
     }
 
     void add(const Held& held) {
-        const Held* other = find(held.a, held.b);
+        // Contact acts in every interface: a pair that asks for it alone adds nothing to a law.
+        Held* other = find(held.a, held.b);
         if (other == nullptr) {
             held_.push_back(held);
+        } else if (held.law.empty()) {
+            return;
+        } else if (other->law.empty()) {
+            *other = held;
         } else if (other->law != held.law || other->set != held.set) {
             throw SceneFailure(held.place,
                                fmt::format("{} and {} are held together by {} already: an interface has one "
                                            "law and one set",
                                            body(held.a), body(held.b), other->place.text()));
         }
-    }
-
-    // The section of a set of cohesive elements, in whatever part it stands.
-    const Section& section_of(const CohesiveSet& set) const {
-        for (const Part* scope : model_.scopes())
-            for (const Entry& entry : scope->cohesive_sections) {
-                const Entry resolved = model_.resolved_scope(entry);
-                const auto known = resolved.scope->element_sets.find(upper(resolved.text));
-                const std::string& name =
-                    known == resolved.scope->element_sets.end() ? resolved.text : known->second.name;
-                if (full_name(*resolved.scope, name) != set.name) continue;
-                for (const Section& section : deck_.sections)
-                    if (section.place.file == entry.place.file && section.place.line == entry.place.line)
-                        return section;
-            }
-        throw SceneFailure(model_.file,
-                           fmt::format("the cohesive elements \"{}\" have no *COHESIVE SECTION", set.name));
     }
 
     [[nodiscard]] double distance(std::int64_t a, std::int64_t b) const {
@@ -137,7 +125,11 @@ private:
     }
 
     void add_cohesive(const CohesiveSet& set) {
-        const Section& section = section_of(set);
+        const Section* found = section_named(deck_, model_, &Part::cohesive_sections, set.name).section;
+        if (found == nullptr)
+            throw SceneFailure(model_.file,
+                               fmt::format("the cohesive elements \"{}\" have no *COHESIVE SECTION", set.name));
+        const Section& section = *found;
         std::map<std::pair<std::int32_t, std::int32_t>, double> gaps;  // by lower and upper body
         double sum = 0, least = std::numeric_limits<double>::infinity(), most = 0;
         for (std::size_t i = 0; i < set.lower.size(); ++i) {
@@ -199,11 +191,8 @@ private:
         return known->second;
     }
 
-    [[nodiscard]] std::string surface_name(const Entry& raw) const {
-        const Entry entry = model_.resolved_scope(raw);
-        const auto surface = entry.scope->surfaces.find(upper(entry.text));
-        const std::string name =
-            surface == entry.scope->surfaces.end() ? "" : full_name(*entry.scope, surface->second.name);
+    [[nodiscard]] std::string faces_named(const Entry& raw) const {
+        std::string name = surface_name(model_, raw);
         if (!mesh_.face_sets.contains(name))
             throw SceneFailure(raw.place, fmt::format("\"{}\": a *SURFACE of sides of elements is expected", raw.text));
         return name;
@@ -220,13 +209,14 @@ private:
     void add_pair(const ContactPair& pair) {
         const InteractionCards& interaction =
             named(deck_.interactions, pair.interaction, "surface interaction", pair.place);
-        const std::string slave = surface_name(pair.slave);
-        const std::string master = surface_name(pair.master);
+        const std::string slave = faces_named(pair.slave);
+        const std::string master = faces_named(pair.master);
         std::string law;
-        if (interaction.cohesive)
+        if (interaction.cohesive) {
             law = new_law("interaction", interaction.name, interaction.stiffness, 1.0, interaction.damage,
                           interaction.place);
-        if (interaction.cohesive) require_extent(pair, interaction, slave, master);
+            require_extent(pair, interaction, slave, master);
+        }
         const std::set<std::int32_t> slaves = bodies_of(slave), masters = bodies_of(master);
         std::size_t added = 0;
         for (const std::int32_t b : slaves)
@@ -270,9 +260,7 @@ private:
     }
 
     [[nodiscard]] std::string bonded_set(const ContactPair& pair) const {
-        const Entry entry = model_.resolved_scope({pair.slave.scope, pair.bonded, pair.place});
-        const auto set = entry.scope->node_sets.find(upper(entry.text));
-        const std::string name = set == entry.scope->node_sets.end() ? "" : full_name(*entry.scope, set->second.name);
+        std::string name = node_set_name(model_, {pair.slave.scope, pair.bonded, pair.place});
         if (!mesh_.node_sets.contains(name))
             throw SceneFailure(pair.place, "node set \"" + pair.bonded + "\" is not there, or empty");
         return name;

@@ -135,9 +135,7 @@ Numbers toughness_of(const std::string& name, const DamageCards& damage, const M
         throw SceneFailure(place,
                            "SOFTENING=TABULAR is imported for modes whose jumps at the onset are the same: the "
                            "curve of a law is that of all modes");
-    const bool alike = std::abs(modes[0].at_onset() - modes[1].at_onset()) <= 1e-9 * modes[0].at_onset() &&
-                       std::abs(modes[0].strength - modes[1].strength) <= 1e-9 * modes[0].strength;
-    if (!alike)
+    if (!same_onset || std::abs(modes[0].strength - modes[1].strength) > 1e-9 * modes[0].strength)
         changed.push_back(
             fmt::format("law \"{}\": the deck gives displacements, the scene energies: alike in the pure "
                         "modes, and between them by a power law with exponent 1",

@@ -138,6 +138,7 @@ private:
                 throw SceneFailure(line.where.place,
                                    "is prescribed from a later step on, and was free before: this is not imported");
             if (time_ > 0) found->second.points.emplace_back(time_, 0.0);
+            found->second.before = found->second.points.size();
         }
         found->second.active = true;
         return &found->second;
@@ -315,20 +316,16 @@ private:
     }
 
     [[nodiscard]] std::string set_name(const Entry& raw) const {
-        const Entry entry = model_.resolved_scope(raw);
-        const auto set = entry.scope->node_sets.find(upper(entry.text));
-        const std::string name = set == entry.scope->node_sets.end() ? "" : full_name(*entry.scope, set->second.name);
+        std::string name = node_set_name(model_, raw);
         if (!mesh_.node_sets.contains(name))
             throw SceneFailure(raw.place, "node set \"" + raw.text + "\" is not there, or empty");
         return name;
     }
 
-    [[nodiscard]] std::string surface_name(const Entry& raw) const {
-        const Entry entry = model_.resolved_scope(raw);
-        const auto surface = entry.scope->surfaces.find(upper(entry.text));
-        if (surface == entry.scope->surfaces.end())
-            throw SceneFailure(raw.place, "surface \"" + raw.text + "\" is not there");
-        return full_name(*entry.scope, surface->second.name);
+    [[nodiscard]] std::string faces_named(const Entry& raw) const {
+        std::string name = surface_name(model_, raw);
+        if (name.empty()) throw SceneFailure(raw.place, "surface \"" + raw.text + "\" is not there");
+        return name;
     }
 
     std::string force_text(const History& history) {
@@ -337,7 +334,7 @@ private:
         const auto [name, peak] = pattern_of(history);
         const std::string pattern = fmt::format("pattern = {}\n", toml_text(name));
         if (history.line.distributed == "P")
-            return fmt::format("[[forces]]\nset = {}\n{}pressure = {}\n\n", toml_text(surface_name(where)), pattern,
+            return fmt::format("[[forces]]\nset = {}\n{}pressure = {}\n\n", toml_text(faces_named(where)), pattern,
                                toml_number(peak));
         std::vector<double> force(static_cast<std::size_t>(mesh_.dimension), 0.0);
         if (history.line.distributed == "TRVEC") {
@@ -347,7 +344,7 @@ private:
                 throw SceneFailure(where.place, "a magnitude and a direction are expected");
             for (std::size_t a = 0; a < force.size(); ++a)
                 force[a] = peak * history.line.direction[a] / std::sqrt(length);
-            return fmt::format("[[forces]]\nset = {}\n{}traction = {}\n\n", toml_text(surface_name(where)), pattern,
+            return fmt::format("[[forces]]\nset = {}\n{}traction = {}\n\n", toml_text(faces_named(where)), pattern,
                                toml_list(force));
         }
         // The scene is per unit of thickness.

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <set>
 #include <utility>
@@ -76,23 +75,6 @@ public:
     }
 
 private:
-    // The section of a body, by the name that it has before it is split.
-    const Section& section_of(const std::string& plain, bool& rotated) const {
-        for (const Part* scope : model_.scopes())
-            for (const Entry& entry : scope->sections) {
-                const Entry resolved = model_.resolved_scope(entry);
-                const auto set = resolved.scope->element_sets.find(upper(resolved.text));
-                const std::string& name = set == resolved.scope->element_sets.end() ? resolved.text : set->second.name;
-                if (full_name(*resolved.scope, name) != plain) continue;
-                for (const Section& section : deck_.sections)
-                    if (section.place.file == entry.place.file && section.place.line == entry.place.line) {
-                        rotated = resolved.scope->rotated;
-                        return section;
-                    }
-            }
-        throw SceneFailure(model_.file, fmt::format("\"{}\" has no *SOLID SECTION", plain));
-    }
-
     // A scene in the plane is per unit of thickness; the thickness of the deck has to be one.
     void require_width(const Section& section) {
         if (mesh_.dimension == 3) return;
@@ -113,13 +95,15 @@ private:
         std::size_t begin = 0;  // of its pieces
         for (std::size_t i = 0; i < plain_names_.size(); ++i) {
             const std::string& plain = plain_names_[i];
-            bool rotated = false;
-            const Section& section = section_of(plain, rotated);
+            const SectionOf found = section_named(deck_, model_, &Part::sections, plain);
+            if (found.section == nullptr)
+                throw SceneFailure(model_.file, fmt::format("\"{}\" has no *SOLID SECTION", plain));
+            const Section& section = *found.section;
             require_width(section);
             const MaterialCards& material = named(deck_.materials, section.material, "material", section.place);
             used.insert(material.name);
             const std::string rest =
-                fmt::format("material = {}\n{}\n", toml_text(material.name), axes_text(section, rotated));
+                fmt::format("material = {}\n{}\n", toml_text(material.name), axes_text(section, found.scope->rotated));
             for (const std::string& name : entries_for(plain, begin, begin + pieces_[i]))
                 bodies += fmt::format("[[bodies]]\nname = {}\n{}", toml_text(name), rest);
             begin += pieces_[i];
@@ -246,8 +230,6 @@ std::string header(const ImportedScene& scene, const std::string& deck) {
 }  // namespace cli::abaqus
 
 namespace cli {
-
-bool is_deck(const std::string& path) { return path.ends_with(".inp") || path.ends_with(".INP"); }
 
 void say_import(const ImportedScene& scene, void (*line)(const std::string&)) {
     for (const std::string& text : scene.taken) line("taken     " + text);

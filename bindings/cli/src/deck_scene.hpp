@@ -10,9 +10,6 @@
 
 namespace cli {
 
-// By the ending of its name.
-bool is_deck(const std::string& path);
-
 struct ImportedScene {
     std::string text;                   // TOML
     std::vector<std::string> taken;     // what became what, for people

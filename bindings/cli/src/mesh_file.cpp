@@ -113,11 +113,8 @@ void require_mesh_size(const std::string& path, std::int64_t bytes, const Place&
 }
 
 MeshFile read_mesh(const std::string& path, const std::vector<std::string>& bodies, const Place& place) {
-    const auto ends = [&path](std::string_view ending) {
-        return path.size() > ending.size() && std::string_view(path).substr(path.size() - ending.size()) == ending;
-    };
-    const bool abaqus = ends(".inp") || ends(".INP");
-    if (!abaqus && !ends(".msh"))
+    const bool abaqus = is_abaqus_file(path);
+    if (!abaqus && !path.ends_with(".msh"))
         throw SceneFailure(place, path + ": a mesh of Gmsh (.msh) or of Abaqus (.inp) is expected");
     if (!abaqus && !bodies.empty())
         throw SceneFailure(place, "bodies is for .inp alone: in a .msh physical groups are the bodies");

@@ -8,6 +8,8 @@
 
 namespace cli {
 
+bool is_abaqus_file(const std::string& path) { return path.ends_with(".inp") || path.ends_with(".INP"); }
+
 MeshFile read_abaqus(const std::string& path, const std::vector<std::string>& bodies, const Place& place) {
     std::string bytes;
     const std::vector<InpCard> cards = read_cards(path, place, bytes);

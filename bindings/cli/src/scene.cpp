@@ -15,6 +15,7 @@
 #include "delam/delam.h"
 #include "hash.hpp"
 #include "input_file.hpp"
+#include "read_abaqus.hpp"
 #include "scene_parts.hpp"
 #include "scene_text.hpp"
 #include "setting.hpp"
@@ -269,7 +270,7 @@ Scene read_scene(const std::string& file, const std::vector<std::string>& settin
     Scene scene;
     scene.file = file;
     scene.settings = settings;
-    if (is_deck(file)) scene.imported = import_deck(file, std::filesystem::path(file).filename().string());
+    if (is_abaqus_file(file)) scene.imported = import_deck(file, std::filesystem::path(file).filename().string());
     const std::string bytes = scene.imported ? scene.imported->text : read_bytes(file, most_scene_bytes);
     const std::string source = file + (scene.imported ? ", as delam import writes it" : "");
     toml::table parsed;
