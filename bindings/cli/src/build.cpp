@@ -218,7 +218,9 @@ Model build(Context context, const Scene& scene) {
     try {
         fill(model, scene);
     } catch (const Failure& failure) {
-        throw Failure(failure.code(), named(failure.what(), scene, model));
+        const std::string text = named(failure.text(), scene, model);
+        if (failure.place().file.empty()) throw Failure(failure.code(), text);
+        throw Failure(failure.code(), failure.place(), text);
     }
     return model;
 }

@@ -27,9 +27,9 @@ inline Exit exit_code(std::int32_t status) {
 inline void call(const delam_context* context, std::int32_t status, const Place& place) {
     if (status == DELAM_OK) return;
     if (status == DELAM_CANCELLED) throw Failure(exit_interrupted, "interrupted");
-    const std::string text = place.text() + ": " + delam_context_message(context);
+    const std::string text = delam_context_message(context);
     const Exit code = exit_code(status);
-    throw Failure(code, code == exit_scene ? text : text + " (" + delam_status_name(status) + ")");
+    throw Failure(code, place, code == exit_scene ? text : text + " (" + delam_status_name(status) + ")");
 }
 
 // For calls that, once the scene is accepted, can only fail by a defect or for lack of memory.

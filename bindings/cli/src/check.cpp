@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// `delam check`: finds out what would be computed as one JSON object, which is printed as it is or in lines for people.
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "call.hpp"
 #include "commands.hpp"
@@ -15,18 +17,39 @@ namespace cli {
 
 namespace {
 
-void say_mesh(const MeshData& mesh, const Scene& scene) {
+using Found = nlohmann::ordered_json;
+
+// The bodies of a mesh with their cells, and its sets.
+void find_mesh(const MeshData& mesh, const Scene& scene, Found& found) {
     std::vector<std::int64_t> cells(mesh.body_names.size());
     for (const CellBlock& block : mesh.blocks)
         for (const std::int32_t body : block.bodies) ++cells[static_cast<std::size_t>(body)];
     for (std::size_t i = 0; i < cells.size(); ++i)
-        say("body        \"{}\", {}, material \"{}\", formulation {}\n", mesh.body_names[i], counted(cells[i], "cell"),
-            scene.materials[scene.layers[i].material].name, scene.layers[i].formulation);
+        found["bodies"].push_back({{"name", mesh.body_names[i]},
+                                   {"cells", cells[i]},
+                                   {"material", scene.materials[scene.layers[i].material].name},
+                                   {"formulation", scene.layers[i].formulation}});
     for (const auto& [name, nodes] : mesh.node_sets) {
         const auto faces = mesh.face_sets.find(name);
-        say("set         \"{}\", {}{}\n", name, counted(static_cast<std::int64_t>(nodes.size()), "node"),
-            faces == mesh.face_sets.end() ? ""
-                                          : ", " + counted(static_cast<std::int64_t>(faces->second.size()), "face"));
+        found["sets"].push_back({{"name", name},
+                                 {"nodes", nodes.size()},
+                                 {"faces", faces == mesh.face_sets.end() ? 0 : faces->second.size()}});
+    }
+}
+
+void find_interfaces(const Scene& scene, const Model& model, Found& found) {
+    for (std::size_t i = 0; i < model.interfaces.size(); ++i) {
+        const InterfaceData& data = model.interfaces[i];
+        std::int64_t pairs = 0;
+        call(model.context.get(),
+             delam_mesh_interface_size(model.mesh.get(), static_cast<std::int64_t>(i), nullptr, nullptr, &pairs,
+                                       nullptr, nullptr),
+             data.place);
+        Found entry{{"name", data.name}, {"pairs", pairs}};
+        entry["kind"] = data.bonded ? "bonded" : data.contact ? "contact" : "law";
+        if (!data.bonded && !data.contact) entry["law"] = scene.laws[data.law].name;
+        entry["regions"] = data.regions.size();
+        found["interfaces"].push_back(std::move(entry));
     }
 }
 
@@ -55,19 +78,109 @@ Planned plan(const Model& model, const Scene& scene) {
     return planned;
 }
 
-// An error ends the call, whose caller says it.
-extern "C" void on_check_log(std::int32_t level, const char* text, void*) {
-    if (level == 1) complain("warning: {}\n", text);
+// Everything but the plan.
+Found find(const std::string& scene_file, const Scene& scene, const Model& model) {
+    std::int64_t primal = 0, dual = 0, constraints = 0, entries = 0, patterns = 0;
+    const delam_problem* problem = model.problem.get();
+    call(model.context.get(), delam_problem_dofs(problem, &primal, &dual), std::string("numbers of unknowns"));
+    call(model.context.get(),
+         delam_problem_constraints(problem, &constraints, &entries, &patterns, nullptr, nullptr, nullptr, nullptr),
+         std::string("constraints"));
+    Found found{{"correct", true}, {"file", scene_file}, {"title", scene.title}};
+    for (const auto& [option, value] : concept_of(problem)) found["concept"][option] = value;
+    found["scene_hash"] = hash_of(model);
+    found["unknowns"] = {{"primal", primal}, {"dual", dual}};
+    for (const char* list : {"bodies", "sets", "interfaces", "patterns", "process_zones", "plan", "notes", "warnings"})
+        found[list] = Found::array();
+    if (scene.mesh) find_mesh(*scene.mesh, scene, found);
+    for (const Layer& layer : scene.mesh ? std::vector<Layer>{} : scene.layers)
+        found["bodies"].push_back(
+            {{"name", layer.name}, {"thickness", layer.thickness}, {"material", scene.materials[layer.material].name}});
+    find_interfaces(scene, model, found);
+    found["prescribed_displacements"] = constraints;
+    for (const PatternData& pattern : scene.patterns)
+        found["patterns"].push_back({{"name", pattern.name},
+                                     {"instants", pattern.times.size()},
+                                     {"from", pattern.times.front()},
+                                     {"to", pattern.times.back()}});
+    found["time"] = {{"from", scene.times.front()}, {"to", scene.times.back()}, {"steps", scene.step_count()}};
+    found["process_zones"] = process_zones(model);
+    found["notes"] = notes_of(scene);
+    return found;
 }
 
-}  // namespace
+// "body" or "layer", with everything that is known of it.
+void say_bodies(const Found& found) {
+    for (const Found& body : found["bodies"]) {
+        const auto text = [&](const char* key) { return body[key].get<std::string>(); };
+        if (body.contains("cells"))
+            say("body        \"{}\", {}, material \"{}\", formulation {}\n", text("name"),
+                counted(body["cells"], "cell"), text("material"), text("formulation"));
+        else
+            say("layer       \"{}\", thickness {}, material \"{}\"\n", text("name"), body["thickness"].get<double>(),
+                text("material"));
+    }
+    for (const Found& set : found["sets"])
+        say("set         \"{}\", {}{}\n", set["name"].get<std::string>(), counted(set["nodes"], "node"),
+            set["faces"] == 0 ? "" : ", " + counted(set["faces"], "face"));
+}
 
-int check(const std::string& scene_file, const std::vector<std::string>& settings, const Caller& caller) {
+void say_lines_of(const Found& found) {
+    const auto text = [](const Found& of, const char* key) { return of[key].get<std::string>(); };
+    say("{}: correct\n", text(found, "file"));
+    if (!text(found, "title").empty()) say("title       {}\n", text(found, "title"));
+    Concept chosen;
+    for (const auto& [option, value] : found["concept"].items()) chosen.emplace_back(option, value.get<std::string>());
+    say("concept     {}\n", concept_text(chosen));
+    say("scene hash  {}\n", text(found, "scene_hash"));
+    say("unknowns    {} primal, {} dual\n", found["unknowns"]["primal"].get<std::int64_t>(),
+        found["unknowns"]["dual"].get<std::int64_t>());
+    say_bodies(found);
+    for (const Found& interface : found["interfaces"]) {
+        const std::string kind = text(interface, "kind");
+        say("interface   \"{}\", {}, {}, {} with adhesion of their own\n", text(interface, "name"),
+            counted(interface["pairs"], "pair"),
+            kind == "bonded"    ? "bonded permanently"
+            : kind == "contact" ? "contact without adhesion"
+                                : "law \"" + text(interface, "law") + "\"",
+            counted(interface["regions"], "region"));
+    }
+    say("supports    {} (supports and loads)\n", counted(found["prescribed_displacements"], "prescribed displacement"));
+    for (const Found& pattern : found["patterns"])
+        say("pattern     \"{}\", {} from {} to {}\n", text(pattern, "name"), counted(pattern["instants"], "instant"),
+            pattern["from"].get<double>(), pattern["to"].get<double>());
+    say("time        {} to {} in {}\n", found["time"]["from"].get<double>(), found["time"]["to"].get<double>(),
+        counted(found["time"]["steps"], "step"));
+    for (const Found& zone : found["process_zones"]) say("zone        {}\n", zone.get<std::string>());
+    say("\n");
+    for (const Found& line : found["plan"]) say("{}\n", line.get<std::string>());
+    for (const Found& note : found["notes"]) say("note: {}\n", note.get<std::string>());
+    // Not on standard output, where they are lost when that goes to a file.
+    for (const Found& warning : found["warnings"]) complain("warning: {}\n", warning.get<std::string>());
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+    std::vector<std::string> lines;
+    for (std::size_t begin = 0; begin < text.size();) {
+        const std::size_t end = std::min(text.find('\n', begin), text.size());
+        lines.push_back(text.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    return lines;
+}
+
+// An error ends the call, whose caller says it.
+extern "C" void on_check_log(std::int32_t level, const char* text, void* warnings) {
+    if (level == 1) static_cast<std::vector<std::string>*>(warnings)->emplace_back(text);
+}
+
+Found examined(const std::string& scene_file, const std::vector<std::string>& settings, const Caller& caller) {
     const Scene scene = read_scene(scene_file, settings);
-    if (scene.imported) say_import(*scene.imported, [](const std::string& text) { say("{}\n", text); });
+    std::vector<std::string> imported, warnings;
+    if (scene.imported) imported = import_lines(*scene.imported);
     Context context = new_context();
     const Interrupt interrupt(context.get());
-    delam_context_set_log(context.get(), on_check_log, nullptr);
+    delam_context_set_log(context.get(), on_check_log, &warnings);
     const Model model = build(std::move(context), scene);
     const History history(model, scene);
     Planned planned;
@@ -76,57 +189,37 @@ int check(const std::string& scene_file, const std::vector<std::string>& setting
         return 0;
     };
     (void)(caller.around ? caller.around(model, make_plan) : make_plan());
+    Found found = find(scene_file, scene, model);
+    found["imported"] = imported;
+    found["plan"] = lines_of(planned.text);
+    for (auto&& more : {resolution_warnings(model), warnings_of(model, scene)})
+        warnings.insert(warnings.end(), more.begin(), more.end());
+    if (!planned.converged) warnings.emplace_back("the displacement of the initial state did not converge");
+    found["warnings"] = warnings;
+    return found;
+}
 
-    std::int64_t primal = 0;
-    std::int64_t dual = 0;
-    call(model.context.get(), delam_problem_dofs(model.problem.get(), &primal, &dual),
-         std::string("numbers of unknowns"));
-    say("{}: correct\n", scene_file);
-    if (!scene.title.empty()) say("title       {}\n", scene.title);
-    say("concept     {}\n", concept_text(concept_of(model.problem.get())));
-    say("scene hash  {}\n", hash_of(model));
-    say("unknowns    {} primal, {} dual\n", primal, dual);
-    if (scene.mesh)
-        say_mesh(*scene.mesh, scene);
-    else
-        for (const Layer& layer : scene.layers)
-            say("layer       \"{}\", thickness {}, material \"{}\"\n", layer.name, layer.thickness,
-                scene.materials[layer.material].name);
-    for (std::size_t i = 0; i < model.interfaces.size(); ++i) {
-        const InterfaceData& data = model.interfaces[i];
-        std::int64_t pairs = 0;
-        call(model.context.get(),
-             delam_mesh_interface_size(model.mesh.get(), static_cast<std::int64_t>(i), nullptr, nullptr, &pairs,
-                                       nullptr, nullptr),
-             data.place);
-        say("interface   \"{}\", {}, {}, {} with adhesion of their own\n", data.name, counted(pairs, "pair"),
-            data.bonded    ? "bonded permanently"
-            : data.contact ? "contact without adhesion"
-                           : "law \"" + scene.laws[data.law].name + "\"",
-            counted(static_cast<std::int64_t>(data.regions.size()), "region"));
+}  // namespace
+
+int check(const std::string& scene_file, const std::vector<std::string>& settings, bool json, const Caller& caller) {
+    constexpr auto replace = Found::error_handler_t::replace;
+    if (!json) {
+        const Found found = examined(scene_file, settings, caller);
+        for (const Found& line : found["imported"]) say("{}\n", line.get<std::string>());
+        say_lines_of(found);
+        return exit_done;
     }
-    std::int64_t constraints = 0;
-    std::int64_t entries = 0;
-    std::int64_t patterns = 0;
-    call(model.context.get(),
-         delam_problem_constraints(model.problem.get(), &constraints, &entries, &patterns, nullptr, nullptr, nullptr,
-                                   nullptr),
-         std::string("constraints"));
-    say("supports    {} (supports and loads)\n", counted(constraints, "prescribed displacement"));
-    for (const PatternData& pattern : scene.patterns)
-        say("pattern     \"{}\", {} from {} to {}\n", pattern.name,
-            counted(static_cast<std::int64_t>(pattern.times.size()), "instant"), pattern.times.front(),
-            pattern.times.back());
-    say("time        {} to {} in {}\n", scene.times.front(), scene.times.back(),
-        counted(static_cast<std::int64_t>(scene.step_count()), "step"));
-    for (const std::string& text : process_zones(model)) say("zone        {}\n", text);
-    say("\n{}", planned.text);
-    for (const std::string& text : notes_of(scene)) say("note: {}\n", text);
-    for (const std::string& text : resolution_warnings(model)) complain("warning: {}\n", text);
-    // Not on standard output, where it is lost when that goes to a file.
-    for (const std::string& text : warnings_of(model, scene)) complain("warning: {}\n", text);
-    if (!planned.converged) complain("warning: the displacement of the initial state did not converge\n");
-    return exit_done;
+    try {
+        say("{}\n", examined(scene_file, settings, caller).dump(2, ' ', false, replace));
+        return exit_done;
+    } catch (const Failure& failure) {
+        const Place& place = failure.place();
+        Found error{{"file", place.file}, {"line", nullptr}, {"key", place.path}, {"message", failure.text()}};
+        if (place.line > 0) error["line"] = place.line;
+        const Found found{{"correct", false}, {"file", scene_file}, {"errors", {error}}};
+        say("{}\n", found.dump(2, ' ', false, replace));
+        return failure.code();
+    }
 }
 
 }  // namespace cli

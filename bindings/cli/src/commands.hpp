@@ -29,6 +29,7 @@ int run(const std::string& scene_file, const std::vector<std::string>& settings,
 int import(const std::string& deck, const std::string& scene_file, bool replace);
 // Lists the options of [solver] and the parameters of the laws.
 int options(bool json);
-int check(const std::string& scene_file, const std::vector<std::string>& settings, const Caller& caller);
+// json: one object instead of lines, also for a wrong scene.
+int check(const std::string& scene_file, const std::vector<std::string>& settings, bool json, const Caller& caller);
 
 }  // namespace cli

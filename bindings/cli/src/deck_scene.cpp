@@ -231,10 +231,12 @@ std::string header(const ImportedScene& scene, const std::string& deck) {
 
 namespace cli {
 
-void say_import(const ImportedScene& scene, void (*line)(const std::string&)) {
-    for (const std::string& text : scene.taken) line("taken     " + text);
-    for (const std::string& text : scene.changed) line("changed   " + text);
-    for (const std::string& text : scene.left_out) line("left out  " + text);
+std::vector<std::string> import_lines(const ImportedScene& scene) {
+    std::vector<std::string> lines;
+    for (const std::string& text : scene.taken) lines.push_back("taken     " + text);
+    for (const std::string& text : scene.changed) lines.push_back("changed   " + text);
+    for (const std::string& text : scene.left_out) lines.push_back("left out  " + text);
+    return lines;
 }
 
 ImportedScene import_deck(const std::string& deck_path, const std::string& mesh_name) {

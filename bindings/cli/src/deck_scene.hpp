@@ -21,7 +21,7 @@ struct ImportedScene {
 // keyword where the deck says something that the scene could only guess.
 ImportedScene import_deck(const std::string& deck, const std::string& mesh_name);
 
-// Calls line(..) with each text of what was taken, changed and left out.
-void say_import(const ImportedScene& scene, void (*line)(const std::string&));
+// What was taken, changed and left out, for people.
+std::vector<std::string> import_lines(const ImportedScene& scene);
 
 }  // namespace cli

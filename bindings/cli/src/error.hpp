@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace cli {
 
@@ -14,22 +15,6 @@ enum Exit : int {
     exit_output = 3,
     exit_numerical = 4,
     exit_interrupted = 130,
-};
-
-class Failure : public std::runtime_error {
-public:
-    Failure(Exit code, const std::string& text) : std::runtime_error(text), code_(code) {}
-    [[nodiscard]] Exit code() const noexcept { return code_; }
-
-private:
-    Exit code_;
-};
-
-// A file that cannot be written or read back; `name` is the file, `reason` the system's message.
-class OutputFailure : public Failure {
-public:
-    OutputFailure(const std::string& name, const std::string& reason)
-        : Failure(exit_output, "cannot write " + name + ": " + reason) {}
 };
 
 // A place in the scene: "scene.toml:14: materials[0].young".
@@ -46,9 +31,32 @@ struct Place {
     }
 };
 
+class Failure : public std::runtime_error {
+public:
+    Failure(Exit code, const std::string& text) : std::runtime_error(text), code_(code), text_(text) {}
+    Failure(Exit code, Place place, const std::string& text)
+        : std::runtime_error(place.text() + ": " + text), code_(code), place_(std::move(place)), text_(text) {}
+    [[nodiscard]] Exit code() const noexcept { return code_; }
+    // Where in the scene, if it is known, and what is wrong there.
+    [[nodiscard]] const Place& place() const noexcept { return place_; }
+    [[nodiscard]] const std::string& text() const noexcept { return text_; }
+
+private:
+    Exit code_;
+    Place place_;
+    std::string text_;
+};
+
+// A file that cannot be written or read back; `name` is the file, `reason` the system's message.
+class OutputFailure : public Failure {
+public:
+    OutputFailure(const std::string& name, const std::string& reason)
+        : Failure(exit_output, "cannot write " + name + ": " + reason) {}
+};
+
 class SceneFailure : public Failure {
 public:
-    SceneFailure(const Place& place, const std::string& text) : Failure(exit_scene, place.text() + ": " + text) {}
+    SceneFailure(const Place& place, const std::string& text) : Failure(exit_scene, place, text) {}
 };
 
 }  // namespace cli

@@ -21,13 +21,13 @@ int import(const std::string& deck, const std::string& scene_file, bool replace)
     const ImportedScene scene = import_deck(deck, mesh.generic_string());
     if (scene_file.empty()) {
         say("{}", scene.text);
-        say_import(scene, [](const std::string& text) { complain("{}\n", text); });
+        for (const std::string& line : import_lines(scene)) complain("{}\n", line);
         return exit_done;
     }
     if (!replace && fs::exists(scene_file, code))
         throw Failure(exit_output, scene_file + " is there already: --replace overwrites it");
     write_atomic(scene_file, scene.text);
-    say_import(scene, [](const std::string& text) { say("{}\n", text); });
+    for (const std::string& line : import_lines(scene)) say("{}\n", line);
     say("wrote     {}: look at it, then delam check {}\n", scene_file, scene_file);
     return exit_done;
 }

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <map>
 #include <new>
 #include <string>
 #include <vector>
@@ -12,10 +13,13 @@
 #include <hdf5.h>
 #include <CLI/CLI.hpp>
 
+#include "completion.hpp"
 #include "delam/delam.h"
 #include "error.hpp"
+#include "man_page.hpp"
 #include "program.hpp"
 #include "say.hpp"
+#include "schema.hpp"
 
 namespace cli {
 
@@ -38,73 +42,151 @@ std::string joined(int count, char** words) {
     return out;
 }
 
+// What the command line holds.
+struct Arguments {
+    std::string scene, deck, folder, page, shell, progress = "text";
+    std::vector<std::string> settings;
+    bool resume = false, replace = false, json = false;
+};
+
+struct Commands {
+    CLI::App *run, *check, *import, *options, *schema, *man, *completion;
+    std::map<std::string, std::vector<std::string>> choices;  // by option
+};
+
+void add_settings(CLI::App& command, Arguments& into) {
+    // One value each, so that the scene file may follow.
+    command
+        .add_option("--set", into.settings,
+                    "a value instead of the scene file's, e.g. geometry.h=0.001, laws[0].normal_onset=10 or "
+                    "solver.minimisation=alternate; may be given several times")
+        ->type_name(setting_value)
+        ->allow_extra_args(false);
+}
+
+void add_scene(CLI::App& command, Arguments& into) {
+    command.add_option("scene", into.scene, "scene file (TOML, see SCENE.md), or input file of Abaqus (.inp)")
+        ->type_name(scene_value)
+        ->required();
+}
+
+Commands add_work(CLI::App& app, Arguments& into) {
+    Commands of{};
+    of.run = app.add_subcommand("run", "compute the load steps of a scene and write the results");
+    add_scene(*of.run, into);
+    of.run
+        ->add_option("--out,-o", into.folder,
+                     "folder for the results; a result that is there is replaced when the new one is whole")
+        ->type_name(folder_value)
+        ->required();
+    of.run->add_flag("--resume", into.resume, "go on after an interruption, from the last saved step");
+    of.run
+        ->add_option("--progress", into.progress,
+                     "how progress is told: text, or json, one object in each line of standard output")
+        ->type_name("HOW")
+        ->check(CLI::IsMember(of.choices["progress"] = {"text", "json"}));
+    add_settings(*of.run, into);
+    of.run->footer(footer);
+    of.check = app.add_subcommand("check", "validate a scene and print what would be computed, and how");
+    add_scene(*of.check, into);
+    of.check->add_flag("--json", into.json, "for programs: one object, with the error of a wrong scene");
+    add_settings(*of.check, into);
+    of.import = app.add_subcommand(
+        "import", "write the scene of an Abaqus input file; run and check take such files as they are");
+    of.import->add_option("deck", into.deck, "input file with cohesive elements or surfaces (.inp, see SCENE.md)")
+        ->type_name(deck_value)
+        ->required();
+    of.import->add_option("--out,-o", into.folder, "the scene file (default: standard output)")->type_name(file_value);
+    of.import->add_flag("--replace", into.replace, "overwrite the scene file if it is there");
+    of.import->footer(footer);
+    return of;
+}
+
+void add_help(CLI::App& app, Arguments& into, Commands& of) {
+    of.options = app.add_subcommand("options", "list the options of [solver] and the parameters of laws");
+    of.options->add_flag("--json", into.json, "for programs");
+    of.schema = app.add_subcommand("schema", "print the JSON Schema of scene files, for editors");
+    of.man = app.add_subcommand("man", "print a manual page, for man -l");
+    of.man->add_option("page", into.page, "delam (the default) or delam-scene")
+        ->type_name("PAGE")
+        ->check(CLI::IsMember(of.choices["page"] = {"delam", "delam-scene"}));
+    of.completion = app.add_subcommand("completion", "print the script that completes command lines in a shell");
+    of.completion->add_option("shell", into.shell, "bash, zsh or fish")
+        ->type_name("SHELL")
+        ->required()
+        ->check(CLI::IsMember(of.choices["shell"] = completion_shells()));
+}
+
+std::vector<OptionText> options_of(const CLI::App& app, const Commands& commands) {
+    std::vector<OptionText> out;
+    for (const CLI::Option* option : app.get_options()) {
+        OptionText text;
+        text.argument = option->get_positional();
+        for (const std::string& name : option->get_lnames()) text.names.push_back("--" + name);
+        for (const std::string& name : option->get_snames()) text.names.push_back("-" + name);
+        if (text.argument) text.names = {option->get_name(true)};
+        text.value = option->get_expected_max() > 0 ? option->get_type_name() : "";
+        if (const std::size_t end = text.value.find(':'); end != std::string::npos) text.value.resize(end);
+        text.meaning = option->get_description();
+        text.needed = option->get_required();
+        const auto known = commands.choices.find(option->get_single_name());
+        if (known != commands.choices.end()) text.choices = known->second;
+        out.push_back(std::move(text));
+    }
+    return out;
+}
+
+ProgramText text_of(const CLI::App& app, const Commands& commands, const std::string& name) {
+    ProgramText out{
+        name, "delamination of layered structures by energy minimisation", footer, options_of(app, commands), {}};
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+        out.commands.push_back({command->get_name(), command->get_description(), options_of(*command, commands)});
+    return out;
+}
+
 int guarded(int argc, char** argv, const Caller& caller) {
     CLI::App app("delam: delamination of layered structures by energy minimisation");
     app.footer(footer);
     app.set_version_flag("--version",
                          fmt::format("delam {} (commit {}, ABI {})", delam_version(), delam_commit(), delam_abi()));
     app.require_subcommand(1);
-    std::string scene;
-    std::string folder;
-    bool resume = false;
-    std::vector<std::string> settings;
-    // One value each, so that the scene file may follow.
-    const auto with_settings = [&settings](CLI::App* command) {
-        command
-            ->add_option("--set", settings,
-                         "KEY=VALUE: a value instead of the scene file's, e.g. geometry.h=0.001, "
-                         "laws[0].normal_onset=10 or solver.minimisation=alternate; may be given several times")
-            ->type_name("KEY=VALUE")
-            ->allow_extra_args(false);
-    };
-    CLI::App* run_command = app.add_subcommand("run", "compute the load steps of a scene and write the results");
-    run_command->add_option("scene", scene, "scene file (TOML, see SCENE.md)")->required();
-    run_command
-        ->add_option("--out,-o", folder,
-                     "folder for the results; a result that is there is replaced when the new one is whole")
-        ->required();
-    run_command->add_flag("--resume", resume, "go on after an interruption, from the last saved step");
-    with_settings(run_command);
-    run_command->footer(footer);
-    CLI::App* check_command = app.add_subcommand("check", "validate a scene and print what would be computed, and how");
-    check_command->add_option("scene", scene, "scene file (TOML, see SCENE.md)")->required();
-    with_settings(check_command);
-    CLI::App* import_command = app.add_subcommand(
-        "import", "write the scene of an Abaqus input file; run and check take such files as they are");
-    std::string deck;
-    bool replace = false;
-    import_command->add_option("deck", deck, "input file with cohesive elements or surfaces (.inp, see SCENE.md)")
-        ->required();
-    import_command->add_option("--out,-o", folder, "the scene file (default: standard output)");
-    import_command->add_flag("--replace", replace, "overwrite the scene file if it is there");
-    import_command->footer(footer);
-    CLI::App* options_command =
-        app.add_subcommand("options", "list the options of [solver] and the parameters of laws");
-    bool json = false;
-    options_command->add_flag("--json", json, "for programs");
+    Arguments given;
+    Commands of = add_work(app, given);
+    add_help(app, given, of);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
         return app.exit(e) == 0 ? exit_done : exit_scene;
     }
-    if (options_command->parsed()) return options(json);
-    if (import_command->parsed()) return import(deck, folder, replace);
-    return run_command->parsed() ? run(scene, settings, folder, resume, joined(argc, argv), caller)
-                                 : check(scene, settings, caller);
+    if (of.options->parsed()) return options(given.json);
+    if (of.import->parsed()) return import(given.deck, given.folder, given.replace);
+    if (of.check->parsed()) return check(given.scene, given.settings, given.json, caller);
+    if (of.run->parsed()) {
+        say_json_lines(given.progress == "json");
+        return run(given.scene, given.settings, given.folder, given.resume, joined(argc, argv), caller);
+    }
+    const ProgramText text = text_of(app, of, caller.name);
+    if (of.schema->parsed()) say_raw(scene_schema());
+    if (of.completion->parsed()) say_raw(completion(text, given.shell));
+    if (of.man->parsed()) say_raw(given.page == "delam-scene" ? man_page_of_scenes(text) : man_page_of_program(text));
+    return exit_done;
+}
+
+int failed(const std::string& message, int code) {
+    complain("delam: {}\n", message);
+    say_event("error", "\"message\": " + json_text(message));
+    return code;
 }
 
 int reported(int argc, char** argv, const Caller& caller) {
     try {
         return guarded(argc, argv, caller);
     } catch (const Failure& failure) {
-        complain("delam: {}\n", failure.what());
-        return failure.code();
+        return failed(failure.what(), failure.code());
     } catch (const std::bad_alloc&) {
-        complain("delam: out of memory\n");
-        return exit_numerical;
+        return failed("out of memory", exit_numerical);
     } catch (const std::exception& e) {
-        complain("delam: {}\n", e.what());
-        return exit_numerical;
+        return failed(e.what(), exit_numerical);
     }
 }
 
@@ -115,7 +197,9 @@ int program(int argc, char** argv, const Caller& caller) {
     // itself.
     H5dont_atexit();
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    say_json_lines(false);
     int code = reported(argc, argv, caller);
+    say_event("end", fmt::format("\"exit_code\": {}", code));
     // A full disk behind standard output shows here at the latest; a worse exit code is kept.
     errno = 0;
     const bool flushed = std::fflush(stdout) == 0;

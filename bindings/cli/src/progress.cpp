@@ -2,6 +2,7 @@
 #include "progress.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include <fmt/format.h>
@@ -20,6 +21,9 @@ std::string duration_text(double seconds) {
     return fmt::format("{}:{:02d}", whole / 60, whole % 60);
 }
 
+// JSON has no NaN: a factor without a load.
+std::string json_number(double value) { return std::isfinite(value) ? fmt::format("{}", value) : "null"; }
+
 std::size_t terminal_width() {
     winsize size{};
     if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col < 20) return 80;
@@ -32,12 +36,13 @@ Progress::Progress(std::int64_t total)
     : total_(total),
       first_(0),
       step_(0),
-      terminal_(isatty(STDOUT_FILENO) == 1),
+      terminal_(isatty(STDOUT_FILENO) == 1 && !says_json_lines()),
       start_(Clock::now()),
       redraw_(start_) {}
 
 void Progress::begin_after(std::int64_t first) {
     first_ = step_ = first;
+    say_event("start", fmt::format("\"step\": {}, \"steps\": {}", first, total_));
     start_ = Clock::now();
     clear();
 }
@@ -47,15 +52,22 @@ void Progress::clear() {
     drawn_ = false;
 }
 
-std::string Progress::left() const {
-    const std::int64_t done = step_ - first_;
-    if (done <= 0) return "?";
+std::string Progress::left() const { return step_ > first_ ? duration_text(seconds_left()) : "?"; }
+
+double Progress::seconds_left() const {
     const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
-    return duration_text(elapsed / static_cast<double>(done) * static_cast<double>(total_ - step_));
+    return elapsed / static_cast<double>(step_ - first_) * static_cast<double>(total_ - step_);
 }
 
 void Progress::step(std::int64_t step, double time, double load, std::int64_t iterations, bool converged) {
     step_ = step;
+    if (says_json_lines()) {
+        say_event("step", fmt::format("\"step\": {}, \"steps\": {}, \"time\": {}, \"load\": {}, \"iterations\": {}, "
+                                      "\"converged\": {}, \"seconds_left\": {:.3g}",
+                                      step, total_, json_number(time), json_number(load), iterations, converged,
+                                      seconds_left()));
+        return;
+    }
     last_ = fmt::format("time {:.6g}  load {:.6g}  {} iterations{}", time, load, iterations,
                         converged ? "" : " NOT CONVERGED");
     if (terminal_) {
@@ -67,7 +79,12 @@ void Progress::step(std::int64_t step, double time, double load, std::int64_t it
 }
 
 void Progress::stage(const char* name, std::int64_t done, std::int64_t total) {
-    if (!terminal_ || Clock::now() - redraw_ < std::chrono::milliseconds(100)) return;
+    if ((!terminal_ && !says_json_lines()) || Clock::now() - redraw_ < std::chrono::milliseconds(100)) return;
+    if (says_json_lines()) {
+        redraw_ = Clock::now();
+        say_event("stage", fmt::format("\"name\": {}, \"done\": {}, \"total\": {}", json_text(name), done, total));
+        return;
+    }
     draw(total > 0 ? fmt::format("{} {}/{}", name, done, total) : std::string(name));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Progress for people: one line that is rewritten on a terminal, plain lines elsewhere.
+// Progress: one line that is rewritten on a terminal, plain lines elsewhere, or events for programs (say.hpp).
 #pragma once
 
 #include <chrono>
@@ -30,6 +30,7 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
     [[nodiscard]] std::string left() const;
+    [[nodiscard]] double seconds_left() const;  // after one step at least
     void draw(const std::string& stage);
 
     std::int64_t total_;

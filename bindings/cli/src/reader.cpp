@@ -4,18 +4,19 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
+#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "scene_keys.hpp"
 #include "setting.hpp"
 
 namespace cli {
 
 namespace {
-constexpr double infinite = std::numeric_limits<double>::infinity();
-
 // Levenshtein distance.
 std::size_t distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
@@ -70,45 +71,57 @@ double checked_number(const toml::node& node, const Place& where, const Range& r
     return value;
 }
 
-// range: in words.
-std::int64_t checked_whole(const toml::node& node, const Place& where, const std::string& range) {
+// What is allowed, in words.
+std::string whole_words(const KeyRow& row) {
+    if (row.most == INT64_MAX) return fmt::format(">= {}", row.least);
+    if (row.least == row.most) return fmt::format("{}", row.least);
+    return row.least + 1 == row.most ? fmt::format("{} or {}", row.least, row.most)
+                                     : fmt::format("from {} to {}", row.least, row.most);
+}
+
+std::int64_t checked_whole(const toml::node& node, const Place& where, const KeyRow& row) {
     if (!node.is_integer())
         throw SceneFailure(where, fmt::format("{}{}: a whole number{} is expected: {}", shown(node),
                                               node.is_floating_point() ? " has a decimal point" : "",
-                                              node.is_floating_point() ? " without one" : "", range));
-    return *node.value<std::int64_t>();
-}
-
-std::int64_t checked_whole(const toml::node& node, const Place& where, std::int64_t least) {
-    checked_whole(node, where, fmt::format(">= {}", least));
+                                              node.is_floating_point() ? " without one" : "", whole_words(row)));
     const std::int64_t value = *node.value<std::int64_t>();
-    if (value < least) throw SceneFailure(where, fmt::format("{} is not allowed: a whole number >= {}", value, least));
+    if (value < row.least || value > row.most)
+        throw SceneFailure(where, fmt::format("{} is not allowed: {}{}", value,
+                                              row.most == INT64_MAX ? "a whole number " : "", whole_words(row)));
     return value;
 }
 
-// words: what is allowed; "" if anything is.
-std::string checked_word(const toml::node& node, const Place& where, const std::string& words) {
+// known: what is allowed; empty if anything is.
+std::string checked_text(const toml::node& node, const Place& where, const std::vector<std::string>& known) {
     if (!node.is_string())
-        throw SceneFailure(
-            where, fmt::format("{}: a text in quotes is expected{}{}", shown(node), words.empty() ? "" : ": ", words));
+        throw SceneFailure(where, fmt::format("{}: a text in quotes is expected{}{}", shown(node),
+                                              known.empty() ? "" : ": ", listing(known)));
     std::string text = *node.value<std::string>();
     if (text.size() > most_text_bytes)
         throw SceneFailure(where, fmt::format("\"{}\" has {} bytes: at most {} are allowed", shortened(text),
                                               text.size(), most_text_bytes));
+    if (!known.empty() && std::find(known.begin(), known.end(), text) == known.end())
+        throw SceneFailure(where, fmt::format("\"{}\" is not allowed{}; one of {}", shortened(text),
+                                              suggestion(text, known), listing(known)));
     return text;
 }
 
-std::string checked_text(const toml::node& node, const Place& where) { return checked_word(node, where, ""); }
+std::string list_words(const Count& count) {
+    if (count.most == 0)
+        return count.least == 1 ? "at least one is expected" : fmt::format("at least {} are expected", count.least);
+    if (count.least == count.most) return fmt::format("a list of {} is expected", count.least);
+    return fmt::format("a list of {} {} {} is expected", count.least, count.between ? "to" : "or", count.most);
+}
 
 template <class Value, class Check>
-std::vector<Value> checked_list(const toml::node& node, const Place& where, std::size_t count, Check&& check) {
+std::vector<Value> checked_list(const toml::node& node, const Place& where, const Count& count, Check&& check) {
     const toml::array* list = node.as_array();
-    const auto expected =
-        count > 0 ? fmt::format("a list of {} is expected", count) : std::string("a list is expected");
-    if (list == nullptr) throw SceneFailure(where, fmt::format("{}: {}", shown(node), expected));
-    if ((count > 0 && list->size() != count) || list->empty())
-        throw SceneFailure(
-            where, fmt::format("{} entries: {}", list->size(), count > 0 ? expected : "at least one is expected"));
+    if (list == nullptr)
+        throw SceneFailure(where, fmt::format("{}: {}", shown(node),
+                                              count.most > 0 ? list_words(count) : std::string("a list is expected")));
+    if (list->size() < count.least || (count.most > 0 && list->size() > count.most) ||
+        (!count.between && list->size() != count.least && list->size() != count.most))
+        throw SceneFailure(where, fmt::format("{} entries: {}", list->size(), list_words(count)));
     std::vector<Value> out;
     for (std::size_t i = 0; i < list->size(); ++i) {
         const toml::node& entry = *list->get(i);
@@ -117,18 +130,6 @@ std::vector<Value> checked_list(const toml::node& node, const Place& where, std:
     return out;
 }
 }  // namespace
-
-const Range any_number{-infinite, infinite, true, true, "(finite)"};
-const Range positive{0, infinite, true, true, "> 0 (finite)"};
-const Range not_negative{0, infinite, false, true, ">= 0 (finite)"};
-const Range fraction{0, 1, false, false, "in [0, 1]"};
-const Range poisson_range{-1, 0.5, true, true, "in (-1, 0.5)"};
-const Range pairing_tolerance{0, 0.5, false, true, "in [0, 0.5)"};
-
-bool Range::contains(double value) const {
-    if (!std::isfinite(value)) return false;
-    return (lower_open ? value > lower : value >= lower) && (upper_open ? value < upper : value <= upper);
-}
 
 std::string shortened(const std::string& text) {
     constexpr std::size_t most = 60;
@@ -158,14 +159,82 @@ std::string suggestion(std::string_view word, const std::vector<std::string>& kn
     return out + "?)";
 }
 
-void Table::only(std::initializer_list<std::string_view> keys) const {
-    only(std::vector<std::string>(keys.begin(), keys.end()));
+Table::Table(const toml::table& table, Place place, const KeyTable& keys, Scenes scenes)
+    : table_(&table), place_(std::move(place)), keys_(&keys), scenes_(scenes) {
+    check_keys();
+    for (const KeyRule& rule : keys.rules)
+        if (!rule.message.empty() && (rule.scenes == Scenes::any || rule.scenes == scenes_)) check_rule(rule);
 }
 
-void Table::only(const std::vector<std::string>& known) const {
-    for (const std::string& key : keys())
-        if (std::find(known.begin(), known.end(), key) == known.end())
-            fail(key, fmt::format("unknown key{}; allowed here: {}", suggestion(key, known), listing(known)));
+void Table::check_keys() const {
+    std::vector<std::string> known;
+    for (const KeyRow& row : keys_->rows)
+        if (row.scenes == Scenes::any || row.scenes == scenes_) known.push_back(row.key);
+    for (const std::string& key : keys()) {
+        if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+        if (keys_->row(key) != nullptr)
+            fail(key, scenes_ == Scenes::mesh ? "is not for a scene with [mesh]" : "is for a scene with [mesh]");
+        fail(key, fmt::format("unknown key{}; allowed here: {}", suggestion(key, known), listing(known)));
+    }
+}
+
+bool Table::given(std::string_view key) const {
+    const toml::node* node = table_->get(key);
+    return node != nullptr && (!node->is_boolean() || *node->value<bool>());
+}
+
+// A value that its own row does not allow is complained of where it is read.
+bool Table::is_one_of(const std::string& key, const std::vector<std::string>& values, bool otherwise) const {
+    const toml::node* node = table_->get(key);
+    const KeyRow& of = row(key);
+    if (node != nullptr && of.kind == KeyKind::whole) {
+        const auto whole = node->is_integer() ? *node->value<std::int64_t>() : of.least - 1;
+        if (whole < of.least || whole > of.most) return otherwise;
+    }
+    if (node != nullptr && of.kind == KeyKind::choice &&
+        std::find(of.choices.begin(), of.choices.end(), node->value_or(std::string())) == of.choices.end())
+        return otherwise;
+    const std::string value = node != nullptr ? shown(*node) : of.initial;
+    return std::any_of(values.begin(), values.end(),
+                       [&](const std::string& v) { return value == v || value == "\"" + v + "\""; });
+}
+
+void Table::check_rule(const KeyRule& rule) const {
+    const auto is_given = [this](const std::string& key) { return given(key); };
+    const auto first = std::find_if(rule.keys.begin(), rule.keys.end(), is_given);
+    const auto count = std::count_if(rule.keys.begin(), rule.keys.end(), is_given);
+    const auto other = std::find_if(rule.others.begin(), rule.others.end(), is_given);
+    const auto counted = [&] { return fmt::format("{} ({} are given)", rule.message, count); };
+    switch (rule.kind) {
+        case KeyRule::exactly_one:
+            if (count != 1) fail(rule.keys.front(), rule.message.starts_with("is") ? rule.message : counted());
+            return;
+        case KeyRule::at_most_one:
+            if (count > 1) fail(*first, rule.message);
+            return;
+        case KeyRule::at_least_one:
+            if (count == 0) fail(rule.keys.front(), rule.message);
+            return;
+        case KeyRule::needs:
+            if (count > 0 && other == rule.others.end())
+                fail(rule.message.starts_with("is missing") ? rule.others.front() : *first, rule.message);
+            return;
+        case KeyRule::excludes:
+            if (count > 0 && other != rule.others.end()) fail(*first, rule.message);
+            return;
+        case KeyRule::only_where:
+            if (count > 0 && !is_one_of(rule.others.front(), rule.values, true)) fail(*first, rule.message);
+            return;
+        case KeyRule::needed_where:
+            if (count == 0 && is_one_of(rule.others.front(), rule.values, false)) fail(rule.keys.front(), rule.message);
+            return;
+    }
+}
+
+const KeyRow& Table::row(std::string_view key) const {
+    const KeyRow* found = keys_->row(key);
+    if (found == nullptr) throw std::logic_error(fmt::format("table {} has no key {}", keys_->name, key));
+    return *found;
 }
 
 Place Table::place(std::string_view key) const {
@@ -176,44 +245,62 @@ Place Table::place(std::string_view key) const {
 
 void Table::fail(std::string_view key, const std::string& text) const { throw SceneFailure(place(key), text); }
 
+namespace {
+
+// What a missing key with this row would have to be.
+std::string expected_words(const KeyRow& row) {
+    switch (row.kind) {
+        case KeyKind::number:
+            return fmt::format("is missing: a number {} is expected", row.range->text);
+        case KeyKind::whole:
+            return fmt::format("is missing: a whole number {} is expected", whole_words(row));
+        case KeyKind::text:
+        case KeyKind::choice:
+            return row.choices.empty() ? "is missing" : "is missing: one of " + listing(row.choices);
+        default:
+            return "is missing";
+    }
+}
+
+// The default of a row; null if it has none, or one in words. Rows live as long as the program.
+const toml::node* default_of(const KeyRow& row) {
+    static std::map<const KeyRow*, toml::table> known;
+    const auto [found, added] = known.try_emplace(&row);
+    if (added && !row.initial.empty()) {
+        try {
+            found->second = toml::parse("value = " + row.initial);
+        } catch (const toml::parse_error&) {  // words
+        }
+    }
+    return found->second.get("value");
+}
+
+}  // namespace
+
 const toml::node& Table::need(std::string_view key) const {
+    const KeyRow& of = row(key);
     const toml::node* node = table_->get(key);
-    if (node == nullptr) fail(key, "is missing");
+    if (node == nullptr) node = default_of(of);
+    if (node == nullptr) fail(key, expected_words(of));
     return *node;
 }
 
-double Table::number(std::string_view key, const Range& range) const {
-    if (!has(key)) fail(key, fmt::format("is missing: a number {} is expected", range.text));
-    return checked_number(need(key), place(key), range);
+double Table::number(std::string_view key) const { return checked_number(need(key), place(key), *row(key).range); }
+
+double Table::number(std::string_view key, double otherwise) const { return has(key) ? number(key) : otherwise; }
+
+std::int64_t Table::whole(std::string_view key) const { return checked_whole(need(key), place(key), row(key)); }
+
+std::int64_t Table::whole(std::string_view key, std::int64_t otherwise) const {
+    return has(key) ? whole(key) : otherwise;
 }
 
-double Table::number(std::string_view key, const Range& range, double otherwise) const {
-    return has(key) ? number(key, range) : otherwise;
-}
-
-std::int64_t Table::whole(std::string_view key, std::int64_t least) const {
-    return checked_whole(need(key), place(key), least);
-}
-
-std::int64_t Table::whole(std::string_view key, std::int64_t least, std::int64_t otherwise) const {
-    return has(key) ? whole(key, least) : otherwise;
-}
-
-std::int64_t Table::whole(std::string_view key, const std::string& range) const {
-    return checked_whole(need(key), place(key), range);
-}
-
-bool Table::flag(std::string_view key, bool otherwise) const {
-    if (!has(key)) return otherwise;
+bool Table::flag(std::string_view key) const {
     if (!need(key).is_boolean()) fail(key, fmt::format("{}: true or false is expected", shown(need(key))));
     return *need(key).value<bool>();
 }
 
-std::string Table::word(std::string_view key, const std::string& words) const {
-    return checked_word(need(key), place(key), words);
-}
-
-std::string Table::text(std::string_view key) const { return checked_text(need(key), place(key)); }
+std::string Table::text(std::string_view key) const { return checked_text(need(key), place(key), row(key).choices); }
 
 std::string Table::text(std::string_view key, const std::string& otherwise) const {
     return has(key) ? text(key) : otherwise;
@@ -221,41 +308,49 @@ std::string Table::text(std::string_view key, const std::string& otherwise) cons
 
 std::string Table::choice(std::string_view key, const std::vector<std::string>& known,
                           std::string_view otherwise) const {
-    if (otherwise.empty() && !has(key)) fail(key, "is missing: one of " + listing(known));
-    const std::string value = text(key, std::string(otherwise));
-    if (std::find(known.begin(), known.end(), value) == known.end())
-        fail(key, fmt::format("\"{}\" is not allowed{}; one of {}", value, suggestion(value, known), listing(known)));
-    return value;
+    return has(key) ? checked_text(need(key), place(key), known) : std::string(otherwise);
 }
 
-std::vector<double> Table::numbers(std::string_view key, const Range& range, std::size_t count) const {
-    return checked_list<double>(need(key), place(key), count, [&range](const toml::node& node, const Place& where) {
-        return checked_number(node, where, range);
-    });
+std::vector<double> Table::numbers(std::string_view key, std::size_t count) const {
+    const KeyRow& of = row(key);
+    return checked_list<double>(
+        need(key), place(key), count > 0 ? Count{count, count} : of.count,
+        [&of](const toml::node& node, const Place& where) { return checked_number(node, where, *of.range); });
 }
 
-std::vector<std::vector<double>> Table::points(std::string_view key, const Range& range, std::size_t count) const {
-    return checked_list<std::vector<double>>(need(key), place(key), 0, [&](const toml::node& entry, const Place& at) {
-        return checked_list<double>(entry, at, count, [&range](const toml::node& node, const Place& where) {
-            return checked_number(node, where, range);
+std::vector<std::vector<double>> Table::points(std::string_view key, std::size_t count) const {
+    const KeyRow& of = row(key);
+    return checked_list<std::vector<double>>(
+        need(key), place(key), of.count, [&](const toml::node& entry, const Place& at) {
+            return checked_list<double>(
+                entry, at, Count{count, count},
+                [&of](const toml::node& node, const Place& where) { return checked_number(node, where, *of.range); });
         });
-    });
 }
 
-std::vector<std::int64_t> Table::wholes(std::string_view key, std::int64_t least, std::size_t count) const {
+std::vector<std::int64_t> Table::wholes(std::string_view key, std::size_t count) const {
+    const KeyRow& of = row(key);
     return checked_list<std::int64_t>(
-        need(key), place(key), count,
-        [least](const toml::node& node, const Place& where) { return checked_whole(node, where, least); });
+        need(key), place(key), Count{count, count},
+        [&of](const toml::node& node, const Place& where) { return checked_whole(node, where, of); });
 }
 
 std::vector<std::string> Table::texts(std::string_view key) const {
-    return checked_list<std::string>(need(key), place(key), 0, checked_text);
+    const KeyRow& of = row(key);
+    return checked_list<std::string>(
+        need(key), place(key), of.count,
+        [&of](const toml::node& node, const Place& where) { return checked_text(node, where, of.choices); });
 }
 
 Table Table::table(std::string_view key) const {
     const toml::node& node = need(key);
     if (!node.is_table()) fail(key, fmt::format("{}: a table is expected", shown(node)));
-    return Table(*node.as_table(), place(key));
+    return Table(*node.as_table(), place(key), scene_table(row(key).content), scenes_);
+}
+
+Table Table::table_or_empty(std::string_view key) const {
+    static const toml::table none;
+    return has(key) ? table(key) : Table(none, place(key), scene_table(row(key).content), scenes_);
 }
 
 std::vector<Table> Table::tables(std::string_view key) const {
@@ -267,7 +362,7 @@ std::vector<Table> Table::tables(std::string_view key) const {
         const toml::node& entry = *list->get(i);
         const Place where = place_of(entry, place_.file, fmt::format("{}[{}]", joined(place_.path, key), i));
         if (!entry.is_table()) throw SceneFailure(where, fmt::format("{}: a table is expected", shown(entry)));
-        out.emplace_back(*entry.as_table(), where);
+        out.emplace_back(*entry.as_table(), where, scene_table(row(key).content), scenes_);
     }
     return out;
 }
@@ -278,7 +373,6 @@ std::vector<std::string> Table::keys() const {
     return out;
 }
 
-bool Table::is_text(std::string_view key) const { return has(key) && need(key).is_string(); }
 bool Table::is_list(std::string_view key) const { return has(key) && need(key).is_array(); }
 
 }  // namespace cli

@@ -345,7 +345,7 @@ int run(const std::string& scene_file, const std::vector<std::string>& settings,
         bool resume, const std::string& command, const Caller& caller) {
     if (folder_path.empty()) throw Failure(exit_scene, "--out: the name of the folder is empty");
     const Scene scene = read_scene(scene_file, settings);
-    if (scene.imported) say_import(*scene.imported, [](const std::string& text) { say("{}\n", text); });
+    if (scene.imported) say_lines(import_lines(*scene.imported));
     const std::string again = command_again(caller, scene, folder_path);
     Context context = new_context();
     const Interrupt interrupt(context.get());

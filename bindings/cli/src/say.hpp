@@ -1,20 +1,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lines for people. These functions never throw, because a failing stream must not stop an analysis: the stream keeps
-// the error, and main() turns it into an exit code.
+// Lines for people, or for programs: one JSON object each. These functions never throw, because a failing stream must
+// not stop an analysis: the stream keeps the error, and program() turns it into an exit code.
 #pragma once
 
 #include <cstdint>
 #include <cstdio>
 #include <string>
+#include <string_view>
 
 #include <fmt/format.h>
 
 namespace cli {
 
+// From now on each line of standard output is an object with an "event"; a line that is said as text is
+// {"event": "line", "text": ..}.
+void say_json_lines(bool yes);
+bool says_json_lines();
+
+void say_text(std::string_view text);
+// As it is: whole objects, files.
+void say_raw(std::string_view text);
+// An object of the event with members that are JSON already, e.g. "\"step\": 3"; nothing unless lines are JSON.
+void say_event(std::string_view event, const std::string& members);
+// A text as JSON, with its quotes; bytes that are not UTF-8 are replaced.
+std::string json_text(const std::string& text);
+
 template <class... T>
 void say(fmt::format_string<T...> format, T&&... values) {
-    const std::string text = fmt::format(format, std::forward<T>(values)...);
-    std::fwrite(text.data(), 1, text.size(), stdout);
+    say_text(fmt::format(format, std::forward<T>(values)...));
 }
 
 template <class... T>

@@ -16,6 +16,7 @@
 #include "hash.hpp"
 #include "input_file.hpp"
 #include "read_abaqus.hpp"
+#include "scene_keys.hpp"
 #include "scene_parts.hpp"
 #include "scene_text.hpp"
 #include "setting.hpp"
@@ -27,10 +28,10 @@ namespace {
 // The lengths that geometry.h must divide, including the thicknesses of layers without divisions of their own.
 std::vector<double> divided_lengths(const Table& root) {
     const Table geometry = root.table("geometry");
-    std::vector<double> out{geometry.number("length", positive)};
-    if (geometry.has("width")) out.push_back(geometry.number("width", positive));
+    std::vector<double> out{geometry.number("length")};
+    if (geometry.has("width")) out.push_back(geometry.number("width"));
     for (const Table& layer : root.tables("layers"))
-        if (!layer.has("divisions")) out.push_back(layer.number("thickness", positive));
+        if (!layer.has("divisions")) out.push_back(layer.number("thickness"));
     return out;
 }
 
@@ -49,32 +50,26 @@ std::int64_t cells_of_size(const Table& root, const Table& table, std::string_vi
 
 void read_geometry(const Table& root, Scene& scene) {
     const Table table = root.table("geometry");
-    table.only({"dimension", "length", "width", "divisions", "h", "cell", "plane"});
     Geometry& geometry = scene.geometry;
     geometry.place = table.place();
-    const std::int64_t dimension = table.whole("dimension", 2);
-    if (dimension > 3) table.fail("dimension", fmt::format("{} is not allowed: 2 or 3", dimension));
+    const std::int64_t dimension = table.whole("dimension");
     geometry.dimension = static_cast<std::int32_t>(dimension);
-    geometry.lengths.push_back(table.number("length", positive));
+    geometry.lengths.push_back(table.number("length"));
     if (dimension == 3) {
-        geometry.lengths.push_back(table.number("width", positive));
-        if (table.has("plane")) table.fail("plane", "is for dimension 2 only");
+        geometry.lengths.push_back(table.number("width"));
         geometry.cell_type = shape_named(table.choice("cell", shape_names(3), "hex8")).type;
     } else {
-        if (table.has("width")) table.fail("width", "is for dimension 3 only");
-        geometry.plane = table.choice("plane", {"plane-strain", "plane-stress"}, "plane-strain");
+        geometry.plane = table.text("plane");
         geometry.cell_type = shape_named(table.choice("cell", shape_names(2), "quad4")).type;
     }
-    if (table.has("divisions") == table.has("h"))
-        table.fail("h", "give either h (edge of a cell) or divisions (numbers of cells)");
     if (table.has("h")) {
-        const double h = table.number("h", positive);
+        const double h = table.number("h");
         for (const double length : geometry.lengths)
             geometry.divisions.push_back(cells_of_size(root, table, "h", length, h));
     } else if (dimension == 2 && !table.is_list("divisions")) {
-        geometry.divisions.push_back(table.whole("divisions", 1));
+        geometry.divisions.push_back(table.whole("divisions"));
     } else {
-        geometry.divisions = table.wholes("divisions", 1, static_cast<std::size_t>(dimension - 1));
+        geometry.divisions = table.wholes("divisions", static_cast<std::size_t>(dimension - 1));
     }
     geometry.smallest_edge = geometry.lengths[0] / static_cast<double>(geometry.divisions[0]);
     for (std::size_t i = 0; i < geometry.lengths.size(); ++i)
@@ -85,14 +80,13 @@ void read_geometry(const Table& root, Scene& scene) {
 void read_layers(const Table& root, Scene& scene) {
     const Table geometry = root.table("geometry");
     for (const Table& table : root.tables("layers")) {
-        table.only({"name", "thickness", "divisions", "material", "angle", "angles", "axes"});
         Layer layer;
         layer.name = new_name(table, scene.layers, "layer");
-        layer.thickness = table.number("thickness", positive);
+        layer.thickness = table.number("thickness");
         if (table.has("divisions")) {
-            layer.divisions = table.whole("divisions", 1);
+            layer.divisions = table.whole("divisions");
         } else if (geometry.has("h")) {
-            layer.divisions = cells_of_size(root, table, "thickness", layer.thickness, geometry.number("h", positive));
+            layer.divisions = cells_of_size(root, table, "thickness", layer.thickness, geometry.number("h"));
         } else {
             table.fail("divisions", "is missing: a whole number >= 1 is expected (or give geometry.h)");
         }
@@ -111,22 +105,18 @@ void read_layers(const Table& root, Scene& scene) {
 
 Region read_region(const Table& table, const Geometry& geometry, bool with_value) {
     const std::size_t axes = geometry.lengths.size();
-    std::vector<std::string> known =
-        axes == 1 ? std::vector<std::string>{"from", "to"} : std::vector<std::string>{"from", "to", "lower", "upper"};
-    if (with_value) known.push_back("value");
-    table.only(known);
+    if (axes == 1 && table.has("lower")) table.fail("lower", "is for 3D: give from and to");
     Region region;
     region.place = table.place();
-    region.adhesion = with_value ? table.number("value", fraction) : 0;
+    region.adhesion = with_value ? table.number("value") : 0;
     std::vector<double> lower(axes, 0.0);
     std::vector<double> upper = geometry.lengths;
-    if (table.has("lower") || table.has("upper")) {
-        if (table.has("from") || table.has("to")) table.fail("from", "give either from and to or lower and upper");
-        lower = table.numbers("lower", any_number, axes);
-        upper = table.numbers("upper", any_number, axes);
+    if (table.has("lower")) {
+        lower = table.numbers("lower", axes);
+        upper = table.numbers("upper", axes);
     } else {
-        lower[0] = table.number("from", any_number);
-        upper[0] = table.number("to", any_number);
+        lower[0] = table.number("from");
+        upper[0] = table.number("to");
     }
     for (std::size_t i = 0; i < axes; ++i) {
         if (!(lower[i] < upper[i]))
@@ -139,7 +129,6 @@ Region read_region(const Table& table, const Geometry& geometry, bool with_value
 
 void read_interfaces(const Table& root, Scene& scene) {
     for (const Table& table : root.tables("interfaces")) {
-        table.only({"lower", "upper", "law", "bonded", "notch", "adhesion"});
         InterfaceData interface;
         interface.place = table.place();
         interface.lower = find_named(table, "lower", table.text("lower"), scene.layers, "layer");
@@ -151,10 +140,7 @@ void read_interfaces(const Table& root, Scene& scene) {
         interface.name = scene.layers[interface.lower].name + "-" + scene.layers[interface.upper].name;
         for (const InterfaceData& other : scene.interfaces)
             if (other.lower == interface.lower) table.fail("lower", "there is another interface between these layers");
-        interface.bonded = table.flag("bonded", false);
-        if (interface.bonded == table.has("law")) table.fail("law", "give either law = \"NAME\" or bonded = true");
-        if (interface.bonded && (table.has("notch") || table.has("adhesion")))
-            table.fail(table.has("notch") ? "notch" : "adhesion", "is not allowed where bonded = true");
+        interface.bonded = table.flag("bonded");
         if (!interface.bonded) interface.law = find_named(table, "law", table.text("law"), scene.laws, "law");
         for (const Table& notch : table.tables("notch"))
             interface.regions.push_back(read_region(notch, scene.geometry, false));
@@ -166,102 +152,72 @@ void read_interfaces(const Table& root, Scene& scene) {
 
 void read_time(const Table& root, Scene& scene) {
     const Table table = root.table("time");
-    table.only({"start", "end", "steps", "instants"});
     if (table.has("instants")) {
-        for (const char* key : {"start", "end", "steps"})
-            if (table.has(key)) table.fail(key, "give either instants or start, end and steps");
-        scene.times = table.numbers("instants", any_number);
+        scene.times = table.numbers("instants");
         for (std::size_t i = 1; i < scene.times.size(); ++i)
             if (!(scene.times[i] > scene.times[i - 1]))
                 table.fail("instants", fmt::format("entry {} is {}: > {} is expected (strictly increasing)", i,
                                                    scene.times[i], scene.times[i - 1]));
-        if (scene.times.size() < 2) table.fail("instants", "at least two are expected: the initial state and one step");
         return;
     }
-    const double start = table.number("start", any_number, 0.0);
-    const double end = table.number("end", any_number);
+    const double start = table.number("start");
+    const double end = table.number("end");
     if (!(end > start)) table.fail("end", fmt::format("{} is not allowed: > {} (the start)", end, start));
-    const std::int64_t steps = table.whole("steps", 1);
-    if (steps > 100000000) table.fail("steps", fmt::format("{} is not allowed: <= 100000000", steps));
+    const std::int64_t steps = table.whole("steps");
     for (std::int64_t k = 0; k <= steps; ++k)
         scene.times.push_back(start + (end - start) * static_cast<double>(k) / static_cast<double>(steps));
     for (std::size_t i = 1; i < scene.times.size(); ++i)
         if (!(scene.times[i] > scene.times[i - 1])) table.fail("steps", "so many that instants coincide");
 }
 
-// An option as the library lists it.
-struct KnownOption {
-    std::string key, alias, type, range;
-};
-
-std::vector<KnownOption> known_options() {
-    std::vector<KnownOption> known;
-    for (std::int64_t i = 0; i < delam_option_count(); ++i) {
-        const char *key = "", *alias = "", *type = "", *range = "";
-        delam_option_info(i, &key, &type, nullptr, nullptr, &range, nullptr);
-        delam_option_alias(i, &alias);
-        known.push_back({key, alias, type, range});
-    }
-    return known;
-}
-
 // The scene keeps the key, whichever of key and alias the file has.
 void read_options(const Table& root, Scene& scene) {
     if (!root.has("solver")) return;
     const Table table = root.table("solver");
-    const std::vector<KnownOption> known = known_options();
-    std::vector<std::string> names;
-    for (const KnownOption& option : known) names.push_back(option.key);
-    for (const KnownOption& option : known)
-        if (!option.alias.empty()) names.push_back(option.alias);
-    table.only(names);
-    for (const KnownOption& row : known) {
-        const bool aliased = !row.alias.empty() && table.has(row.alias);
-        if (aliased && table.has(row.key))
-            table.fail(row.alias, fmt::format("means the same as {}: give one", row.key));
-        const std::string& name = aliased ? row.alias : row.key;
+    for (std::int64_t i = 0; i < delam_option_count(); ++i) {
+        const char *key = "", *alias = "", *type = "";
+        delam_option_info(i, &key, &type, nullptr, nullptr, nullptr, nullptr);
+        delam_option_alias(i, &alias);
+        const char* name = *alias != 0 && table.has(alias) ? alias : key;
         if (!table.has(name)) continue;
-        SolverOption option{row.key, 0.0, table.place(name)};
-        if (row.type == "text") {
-            option.value = table.word(name, row.range);
-        } else if (row.type == "integer") {
-            option.value = static_cast<double>(table.whole(name, row.range));
+        SolverOption option{key, 0.0, table.place(name)};
+        if (std::string_view(type) == "text") {
+            option.value = table.text(name);
+        } else if (std::string_view(type) == "integer") {
+            option.value = static_cast<double>(table.whole(name));
         } else {
-            option.value = table.number(name, any_number);
+            option.value = table.number(name);
         }
         scene.options.push_back(std::move(option));
     }
 }
 
 void read_output(const Table& root, Scene& scene) {
-    const toml::table none;
-    const Table table = root.has("output") ? root.table("output") : Table(none, root.place("output"));
-    table.only({"fields", "every", "snapshots", "displacement_scale", "columns"});
+    const Table table = root.table_or_empty("output");
     Output& output = scene.output;
     output.place = table.place();
-    const std::vector<std::string> known{"displacement", "stress", "zeta",     "jump", "traction",
-                                         "contact",      "mixity", "rotation", "front"};
     output.fields = {"displacement", "stress", "zeta", "jump", "traction", "contact", "front"};
-    if (table.has("fields")) {
-        output.fields = table.texts("fields");
-        for (const std::string& field : output.fields)
-            if (std::find(known.begin(), known.end(), field) == known.end())
-                table.fail("fields", fmt::format("\"{}\": no such field{}; one of {}", field, suggestion(field, known),
-                                                 listing(known)));
-    }
-    output.every = table.whole("every", 1, 1);
-    output.snapshots = {0.33, 0.5, 0.66, 1.0, 1.17, 1.33, 1.5, 1.67, 1.83, 2.0};
-    if (table.has("snapshots")) output.snapshots = table.numbers("snapshots", any_number);
-    output.displacement_scale = table.number("displacement_scale", not_negative, 5.0);
+    if (table.has("fields")) output.fields = table.texts("fields");
+    output.every = table.whole("every");
+    output.snapshots = table.numbers("snapshots");
+    output.displacement_scale = table.number("displacement_scale");
     if (table.has("columns")) output.columns = table.texts("columns");
     output.columns_place = table.place("columns");
 }
 
 void read_units(const Table& root, Scene& scene) {
-    const toml::table none;
-    const Table table = root.has("units") ? root.table("units") : Table(none, root.place("units"));
-    table.only({"length", "force", "time"});
-    scene.units = {table.text("length", "m"), table.text("force", "N"), table.text("time", "")};
+    const Table table = root.table_or_empty("units");
+    scene.units = {table.text("length"), table.text("force"), table.text("time")};
+}
+
+// Before anything else: another schema has other keys.
+void require_schema(const toml::table& parsed, const std::string& source) {
+    const toml::node* schema = parsed.get("schema");
+    if (schema == nullptr) throw SceneFailure({source, "schema", 0}, "is missing: schema = 1 is expected");
+    const KeyTable only_schema{"scene", "", {*scene_table("scene").row("schema")}, {}};
+    toml::table alone;
+    alone.insert("schema", *schema);
+    (void)Table(alone, {source, "", 0}, only_schema, Scenes::any).whole("schema");
 }
 
 }  // namespace
@@ -287,22 +243,15 @@ Scene read_scene(const std::string& file, const std::vector<std::string>& settin
     scene.content_hash = hash_text(content.str());
     scene.file_hash = hash_text(bytes);
 
-    const Table root(parsed, {source, "", 0});
-    if (!root.has("schema")) root.fail("schema", "is missing: schema = 1 is expected");
-    if (const auto schema = root.whole("schema", 1); schema != 1)
-        root.fail("schema", fmt::format("{} is not known to this program: 1 is", schema));
-    root.only({"schema",     "title",     "geometry",  "layers", "mesh",   "bodies",  "materials",    "laws",
-               "interfaces", "patterns",  "supports",  "loads",  "forces", "thermal", "eigenstrains", "controls",
-               "equations",  "couplings", "obstacles", "cell",   "time",   "solver",  "output",       "units"});
+    require_schema(parsed, source);
+    const Table root(parsed, {source, "", 0}, scene_table("scene"),
+                     parsed.contains("mesh") ? Scenes::mesh : Scenes::layers);
     scene.title = root.text("title", "");
     if (root.has("mesh")) {
-        for (const char* key : {"geometry", "layers"})
-            if (root.has(key)) root.fail(key, "is not for a scene with [mesh]: give either");
         read_mesh_table(root, scene);
         read_materials(root, scene);
         read_bodies(root, scene);
     } else {
-        if (root.has("bodies")) root.fail("bodies", "is for a scene with [mesh]: layers are described in [[layers]]");
         read_geometry(root, scene);
         read_materials(root, scene);
         read_layers(root, scene);

@@ -30,7 +30,7 @@ std::vector<std::vector<double>> read_periods(const Table& table, const Scene& s
             table.fail("periods", "is needed: [[x, y], ..], one vector for each direction in which the cell repeats");
         return scene.mesh->periods;
     }
-    auto periods = table.points("periods", any_number, dimension);
+    auto periods = table.points("periods", dimension);
     if (periods.empty() || periods.size() > dimension)
         table.fail("periods", fmt::format("has {} vectors: 1 to {} are expected", periods.size(), dimension));
     return periods;
@@ -38,7 +38,6 @@ std::vector<std::vector<double>> read_periods(const Table& table, const Scene& s
 
 EquationTerm read_left(const Table& table, const Scene& scene) {
     const Places places{"point", "patch", "set", "control"};
-    table.only(with_selection(scene, {"component", "direction", "coefficient"}, places));
     EquationTerm term;
     term.where = read_selection(table, scene, places);
     const auto directions = read_directions(table, "component", scene.geometry);
@@ -49,7 +48,7 @@ EquationTerm read_left(const Table& table, const Scene& scene) {
     double square = 0;
     for (const double d : term.direction) square += d * d;
     for (double& d : term.direction) d /= std::sqrt(square);
-    term.coefficient = table.number("coefficient", any_number, 1.0);
+    term.coefficient = table.number("coefficient");
     return term;
 }
 
@@ -64,7 +63,6 @@ std::size_t control_of(const Table& table, const Scene& scene) {
 }
 
 CellComponent read_component(const Table& table, const Scene& scene, bool stress) {
-    table.only({"component", "pattern", "coefficient", "terms"});
     constexpr std::array names{"xx", "yy", "zz", "xy", "yz", "zx"};
     constexpr std::array<std::array<std::size_t, 2>, 6> axes{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
     const std::string name = table.text("component");
@@ -97,7 +95,6 @@ std::vector<std::size_t> axes_of(const Table& table, const std::vector<std::vect
 }
 
 CellData read_cell(const Table& table, const Scene& scene) {
-    table.only({"periods", "tolerance", "strain", "stress"});
     CellData cell;
     cell.place = table.place();
     cell.periods = read_periods(table, scene);
@@ -105,7 +102,7 @@ CellData read_cell(const Table& table, const Scene& scene) {
     // read_controls puts these after all others.
     const auto own = scene.controls.size() - cell.periods.size();
     for (std::size_t k = 0; k < cell.periods.size(); ++k) cell.controls.push_back(own + k);
-    cell.tolerance = table.number("tolerance", pairing_tolerance, 0.0);
+    cell.tolerance = table.number("tolerance", 0.0);
     for (const bool stress : {false, true})
         for (const Table& entry : table.tables(stress ? "stress" : "strain")) {
             CellComponent component = read_component(entry, scene, stress);
@@ -117,8 +114,6 @@ CellData read_cell(const Table& table, const Scene& scene) {
                 if (other.i == component.i && other.j == component.j)
                     entry.fail("component", fmt::format("\"{}\" is given twice: a strain or a stress, not both",
                                                         entry.text("component")));
-            if (stress && component.terms.empty())
-                entry.fail("pattern", "is needed: a stress that is not given is zero");
             cell.components.push_back(std::move(component));
         }
     return cell;
@@ -130,10 +125,9 @@ void read_controls(const Table& root, Scene& scene) {
     const auto dimension = static_cast<std::size_t>(scene.geometry.dimension);
     const std::vector<double> corner = lower_corner(scene);
     for (const Table& table : root.tables("controls")) {
-        table.only({"name", "at"});
         ControlData control;
         control.name = new_name(table, scene.controls, "control node");
-        control.at = table.has("at") ? table.numbers("at", any_number, dimension) : corner;
+        control.at = table.has("at") ? table.numbers("at", dimension) : corner;
         control.place = table.place();
         scene.controls.push_back(std::move(control));
     }
@@ -154,7 +148,6 @@ void read_controls(const Table& root, Scene& scene) {
 
 void read_constraints(const Table& root, Scene& scene) {
     for (const Table& table : root.tables("equations")) {
-        table.only({"name", "left", "pattern", "coefficient", "terms"});
         EquationData equation;
         for (const Table& term : table.tables("left")) equation.left.push_back(read_left(term, scene));
         if (equation.left.empty())
@@ -165,7 +158,6 @@ void read_constraints(const Table& root, Scene& scene) {
     }
     for (const Table& table : root.tables("couplings")) {
         const Places places{"point", "box", "set", "body"};
-        table.only(with_selection(scene, {"component", "direction", "control"}, places));
         CouplingData coupling;
         coupling.control = control_of(table, scene);
         coupling.where = read_selection(table, scene, places);
@@ -175,7 +167,6 @@ void read_constraints(const Table& root, Scene& scene) {
     }
     for (const Table& table : root.tables("obstacles")) {
         const Places places{"patch", "set"};
-        table.only(with_selection(scene, {"control"}, places));
         ObstacleData obstacle;
         obstacle.control = control_of(table, scene);
         obstacle.where = read_selection(table, scene, places);

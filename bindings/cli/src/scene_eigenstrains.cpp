@@ -40,7 +40,6 @@ std::vector<std::size_t> read_places(const Table& table, const Scene& scene) {
 
 void read_eigenstrains(const Table& root, Scene& scene) {
     for (const Table& table : root.tables("thermal")) {
-        table.only(std::vector<std::string>{"pattern", key_of_places(scene)});
         const std::size_t pattern = find_named(table, "pattern", table.text("pattern"), scene.patterns, "pattern");
         for (const std::size_t layer : read_places(table, scene)) {
             const Material& material = scene.materials[scene.layers[layer].material];
@@ -56,12 +55,8 @@ void read_eigenstrains(const Table& root, Scene& scene) {
         }
     }
     for (const Table& table : root.tables("eigenstrains")) {
-        table.only(std::vector<std::string>{"pattern", key_of_places(scene), "strain"});
         const std::size_t pattern = find_named(table, "pattern", table.text("pattern"), scene.patterns, "pattern");
-        const std::vector<double> given = table.numbers("strain", any_number);
-        if (given.size() != 3 && given.size() != 6)
-            table.fail("strain", fmt::format("has {} entries: 3 (xx, yy, zz) or 6 (and 2xy, 2yz, 2zx) are expected",
-                                             given.size()));
+        const std::vector<double> given = table.numbers("strain");
         std::array<double, 6> strain{};
         std::copy(given.begin(), given.end(), strain.begin());
         if (scene.geometry.dimension == 2 &&

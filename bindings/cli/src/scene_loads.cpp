@@ -23,15 +23,6 @@ Places places_of(const Scene& scene, const Places& places) {
 
 }  // namespace
 
-// Keys for the place of an action, common to supports, loads, forces and constraints.
-std::vector<std::string> with_selection(const Scene& scene, std::vector<std::string> keys, const Places& places) {
-    const std::string body = scene.mesh ? "body" : "layer";
-    for (const std::string& place : places_of(scene, places))
-        if (place != body) keys.push_back(place);
-    for (const std::string& key : {std::string("name"), std::string("tolerance"), body}) keys.push_back(key);
-    return keys;
-}
-
 namespace {
 
 std::size_t axis_of(const Table& table, std::string_view key, char letter, const Geometry& geometry) {
@@ -44,19 +35,15 @@ std::size_t axis_of(const Table& table, std::string_view key, char letter, const
 }
 
 Patch read_patch(const Table& table, const Geometry& geometry) {
-    table.only({"centre", "length", "face"});
     const auto dimension = static_cast<std::size_t>(geometry.dimension);
-    const std::vector<double> centre = table.numbers("centre", any_number, dimension);
+    const std::vector<double> centre = table.numbers("centre", dimension);
     const std::string face = table.text("face");
-    if (face.size() != 2 || (face[0] != '+' && face[0] != '-'))
-        table.fail("face",
-                   fmt::format("\"{}\" is not allowed: the outward normal, e.g. \"+y\" for the top in 2D", face));
     const std::size_t normal_axis = axis_of(table, "face", face[1], geometry);
     Patch patch{centre, centre, std::vector<double>(dimension, 0.0)};
     patch.normal[normal_axis] = face[0] == '+' ? 1.0 : -1.0;
     const std::vector<double> sizes = table.is_list("length")
-                                          ? table.numbers("length", positive, dimension - 1)
-                                          : std::vector<double>(dimension - 1, table.number("length", positive));
+                                          ? table.numbers("length", dimension - 1)
+                                          : std::vector<double>(dimension - 1, table.number("length"));
     const double slack = 1e-6 * geometry.smallest_edge;
     std::size_t next = 0;
     for (std::size_t axis = 0; axis < dimension; ++axis) {
@@ -73,30 +60,26 @@ Selection read_selection(const Table& table, const Scene& scene, const Places& a
     const auto dimension = static_cast<std::size_t>(scene.geometry.dimension);
     Selection out;
     out.place = table.place();
-    out.tolerance = table.number("tolerance", positive, 1e-3 * scene.geometry.smallest_edge);
+    out.tolerance = table.number("tolerance", 1e-3 * scene.geometry.smallest_edge);
     const std::string body = scene.mesh ? "body" : "layer";
     if (table.has(body))
         out.body = static_cast<std::int32_t>(find_named(table, body, table.text(body), scene.layers, body));
     const Places places = places_of(scene, allowed);
     const auto is_place = [&](const char* key) { return std::find(places.begin(), places.end(), key) != places.end(); };
-    const auto given =
-        std::count_if(places.begin(), places.end(), [&](const std::string& p) { return p != "body" && table.has(p); });
-    const bool whole = is_place("body") && given == 0 && table.has("body");
-    if (given != 1 && !whole)
-        table.fail(places.front(), fmt::format("give one of {} ({} are given)", listing(places), given));
+    const bool other =
+        std::any_of(places.begin(), places.end(), [&](const std::string& p) { return p != "body" && table.has(p); });
+    const bool whole = is_place("body") && !other;
     if (is_place("control") && table.has("control")) {
-        if (out.body >= 0) table.fail(body, "is not for a control node: it is of none");
         out.shape = ControlNode{find_named(table, "control", table.text("control"), scene.controls, "control node")};
     } else if (whole) {
         out.shape = NamedSet{};
     } else if (table.has("set")) {
         out.shape = NamedSet{set_name(table, "set", scene)};
     } else if (table.has("point")) {
-        out.shape = Point{table.numbers("point", any_number, dimension)};
+        out.shape = Point{table.numbers("point", dimension)};
     } else if (table.has("box")) {
         const Table box = table.table("box");
-        box.only({"lower", "upper"});
-        Box shape{box.numbers("lower", any_number, dimension), box.numbers("upper", any_number, dimension)};
+        Box shape{box.numbers("lower", dimension), box.numbers("upper", dimension)};
         for (std::size_t i = 0; i < dimension; ++i)
             if (shape.upper[i] < shape.lower[i])
                 box.fail("upper", fmt::format("entry {} is {}: >= {} is expected", i, shape.upper[i], shape.lower[i]));
@@ -110,8 +93,7 @@ Selection read_selection(const Table& table, const Scene& scene, const Places& a
 namespace {
 
 std::vector<double> read_direction(const Table& table, const Geometry& geometry) {
-    std::vector<double> direction =
-        table.numbers("direction", any_number, static_cast<std::size_t>(geometry.dimension));
+    std::vector<double> direction = table.numbers("direction", static_cast<std::size_t>(geometry.dimension));
     if (std::all_of(direction.begin(), direction.end(), [](double d) { return std::fpclassify(d) == FP_ZERO; }))
         table.fail("direction", "is zero: any length > 0");
     return direction;
@@ -121,8 +103,6 @@ std::vector<double> read_direction(const Table& table, const Geometry& geometry)
 
 // Either `direction`, or components by letter under `key`.
 std::vector<std::vector<double>> read_directions(const Table& table, std::string_view key, const Geometry& geometry) {
-    if (table.has("direction") == table.has(key))
-        table.fail("direction", fmt::format("give either direction = [..] or {} = [\"x\", ..]", key));
     if (table.has("direction")) return {read_direction(table, geometry)};
     std::vector<std::vector<double>> out;
     std::string seen;
@@ -139,14 +119,11 @@ std::vector<std::vector<double>> read_directions(const Table& table, std::string
 std::vector<Term> read_terms(const Table& table, const Scene& scene) {
     const auto one = [&scene](const Table& from) {
         return Term{find_named(from, "pattern", from.text("pattern"), scene.patterns, "pattern"),
-                    from.number("coefficient", any_number, 1.0)};
+                    from.number("coefficient")};
     };
     if (!table.has("terms")) return {one(table)};
-    if (table.has("pattern") || table.has("coefficient"))
-        table.fail("terms", "give either terms or pattern and coefficient");
     std::vector<Term> out;
     for (const Table& term : table.tables("terms")) {
-        term.only({"pattern", "coefficient"});
         out.push_back(one(term));
     }
     if (out.empty()) table.fail("terms", "is empty: at least one is expected");
@@ -155,45 +132,26 @@ std::vector<Term> read_terms(const Table& table, const Scene& scene) {
 
 namespace {
 
-// As for a patch, the mean over a set of faces may be prescribed.
-std::vector<std::string> with_mean(const Scene& scene, std::vector<std::string> keys) {
-    if (scene.mesh) keys.emplace_back("mean");
-    return keys;
-}
-
-bool read_mean(const Table& table) {
-    const bool mean = table.flag("mean", false);
-    if (mean && !table.has("set")) table.fail("mean", "is for a set of faces (a patch has it by itself)");
-    return mean;
-}
-
 // A total force, or a force per area.
 void read_force(const Table& table, const Scene& scene, DeadForce& force) {
     const auto dimension = static_cast<std::size_t>(scene.geometry.dimension);
-    const int kinds = int{table.has("force")} + int{table.has("traction")} + int{table.has("pressure")};
-    if (kinds != 1) table.fail("force", fmt::format("give one of force, traction and pressure ({} are given)", kinds));
     if (table.has("force")) {
-        force.force = table.numbers("force", any_number, dimension);
+        force.force = table.numbers("force", dimension);
         return;
     }
-    const char* key = table.has("traction") ? "traction" : "pressure";
-    if (table.has("point") || table.has("control"))
-        table.fail(key, "is force per area: a single node has none, give force");
     if (table.has("traction")) {
         force.kind = ForceKind::traction;
-        force.force = table.numbers("traction", any_number, dimension);
+        force.force = table.numbers("traction", dimension);
         return;
     }
-    if (!table.has("set")) table.fail("pressure", "is for a set of faces; on a patch give traction");
     force.kind = ForceKind::pressure;
-    force.force = {table.number("pressure", any_number)};
+    force.force = {table.number("pressure")};
 }
 
 }  // namespace
 
 void read_patterns(const Table& root, Scene& scene) {
     for (const Table& table : root.tables("patterns")) {
-        table.only({"name", "times", "values"});
         PatternData pattern;
         pattern.name = new_name(table, scene.patterns, "pattern");
         const bool plain = std::all_of(pattern.name.begin(), pattern.name.end(), [](char c) {
@@ -201,8 +159,8 @@ void read_patterns(const Table& root, Scene& scene) {
         });
         if (!plain)
             table.fail("name", fmt::format("\"{}\" is not allowed: letters, digits, '_' and '-'", pattern.name));
-        pattern.times = table.numbers("times", any_number);
-        pattern.values = table.numbers("values", any_number, pattern.times.size());
+        pattern.times = table.numbers("times");
+        pattern.values = table.numbers("values", pattern.times.size());
         for (std::size_t i = 1; i < pattern.times.size(); ++i)
             if (!(pattern.times[i] > pattern.times[i - 1]))
                 table.fail("times", fmt::format("entry {} is {}: > {} is expected (strictly increasing)", i,
@@ -214,26 +172,22 @@ void read_patterns(const Table& root, Scene& scene) {
 
 void read_supports_and_loads(const Table& root, Scene& scene) {
     for (const Table& table : root.tables("supports")) {
-        table.only(with_selection(scene, with_mean(scene, {"fix", "direction"})));
         scene.prescriptions.push_back({read_selection(table, scene),
                                        read_directions(table, "fix", scene.geometry),
                                        {},
-                                       read_mean(table),
+                                       scene.mesh && table.flag("mean"),
                                        table.place()});
     }
     for (const Table& table : root.tables("loads")) {
-        table.only(
-            with_selection(scene, with_mean(scene, {"component", "direction", "pattern", "coefficient", "terms"})));
         scene.prescriptions.push_back({read_selection(table, scene),
                                        read_directions(table, "component", scene.geometry), read_terms(table, scene),
-                                       read_mean(table), table.place()});
+                                       scene.mesh && table.flag("mean"), table.place()});
     }
 }
 
 void read_forces(const Table& root, Scene& scene) {
     for (const Table& table : root.tables("forces")) {
         const Places places{"point", "patch", "set", "control"};
-        table.only(with_selection(scene, {"force", "traction", "pressure", "pattern"}, places));
         DeadForce force;
         force.where = read_selection(table, scene, places);
         read_force(table, scene, force);

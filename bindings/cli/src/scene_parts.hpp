@@ -34,8 +34,6 @@ void read_constraints(const Table& root, Scene& scene);
 // have are skipped.
 using Places = std::vector<std::string>;
 extern const Places any_place;
-std::vector<std::string> with_selection(const Scene& scene, std::vector<std::string> keys,
-                                        const Places& places = any_place);
 Selection read_selection(const Table& table, const Scene& scene, const Places& places = any_place);
 std::vector<std::vector<double>> read_directions(const Table& table, std::string_view key, const Geometry& geometry);
 std::vector<Term> read_terms(const Table& table, const Scene& scene);

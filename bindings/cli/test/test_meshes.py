@@ -165,7 +165,7 @@ for text, words in (("", '"lower" and "upper" touch, but none says how they hold
                     (LAW + LAW, "another interface between these bodies"),
                     (LAW.replace('"upper"', '"lower"'), "two bodies are expected"),
                     (LAW + 'notch = [{ set = "corner" }]\n', r"interfaces\[0\]\.notch\[0\]: no pair"),
-                    (LAW + 'notch = [{ from = 0, to = 1 }]\n', "unknown key"),
+                    (LAW + 'notch = [{ from = 0, to = 1 }]\n', r"notch\[0\]\.from: is not for a scene with \[mesh\]"),
                     (LAW + BONDED, "there are no bodies that touch and have no interface yet")):
     expect_error(delam("check", scene(blocks, "quad4-41a.msh", text + torn)), 2, words)
 
@@ -340,7 +340,7 @@ for old, new, words in (('name = "*"', 'name = "quad"', 'there is none for "tris
     with open(path, "w", encoding="utf-8") as file:
         file.write(text.replace(old, new, 1))
     expect_error(delam("check", path), 2, words)
-refused("both.msh", MSH41, "give either", extra="[geometry]\ndimension = 2\n")
+refused("both.msh", MSH41, "geometry: is not for a scene with", extra="[geometry]\ndimension = 2\n")
 
 # ---- Abaqus ----
 FLAT = """*Heading
