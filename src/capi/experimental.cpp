@@ -126,3 +126,25 @@ int32_t delam_experimental_solver_eigenstrains(delam_solver* solver, int64_t cap
         if (count != nullptr) *count = needed;
     });
 }
+
+int32_t delam_experimental_solver_follow(delam_solver* solver, int64_t interface_count, const int64_t* interfaces,
+                                         const char* key, int64_t* parameter) {
+    return guard_solve(solver, [&] {
+        require_array(interfaces, interface_count, "interfaces");
+        require_pointer(key, "key");
+        const std::int64_t index =
+            solver->core->follow(std::span(interfaces, static_cast<std::size_t>(interface_count)), key);
+        if (parameter != nullptr) *parameter = index;
+    });
+}
+
+int32_t delam_experimental_solver_sensitivity(const delam_solver* solver, int64_t capacity, double* matrix,
+                                              int64_t* unknown) {
+    return guard_read(solver, [&] {
+        const std::vector<double> values = solver->core->sensitivities();
+        require_array(matrix, static_cast<std::int64_t>(values.size()), "matrix");
+        require_capacity(capacity, static_cast<std::int64_t>(values.size()), "matrix");
+        std::copy(values.begin(), values.end(), matrix);
+        if (unknown != nullptr) *unknown = solver->core->state().sensitivity.unknown;
+    });
+}

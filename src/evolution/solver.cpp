@@ -246,6 +246,27 @@ std::vector<double> Solver::step_tangent() {
     return stepper_.step_tangent(committed_, pending_->state);
 }
 
+std::int64_t Solver::follow(std::span<const std::int64_t> interfaces, const std::string& key) {
+    if (pending_ || committed_.step != 0)
+        fail(DELAM_ERROR_STATE, "sensitivities are followed from the initial state on: there are steps already");
+    followed_.push_back(followed_parameter(problem_, interfaces, key));
+    committed_.sensitivity = stepper_.follow(followed_, committed_);
+    return followed() - 1;
+}
+
+std::vector<double> Solver::sensitivities() const {
+    const std::size_t patterns = problem_.patterns.size(), count = followed_.size();
+    const std::vector<double>& by = state().sensitivity.conjugate;
+    if (by.size() != count * patterns)
+        fail(DELAM_ERROR_STATE,
+             "sensitivities are not known in a state that was loaded or set: they are followed from "
+             "the initial state on");
+    std::vector<double> matrix(by.size());
+    for (std::size_t k = 0; k < count; ++k)
+        for (std::size_t p = 0; p < patterns; ++p) matrix[p * count + k] = by[k * patterns + p];
+    return matrix;
+}
+
 void Solver::select(std::int64_t step) {
     const State* found = nullptr;
     if (step != -1) {

@@ -83,6 +83,11 @@ public:
     std::vector<double> tangent() { return stepper_.tangent(state()); }
     // Consistent tangent of the pending step, [patterns][patterns].
     std::vector<double> step_tangent();
+    // From the initial state on, follows the derivatives by a number of the laws of these interfaces; its index.
+    std::int64_t follow(std::span<const std::int64_t> interfaces, const std::string& key);
+    // Of state(): dE/dtheta by the parameters that are followed, [patterns][parameters].
+    std::vector<double> sensitivities() const;
+    std::int64_t followed() const { return static_cast<std::int64_t>(followed_.size()); }
     // How often displacements were recovered.
     std::int64_t recoveries() const { return stepper_.op().recoveries(); }
     const JumpOperator& jump_operator() const { return stepper_.op(); }
@@ -129,6 +134,7 @@ private:
     void judge_balance(const State& state, Outcome& outcome);
 
     Problem problem_;
+    std::vector<FollowedParameter> followed_;
     std::vector<Pattern> first_patterns_;  // before any history was changed
     std::uint64_t scene_hash_;
     Monitor& monitor_;

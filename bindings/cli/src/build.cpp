@@ -11,6 +11,7 @@
 #include "call.hpp"
 #include "named.hpp"
 #include "selection.hpp"
+#include "sensitivities.hpp"
 
 namespace cli {
 
@@ -230,8 +231,8 @@ Solver new_solver(const Model& model, const Scene& scene, bool& converged) {
     const std::int32_t status = delam_solver_create(model.problem.get(), scene.times.front(), &handle);
     Solver solver(handle);
     converged = status != DELAM_NOT_CONVERGED;
-    if (!converged && solver != nullptr) return solver;
-    call(model.context.get(), status, {scene.file, "", 0});
+    if (converged || solver == nullptr) call(model.context.get(), status, {scene.file, "", 0});
+    follow_sensitivities(model, scene, solver.get());
     return solver;
 }
 

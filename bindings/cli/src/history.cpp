@@ -8,6 +8,7 @@
 #include "call.hpp"
 #include "concept.hpp"
 #include "reader.hpp"
+#include "sensitivities.hpp"
 
 namespace cli {
 
@@ -20,6 +21,8 @@ constexpr const char* where_known[] = {"revisions",   "search_candidates", "sear
 
 // For scenes in which an interface may break.
 constexpr const char* of_cracks[] = {"crack_length", "energy_release_rate", "front_mixity", "process_zone_pairs"};
+
+constexpr const char* unknown_title = "sensitivities_unknown";
 
 }  // namespace
 
@@ -81,6 +84,15 @@ History::History(const Model& model, const Scene& scene) : model_(model), scene_
         const auto same_key = [&key](const Column& column) { return column.key == key; };
         if (std::none_of(columns_.begin(), columns_.end(), same_key)) add(key, key);
     }
+    const std::vector<LawNumber> numbers = sensitivities_of(model, scene);
+    followed_ = numbers.size();
+    for (std::size_t k = 0; k < numbers.size(); ++k)
+        for (std::size_t p = 0; p < scene.patterns.size(); ++p) {
+            const std::string title = reaction_title(scene, p) + "/" + numbers[k].path;
+            sensitivities_[title] = p * numbers.size() + k;
+            add(title, title);
+        }
+    if (!numbers.empty()) add(unknown_title, unknown_title);
     // Words after the numbers: a row that is copied elsewhere still states its solution concept.
     for (const auto& [key, value] : concept_of(model.problem.get()))
         if (key == "solution" || key == "mixity_rule") add(key, "", value);
@@ -100,6 +112,10 @@ double History::value(delam_solver* solver, const std::string& key) const {
     double out = 0;
     if (const auto average = averages_.find(key); average != averages_.end())
         return average_of(model_, scene_, solver, average->second);
+    if (const auto found = sensitivities_.find(key); found != sensitivities_.end())
+        return read_sensitivities(model_, solver, followed_).matrix[found->second];
+    if (key == unknown_title && followed_ > 0)
+        return static_cast<double>(read_sensitivities(model_, solver, followed_).unknown);
     if (!key.empty()) call(context_, delam_solver_value(solver, key.c_str(), &out), "value " + key);
     return out;
 }

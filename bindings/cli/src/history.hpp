@@ -42,7 +42,9 @@ private:
     void add(const std::string& title, const std::string& key, const std::string& text = "");
 
     std::vector<Column> columns_;
-    std::map<std::string, AverageColumn> averages_;  // by key
+    std::map<std::string, AverageColumn> averages_;     // by key
+    std::map<std::string, std::size_t> sensitivities_;  // by key: entry of the matrix of derivatives
+    std::size_t followed_ = 0;                          // numbers of laws
     std::string first_load_;
 };
 

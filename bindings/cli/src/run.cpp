@@ -357,6 +357,11 @@ int run(const std::string& scene_file, const std::vector<std::string>& settings,
     if (resume)
         if (const int code = already_complete(folder, scene); code >= 0) return code;
     const std::optional<StateFile> state = resume ? find_state(folder, scene, model) : std::nullopt;
+    if (state && !scene.output.sensitivities.empty())
+        throw Failure(exit_scene,
+                      fmt::format("{}: output.sensitivities are followed from the initial state on: run again "
+                                  "without --resume",
+                                  scene.file));
     const std::int64_t first = state ? state->state.step : 0;
     progress.begin_after(first);
     delam_context_set_log(model.context.get(), on_log, &progress);

@@ -203,6 +203,8 @@ void read_output(const Table& root, Scene& scene) {
     output.displacement_scale = table.number("displacement_scale");
     if (table.has("columns")) output.columns = table.texts("columns");
     output.columns_place = table.place("columns");
+    if (table.has("sensitivities")) output.sensitivities = table.texts("sensitivities");
+    output.sensitivities_place = table.place("sensitivities");
 }
 
 void read_units(const Table& root, Scene& scene) {

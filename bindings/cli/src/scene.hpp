@@ -224,6 +224,9 @@ struct Output {
     double displacement_scale = 5;
     std::vector<std::string> columns;  // values of the solver beyond the standard columns of history.csv
     Place columns_place;
+    std::vector<std::string>
+        sensitivities;  // numbers of laws by which the reactions are derived: laws[0].normal_toughness
+    Place sensitivities_place;
     Place place;
 };
 

@@ -143,6 +143,9 @@ KeyTable output_table() {
             .otherwise("5")
             .says("factor on the displacements in the pictures"),
         texts_key("columns").says("further columns of history.csv"),
+        texts_key("sensitivities")
+            .says(
+                "numbers of laws, e.g. laws[0].normal_toughness: the derivatives of the reactions by them, as columns"),
     };
     return table;
 }

@@ -111,6 +111,15 @@ struct StepHistory {
     std::int64_t refused_steps = 0;  // that were too long and not kept
 };
 
+// Derivatives of a state by parameters of the laws (step/sensitivity.hpp); they are followed from the first state on,
+// and not saved.
+struct Sensitivity {
+    std::vector<double> conjugate;  // [parameters][patterns] of dE/dtheta
+    std::vector<double> adhesion;   // [parameters][pairs]
+    std::vector<double> mixity;     // [parameters][pairs] of the mode that the jumps show
+    std::int64_t unknown = 0;       // pairs whose adhesion came to rest within a step, so far: taken as constant
+};
+
 struct State {
     std::int64_t step = 0;
     double time = 0.0;
@@ -129,6 +138,7 @@ struct State {
     StepOutcome outcome;
     StepHistory history;
     JumpWithin jump_within;
+    Sensitivity sensitivity;
 };
 
 }  // namespace delam

@@ -27,6 +27,10 @@ inline constexpr auto saved_fields<JumpWithin> = saved_since(unsaved,
     &JumpWithin::interface, &JumpWithin::conjugate_before, &JumpWithin::conjugate_after);
 
 template <>
+inline constexpr auto saved_fields<Sensitivity> = saved_since(unsaved,
+    &Sensitivity::conjugate, &Sensitivity::adhesion, &Sensitivity::mixity, &Sensitivity::unknown);
+
+template <>
 inline constexpr auto saved_fields<Response> = std::tuple_cat(
     saved_since(5,
         &Response::jump,
@@ -104,7 +108,9 @@ inline constexpr auto saved_fields<State> = std::tuple_cat(
     saved_since(unsaved,  // told when the step ends
         &State::jump_within),
     saved_since(11,
-        any_size(&State::search_energies)));
+        any_size(&State::search_energies)),
+    saved_since(unsaved,  // followed from the initial state on
+        &State::sensitivity));
 // clang-format on
 
 static_assert(complete<Response>(saved_fields<Response>) && complete<Ledger>(saved_fields<Ledger>) &&

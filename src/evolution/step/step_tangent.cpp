@@ -73,27 +73,37 @@ void Linearised::add_gradient(std::span<const PairDirection> directions, DenseMa
         }
 }
 
+Response Linearised::answer(std::size_t patterns, const std::vector<double>& force) {
+    const std::vector<double> still(patterns, 0.0);
+    return unit(still, force);
+}
+
+Linearised::Damaging Linearised::damaging(std::size_t patterns, const Increment& increment) {
+    Damaging of{increment.directions(state_), {}, {}};
+    const auto n = static_cast<std::int64_t>(of.directions.size());
+    of.system = DenseMatrix(n, n);
+    std::vector<double> force(springs_.stiffness.size(), 0.0);
+    for (std::int64_t b = 0; b < n; ++b) {
+        const PairDirection& direction = of.directions[index(b)];
+        const auto first = force.begin() + static_cast<std::ptrdiff_t>(direction.pair * dim_);
+        std::copy(direction.force.begin(), direction.force.end(), first);
+        of.answers.push_back(answer(patterns, force));
+        std::fill_n(first, dim_, 0.0);
+        for (std::int64_t a = 0; a < n; ++a) of.system(a, b) = along(of.directions[index(a)], of.answers.back().jump);
+        of.system(b, b) += direction.own;
+    }
+    return of;
+}
+
 std::vector<double> Linearised::step_tangent(std::span<const Pattern> patterns, const Increment& increment) {
     const auto count = static_cast<std::int64_t>(patterns.size());
     std::vector<double> matrix = tangent(patterns);
-    const std::vector<PairDirection> directions = increment.directions(state_);
+    auto [directions, answers, system] = damaging(patterns.size(), increment);
     const auto n = static_cast<std::int64_t>(directions.size());
     if (n == 0) return matrix;
 
     // (own + omega U - kappa A / w) x = omega J
-    DenseMatrix system(n, n), right(n, count);
-    std::vector<Response> answers;
-    const std::vector<double> still(patterns.size(), 0.0);
-    std::vector<double> force(springs_.stiffness.size(), 0.0);
-    for (std::int64_t b = 0; b < n; ++b) {
-        const PairDirection& direction = directions[index(b)];
-        const auto first = force.begin() + static_cast<std::ptrdiff_t>(direction.pair * dim_);
-        std::copy(direction.force.begin(), direction.force.end(), first);
-        answers.push_back(unit(still, force));
-        std::fill_n(first, dim_, 0.0);
-        for (std::int64_t a = 0; a < n; ++a) system(a, b) = along(directions[index(a)], answers.back().jump);
-        system(b, b) += direction.own;
-    }
+    DenseMatrix right(n, count);
     for (std::int64_t a = 0; a < n; ++a)
         for (std::int64_t q = 0; q < count; ++q) right(a, q) = along(directions[index(a)], columns_[index(q)].jump);
     add_gradient(directions, system);

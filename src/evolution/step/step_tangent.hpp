@@ -35,11 +35,23 @@ public:
     // For the step of `increment`.
     std::vector<double> step_tangent(std::span<const Pattern> patterns, const Increment& increment);
 
+    // How the pairs that damage in a step respond: own + omega U, and the answers U to v. Without the gradient term.
+    struct Damaging {
+        std::vector<PairDirection> directions;
+        std::vector<Response> answers;
+        DenseMatrix system;
+    };
+    Damaging damaging(std::size_t patterns, const Increment& increment);
+    // Of forces on the rows, without loads.
+    Response answer(std::size_t patterns, const std::vector<double>& force);
+    double along(const PairDirection& direction, std::span<const double> jump) const;
+    const State& state() const { return state_; }
+    const PairLaws& pairs() const { return pairs_; }
+
 private:
     Response unit(std::span<const double> theta, const std::vector<double>& force);
     // The gradient term couples pairs that damage: - kappa A / w.
     void add_gradient(std::span<const PairDirection> directions, DenseMatrix& system) const;
-    double along(const PairDirection& direction, std::span<const double> jump) const;
 
     JumpOperator& op_;
     const PairLaws& pairs_;

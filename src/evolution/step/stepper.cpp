@@ -312,7 +312,18 @@ Stepper::Result Stepper::step(const State& before, double time, std::span<const 
         keep_lower(best, std::move(other), *step, from.descends && later ? &dissipated : nullptr);
     }
     if (problem_.options.solution == "energetic") search(best, *step);
+    if (!followed_.empty()) {
+        Linearised linearised(*operator_, pairs_, contact_, best.state);
+        best.state.sensitivity = sensitivity(linearised, followed_, problem_.patterns,
+                                             increment(before, best.state.mixity).get(), before.sensitivity);
+    }
     return best;
+}
+
+Sensitivity Stepper::follow(std::vector<FollowedParameter> parameters, const State& initial) {
+    followed_ = std::move(parameters);
+    Linearised linearised(*operator_, pairs_, contact_, initial);
+    return sensitivity(linearised, followed_, problem_.patterns, nullptr, {});
 }
 
 // Minimises from another start and keeps the lower state. All effort is counted.
@@ -459,6 +470,7 @@ Stepper::Result Stepper::equilibrate(const State& before, double time, std::span
     Result result{before, true};
     State& next = result.state;
     begin(next, before, time);
+    next.sensitivity = {};
     if (!adhesion.empty()) next.adhesion.assign(adhesion.begin(), adhesion.end());
     for (std::size_t p = 0; p < next.adhesion.size(); ++p)
         if (!(next.adhesion[p] >= 0.0 && next.adhesion[p] <= 1.0))

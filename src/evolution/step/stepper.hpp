@@ -18,6 +18,7 @@
 #include "evolution/step/inner_path.hpp"
 #include "evolution/step/minimise.hpp"
 #include "evolution/step/search.hpp"
+#include "evolution/step/sensitivity.hpp"
 #include "reduction/choose.hpp"
 #include "scene/problem.hpp"
 
@@ -61,6 +62,8 @@ public:
     std::vector<double> tangent(const State& state);
     // d conjugate / d theta of a step from `before` to `state` (step_tangent.hpp).
     std::vector<double> step_tangent(const State& before, const State& state);
+    // From now on every state gets its derivatives by these parameters; returns those of the initial state.
+    Sensitivity follow(std::vector<FollowedParameter> parameters, const State& initial);
     // Whether the lower bound of a step fails by more than eta, so that a state lower than `before` exists at its own
     // time. Relative excess over the larger of energy and work.
     double lower_excess(const State& state) const;
@@ -110,6 +113,7 @@ private:
 
     const Problem& problem_;
     Monitor& monitor_;
+    std::vector<FollowedParameter> followed_;
     PairLaws pairs_;
     ContactScene contact_;
     std::optional<MixityRule> rule_;  // set together with the pairs
