@@ -1118,13 +1118,15 @@ DELAM_API int32_t delam_solver_tangent(delam_solver *solver, int64_t capacity, d
  * this tangent, a structure with its interfaces can be one element of a host that iterates: define one pattern for each
  * displacement of the element's boundary and use the reactions as the element's forces. The tangent is the derivative
  * of delam_solver_advance as long as the contact set does not change, no pair reaches the end of a branch of its law,
- * and no jump happens; past a limit point it may be indefinite. In the very first loaded step, the tangent treats the
- * mixity as fixed (with `mixity_rule = frozen`, it is that of the elastic solution). Costs one displacement solve per
- * pattern and one per damaging pair (`mixity_rule = variational`: per component of such a pair); the state does not
- * change. DELAM_ERROR_STATE: no step is pending; the pending step comes from delam_solver_equilibrate, has more than
- * one substep (value `substeps`) or has replaced earlier steps (backtracking); `mixity_rule = variational` with a
- * gradient term; or a force pattern acts along a motion that nothing holds. DELAM_ERROR_NUMERICAL: the tangent is
- * singular, i.e. a jump is about to happen.
+ * and no jump happens; past a limit point it may be indefinite. With `mixity_rule = converged`, a long step is followed
+ * in parts; a pair that damages in one part and unloads in a later one keeps an adhesion that depends on the end of the
+ * step, but that the tangent takes as fixed. Hosts that iterate set `path_step = 1`, with which a step has one part. In
+ * the very first loaded step, the tangent treats the mixity as fixed (with `mixity_rule = frozen`, it is that of the
+ * elastic solution). Costs one displacement solve per pattern and one per damaging pair (`mixity_rule = variational`:
+ * per component of such a pair); the state does not change. DELAM_ERROR_STATE: no step is pending; the pending step
+ * comes from delam_solver_equilibrate, has more than one substep (value `substeps`) or has replaced earlier steps
+ * (backtracking); `mixity_rule = variational` with a gradient term; or a force pattern acts along a motion that nothing
+ * holds. DELAM_ERROR_NUMERICAL: the tangent is singular, i.e. a jump is about to happen.
  * [unit matrix of factors; null none; status cancelled, argument, state, numerical; source J. Simo, R. Taylor, Comput.
  * Methods Appl. Mech. Eng. 48 (1985) 101-118; since 0.1] */
 DELAM_API int32_t delam_solver_step_tangent(delam_solver *solver, int64_t capacity, double *matrix);

@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Measured curves: two columns of a CSV file."""
+import csv
+
+import numpy as np
+
+from marches import Trouble
+
+
+class CurveData:
+    """x increases; y is what the model shall meet there, times `scale`."""
+
+    def __init__(self, path, columns=None, scale=1.0):
+        self.path = path
+        header, rows = self._read(path)
+        names = columns if columns else header[:2] if header else ["0", "1"]
+        if len(names) != 2:
+            raise Trouble(f"{path}: two columns are expected, x and y")
+        known = header if header else [str(i) for i in range(len(rows[0]))]
+        for name in names:
+            if name not in known:
+                raise Trouble(f"{path}: there is no column \"{name}\"; it has: {', '.join(known)}")
+        where = [known.index(name) for name in names]
+        self.x, self.y = np.array([[row[i] for i in where] for row in rows]).T
+        self.y = self.y * scale
+        if len(self.x) < 2:
+            raise Trouble(f"{path}: at least 2 points are expected")
+        if not np.isfinite([self.x, self.y]).all():
+            raise Trouble(f"{path}: a number is not finite")
+        wrong = np.flatnonzero(np.diff(self.x) <= 0)
+        if wrong.size:
+            raise Trouble(f"{path}: {names[0]} must increase, but is {self.x[wrong[0]]:g} and then "
+                          f"{self.x[wrong[0] + 1]:g}; of a curve with unloading, give the part before, or take the time as x")
+
+    @staticmethod
+    def _read(path):
+        try:
+            with open(path, newline="", encoding="utf-8-sig") as file:
+                text = file.read()
+        except (OSError, UnicodeDecodeError) as error:
+            raise Trouble(f"{path}: cannot be read: {error}") from error
+        lines = [line for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
+        if not lines:
+            raise Trouble(f"{path}: there are no numbers")
+        comma = ";" if ";" in lines[0] else "," if "," in lines[0] else "\t" if "\t" in lines[0] else " "
+        table = [[cell.strip() for cell in row if cell.strip() or comma != " "]
+                 for row in csv.reader(lines, delimiter=comma)]
+        header = None
+        try:
+            [float(cell) for cell in table[0]]
+        except ValueError:
+            header = table.pop(0)
+        rows = []
+        for number, row in enumerate(table):
+            try:
+                rows.append([float(cell) if cell else np.nan for cell in row])
+            except ValueError as error:
+                raise Trouble(f"{path}: row {number + 1} of the numbers: {error}") from error
+            if len(row) != len(table[0]):
+                raise Trouble(f"{path}: row {number + 1} of the numbers has {len(row)} columns, the first {len(table[0])}")
+        if not rows:
+            raise Trouble(f"{path}: there are no numbers")
+        return header, rows

@@ -1,0 +1,175 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Law parameters from measured load curves: `delam fit SCENE.toml --data curve.csv --parameters KEY ... --out DIR`.
+
+Least squares between the reaction of the scene and the curve, by SciPy's trust region (least_squares) with the
+derivatives of the march. Several scenes, each with its data, share the parameters. Writes DIR/fit.json, DIR/fit.png and
+DIR/fit.csv (data and model); the last lines say the parameters with their confidence intervals.
+"""
+import argparse
+import json
+import os
+import sys
+
+import numpy as np
+from scipy.optimize import least_squares
+from scipy.stats import t as student
+
+from curve_data import CurveData
+from fit_model import Infeasible, Model, Parameter
+from fit_pictures import draw_fit
+from marches import DONE, INTERRUPTED, NUMERICAL, Trouble, make_folder, program, read_about, write_file
+
+WORSE = 10.0  # what a step into an infeasible region costs, in residuals: the trust region then shrinks
+
+
+def arguments():
+    parser = argparse.ArgumentParser(prog=os.path.basename(program()) + " fit", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("scenes", nargs="+", metavar="SCENE", help="scene files")
+    parser.add_argument("--data", nargs="+", required=True, metavar="CURVE.csv", help="a curve for each scene, in its order")
+    parser.add_argument("--parameters", nargs="+", required=True, metavar="KEY",
+                        help="KEY, KEY=LOWER:UPPER or KEY=LOWER:UPPER@START, e.g. laws.0.normal_toughness=100:500; it "
+                             "starts at the value of the scene")
+    parser.add_argument("--x", default="load", help="column of history.csv over which the curve is (default load)")
+    parser.add_argument("--y", default="reaction", help="column that is fitted (default reaction)")
+    parser.add_argument("--columns", nargs=2, metavar=("X", "Y"), help="columns of the data (default: the first two)")
+    parser.add_argument("--scale", type=float, default=1.0,
+                        help="factor on the y of the data, e.g. 1/width where a plane scene has forces per width")
+    parser.add_argument("--weights", choices=["equal", "curve"], default="curve",
+                        help="curve (default): residuals over the largest y of their curve; equal: as they are")
+    parser.add_argument("--confidence", type=float, default=0.95, metavar="LEVEL", help="of the intervals (default 0.95)")
+    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="a value for all scenes")
+    parser.add_argument("--jobs", "-j", type=int, default=1, metavar="NUMBER", help="scenes at once (default 1)")
+    parser.add_argument("--out", "-o", required=True, metavar="DIR", help="folder for the results")
+    return parser.parse_args()
+
+
+class Fit:
+    """The residuals and their Jacobian in terms of parameters over their start."""
+
+    def __init__(self, model, weights):
+        self.model = model
+        self.start = np.array([p.start for p in model.parameters])
+        self.y = np.concatenate([data.y for data in model.data])
+        sizes = [np.full(len(data.y), np.max(np.abs(data.y)) if weights == "curve" else 1.0) for data in model.data]
+        self.size = np.concatenate(sizes)
+        if not (self.size > 0).all():
+            raise Trouble("--data: a curve is zero throughout")
+        self.known, self.norm = {}, None
+        self.worst = None
+
+    def _at(self, scaled):
+        key = scaled.tobytes()
+        if key not in self.known:
+            values = self.start * scaled
+            try:
+                curves, slopes = self.model.evaluate(values)
+                residual = (np.concatenate(curves) - self.y) / self.size
+                self.norm = np.linalg.norm(residual) if self.norm is None else min(self.norm, np.linalg.norm(residual))
+                jacobian = slopes * self.start / self.size[:, None]
+                note = ""
+            except Infeasible as error:
+                if self.norm is None:
+                    raise Trouble(f"the scene does not run at the start: {error}", NUMERICAL) from error
+                residual = np.full(len(self.y), WORSE * max(self.norm, 1e-12) / np.sqrt(len(self.y)))
+                jacobian, note = np.zeros((len(self.y), len(values))), f"  not feasible: {error}"
+            self.known[key] = residual, jacobian
+            shown = "  ".join(f"{p.path} {v:.6g}" for p, v in zip(self.model.parameters, values))
+            print(f"march {self.model.marches}: root mean square {np.sqrt(np.mean(residual ** 2)):.4g}  {shown}{note}",
+                  flush=True)
+        return self.known[key]
+
+    def residual(self, scaled):
+        return self._at(scaled)[0]
+
+    def jacobian(self, scaled):
+        return self._at(scaled)[1]
+
+    def run(self):
+        lower = np.array([p.lower for p in self.model.parameters]) / self.start
+        upper = np.array([p.upper for p in self.model.parameters]) / self.start
+        return least_squares(self.residual, np.ones(len(self.start)), jac=self.jacobian, bounds=(lower, upper),
+                             x_scale="jac", ftol=1e-10, xtol=1e-8, gtol=1e-12, max_nfev=60)
+
+
+def estimates(fit, found, level):
+    """Values, standard errors and intervals; the errors of the data are taken as independent and alike."""
+    points, count = found.jac.shape
+    values = fit.start * found.x
+    freedom = points - count
+    if freedom < 1:
+        return values, np.full(count, np.nan), np.full((count, 2), np.nan), np.full((count, count), np.nan)
+    variance = 2 * found.cost / freedom
+    _, singular, vectors = np.linalg.svd(found.jac, full_matrices=False)
+    if singular[-1] <= 1e-10 * singular[0]:
+        weak = np.abs(vectors[-1]) > 0.1
+        names = ", ".join(p.path for p, is_weak in zip(fit.model.parameters, weak) if is_weak)
+        raise Trouble(f"the data do not tell these parameters apart: {names}; give fewer, or other curves", NUMERICAL)
+    covariance = (vectors.T / singular ** 2) @ vectors * variance
+    errors = np.sqrt(np.diag(covariance))
+    half = student.ppf(0.5 + 0.5 * level, freedom) * errors * fit.start
+    correlation = covariance / np.outer(errors, errors)
+    return values, errors * fit.start, np.array([values - half, values + half]).T, correlation
+
+
+def report(model, fit, found, level, out):
+    values, errors, intervals, correlation = estimates(fit, found, level)
+    jumps = [sorted(set(map(float, at))) for at in model.jumps]
+    rows = []
+    for k, parameter in enumerate(model.parameters):
+        at_bound = found.active_mask[k] != 0
+        rows.append({"key": parameter.path, "value": values[k], "standard_error": errors[k],
+                     "interval": list(intervals[k]), "start": parameter.start, "at_bound": bool(at_bound)})
+    rms = float(np.sqrt(np.mean(found.fun ** 2)))
+    about = {"parameters": rows, "confidence": level, "correlation": correlation.tolist(), "rms": rms,
+             "points": len(fit.y), "marches": model.marches, "converged": bool(found.success),
+             "message": found.message, "scenes": model.files, "data": [d.path for d in model.data],
+             "jumps": jumps}
+    write_file(os.path.join(out, "fit.json"), json.dumps(about, indent=1))
+    lines = ["scene,x,y,model,residual"]
+    for which, (data, curve) in enumerate(zip(model.data, fit.model.evaluate(values)[0])):
+        lines += [f"{which + 1},{x!r},{y!r},{m!r},{m - y!r}" for x, y, m in zip(*map(np.ndarray.tolist, (data.x, data.y, curve)))]
+        draw_fit(out, which, len(model.data), model, curve, read_about(os.path.join(model.work, f"{which + 1}-at")))
+    write_file(os.path.join(out, "fit.csv"), "\n".join(lines) + "\n")
+    for row in rows:
+        print(f"{row['key']} = {row['value']:.6g}, {100 * level:g} % interval {row['interval'][0]:.6g} to "
+              f"{row['interval'][1]:.6g}" + (" (at its bound)" if row["at_bound"] else ""))
+    print(f"root mean square of the residuals {rms:.4g}, {len(fit.y)} points, {model.marches} marches")
+    for path, at in zip(model.files, jumps):
+        if at:
+            print(f"warning: {path} jumps at {model.x_name} {', '.join(f'{x:.6g}' for x in at[:5])}: the march has no "
+                  "derivative there, and the intervals do not know of it")
+
+
+def main():
+    given = arguments()
+    if len(given.data) != len(given.scenes):
+        raise Trouble(f"--data: {len(given.data)} curves for {len(given.scenes)} scenes: one for each is expected")
+    if not 0 < given.confidence < 1:
+        raise Trouble(f"--confidence {given.confidence:g}: between 0 and 1")
+    if given.jobs < 1:
+        raise Trouble(f"--jobs {given.jobs}: at least 1 is expected")
+    parameters = [Parameter(text) for text in given.parameters]
+    if len({p.path for p in parameters}) < len(parameters):
+        raise Trouble("--parameters: a key is given twice")
+    data = [CurveData(path, given.columns, given.scale) for path in given.data]
+    make_folder(os.path.join(given.out, "work"))
+    model = Model(given.scenes, data, parameters, given)
+    fit = Fit(model, given.weights)
+    found = fit.run()
+    report(model, fit, found, given.confidence, given.out)
+    print(f"wrote {given.out}: fit.json, fit.csv, fit.png" if len(data) == 1 else
+          f"wrote {given.out}: fit.json, fit.csv, fit-1.png to fit-{len(data)}.png")
+    return DONE if found.success else NUMERICAL
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main())
+    except Trouble as trouble:
+        print(f"delam: fit: {trouble}", file=sys.stderr)
+        sys.exit(trouble.code)
+    except KeyboardInterrupt:
+        print("delam: fit: interrupted", file=sys.stderr)
+        sys.exit(INTERRUPTED)

@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a fit compares with the data: marches at given parameters, with the derivatives by them.
+
+Numbers of laws get the derivatives of the march itself ([output] sensitivities); any other number of the scene central
+differences of two more marches.
+"""
+import os
+import re
+import tomllib
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+
+from marches import (DONE, INTERRUPTED, NOT_CONVERGED, Trouble, last_words, path_of, read_history, setting, start,
+                     value_at)
+
+DIFFERENCE = 1e-3  # of a parameter without derivatives; far above what an unconverged digit moves
+
+
+class Parameter:
+    """`KEY`, `KEY=LOWER:UPPER` or `KEY=LOWER:UPPER@START`."""
+
+    def __init__(self, text):
+        match = re.fullmatch(r"([^=@]+)(?:=([^:@]*):([^@]*))?(?:@(.+))?", text)
+        if match is None:
+            raise Trouble(f"--parameters {text}: KEY, KEY=LOWER:UPPER or KEY=LOWER:UPPER@START is expected")
+        self.path = path_of(match.group(1))
+        try:
+            self.lower = float(match.group(2)) if match.group(2) else 0.0
+            self.upper = float(match.group(3)) if match.group(3) else np.inf
+            self.start = float(match.group(4)) if match.group(4) else None
+        except ValueError as error:
+            raise Trouble(f"--parameters {text}: {error}") from error
+        if not self.lower < self.upper:
+            raise Trouble(f"--parameters {text}: the lower bound must be less than the upper one")
+
+    @property
+    def of_law(self):
+        return self.path.startswith("laws[")
+
+    def begin(self, scenes):
+        """The value of the scenes, unless a start is given; inside of the bounds."""
+        known = {value_at(scene, self.path) for scene in scenes} - {None}
+        if self.start is None:
+            if len(known) != 1:
+                raise Trouble(f"{self.path}: the scenes give " + (f"different values, {sorted(known)}" if known
+                                                                  else "no number") + ": add @START")
+            self.start = known.pop()
+        if not self.start > 0:
+            raise Trouble(f"{self.path} starts at {self.start:g}: > 0 is expected")
+        if not self.lower < self.start < self.upper:
+            raise Trouble(f"{self.path} starts at {self.start:g}, which is not between {self.lower:g} and {self.upper:g}")
+
+
+class Infeasible(Exception):
+    """The scene is none, or has no end, at these parameters."""
+
+
+class Model:
+    """All scenes with their data."""
+
+    def __init__(self, scenes, data, parameters, given):
+        self.files, self.data, self.parameters = scenes, data, parameters
+        self.common, self.work, self.jobs = given.set, os.path.join(given.out, "work"), given.jobs
+        self.x_name, self.y_name = given.x, given.y
+        self.marches = 0
+        self.jumps = [np.zeros(0)] * len(scenes)
+        parsed = []
+        for path in scenes:
+            try:
+                with open(path, "rb") as file:
+                    parsed.append(tomllib.load(file))
+            except (OSError, tomllib.TOMLDecodeError) as error:
+                raise Trouble(f"{path}: {error}") from error
+        for parameter in parameters:
+            parameter.begin(parsed)
+
+    def _march(self, which, name, settings):
+        out = os.path.join(self.work, f"{which + 1}-{name}")
+        code = start(self.files[which], out, settings).wait()
+        self.marches += 1
+        if code == INTERRUPTED:
+            raise KeyboardInterrupt
+        if code not in (DONE, NOT_CONVERGED):
+            raise Infeasible(last_words(out))
+        return read_history(out)
+
+    def _column(self, history, name, which):
+        if name not in history:
+            raise Trouble(f"{self.files[which]}: the history has no column \"{name}\"; it has: {', '.join(history)}")
+        return history[name]
+
+    def _at_data(self, which, history, y):
+        """Between the steps, straight lines."""
+        x = self._column(history, self.x_name, which)
+        rising = np.flatnonzero(np.diff(x) <= 0)
+        x, y = (x[:rising[0] + 1], y[:rising[0] + 1]) if rising.size else (x, y)
+        data = self.data[which].x
+        slack = 1e-9 * (x[-1] - x[0])
+        if data[0] < x[0] - slack or data[-1] > x[-1] + slack:
+            raise Trouble(f"{self.data[which].path}: {self.x_name} goes from {data[0]:g} to {data[-1]:g}, that of "
+                          f"{self.files[which]} from {x[0]:g} to {x[-1]:g}: give the scene a longer time, or less data "
+                          "(units?)")
+        return np.interp(data, x, y)
+
+    def _curve(self, job):
+        """The model and its derivatives at the data of one scene."""
+        which, values = job
+        settings = self.common + [setting(p.path, float(v)) for p, v in zip(self.parameters, values)]
+        followed = [p.path for p in self.parameters if p.of_law]
+        asked = [f"output.sensitivities={followed}"] if followed and self.y_name.startswith("reaction") else []
+        history = self._march(which, "at", settings + asked)
+        y = self._at_data(which, history, self._column(history, self.y_name, which))
+        self.jumps[which] = self._column(history, self.x_name, which)[history["jumps"] > 0]
+        slopes = []
+        for k, parameter in enumerate(self.parameters):
+            if parameter.of_law and asked:
+                slope = history[f"{self.y_name}/{parameter.path}"]
+                slopes.append(self._at_data(which, history, slope))
+                continue
+            step = DIFFERENCE * values[k]
+            ends = []
+            for sign in (1, -1):
+                moved = self.common + [setting(p.path, float(v + (sign * step if p is parameter else 0.0)))
+                                       for p, v in zip(self.parameters, values)]
+                there = self._march(which, "near", moved)
+                ends.append(self._at_data(which, there, self._column(there, self.y_name, which)))
+            slopes.append((ends[0] - ends[1]) / (2 * step))
+        return y, np.array(slopes).T
+
+    def evaluate(self, values):
+        """Model and Jacobian at all data; Infeasible where a scene has none."""
+        with ThreadPoolExecutor(self.jobs) as pool:
+            curves = list(pool.map(self._curve, [(which, values) for which in range(len(self.files))]))
+        return [y for y, _ in curves], np.vstack([slopes for _, slopes in curves])

@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""How the pictures of studies look: as those of plot/ (result.py)."""
+import os
+import sys
+
+import numpy as np
+
+for folder in ("../plot", "."):  # in the tree, and installed
+    path = os.path.join(os.path.dirname(os.path.abspath(__file__)), folder)
+    if os.path.exists(os.path.join(path, "curves.py")) and path not in sys.path:
+        sys.path.append(path)
+
+from result import BLUE, GREY, ORANGE, RED, axis, plt, save  # noqa: E402  pylint: disable=wrong-import-position
+
+__all__ = ["BLUE", "GREY", "ORANGE", "RED", "axis", "colours_of", "plt", "save", "units_of"]
+
+
+def units_of(about):
+    """Of load, reaction and energy, as far as the scene names units."""
+    length, force = about["units"]["length"], about["units"]["force"]
+    flat = about["scene"]["dimension"] == 2
+    if not (length and force):
+        return "", "", ""
+    return length, f"{force}/{length}" if flat else force, f"{force} {length}"
+
+
+def colours_of(values, log=False):
+    """A colour for each value, and what a colour bar needs; dark blue to yellow, which all people can tell apart."""
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.colors import LogNorm, Normalize
+    low, high = float(np.min(values)), float(np.max(values))
+    norm = LogNorm(low, high) if log and low > 0 else Normalize(low, high if high > low else low + 1)
+    mapped = ScalarMappable(norm, plt.get_cmap("cividis"))
+    return mapped.to_rgba(values), mapped

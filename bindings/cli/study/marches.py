@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the studies share: marches of `delam run` with settings of their own, and how parameters are written."""
+import csv
+import json
+import os
+import re
+import subprocess
+
+import numpy as np
+
+DONE, NOT_CONVERGED, WRONG, OUTPUT, NUMERICAL, INTERRUPTED = 0, 1, 2, 3, 4, 130
+
+
+class Trouble(Exception):
+    """A message for people, and the exit code of the program."""
+
+    def __init__(self, text, code=WRONG):
+        super().__init__(text)
+        self.code = code
+
+
+def program():
+    """The command line that runs a scene: the one that has called the study."""
+    return os.environ.get("DELAM", "delam")
+
+
+def path_of(key):
+    """laws.0.normal_toughness as the program writes it, laws[0].normal_toughness."""
+    path = re.sub(r"\.(\d+)(?=\.|$)", r"[\1]", key)
+    if not re.fullmatch(r"[A-Za-z_][\w-]*(\[\d+\])*(\.[A-Za-z_][\w-]*(\[\d+\])*)*", path):
+        raise Trouble(f"\"{key}\" is no key of a scene: laws.0.normal_toughness, for example")
+    return path
+
+
+def setting(path, value):
+    return f"{path}={value!r}" if isinstance(value, float) else f"{path}={value}"
+
+
+def value_at(scene, path):
+    """The number at a path of a scene that is read already; None: it is not given."""
+    at = scene
+    for key in re.findall(r"[^.\[\]]+", path):
+        try:
+            at = at[int(key)] if isinstance(at, list) else at[key]
+        except (KeyError, IndexError, ValueError, TypeError):
+            return None
+    return float(at) if isinstance(at, (int, float)) and not isinstance(at, bool) else None
+
+
+def start(scene, out, settings, resume=False, one_thread=True):
+    """A running `delam run`; its words go to OUT.log beside the folder of the result."""
+    command = [program(), "run", scene, "--out", out] + [word for one in settings for word in ("--set", one)]
+    environment = dict(os.environ, **({"OPENBLAS_NUM_THREADS": "1"} if one_thread else {}))
+    with open(out + ".log", "w", encoding="utf-8") as log:
+        return subprocess.Popen(command + (["--resume"] if resume else []), stdout=log, stderr=subprocess.STDOUT,
+                                env=environment)
+
+
+def last_words(out):
+    """The last message of a march."""
+    with open(out + ".log", encoding="utf-8", errors="replace") as log:
+        lines = [line for line in log.read().splitlines() if line.startswith("delam: ")]
+    return lines[-1] if lines else "no message"
+
+
+def read_history(out):
+    """Columns of a result by name; words are left out."""
+    with open(os.path.join(out, "history.csv"), newline="", encoding="utf-8") as file:
+        rows = list(csv.reader(file))
+    columns = {}
+    for i, name in enumerate(rows[0]):
+        try:
+            columns[name] = np.array([float(row[i]) for row in rows[1:]])
+        except ValueError:
+            continue
+    return columns
+
+
+def read_about(out):
+    with open(os.path.join(out, "result.json"), encoding="utf-8") as file:
+        return json.load(file)
+
+
+def write_file(path, text):
+    """Beside and renamed: whole or not at all."""
+    try:
+        with open(path + ".new", "w", encoding="utf-8") as file:
+            file.write(text)
+        os.replace(path + ".new", path)
+    except OSError as error:
+        raise Trouble(f"cannot write {path}: {error.strerror}", OUTPUT) from error
+
+
+def make_folder(path):
+    try:
+        os.makedirs(path, exist_ok=True)
+    except OSError as error:
+        raise Trouble(f"cannot write {path}: {error.strerror}", OUTPUT) from error

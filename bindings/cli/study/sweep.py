@@ -1,0 +1,197 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""One scene with many values: `delam sweep SCENE --vary KEY=FROM:TO:NUMBER --out DIR`.
+
+Runs the scene for each combination of values (or for a Latin hypercube of ranges), as many at once as --jobs, and writes
+DIR/table.csv (a row for each run), curves.png (the load curves), response.png (the peak of the reaction over each key).
+The results are in DIR/0001, DIR/0002, ... The same command goes on after an interruption.
+"""
+import argparse
+import csv
+import io
+import json
+import os
+import re
+import shutil
+import signal
+import sys
+import threading
+import time
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+
+from marches import (DONE, INTERRUPTED, NOT_CONVERGED, Trouble, last_words, make_folder, program, read_about,
+                     read_history, setting, start, write_file)
+from sweep_pictures import draw_curves, draw_response
+from variations import Variation, grid, latin
+
+RESULTS = ["exit_code", "steps", "peak_reaction", "load_at_peak", "last_reaction", "dissipated", "released", "jumps",
+           "not_converged", "message"]
+
+
+def arguments():
+    parser = argparse.ArgumentParser(prog=os.path.basename(program()) + " sweep", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("scene", metavar="SCENE", help="scene file")
+    parser.add_argument("--vary", action="append", default=[], metavar="KEY=VALUES",
+                        help="FROM:TO:NUMBER, FROM:TO:NUMBER:log, A,B,C or, with --latin, FROM:TO; may be repeated: all "
+                             "combinations are run. KEY: laws.0.normal_toughness, time.steps, ...")
+    parser.add_argument("--latin", type=int, metavar="NUMBER", help="a Latin hypercube of so many points instead")
+    parser.add_argument("--seed", type=int, default=1, metavar="NUMBER", help="of --latin (default 1)")
+    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="a value for all runs")
+    parser.add_argument("--out", "-o", required=True, metavar="DIR", help="folder for table, pictures and results")
+    parser.add_argument("--jobs", "-j", type=int, default=1, metavar="NUMBER", help="runs at once (default 1)")
+    parser.add_argument("--replace", action="store_true", help="discard the results of another sweep in DIR")
+    return parser.parse_args()
+
+
+class Sweep:
+    """The runs of a sweep, as they are defined in DIR/sweep.json."""
+
+    def __init__(self, given):
+        self.scene, self.out, self.common = given.scene, given.out, given.set
+        self.variations = [Variation(text) for text in given.vary]
+        if not self.variations:
+            raise Trouble("--vary: at least one is expected")
+        paths = [variation.path for variation in self.variations]
+        if len(set(paths)) < len(paths):
+            raise Trouble("--vary: a key is given twice")
+        self.points = grid(self.variations) if given.latin is None else latin(self.variations, given.latin, given.seed)
+        self.ended = threading.Event()
+        self.running = []
+        self.rows = {}
+        self.lock = threading.Lock()
+        self.began = time.monotonic()
+
+    def define(self, replace):
+        """Notes what the sweep is, and refuses the folder of another one."""
+        try:
+            with open(self.scene, "rb") as file:
+                text = file.read().decode("utf-8", "replace")
+        except OSError as error:
+            raise Trouble(f"{self.scene}: cannot be read: {error.strerror}") from error
+        definition = {"scene": text, "set": self.common, "vary": [v.path for v in self.variations],
+                      "points": [list(point) for point in self.points]}
+        path = os.path.join(self.out, "sweep.json")
+        if os.path.exists(path):
+            with open(path, encoding="utf-8") as file:
+                same = json.load(file) == json.loads(json.dumps(definition))
+            if not same and not replace:
+                raise Trouble(f"{self.out} holds another sweep: --replace discards it")
+            if not same:
+                self.discard()
+        make_folder(self.out)
+        write_file(path, json.dumps(definition, indent=1))
+
+    def discard(self):
+        """The results of another sweep, and nothing else that lies in the folder."""
+        for name in os.listdir(self.out):
+            path = os.path.join(self.out, name)
+            if re.fullmatch(r"\d{4,}", name):
+                shutil.rmtree(path)
+            elif re.fullmatch(r"\d{4,}\.log|table\.csv|curves\.png|response\.png", name):
+                os.remove(path)
+
+    def settings(self, point):
+        return self.common + [setting(v.path, value) for v, value in zip(self.variations, point)]
+
+    def folder(self, number):
+        return os.path.join(self.out, f"{number + 1:04d}")
+
+    def run_one(self, number):
+        """The exit code of a run; a result that is complete already is taken as it is."""
+        out = self.folder(number)
+        if self.ended.is_set():
+            return
+        with self.lock:
+            child = start(self.scene, out, self.settings(self.points[number]), resume=True)
+            self.running.append(child)
+        code = child.wait()
+        with self.lock:
+            self.running.remove(child)
+            if code == INTERRUPTED or self.ended.is_set():
+                return
+            self.rows[number] = self.row(number, code)
+            self.write_table()
+            done, all_of_them = len(self.rows), len(self.points)
+            left = (time.monotonic() - self.began) / done * (all_of_them - done)
+            values = ", ".join(f"{v.path} {value:.6g}" if isinstance(value, float) else f"{v.path} {value}"
+                               for v, value in zip(self.variations, self.points[number]))
+            print(f"run {done}/{all_of_them}  {values}  {self.words(number)}  left {left:.0f} s", flush=True)
+
+    def words(self, number):
+        row = self.rows[number]
+        return row["message"] or f"peak {row['peak_reaction']:.6g}"
+
+    def row(self, number, code):
+        row = dict.fromkeys(RESULTS, "")
+        row["exit_code"] = code
+        out = self.folder(number)
+        if code not in (DONE, NOT_CONVERGED):
+            row["message"] = last_words(out)
+            return row
+        history, about = read_history(out), read_about(out)
+        loads = [name for name in history if name == "load" or name.startswith("load_")]
+        reaction = history[loads[0].replace("load", "reaction", 1)]
+        peak = int(np.argmax(np.abs(reaction)))
+        row.update(steps=len(reaction) - 1, peak_reaction=reaction[peak], load_at_peak=history[loads[0]][peak],
+                   last_reaction=reaction[-1], dissipated=history["dissipated"][-1],
+                   released=history["released"][-1], jumps=int(history["jumps"].sum()),
+                   not_converged=len(about["not_converged"]))
+        return row
+
+    def write_table(self):
+        text = io.StringIO()
+        table = csv.writer(text, lineterminator="\n")
+        table.writerow(["run", *(v.path for v in self.variations), *RESULTS])
+        for number in sorted(self.rows):
+            row = self.rows[number]
+            table.writerow([number + 1, *self.points[number],
+                            *(repr(float(row[key])) if isinstance(row[key], float) else row[key] for key in RESULTS)])
+        write_file(os.path.join(self.out, "table.csv"), text.getvalue())
+
+    def stop(self, *_):
+        """Every run keeps its finished steps."""
+        self.ended.set()
+        for child in list(self.running):
+            child.send_signal(signal.SIGTERM)
+
+    def run(self, jobs):
+        signal.signal(signal.SIGINT, self.stop)
+        signal.signal(signal.SIGTERM, self.stop)
+        with ThreadPoolExecutor(jobs) as pool:
+            for result in [pool.submit(self.run_one, number) for number in range(len(self.points))]:
+                result.result()
+        return not self.ended.is_set()
+
+
+def main():
+    given = arguments()
+    if given.jobs < 1:
+        raise Trouble(f"--jobs {given.jobs}: at least 1 is expected")
+    sweep = Sweep(given)
+    sweep.define(given.replace)
+    if not sweep.run(given.jobs):
+        print(f"interrupted after {len(sweep.rows)} of {len(sweep.points)} runs; the same command goes on",
+              file=sys.stderr)
+        return INTERRUPTED
+    good = {number: read_history(sweep.folder(number)) for number, row in sweep.rows.items()
+            if row["exit_code"] in (DONE, NOT_CONVERGED)}
+    written = ["table.csv"]
+    if good:
+        about = read_about(sweep.folder(min(good)))
+        draw_curves(sweep, good, about)
+        draw_response(sweep, about)
+        written += ["curves.png", "response.png"]
+    failed = len(sweep.points) - len(good)
+    print(f"wrote {sweep.out}: {', '.join(written)}" + (f"; {failed} runs failed" if failed else ""))
+    return DONE if not failed and all(row["exit_code"] == DONE for row in sweep.rows.values()) else NOT_CONVERGED
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main())
+    except Trouble as trouble:
+        print(f"delam: sweep: {trouble}", file=sys.stderr)
+        sys.exit(trouble.code)
