@@ -17,7 +17,7 @@ module host_analysis
 
   ! What is kept of a converged increment.
   type :: increment
-    real(dp) :: time = 0, load = 0, stored = 0, dissipated = 0, released = 0, work = 0, fronts(2) = 0
+    real(dp) :: time = 0, step = 0, load = 0, stored = 0, dissipated = 0, released = 0, work = 0, fronts(2) = 0
     integer :: iterations = 0
     real(dp) :: residuals(limit) = 0     ! of each iteration, relative to the largest nodal force
     logical :: changed(limit) = .true.   ! pairs in contact, softening or debonded: others than an iteration before
@@ -205,6 +205,7 @@ contains
     a%time = a%time + dtime
     a%kinc = a%kinc + 1
     now%time = a%time
+    now%step = dtime
     now%load = sum(forces(a%s%driven))
     now%stored = stored
     now%dissipated = sum(energies(4, :))
