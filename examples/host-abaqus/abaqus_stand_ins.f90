@@ -76,40 +76,43 @@ subroutine getoutdir(name, length)
   length = len_trim(name)
 end subroutine getoutdir
 
-! One thread needs no mutex, but it must not lock one twice, nor one that has not been made.
+! Mutexes, by locks of OpenMP; one that has not been made must not be locked.
 module abaqus_mutexes
+  !$ use omp_lib
   implicit none
-  integer :: state(100) = 0   ! 0: not made, 1: free, 2: locked
+  !$ integer(omp_lock_kind) :: locks(100)
+  logical :: made(100) = .false.
 end module abaqus_mutexes
 
 subroutine mutexinit(number)
   use abaqus_mutexes
   implicit none
   integer, intent(in) :: number
-  state(number) = 1
+  !$ if (.not. made(number)) call omp_init_lock(locks(number))
+  made(number) = .true.
 end subroutine mutexinit
 
 subroutine mutexlock(number)
   use abaqus_mutexes
   implicit none
   integer, intent(in) :: number
-  if (state(number) /= 1) error stop 'mutexlock: the mutex is not free'
-  state(number) = 2
+  if (.not. made(number)) error stop 'mutexlock: there is no such mutex'
+  !$ call omp_set_lock(locks(number))
 end subroutine mutexlock
 
 subroutine mutexunlock(number)
   use abaqus_mutexes
   implicit none
   integer, intent(in) :: number
-  if (state(number) /= 2) error stop 'mutexunlock: the mutex is not locked'
-  state(number) = 1
+  if (.not. made(number)) error stop 'mutexunlock: there is no such mutex'
+  !$ call omp_unset_lock(locks(number))
 end subroutine mutexunlock
 
 ! Ends the analysis, as in Abaqus; what the user subroutine has written to the message file is shown.
 subroutine xit()
   use abaqus_job
   implicit none
-  if (message_count('***NOTE', 5) == 0) print '(a)', '  nothing in the message file'
+  if (message_count('***', 5) == 0) print '(a)', '  nothing in the message file'
   print '(a)', 'XIT'
   stop 3
 end subroutine xit

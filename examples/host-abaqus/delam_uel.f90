@@ -241,8 +241,8 @@ contains
     here = mesh%find_nodes(at - reach, at + reach)
     if (size(here) == 0) then
       status = DELAM_ERROR_MESH
-      write (message, '(a,i0,a,*(1x,g0))') 'no node of the mesh lies at node ', node, ' of the element, relative to' // &
-        ' the origin of the mesh at', at
+      write (message, '(a,i0,a,3(1x,g0.6))') 'no node of the mesh lies at node ', node, &
+        ' of the element, relative to the origin of the mesh at', at
       return
     end if
     do axis = 1, size(at)

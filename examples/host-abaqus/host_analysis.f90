@@ -28,6 +28,7 @@ module host_analysis
     real(dp) :: travel = 0               ! of the machine at time 1
     real(dp) :: tolerance = 0            ! of the residual, relative
     logical :: database = .true.         ! calls UEXTERNALDB in each increment
+    integer :: threads = 1               ! that call the user elements at the same time
     logical :: secant = .false.          ! takes the stiffness at fixed damage and contact in place of AMATRX
     integer :: restart_files = 0         ! LRESTART
     integer :: kinc = 0
@@ -38,6 +39,13 @@ module host_analysis
     type(increment), allocatable :: history(:)
     integer :: cut_backs = 0
   end type analysis
+
+  ! Of one user element to the equations of an iteration.
+  type :: contribution
+    integer, allocatable :: dofs(:)
+    real(dp), allocatable :: rhs(:), matrix(:,:)
+    real(dp) :: pnewdt = 0
+  end type contribution
 
   integer, parameter :: cut_off = 2147483647   ! a converged increment is refused
 
@@ -76,9 +84,9 @@ contains
     forces = -huge(1.0_dp)
     matrix = -huge(1.0_dp)
     call uel(forces, matrix, svars, energy, size(u), 1, size(svars), e%props, size(e%props), nodes(:, e%nodes), &
-             size(nodes, 1), size(e%nodes), u, changes, zero, zero, 1, [time, time], dtime, 1, kinc, e%number, [0.0_dp], &
-             0, reshape([0], [1, 1]), reshape([0.0_dp], [1, 1]), predefined, 1, [1, 0, wanted, 0, 0], size(u), &
-             reshape([0.0_dp], [1, 1]), 1, pnewdt, e%jprops, size(e%jprops), 1.0_dp)
+             size(nodes, 1), size(e%nodes), u, changes, zero, zero, 1, [time, time], dtime, 1, kinc, e%number, &
+             [0.0_dp], 0, reshape([0], [1, 1]), reshape([0.0_dp], [1, 1]), predefined, 1, [1, 0, wanted, 0, 0], &
+             size(u), reshape([0.0_dp], [1, 1]), 1, pnewdt, e%jprops, size(e%jprops), 1.0_dp)
     rhs = forces(:, 1)
   end subroutine element_call
 
@@ -87,30 +95,45 @@ contains
     type(analysis), intent(in) :: a
     real(dp), intent(in) :: change(:), dtime
     real(dp), intent(out) :: svars(variables, 2), energies(8, 2), forces(:), stiffness(:,:), stored, pnewdt
-    real(dp), allocatable :: rhs(:), matrix(:,:)
-    integer, allocatable :: d(:)
-    integer :: i, n
+    type(contribution) :: parts(size(a%s%users))
+    integer :: i
     forces = 0
     stiffness = 0
     stored = 0
     call host_forces(a%s, a%u + change, forces, stiffness, stored)
     svars = a%svars
     energies = a%energy
-    pnewdt = 1e9_dp
-    do i = 1, size(a%s%users)
-      associate (e => a%s%users(i))
-        d = [(2*e%nodes(n) - 1, 2*e%nodes(n), n=1, size(e%nodes))]
-        allocate(rhs(size(d)), matrix(size(d), size(d)))
-        call element_call(e, a%s%nodes, a%u(d) + change(d), change(d), svars(:, i), energies(:, i), 1, &
-                          a%time + dtime, dtime, a%kinc + 1, rhs, matrix, pnewdt)
-        forces(d) = forces(d) - rhs
-        stiffness(d, d) = stiffness(d, d) + matrix
+    !$omp parallel do num_threads(a%threads) schedule(static, 1)
+    do i = 1, size(parts)
+      call contribute(a, i, change, dtime, svars(:, i), energies(:, i), parts(i))
+    end do
+    do i = 1, size(parts)
+      associate (p => parts(i))
+        forces(p%dofs) = forces(p%dofs) - p%rhs
+        stiffness(p%dofs, p%dofs) = stiffness(p%dofs, p%dofs) + p%matrix
         stored = stored + energies(2, i)
-        if (a%secant .and. pnewdt >= 1) stiffness(d, d) = stiffness(d, d) - matrix + fixed_damage(e%number, size(d))
-        deallocate(rhs, matrix)
       end associate
     end do
+    pnewdt = minval(parts%pnewdt)
   end subroutine assemble
+
+  subroutine contribute(a, i, change, dtime, svars, energies, part)
+    type(analysis), intent(in) :: a
+    integer, intent(in) :: i
+    real(dp), intent(in) :: change(:), dtime
+    real(dp), intent(inout) :: svars(:), energies(8)
+    type(contribution), intent(inout) :: part
+    integer :: n
+    associate (e => a%s%users(i))
+      part%dofs = [(2*e%nodes(n) - 1, 2*e%nodes(n), n=1, size(e%nodes))]
+      n = size(part%dofs)
+      allocate(part%rhs(n), part%matrix(n, n))
+      part%pnewdt = 1e9_dp
+      call element_call(e, a%s%nodes, a%u(part%dofs) + change(part%dofs), change(part%dofs), svars, energies, 1, &
+                        a%time + dtime, dtime, a%kinc + 1, part%rhs, part%matrix, part%pnewdt)
+      if (a%secant .and. part%pnewdt >= 1) part%matrix = fixed_damage(e%number, n)
+    end associate
+  end subroutine contribute
 
   function fixed_damage(number, n) result(matrix)
     integer, intent(in) :: number, n

@@ -58,7 +58,8 @@ contains
     print '(2(i0,a),f7.4,a,i0)', dimension, 'D, ', n, ' displacements: dissipated', energy(4), &
       merge(' J/m', ' J  ', dimension == 2) // ', pairs in contact ', nint(svars(6))
     call check(energy(4) > 0, 'the element was damaged')
-    call check(worst < 1e-6_dp, 'AMATRX and the differences of RHS agree to ' // number(worst) // ' of the largest entry')
+    call check(worst < 1e-6_dp, &
+      'AMATRX and the differences of RHS agree to ' // number(worst) // ' of the largest entry')
     call check(repeated, 'the same displacements give the same digits again after others were tried')
     call check(selected, 'LFLAGS(3) = 2 and 5 select the stiffness and the forces')
     call uexternaldb(3, 0, [0.0_dp, 0.0_dp], 0.0_dp, 1, 0)
@@ -71,8 +72,8 @@ contains
       real(dp), intent(out) :: forces(:), stiffness(:,:)
       trash = start
       pnewdt = 1e9_dp
-      call element_call(e, nodes, displacements, displacements - committed, trash, energy, wanted, real(k, dp), 1.0_dp, &
-                        k, forces, stiffness, pnewdt)
+      call element_call(e, nodes, displacements, displacements - committed, trash, energy, wanted, real(k, dp), &
+                        1.0_dp, k, forces, stiffness, pnewdt)
       if (pnewdt < 1) error stop 'a cut-back was asked for'
     end subroutine call_with
   end subroutine derivative
