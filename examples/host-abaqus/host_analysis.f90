@@ -94,7 +94,8 @@ contains
   subroutine assemble(a, change, dtime, svars, energies, forces, stiffness, stored, pnewdt)
     type(analysis), intent(in) :: a
     real(dp), intent(in) :: change(:), dtime
-    real(dp), intent(out) :: svars(variables, 2), energies(8, 2), forces(:), stiffness(:,:), stored, pnewdt
+    real(dp), intent(out) :: svars(variables, 2), energies(8, 2), stored, pnewdt
+    real(dp), intent(out), contiguous :: forces(:), stiffness(:,:)
     type(contribution) :: parts(size(a%s%users))
     integer :: i
     forces = 0
@@ -204,7 +205,7 @@ contains
         return
       end if
       if (k == stop_after) exit
-      change(a%s%free) = change(a%s%free) - solved(stiffness(a%s%free, a%s%free), forces(a%s%free))
+      call correct(a%s, stiffness, forces, change)
     end do
     a%cut_backs = a%cut_backs + 1
   end subroutine try_increment
@@ -258,24 +259,44 @@ contains
     end do
   end subroutine automatic
 
-  ! Elimination with row exchanges; the matrix need not be symmetric.
-  function solved(matrix, right) result(x)
-    real(dp), intent(in) :: matrix(:,:), right(:)
-    real(dp) :: a(size(right), size(right)), x(size(right)), row(size(right)), other
+  ! Newton's correction of the free displacements. The matrix need not be symmetric; it is overwritten.
+  subroutine correct(s, matrix, forces, change)
+    type(structure), intent(in) :: s
+    real(dp), intent(inout), contiguous :: matrix(:,:), change(:)
+    real(dp), intent(in) :: forces(:)
+    real(dp) :: x(size(forces))
+    integer :: i
+    x = 0
+    x(s%free) = -forces(s%free)
+    do i = 1, size(forces)
+      if (any(s%free == i)) cycle
+      matrix(:, i) = 0
+      matrix(i, :) = 0
+      matrix(i, i) = 1
+    end do
+    call solve(matrix, x)
+    change = change + x
+  end subroutine correct
+
+  ! Elimination with row exchanges, in place.
+  subroutine solve(a, x)
+    real(dp), intent(inout), contiguous :: a(:,:), x(:)
+    real(dp) :: row(size(x)), other
     integer :: i, j, n, best
-    a = matrix
-    x = right
     n = size(x)
     do i = 1, n
       best = i - 1 + maxloc(abs(a(i:, i)), 1)
-      row = a(i, :)
-      a(i, :) = a(best, :)
-      a(best, :) = row
-      other = x(i)
-      x(i) = x(best)
-      x(best) = other
+      if (best /= i) then
+        row = a(i, :)
+        a(i, :) = a(best, :)
+        a(best, :) = row
+        other = x(i)
+        x(i) = x(best)
+        x(best) = other
+      end if
       a(i+1:, i) = a(i+1:, i)/a(i, i)
       do j = i + 1, n
+        if (a(i, j) == 0) cycle
         a(i+1:, j) = a(i+1:, j) - a(i+1:, i)*a(i, j)
       end do
       x(i+1:) = x(i+1:) - a(i+1:, i)*x(i)
@@ -284,5 +305,5 @@ contains
       x(i) = x(i)/a(i, i)
       x(:i-1) = x(:i-1) - a(:i-1, i)*x(i)
     end do
-  end function solved
+  end subroutine solve
 end module host_analysis
