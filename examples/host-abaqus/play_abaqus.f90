@@ -17,6 +17,7 @@ program play_abaqus
   implicit none
 
   character(16) :: wanted
+  integer :: rule
 
   interface
     integer(c_int) function setenv(name, value, overwrite) bind(c)
@@ -48,8 +49,10 @@ program play_abaqus
   case ('deck')
     call write_deck()
   case ('derivative')
-    call derivative(2)
-    call derivative(3)
+    do rule = 0, 1
+      call derivative(2, rule)
+      call derivative(3, rule)
+    end do
   case ('refused')
     call refused()
   case default

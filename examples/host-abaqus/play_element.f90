@@ -13,21 +13,22 @@ module play_element
 contains
 
   ! Of one element: AMATRX against central differences of RHS, and what LFLAGS(3) selects.
-  subroutine derivative(dimension)
-    integer, intent(in) :: dimension
+  subroutine derivative(dimension, rule)
+    integer, intent(in) :: dimension, rule   ! 0 converged, 1 frozen
     type(user_element) :: e
     real(dp), allocatable :: nodes(:,:), u(:), target(:), rhs(:), again(:), above(:), below(:), matrix(:,:), other(:,:)
     real(dp), allocatable :: shifted(:), committed(:)
-    real(dp) :: svars(8), start(8), energy(8), trash(8), pnewdt, error, worst, h
+    real(dp) :: svars(8), start(8), energy(8), trash(8), pnewdt, error, worst, asymmetry, h
     integer :: k, q, n
     logical :: repeated, selected
-    call single_element(dimension, e, nodes, target)
+    call single_element(dimension, rule, e, nodes, target)
     n = size(target)
     allocate(rhs(n), again(n), above(n), below(n), matrix(n, n), other(n, n))
     h = 1e-10_dp
     svars = 0
     energy = 0
     worst = 0
+    asymmetry = 0
     repeated = .true.
     selected = .true.
     committed = 0*target
@@ -47,6 +48,7 @@ contains
         call call_with(shifted, 5, below, other)
         error = max(error, maxval(abs(matrix(:, q) + (above - below)/(2*h))))
       end do
+      asymmetry = max(asymmetry, maxval(abs(matrix - transpose(matrix)))/maxval(abs(matrix)))
       if (k > 1) worst = max(worst, error/maxval(abs(matrix)))
       call call_with(u, 2, again, other)
       selected = selected .and. all(again == 0) .and. all(other == matrix)
@@ -55,9 +57,11 @@ contains
       svars = trash
       committed = u
     end do
-    print '(2(i0,a),f7.4,a,i0)', dimension, 'D, ', n, ' displacements: dissipated', energy(4), &
-      merge(' J/m', ' J  ', dimension == 2) // ', pairs in contact ', nint(svars(6))
+    print '(2(i0,a),f7.4,2a,i0,2a)', dimension, 'D, ', n, ' displacements: dissipated', energy(4), &
+      merge(' J/m', ' J  ', dimension == 2), ', pairs in contact ', nint(svars(6)), ', asymmetry of AMATRX ', &
+      number(asymmetry)
     call check(energy(4) > 0, 'the element was damaged')
+    call check((asymmetry > 1e-6_dp) .eqv. (rule == 0), 'AMATRX is symmetric if and only if the mixity is frozen')
     call check(worst < 1e-6_dp, &
       'AMATRX and the differences of RHS agree to ' // number(worst) // ' of the largest entry')
     call check(repeated, 'the same displacements give the same digits again after others were tried')
@@ -79,13 +83,13 @@ contains
   end subroutine derivative
 
   ! In the plane the left strip of the structure; in space a strip whose nodes are two edges and the end opposite them.
-  subroutine single_element(dimension, e, nodes, target)
-    integer, intent(in) :: dimension
+  subroutine single_element(dimension, rule, e, nodes, target)
+    integer, intent(in) :: dimension, rule
     type(user_element), intent(out) :: e
     real(dp), allocatable, intent(out) :: nodes(:,:), target(:)
     type(structure) :: s
     integer :: i, j
-    call make_structure(s, 1, 0, exact)
+    call make_structure(s, rule, 0, exact)
     e = s%users(1)
     if (dimension == 2) then
       nodes = s%nodes
