@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # The program of the README, and the examples in every language: one history each, that of the host in C, and the
-# values of examples/reference.csv; a host on many processes in three languages.
+# values of examples/reference.csv; a host on many processes in three languages; a user element for Abaqus.
 
 # delam_example_test(SCENE LANGUAGE COMMAND...): what cannot run here is a test that says so and is skipped.
 function(delam_example_test scene language)

@@ -2,8 +2,14 @@
 !
 ! A user element for Abaqus/Standard (and for programs that call the same interface): a part of a structure that
 ! delaminates, as one element. Its nodes are the nodes at which it is joined to the rest of the model or held; inside,
-! libdelam finds displacements, damage and contact. README.md of this folder tells how to compile and link it, what the
-! deck contains, and what the element does not do. The part itself is made by delam_uel_model, which you replace.
+! libdelam finds displacements, damage and contact. The part itself is made by delam_uel_model, which you replace.
+!
+!     abaqus job=delam_uel user=abaqus_user.f90      abaqus_user.f90 includes this file and the modules of libdelam
+!
+! with, in abaqus_v6.env, `-free -I FOLDER` added to compile_fortran, FOLDER being that of the modules, and `-ldelam` to
+! link_sl. In the deck: *USER ELEMENT with all displacements of its nodes, VARIABLES=8 and UNSYMM, and *STEP with
+! UNSYMM=YES. README.md of this folder has the details, and what the element does not do; delam_uel.inp is a deck.
+! Units are those of the deck; the library takes any consistent set.
 !
 ! What Abaqus receives
 !   RHS      minus the forces that the element's nodes need

@@ -9,7 +9,9 @@
 !            (9) damage_tolerance, 0: the library's default, which suits the tolerances of Abaqus
 !            (10) length (11) thickness of a layer (12) length of the notch (13) width, in space
 !   JPROPS   (1) elements along x (2) through each layer (3) across the width, in space
-!            (4) the notch is at: 1 left, 2 right end (5) mixity_rule: 0 converged, 1 frozen
+!            (4) the notch is at: 1 left, 2 right end
+!            (5) mixity_rule: 0 converged, each increment in one part, so that AMATRX is exact; 1 frozen; 2 converged,
+!            in parts where the library wants them
 !            (6) minimisation_limit, 0: the library's default
 subroutine delam_uel_model(number, jtype, props, jprops, coords, context, mesh, problem, origin, status, message)
   use delam
@@ -50,6 +52,7 @@ subroutine delam_uel_model(number, jtype, props, jprops, coords, context, mesh, 
   if (status == DELAM_OK) call make_notch()
   if (status == DELAM_OK .and. props(9) > 0) call problem%set('damage_tolerance', props(9), status, message)
   if (status == DELAM_OK .and. jprops(5) == 1) call problem%set('mixity_rule', 'frozen', status, message)
+  if (status == DELAM_OK .and. jprops(5) == 0) call problem%set('path_step', 1.0_dp, status, message)
   if (status == DELAM_OK .and. jprops(6) > 0) call problem%set('minimisation_limit', jprops(6), status, message)
 
 contains

@@ -39,7 +39,8 @@ module host_structure
 
 contains
 
-  ! rule: 0 converged, 1 frozen; limit: of the library's minimisation, 0: default; tolerance: of its damage.
+  ! rule: of the mixity, as JPROPS(5) of delam_uel_model.f90; limit: of the library's minimisation, 0: default;
+  ! tolerance: of its damage.
   subroutine make_structure(s, rule, limit, tolerance)
     type(structure), intent(out) :: s
     integer, intent(in) :: rule, limit
