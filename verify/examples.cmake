@@ -74,7 +74,7 @@ PYTHONDONTWRITEBYTECODE=1;OPENBLAS_NUM_THREADS=1")
   foreach(check newton cutback whole energy restart threads derivative refused deck)
     set(test example/host_abaqus_${check})
     if(NOT TARGET example_host_abaqus)
-      add_test(NAME ${test} COMMAND sh -c "echo 'skipped: there is no Fortran compiler'; exit 77")
+      add_test(NAME ${test} COMMAND sh -c "echo 'skipped: the host that plays Abaqus is not built'; exit 77")
     elseif(check STREQUAL deck)
       add_test(NAME ${test} COMMAND sh -c "$<TARGET_FILE:example_host_abaqus> deck | cmp - \"$1\"" sh
                                     ${PROJECT_SOURCE_DIR}/examples/host-abaqus/delam_uel.inp)
@@ -84,6 +84,13 @@ PYTHONDONTWRITEBYTECODE=1;OPENBLAS_NUM_THREADS=1")
     set_tests_properties(${test} PROPERTIES LABELS "quick;example" TIMEOUT ${DELAM_LIMIT} SKIP_RETURN_CODE 77
       ENVIRONMENT "OPENBLAS_NUM_THREADS=1")
   endforeach()
+  if(TARGET example_host_abaqus)
+    file(MAKE_DIRECTORY ${folder}/memory)
+    add_test(NAME example/host_abaqus_memory COMMAND sh ${PROJECT_SOURCE_DIR}/verify/cases/memory.sh
+             $<TARGET_FILE:example_host_abaqus> restart WORKING_DIRECTORY ${folder}/memory)
+    set_tests_properties(example/host_abaqus_memory PROPERTIES LABELS "long;example" TIMEOUT ${DELAM_LIMIT}
+      SKIP_RETURN_CODE 77)
+  endif()
   # Ends the analysis, with the reason in the message file, which the program shows.
   if(TARGET example_host_abaqus)
     set_tests_properties(example/host_abaqus_refused PROPERTIES
