@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # The program of the README, and the examples in every language: one history each, that of the host in C, and the
-# values of examples/reference.csv; a host on many processes in three languages.
+# values of examples/reference.csv; a host on many processes in three languages; a user element for Abaqus.
 
 # delam_example_test(SCENE LANGUAGE COMMAND...): what cannot run here is a test that says so and is skipped.
 function(delam_example_test scene language)
@@ -68,4 +68,32 @@ if(NOT DELAM_SANITIZE)
 PYTHONDONTWRITEBYTECODE=1;OPENBLAS_NUM_THREADS=1")
     endforeach()
   endforeach()
+  # The user element for Abaqus, driven by a program that plays Abaqus; each check leaves its files in a folder.
+  set(folder ${CMAKE_CURRENT_BINARY_DIR}/host-abaqus)
+  file(MAKE_DIRECTORY ${folder})
+  foreach(check newton cutback whole energy restart threads derivative refused deck)
+    set(test example/host_abaqus_${check})
+    if(NOT TARGET example_host_abaqus)
+      add_test(NAME ${test} COMMAND sh -c "echo 'skipped: the host that plays Abaqus is not built'; exit 77")
+    elseif(check STREQUAL deck)
+      add_test(NAME ${test} COMMAND sh -c "$<TARGET_FILE:example_host_abaqus> deck | cmp - \"$1\"" sh
+                                    ${PROJECT_SOURCE_DIR}/examples/host-abaqus/delam_uel.inp)
+    else()
+      add_test(NAME ${test} COMMAND example_host_abaqus ${check} WORKING_DIRECTORY ${folder})
+    endif()
+    set_tests_properties(${test} PROPERTIES LABELS "quick;example" TIMEOUT ${DELAM_LIMIT} SKIP_RETURN_CODE 77
+      ENVIRONMENT "OPENBLAS_NUM_THREADS=1")
+  endforeach()
+  if(TARGET example_host_abaqus)
+    file(MAKE_DIRECTORY ${folder}/memory)
+    add_test(NAME example/host_abaqus_memory COMMAND sh ${PROJECT_SOURCE_DIR}/verify/cases/memory.sh
+             $<TARGET_FILE:example_host_abaqus> restart WORKING_DIRECTORY ${folder}/memory)
+    set_tests_properties(example/host_abaqus_memory PROPERTIES LABELS "long;example" TIMEOUT ${DELAM_LIMIT}
+      SKIP_RETURN_CODE 77)
+  endif()
+  # Ends the analysis, with the reason in the message file, which the program shows.
+  if(TARGET example_host_abaqus)
+    set_tests_properties(example/host_abaqus_refused PROPERTIES
+      PASS_REGULAR_EXPRESSION "user element 102: no node of the mesh lies at node 1 of the element.*XIT")
+  endif()
 endif()
