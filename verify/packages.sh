@@ -6,7 +6,7 @@
 DELAM_PACKAGES=(
     g++ gcc gfortran make cmake ninja-build pkg-config git ca-certificates
     libsuitesparse-dev libmetis-dev libopenblas-dev liblapack-dev
-    libcli11-dev libtomlplusplus-dev libfmt-dev libhdf5-dev nlohmann-json3-dev libgmsh-dev
+    libcli11-dev libtomlplusplus-dev libfmt-dev libhdf5-dev zlib1g-dev nlohmann-json3-dev libgmsh-dev
     libgsl-dev check abigail-tools binutils locales clang clang-format doxygen
     python3 python3-numpy python3-scipy python3-matplotlib python3-h5py python3-venv python3-pip python3-meshio python3-tqdm
     python3-jinja2 fonts-dejavu-core

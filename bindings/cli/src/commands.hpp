@@ -27,6 +27,15 @@ int run(const std::string& scene_file, const std::vector<std::string>& settings,
         const std::string& command, const Caller& caller);
 // Writes the scene of an Abaqus input file; scene_file "": to standard output. replace: also where there is a file.
 int import(const std::string& deck, const std::string& scene_file, bool replace);
+// How `delam view` writes its page.
+struct ViewWishes {
+    std::string page;           // "": view.html in the folder of the result, where an earlier one is replaced
+    std::string page_template;  // "": the installed one
+    std::size_t every = 0;      // the fields of every n-th written step; 0: as many as a browser can hold
+    bool replace = false;       // a page that was named
+};
+// Writes a result as a page for a browser.
+int view(const std::string& folder, const ViewWishes& wishes);
 // Lists the options of [solver] and the parameters of the laws.
 int options(bool json);
 int check(const std::string& scene_file, const std::vector<std::string>& settings, const Caller& caller);

@@ -38,6 +38,20 @@ std::string joined(int count, char** words) {
     return out;
 }
 
+void add_view(CLI::App* command, std::string& folder, ViewWishes& wishes) {
+    command->add_option("result", folder, "folder of a result (--out of delam run)")->required();
+    command->add_option("--out,-o", wishes.page, "the page (default: view.html in the folder, anew)");
+    command->add_flag("--replace", wishes.replace, "overwrite the page that --out names if it is there");
+    command
+        ->add_option("--every", wishes.every,
+                     "show the fields of every N-th written step and of the last (default: as many as a browser holds)")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1000000000));
+    command->add_option("--template", wishes.page_template, "a template of the page instead of the installed one")
+        ->type_name("FILE");
+    command->footer(footer);
+}
+
 int guarded(int argc, char** argv, const Caller& caller) {
     CLI::App app("delam: delamination of layered structures by energy minimisation");
     app.footer(footer);
@@ -78,6 +92,9 @@ int guarded(int argc, char** argv, const Caller& caller) {
     import_command->add_option("--out,-o", folder, "the scene file (default: standard output)");
     import_command->add_flag("--replace", replace, "overwrite the scene file if it is there");
     import_command->footer(footer);
+    CLI::App* view_command = app.add_subcommand("view", "write a result as one page for a browser, without a network");
+    ViewWishes wishes;
+    add_view(view_command, folder, wishes);
     CLI::App* options_command =
         app.add_subcommand("options", "list the options of [solver] and the parameters of laws");
     bool json = false;
@@ -89,6 +106,7 @@ int guarded(int argc, char** argv, const Caller& caller) {
     }
     if (options_command->parsed()) return options(json);
     if (import_command->parsed()) return import(deck, folder, replace);
+    if (view_command->parsed()) return view(folder, wishes);
     return run_command->parsed() ? run(scene, settings, folder, resume, joined(argc, argv), caller)
                                  : check(scene, settings, caller);
 }
