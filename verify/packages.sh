@@ -13,13 +13,13 @@ DELAM_PACKAGES=(
 )
 # libdelam-petsc, delam-mpi and their tests: PETSc (real numbers, with MUMPS and PTScotch), mpicc, mpirun, hosts in Python.
 DELAM_MPI_PACKAGES=(libpetsc-real-dev libopenmpi-dev openmpi-bin python3-mpi4py)
-# The parser of the Julia files, for the quick tier. A node from elsewhere has its own npm, which Debian's conflicts with.
+# The parser of the Julia files, for the quick tier, and the page of `delam view`. A node from elsewhere has its own npm, which Debian's conflicts with.
 DELAM_PARSER_PACKAGES=()
 if ! command -v npm >/dev/null; then
     DELAM_PARSER_PACKAGES=(nodejs npm)
 fi
 # The long tier of the tests.
-DELAM_LONG_PACKAGES=(libclang-rt-dev dpkg-dev valgrind paraview python3-paraview python3-getfem)
+DELAM_LONG_PACKAGES=(libclang-rt-dev dpkg-dev valgrind paraview python3-paraview python3-getfem chromium)
 
 # delam_install PACKAGE...: installs what is missing, as root or through sudo; else prints the command and fails.
 delam_install() {

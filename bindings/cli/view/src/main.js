@@ -11,6 +11,9 @@ const byId = (id) => document.getElementById(id);
 const darkness = window.matchMedia('(prefers-color-scheme: dark)');
 const oneFrame = 120; // milliseconds between steps that are played
 
+// In space the interfaces are inside.
+const bodyOpacity = ({ flat }) => (flat ? 1 : 0.25);
+
 // A colour of the style sheet as three numbers of 0 to 1.
 function styled(name) {
   const text = getComputedStyle(document.documentElement).getPropertyValue(name).trim();
@@ -40,7 +43,9 @@ class Page {
     const { about } = this.result;
     const mesh = await this.result.mesh();
     const flat = mesh.flat;
-    this.chosen = { scale: about.displacement_scale ?? 1, colour: 'body', mesh: false, opacity: flat ? 1 : 0.25, apart: 0 };
+    // On a phone the charts come next to the scene.
+    byId('more').open = !window.matchMedia('(max-width: 52rem)').matches;
+    this.chosen = { scale: about.displacement_scale ?? 1, colour: 'body', mesh: false, opacity: bodyOpacity(mesh), apart: 0 };
     byId('scene').classList.toggle('flat', flat);
     byId('scene').setAttribute('aria-label', `Deformed body: ${byId('title').textContent}`);
     byId('drag').textContent = flat ? 'move' : 'turn';
@@ -77,10 +82,19 @@ class Page {
       chosen[key] = read(event.target);
       this.redraw();
     });
-    on('colour', 'colour', ({ value }) => value);
+    // Through a body that shows a field nothing else is seen: the legend has its colours as they are.
+    on('colour', 'colour', ({ value }) => {
+      chosen.opacity = value === 'body' ? bodyOpacity(mesh) : 1;
+      byId('opacity').value = chosen.opacity;
+      return value;
+    });
     on('mesh', 'mesh', ({ checked }) => checked);
     on('opacity', 'opacity', ({ value }) => Number(value));
     on('apart', 'apart', ({ value }) => Number(value));
+    byId('apart').addEventListener('input', () => {
+      this.scene?.fit();
+      this.scene?.draw();
+    });
     byId('interfaces').addEventListener('input', ({ target }) => {
       this.scene?.showInterfaces(target.value);
       this.redraw();
@@ -146,8 +160,8 @@ class Page {
   async play(on) {
     this.playing = on;
     byId('play').setAttribute('aria-pressed', String(on));
-    byId('play').textContent = on ? '❚❚' : '▶▶';
-    byId('play').setAttribute('aria-label', on ? 'Pause' : 'Play');
+    byId('play').textContent = on ? 'Pause' : 'Play';
+    byId('play').title = on ? 'pause' : 'play';
     const last = this.result.steps.length - 1;
     if (on && this.index === last) await this.show(0);
     while (this.playing && this.index < last) {

@@ -31,7 +31,7 @@ export const views = {
     'along y': { from: [0, -1, 0], up: [0, 0, 1] },
     'along z': { from: [0, 0, 1], up: [0, 1, 0] },
   },
-  plane: { whole: { from: [0, 0, 1], up: [0, 1, 0] } },
+  plane: { fit: { from: [0, 0, 1], up: [0, 1, 0] } },
 };
 
 function vonMises(stress, count) {

@@ -72,8 +72,9 @@ function readings(result, units, row, sums) {
   add('stored_interface', 'stored, interfaces', at('stored_interface'), units.energy);
   add('dissipated', 'dissipated', at('dissipated'), units.energy);
   add('work', 'work', at('work'), units.energy);
-  add('debonded', result.about.scene.dimension === 2 ? 'debonded length' : 'debonded area', at('debonded_length'), units.debonded);
-  add('crack_length', 'crack length', at('crack_length'), units.length);
+  const flat = result.about.scene.dimension === 2;
+  add('debonded', flat ? 'debonded length' : 'debonded area', at('debonded_length'), units.debonded);
+  add('crack_length', flat ? 'crack length' : 'crack area', at('crack_length'), units.debonded);
   add('energy_release_rate', 'energy release rate', at('energy_release_rate'), units.energyRate);
   add('displacement', 'largest displacement', sums.displacement, units.length);
   sums.adhesion.forEach((one, i) => {

@@ -4,7 +4,7 @@ export const number = (value, digits = 4) => {
   if (value === null || value === undefined) return 'infinite';
   if (value === 0) return '0';
   const size = Math.abs(value);
-  const text = size >= 1e5 || size < 1e-3 ? value.toExponential(digits - 1) : String(Number(value.toPrecision(digits)));
+  const text = size >= 1e5 || size < 1e-4 ? value.toExponential(digits - 1) : String(Number(value.toPrecision(digits)));
   return text.replace(/\.?0+e/, 'e').replace('e+', 'e').replaceAll('-', '−');
 };
 export const withUnit = (value, unit) => (unit ? `${number(value)} ${unit}` : number(value));
