@@ -16,7 +16,8 @@ STYLE = """
 body { margin: 0 auto; max-width: 84rem; padding: 0.8rem; background: var(--paper); color: var(--ink);
   font: 15px/1.4 system-ui, sans-serif; }
 h1 { font-size: 1.3rem; margin: 0 0 0.2rem; } h2 { font-size: 1rem; margin: 0.4rem 0 0; }
-p { margin: 0.1rem 0; color: var(--soft); font-size: 0.85rem; overflow-wrap: anywhere; } p.warning { color: var(--red); }
+p { margin: 0.1rem 0; color: var(--soft); font-size: 0.85rem; overflow-wrap: anywhere; }
+p.warning { color: var(--red); }
 ul { list-style: none; margin: 1rem 0; padding: 0; display: grid; gap: 1rem;
   grid-template-columns: repeat(auto-fill, minmax(min(100%, 21rem), 1fr)); }
 li a { display: block; height: 100%; border: 1px solid var(--line); border-radius: 6px; padding: 0.6rem; color: inherit;
@@ -36,11 +37,14 @@ def card(folder, out):
     if picture:
         copy = f"{name}.png"
         shutil.copyfile(os.path.join(folder, picture), os.path.join(out, copy))
-        lines.append(f'<img loading="lazy" alt="{html.escape(picture.removesuffix(".png"))} of {html.escape(name)}" src="{html.escape(copy)}">')
-    words = [f"{scene['dimension']}D", *(f"{about['concept'][key]} {what}" for key, what in
-                                        (("solution", "solution"), ("mixity_rule", "mixity")) if key in about["concept"]),
-             f"{about['steps_done']} steps", f"{about['unknowns']['primal']:,} unknowns"]
-    lines += [f"<h2>{html.escape(scene['title'] or name)}</h2>", f"<p>{html.escape(name)}: {html.escape(', '.join(words))}</p>"]
+        what = f"{picture.removesuffix('.png')} of {name}"
+        lines.append(f'<img loading="lazy" alt="{html.escape(what)}" src="{html.escape(copy)}">')
+    named = [f"{about['concept'][key]} {noun}" for key, noun in (("solution", "solution"), ("mixity_rule", "mixity"))
+             if key in about["concept"]]
+    words = [f"{scene['dimension']}D", *named, f"{about['steps_done']} steps",
+             f"{about['unknowns']['primal']:,} unknowns"]
+    lines.append(f"<h2>{html.escape(scene['title'] or name)}</h2>")
+    lines.append(f"<p>{html.escape(name)}: {html.escape(', '.join(words))}</p>")
     if about["status"] != "complete":
         lines.append(f'<p class="warning">incomplete: {about["steps_done"]} of {about["steps"]} steps</p>')
     if about["not_converged"]:
@@ -60,9 +64,11 @@ def main():
     os.makedirs(out, exist_ok=True)
     page = "\n".join([
         '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">',
-        '<meta name="viewport" content="width=device-width, initial-scale=1"><meta name="color-scheme" content="light dark">',
+        '<meta name="viewport" content="width=device-width, initial-scale=1">',
+        '<meta name="color-scheme" content="light dark">',
         f"<title>Examples of delam</title><style>{STYLE}</style></head><body>",
-        "<h1>Examples of delam</h1><p>Each opens as a page with the deformed body, its load curve and its energies, step by step.</p><ul>",
+        "<h1>Examples of delam</h1>",
+        "<p>Each opens as a page with the deformed body, its load curve and its energies, step by step.</p><ul>",
         *(card(folder, out) for folder in folders), "</ul></body></html>\n"])
     path = os.path.join(out, "index.html")
     with open(path + ".new", "w", encoding="utf-8") as file:

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# bash examples/gallery.sh [--all | --no-run] [NAME ...]: runs scenes (examples/run.sh), writes the page of each (delam view)
-# and out/gallery/index.html, with a picture of each and a link to its page.
+# bash examples/gallery.sh [--all | --no-run] [NAME ...]: runs scenes (examples/run.sh), writes the page of each (delam
+# view) and out/gallery/index.html, with a picture of each and a link to its page.
 #   NAME       as for run.sh, with a size where a family has several (default: those that take seconds)
 #   --all      all scenes, of the families the coarsest mesh: half an hour
 #   --no-run   the results that are in out/ already, of these scenes or of any

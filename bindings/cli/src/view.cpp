@@ -40,8 +40,8 @@ std::vector<ViewStep> every_nth(const std::vector<ViewStep>& steps, std::size_t 
 
 // How many of the steps a page can hold: 1 is each.
 std::size_t affordable(const Seen& seen, std::size_t steps) {
-    double values = 3.0 * static_cast<double>(seen.nodes.size()) +
-                    static_cast<double>(stress_components * seen.cells.size());
+    double values =
+        3.0 * static_cast<double>(seen.nodes.size()) + static_cast<double>(stress_components * seen.cells.size());
     for (const SeenInterface& interface : seen.interfaces) values += static_cast<double>(interface.b.size());
     return static_cast<std::size_t>(std::max(1.0, std::ceil(4 * values * static_cast<double>(steps) / most_bytes)));
 }
@@ -110,7 +110,8 @@ public:
             if (!stress.empty())
                 one["stress"] = arrays_.add(by_component(stress, seen_.cells, stress_components), coloured_bits);
             for (std::size_t i = 0; i < interfaces_.size(); ++i) {
-                const auto zeta = file_.field(step, fmt::format("interface_{}/zeta", i), interfaces_[i].nodes_b.size(), 1);
+                const auto zeta =
+                    file_.field(step, fmt::format("interface_{}/zeta", i), interfaces_[i].nodes_b.size(), 1);
                 one["adhesion"].push_back(zeta.empty() ? json() : arrays_.add(zeta, moved_bits));
             }
             out.push_back(std::move(one));
@@ -133,7 +134,8 @@ private:
 // Within an element of a page nothing may look like its end.
 std::string json_element(const json& value) {
     std::string text = value.dump(-1, ' ', false, json::error_handler_t::replace);
-    for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at)) text.replace(at, 1, "\\u003c");
+    for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at))
+        text.replace(at, 1, "\\u003c");
     return "<script type=\"application/json\" id=\"delam-data\">" + text + "</script>\n";
 }
 

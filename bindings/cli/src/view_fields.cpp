@@ -109,8 +109,8 @@ std::vector<ViewInterface> FieldsFile::interfaces() const {
         one.nodes_a = read_data<std::int64_t>(group.get(), path_, "nodes_a").first;
         one.nodes_b = read_data<std::int64_t>(group.get(), path_, "nodes_b").first;
         if (one.nodes_a.size() != one.nodes_b.size())
-            wrong_fields(path_, fmt::format("{} has {} nodes_a and {} nodes_b", item, one.nodes_a.size(),
-                                            one.nodes_b.size()));
+            wrong_fields(path_,
+                         fmt::format("{} has {} nodes_a and {} nodes_b", item, one.nodes_a.size(), one.nodes_b.size()));
         DataShape shape;
         std::tie(one.faces, shape) = read_data<std::int64_t>(group.get(), path_, "faces");
         one.per_face = shape.columns;

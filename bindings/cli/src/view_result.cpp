@@ -18,8 +18,9 @@ namespace {
 using nlohmann::json;
 
 // Keys of result.json that the page shows.
-constexpr const char* shown_keys[] = {"version",    "commit", "status", "reason",   "concept", "steps_done", "steps",
-                                      "not_converged", "closing", "scene_hash", "layers", "patterns", "units", "ended"};
+constexpr const char* shown_keys[] = {"version",    "commit",   "status",        "reason",  "concept",
+                                      "steps_done", "steps",    "not_converged", "closing", "scene_hash",
+                                      "layers",     "patterns", "units",         "ended"};
 
 struct CommaTable {
     std::vector<std::string> titles;

@@ -164,13 +164,15 @@ private:
         std::sort(covered.begin(), covered.end());
         std::vector<CellSide> kept;
         for (auto from = sides.begin(); from != sides.end();) {
-            const auto to = std::find_if(from, sides.end(), [&](const CellSide& side) { return side.key != from->key; });
+            const auto to =
+                std::find_if(from, sides.end(), [&](const CellSide& side) { return side.key != from->key; });
             if (to - from == 1 && !std::binary_search(covered.begin(), covered.end(), from->key)) kept.push_back(*from);
             from = to;
         }
         // In the order of the cells, neighbours have like numbers, which pack better.
-        std::sort(kept.begin(), kept.end(),
-                  [](const CellSide& x, const CellSide& y) { return std::tie(x.cell, x.side) < std::tie(y.cell, y.side); });
+        std::sort(kept.begin(), kept.end(), [](const CellSide& x, const CellSide& y) {
+            return std::tie(x.cell, x.side) < std::tie(y.cell, y.side);
+        });
         for (const CellSide& side : kept) add_polygon(static_cast<std::size_t>(side.cell), side.side);
     }
 

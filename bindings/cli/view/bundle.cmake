@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # The template of the pages of `delam view`: the target delam_view makes it with npm, in the build tree.
-set(DELAM_VIEWER AUTO CACHE STRING "the template of `delam view`: ON, OFF, or AUTO where npm is found and its registry answers")
+set(DELAM_VIEWER AUTO CACHE STRING
+    "the template of `delam view`: ON, OFF, or AUTO where npm is found and its registry answers")
 set_property(CACHE DELAM_VIEWER PROPERTY STRINGS AUTO ON OFF)
 
 set(DELAM_VIEW_SOURCES ${CMAKE_CURRENT_LIST_DIR})

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// node bundle.mjs PACKAGES TEMPLATE: page.html with all scripts and styles in it, as one file. PACKAGES is the folder with
-// node_modules, which is not beside the sources.
+// node bundle.mjs PACKAGES TEMPLATE: page.html with all scripts and styles in it, as one file. PACKAGES is the
+// folder with node_modules, which is not beside the sources.
 import { createRequire } from 'node:module';
 import fs from 'node:fs';
 import path from 'node:path';
@@ -26,22 +26,31 @@ const { outputFiles, metafile } = await esbuild.build({
 });
 // Nothing in a script may look like the end of its element.
 const script = outputFiles[0].text.replaceAll('</script', '<\\/script').replaceAll('<!--', '<\\!--');
-const style = (await esbuild.transform(fs.readFileSync(path.join(here, 'page.css'), 'utf8'), { loader: 'css', minify: true })).code;
+const style = (
+  await esbuild.transform(fs.readFileSync(path.join(here, 'page.css'), 'utf8'), { loader: 'css', minify: true })
+).code;
 
 // The licences of the packages in the script, whose terms ask for them.
 function licences() {
-  const names = new Set(Object.keys(metafile.inputs)
-    .map((file) => file.match(/.*node_modules\/((?:@[^/]+\/)?[^/]+)/)?.[1]).filter((name) => name));
-  return [...names].sort().map((name) => {
-    const folder = path.join(packages, 'node_modules', name);
-    const { version, license } = JSON.parse(fs.readFileSync(path.join(folder, 'package.json'), 'utf8'));
-    const find = (pattern) => fs.readdirSync(folder).find((one) => pattern.test(one));
-    const read = (file) => (file ? fs.readFileSync(path.join(folder, file), 'utf8') : '');
-    // Some have it in a section of their README.
-    const text = read(find(/^(licen[sc]e|copying)/i)) || (read(find(/^readme/i)).match(/^[# ]*licen[sc]e[^]*/im)?.[0] ?? '');
-    if (!text.includes('opyright')) throw new Error(`${name} comes without its licence`);
-    return `${name} ${version} (${license})\n\n${text.trim()}\n`;
-  }).join('\n');
+  const names = new Set(
+    Object.keys(metafile.inputs)
+      .map((file) => file.match(/.*node_modules\/((?:@[^/]+\/)?[^/]+)/)?.[1])
+      .filter((name) => name),
+  );
+  return [...names]
+    .sort()
+    .map((name) => {
+      const folder = path.join(packages, 'node_modules', name);
+      const { version, license } = JSON.parse(fs.readFileSync(path.join(folder, 'package.json'), 'utf8'));
+      const find = (pattern) => fs.readdirSync(folder).find((one) => pattern.test(one));
+      const read = (file) => (file ? fs.readFileSync(path.join(folder, file), 'utf8') : '');
+      // Some have it in a section of their README.
+      const text =
+        read(find(/^(licen[sc]e|copying)/i)) || (read(find(/^readme/i)).match(/^[# ]*licen[sc]e[^]*/im)?.[0] ?? '');
+      if (!text.includes('opyright')) throw new Error(`${name} comes without its licence`);
+      return `${name} ${version} (${license})\n\n${text.trim()}\n`;
+    })
+    .join('\n');
 }
 
 // The text between two marks; a replacement is no pattern.

@@ -38,7 +38,8 @@ if(NOT fetched STREQUAL lock)
   file(MAKE_DIRECTORY ${WORK})
   file(REMOVE ${WORK}/packages.stamp)
   file(COPY ${SOURCES}/package.json ${SOURCES}/package-lock.json DESTINATION ${WORK})
-  execute_process(COMMAND ${NPM} ci --ignore-scripts --omit=peer --no-audit --no-fund --fetch-retries=1 --fetch-timeout=60000
+  execute_process(COMMAND ${NPM} ci --ignore-scripts --omit=peer --no-audit --no-fund
+                          --fetch-retries=1 --fetch-timeout=60000
                   WORKING_DIRECTORY ${WORK} RESULT_VARIABLE status OUTPUT_QUIET ERROR_VARIABLE error TIMEOUT 300)
   if(NOT status EQUAL 0)
     # What comes but is not what was pinned is no absence.

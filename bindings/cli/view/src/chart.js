@@ -47,18 +47,25 @@ export class Chart {
   }
 
   inWords() {
-    const ends = this.curves.map(({ name, y }) => `${name || 'curve'} from ${number(y[0])} to ${number(y[y.length - 1])}`);
+    const ends = this.curves.map(
+      ({ name, y }) => `${name || 'curve'} from ${number(y[0])} to ${number(y[y.length - 1])}`,
+    );
     return `${this.title}: ${this.yLabel} over ${this.xLabel}; ${ends.join(', ')}`;
   }
 
   keys(box) {
     const items = this.curves.filter(({ name }) => name).map(({ name, colour, dash }) => ({ name, colour, dash }));
     if (items.length > 0) {
-      box.selectAll('span').data(items).join('span').text(({ name }) => name)
-        .style('--colour', ({ colour }) => `var(--${colour})`).style('--dash', ({ dash }) => (dash ? 'dashed' : 'solid'));
+      box
+        .selectAll('span')
+        .data(items)
+        .join('span')
+        .text(({ name }) => name)
+        .style('--colour', ({ colour }) => `var(--${colour})`)
+        .style('--dash', ({ dash }) => (dash ? 'dashed' : 'solid'));
     }
-    const more = (text, colour, dash, kind) => box.append('span').attr('class', kind).text(text)
-      .style('--colour', `var(--${colour})`).style('--dash', dash);
+    const more = (text, colour, dash, kind) =>
+      box.append('span').attr('class', kind).text(text).style('--colour', `var(--${colour})`).style('--dash', dash);
     if (this.jumps.length > 0) more('jump', 'grey', 'dotted', 'jump-key');
     if (this.failed.length > 0) more('not converged', 'red', 'solid', 'cross');
   }
@@ -74,24 +81,56 @@ export class Chart {
     this.x = scaleLinear(extent([...this.curves.map(({ x }) => x), jumpX]), [margin.left, width - margin.right]);
     this.y = scaleLinear(extent([...this.curves.map(({ y }) => y), jumpY]), [height - margin.bottom, margin.top]);
     const format = (value) => number(value, 3);
-    svg.append('g').attr('transform', `translate(0,${height - margin.bottom})`)
-      .call(axisBottom(this.x).ticks(Math.max(3, width / 90)).tickFormat(format));
+    svg
+      .append('g')
+      .attr('transform', `translate(0,${height - margin.bottom})`)
+      .call(
+        axisBottom(this.x)
+          .ticks(Math.max(3, width / 90))
+          .tickFormat(format),
+      );
     svg.append('g').attr('transform', `translate(${margin.left},0)`).call(axisLeft(this.y).ticks(5).tickFormat(format));
-    svg.append('text').attr('class', 'name').attr('x', (margin.left + width - margin.right) / 2).attr('y', height - 6)
-      .attr('text-anchor', 'middle').text(this.xLabel);
-    svg.append('text').attr('class', 'name').attr('text-anchor', 'middle')
-      .attr('transform', `translate(12,${(height - margin.bottom + margin.top) / 2}) rotate(-90)`).text(this.yLabel);
+    svg
+      .append('text')
+      .attr('class', 'name')
+      .attr('x', (margin.left + width - margin.right) / 2)
+      .attr('y', height - 6)
+      .attr('text-anchor', 'middle')
+      .text(this.xLabel);
+    svg
+      .append('text')
+      .attr('class', 'name')
+      .attr('text-anchor', 'middle')
+      .attr('transform', `translate(12,${(height - margin.bottom + margin.top) / 2}) rotate(-90)`)
+      .text(this.yLabel);
     this.drawJumps(svg, height);
     for (const { x, y, colour, dash } of this.curves) {
-      svg.append('path').attr('class', 'curve').style('stroke', `var(--${colour})`).attr('stroke-dasharray', dash ? '6 4' : null)
-        .attr('d', line((_, i) => this.x(x[i]), (_, i) => this.y(y[i]))(y));
+      svg
+        .append('path')
+        .attr('class', 'curve')
+        .style('stroke', `var(--${colour})`)
+        .attr('stroke-dasharray', dash ? '6 4' : null)
+        .attr(
+          'd',
+          line(
+            (_, i) => this.x(x[i]),
+            (_, i) => this.y(y[i]),
+          )(y),
+        );
     }
     const arm = 4;
     for (const row of this.failed) {
       const [x, y] = [this.x(this.curves[0].x[row]), this.y(this.curves[0].y[row])];
-      svg.append('path').attr('class', 'failed').attr('d', `M${x - arm},${y - arm}l8,8m0,-8l-8,8`);
+      svg
+        .append('path')
+        .attr('class', 'failed')
+        .attr('d', `M${x - arm},${y - arm}l8,8m0,-8l-8,8`);
     }
-    this.upright = svg.append('line').attr('class', 'cursor').attr('y1', margin.top).attr('y2', height - margin.bottom);
+    this.upright = svg
+      .append('line')
+      .attr('class', 'cursor')
+      .attr('y1', margin.top)
+      .attr('y2', height - margin.bottom);
     this.dots = this.curves.map(() => svg.append('circle').attr('class', 'cursor').attr('r', 4));
     this.cursor(this.row);
   }
@@ -100,7 +139,11 @@ export class Chart {
     for (const { x, x0, y0, x1, y1 } of this.jumps) {
       const mark = svg.append('line').attr('class', 'jump');
       if (x !== undefined) {
-        mark.attr('x1', this.x(x)).attr('x2', this.x(x)).attr('y1', margin.top).attr('y2', height - margin.bottom);
+        mark
+          .attr('x1', this.x(x))
+          .attr('x2', this.x(x))
+          .attr('y1', margin.top)
+          .attr('y2', height - margin.bottom);
       } else {
         mark.attr('x1', this.x(x0)).attr('x2', this.x(x1)).attr('y1', this.y(y0)).attr('y2', this.y(y1));
       }
@@ -112,7 +155,9 @@ export class Chart {
     const at = this.x(this.curves[0].x[row]);
     this.svg.attr('data-row', row);
     this.upright.attr('x1', at).attr('x2', at);
-    this.dots.forEach((dot, i) => dot.attr('cx', this.x(this.curves[i].x[row])).attr('cy', this.y(this.curves[i].y[row])));
+    this.dots.forEach((dot, i) =>
+      dot.attr('cx', this.x(this.curves[i].x[row])).attr('cy', this.y(this.curves[i].y[row])),
+    );
   }
 
   // The row whose point is next to where it was pointed.

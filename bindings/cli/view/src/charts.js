@@ -8,9 +8,15 @@ const colours = ['blue', 'red', 'green', 'orange', 'violet', 'grey'];
 
 // A jump along a load curve. Rows without these columns are of an older file.
 function jumpAlong(curve, jump) {
-  const { [`load${curve.suffix}`]: load, [`reaction_before${curve.suffix}`]: before, [`reaction_after${curve.suffix}`]: after } = jump;
+  const {
+    [`load${curve.suffix}`]: load,
+    [`reaction_before${curve.suffix}`]: before,
+    [`reaction_after${curve.suffix}`]: after,
+  } = jump;
   if ([load, before, after].some((value) => value === undefined)) return [];
-  return [curve.force ? { x0: -before, y0: load, x1: -after, y1: load } : { x0: load, y0: before, x1: load, y1: after }];
+  return [
+    curve.force ? { x0: -before, y0: load, x1: -after, y1: load } : { x0: load, y0: before, x1: load, y1: after },
+  ];
 }
 
 export function makeCharts(parent, result, units, onRow) {
@@ -20,23 +26,41 @@ export function makeCharts(parent, result, units, onRow) {
   const failed = steps.flatMap((step, row) => (bad.has(step) ? [row] : []));
   const jumps = largerJumps(result);
   for (const curve of loadCurves(result, units).slice(0, mostPatterns)) {
-    out.push(new Chart(parent, {
-      title: curve.name ? `Load and displacement, ${curve.name}` : 'Load and displacement',
-      xLabel: curve.xLabel, yLabel: curve.yLabel, near: 'both', failed, onRow,
-      curves: [{ name: '', x: curve.x, y: curve.y, colour: 'blue' }],
-      jumps: jumps.flatMap((jump) => jumpAlong(curve, jump)),
-    }));
+    out.push(
+      new Chart(parent, {
+        title: curve.name ? `Load and displacement, ${curve.name}` : 'Load and displacement',
+        xLabel: curve.xLabel,
+        yLabel: curve.yLabel,
+        near: 'both',
+        failed,
+        onRow,
+        curves: [{ name: '', x: curve.x, y: curve.y, colour: 'blue' }],
+        jumps: jumps.flatMap((jump) => jumpAlong(curve, jump)),
+      }),
+    );
   }
   const averages = averageCurves(result, units);
   if (averages.length > 0) {
-    out.push(new Chart(parent, {
-      title: 'Average stress and strain', xLabel: 'average strain [%]', yLabel: axis('average stress', units.stress),
-      near: 'both', onRow, curves: averages.map((one, i) => ({ ...one, colour: colours[i % colours.length] })),
-    }));
+    out.push(
+      new Chart(parent, {
+        title: 'Average stress and strain',
+        xLabel: 'average strain [%]',
+        yLabel: axis('average stress', units.stress),
+        near: 'both',
+        onRow,
+        curves: averages.map((one, i) => ({ ...one, colour: colours[i % colours.length] })),
+      }),
+    );
   }
-  out.push(new Chart(parent, {
-    title: 'Energies', xLabel: axis('time', units.time), yLabel: axis('energy', units.energy), onRow,
-    curves: energyCurves(result), jumps: jumps.map(({ time }) => ({ x: time })),
-  }));
+  out.push(
+    new Chart(parent, {
+      title: 'Energies',
+      xLabel: axis('time', units.time),
+      yLabel: axis('energy', units.energy),
+      onRow,
+      curves: energyCurves(result),
+      jumps: jumps.map(({ time }) => ({ x: time })),
+    }),
+  );
   return out;
 }

@@ -9,9 +9,10 @@ const adhesionStops = {
 };
 const bodyTones = ['#efe6cf', '#c8d9ea', '#d5e3cc', '#ead2c6', '#d9d0e8', '#cbe1df', '#e6e0ae', '#d6d6d6'];
 
-const bytesOf = (colour) => (colour.startsWith('#')
-  ? [1, 3, 5].map((at) => Number.parseInt(colour.slice(at, at + 2), 16))
-  : colour.match(/\d+/g).slice(0, 3).map(Number));
+const bytesOf = (colour) =>
+  colour.startsWith('#')
+    ? [1, 3, 5].map((at) => Number.parseInt(colour.slice(at, at + 2), 16))
+    : colour.match(/\d+/g).slice(0, 3).map(Number);
 
 // A table of 256 colours; values of 0 to 1 are looked up.
 function tableOf(colourAt) {

@@ -47,7 +47,13 @@ export class Result {
   constructor(root) {
     this.root = root;
     const data = JSON.parse(root.getElementById('delam-data').textContent);
-    Object.assign(this, { about: data.about, steps: data.steps, jumps: data.jumps, every: data.every, layout: data.mesh });
+    Object.assign(this, {
+      about: data.about,
+      steps: data.steps,
+      jumps: data.jumps,
+      every: data.every,
+      layout: data.mesh,
+    });
     this.columns = new Map(data.history.map(({ name, values }) => [name, values]));
     this.rows = this.column('step').length;
     // The row of the history that each step with fields has.

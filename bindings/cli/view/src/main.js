@@ -45,7 +45,13 @@ class Page {
     const flat = mesh.flat;
     // On a phone the charts come next to the scene.
     byId('more').open = !window.matchMedia('(max-width: 52rem)').matches;
-    this.chosen = { scale: about.displacement_scale ?? 1, colour: 'body', mesh: false, opacity: bodyOpacity(mesh), apart: 0 };
+    this.chosen = {
+      scale: about.displacement_scale ?? 1,
+      colour: 'body',
+      mesh: false,
+      opacity: bodyOpacity(mesh),
+      apart: 0,
+    };
     byId('scene').classList.toggle('flat', flat);
     byId('scene').setAttribute('aria-label', `Deformed body: ${byId('title').textContent}`);
     byId('drag').textContent = flat ? 'move' : 'turn';
@@ -75,13 +81,18 @@ class Page {
     const step = await this.result.step(this.index);
     const select = (id, items) => byId(id).append(...items.map(([value, text]) => element('option', text, { value })));
     select('colour', Scene.fields(step, mesh.flat));
-    select('interfaces', [['all', 'all'], ...(mesh.interfaces.length > 1 ? mesh.interfaces.map(({ name }, i) => [String(i), name]) : []), ['none', 'none']]);
+    select('interfaces', [
+      ['all', 'all'],
+      ...(mesh.interfaces.length > 1 ? mesh.interfaces.map(({ name }, i) => [String(i), name]) : []),
+      ['none', 'none'],
+    ]);
     byId('opacity').value = chosen.opacity;
     byId('apart-field').hidden = !this.scene || this.scene.bodies < 2;
-    const on = (id, key, read) => byId(id).addEventListener('input', (event) => {
-      chosen[key] = read(event.target);
-      this.redraw();
-    });
+    const on = (id, key, read) =>
+      byId(id).addEventListener('input', (event) => {
+        chosen[key] = read(event.target);
+        this.redraw();
+      });
     // Through a body that shows a field nothing else is seen: the legend has its colours as they are.
     on('colour', 'colour', ({ value }) => {
       chosen.opacity = value === 'body' ? bodyOpacity(mesh) : 1;
@@ -142,19 +153,28 @@ class Page {
     }
     const turn = 0.1;
     const keys = {
-      ArrowLeft: [-turn, 0], ArrowRight: [turn, 0], ArrowUp: [0, turn], ArrowDown: [0, -turn], '+': [0, 0, 1.2], '-': [0, 0, 1 / 1.2],
+      ArrowLeft: [-turn, 0],
+      ArrowRight: [turn, 0],
+      ArrowUp: [0, turn],
+      ArrowDown: [0, -turn],
+      '+': [0, 0, 1.2],
+      '-': [0, 0, 1 / 1.2],
     };
     // Before vtk.js, which has keys of its own.
-    byId('scene').addEventListener('keydown', (event) => {
-      if (!this.scene || event.ctrlKey || event.metaKey || event.altKey) return;
-      if (keys[event.key]) this.scene.nudge(...keys[event.key]);
-      else if (event.key === '0') {
-        this.scene.fit();
-        this.scene.draw();
-      } else return;
-      event.preventDefault();
-      event.stopPropagation();
-    }, true);
+    byId('scene').addEventListener(
+      'keydown',
+      (event) => {
+        if (!this.scene || event.ctrlKey || event.metaKey || event.altKey) return;
+        if (keys[event.key]) this.scene.nudge(...keys[event.key]);
+        else if (event.key === '0') {
+          this.scene.fit();
+          this.scene.draw();
+        } else return;
+        event.preventDefault();
+        event.stopPropagation();
+      },
+      true,
+    );
   }
 
   async play(on) {
@@ -167,7 +187,9 @@ class Page {
     while (this.playing && this.index < last) {
       const began = performance.now();
       await this.show(this.index + 1);
-      await new Promise((done) => { setTimeout(done, Math.max(0, oneFrame - (performance.now() - began))); });
+      await new Promise((done) => {
+        setTimeout(done, Math.max(0, oneFrame - (performance.now() - began)));
+      });
     }
     if (this.playing) this.play(false);
   }
@@ -212,7 +234,9 @@ async function begin() {
   const page = new Page();
   window.delam = page; // for tests, and for whoever wants the numbers
   await page.open();
-  await new Promise((done) => { requestAnimationFrame(() => requestAnimationFrame(done)); });
+  await new Promise((done) => {
+    requestAnimationFrame(() => requestAnimationFrame(done));
+  });
   document.documentElement.dataset.state = page.scene ? 'drawn' : 'shown';
   performance.mark('delam-drawn');
 }

@@ -36,8 +36,12 @@ export const views = {
 
 function vonMises(stress, count) {
   const [xx, yy, zz, xy, yz, zx] = components.map((_, c) => stress.subarray(c * count, (c + 1) * count));
-  return Float32Array.from(xx, (_, i) => Math.sqrt(
-    0.5 * ((xx[i] - yy[i]) ** 2 + (yy[i] - zz[i]) ** 2 + (zz[i] - xx[i]) ** 2) + 3 * (xy[i] ** 2 + yz[i] ** 2 + zx[i] ** 2)));
+  return Float32Array.from(xx, (_, i) =>
+    Math.sqrt(
+      0.5 * ((xx[i] - yy[i]) ** 2 + (yy[i] - zz[i]) ** 2 + (zz[i] - xx[i]) ** 2) +
+        3 * (xy[i] ** 2 + yz[i] ** 2 + zx[i] ** 2),
+    ),
+  );
 }
 
 function actorOf(data) {
@@ -128,8 +132,15 @@ export class Scene {
     this.interfacePoints = vtkPoints.newInstance();
     this.interfaceData.setPoints(this.interfacePoints);
     this.interfaces = actorOf(this.interfaceData);
-    this.interfaces.getProperty().set({ lighting: !mesh.flat, ambient: 0.55, diffuse: 0.45, interpolation: 0,
-      lineWidth: mesh.flat ? 4 * Math.max(1, window.devicePixelRatio || 1) : 1 });
+    this.interfaces
+      .getProperty()
+      .set({
+        lighting: !mesh.flat,
+        ambient: 0.55,
+        diffuse: 0.45,
+        interpolation: 0,
+        lineWidth: mesh.flat ? 4 * Math.max(1, window.devicePixelRatio || 1) : 1,
+      });
     for (const actor of [this.body, this.edges, this.interfaces]) this.renderer.addActor(actor);
     this.edges.getMapper().setResolveCoincidentTopologyToPolygonOffset();
     this.showInterfaces('all');
@@ -204,8 +215,9 @@ export class Scene {
     if (key.startsWith('u')) {
       const u = step.displacement;
       const c = 'xyz'.indexOf(key[1]);
-      return Float32Array.from({ length: u.length / 3 }, (_, i) => (key === 'u'
-        ? Math.hypot(u[3 * i], u[3 * i + 1], u[3 * i + 2]) : u[3 * i + c]));
+      return Float32Array.from({ length: u.length / 3 }, (_, i) =>
+        key === 'u' ? Math.hypot(u[3 * i], u[3 * i + 1], u[3 * i + 2]) : u[3 * i + c],
+      );
     }
     if (key === 'mises') return vonMises(step.stress, this.faces);
     const c = components.indexOf(key);

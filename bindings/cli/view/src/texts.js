@@ -36,7 +36,10 @@ function warnings({ about }) {
   const bad = about.not_converged ?? [];
   if (bad.length > 0) {
     const few = bad.slice(0, 12).join(', ');
-    out.push(`${bad.length === 1 ? 'Step' : 'Steps'} ${few}${bad.length > 12 ? ', …' : ''} did not converge; the best state found is shown`);
+    out.push(
+      `${bad.length === 1 ? 'Step' : 'Steps'} ${few}${bad.length > 12 ? ', …' : ''} did not converge; ` +
+        'the best state found is shown',
+    );
   }
   return out;
 }
@@ -49,10 +52,13 @@ export function sayResult(result, units) {
   byId('concept').textContent = solution(result, units);
   byId('warnings').replaceChildren(...warnings(result).map((text) => element('li', text)));
   const lines = about.closing ?? [];
-  byId('closing').querySelector('ul').replaceChildren(...lines.map((text) => element('li', text)));
+  byId('closing')
+    .querySelector('ul')
+    .replaceChildren(...lines.map((text) => element('li', text)));
   byId('closing').hidden = lines.length === 0;
   const commit = about.commit ? `commit ${String(about.commit).slice(0, 13)}, ` : '';
-  byId('origin').textContent = `delam ${about.version}, ${commit}scene ${about.scene_hash}, ended ${about.ended}; ` +
+  byId('origin').textContent =
+    `delam ${about.version}, ${commit}scene ${about.scene_hash}, ended ${about.ended}; ` +
     `${result.layout.cells} cells, ${result.steps.length} steps with fields`;
 }
 
@@ -78,17 +84,24 @@ function readings(result, units, row, sums) {
   add('energy_release_rate', 'energy release rate', at('energy_release_rate'), units.energyRate);
   add('displacement', 'largest displacement', sums.displacement, units.length);
   sums.adhesion.forEach((one, i) => {
-    if (one) out.push([`adhesion-${i}`, `adhesion, ${result.layout.interfaces[i].name}`, `mean ${number(one.mean)}, least ${number(one.least)}`]);
+    if (one)
+      out.push([
+        `adhesion-${i}`,
+        `adhesion, ${result.layout.interfaces[i].name}`,
+        `mean ${number(one.mean)}, least ${number(one.least)}`,
+      ]);
   });
   return out;
 }
 
 export function sayStep(result, units, row, sums) {
-  byId('readings').replaceChildren(...readings(result, units, row, sums).map(([key, title, text]) => {
-    const item = document.createElement('div');
-    item.append(element('dt', title), element('dd', text, { 'data-key': key }));
-    return item;
-  }));
+  byId('readings').replaceChildren(
+    ...readings(result, units, row, sums).map(([key, title, text]) => {
+      const item = document.createElement('div');
+      item.append(element('dt', title), element('dd', text, { 'data-key': key }));
+      return item;
+    }),
+  );
   const time = result.column('time')[row];
   const last = result.column('step')[result.rows - 1];
   byId('instant').textContent = `step ${result.column('step')[row]} of ${last}, time ${withUnit(time, units.time)}`;
@@ -114,8 +127,13 @@ export function sayColours({ result, colours, field, adhesion }) {
   if (adhesion) parts.push(bar('adhesion', colours.adhesion, ['0 debonded', '0.5', '1 intact']));
   if (field) {
     const { low, high } = field.range;
-    parts.push(bar(`${field.title}, this step`, colours.field,
-      [number(low, 3), number(0.5 * (low + high), 3), `${number(high, 3)}${field.unit ? ` ${field.unit}` : ''}`]));
+    parts.push(
+      bar(`${field.title}, this step`, colours.field, [
+        number(low, 3),
+        number(0.5 * (low + high), 3),
+        `${number(high, 3)}${field.unit ? ` ${field.unit}` : ''}`,
+      ]),
+    );
   } else if (result.about.layers?.length > 0) {
     const box = element('div', '', { class: 'bodies' });
     const names = result.about.layers.map(String);

@@ -5,7 +5,10 @@ export const number = (value, digits = 4) => {
   if (value === 0) return '0';
   const size = Math.abs(value);
   const text = size >= 1e5 || size < 1e-4 ? value.toExponential(digits - 1) : String(Number(value.toPrecision(digits)));
-  return text.replace(/\.?0+e/, 'e').replace('e+', 'e').replaceAll('-', '−');
+  return text
+    .replace(/\.?0+e/, 'e')
+    .replace('e+', 'e')
+    .replaceAll('-', '−');
 };
 export const withUnit = (value, unit) => (unit ? `${number(value)} ${unit}` : number(value));
 export const axis = (label, unit) => (unit ? `${label} [${unit}]` : label);
@@ -40,15 +43,36 @@ export function loadCurves(result, units) {
     const reaction = result.column(`reaction${suffix}`);
     const curve = { name, suffix, force: drives === 'force' };
     if (about.cell || drives === 'strain') {
-      return { ...curve, x: factor, y: reaction, xLabel: 'load factor', yLabel: axis('conjugate of the factor', units.energy),
-        xUnit: '', yUnit: units.energy };
+      return {
+        ...curve,
+        x: factor,
+        y: reaction,
+        xLabel: 'load factor',
+        yLabel: axis('conjugate of the factor', units.energy),
+        xUnit: '',
+        yUnit: units.energy,
+      };
     }
     if (curve.force) {
-      return { ...curve, x: reaction.map((value) => -value), y: factor, xLabel: axis('conjugate displacement', units.length),
-        yLabel: 'load factor', xUnit: units.length, yUnit: '' };
+      return {
+        ...curve,
+        x: reaction.map((value) => -value),
+        y: factor,
+        xLabel: axis('conjugate displacement', units.length),
+        yLabel: 'load factor',
+        xUnit: units.length,
+        yUnit: '',
+      };
     }
-    return { ...curve, x: factor, y: reaction, xLabel: axis('prescribed displacement', units.length),
-      yLabel: axis('reaction', units.force), xUnit: units.length, yUnit: units.force };
+    return {
+      ...curve,
+      x: factor,
+      y: reaction,
+      xLabel: axis('prescribed displacement', units.length),
+      yLabel: axis('reaction', units.force),
+      xUnit: units.length,
+      yUnit: units.force,
+    };
   });
 }
 
@@ -56,7 +80,8 @@ export function loadCurves(result, units) {
 export function averageCurves(result, units) {
   for (const prefix of ['cell_', '']) {
     const found = ['xx', 'yy', 'zz', 'xy', 'yz', 'zx'].filter(
-      (c) => result.columns.has(`${prefix}strain_${c}`) && result.columns.has(`${prefix}stress_${c}`));
+      (c) => result.columns.has(`${prefix}strain_${c}`) && result.columns.has(`${prefix}stress_${c}`),
+    );
     if (found.length > 0) {
       return found.map((c) => ({
         name: c,

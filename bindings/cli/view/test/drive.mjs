@@ -7,28 +7,40 @@ import { pathToFileURL } from 'node:url';
 
 const [packages, browserPath, page, out] = process.argv.slice(2);
 const { default: puppeteer } = await import(
-  pathToFileURL(createRequire(path.resolve(packages, 'package.json')).resolve('puppeteer-core')).href);
+  pathToFileURL(createRequire(path.resolve(packages, 'package.json')).resolve('puppeteer-core')).href
+);
 const most = 120000; // milliseconds, on a machine that is busy and draws without a graphics card
 
 // What the page says and has at this moment.
-const state = (tab) => tab.evaluate(() => ({
-  index: window.delam.index,
-  step: window.delam.step.step,
-  sums: window.delam.sums,
-  readings: Object.fromEntries([...document.querySelectorAll('#readings dd')].map((dd) => [dd.dataset.key, dd.textContent])),
-  instant: document.getElementById('instant').textContent,
-  slider: Number(document.getElementById('step').value),
-  rows: [...document.querySelectorAll('.chart svg')].map((svg) => Number(svg.dataset.row)),
-  scale: window.delam.chosen.scale,
-  legend: document.getElementById('legend').innerText,
-}));
+const state = (tab) =>
+  tab.evaluate(() => ({
+    index: window.delam.index,
+    step: window.delam.step.step,
+    sums: window.delam.sums,
+    readings: Object.fromEntries(
+      [...document.querySelectorAll('#readings dd')].map((dd) => [dd.dataset.key, dd.textContent]),
+    ),
+    instant: document.getElementById('instant').textContent,
+    slider: Number(document.getElementById('step').value),
+    rows: [...document.querySelectorAll('.chart svg')].map((svg) => Number(svg.dataset.row)),
+    scale: window.delam.chosen.scale,
+    legend: document.getElementById('legend').innerText,
+  }));
 
 // A new step has been drawn.
-const settled = (tab) => tab.evaluate(() => new Promise((done) => {
-  requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done, 60)));
-}));
+const settled = (tab) =>
+  tab.evaluate(
+    () =>
+      new Promise((done) => {
+        requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done, 60)));
+      }),
+  );
 const shown = async (tab, index) => {
-  await tab.waitForFunction((i) => window.delam.index === i && window.delam.step === window.delam.result.unpacked.get(i), { timeout: most }, index);
+  await tab.waitForFunction(
+    (i) => window.delam.index === i && window.delam.step === window.delam.result.unpacked.get(i),
+    { timeout: most },
+    index,
+  );
   await settled(tab);
   return state(tab);
 };
@@ -45,7 +57,8 @@ async function open(browser, width, { old = false, dark = false } = {}) {
   const tab = await browser.newPage();
   const found = { width, errors: [], requests: [] };
   tab.on('console', (message) => {
-    if (['error', 'warn', 'warning', 'assert'].includes(message.type())) found.errors.push(`${message.type()}: ${message.text()}`);
+    if (['error', 'warn', 'warning', 'assert'].includes(message.type()))
+      found.errors.push(`${message.type()}: ${message.text()}`);
   });
   tab.on('pageerror', (error) => found.errors.push(error.message));
   tab.on('request', (request) => {
@@ -54,18 +67,28 @@ async function open(browser, width, { old = false, dark = false } = {}) {
   await tab.setViewport({ width, height: 800, hasTouch: width < 600, isMobile: width < 600 });
   await tab.emulateMediaFeatures([{ name: 'prefers-color-scheme', value: dark ? 'dark' : 'light' }]);
   // A browser that cannot inflate by itself.
-  if (old) await tab.evaluateOnNewDocument(() => { delete window.DecompressionStream; delete Uint8Array.fromBase64; });
+  if (old)
+    await tab.evaluateOnNewDocument(() => {
+      delete window.DecompressionStream;
+      delete Uint8Array.fromBase64;
+    });
   await tab.goto(pathToFileURL(path.resolve(page)).href);
   await tab.waitForFunction(() => document.documentElement.dataset.state, { timeout: most });
   found.state = await tab.evaluate(() => document.documentElement.dataset.state);
   found.title = await tab.title();
   found.warnings = await tab.evaluate(() => [...document.querySelectorAll('#warnings li')].map((li) => li.textContent));
   found.overflow = await tab.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
-  found.below = await tab.evaluate(() => document.getElementById('charts').getBoundingClientRect().top >=
-    document.getElementById('scene').getBoundingClientRect().bottom);
+  found.below = await tab.evaluate(
+    () =>
+      document.getElementById('charts').getBoundingClientRect().top >=
+      document.getElementById('scene').getBoundingClientRect().bottom,
+  );
   found.steps = await tab.evaluate(() => Number(document.getElementById('step').max) + 1);
-  found.unnamed = await tab.evaluate(() => [...document.querySelectorAll('button, input, select, [role], section')].filter((one) => (
-    !(one.getAttribute('aria-label') || one.textContent.trim() || one.labels?.length))).map((one) => one.outerHTML.slice(0, 80)));
+  found.unnamed = await tab.evaluate(() =>
+    [...document.querySelectorAll('button, input, select, [role], section')]
+      .filter((one) => !(one.getAttribute('aria-label') || one.textContent.trim() || one.labels?.length))
+      .map((one) => one.outerHTML.slice(0, 80)),
+  );
   return { tab, found };
 }
 
@@ -94,7 +117,9 @@ async function walk(browser, width) {
   }, target);
   await tab.mouse.click(place.x, place.y);
   found.clicked = { target, ...(await shown(tab, target)) };
-  await tab.evaluate(() => { document.getElementById('more').open = true; });
+  await tab.evaluate(() => {
+    document.getElementById('more').open = true;
+  });
   await tab.click('#true-scale');
   await picture(tab, `true-${width}.png`);
   found.trueScale = (await state(tab)).scale;
@@ -106,10 +131,11 @@ async function walk(browser, width) {
     await picture(tab, `${colour}-${width}.png`);
   }
   await tab.evaluate(() => document.getElementById('scene').scrollIntoView());
-  const camera = () => tab.evaluate(() => {
-    const of = window.delam.scene.renderer.getActiveCamera();
-    return [...of.getPosition(), of.getParallelScale()];
-  });
+  const camera = () =>
+    tab.evaluate(() => {
+      const of = window.delam.scene.renderer.getActiveCamera();
+      return [...of.getPosition(), of.getParallelScale()];
+    });
   const cameras = [await camera()];
   await tab.focus('#scene');
   for (const key of ['ArrowLeft', '+', '0']) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// node open_time.mjs PACKAGES PAGE [TIMES]: prints how long a page takes from the call of its address to its first picture,
-// in headless Chromium that draws without a graphics card. PACKAGES is the folder with node_modules of package.json here.
+// node open_time.mjs PACKAGES PAGE [TIMES]: prints how long a page takes from the call of its address to its first
+// picture, in headless Chromium that draws without a graphics card. PACKAGES is a folder with the node_modules of
+// package.json here.
 // A figure to look at, no test: it depends on the machine and on what else runs there.
 import { createRequire } from 'node:module';
 import path from 'node:path';
@@ -8,7 +9,8 @@ import { pathToFileURL } from 'node:url';
 
 const [packages, page, times = '3'] = process.argv.slice(2);
 const { default: puppeteer } = await import(
-  pathToFileURL(createRequire(path.resolve(packages, 'package.json')).resolve('puppeteer-core')).href);
+  pathToFileURL(createRequire(path.resolve(packages, 'package.json')).resolve('puppeteer-core')).href
+);
 for (let i = 0; i < Number(times); i += 1) {
   // A new browser each time: nothing is kept from the last.
   const browser = await puppeteer.launch({
