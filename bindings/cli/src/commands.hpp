@@ -2,6 +2,7 @@
 // The subcommands; each returns an exit code or throws a Failure.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -27,6 +28,30 @@ int run(const std::string& scene_file, const std::vector<std::string>& settings,
         const std::string& command, const Caller& caller);
 // Writes the scene of an Abaqus input file; scene_file "": to standard output. replace: also where there is a file.
 int import(const std::string& deck, const std::string& scene_file, bool replace);
+// How `delam view` writes its page.
+struct ViewWishes {
+    std::string page;           // "": view.html in the folder of the result, where an earlier one is replaced
+    std::string page_template;  // "": the installed one
+    std::size_t every = 0;      // the fields of every n-th written step; 0: as many as a browser can hold
+    bool replace = false;       // a page that was named
+};
+// Writes a result as a page for a browser.
+int view(const std::string& folder, const ViewWishes& wishes);
+// A study is a Python script of share/delam/study, which runs the program again for each march.
+struct Study {
+    std::string name;  // "sweep" or "fit"
+    std::vector<std::string> scenes;
+    std::vector<std::string> settings;  // for all runs
+    std::string folder;
+    bool replace = false;
+    std::int64_t jobs = 1;
+    std::vector<std::string> vary;  // of a sweep
+    std::int64_t latin = 0, seed = 1;
+    std::vector<std::string> data, parameters, columns;  // of a fit
+    std::string x = "load", y = "reaction", weights = "curve";
+    double scale = 1.0, confidence = 0.95;
+};
+int study(const Study& study);
 // Lists the options of [solver] and the parameters of the laws.
 int options(bool json);
 // json: one object instead of lines, also for a wrong scene.

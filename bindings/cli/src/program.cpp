@@ -47,10 +47,12 @@ struct Arguments {
     std::string scene, deck, folder, page, shell, progress = "text";
     std::vector<std::string> settings;
     bool resume = false, replace = false, json = false;
+    ViewWishes view;
+    Study study;
 };
 
 struct Commands {
-    CLI::App *run, *check, *import, *options, *schema, *man, *completion;
+    CLI::App *run, *check, *import, *view, *sweep, *fit, *options, *schema, *man, *completion;
     std::map<std::string, std::vector<std::string>> choices;  // by option
 };
 
@@ -100,6 +102,104 @@ Commands add_work(CLI::App& app, Arguments& into) {
     of.import->add_flag("--replace", into.replace, "overwrite the scene file if it is there");
     of.import->footer(footer);
     return of;
+}
+
+void add_view(CLI::App& app, Arguments& into, Commands& of) {
+    of.view = app.add_subcommand("view", "write a result as one page for a browser, without a network");
+    of.view->add_option("result", into.folder, "folder of a result (--out of delam run)")
+        ->type_name(folder_value)
+        ->required();
+    of.view->add_option("--out,-o", into.view.page, "the page (default: view.html in the folder, anew)")
+        ->type_name(file_value);
+    of.view->add_flag("--replace", into.view.replace, "overwrite the page that --out names if it is there");
+    of.view
+        ->add_option("--every", into.view.every,
+                     "show the fields of every N-th written step and of the last (default: as many as a browser holds)")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1000000000));
+    of.view->add_option("--template", into.view.page_template, "a template of the page instead of the installed one")
+        ->type_name(file_value);
+    of.view->footer(footer);
+}
+
+// A value of an option that takes several, each time one of them.
+template <class Value>
+CLI::Option* add_several(CLI::App& command, const char* names, std::vector<Value>& into, const char* meaning) {
+    return command.add_option(names, into, meaning)->allow_extra_args(false);
+}
+
+void add_sweep(CLI::App& app, Arguments& into, Commands& of) {
+    Study& study = into.study;
+    of.sweep =
+        app.add_subcommand("sweep", "run a scene with many values, several at once, into one table and pictures");
+    of.sweep->add_option("scene", study.scenes, "scene file")->type_name(scene_value)->required()->expected(1);
+    add_several(*of.sweep, "--vary", study.vary,
+                "FROM:TO:NUMBER, FROM:TO:NUMBER:log, a list A,B,C or, with --latin, FROM:TO, e.g. "
+                "laws.0.normal_toughness=200:400:5; given several times, all combinations are run")
+        ->type_name("KEY=VALUES")
+        ->required();
+    of.sweep->add_option("--latin", study.latin, "a Latin hypercube of so many points in the ranges instead")
+        ->type_name("NUMBER")
+        ->check(CLI::Range(1, 1000000));
+    of.sweep->add_option("--seed", study.seed, "of --latin (default 1)")
+        ->type_name("NUMBER")
+        ->check(CLI::Range(0, 2147483647));
+    of.sweep
+        ->add_option("--out,-o", into.folder,
+                     "folder for table, pictures and results; the same command goes on after an interruption")
+        ->type_name(folder_value)
+        ->required();
+    of.sweep->add_flag("--replace", into.replace, "discard the runs of another sweep in the folder");
+    of.sweep->footer(footer);
+}
+
+void add_fit(CLI::App& app, Arguments& into, Commands& of) {
+    Study& study = into.study;
+    of.fit = app.add_subcommand("fit", "find numbers of the scene, above all of its laws, from measured load curves");
+    of.fit->add_option("scenes", study.scenes, "scene files that share the parameters")
+        ->type_name(scene_value)
+        ->required();
+    of.fit->add_option("--data", study.data, "a CSV file with a curve for each scene, in its order")
+        ->type_name(file_value)
+        ->required();
+    of.fit
+        ->add_option(
+            "--parameters", study.parameters,
+            "KEY, KEY=LOWER:UPPER or KEY=LOWER:UPPER@START, e.g. laws.0.normal_toughness=100:500; the start is "
+            "otherwise the value of the scene")
+        ->type_name("KEY")
+        ->required();
+    of.fit->add_option("--x", study.x, "column of history.csv over which the curve is given (default load)")
+        ->type_name("COLUMN");
+    of.fit->add_option("--y", study.y, "column that is fitted (default reaction)")->type_name("COLUMN");
+    of.fit->add_option("--columns", study.columns, "columns of the data (default: the first two)")
+        ->type_name("X Y")
+        ->expected(2);
+    of.fit
+        ->add_option("--scale", study.scale,
+                     "factor on the y of the data, e.g. 1/width where a plane scene has forces per width")
+        ->type_name("NUMBER");
+    of.fit
+        ->add_option("--weights", study.weights,
+                     "curve (default): residuals over the largest y of their curve; equal: as they are")
+        ->type_name("HOW")
+        ->check(CLI::IsMember(of.choices["weights"] = {"curve", "equal"}));
+    of.fit->add_option("--confidence", study.confidence, "of the intervals (default 0.95)")->type_name("LEVEL");
+    of.fit->add_option("--out,-o", into.folder, "folder for fit.json, fit.csv and pictures")
+        ->type_name(folder_value)
+        ->required();
+    of.fit->footer(footer);
+}
+
+void add_studies(CLI::App& app, Arguments& into, Commands& of) {
+    add_sweep(app, into, of);
+    add_fit(app, into, of);
+    for (CLI::App* command : {of.sweep, of.fit}) {
+        add_settings(*command, into);
+        command->add_option("--jobs,-j", into.study.jobs, "runs at once (default 1)")
+            ->type_name("NUMBER")
+            ->check(CLI::Range(1, 4096));
+    }
 }
 
 void add_help(CLI::App& app, Arguments& into, Commands& of) {
@@ -152,6 +252,8 @@ int guarded(int argc, char** argv, const Caller& caller) {
     app.require_subcommand(1);
     Arguments given;
     Commands of = add_work(app, given);
+    add_view(app, given, of);
+    add_studies(app, given, of);
     add_help(app, given, of);
     try {
         app.parse(argc, argv);
@@ -160,6 +262,14 @@ int guarded(int argc, char** argv, const Caller& caller) {
     }
     if (of.options->parsed()) return options(given.json);
     if (of.import->parsed()) return import(given.deck, given.folder, given.replace);
+    if (of.view->parsed()) return view(given.folder, given.view);
+    if (of.sweep->parsed() || of.fit->parsed()) {
+        given.study.name = of.fit->parsed() ? "fit" : "sweep";
+        given.study.settings = given.settings;
+        given.study.folder = given.folder;
+        given.study.replace = given.replace;
+        return study(given.study);
+    }
     if (of.check->parsed()) return check(given.scene, given.settings, given.json, caller);
     if (of.run->parsed()) {
         say_json_lines(given.progress == "json");

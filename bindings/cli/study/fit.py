@@ -6,7 +6,6 @@ Least squares between the reaction of the scene and the curve, by SciPy's trust 
 derivatives of the march. Several scenes, each with its data, share the parameters. Writes DIR/fit.json, DIR/fit.png and
 DIR/fit.csv (data and model); the last lines say the parameters with their confidence intervals.
 """
-import argparse
 import json
 import os
 import sys
@@ -18,31 +17,9 @@ from scipy.stats import t as student
 from curve_data import CurveData
 from fit_model import Infeasible, Model, Parameter
 from fit_pictures import draw_fit
-from marches import DONE, INTERRUPTED, NUMERICAL, Trouble, make_folder, program, read_about, write_file
+from marches import DONE, INTERRUPTED, NUMERICAL, Trouble, given_words, make_folder, read_about, write_file
 
 WORSE = 10.0  # what a step into an infeasible region costs, in residuals: the trust region then shrinks
-
-
-def arguments():
-    parser = argparse.ArgumentParser(prog=os.path.basename(program()) + " fit", description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("scenes", nargs="+", metavar="SCENE", help="scene files")
-    parser.add_argument("--data", nargs="+", required=True, metavar="CURVE.csv", help="a curve for each scene, in its order")
-    parser.add_argument("--parameters", nargs="+", required=True, metavar="KEY",
-                        help="KEY, KEY=LOWER:UPPER or KEY=LOWER:UPPER@START, e.g. laws.0.normal_toughness=100:500; it "
-                             "starts at the value of the scene")
-    parser.add_argument("--x", default="load", help="column of history.csv over which the curve is (default load)")
-    parser.add_argument("--y", default="reaction", help="column that is fitted (default reaction)")
-    parser.add_argument("--columns", nargs=2, metavar=("X", "Y"), help="columns of the data (default: the first two)")
-    parser.add_argument("--scale", type=float, default=1.0,
-                        help="factor on the y of the data, e.g. 1/width where a plane scene has forces per width")
-    parser.add_argument("--weights", choices=["equal", "curve"], default="curve",
-                        help="curve (default): residuals over the largest y of their curve; equal: as they are")
-    parser.add_argument("--confidence", type=float, default=0.95, metavar="LEVEL", help="of the intervals (default 0.95)")
-    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="a value for all scenes")
-    parser.add_argument("--jobs", "-j", type=int, default=1, metavar="NUMBER", help="scenes at once (default 1)")
-    parser.add_argument("--out", "-o", required=True, metavar="DIR", help="folder for the results")
-    return parser.parse_args()
 
 
 class Fit:
@@ -143,13 +120,11 @@ def report(model, fit, found, level, out):
 
 
 def main():
-    given = arguments()
+    given = given_words()
     if len(given.data) != len(given.scenes):
         raise Trouble(f"--data: {len(given.data)} curves for {len(given.scenes)} scenes: one for each is expected")
     if not 0 < given.confidence < 1:
         raise Trouble(f"--confidence {given.confidence:g}: between 0 and 1")
-    if given.jobs < 1:
-        raise Trouble(f"--jobs {given.jobs}: at least 1 is expected")
     parameters = [Parameter(text) for text in given.parameters]
     if len({p.path for p in parameters}) < len(parameters):
         raise Trouble("--parameters: a key is given twice")

@@ -5,8 +5,8 @@ import sys
 
 import numpy as np
 
-for folder in ("../plot", "."):  # in the tree, and installed
-    path = os.path.join(os.path.dirname(os.path.abspath(__file__)), folder)
+for folder in ("../plot", ".."):  # in the tree, and installed
+    path = os.path.join(os.path.dirname(os.path.realpath(__file__)), folder)
     if os.path.exists(os.path.join(path, "curves.py")) and path not in sys.path:
         sys.path.append(path)
 

@@ -5,6 +5,8 @@ import json
 import os
 import re
 import subprocess
+import sys
+import types
 
 import numpy as np
 
@@ -17,6 +19,13 @@ class Trouble(Exception):
     def __init__(self, text, code=WRONG):
         super().__init__(text)
         self.code = code
+
+
+def given_words():
+    """What the command line was given, as the program hands it over: names as of its options."""
+    if len(sys.argv) != 2:
+        raise Trouble("this script is run by the program: delam sweep, delam fit")
+    return types.SimpleNamespace(**json.loads(sys.argv[1]))
 
 
 def program():

@@ -6,7 +6,6 @@ Runs the scene for each combination of values (or for a Latin hypercube of range
 DIR/table.csv (a row for each run), curves.png (the load curves), response.png (the peak of the reaction over each key).
 The results are in DIR/0001, DIR/0002, ... The same command goes on after an interruption.
 """
-import argparse
 import csv
 import io
 import json
@@ -21,8 +20,8 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
-from marches import (DONE, INTERRUPTED, NOT_CONVERGED, Trouble, last_words, make_folder, program, read_about,
-                     read_history, setting, start, write_file)
+from marches import (DONE, INTERRUPTED, NOT_CONVERGED, Trouble, given_words, last_words, make_folder,
+                     read_about, read_history, setting, start, write_file)
 from sweep_pictures import draw_curves, draw_response
 from variations import Variation, grid, latin
 
@@ -30,34 +29,18 @@ RESULTS = ["exit_code", "steps", "peak_reaction", "load_at_peak", "last_reaction
            "not_converged", "message"]
 
 
-def arguments():
-    parser = argparse.ArgumentParser(prog=os.path.basename(program()) + " sweep", description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("scene", metavar="SCENE", help="scene file")
-    parser.add_argument("--vary", action="append", default=[], metavar="KEY=VALUES",
-                        help="FROM:TO:NUMBER, FROM:TO:NUMBER:log, A,B,C or, with --latin, FROM:TO; may be repeated: all "
-                             "combinations are run. KEY: laws.0.normal_toughness, time.steps, ...")
-    parser.add_argument("--latin", type=int, metavar="NUMBER", help="a Latin hypercube of so many points instead")
-    parser.add_argument("--seed", type=int, default=1, metavar="NUMBER", help="of --latin (default 1)")
-    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="a value for all runs")
-    parser.add_argument("--out", "-o", required=True, metavar="DIR", help="folder for table, pictures and results")
-    parser.add_argument("--jobs", "-j", type=int, default=1, metavar="NUMBER", help="runs at once (default 1)")
-    parser.add_argument("--replace", action="store_true", help="discard the results of another sweep in DIR")
-    return parser.parse_args()
-
-
 class Sweep:
     """The runs of a sweep, as they are defined in DIR/sweep.json."""
 
     def __init__(self, given):
-        self.scene, self.out, self.common = given.scene, given.out, given.set
+        self.scene, self.out, self.common = given.scenes[0], given.out, given.set
         self.variations = [Variation(text) for text in given.vary]
         if not self.variations:
             raise Trouble("--vary: at least one is expected")
         paths = [variation.path for variation in self.variations]
         if len(set(paths)) < len(paths):
             raise Trouble("--vary: a key is given twice")
-        self.points = grid(self.variations) if given.latin is None else latin(self.variations, given.latin, given.seed)
+        self.points = grid(self.variations) if given.latin == 0 else latin(self.variations, given.latin, given.seed)
         self.ended = threading.Event()
         self.running = []
         self.rows = {}
@@ -167,9 +150,7 @@ class Sweep:
 
 
 def main():
-    given = arguments()
-    if given.jobs < 1:
-        raise Trouble(f"--jobs {given.jobs}: at least 1 is expected")
+    given = given_words()
     sweep = Sweep(given)
     sweep.define(given.replace)
     if not sweep.run(given.jobs):

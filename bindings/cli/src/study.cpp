@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `delam sweep` and `delam fit`: SciPy's methods and Matplotlib's pictures, so the rest is in Python.
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+
+#include <fmt/format.h>
+#include <unistd.h>
+#include <nlohmann/json.hpp>
+
+#include "commands.hpp"
+#include "data_file.hpp"
+#include "error.hpp"
+
+namespace cli {
+
+int study(const Study& of) {
+    const DataFile script = data_file("study/" + of.name + ".py");
+    if (!script.found)
+        throw Failure(exit_scene, fmt::format("{}: is not there; it is installed with the program", script.path));
+    const nlohmann::json given{{"scenes", of.scenes},
+                               {"set", of.settings},
+                               {"out", of.folder},
+                               {"replace", of.replace},
+                               {"jobs", of.jobs},
+                               {"vary", of.vary},
+                               {"latin", of.latin},
+                               {"seed", of.seed},
+                               {"data", of.data},
+                               {"columns", of.columns},
+                               {"parameters", of.parameters},
+                               {"x", of.x},
+                               {"y", of.y},
+                               {"weights", of.weights},
+                               {"scale", of.scale},
+                               {"confidence", of.confidence}};
+    const std::string words = given.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+    (void)setenv("DELAM", program_path().c_str(), 1);
+    // Debian's modules belong to this interpreter; elsewhere the first one counts.
+    for (const char* python : {"/usr/bin/python3", "python3"})
+        execlp(python, python, script.path.c_str(), words.c_str(), static_cast<char*>(nullptr));
+    throw Failure(exit_scene, fmt::format("python3 cannot be started: {}", std::strerror(errno)));
+}
+
+}  // namespace cli

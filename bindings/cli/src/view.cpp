@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `delam view`: a result as one page for a browser, which needs no network and no other file.
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "commands.hpp"
+#include "error.hpp"
+#include "file.hpp"
+#include "say.hpp"
+#include "view_arrays.hpp"
+#include "view_fields.hpp"
+#include "view_result.hpp"
+#include "view_surface.hpp"
+#include "view_template.hpp"
+
+namespace cli {
+
+namespace {
+
+using nlohmann::json;
+
+// Significant bits: of what moves and is read off, and of what is only coloured.
+constexpr int exact_bits = 24, moved_bits = 16, coloured_bits = 12;
+// All steps together, before they are packed. A phone still opens such a page.
+constexpr double most_bytes = 192.0 * 1024 * 1024;
+constexpr std::size_t stress_components = 6;
+
+// Every n-th step, and the last.
+std::vector<ViewStep> every_nth(const std::vector<ViewStep>& steps, std::size_t n) {
+    std::vector<ViewStep> out;
+    for (std::size_t i = 0; i < steps.size(); ++i)
+        if (i % n == 0 || i + 1 == steps.size()) out.push_back(steps[i]);
+    return out;
+}
+
+// How many of the steps a page can hold: 1 is each.
+std::size_t affordable(const Seen& seen, std::size_t steps) {
+    double values =
+        3.0 * static_cast<double>(seen.nodes.size()) + static_cast<double>(stress_components * seen.cells.size());
+    for (const SeenInterface& interface : seen.interfaces) values += static_cast<double>(interface.b.size());
+    return static_cast<std::size_t>(std::max(1.0, std::ceil(4 * values * static_cast<double>(steps) / most_bytes)));
+}
+
+// The rows of some nodes or cells, one component after the other: like numbers are neighbours, and pack better.
+std::vector<double> by_component(const std::vector<double>& values, const std::vector<std::int64_t>& rows,
+                                 std::size_t columns) {
+    std::vector<double> out;
+    if (values.empty()) return out;
+    out.reserve(rows.size() * columns);
+    for (std::size_t c = 0; c < columns; ++c)
+        for (const std::int64_t row : rows) out.push_back(values[static_cast<std::size_t>(row) * columns + c]);
+    return out;
+}
+
+json polygons_json(const Polygons& polygons, ViewArrays& arrays) {
+    return {{"offsets", arrays.add(polygons.offsets)}, {"nodes", arrays.add(polygons.nodes)}};
+}
+
+class ViewPage {
+public:
+    ViewPage(const FieldsFile& file, const std::string& path) : file_(file), mesh_(file.mesh()) {
+        interfaces_ = file.interfaces();
+        seen_ = seen_of(mesh_, interfaces_, path);
+    }
+
+    // n 0: as many steps as are affordable.
+    void choose_steps(std::size_t n) {
+        const std::vector<ViewStep> all = file_.steps();
+        every_ = n > 0 ? n : affordable(seen_, all.size());
+        steps_ = every_nth(all, every_);
+    }
+    [[nodiscard]] const std::vector<ViewStep>& steps() const { return steps_; }
+    [[nodiscard]] std::size_t stride() const { return every_; }
+    [[nodiscard]] std::size_t cells() const { return mesh_.cell_count(); }
+
+    json mesh_json() {
+        std::vector<std::int32_t> body;
+        for (const std::int64_t cell : seen_.cells) body.push_back(mesh_.body[static_cast<std::size_t>(cell)]);
+        json interfaces = json::array();
+        for (std::size_t i = 0; i < seen_.interfaces.size(); ++i) {
+            const SeenInterface& one = seen_.interfaces[i];
+            json item = polygons_json(one.faces, arrays_);
+            item["name"] = interfaces_[i].name;
+            if (!one.a.empty()) item["a"] = arrays_.add(one.a);
+            item["b"] = arrays_.add(one.b);
+            interfaces.push_back(std::move(item));
+        }
+        json out = polygons_json(seen_.faces, arrays_);
+        out["dimension"] = mesh_.dimension;
+        out["cells"] = mesh_.cell_count();
+        out["body"] = arrays_.add(body);
+        out["points"] = arrays_.add(by_component(mesh_.points, seen_.nodes, 3), exact_bits);
+        out["interfaces"] = std::move(interfaces);
+        return out;
+    }
+
+    json steps_json() {
+        json out = json::array();
+        for (const ViewStep& step : steps_) {
+            json one{{"step", step.step}, {"time", step.time}, {"adhesion", json::array()}};
+            const auto displacement = file_.field(step, "displacement", mesh_.nodes(), 3);
+            if (!displacement.empty())
+                one["displacement"] = arrays_.add(by_component(displacement, seen_.nodes, 3), moved_bits);
+            const auto stress = file_.field(step, "stress", mesh_.cell_count(), stress_components);
+            if (!stress.empty())
+                one["stress"] = arrays_.add(by_component(stress, seen_.cells, stress_components), coloured_bits);
+            for (std::size_t i = 0; i < interfaces_.size(); ++i) {
+                const auto zeta =
+                    file_.field(step, fmt::format("interface_{}/zeta", i), interfaces_[i].nodes_b.size(), 1);
+                one["adhesion"].push_back(zeta.empty() ? json() : arrays_.add(zeta, moved_bits));
+            }
+            out.push_back(std::move(one));
+        }
+        return out;
+    }
+
+    [[nodiscard]] const std::string& elements() const { return arrays_.elements(); }
+
+private:
+    const FieldsFile& file_;
+    ViewMesh mesh_;
+    std::vector<ViewInterface> interfaces_;
+    Seen seen_;
+    std::vector<ViewStep> steps_;
+    std::size_t every_ = 1;
+    ViewArrays arrays_;
+};
+
+// Within an element of a page nothing may look like its end.
+std::string json_element(const json& value) {
+    std::string text = value.dump(-1, ' ', false, json::error_handler_t::replace);
+    for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at))
+        text.replace(at, 1, "\\u003c");
+    return "<script type=\"application/json\" id=\"delam-data\">" + text + "</script>\n";
+}
+
+// The page replaces what is there; that must not be a device, a pipe or a folder.
+void require_place(const std::string& to, bool replace) {
+    std::error_code code;
+    const std::filesystem::file_status there = std::filesystem::status(to, code);
+    if (!std::filesystem::exists(there)) return;
+    if (!std::filesystem::is_regular_file(there))
+        throw Failure(exit_scene, to + ": the page cannot take its place, as it is no regular file");
+    if (!replace) throw Failure(exit_scene, to + " is there already: --replace overwrites it");
+}
+
+std::string title_text(const json& about) {
+    for (const char* key : {"title", "file"})
+        if (const json& text = about["scene"][key]; text.is_string() && !text.get<std::string>().empty()) return text;
+    return "delam";
+}
+
+}  // namespace
+
+int view(const std::string& folder, const ViewWishes& wishes) {
+    const std::string to = wishes.page.empty() ? folder + "/view.html" : wishes.page;
+    std::signal(SIGXFSZ, SIG_IGN);  // a limit of the size of files gives a reason, like a full disk
+    require_place(to, wishes.page.empty() || wishes.replace);
+    json data{{"format", 1}, {"about", view_about(folder)}};
+    std::string page = view_template(wishes.page_template);
+    data["history"] = view_history(folder);
+    data["jumps"] = view_jumps(folder);
+    const std::string path = folder + "/fields.h5";
+    const FieldsFile file(path);
+    if (const std::string hash = file.text("scene_hash"); data["about"]["scene_hash"] != json(hash))
+        throw Failure(exit_scene, fmt::format("{}: it belongs to the scene {}, and result.json to {}", path, hash,
+                                              data["about"]["scene_hash"].dump()));
+    ViewPage content(file, path);
+    content.choose_steps(wishes.every);
+    if (content.steps().empty()) throw Failure(exit_scene, path + ": it has the fields of no step");
+    data["mesh"] = content.mesh_json();
+    data["steps"] = content.steps_json();
+    data["every"] = content.stride();
+    page = filled_template(std::move(page), title_text(data["about"]), json_element(data) + content.elements());
+    write_atomic(to, page);
+    say("{}: {}, {} cells, {:.1f} MB\n", to, counted(static_cast<std::int64_t>(content.steps().size()), "step"),
+        content.cells(), static_cast<double>(page.size()) / 1e6);
+    if (wishes.every == 0 && content.stride() > 1)
+        say("the fields of every {}. step are in the page, so that a browser can hold it; --every chooses\n",
+            content.stride());
+    return exit_done;
+}
+
+}  // namespace cli

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// node open_time.mjs PACKAGES PAGE [TIMES]: prints how long a page takes from the call of its address to its first
+// picture, in headless Chromium that draws without a graphics card. PACKAGES is a folder with the node_modules of
+// package.json here.
+// A figure to look at, no test: it depends on the machine and on what else runs there.
+import { createRequire } from 'node:module';
+import path from 'node:path';
+import { pathToFileURL } from 'node:url';
+
+const [packages, page, times = '3'] = process.argv.slice(2);
+const { default: puppeteer } = await import(
+  pathToFileURL(createRequire(path.resolve(packages, 'package.json')).resolve('puppeteer-core')).href
+);
+for (let i = 0; i < Number(times); i += 1) {
+  // A new browser each time: nothing is kept from the last.
+  const browser = await puppeteer.launch({
+    executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
+    args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist'],
+    protocolTimeout: 600000,
+  });
+  const tab = await browser.newPage();
+  await tab.setViewport({ width: 1280, height: 800 });
+  await tab.goto(pathToFileURL(path.resolve(page)).href, { timeout: 600000 });
+  await tab.waitForFunction(() => document.documentElement.dataset.state, { timeout: 600000 });
+  const { drawn, cells, steps } = await tab.evaluate(() => ({
+    drawn: performance.getEntriesByName('delam-drawn')[0]?.startTime,
+    cells: window.delam.result.layout.cells,
+    steps: window.delam.result.steps.length,
+  }));
+  process.stdout.write(`${cells} cells, ${steps} steps: first picture after ${(drawn / 1000).toFixed(2)} s\n`);
+  await browser.close();
+}
