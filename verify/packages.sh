@@ -9,7 +9,7 @@ DELAM_PACKAGES=(
     libcli11-dev libtomlplusplus-dev libfmt-dev libhdf5-dev nlohmann-json3-dev libgmsh-dev
     libgsl-dev check abigail-tools binutils locales clang clang-format doxygen
     python3 python3-numpy python3-scipy python3-matplotlib python3-h5py python3-venv python3-pip python3-meshio python3-tqdm
-    python3-jinja2 fonts-dejavu-core
+    python3-jinja2 fonts-dejavu-core mypy
 )
 # libdelam-petsc, delam-mpi and their tests: PETSc (real numbers, with MUMPS and PTScotch), mpicc, mpirun, hosts in Python.
 DELAM_MPI_PACKAGES=(libpetsc-real-dev libopenmpi-dev openmpi-bin python3-mpi4py)

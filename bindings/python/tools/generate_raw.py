@@ -119,7 +119,9 @@ def python_text(header):
     lines = [
         "# SPDX-License-Identifier: BSD-3-Clause",
         '"""The C interface, one to one. Generated from delam.h by tools/generate_raw.py: change that, not this."""',
-        "from ctypes import CFUNCTYPE, POINTER, Structure, c_char, c_char_p, c_double, c_int32, c_int64, c_uint8, c_void_p",
+        "from ctypes import (CDLL, CFUNCTYPE, POINTER, Structure, c_char, c_char_p, c_double, c_int32, c_int64, c_uint8,",
+        "                    c_void_p)",
+        "from typing import Any",
         "",
     ]
     lines += [f"{name} = {value}" for name, value in header.constants.items()]
@@ -128,7 +130,7 @@ def python_text(header):
     lines += ["", ""]
     for name, (returned, arguments) in header.callbacks.items():
         lines += wrapped(f"{name} = CFUNCTYPE(", [returned] + [kind for _, kind in arguments], ")")
-    lines += ["", "# Name: (result, ((argument, type), ...))", "FUNCTIONS = {"]
+    lines += ["", "# Name: (result, ((argument, type), ...))", "FUNCTIONS: dict[str, tuple[Any, tuple[tuple[str, Any], ...]]] = {"]
     for name, (returned, arguments) in header.functions.items():
         pairs = [f'("{argument}", {kind})' for argument, kind in arguments]
         if not pairs:
@@ -141,7 +143,7 @@ def python_text(header):
         "}",
         "",
         "",
-        "def bind(library):",
+        "def bind(library: CDLL) -> list[str]:",
         '    """Gives the functions of a loaded library their types; returns the names that it lacks."""',
         "    missing = []",
         "    for name, (result, arguments) in FUNCTIONS.items():",

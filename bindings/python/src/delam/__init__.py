@@ -11,6 +11,9 @@ Warnings and notes of the library go to the logger "delam". delam.plot draws (ma
 meshes (meshio)."""
 from __future__ import annotations
 
+from types import ModuleType
+from typing import TYPE_CHECKING
+
 from . import _library
 from .errors import (ArgumentError, Cancelled, DelamError, FileError, HandleError, InternalError, LimitReached,
                      MeshError, NotConverged, NotConvergedWarning, NumericalError, Outcome, OutOfMemory,
@@ -21,6 +24,9 @@ from .mesh import CELLS, Cells, Interface, Mesh, Ties
 from .options import Options, options
 from .problem import Forecast, Pattern, Problem, Sparse
 from .solver import Average, Condensed, Fronts, Jump, PlanItem, Solver, ValueInfo, Values
+
+if TYPE_CHECKING:
+    from . import meshes, plot
 
 __version__ = "0.1.0"
 
@@ -33,12 +39,12 @@ __all__ = ["ArgumentError", "Average", "Bounds", "CELLS", "Cancelled", "Cells", 
 
 def library_version() -> str:
     """Version of the libdelam that was loaded."""
-    return _library.library.delam_version().decode()
+    return str(_library.library.delam_version().decode())
 
 
 def library_commit() -> str:
     """Commit it was built from, or "unknown"."""
-    return _library.library.delam_commit().decode()
+    return str(_library.library.delam_commit().decode())
 
 
 def library_location() -> str:
@@ -49,10 +55,10 @@ def library_location() -> str:
 def blas_threads() -> int:
     """Threads of the linear algebra of this process, 0: unknown. Equal digits from run to run need an equal number.
     Option threads sets the library's own threads."""
-    return _library.library.delam_blas_threads()
+    return int(_library.library.delam_blas_threads())
 
 
-def __getattr__(name):
+def __getattr__(name: str) -> ModuleType:
     # matplotlib and meshio are only needed by those who draw and read meshes.
     if name in ("plot", "meshes"):
         import importlib

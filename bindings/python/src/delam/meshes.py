@@ -5,11 +5,16 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .errors import ArgumentError, MeshError
 from .mesh import CELL_TYPES, CELLS, Mesh
+
+if TYPE_CHECKING:
+    import meshio
 
 # meshio's names of our cells.
 NAMES = {"triangle": "tri3", "quad": "quad4", "tetra": "tet4", "hexahedron": "hex8", "triangle6": "tri6",
@@ -18,7 +23,7 @@ NAMES = {"triangle": "tri3", "quad": "quad4", "tetra": "tet4", "hexahedron": "he
 LABELS = ("bodies", "gmsh:physical", "medit:ref", "cell_tags", "gmsh:geometrical")
 
 
-def _meshio():
+def _meshio() -> Any:
     try:
         import meshio
     except ImportError:
@@ -26,7 +31,8 @@ def _meshio():
     return meshio
 
 
-def read(source: object, bodies: object | None = None, interfaces: bool = True):
+def read(source: meshio.Mesh | str | os.PathLike[str], bodies: str | None = None,
+         interfaces: bool = True) -> Mesh:
     """The cells of highest dimension of a meshio.Mesh or of a file; those of lower dimension (edges, faces of solids)
     are left out. Plane cells make a mesh in 2D; all must have the same z.
 
@@ -66,7 +72,7 @@ def read(source: object, bodies: object | None = None, interfaces: bool = True):
         count = len(source.cells[i].data)
         label = np.zeros(count, np.int64) if bodies is None else np.asarray(source.cell_data[bodies][i])
         labels.update(np.unique(label).tolist())
-        mesh.add_conforming_cells(kinds[i], np.asarray(source.cells[i].data, np.int64), label.astype(np.int64))
+        mesh.add_conforming_cells(str(kinds[i]), np.asarray(source.cells[i].data, np.int64), label.astype(np.int64))
     dimension = points.shape[1]
     mesh.body_names = {int(tag): name for name, (tag, of) in source.field_data.items()
                        if of == dimension and tag in labels}
@@ -75,14 +81,15 @@ def read(source: object, bodies: object | None = None, interfaces: bool = True):
     return mesh
 
 
-def _fills(kind, solid):
+def _fills(kind: str, solid: bool) -> bool:
     """Whether an unknown cell type belongs to a body, which is then incomplete."""
     volumes = ("tetra", "hexahedron", "wedge", "pyramid")
     surfaces = ("triangle", "quad")
     return kind.startswith(volumes if solid else volumes + surfaces)
 
 
-def write(mesh: Mesh, point_data: Mapping | None = None, cell_data: Mapping | None = None):
+def write(mesh: Mesh, point_data: Mapping[str, ArrayLike] | None = None,
+          cell_data: Mapping[str, ArrayLike] | None = None) -> meshio.Mesh:
     """A meshio.Mesh with the nodes and cells of `mesh`; plane ones get z = 0. cell_data are arrays over all cells, in
     the order they were added; "bodies" is among them."""
     meshio = _meshio()
@@ -90,7 +97,7 @@ def write(mesh: Mesh, point_data: Mapping | None = None, cell_data: Mapping | No
     if nodes.shape[1] == 2:
         nodes = np.column_stack([nodes, np.zeros(len(nodes))])
     back = {ours: theirs for theirs, ours in NAMES.items()}
-    data = {"bodies": cells.bodies, **(cell_data or {})}
+    data: dict[str, Any] = {"bodies": cells.bodies, **(cell_data or {})}
     blocks, rows = [], []
     for name in cells.names():
         if name not in back:
