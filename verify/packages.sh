@@ -11,6 +11,10 @@ DELAM_PACKAGES=(
     python3 python3-numpy python3-scipy python3-matplotlib python3-h5py python3-venv python3-pip python3-meshio python3-tqdm
     python3-jinja2 fonts-dejavu-core mypy
 )
+# VTK for Python, which ParaView's Python brings along and conflicts with.
+if [[ $(dpkg-query -W -f='${Status}' python3-paraview 2>/dev/null) != "install ok installed" ]]; then
+    DELAM_PACKAGES+=(python3-vtk9)
+fi
 # libdelam-petsc, delam-mpi and their tests: PETSc (real numbers, with MUMPS and PTScotch), mpicc, mpirun, hosts in Python.
 DELAM_MPI_PACKAGES=(libpetsc-real-dev libopenmpi-dev openmpi-bin python3-mpi4py)
 # The parser of the Julia files, for the quick tier. A node from elsewhere has its own npm, which Debian's conflicts with.

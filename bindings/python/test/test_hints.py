@@ -10,18 +10,22 @@ import unittest
 
 import support  # noqa: F401
 
+import numpy as np
+
 import delam
 import delam.meshes
 import delam.petsc
 import delam.plot
 
 MODULES = [delam, delam.meshes, delam.petsc, delam.plot]
-CLASSES = [delam.Law, delam.Mesh, delam.Interface, delam.Problem, delam.Solver, delam.Values, delam.Options, delam.History]
+CLASSES = [delam.Law, delam.Mesh, delam.Interface, delam.Problem, delam.Solver, delam.Values, delam.Options, delam.History,
+           delam.Result, delam.Fields]
 FUNCTIONS = [delam.library_version, delam.library_commit, delam.library_location, delam.blas_threads, delam.options]
 
 
 # Names that the package imports for hints alone, from packages that need not be installed.
-FOREIGN = {"meshio": types.SimpleNamespace(Mesh=object), "Axes": object, "Colormap": object}
+FOREIGN = {"meshio": types.SimpleNamespace(Mesh=object), "Axes": object, "Colormap": object,
+           "Figure": object, "pandas": types.SimpleNamespace(DataFrame=object), "NDArray": np.ndarray}
 
 
 def functions(owner):
@@ -36,7 +40,7 @@ def functions(owner):
 
 
 def hints(function):
-    names = dict(vars(delam), **FOREIGN, **vars(importlib.import_module(function.__module__)))
+    names = {**FOREIGN, **vars(delam), **vars(importlib.import_module(function.__module__))}
     return typing.get_type_hints(function, globalns=names)
 
 
@@ -149,7 +153,9 @@ class Hints(unittest.TestCase):
                      "field": ["jump"], "recorded": ["time"], "option": ["solution"], "toughness": [[0.5]],
                      "respond": [[[1e-6, 0.0]], 0.0], "find_nodes": [(0, 0), (1, 0)], "find_node": [(0, 0)],
                      "find_patch": [None, (0, 2), (1, 2), "y"], "row": [0], "info": ["solution"]}
-        changes = {"commit", "rollback", "close", "advance", "add_interface", "layers", "from_meshio", "history"}
+        changes = {"commit", "rollback", "close", "advance", "add_interface", "layers", "from_meshio", "history",
+                   # These need other packages, and have tests of their own.
+                   "from_vtk", "to_meshio", "to_vtk", "to_pyvista", "to_pandas", "plot"}
         checked = 0
         for thing in (law, mesh, glue, problem, solver, solver.values, problem.options, solver.history([])):
             for name, function in functions(type(thing)):

@@ -7,8 +7,8 @@
     solver = delam.Solver(problem)                                 load steps and their results
 
 Arrays are numpy's, indices start at 0, units are whatever is consistent. Errors are exceptions under DelamError.
-Warnings and notes of the library go to the logger "delam". delam.plot draws (matplotlib), delam.meshes reads and writes
-meshes (meshio)."""
+Warnings and notes of the library go to the logger "delam". Result reads what the command line has written. delam.plot
+draws (matplotlib), delam.meshes reads and writes meshes (meshio, VTK, PyVista)."""
 from __future__ import annotations
 
 from types import ModuleType
@@ -23,6 +23,7 @@ from .law import Bounds, Law, Parameter
 from .mesh import CELLS, Cells, Interface, Mesh, Ties
 from .options import Options, options
 from .problem import Forecast, Pattern, Problem, Sparse
+from .result import Fields, Result
 from .solver import Average, Condensed, Fronts, Jump, PlanItem, Solver, ValueInfo, Values
 
 if TYPE_CHECKING:
@@ -30,10 +31,11 @@ if TYPE_CHECKING:
 
 __version__ = "0.1.0"
 
-__all__ = ["ArgumentError", "Average", "Bounds", "CELLS", "Cancelled", "Cells", "Condensed", "DelamError", "FileError", "Forecast", "Fronts",
+__all__ = ["ArgumentError", "Average", "Bounds", "CELLS", "Cancelled", "Cells", "Condensed", "DelamError",
+           "Fields", "FileError", "Forecast", "Fronts",
            "HandleError", "History", "Interface", "InternalError", "Jump", "Law", "LimitReached", "Mesh", "MeshError",
            "NotConverged", "NotConvergedWarning", "NumericalError", "Options", "OutOfMemory", "Outcome", "Parameter",
-           "Pattern", "PlanItem", "Problem", "ProblemError", "SnapshotError", "Solver", "Sparse", "StateError", "Ties",
+           "Pattern", "PlanItem", "Problem", "ProblemError", "Result", "SnapshotError", "Solver", "Sparse", "StateError", "Ties",
            "ValueInfo", "Values", "blas_threads", "library_commit", "library_location", "library_version", "options"]
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Iterable, Iterator, Sized
+from collections.abc import Iterable, Iterator, Mapping, Sized
 from typing import IO, TYPE_CHECKING
 
 import numpy as np
@@ -12,6 +12,10 @@ import numpy as np
 from ._arrays import FloatArray
 
 if TYPE_CHECKING:
+    import pandas
+    from matplotlib.figure import Figure
+    from numpy.typing import NDArray
+
     from .solver import Solver
 
 
@@ -73,6 +77,36 @@ class History:
     def row(self, index: int) -> dict[str, float]:
         """{name: value} of one row; -1 is the last one. IndexError: there is none."""
         return dict(zip(self.names, self._rows[index]))
+
+    @property
+    def array(self) -> NDArray[np.void]:
+        """All rows as a structured array [rows] of float64 with the names of the values."""
+        table = np.empty(len(self._rows), [(name, np.float64) for name in self.names])
+        for name in self.names:
+            table[name] = self[name]
+        return table
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """All rows as a pandas.DataFrame, a column each. ImportError: pandas is not installed."""
+        from .result import as_frame
+        return as_frame(self.array)
+
+    def plot(self, kind: str = "load", units: Mapping[str, str] | None = None, title: str = "history") -> Figure:
+        """A figure of matplotlib; notebooks show it, figure.savefig writes it. delam.plot.history draws any values.
+
+        kind   "load" (over displacement, a picture for each pattern) or "energies" with the two-sided estimate
+        units  names for the axes: {"length": "m", "force": "N", "time": "s"}
+
+        ArgumentError: there is no such kind; ValueError: the history lacks a value for it; ImportError: matplotlib is
+        not installed."""
+        from .result import picture
+        kinds = {"load": ("curves", "load_figure"), "energies": ("curves", "energies_figure")}
+
+        def shown() -> object:
+            from ._live import shown as made
+            return made(self, units, title)
+
+        return picture(shown, kind, kinds)
 
     def write_csv(self, file: str | os.PathLike[str] | IO[str], titles: Iterable[str] | None = None) -> None:
         """Writes all digits to an open text file or a path. titles: used instead of the names."""

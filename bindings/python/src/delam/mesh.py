@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -224,11 +224,32 @@ class Mesh(Object):
         return mesh
 
     @classmethod
-    def from_meshio(cls, source: meshio.Mesh | str | os.PathLike[str], bodies: str | None = None,
-                    interfaces: bool = True) -> Mesh:
-        """A meshio.Mesh, or a file that meshio reads; see delam.meshes.read."""
+    def from_meshio(cls, source: meshio.Mesh | str | os.PathLike[str],
+                    bodies: str | Sequence[str] | None = None, interfaces: bool = True) -> Mesh:
+        """A meshio.Mesh, or a file that meshio reads. bodies: name of the cell data with a label for each cell, or names
+        of cell sets; see delam.meshes.read."""
         from .meshes import read
         return read(source, bodies, interfaces)
+
+    @classmethod
+    def from_vtk(cls, grid: Any, bodies: str | None = None, interfaces: bool = True) -> Mesh:
+        """A vtkUnstructuredGrid, or a grid of PyVista. bodies: name of the cell array with a label for each cell; see
+        delam.meshes.from_vtk."""
+        from .meshes import from_vtk
+        return from_vtk(grid, bodies, interfaces)
+
+    def to_vtk(self, point_data: Mapping[str, ArrayLike] | None = None,
+               cell_data: Mapping[str, ArrayLike] | None = None) -> Any:
+        """A vtkUnstructuredGrid with the same nodes and cells, and data as for to_meshio. ImportError: VTK is not
+        installed."""
+        from .meshes import grid_of
+        return grid_of(self, point_data, cell_data).to_vtk()
+
+    def to_pyvista(self, point_data: Mapping[str, ArrayLike] | None = None,
+                   cell_data: Mapping[str, ArrayLike] | None = None) -> Any:
+        """The same as a pyvista.UnstructuredGrid. ImportError: PyVista is not installed."""
+        from .meshes import grid_of
+        return grid_of(self, point_data, cell_data).to_pyvista()
 
     def to_meshio(self, point_data: Mapping[str, ArrayLike] | None = None,
                   cell_data: Mapping[str, ArrayLike] | None = None) -> meshio.Mesh:

@@ -129,6 +129,7 @@ class Problem(Object):
         self._pair_counts = [interface.pair_count for interface in mesh.interfaces]
         self.progress = progress
         self._values = initial_values()
+        self._drives: dict[int, str] = {}  # what each pattern drives, for pictures
         if plane is not None:
             self.set_plane(plane)
 
@@ -334,13 +335,16 @@ class Problem(Object):
         if ndim(forces) == 1:
             forces = np.tile(floats("forces", forces, (self.dimension,)), (nodes.size, 1))
         forces = floats("forces", forces, (nodes.size, self.dimension))
-        self._call(library.delam_problem_add_forces, self.pattern(pattern), nodes.size, pointer(nodes), pointer(forces),
-                   0, long=True)
+        index = self.pattern(pattern)
+        self._call(library.delam_problem_add_forces, index, nodes.size, pointer(nodes), pointer(forces), 0, long=True)
+        self._drives.setdefault(index, "force")
 
     def add_eigenstrain(self, pattern: int | str | Pattern, strain: ArrayLike, body: int | None = None) -> None:
         """xx, yy, zz, 2xy, 2yz, 2zx in the material axes, times the factor of a pattern."""
         strain = floats("strain", strain, (6,))
-        self._call(library.delam_problem_add_eigenstrain, self.pattern(pattern), body_label(body), pointer(strain))
+        index = self.pattern(pattern)
+        self._call(library.delam_problem_add_eigenstrain, index, body_label(body), pointer(strain))
+        self._drives.setdefault(index, "strain")
 
     # ---- queries
 

@@ -23,6 +23,8 @@ from .options import unknown
 from .problem import Problem, Sparse, pattern_index
 
 if TYPE_CHECKING:
+    import meshio
+
     from .mesh import Interface
     from .problem import Pattern
 
@@ -471,6 +473,22 @@ class Solver(Object):
         self._call(library.delam_solver_condensed, n * n, *(pointer(array) for array in out[:3]),
                    *(pointer(array) for array in jump[1:]), pointer(out.offset), long=True)
         return out
+
+    def to_meshio(self) -> meshio.Mesh:
+        """The bodies of the state described (Values) as a meshio.Mesh: displacement [nodes][3] as point data, stress
+        [cells][6] and bodies as cell data; to_meshio().write("now.vtu") is for ParaView."""
+        from .meshes import solver_grid
+        return solver_grid(self).to_meshio()
+
+    def to_vtk(self) -> Any:
+        """The same as a vtkUnstructuredGrid. ImportError: VTK is not installed."""
+        from .meshes import solver_grid
+        return solver_grid(self).to_vtk()
+
+    def to_pyvista(self) -> Any:
+        """The same as a pyvista.UnstructuredGrid. ImportError: PyVista is not installed."""
+        from .meshes import solver_grid
+        return solver_grid(self).to_pyvista()
 
     # ---- reports
 

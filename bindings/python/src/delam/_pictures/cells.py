@@ -3,7 +3,7 @@
 import matplotlib.colors
 import numpy as np
 
-from section import CORNERS, FACES
+from .section import CORNERS, FACES
 
 # Pale tones of the bodies, by turns; fibre-1 and fibre-2 have the same.
 BODIES = ["#f4f1e8", "#dde5ee", "#e6ebdf"]

@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Interfaces of a body in space, seen in plan."""
+import os
+
+import h5py
 import numpy as np
 from matplotlib.collections import LineCollection
 
-from result import axis, plt
-from section import PIECES
+from .cells import ZETA, text_of
+from .result import Nothing, axis, plt
+from .section import PIECES
 
 LARGEST = 8  # interfaces in one picture
 
@@ -82,8 +86,17 @@ def lines_of(group, plan, points, side):
     return [line for line in lines if len(line) > 1]
 
 
-def plot_fronts(result, file, title_of, colours):
-    """Adhesion at the last step in plan, and over it the fronts of all stored steps, by time. None where there is no front."""
+def fronts_figure(result):
+    """Adhesion at the last step in plan, and over it the fronts of all stored steps, by time."""
+    if result.about["scene"]["dimension"] == 2:
+        raise Nothing("fronts are drawn of scenes in space")
+    with h5py.File(os.path.join(result.folder, "fields.h5"), "r") as file:
+        figure = draw_fronts(result, file)
+    result.stamp(figure)
+    return figure
+
+
+def draw_fronts(result, file):
     steps = [file["steps"][name] for name in sorted(file["steps"])]
     times = np.array([float(step.attrs["time"]) for step in steps])
     panels = []
@@ -97,7 +110,7 @@ def plot_fronts(result, file, title_of, colours):
         if any(any(fronts) for _, _, fronts in sides):
             panels += [(name, plan, *side) for side in sides]
     if not panels:
-        return None
+        raise Nothing("no interface has a front")
     columns = 1 if len(panels) < 3 else 2
     rows = -(-len(panels) // columns)
     width = 10.0 if columns == 1 else 6.5
@@ -112,12 +125,12 @@ def plot_fronts(result, file, title_of, colours):
         interface = file["interfaces"][name]
         at = plan(interface["points"][()])
         drawn = ax.tripcolor(at[:, 0], at[:, 1], triangles_of(interface["faces"][()])[seen],
-                             steps[-1][name]["zeta"][()], cmap=colours, vmin=0, vmax=1, shading="gouraud")
+                             steps[-1][name]["zeta"][()], cmap=ZETA, vmin=0, vmax=1, shading="gouraud")
         for time, lines in zip(times, fronts):
             ax.add_collection(LineCollection(lines, colors=[shades(scale(time))], linewidths=1.3))
         ax.set_aspect("equal")
         ax.grid(False)
-        ax.set_title(title_of(interface) + title, fontsize=9, loc="left")
+        ax.set_title(text_of(interface.attrs["name"]) + title, fontsize=9, loc="left")
         above = seen_from_above(interface["points"][()])
         ax.set_xlabel(axis("x" if above else "along the first direction", result.length))
         ax.set_ylabel(axis("y" if above else "across", result.length))
