@@ -9,7 +9,7 @@ DELAM_PACKAGES=(
     libcli11-dev libtomlplusplus-dev libfmt-dev libhdf5-dev nlohmann-json3-dev libgmsh-dev
     libgsl-dev check abigail-tools binutils locales clang clang-format doxygen
     python3 python3-numpy python3-scipy python3-matplotlib python3-h5py python3-venv python3-pip python3-meshio python3-tqdm
-    python3-jinja2 fonts-dejavu-core mypy
+    python3-jinja2 fonts-dejavu-core mypy python3-pandas patchelf
 )
 # VTK for Python, which ParaView's Python brings along and conflicts with.
 if [[ $(dpkg-query -W -f='${Status}' python3-paraview 2>/dev/null) != "install ok installed" ]]; then
