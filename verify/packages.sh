@@ -23,7 +23,8 @@ if ! command -v npm >/dev/null; then
     DELAM_PARSER_PACKAGES=(nodejs npm)
 fi
 # The long tier of the tests.
-DELAM_LONG_PACKAGES=(libclang-rt-dev dpkg-dev valgrind paraview python3-paraview python3-getfem)
+DELAM_LONG_PACKAGES=(libclang-rt-dev dpkg-dev valgrind paraview python3-paraview python3-getfem
+    python3-nbclient python3-ipykernel)
 
 # delam_install PACKAGE...: installs what is missing, as root or through sudo; else prints the command and fails.
 delam_install() {

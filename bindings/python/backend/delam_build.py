@@ -19,7 +19,7 @@ HERE = pathlib.Path(__file__).resolve().parent.parent
 SOURCES = HERE / "src"
 TAG = "py3-none-any"
 # What an sdist takes along besides the sources.
-TREES = ("backend", "src", "test", "tools")
+TREES = ("backend", "notebooks", "src", "test", "tools")
 FILES = ("pyproject.toml", "README.md", "LICENSE", "CMakeLists.txt")
 
 

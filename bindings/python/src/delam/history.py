@@ -92,7 +92,8 @@ class History:
         return as_frame(self.array)
 
     def plot(self, kind: str = "load", units: Mapping[str, str] | None = None, title: str = "history") -> Figure:
-        """A figure of matplotlib; notebooks show it, figure.savefig writes it. delam.plot.history draws any values.
+        """A figure of matplotlib; a notebook shows it as the value of a cell, pyplot.show() in a window, figure.savefig()
+        writes it. delam.plot.history draws any values.
 
         kind   "load" (over displacement, a picture for each pattern) or "energies" with the two-sided estimate
         units  names for the axes: {"length": "m", "force": "N", "time": "s"}

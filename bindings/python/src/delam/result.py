@@ -40,11 +40,13 @@ def picture(shown: Any, kind: str, kinds: Mapping[str, tuple[str, str]], *argume
         if error.name not in ("matplotlib", "h5py"):
             raise
         raise ImportError(f"this picture needs {error.name} (Debian: python3-{error.name})") from None
-    with style.plt.rc_context(style.STYLE):
+    with style.styled():
         try:
             figure: Figure = getattr(drawing, function)(shown() if callable(shown) else shown, *arguments)
         except style.Nothing as reason:
             raise ValueError(f"no picture of {kind}: {reason}") from None
+    if "inline" in style.matplotlib.get_backend():
+        style.plt.close(figure)  # a notebook would show it twice: as the cell's value, and again because it is open
     return figure
 
 
@@ -203,7 +205,8 @@ class Result:
     # ---- pictures and other programs
 
     def plot(self, kind: str = "load", cut: str | None = None) -> Figure:
-        """A figure of matplotlib, as the command line's plot.py draws it; notebooks show it, figure.savefig writes it.
+        """A figure of matplotlib, as the command line's plot.py draws it; a notebook shows it as the value of a cell,
+        pyplot.show() in a window, figure.savefig() writes it.
 
         kind  "load" (over displacement), "energies", "averages" (stress over strain), "snapshots" (deformed bodies with
               the adhesion in colour), "stresses" (plane scenes with prescribed strains), in space "fronts" and "cut"

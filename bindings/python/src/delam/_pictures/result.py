@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the pictures share: a result of `delam run` as it lies in its folder, and how pictures look."""
+import contextlib
 import csv
 import json
 import os
@@ -28,6 +29,17 @@ def for_files():
     """Pictures are written, not shown: for scripts."""
     matplotlib.use("Agg")
     plt.rcParams.update(STYLE)
+
+
+@contextlib.contextmanager
+def styled():
+    """The style for a while. Not pyplot's rc_context: at its end it forgets what a notebook sets with its first figure."""
+    before = {key: plt.rcParams[key] for key in STYLE}
+    plt.rcParams.update(STYLE)
+    try:
+        yield
+    finally:
+        plt.rcParams.update(before)
 
 
 def axis(label, unit):
