@@ -5,14 +5,14 @@ cmake_minimum_required(VERSION 3.25)
 function(run)
   execute_process(COMMAND ${ARGN} COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
-# By module. Not Supernodal, MatrixOps and Modify, which are under the GPL, nor reading and writing of files (Check), which
-# needs MatrixOps.
+# Of the modules Core, Check, Cholesky, Partition and CAMD, a line or two each. Not Supernodal, MatrixOps and Modify,
+# which are under the GPL, nor reading and writing of files (Check), which needs MatrixOps.
 set(members)
-foreach(part aat add band change_factor common complex copy dense error factor memory sparse transpose triplet version # Core
-             check                                                                                                   # Check
-             amd analyze colamd etree factorize postorder rcond resymbol rowcolcounts rowfac solve spsolve           # Cholesky
-             ccolamd csymamd metis nesdis                                                                            # Partition
-             camd)                                                                                                   # CAMD
+foreach(part aat add band change_factor common complex copy dense error factor memory sparse transpose triplet version
+             check
+             amd analyze colamd etree factorize postorder rcond resymbol rowcolcounts rowfac solve spsolve
+             ccolamd csymamd metis nesdis
+             camd)
   list(APPEND members cholmod_l_${part}.o)
 endforeach()
 set(work ${OBJECT}.parts)
@@ -28,7 +28,7 @@ foreach(archive IN LISTS ARCHIVES)
 endforeach()
 file(GLOB objects ${work}/*/*.o)
 run(${LD} -r -o ${OBJECT} ${objects})
-# Debian compiles archives for programs. In a shared library they may not name data of the C library; lgpl.c has pointers
-# to the same streams.
+# Debian compiles archives for programs. In a shared library they may not name data of the C library; lgpl.c has
+# pointers to the same streams.
 run(${OBJCOPY} --redefine-sym stdout=delam_cholmod_stdout --redefine-sym stderr=delam_cholmod_stderr ${OBJECT})
 file(REMOVE_RECURSE ${work})

@@ -38,7 +38,8 @@ def _licence():
 
 
 def _metadata(licence=(), notes=""):
-    """licence: lines that say under which licences a wheel is that holds more than our code; notes: on what it holds."""
+    """licence: lines that say under which licences a wheel is that holds more than our code; notes: on what it
+    holds."""
     project = _project()
     lines = [f"Metadata-Version: {'2.4' if licence else '2.1'}", f"Name: {project['name']}",
              f"Version: {project['version']}", f"Summary: {project['description']}",
@@ -47,8 +48,8 @@ def _metadata(licence=(), notes=""):
     for extra, requirements in project.get("optional-dependencies", {}).items():
         lines.append(f"Provides-Extra: {extra}")
         lines += [f'Requires-Dist: {requirement}; extra == "{extra}"' for requirement in requirements]
-    lines += ["Description-Content-Type: text/markdown", "", (HERE / project["readme"]).read_text(encoding="utf-8") + notes]
-    return "\n".join(lines).encode()
+    readme = (HERE / project["readme"]).read_text(encoding="utf-8")
+    return "\n".join([*lines, "Description-Content-Type: text/markdown", "", readme + notes]).encode()
 
 
 def _name():
@@ -115,8 +116,8 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
 
 
 def build_binary_wheel(wheel_directory, files, tag, licence, licences, notes):
-    """A wheel that holds the library. files: {name in the package: bytes}; tag: of the platform; licence: SPDX expression
-    of all that it holds; licences: {name: text} of what is not ours; notes: Markdown for its description."""
+    """A wheel that holds the library. files: {name in the package: bytes}; tag: of the platform; licence: SPDX
+    expression of all that it holds; licences: {name: text} of what is not ours; notes: Markdown for its description."""
     own = ["LICENSE"] if _licence() else []
     lines = [f"License-Expression: {licence}", *(f"License-File: {name}" for name in (*own, *sorted(licences)))]
     contents = {**_modules(), **{f"delam/{name}": data for name, data in files.items()}}

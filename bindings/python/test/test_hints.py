@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Type hints and docstrings of all public names: they are there, every name in the hints exists, and what a scene returns
-has the type that they promise."""
+"""Type hints and docstrings of all public names: they are there, every name in the hints exists, and what a scene
+returns has the type that they promise."""
 import importlib
 import inspect
 import pydoc
@@ -18,8 +18,8 @@ import delam.petsc
 import delam.plot
 
 MODULES = [delam, delam.meshes, delam.petsc, delam.plot]
-CLASSES = [delam.Law, delam.Mesh, delam.Interface, delam.Problem, delam.Solver, delam.Values, delam.Options, delam.History,
-           delam.Result, delam.Fields]
+CLASSES = [delam.Law, delam.Mesh, delam.Interface, delam.Problem, delam.Solver, delam.Values, delam.Options,
+           delam.History, delam.Result, delam.Fields]
 FUNCTIONS = [delam.library_version, delam.library_commit, delam.library_location, delam.blas_threads, delam.options]
 
 
@@ -84,7 +84,8 @@ class Described(unittest.TestCase):
 
     def test_classes_have_their_own(self):
         # An inherited text would pass for a description.
-        self.assertEqual([name for name, thing in public() if inspect.isclass(thing) and not vars(thing).get("__doc__")], [])
+        classes = {name: thing for name, thing in public() if inspect.isclass(thing)}
+        self.assertEqual([name for name, thing in classes.items() if not vars(thing).get("__doc__")], [])
 
     def test_every_function_is_hinted(self):
         missing = []
@@ -164,7 +165,8 @@ class Hints(unittest.TestCase):
                     continue
                 member = getattr(type(thing), name)
                 needed = [p for p in inspect.signature(function).parameters.values()
-                          if p.default is p.empty and p.name not in ("self", "cls") and p.kind == p.POSITIONAL_OR_KEYWORD]
+                          if p.default is p.empty and p.name not in ("self", "cls")
+                          and p.kind == p.POSITIONAL_OR_KEYWORD]
                 if needed and name not in arguments:
                     continue
                 value = getattr(thing, name)

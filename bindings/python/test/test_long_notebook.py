@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The notebooks in a kernel of Jupyter, as people run them: each picture comes once, and so does the progress bar. Skipped
-without nbclient, ipykernel (Debian: python3-nbclient, python3-ipykernel) or matplotlib."""
+"""The notebooks in a kernel of Jupyter, as people run them: each picture comes once, and so does the progress bar.
+Skipped without nbclient, ipykernel (Debian: python3-nbclient, python3-ipykernel) or matplotlib."""
 import importlib.util
 import os
 import unittest

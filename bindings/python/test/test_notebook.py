@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The notebooks run, cell by cell, and hold no output. The cells run in this process with what a kernel adds, the value of
-a last line; test_long_notebook runs them in a kernel. Skipped without matplotlib."""
+"""The notebooks run, cell by cell, and hold no output. The cells run in this process with what a kernel adds, the value
+of a last line; test_long_notebook runs them in a kernel. Skipped without matplotlib."""
 import ast
 import contextlib
 import importlib.util
@@ -60,7 +60,8 @@ class Cells(unittest.TestCase):
         plt.close("all")
         # The arms are not clamped at the tip of the notch: beam theory is above, but not far.
         self.assertTrue(0.85 * names["beam"] < names["peak"] < names["beam"], printed)
-        self.assertRegex(printed, r"peak \d+ N/m, beam theory \d+ N/m\nlargest traction \d+\.\d MPa; the crack is 5\d\.\d mm")
+        self.assertRegex(printed, r"peak \d+ N/m, beam theory \d+ N/m\n"
+                                  r"largest traction \d+\.\d MPa; the crack is 5\d\.\d mm")
         self.assertEqual(names["again"].time, 1.0)
         np.testing.assert_array_equal(names["again"].field("traction", 0), names["traction"])
         self.assertGreater(len(values), 5)

@@ -53,9 +53,10 @@ class Refused(unittest.TestCase):
     def test_errors_can_be_pickled(self):
         with self.assertRaises(delam.DelamError) as caught:
             delam.Mesh.layers(1.0, 0, [1.0], [1])
-        again = pickle.loads(pickle.dumps(caught.exception))
+        error = caught.exception
+        again = pickle.loads(pickle.dumps(error))
         self.assertEqual((type(again), str(again), again.status, again.name),
-                         (type(caught.exception), str(caught.exception), caught.exception.status, caught.exception.name))
+                         (type(error), str(error), error.status, error.name))
 
 
 class Instead(unittest.TestCase):

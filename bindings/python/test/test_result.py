@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Results of the command line, and histories of solvers: numbers as they are in the files, pictures as plot.py draws them.
-Skipped without the program, h5py or matplotlib."""
+"""Results of the command line, and histories of solvers: numbers as they are in the files, pictures as plot.py draws
+them. Skipped without the program, h5py or matplotlib."""
 import csv
 import importlib.util
 import json

@@ -35,9 +35,9 @@ class Checked(unittest.TestCase):
         cls.folder = pathlib.Path(folder.name)
 
     def mypy(self, *words):
-        return subprocess.run([sys.executable, "-m", "mypy", "--strict", "--config-file", support.HERE.parent / "pyproject.toml",
-                               "--cache-dir", self.folder / "cache", *words], capture_output=True, text=True,
-                              cwd=support.SOURCES, check=False)
+        return subprocess.run([sys.executable, "-m", "mypy", "--strict", "--config-file",
+                               support.HERE.parent / "pyproject.toml", "--cache-dir", self.folder / "cache", *words],
+                              capture_output=True, text=True, cwd=support.SOURCES, check=False)
 
     def test_the_package(self):
         done = self.mypy("-p", "delam")

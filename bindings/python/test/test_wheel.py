@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A wheel that holds the library, installed into an empty virtual environment: it loads its own libraries, computes what
-the library of the build computes, and says its licences.
+"""A wheel that holds the library, installed into an empty virtual environment: it loads its own libraries, computes
+what the library of the build computes, and says its licences.
 
 The environment is empty but for numpy, which pip would fetch and which is linked from the system here. Skipped without
 venv, pip, patchelf or the library of the target delam_lgpl."""
@@ -89,8 +89,9 @@ class Wheel(unittest.TestCase):
                      re.search(r"delam|cholmod|metis|amd|suitesparse", pathlib.Path(path).name)]
         self.assertEqual(strangers, [])
         # The same library but for CHOLMOD's kernels: other roundings.
-        theirs = self.computed(sys.executable, DELAM_LIBRARY=os.environ["DELAM_LIBRARY"], PYTHONPATH=str(support.SOURCES))
-        self.assertEqual(theirs["location"], os.environ["DELAM_LIBRARY"])
+        tree = os.environ["DELAM_LIBRARY"]
+        theirs = self.computed(sys.executable, DELAM_LIBRARY=tree, PYTHONPATH=str(support.SOURCES))
+        self.assertEqual(theirs["location"], tree)
         for name in ("reaction", "work", "press"):
             np.testing.assert_allclose(ours[name], theirs[name], rtol=1e-8, atol=1e-9 * np.abs(theirs[name]).max())
         self.assertGreater(max(ours["reaction"]), 1e3)

@@ -29,8 +29,8 @@ SYSTEM = re.compile(r"(ld-linux[-\w]*|libc|libm|libdl|librt|libpthread|libgcc_s|
 FOLDER = "lib"  # in the package, where _library.py looks
 # Our own part of the wheel, and of what we have built of Debian's archives.
 CHOLMOD = "libdelam-cholmod.so"
-# SPDX expressions of what may come along, by the source package of Debian. A library of another one is refused: somebody
-# has to read its licence first.
+# SPDX expressions of what may come along, by the source package of Debian. A library of another one is refused:
+# somebody has to read its licence first.
 LICENCES = {"suitesparse": "LGPL-2.1-or-later AND BSD-3-Clause", "metis": "Apache-2.0", "openblas": "BSD-3-Clause",
             "gcc-12": "GPL-3.0-or-later WITH GCC-exception-3.1", "quadmath": "LGPL-2.1-or-later"}
 
@@ -108,8 +108,8 @@ def refuse_gpl(files):
     for name, path in files.items():
         found = re.findall(rb"\w*cholmod_(?:super_numeric|updown|sdmult)\.c", path.read_bytes())
         if found:
-            raise WheelError(f"{name} ({path}) holds {found[0].decode()}, of CHOLMOD's GPL modules: give --library the one "
-                             "that the target delam_lgpl builds")
+            raise WheelError(f"{name} ({path}) holds {found[0].decode()}, of CHOLMOD's GPL modules: give --library the "
+                             "one that the target delam_lgpl builds")
 
 
 def gathered(library, work):
@@ -150,8 +150,8 @@ def described(files, origins):
         if origin is None:
             rows.append(f"| {name} | this project | | BSD-3-Clause |")
         else:
-            rows.append(f"| {name} | Debian {origin.package} {origin.version} | {origin.source} {origin.source_version} "
-                        f"| {origin.licence(name)} |")
+            rows.append(f"| {name} | Debian {origin.package} {origin.version} "
+                        f"| {origin.source} {origin.source_version} | {origin.licence(name)} |")
     paths = [path for path, _ in files.values()]
     return f"""
 ## Libraries in this wheel
@@ -161,9 +161,10 @@ This wheel holds libdelam and the shared libraries that it needs, in `delam/{FOL
 
 {chr(10).join(rows)}
 
-`{CHOLMOD}` is made of CHOLMOD's modules Core, Check, Cholesky, Partition and CAMD (LGPL-2.1-or-later) and of AMD, CAMD, COLAMD,
-CCOLAMD and SuiteSparse_config (BSD-3-Clause), as Debian has compiled them; CHOLMOD's modules under the GPL are left out.
-You may replace it, and the other libraries, by versions of your own: put them into their place under the same name.
+`{CHOLMOD}` is made of CHOLMOD's modules Core, Check, Cholesky, Partition and CAMD (LGPL-2.1-or-later) and of
+AMD, CAMD, COLAMD, CCOLAMD and SuiteSparse_config (BSD-3-Clause), as Debian has compiled them; CHOLMOD's modules under
+the GPL are left out. You may replace it, and the other libraries, by versions of your own: put them into their place
+under the same name.
 The sources of all of them are in Debian's source packages named above (https://snapshot.debian.org); the texts of
 their licences are in the folder `licenses` beside this file.
 """
@@ -174,14 +175,16 @@ def make(library, out):
     library = pathlib.Path(os.path.realpath(library))
     with tempfile.TemporaryDirectory() as work:
         files = gathered(library, pathlib.Path(work))
-        origins = {name: None if path == library else Origin("libsuitesparse-dev") if name == CHOLMOD else Origin.of(path)
+        origins = {name: None if path == library else
+                   Origin("libsuitesparse-dev") if name == CHOLMOD else Origin.of(path)
                    for name, (_, path) in files.items()}
         licences = {name: text for origin in origins.values() if origin for name, text in origin.texts.items()}
         kinds = sorted({part for name, origin in origins.items() if origin
                         for part in origin.licence(name).split(" AND ")} | {"BSD-3-Clause"})
         contents = {f"{FOLDER}/{name}": path.read_bytes() for name, (path, _) in files.items()}
         tag = sysconfig.get_platform().replace("-", "_").replace(".", "_")
-        name = delam_build.build_binary_wheel(out, contents, tag, " AND ".join(kinds), licences, described(files, origins))
+        name = delam_build.build_binary_wheel(out, contents, tag, " AND ".join(kinds), licences,
+                                              described(files, origins))
     return pathlib.Path(out) / name
 
 

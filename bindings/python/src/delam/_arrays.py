@@ -15,8 +15,9 @@ IntArray = NDArray[np.int64]
 # Sizes of an array: of any size (None), of this one, or of one of these.
 Shape = tuple["int | tuple[int, ...] | None", ...]
 
-_POINTERS: dict[np.dtype[Any], Any] = {np.dtype(np.float64): ctypes.POINTER(ctypes.c_double), np.dtype(np.int64): ctypes.POINTER(ctypes.c_int64),
-             np.dtype(np.int32): ctypes.POINTER(ctypes.c_int32), np.dtype(np.uint8): ctypes.POINTER(ctypes.c_uint8)}
+_POINTERS: dict[np.dtype[Any], Any] = {
+    np.dtype(np.float64): ctypes.POINTER(ctypes.c_double), np.dtype(np.int64): ctypes.POINTER(ctypes.c_int64),
+    np.dtype(np.int32): ctypes.POINTER(ctypes.c_int32), np.dtype(np.uint8): ctypes.POINTER(ctypes.c_uint8)}
 
 
 def pointer(array: NDArray[Any] | None) -> Any:

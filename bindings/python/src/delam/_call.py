@@ -132,7 +132,8 @@ class Context:
         if status != _raw.DELAM_OK:
             raise error_of(status, "no context: out of memory")
         self.handle = handle
-        self.progress: Callable[[str, int, int], object] | None = None  # called with (stage, done, total) inside long work; a true result cancels
+        # Called with (stage, done, total) inside long work; a true result cancels.
+        self.progress: Callable[[str, int, int], object] | None = None
         self.hosted = False  # a law of the objects is computed by Python
         self._lock = threading.Lock()
         self._owner: int | None = None

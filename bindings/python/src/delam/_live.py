@@ -26,8 +26,8 @@ def _kind() -> Any:
             solver = history._solver
             self.folder, self.cell, self._title, self._solver = "", None, title, solver
             names = solver._patterns
-            self.history = Columns(history, names)
             drives = solver.problem._drives
+            self.history = Columns(history, names, "force" in drives.values())
             self.about = {
                 "patterns": [{"name": name, "drives": drives.get(i, "displacement")} for i, name in enumerate(names)],
                 "scene": {"dimension": solver.problem.dimension}, "units": units, "status": "complete",
@@ -56,11 +56,11 @@ def _kind() -> Any:
 
 
 class Columns(Mapping[str, Any]):
-    """Columns of a history by the names of history.csv."""
+    """Columns of a history by the names of history.csv, which has a load_potential only where there are dead forces."""
 
-    def __init__(self, history: History, patterns: list[str]) -> None:
+    def __init__(self, history: History, patterns: list[str], dead: bool) -> None:
         self._history = history
-        self._names = {name: name for name in history.names}
+        self._names = {name: name for name in history.names if dead or name != "load_potential"}
         for name in patterns:
             for kind in ("load", "reaction"):
                 title = kind if len(patterns) == 1 else f"{kind}_{name}"

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The C interface, one to one. Generated from delam.h by tools/generate_raw.py: change that, not this."""
-from ctypes import (CDLL, CFUNCTYPE, POINTER, Structure, c_char, c_char_p, c_double, c_int32, c_int64, c_uint8,
-                    c_void_p)
+from ctypes import (CDLL, CFUNCTYPE, POINTER, Structure, c_char, c_char_p, c_double, c_int32, c_int64,
+                    c_uint8, c_void_p)
 from typing import Any
 
 DELAM_ABI = 1

@@ -118,9 +118,10 @@ class NotConvergedWarning(RuntimeWarning):
     """The warning in place of NotConverged, if the solver is to continue."""
 
 
-_KINDS: dict[int, type[DelamError]] = {kind.status: kind for kind in (ArgumentError, HandleError, MeshError, ProblemError, StateError, OutOfMemory,
-                                         NumericalError, SnapshotError, FileError, InternalError, NotConverged,
-                                         Cancelled, LimitReached)}
+_KINDS: dict[int, type[DelamError]] = {
+    kind.status: kind for kind in (ArgumentError, HandleError, MeshError, ProblemError, StateError, OutOfMemory,
+                                   NumericalError, SnapshotError, FileError, InternalError, NotConverged, Cancelled,
+                                   LimitReached)}
 
 
 def error_of(status: int, message: str) -> DelamError:

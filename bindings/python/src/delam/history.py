@@ -20,10 +20,10 @@ if TYPE_CHECKING:
 
 
 class History:
-    """Values of a solver over its steps, as numpy arrays by name: history["reaction:load"]. The first row is the state at
-    the time of construction; record() appends the present one. If a step has replaced earlier ones (option backtracking),
-    their rows are read again. names: the values that it keeps, in their order; Solver.values.describe() has their
-    units."""
+    """Values of a solver over its steps, as numpy arrays by name: history["reaction:load"]. The first row is the state
+    at the time of construction; record() appends the present one. If a step has replaced earlier ones (option
+    backtracking), their rows are read again. names: the values that it keeps, in their order; Solver.values.describe()
+    has their units."""
 
     names: tuple[str, ...]
 
@@ -92,8 +92,8 @@ class History:
         return as_frame(self.array)
 
     def plot(self, kind: str = "load", units: Mapping[str, str] | None = None, title: str = "history") -> Figure:
-        """A figure of matplotlib; a notebook shows it as the value of a cell, pyplot.show() in a window, figure.savefig()
-        writes it. delam.plot.history draws any values.
+        """A figure of matplotlib; a notebook shows it as the value of a cell, pyplot.show() in a window,
+        figure.savefig() writes it. delam.plot.history draws any values.
 
         kind   "load" (over displacement, a picture for each pattern) or "energies" with the two-sided estimate
         units  names for the axes: {"length": "m", "force": "N", "time": "s"}

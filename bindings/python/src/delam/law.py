@@ -29,7 +29,8 @@ class Parameter(NamedTuple):
 
 
 class Bounds(NamedTuple):
-    """Between what a number lies. open: the bound itself is outside; infinite: there is no bound, numbers are finite."""
+    """Between what a number lies. open: the bound itself is outside; infinite: there is no bound, numbers are
+    finite."""
 
     lower: float
     upper: float
@@ -168,8 +169,9 @@ class Law(Object):
 
     def respond(self, jump: ArrayLike, mixity: ArrayLike,
                 adhesion: ArrayLike = 1.0) -> tuple[FloatArray, FloatArray]:
-        """One damage step at given jumps [n][2 or 3], lengths in local directions (normal first), at frozen mixities and
-        from old adhesions, both one for all or [n]: the new adhesions [n] and the tractions [n][2 or 3], stresses."""
+        """One damage step at given jumps [n][2 or 3], lengths in local directions (normal first), at frozen mixities
+        and from old adhesions, both one for all or [n]: the new adhesions [n] and the tractions [n][2 or 3],
+        stresses."""
         jump = floats("jump", jump, (None, (2, 3)))
         count, dimension = jump.shape
         mixity, old = spread("mixity", mixity, count), spread("adhesion", adhesion, count)

@@ -106,8 +106,8 @@ def interface_index(value: int | Interface, mesh: Mesh) -> int:
 
 
 class Interface:
-    """An interface of a mesh; may be used wherever an index is expected. Its jump is u_b - u_a, its normals point from a
-    to b."""
+    """An interface of a mesh; may be used wherever an index is expected. Its jump is u_b - u_a, its normals point from
+    a to b."""
 
     def __init__(self, mesh: Mesh, index: int) -> None:
         self.mesh = mesh
@@ -226,8 +226,8 @@ class Mesh(Object):
     @classmethod
     def from_meshio(cls, source: meshio.Mesh | str | os.PathLike[str],
                     bodies: str | Sequence[str] | None = None, interfaces: bool = True) -> Mesh:
-        """A meshio.Mesh, or a file that meshio reads. bodies: name of the cell data with a label for each cell, or names
-        of cell sets; see delam.meshes.read."""
+        """A meshio.Mesh, or a file that meshio reads. bodies: name of the cell data with a label for each cell, or
+        names of cell sets; see delam.meshes.read."""
         from .meshes import read
         return read(source, bodies, interfaces)
 
@@ -311,15 +311,15 @@ class Mesh(Object):
         return [Interface(self, before + i) for i in range(count.value)]
 
     def add_projected_interface(self, body_a: int, body_b: int, gap: float = 0.0) -> Interface:
-        """An interface of two bodies whose meshes do not match; b should be the finer one. gap: distance of the faces, a
-        length, 0: 1e-6 of the shortest edge. The nodes of b are tied to a (ties)."""
+        """An interface of two bodies whose meshes do not match; b should be the finer one. gap: distance of the faces,
+        a length, 0: 1e-6 of the shortest edge. The nodes of b are tied to a (ties)."""
         return self._add_interface(library.delam_mesh_add_projected_interface, body_a, body_b, number("gap", gap))
 
     def add_obstacle(self, nodes: ArrayLike, normals: ArrayLike, control_node: int,
                      weights: ArrayLike | None = None) -> Interface:
-        """A rigid obstacle that moves with its control node, a node of no body. nodes: those that may touch it, indices or
-        a mask; normals: from the obstacle into the body, one per pair [nodes][dimension] or one for all; weights: length
-        or area of each node [nodes], None: computed."""
+        """A rigid obstacle that moves with its control node, a node of no body. nodes: those that may touch it, indices
+        or a mask; normals: from the obstacle into the body, one per pair [nodes][dimension] or one for all; weights:
+        length or area of each node [nodes], None: computed."""
         nodes = indices("nodes", nodes, size=self.node_count)
         normals = self._normals(normals, nodes.size)
         given = None if weights is None else floats("weights", weights, (nodes.size,))
@@ -329,8 +329,8 @@ class Mesh(Object):
         return Interface(self, index.value)
 
     def add_host_body(self, body: int, nodes: ArrayLike) -> None:
-        """A body without cells, whose stiffness is given by Problem.set_stiffness. nodes: indices or a mask, of nodes that
-        belong to no body yet."""
+        """A body without cells, whose stiffness is given by Problem.set_stiffness. nodes: indices or a mask, of nodes
+        that belong to no body yet."""
         nodes = indices("nodes", nodes, size=self.node_count)
         self._call(library.delam_mesh_add_host_body, integer("body", body, 32), nodes.size, pointer(nodes), 0,
                    long=True)
@@ -466,8 +466,8 @@ class Mesh(Object):
 
     def find_patch(self, body: int, lower: ArrayLike, upper: ArrayLike,
                    direction: str | ArrayLike) -> tuple[IntArray, FloatArray]:
-        """Nodes [n] and weights [n] (lengths in 2D, areas in 3D) of a uniform traction on the part of a body's boundary (None: of each body's) inside the
-        box whose outward normal is within 45 degrees of the direction."""
+        """Nodes [n] and weights [n] (lengths in 2D, areas in 3D) of a uniform traction on the part of a body's boundary
+        (None: of each body's) inside the box whose outward normal is within 45 degrees of the direction."""
         dimension = self.dimension
         lower, upper = floats("lower", lower, (dimension,)), floats("upper", upper, (dimension,))
         along = axis("direction", direction, dimension)

@@ -130,8 +130,8 @@ def read(source: meshio.Mesh | str | os.PathLike[str], bodies: str | Sequence[st
 
 
 def from_vtk(grid: Any, bodies: str | None = None, interfaces: bool = True) -> Mesh:
-    """The cells of highest dimension of a vtkUnstructuredGrid, or of a grid of PyVista, as `read` takes those of meshio.
-    bodies: name of the cell array with a label for each cell; None: the first of `LABELS` that exists, else one
+    """The cells of highest dimension of a vtkUnstructuredGrid, or of a grid of PyVista, as `read` takes those of
+    meshio. bodies: name of the cell array with a label for each cell; None: the first of `LABELS` that exists, else one
     body."""
     model, support = _vtk()
     if not isinstance(grid, model.vtkUnstructuredGrid):
@@ -246,8 +246,8 @@ def _rows(name: str, values: ArrayLike, count: int) -> NDArray[Any]:
 
 def grid_of(mesh: Mesh, point_data: Mapping[str, ArrayLike] | None = None,
             cell_data: Mapping[str, ArrayLike] | None = None) -> Grid:
-    """The nodes and cells of a mesh; plane ones get z = 0. point_data: arrays over all nodes; cell_data: arrays over all
-    cells, in the order they were added; "bodies" is among them. ArgumentError: another number of rows."""
+    """The nodes and cells of a mesh; plane ones get z = 0. point_data: arrays over all nodes; cell_data: arrays over
+    all cells, in the order they were added; "bodies" is among them. ArgumentError: another number of rows."""
     nodes, cells = mesh.nodes, mesh.cells
     back = {ours: theirs for theirs, ours in NAMES.items()}
     unnamed = [name for name in cells.names() if name not in back]

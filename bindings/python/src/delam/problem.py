@@ -51,8 +51,8 @@ class Sparse(NamedTuple):
 
 
 def _rows_of(matrix: Any) -> tuple[Any, Any, Any]:
-    """row_starts, columns and values of a Sparse or of a class with SciPy's attribute names. Compressed columns work too,
-    because the stiffness is symmetric."""
+    """row_starts, columns and values of a Sparse or of a class with SciPy's attribute names. Compressed columns work
+    too, because the stiffness is symmetric."""
     if isinstance(matrix, Sparse):
         return matrix.row_starts, matrix.columns, matrix.values
     if getattr(matrix, "format", "csr") not in ("csr", "csc") and hasattr(matrix, "tocsr"):
@@ -108,13 +108,13 @@ class Problem(Object):
     except in calls that only read, such as fields. `mesh` is the mesh given, `dimension` 2 or 3.
 
     Units are whichever are consistent: with lengths in m and forces in N, stresses and stiffnesses are in Pa. In 2D all
-    is per unit of width. ArgumentError names a value out of range or an array of the wrong shape, ProblemError (of check
-    and Solver) what the scene lacks."""
+    is per unit of width. ArgumentError names a value out of range or an array of the wrong shape, ProblemError (of
+    check and Solver) what the scene lacks."""
 
     mesh: Mesh
     dimension: int
-    _instead = ("Make it in each process from the arrays of its mesh and from its laws and loads; Solver.save() gives the "
-                "state of a solver as bytes, for a solver of an equal problem to load().")
+    _instead = ("Make it in each process from the arrays of its mesh and from its laws and loads; Solver.save() gives "
+                "the state of a solver as bytes, for a solver of an equal problem to load().")
 
     def __init__(self, mesh: Mesh, plane: str | None = None,
                  progress: Callable[[str, int, int], object] | None = None) -> None:
@@ -170,8 +170,8 @@ class Problem(Object):
                    number("poisson", poisson))
 
     def set_orthotropic(self, constants: ArrayLike, body: int | None = None) -> None:
-        """E1 E2 E3 nu12 nu13 nu23 G12 G13 G23 in the material axes, moduli as stresses; nu_ij: contraction along j under
-        tension along i."""
+        """E1 E2 E3 nu12 nu13 nu23 G12 G13 G23 in the material axes, moduli as stresses; nu_ij: contraction along j
+        under tension along i."""
         constants = floats("constants", constants, (9,))
         self._call(library.delam_problem_set_orthotropic, body_label(body), pointer(constants))
 
@@ -245,7 +245,8 @@ class Problem(Object):
         self._call(library.delam_problem_set_contact, interface_index(interface, self.mesh))
 
     def set_adhesion(self, interface: int | Interface, pairs: ArrayLike, adhesion: ArrayLike = 0.0) -> None:
-        """Initial adhesion in [0, 1] of some pairs, one for all or [pairs]; 0 makes a notch. pairs: indices or a mask."""
+        """Initial adhesion in [0, 1] of some pairs, one for all or [pairs]; 0 makes a notch. pairs: indices or a
+        mask."""
         interface = interface_index(interface, self.mesh)
         size = self._pair_counts[interface] if 0 <= interface < len(self._pair_counts) else None
         pairs = indices("pairs", pairs, size=size)
@@ -269,7 +270,8 @@ class Problem(Object):
         """Names of the patterns, in the order of their indices."""
         count = ctypes.c_int64()
         self._call(library.delam_problem_pattern_count, count)
-        return [self.context.text(library.delam_problem_pattern_name, self._handle, i) or "" for i in range(count.value)]
+        name = library.delam_problem_pattern_name
+        return [self.context.text(name, self._handle, i) or "" for i in range(count.value)]
 
     def pattern(self, which: int | str | Pattern) -> int:
         """Index of a pattern: itself, its name or its index. ArgumentError: there is none of this name, or it is one of
@@ -303,8 +305,8 @@ class Problem(Object):
 
     def prescribe_mean(self, nodes: ArrayLike, weights: ArrayLike, direction: str | ArrayLike,
                        drive: Drive = None) -> None:
-        """Prescribes the weighted mean of direction . u over nodes; with the weights of Mesh.find_patch, a support spread
-        over a patch."""
+        """Prescribes the weighted mean of direction . u over nodes; with the weights of Mesh.find_patch, a support
+        spread over a patch."""
         nodes = indices("nodes", nodes)
         weights = floats("weights", weights, (nodes.size,))
         along = axis("direction", direction, self.dimension)
@@ -313,7 +315,8 @@ class Problem(Object):
                    patterns.size, pointer(patterns), pointer(coefficients), 0, long=True)
 
     def add_equation(self, nodes: ArrayLike, coefficients: ArrayLike, drive: Drive = None) -> None:
-        """sum_i coefficients[i] . u_nodes[i] = sum over patterns of drive * factor; coefficients: [nodes][dimension]."""
+        """sum_i coefficients[i] . u_nodes[i] = sum over patterns of drive * factor; coefficients:
+        [nodes][dimension]."""
         nodes = indices("nodes", nodes)
         coefficients = floats("coefficients", coefficients, (nodes.size, self.dimension))
         patterns, prescribed = self._driven(drive)
@@ -330,7 +333,8 @@ class Problem(Object):
                    number("tolerance", tolerance), 0, long=True)
 
     def add_forces(self, pattern: int | str | Pattern, nodes: ArrayLike, forces: ArrayLike) -> None:
-        """Dead forces (in 2D per unit of width) times the factor of a pattern: [nodes][dimension], or one vector for all."""
+        """Dead forces (in 2D per unit of width) times the factor of a pattern: [nodes][dimension], or one vector for
+        all."""
         nodes = indices("nodes", nodes, size=self._node_count)
         if ndim(forces) == 1:
             forces = np.tile(floats("forces", forces, (self.dimension,)), (nodes.size, 1))
@@ -369,7 +373,8 @@ class Problem(Object):
     def process_zone(self, interface: int | Interface) -> tuple[float, float]:
         """Expected length of the process zone, 0 if there is none, and the mean distance of pairs, both lengths."""
         length, spacing = ctypes.c_double(), ctypes.c_double()
-        self._call(library.delam_problem_process_zone, interface_index(interface, self.mesh), length, spacing, long=True)
+        self._call(library.delam_problem_process_zone, interface_index(interface, self.mesh), length, spacing,
+                   long=True)
         return length.value, spacing.value
 
     def plan(self) -> Forecast:
@@ -427,8 +432,8 @@ class Problem(Object):
         return out
 
     def eigenstrain_energy(self) -> FloatArray:
-        """[patterns][patterns]: W_pq, the integral of e_p : C : e_q over the bodies, e_p the eigenstrain of pattern p and C
-        the elasticity; 0 for other patterns."""
+        """[patterns][patterns]: W_pq, the integral of e_p : C : e_q over the bodies, e_p the eigenstrain of pattern p
+        and C the elasticity; 0 for other patterns."""
         out = np.zeros((len(self.patterns),) * 2)
         self._call(library.delam_problem_eigenstrain_energy, out.size, pointer(out), long=True)
         return out

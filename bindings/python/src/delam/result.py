@@ -76,9 +76,9 @@ def as_frame(table: NDArray[np.void]) -> pandas.DataFrame:
 
 
 class Fields(Mapping[str, Any]):
-    """The fields of one step, by name, as arrays: displacement [nodes][3], stress [cells][6] (xx, yy, zz, xy, yz, zx) and
-    what else the scene stores; "interface_0" and so on are mappings of the same kind with zeta (the adhesion) [pairs],
-    jump and traction [pairs][3] (normal, tangents), contact, displacement, and the fronts. In 2D the remaining
+    """The fields of one step, by name, as arrays: displacement [nodes][3], stress [cells][6] (xx, yy, zz, xy, yz, zx)
+    and what else the scene stores; "interface_0" and so on are mappings of the same kind with zeta (the adhesion)
+    [pairs], jump and traction [pairs][3] (normal, tangents), contact, displacement, and the fronts. In 2D the remaining
     components are zero. Units are those of the result (Result.about["units"])."""
 
     def __init__(self, step: int, time: float, data: dict[str, Any]) -> None:
@@ -184,8 +184,8 @@ class Result:
 
     @property
     def cells(self) -> list[IntArray]:
-        """Connectivity [n][nodes of a cell] of the cells of each size, in the order of their rows in fields; `cell_rows`
-        has those."""
+        """Connectivity [n][nodes of a cell] of the cells of each size, in the order of their rows in fields;
+        `cell_rows` has those."""
         with self._file() as file:
             table = np.asarray(file["mesh/cells"][()], np.int64)
         return [table[rows][:, :size] for size, rows in _sizes(table)]

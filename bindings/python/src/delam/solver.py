@@ -138,8 +138,9 @@ def _encoded(path: str | os.PathLike[str]) -> bytes:
 
 
 class Values(Mapping[str, float]):
-    """Scalars of the state described, by name; computed on access. KeyError: there is none of this name. The state described is the step that look() has
-    selected, otherwise the pending state, or the committed one if no step is pending."""
+    """Scalars of the state described, by name; computed on access. KeyError: there is none of this name. The state
+    described is the step that look() has selected, otherwise the pending state, or the committed one if no step is
+    pending."""
 
     def __init__(self, solver: Solver, keys: dict[str, bytes]) -> None:
         self._solver = solver
@@ -176,14 +177,14 @@ class Solver(Object):
         solver.advance(0.05)        # pending: results can be read
         solver.commit()             # kept, or solver.rollback()
 
-    not_converged: the effect of a step that reaches an iteration limit: "warn" (NotConvergedWarning, the step is pending),
-    "raise" (NotConverged, pending too) or "ignore". An interrupted call (Ctrl-C, or an exception from a callback)
-    restores the state before it. `problem` is the problem given."""
+    not_converged: the effect of a step that reaches an iteration limit: "warn" (NotConvergedWarning, the step is
+    pending), "raise" (NotConverged, pending too) or "ignore". An interrupted call (Ctrl-C, or an exception from a
+    callback) restores the state before it. `problem` is the problem given."""
 
     problem: Problem
     not_converged: str
-    _instead = ("Use save(), whose bytes can be pickled or written to a file, and load() them into a Solver of an equal "
-                "problem: it continues bit for bit.")
+    _instead = ("Use save(), whose bytes can be pickled or written to a file, and load() them into a Solver of an "
+                "equal problem: it continues bit for bit.")
 
     def __init__(self, problem: Problem, time: float = 0.0, not_converged: str = "warn") -> None:
         if not_converged not in ("warn", "raise", "ignore"):
@@ -292,9 +293,8 @@ class Solver(Object):
         self._whole(library.delam_solver_rollback, long=False)
 
     def set_history(self, pattern: int | str | Pattern, times: ArrayLike, values: ArrayLike) -> None:
-        """Changes the history of a load pattern from the committed time on: linear from the factor there to values[0] at
-        times[0] and through the further points, constant after the last; [n] both. It is saved with the
-        state."""
+        """Changes the history of a load pattern from the committed time on: linear from the factor there to values[0]
+        at times[0] and through the further points, constant after the last; [n] both. It is saved with the state."""
         times = floats("times", listed(times), (None,))
         values = floats("values", listed(values), (times.size,))
         self._call(library.delam_solver_set_history, pattern_index(pattern, self.problem, self._patterns), times.size,
@@ -305,8 +305,8 @@ class Solver(Object):
         """Advances and commits, time after time; yields a dict of values after each step.
 
         values: names, None for all but the costly ones. progress: a bar (tqdm's if it is installed, also in notebooks)
-        on standard error. A step that raises is rolled back. With option backtracking a step may replace earlier ones: value
-        revised_from is the first of those, look() reads them; history() does so by itself."""
+        on standard error. A step that raises is rolled back. With option backtracking a step may replace earlier ones:
+        value revised_from is the first of those, look() reads them; history() does so by itself."""
         names = self._names(values)
         for time in steps_of(times, progress):
             try:
@@ -327,8 +327,9 @@ class Solver(Object):
         return history
 
     def record(self, *names: str) -> None:
-        """Records these values for the committed state and, with each later commit, for every further step, including steps
-        that returns replace; save() saves them. Any values but the costly ones and the counts over the solver's life."""
+        """Records these values for the committed state and, with each later commit, for every further step, including
+        steps that returns replace; save() saves them. Any values but the costly ones and the counts over the solver's
+        life."""
         for name in names:
             if name not in self.values:
                 raise unknown(name, self._keys, "value")
@@ -365,7 +366,8 @@ class Solver(Object):
         return self.values["time"]
 
     def look(self, step: int) -> None:
-        """Selects the state described: an earlier step (option backtracking); -1: the pending or committed one again."""
+        """Selects the state described: an earlier step (option backtracking); -1: the pending or committed one
+        again."""
         self._call(library.delam_solver_look, integer("step", step))
 
     @contextlib.contextmanager
@@ -386,8 +388,8 @@ class Solver(Object):
     def save(self, path: str | os.PathLike[str]) -> None: ...
 
     def save(self, path: str | os.PathLike[str] | None = None) -> bytes | None:
-        """Returns the committed state as bytes, or writes them to a file, which replaces `path` when it is complete and on
-        disk. FileError says why it could not be written."""
+        """Returns the committed state as bytes, or writes them to a file, which replaces `path` when it is complete and
+        on disk. FileError says why it could not be written."""
         if path is not None:
             self._call(library.delam_solver_save_file, _encoded(path))
             return None
@@ -398,8 +400,9 @@ class Solver(Object):
         return out.tobytes()
 
     def load(self, state: bytes | bytearray | memoryview | str | os.PathLike[str]) -> None:
-        """Continues from a state of the same scene and options: saved bytes, or the path (str, os.PathLike) of a file with
-        them. Discards a pending step. SnapshotError: damaged, or of another scene or version; FileError: not readable."""
+        """Continues from a state of the same scene and options: saved bytes, or the path (str, os.PathLike) of a file
+        with them. Discards a pending step. SnapshotError: damaged, or of another scene or version; FileError: not
+        readable."""
         if isinstance(state, (str, os.PathLike)):
             self._whole(library.delam_solver_load_file, _encoded(state))
             return

@@ -63,7 +63,8 @@ def cell_faces(cells):
 
 
 def face_keys(faces):
-    """The same numbers for the same corners [n][4], however they are turned, and whichever of a triangle's is there twice."""
+    """The same numbers for the same corners [n][4], however they are turned, and whichever of a triangle's is there
+    twice."""
     key = np.sort(faces, 1)
     triangle = faces[:, 2] == faces[:, 3]
     if triangle.any():

@@ -43,7 +43,8 @@ def plane_of(text):
 
 
 def interface_lines(group, distance, side):
-    """Where one side of an interface crosses the plane: pairs of its nodes [lines][2][2], counted as the interface does."""
+    """Where one side of an interface crosses the plane: pairs of its nodes [lines][2][2], counted as the interface
+    does."""
     nodes = group[side][()]
     triangles = triangles_of(group["faces"][()], nodes)
     return cut_triangles(triangles, distance[nodes])[0]
@@ -146,6 +147,7 @@ def cut_figure(result, plane=None):
             drawn = draw_cut(ax, file, step, scale, plane, section)
         if drawn is not None:
             adhesion_bar(figure, drawn, axes)
-        figure.suptitle(result.title(f"{plane.text(result.length)}, {plane.view()}, displacements × {scale:g}"), fontsize=11)
+        said = f"{plane.text(result.length)}, {plane.view()}, displacements × {scale:g}"
+        figure.suptitle(result.title(said), fontsize=11)
         stamp_scale(result, figure, scale)
     return figure

@@ -33,7 +33,8 @@ def seen_from_above(points):
 
 
 def plan_of(points):
-    """A function from places [n][3] to plan [n][2]: from above, or along the normal of an interface that does not lie."""
+    """A function from places [n][3] to plan [n][2]: from above, or along the normal of an interface that does not
+    lie."""
     if seen_from_above(points):
         return lambda at: at[:, :2]
     middle, spread = main_axes(points)
@@ -47,8 +48,8 @@ def triangles_of(faces):
 
 
 def sides_of(group):
-    """The sides of an interface around a body, upper and lower: name, which nodes, which triangles. One side with all of them
-    where it does not fold."""
+    """The sides of an interface around a body, upper and lower: name, which nodes, which triangles. One side with all
+    of them where it does not fold."""
     points, weights, triangles = group["points"][()], group["weights"][()], triangles_of(group["faces"][()])
     up = np.array([0.0, 0.0, 1.0]) if seen_from_above(points) else main_axes(points)[1][2]
     nodes = group["frames"][()].reshape(-1, 3, 3)[:, 0] @ up > 0
@@ -82,7 +83,8 @@ def lines_of(group, plan, points, side):
         order = np.arange(starts[f], starts[f + 1])
         if closed[f] and len(order):
             order = np.append(order, order[0])
-        lines += [at[part] for part in np.split(order, np.flatnonzero(np.diff(on_side[order])) + 1) if on_side[part[:1]].all()]
+        parts = np.split(order, np.flatnonzero(np.diff(on_side[order])) + 1)
+        lines += [at[part] for part in parts if on_side[part[:1]].all()]
     return [line for line in lines if len(line) > 1]
 
 
@@ -117,8 +119,8 @@ def draw_fronts(result, file):
     shapes = [np.ptp(plan(file["interfaces"][name]["points"][()]), axis=0) for name, plan, *_ in panels]
     heights = [min(max(0.8 * width * shape[1] / shape[0], 1.2), 6.0) for shape in shapes]
     heights = [max(heights[r:r + columns]) for r in range(0, len(panels), columns)]
-    figure, axes = plt.subplots(rows, columns, figsize=(columns * width, sum(heights) + 0.8 * rows + 0.9), squeeze=False,
-                                height_ratios=heights, layout="constrained")
+    figure, axes = plt.subplots(rows, columns, figsize=(columns * width, sum(heights) + 0.8 * rows + 0.9),
+                                squeeze=False, height_ratios=heights, layout="constrained")
     shades = plt.get_cmap("gray")
     scale = plt.Normalize(times[0], times[-1])
     for ax, (name, plan, title, seen, fronts) in zip(axes.flat, panels):

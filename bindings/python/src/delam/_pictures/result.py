@@ -33,7 +33,8 @@ def for_files():
 
 @contextlib.contextmanager
 def styled():
-    """The style for a while. Not pyplot's rc_context: at its end it forgets what a notebook sets with its first figure."""
+    """The style for a while. Not pyplot's rc_context: at its end it forgets what a notebook sets with its first
+    figure."""
     before = {key: plt.rcParams[key] for key in STYLE}
     plt.rcParams.update(STYLE)
     try:
@@ -54,8 +55,8 @@ def save(figure, path):
 
 
 def early_end(result):
-    """Step up to which to look more closely: twice as far as where half of what dissipates has done so, if that is in the
-    first sixth of the march; else None."""
+    """Step up to which to look more closely: twice as far as where half of what dissipates has done so, if that is in
+    the first sixth of the march; else None."""
     dissipated = result.history["dissipated"]
     time = result.history["time"]
     half = int(np.argmax(dissipated >= 0.5 * dissipated[-1]))

@@ -44,7 +44,8 @@ def load_text(result, time):
     if drives == "force":
         return text
     # Without a name of a unit no blank is left before the comma.
-    return f"{text} {result.length}".rstrip() + f", reaction {four_digits(result.history[reaction][row])} {result.force}"
+    force = f"{four_digits(result.history[reaction][row])} {result.force}"
+    return f"{text} {result.length}".rstrip() + f", reaction {force}"
 
 
 def draw_plane(ax, file, step, scale, light_mesh):
