@@ -147,6 +147,42 @@ class OfTheCommandLine(unittest.TestCase):
                 self.result.plot(kind, **options)
 
 
+@unittest.skipUnless(PROGRAM, "the program delam is not built")
+@unittest.skipUnless(HAVE["h5py"] and HAVE["matplotlib"], "h5py or matplotlib is not installed")
+class InSpace(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = pathlib.Path(folder.name)
+        run(cls.folder, "geometry.divisions=[34, 4]", "time.steps=4",
+            scene=support.ROOT / "examples" / "enf-3d" / "enf-3d.toml")
+        cls.result = delam.Result(cls.folder)
+
+    def test_pictures(self):
+        for kind, options, said in (("fronts", {}, "fronts in plan"), ("cut", {"cut": "y=0.005"}, "cut at y = 0.005 m"),
+                                    ("snapshots", {}, "displacements × 1")):
+            with self.subTest(kind):
+                figure = self.result.plot(kind, **options)
+                self.assertIn(said, figure._suptitle.get_text())
+                figure.canvas.draw()
+                plt.close(figure)
+        with self.assertRaisesRegex(ValueError, "the cut at y = 7 m meets no cell"):
+            self.result.plot("cut", cut="y=7")
+
+    @unittest.skipUnless(HAVE["meshio"], "meshio is not installed")
+    def test_meshio(self):
+        mesh = self.result.to_meshio()
+        self.assertEqual([block.type for block in mesh.cells], ["hexahedron"])
+        self.assertEqual(len(mesh.cells[0].data), len(self.result.bodies))
+        faces = self.result.to_meshio(interface=0)
+        corners = faces.points[faces.cells[0].data]
+        sides = corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]
+        # The whole interface: length times width.
+        self.assertAlmostEqual(0.5 * np.linalg.norm(np.cross(*sides), axis=1).sum(), 0.102 * 0.0127, 12)
+        self.assertEqual(faces.point_data["traction"].shape, (len(faces.points), 3))
+
+
 class OfASolver(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -212,8 +248,18 @@ class OfASolver(unittest.TestCase):
         short = delam.Solver(support.double_cantilever()).history([0.5], values=("step", "time", "dissipated"))
         with self.assertRaisesRegex(ValueError, "the history lacks 'load'"):
             short.plot()
-        with self.assertRaisesRegex(delam.ArgumentError, "kind = 'snapshots' is no picture; known are load, energies"):
+        with self.assertRaisesRegex(delam.ArgumentError, "'snapshots' is no picture; known are load, energies, bodies"):
             self.history.plot("snapshots")
+
+    @unittest.skipUnless(HAVE["matplotlib"], "matplotlib is not installed")
+    def test_bodies(self):
+        figure = self.history.plot("bodies", title="two arms")
+        self.assertIn("two arms – bodies at time 1\n", figure._suptitle.get_text())
+        cells = figure.axes[0].collections[0]
+        corners = np.concatenate([path.vertices for path in cells.get_paths()])
+        tip = self.solver.problem.mesh.nodes + self.solver.field("displacement")
+        np.testing.assert_allclose((corners.min(0), corners.max(0)), (tip.min(0), tip.max(0)), atol=1e-15)
+        plt.close(figure)
 
 
 if __name__ == "__main__":

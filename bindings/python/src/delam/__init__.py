@@ -6,7 +6,8 @@
     problem = delam.Problem(mesh)                                  materials, laws, supports, loads, options
     solver = delam.Solver(problem)                                 load steps and their results
 
-Arrays are numpy's, indices start at 0, units are whatever is consistent. Errors are exceptions under DelamError.
+Arrays are numpy's (in hints, FloatArray is one of float64, IntArray one of int64), indices start at 0, units are
+whatever is consistent. Errors are exceptions under DelamError.
 Warnings and notes of the library go to the logger "delam". Result reads what the command line has written. delam.plot
 draws (matplotlib), delam.meshes reads and writes meshes (meshio, VTK, PyVista)."""
 from __future__ import annotations

@@ -85,6 +85,16 @@ class Columns(Mapping[str, Any]):
         return len(self._names)
 
 
+def bodies_figure(result: Any) -> Any:
+    """The bodies at the present state of the solver."""
+    from .plot import bodies
+    solver = result._solver
+    axes = bodies(solver)
+    axes.axis("off")
+    axes.figure.suptitle(result.title(f"bodies at time {solver.time:.6g}"), fontsize=11)
+    return axes.figure
+
+
 def shown(history: History, units: Mapping[str, str] | None, title: str) -> Any:
     """A History for the pictures. units: names of those of length, force and time, "" where they have none."""
     return _kind()(history, {"length": "", "force": "", "time": "", **(units or {})}, title)

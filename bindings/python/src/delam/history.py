@@ -95,13 +95,15 @@ class History:
         """A figure of matplotlib; a notebook shows it as the value of a cell, pyplot.show() in a window,
         figure.savefig() writes it. delam.plot.history draws any values.
 
-        kind   "load" (over displacement, a picture for each pattern) or "energies" with the two-sided estimate
+        kind   "load" (over displacement, a picture for each pattern), "energies" with the two-sided estimate, or
+               "bodies": the plane bodies at the present state, with the adhesion in colour
         units  names for the axes: {"length": "m", "force": "N", "time": "s"}
 
-        ArgumentError: there is no such kind; ValueError: the history lacks a value for it; ImportError: matplotlib is
-        not installed."""
+        ArgumentError: there is no such kind; ValueError: the history lacks a value for it, or the bodies are in space;
+        ImportError: matplotlib is not installed."""
         from .result import picture
-        kinds = {"load": ("curves", "load_figure"), "energies": ("curves", "energies_figure")}
+        kinds = {"load": ("._pictures.curves", "load_figure"), "energies": ("._pictures.curves", "energies_figure"),
+                 "bodies": ("._live", "bodies_figure")}
 
         def shown() -> object:
             from ._live import shown as made

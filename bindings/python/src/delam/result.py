@@ -21,11 +21,12 @@ if TYPE_CHECKING:
     import pandas
     from matplotlib.figure import Figure
 
-# What Result.plot draws: {kind: (module of _pictures, function)}.
-_KINDS = {"load": ("curves", "load_figure"), "energies": ("curves", "energies_figure"),
-          "averages": ("curves", "averages_figure"), "snapshots": ("snapshots", "snapshots_figure"),
-          "stresses": ("stresses", "stresses_figure"), "fronts": ("fronts", "fronts_figure"),
-          "cut": ("cut", "cut_figure")}
+# What Result.plot draws: {kind: (module, function)}.
+_CURVES = "._pictures.curves"
+_KINDS = {"load": (_CURVES, "load_figure"), "energies": (_CURVES, "energies_figure"),
+          "averages": (_CURVES, "averages_figure"), "snapshots": ("._pictures.snapshots", "snapshots_figure"),
+          "stresses": ("._pictures.stresses", "stresses_figure"), "fronts": ("._pictures.fronts", "fronts_figure"),
+          "cut": ("._pictures.cut", "cut_figure")}
 
 
 def picture(shown: Any, kind: str, kinds: Mapping[str, tuple[str, str]], *arguments: Any) -> Figure:
@@ -35,7 +36,7 @@ def picture(shown: Any, kind: str, kinds: Mapping[str, tuple[str, str]], *argume
     module, function = kinds[kind]
     try:
         style = importlib.import_module("._pictures.result", __package__)
-        drawing = importlib.import_module(f"._pictures.{module}", __package__)
+        drawing = importlib.import_module(module, __package__)
     except ModuleNotFoundError as error:
         if error.name not in ("matplotlib", "h5py"):
             raise
