@@ -9,8 +9,12 @@ DELAM_PACKAGES=(
     libcli11-dev libtomlplusplus-dev libfmt-dev libhdf5-dev zlib1g-dev nlohmann-json3-dev libgmsh-dev
     libgsl-dev check abigail-tools binutils locales clang clang-format doxygen
     python3 python3-numpy python3-scipy python3-matplotlib python3-h5py python3-venv python3-pip python3-meshio python3-tqdm
-    python3-jinja2 python3-jsonschema groff-base fonts-dejavu-core
+    python3-jinja2 python3-jsonschema groff-base fonts-dejavu-core mypy python3-pandas patchelf
 )
+# VTK for Python, which ParaView's Python brings along and conflicts with.
+if [[ $(dpkg-query -W -f='${Status}' python3-paraview 2>/dev/null) != "install ok installed" ]]; then
+    DELAM_PACKAGES+=(python3-vtk9)
+fi
 # libdelam-petsc, delam-mpi and their tests: PETSc (real numbers, with MUMPS and PTScotch), mpicc, mpirun, hosts in Python.
 DELAM_MPI_PACKAGES=(libpetsc-real-dev libopenmpi-dev openmpi-bin python3-mpi4py)
 # The parser of the Julia files, for the quick tier, and the page of `delam view`. A node from elsewhere has its own npm, which Debian's conflicts with.
@@ -19,7 +23,8 @@ if ! command -v npm >/dev/null; then
     DELAM_PARSER_PACKAGES=(nodejs npm)
 fi
 # The long tier of the tests.
-DELAM_LONG_PACKAGES=(libclang-rt-dev dpkg-dev valgrind paraview python3-paraview python3-getfem chromium)
+DELAM_LONG_PACKAGES=(libclang-rt-dev dpkg-dev valgrind paraview python3-paraview python3-getfem
+    python3-nbclient python3-ipykernel chromium)
 
 # delam_install PACKAGE...: installs what is missing, as root or through sudo; else prints the command and fails.
 delam_install() {

@@ -9,26 +9,30 @@ Reads DIR/history.csv, fields.h5 and result.json. Needs Debian's python3-numpy, 
 import os
 import sys
 
-import h5py
+HERE = os.path.dirname(os.path.realpath(__file__))
+# What draws is beside this script where that is installed, and in the Python package among the sources.
+sys.path[:0] = [HERE, os.path.join(HERE, "..", "..", "python", "src", "delam")]
 
-from cells import ZETA, text_of
-from curves import plot_averages, plot_energies, plot_load
-from cut import plane_of, plot_cut
-from fronts import plot_fronts
-from result import Result
-from snapshots import plot_snapshots
-from stresses import plot_stresses
+from _pictures.curves import averages_figure, energies_figure, load_figure  # noqa: E402
+from _pictures.cut import cut_figure, plane_of  # noqa: E402
+from _pictures.fronts import fronts_figure  # noqa: E402
+from _pictures.result import Nothing, Result, for_files  # noqa: E402
+from _pictures.snapshots import snapshots_figure  # noqa: E402
+from _pictures.stresses import stresses_figure  # noqa: E402
+
+for_files()
+PICTURES = {"load-displacement.png": load_figure, "stress-strain.png": averages_figure, "energies.png": energies_figure,
+            "snapshots.png": snapshots_figure, "stresses.png": stresses_figure, "fronts.png": fronts_figure}
 
 
-def plot_plan(result):
-    """Fronts in space, where there are some."""
-    if result.about["scene"]["dimension"] == 2:
+def write(result, name, draw, *arguments):
+    try:
+        figure = draw(result, *arguments)
+    except Nothing as reason:
+        if not reason.expected:
+            print(f"plot.py: {reason}, so no {name}", file=sys.stderr)
         return
-    with h5py.File(os.path.join(result.folder, "fields.h5"), "r") as file:
-        figure = plot_fronts(result, file, lambda interface: text_of(interface.attrs["name"]), ZETA)
-    if figure is not None:
-        result.stamp(figure)
-        result.save(figure, "fronts.png")
+    result.save(figure, name)
 
 
 def main():
@@ -47,13 +51,9 @@ def main():
     except FileNotFoundError as error:
         print(f"plot.py: {folder} holds no result: {error.filename} is missing", file=sys.stderr)
         return 2
-    plot_load(result)
-    plot_averages(result)
-    plot_energies(result)
-    plot_snapshots(result)
-    plot_stresses(result)
-    plot_plan(result)
-    plot_cut(result, plane)
+    for name, draw in PICTURES.items():
+        write(result, name, draw)
+    write(result, "cut.png", cut_figure, plane)
     return 0
 
 

@@ -12,7 +12,13 @@ import sys
 
 import numpy as np
 
-from result import GREY, Result, axis, early_end, plt, save, zoom
+HERE = os.path.dirname(os.path.realpath(__file__))
+# What draws is beside this script where that is installed, and in the Python package among the sources.
+sys.path[:0] = [HERE, os.path.join(HERE, "..", "..", "python", "src", "delam")]
+
+from _pictures.result import GREY, Result, axis, early_end, for_files, plt, save, zoom  # noqa: E402
+
+for_files()
 
 # Okabe and Ito's colours, told apart by all; the last one, yellow, is too light for a line.
 DISTINCT = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"]

@@ -21,6 +21,8 @@ from marches import DONE, INTERRUPTED, NUMERICAL, Trouble, given_words, make_fol
 
 WORSE = 10.0  # what a step into an infeasible region costs, in residuals: the trust region then shrinks
 
+ENOUGH = 0.01  # the sum of squares over their variance changes by 1 within a standard error: so much is no news
+
 
 class Fit:
     """The residuals and their Jacobian in terms of parameters over their start."""
@@ -67,7 +69,7 @@ class Fit:
         lower = np.array([p.lower for p in self.model.parameters]) / self.start
         upper = np.array([p.upper for p in self.model.parameters]) / self.start
         return least_squares(self.residual, np.ones(len(self.start)), jac=self.jacobian, bounds=(lower, upper),
-                             x_scale="jac", ftol=1e-10, xtol=1e-8, gtol=1e-12, max_nfev=60)
+                             x_scale="jac", ftol=ENOUGH / len(self.y), xtol=1e-5, gtol=1e-10, max_nfev=60)
 
 
 def estimates(fit, found, level):

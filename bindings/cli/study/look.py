@@ -1,17 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How the pictures of studies look: as those of plot/ (result.py)."""
+"""How the pictures of studies look: as those of results (_pictures)."""
 import os
 import sys
 
 import numpy as np
 
-for folder in ("../plot", ".."):  # in the tree, and installed
-    path = os.path.join(os.path.dirname(os.path.realpath(__file__)), folder)
-    if os.path.exists(os.path.join(path, "curves.py")) and path not in sys.path:
-        sys.path.append(path)
+HERE = os.path.dirname(os.path.realpath(__file__))
+# Where it is installed, and in the Python package among the sources.
+sys.path[:0] = [os.path.join(HERE, ".."), os.path.join(HERE, "..", "..", "python", "src", "delam")]
 
-from result import BLUE, GREY, ORANGE, RED, axis, plt, save  # noqa: E402  pylint: disable=wrong-import-position
+from _pictures.result import BLUE, GREY, ORANGE, RED, axis, for_files, plt, save  # noqa: E402
 
+for_files()
 __all__ = ["BLUE", "GREY", "ORANGE", "RED", "axis", "colours_of", "plt", "save", "units_of"]
 
 

@@ -25,7 +25,11 @@ def given_words():
     """What the command line was given, as the program hands it over: names as of its options."""
     if len(sys.argv) != 2:
         raise Trouble("this script is run by the program: delam sweep, delam fit")
-    return types.SimpleNamespace(**json.loads(sys.argv[1]))
+    given = types.SimpleNamespace(**json.loads(sys.argv[1]))
+    for k, word in enumerate(given.set):
+        key, sign, value = word.partition("=")
+        given.set[k] = path_of(key) + sign + value
+    return given
 
 
 def program():

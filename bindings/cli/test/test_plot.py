@@ -71,10 +71,10 @@ for words, said in (((out, "--cut", "y=7"), "the cut at y = 7 m meets no cell"),
 import h5py  # noqa: E402
 import numpy as np  # noqa: E402
 
-from cut import box_of, chosen_plane, draw_cut  # noqa: E402
-from fronts import lines_of, plan_of, sides_of  # noqa: E402
-from result import plt  # noqa: E402
-from section import Section  # noqa: E402
+from _pictures.cut import box_of, chosen_plane, draw_cut  # noqa: E402
+from _pictures.fronts import lines_of, plan_of, sides_of  # noqa: E402
+from _pictures.result import plt  # noqa: E402
+from _pictures.section import Section  # noqa: E402
 
 with h5py.File(os.path.join(out, "fields.h5"), "r") as file:
     last = file["steps"][sorted(file["steps"])[-1]]
@@ -142,7 +142,7 @@ code, error = compare(both, results[0], folder())
 expect(code == 2 and "holds no result" in error, "so is a folder without a result")
 # What the legend and the title say.
 from plot_family import Curves  # noqa: E402
-from result import Result  # noqa: E402
+from _pictures.result import Result  # noqa: E402
 curves = Curves([Result(path) for path in results])
 expect(curves.labels == ["h = 3 mm", "h = 1.5 mm"], f"the legend: {curves.labels}")
 expect("20 steps" in curves.title("x") and "local solution, converged mixity" in curves.title("x") and

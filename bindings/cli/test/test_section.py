@@ -7,9 +7,9 @@ import numpy as np
 
 from support import expect, finish
 
-sys.path.insert(0, os.path.dirname(os.environ["DELAM_PLOT"]))
-from cells import boundary_faces, without  # noqa: E402
-from section import Section  # noqa: E402
+sys.path.insert(0, os.path.join(os.path.dirname(os.environ["DELAM_PLOT"]), "..", "..", "python", "src", "delam"))
+from _pictures.cells import boundary_faces, without  # noqa: E402
+from _pictures.section import Section  # noqa: E402
 
 KUHN = [[0, 1, 3, 7], [0, 5, 1, 7], [0, 3, 2, 7], [0, 2, 6, 7], [0, 4, 5, 7], [0, 6, 4, 7]]  # corners by bits x, y, z
 EDGES = {"tet10": [(0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)],

@@ -112,12 +112,16 @@ class Ends(unittest.TestCase):
 
     def test_copies_and_pickles(self):
         law = support.bilinear()
-        twin = copy.copy(law)
+        with self.assertRaises(TypeError):
+            copy.copy(law)
+        # Whoever insists has an object that says it is closed.
+        twin = object.__new__(delam.Law)
+        vars(twin).update(vars(law))
         del law
         gc.collect()
         with self.assertRaises(delam.HandleError):
             twin.check()
-        with self.assertRaises((TypeError, ValueError, AttributeError)):
+        with self.assertRaises(TypeError):
             pickle.dumps(support.bilinear())
 
     def test_the_process_ends_in_peace(self):

@@ -98,6 +98,31 @@ class Reading(unittest.TestCase):
             np.testing.assert_array_equal(back.cells.connectivity, mesh.cells.connectivity, kind)
             np.testing.assert_array_equal(back.cells.bodies, mesh.cells.bodies, kind)
 
+    def test_cell_sets_as_bodies(self):
+        cells = [("line", [[0, 1]]), ("quad", [[0, 1, 2, 3], [3, 2, 4, 5]])]
+        whole = {"edge": [[0], []], "lower": [[], [0]], "upper": [[], [1]]}
+        mesh = delam.Mesh.from_meshio(meshio.Mesh(POINTS, cells, cell_sets=whole))
+        self.assertEqual((mesh.body_count, mesh.interface_count), (2, 1))
+        self.assertEqual(mesh.body_names, {0: "lower", 1: "upper"})
+        self.assertEqual(mesh.cells.bodies.tolist(), [0, 1])
+        mesh = delam.Mesh.from_meshio(meshio.Mesh(POINTS, cells, cell_sets=whole), bodies=["upper", "lower"])
+        self.assertEqual((mesh.cells.bodies.tolist(), mesh.body_names), ([1, 0], {0: "upper", 1: "lower"}))
+        # Sets that do not say for each cell where it belongs make no bodies, unless asked for.
+        for sets in ({"lower": [[], [0]]}, {"lower": [[], [0, 1]], "all": [[], [0, 1]]}):
+            source = meshio.Mesh(POINTS, cells, cell_sets=sets)
+            self.assertEqual(delam.Mesh.from_meshio(source).body_count, 1)
+            with self.assertRaisesRegex(delam.ArgumentError, "[12] cells are in none or in several of these sets"):
+                delam.Mesh.from_meshio(source, bodies=list(sets))
+        with self.assertRaisesRegex(delam.ArgumentError, "'middle' is no cell set; there are edge, lower, upper"):
+            delam.Mesh.from_meshio(meshio.Mesh(POINTS, cells, cell_sets=whole), bodies=["middle"])
+
+    def test_a_solver(self):
+        solver = delam.Solver(support.double_cantilever())
+        solver.history([0.5])
+        mesh = solver.to_meshio()
+        np.testing.assert_array_equal(mesh.point_data["displacement"][:, :2], solver.field("displacement"))
+        np.testing.assert_array_equal(np.concatenate(mesh.cell_data["stress"]), solver.field("stress"))
+
     def test_data_of_the_wrong_length(self):
         mesh = delam.Mesh.layers(1.0, 2, [1.0], [1])
         with self.assertRaisesRegex(delam.ArgumentError, r"cell_data\['a'\] has 3 rows, expected 2"):

@@ -36,7 +36,7 @@ class Backend(unittest.TestCase):
             record = wheel.read("delam-0.1.0.dist-info/RECORD").decode().splitlines()
             metadata = wheel.read("delam-0.1.0.dist-info/METADATA").decode()
         self.assertEqual({line.split(",")[0] for line in record}, set(names))
-        modules = {f"delam/{path.name}" for path in (PACKAGE / "src" / "delam").glob("*.py")}
+        modules = {path.relative_to(PACKAGE / "src").as_posix() for path in (PACKAGE / "src" / "delam").rglob("*.py")}
         self.assertEqual({name for name in names if name.startswith("delam/")}, modules | {"delam/py.typed"})
         self.assertIn("delam-0.1.0.dist-info/LICENSE", names)
         self.assertIn("\nRequires-Dist: numpy", metadata)

@@ -118,7 +118,8 @@ class Steps(unittest.TestCase):
         self.assertNotIn("", self.solver.values)
         self.solver.rollback()
         self.solver.record("dissipated_linear")
-        np.testing.assert_array_equal(self.solver.recorded("dissipated_slides"), self.solver.recorded("dissipated_linear"))
+        np.testing.assert_array_equal(self.solver.recorded("dissipated_slides"),
+                                      self.solver.recorded("dissipated_linear"))
 
     def test_replaced_steps_are_read_again(self):
         problem = support.brittle_flexure()

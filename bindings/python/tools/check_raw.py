@@ -2,9 +2,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Compares src/delam/_raw.py with what clang reads in the public header: every function, argument, callback, constant.
 
-    check_raw.py [--header delam.h] [--raw _raw.py]     exit 0: they agree; 1: they do not, each difference a line; 77: no clang
+    check_raw.py [--header delam.h] [--raw _raw.py]     exit 0: they agree; 1: they do not, each difference a line;
+                                                        77: no clang
 
-Nothing is shared with the generator: ctypes objects are turned back into C and put beside clang's spelling of the types.
+Nothing is shared with the generator: ctypes objects are turned back into C and put beside clang's spelling of the
+types.
 """
 import argparse
 import ctypes
@@ -47,9 +49,11 @@ def split_signature(kind):
 
 
 def read_header(clang, header):
-    """What clang sees: {name: (result, [(argument, type)])}, {callback: (result, [type])}, {constant: value}, {handles}."""
+    """What clang sees: {name: (result, [(argument, type)])}, {callback: (result, [type])}, {constant: value},
+    {handles}."""
     command = [clang, "-x", "c", "-std=c99", "-fsyntax-only"]
-    tree = json.loads(subprocess.run([*command, "-Xclang", "-ast-dump=json", str(header)], check=True, capture_output=True).stdout)
+    dump = [*command, "-Xclang", "-ast-dump=json", str(header)]
+    tree = json.loads(subprocess.run(dump, check=True, capture_output=True).stdout)
     functions, callbacks, handles = {}, {}, set()
     for node in tree["inner"]:
         name = node.get("name", "")

@@ -4,8 +4,8 @@
 
     generate_raw.py [--header delam.h] [--out _raw.py]     without --out the text goes to standard output
 
-The header keeps to a small part of C: integer macros, opaque structs, callback types, functions. That part is read here;
-whatever else turns up is refused with its line, so nothing of the interface can be passed over in silence.
+The header keeps to a small part of C: integer macros, opaque structs, callback types, functions. That part is read
+here; whatever else turns up is refused with its line, so nothing of the interface can be passed over in silence.
 """
 import argparse
 import pathlib
@@ -66,7 +66,8 @@ class Header:
         constant = re.fullmatch(r"#define (DELAM_[A-Z0-9_]+) (-?\d+)", line)
         if constant:
             self.constants[constant[1]] = int(constant[2])
-        elif not re.match(r"#\s*(ifndef|ifdef|if defined|include|else|endif)\b|#define DELAM_\w+_H$|#define DELAM_API\b", line):
+        elif not re.match(r"#\s*(ifndef|ifdef|if defined|include|else|endif)\b|"
+                          r"#define DELAM_\w+_H$|#define DELAM_API\b", line):
             raise HeaderError(f"line {number}: '{line}' is no integer constant")
 
     def _statement(self, number, text):
@@ -119,7 +120,9 @@ def python_text(header):
     lines = [
         "# SPDX-License-Identifier: BSD-3-Clause",
         '"""The C interface, one to one. Generated from delam.h by tools/generate_raw.py: change that, not this."""',
-        "from ctypes import CFUNCTYPE, POINTER, Structure, c_char, c_char_p, c_double, c_int32, c_int64, c_uint8, c_void_p",
+        "from ctypes import (CDLL, CFUNCTYPE, POINTER, Structure, c_char, c_char_p, c_double, c_int32, c_int64,",
+        "                    c_uint8, c_void_p)",
+        "from typing import Any",
         "",
     ]
     lines += [f"{name} = {value}" for name, value in header.constants.items()]
@@ -128,7 +131,8 @@ def python_text(header):
     lines += ["", ""]
     for name, (returned, arguments) in header.callbacks.items():
         lines += wrapped(f"{name} = CFUNCTYPE(", [returned] + [kind for _, kind in arguments], ")")
-    lines += ["", "# Name: (result, ((argument, type), ...))", "FUNCTIONS = {"]
+    lines += ["", "# Name: (result, ((argument, type), ...))",
+              "FUNCTIONS: dict[str, tuple[Any, tuple[tuple[str, Any], ...]]] = {"]
     for name, (returned, arguments) in header.functions.items():
         pairs = [f'("{argument}", {kind})' for argument, kind in arguments]
         if not pairs:
@@ -141,7 +145,7 @@ def python_text(header):
         "}",
         "",
         "",
-        "def bind(library):",
+        "def bind(library: CDLL) -> list[str]:",
         '    """Gives the functions of a loaded library their types; returns the names that it lacks."""',
         "    missing = []",
         "    for name, (result, arguments) in FUNCTIONS.items():",

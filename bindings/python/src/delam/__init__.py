@@ -6,10 +6,14 @@
     problem = delam.Problem(mesh)                                  materials, laws, supports, loads, options
     solver = delam.Solver(problem)                                 load steps and their results
 
-Arrays are numpy's, indices start at 0, units are whatever is consistent. Errors are exceptions under DelamError.
-Warnings and notes of the library go to the logger "delam". delam.plot draws (matplotlib), delam.meshes reads and writes
-meshes (meshio)."""
+Arrays are numpy's (in hints, FloatArray is one of float64, IntArray one of int64), indices start at 0, units are
+whatever is consistent. Errors are exceptions under DelamError.
+Warnings and notes of the library go to the logger "delam". Result reads what the command line has written. delam.plot
+draws (matplotlib), delam.meshes reads and writes meshes (meshio, VTK, PyVista)."""
 from __future__ import annotations
+
+from types import ModuleType
+from typing import TYPE_CHECKING
 
 from . import _library
 from .errors import (ArgumentError, Cancelled, DelamError, FileError, HandleError, InternalError, LimitReached,
@@ -20,25 +24,30 @@ from .law import Bounds, Law, Parameter
 from .mesh import CELLS, Cells, Interface, Mesh, Ties
 from .options import Options, options
 from .problem import Forecast, Pattern, Problem, Sparse
+from .result import Fields, Result
 from .solver import Average, Condensed, Fronts, Jump, PlanItem, Solver, ValueInfo, Values
+
+if TYPE_CHECKING:
+    from . import meshes, plot
 
 __version__ = "0.1.0"
 
-__all__ = ["ArgumentError", "Average", "Bounds", "CELLS", "Cancelled", "Cells", "Condensed", "DelamError", "FileError", "Forecast", "Fronts",
-           "HandleError", "History", "Interface", "InternalError", "Jump", "Law", "LimitReached", "Mesh", "MeshError",
-           "NotConverged", "NotConvergedWarning", "NumericalError", "Options", "OutOfMemory", "Outcome", "Parameter",
-           "Pattern", "PlanItem", "Problem", "ProblemError", "SnapshotError", "Solver", "Sparse", "StateError", "Ties",
-           "ValueInfo", "Values", "blas_threads", "library_commit", "library_location", "library_version", "options"]
+__all__ = ["ArgumentError", "Average", "Bounds", "CELLS", "Cancelled", "Cells", "Condensed", "DelamError", "Fields",
+           "FileError", "Forecast", "Fronts", "HandleError", "History", "Interface", "InternalError", "Jump", "Law",
+           "LimitReached", "Mesh", "MeshError", "NotConverged", "NotConvergedWarning", "NumericalError", "Options",
+           "OutOfMemory", "Outcome", "Parameter", "Pattern", "PlanItem", "Problem", "ProblemError", "Result",
+           "SnapshotError", "Solver", "Sparse", "StateError", "Ties", "ValueInfo", "Values", "blas_threads",
+           "library_commit", "library_location", "library_version", "options"]
 
 
 def library_version() -> str:
     """Version of the libdelam that was loaded."""
-    return _library.library.delam_version().decode()
+    return str(_library.library.delam_version().decode())
 
 
 def library_commit() -> str:
     """Commit it was built from, or "unknown"."""
-    return _library.library.delam_commit().decode()
+    return str(_library.library.delam_commit().decode())
 
 
 def library_location() -> str:
@@ -49,10 +58,10 @@ def library_location() -> str:
 def blas_threads() -> int:
     """Threads of the linear algebra of this process, 0: unknown. Equal digits from run to run need an equal number.
     Option threads sets the library's own threads."""
-    return _library.library.delam_blas_threads()
+    return int(_library.library.delam_blas_threads())
 
 
-def __getattr__(name):
+def __getattr__(name: str) -> ModuleType:
     # matplotlib and meshio are only needed by those who draw and read meshes.
     if name in ("plot", "meshes"):
         import importlib

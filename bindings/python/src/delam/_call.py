@@ -11,6 +11,8 @@ thread a separate handler keeps the exception that the present SIGINT handler ra
 itself would lose it, because a signal that arrives in C becomes an exception at the first instruction of the next
 callback, before any try block.
 """
+from __future__ import annotations
+
 import collections
 import ctypes
 import logging
@@ -18,10 +20,14 @@ import operator
 import signal
 import threading
 import weakref
+from collections.abc import Callable
+from typing import Any, NoReturn, TypeVar
 
 from . import _raw
 from ._library import library
 from .errors import ArgumentError, HandleError, StateError, error_of
+
+Self = TypeVar("Self", bound="Object")
 
 _logger = logging.getLogger("delam")
 _thread = threading.local()
@@ -32,27 +38,27 @@ class Call:
 
     __slots__ = ("context", "exception", "lines", "outer")
 
-    def __init__(self, context):
+    def __init__(self, context: Context) -> None:
         self.context = context
-        self.exception = None
-        self.lines = []
-        self.outer = getattr(_thread, "call", None)
+        self.exception: BaseException | None = None
+        self.lines: list[tuple[int, bytes]] = []
+        self.outer: Call | None = getattr(_thread, "call", None)
 
 
-def keep_exception(exception):
+def keep_exception(exception: BaseException) -> None:
     """Called in a callback: keeps the exception until the call of the library has ended."""
     call = _thread.call
     if call.exception is None:
         call.exception = exception
 
 
-def stopped():
+def stopped() -> bool:
     """Called in a callback: whether Ctrl-C or an earlier exception has ended this call."""
-    return _thread.call.exception is not None
+    return bool(_thread.call.exception is not None)
 
 
-@_raw.delam_progress_callback
-def _on_progress(stage, done, total, _):
+@_raw.delam_progress_callback  # type: ignore[misc]
+def _on_progress(stage: bytes, done: int, total: int, _: object) -> int:
     call = _thread.call
     try:
         if call.exception is None and call.context.progress is not None:
@@ -67,12 +73,12 @@ def _on_progress(stage, done, total, _):
     return 1
 
 
-@_raw.delam_log_callback
-def _on_log(level, text, _):
+@_raw.delam_log_callback  # type: ignore[misc]
+def _on_log(level: int, text: bytes, _: object) -> None:
     _thread.call.lines.append((level, text))
 
 
-_NO_PROGRESS = _raw.delam_progress_callback()
+_NO_PROGRESS: Any = _raw.delam_progress_callback()  # type: ignore[call-overload]
 
 
 class Interrupt:
@@ -80,12 +86,13 @@ class Interrupt:
 
     __slots__ = ("call", "previous", "over")
 
-    def __init__(self, call):
+    def __init__(self, call: Call) -> None:
         self.call = call
-        self.previous = None
+        self.previous: Callable[[int, Any], Any] | None = None
         self.over = False
 
-    def _handle(self, number, frame):
+    def _handle(self, number: int, frame: Any) -> None:
+        assert self.previous is not None  # begin() has set it with this handler
         if self.over:  # another handler has kept this one, and hands on
             self.previous(number, frame)
             return
@@ -95,7 +102,7 @@ class Interrupt:
             if self.call.exception is None:
                 self.call.exception = exception
 
-    def begin(self):
+    def begin(self) -> None:
         if threading.current_thread() is not threading.main_thread():
             return
         previous = signal.getsignal(signal.SIGINT)
@@ -103,7 +110,7 @@ class Interrupt:
             self.previous = previous
             signal.signal(signal.SIGINT, self._handle)
 
-    def end(self):
+    def end(self) -> None:
         self.over = True
         if self.previous is None:
             return
@@ -112,32 +119,34 @@ class Interrupt:
             signal.signal(signal.SIGINT, found)
 
     @property
-    def active(self):
+    def active(self) -> bool:
         return self.previous is not None
 
 
 class Context:
     """Messages, log, progress, cancel of the objects made with it, and their lock."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         handle = ctypes.POINTER(_raw.delam_context)()
         status = library.delam_context_create(ctypes.byref(handle))
         if status != _raw.DELAM_OK:
             raise error_of(status, "no context: out of memory")
         self.handle = handle
-        self.progress = None  # called with (stage, done, total) inside long work; a true result cancels
+        # Called with (stage, done, total) inside long work; a true result cancels.
+        self.progress: Callable[[str, int, int], object] | None = None
         self.hosted = False  # a law of the objects is computed by Python
         self._lock = threading.Lock()
-        self._owner = None
-        self._doomed = collections.deque()
+        self._owner: int | None = None
+        self._doomed: collections.deque[tuple[Any, Any, Any]] = collections.deque()
         library.delam_context_set_log(handle, _on_log, None)
         weakref.finalize(self, _destroy, library.delam_context_destroy, handle)
 
-    def cancel(self):
+    def cancel(self) -> None:
         """Asks the running call to stop at its next check. May be called from any thread."""
         library.delam_context_cancel(self.handle)
 
-    def call(self, function, *arguments, other=None, whole=False, long=False, outcomes=()):
+    def call(self, function: Any, *arguments: Any, other: Context | None = None, whole: bool = False,
+             long: bool = False, outcomes: tuple[int, ...] = ()) -> tuple[int, str]:
         """Calls a function of the library and raises its errors.
 
         other     a further context that is used
@@ -160,7 +169,7 @@ class Context:
             raise error_of(status, message)
         return status, message
 
-    def beside(self, function, *arguments, other=None):
+    def beside(self, function: Any, *arguments: Any, other: Context | None = None) -> tuple[int, str]:
         """Calls a function of another library that uses objects of this context, and of another: its status, and the
         last error that libdelam has told meanwhile, or "". Ctrl-C, and what a callback has raised, is raised when the
         function has ended."""
@@ -177,24 +186,25 @@ class Context:
         return status, told[-1] if told else ""
 
     @staticmethod
-    def _log(call, message):
+    def _log(call: Call, message: str) -> None:
         for level, line in call.lines:
             text = line.decode(errors="replace")
             # An error's text, and an outcome's, go with the exception or warning.
             if level > 0 and text != message:
                 _logger.log(logging.WARNING if level == 1 else logging.INFO, "%s", text)
 
-    def text(self, function, *arguments):
+    def text(self, function: Any, *arguments: Any) -> str | None:
         """Calls a function that returns text; None stays None."""
-        value = self._locked(Call(self), None, function, *arguments)
+        value: bytes | None = self._locked(Call(self), None, function, *arguments)
         return None if value is None else value.decode(errors="replace")
 
-    def _checked(self, call, function, arguments, whole, long):
+    def _checked(self, call: Call, function: Any, arguments: tuple[Any, ...], whole: bool,
+                 long: bool) -> tuple[int, str]:
         interrupt = Interrupt(call) if whole or long or self.hosted else None
         if interrupt is not None:
             interrupt.begin()
         try:
-            watched = long and (interrupt.active or self.progress is not None)
+            watched = long and ((interrupt is not None and interrupt.active) or self.progress is not None)
             if watched:
                 library.delam_context_set_progress(self.handle, _on_progress, None)
             try:
@@ -210,7 +220,7 @@ class Context:
                 interrupt.end()
         return status, message
 
-    def _locked(self, call, other, function, *arguments):
+    def _locked(self, call: Call, other: Context | None, function: Any, *arguments: Any) -> Any:
         """Calls while this thread holds this context, and another if there is one. Ctrl-C cannot come between `with`
         and the lock, so none stays locked."""
         if other is not None and other is not self:
@@ -229,7 +239,7 @@ class Context:
         return value
 
     @staticmethod
-    def _owned(contexts, call, function, arguments):
+    def _owned(contexts: tuple[Context, ...], call: Call, function: Any, arguments: tuple[Any, ...]) -> Any:
         me = threading.get_ident()
         try:
             for context in contexts:
@@ -241,17 +251,17 @@ class Context:
             for context in contexts:
                 context._owner = None
 
-    def _refuse_reentry(self):
+    def _refuse_reentry(self) -> None:
         if self._owner == threading.get_ident():
             raise StateError("the library was called from inside a callback, with an object that is at work")
 
-    def end(self, destroy, handle, keep):
+    def end(self, destroy: Any, handle: Any, keep: Any) -> None:
         """Destroys a handle, now or when the call that holds the context has ended. `keep`: objects that must live
         until then."""
         self._doomed.append((destroy, handle, keep))
         self._bury()
 
-    def _bury(self):
+    def _bury(self) -> None:
         # The collector runs anywhere, also inside callbacks: never wait here.
         while self._doomed and self._lock.acquire(blocking=False):
             try:
@@ -262,14 +272,20 @@ class Context:
                 self._lock.release()
 
 
-def _destroy(destroy, handle):
+def _destroy(destroy: Any, handle: Any) -> None:
     destroy(ctypes.byref(handle))
 
 
 class Object:
     """An object of the library: a handle that must be closed. Usable as a context manager."""
 
-    def _make(self, context, kind, destroy, function, *arguments, keep=(), **how):
+    context: Context
+    _pointer: Any
+    _finalizer: weakref.finalize
+    _instead = ""  # of copying and pickling
+
+    def _make(self, context: Context, kind: Any, destroy: Any, function: Any, *arguments: Any, keep: Any = (),
+              **how: Any) -> tuple[int, str]:
         """Calls a function that makes a handle, its last argument, and takes ownership of it. `keep`: objects that the
         library uses as long as the handle lives; `how`: as for Context.call. Returns the result of that call."""
         handle = ctypes.POINTER(kind)()
@@ -285,32 +301,46 @@ class Object:
         return outcome
 
     @property
-    def _handle(self):
+    def _handle(self) -> Any:
         if not self._finalizer.alive:
             raise HandleError(f"this {type(self).__name__} is closed")
         return self._pointer
 
     @property
-    def closed(self):
+    def closed(self) -> bool:
+        """Whether close() has freed this object."""
         return not self._finalizer.alive
 
-    def close(self):
+    def close(self) -> None:
         """Frees the library's data of this object, which cannot be used any more. Garbage collection does the same."""
         self._finalizer()
 
-    def __enter__(self):
+    def __enter__(self: Self) -> Self:
         return self
 
-    def __exit__(self, *_):
+    def __exit__(self, *_: object) -> None:
         self.close()
 
-    def cancel(self):
+    def _refuse(self, what: str) -> NoReturn:
+        kind = type(self).__name__
+        raise TypeError(f"a {kind} cannot be {what}: its data belong to the library in this process. {self._instead}")
+
+    def __reduce_ex__(self, protocol: Any) -> NoReturn:
+        self._refuse("pickled")
+
+    def __copy__(self) -> NoReturn:
+        self._refuse("copied")
+
+    def __deepcopy__(self, memo: object) -> NoReturn:
+        self._refuse("copied")
+
+    def cancel(self) -> None:
         """Asks a call that runs with this object in another thread to stop at its next check; it raises Cancelled. If
         none is running, the request waits for the next step, or for the creation or loading of a solver."""
         self.context.cancel()
 
 
-def text(name, value):
+def text(name: str, value: object) -> bytes:
     """A str as the library takes it."""
     if not isinstance(value, str):
         raise ArgumentError(f"{name} = {value!r} is a {type(value).__name__}, expected a str")
@@ -319,7 +349,8 @@ def text(name, value):
     return value.encode()
 
 
-def number(name, value):
+def number(name: str, value: Any) -> float:
+    """A number as the library takes it."""
     try:
         if isinstance(value, (str, bytes, bytearray)):
             raise TypeError
@@ -330,11 +361,12 @@ def number(name, value):
         raise ArgumentError(f"{name} = {value!r} is no number") from None
 
 
-def integer(name, value, bits=64):
+def integer(name: str, value: Any, bits: int = 64) -> int:
+    """An integer as the library takes it."""
     try:
-        value = operator.index(value)
+        index = operator.index(value)
     except TypeError:
         raise ArgumentError(f"{name} = {value!r} is no integer") from None
-    if not -(1 << (bits - 1)) <= value < 1 << (bits - 1):
-        raise ArgumentError(f"{name} = {value} does not fit into {bits} bits")
-    return value
+    if not -(1 << (bits - 1)) <= index < 1 << (bits - 1):
+        raise ArgumentError(f"{name} = {index} does not fit into {bits} bits")
+    return index

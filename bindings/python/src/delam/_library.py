@@ -6,11 +6,14 @@
 3. the loader's paths: LD_LIBRARY_PATH, ldconfig
 4. pkg-config's libdir of delam
 """
+from __future__ import annotations
+
 import ctypes
 import ctypes.util
 import os
 import pathlib
 import subprocess
+from collections.abc import Iterator
 
 from . import _raw
 
@@ -18,14 +21,14 @@ SONAME = f"libdelam.so.{_raw.DELAM_ABI}"
 VARIABLE = "DELAM_LIBRARY"
 
 
-def _from_variable(value):
+def _from_variable(value: str) -> str:
     path = pathlib.Path(value)
     if path.is_dir():
         path = next((path / name for name in (SONAME, "libdelam.so") if (path / name).exists()), path / SONAME)
     return str(path)
 
 
-def _pkg_config():
+def _pkg_config() -> str | None:
     try:
         found = subprocess.run(["pkg-config", "--variable=libdir", "delam"], capture_output=True, text=True,
                                check=False)
@@ -35,12 +38,12 @@ def _pkg_config():
     return str(pathlib.Path(folder) / SONAME) if found.returncode == 0 and folder else None
 
 
-def _candidates():
+def _candidates() -> Iterator[tuple[str, str]]:
     """Names to try, each with a description of its origin."""
     package = pathlib.Path(__file__).resolve().parent
-    for path in (package / SONAME, package / "lib" / SONAME):
-        if path.exists():
-            yield str(path), "next to the package"
+    for beside in (package / SONAME, package / "lib" / SONAME):
+        if beside.exists():
+            yield str(beside), "next to the package"
     yield SONAME, "the loader's paths"
     name = ctypes.util.find_library("delam")
     if name and name != SONAME:
@@ -50,9 +53,10 @@ def _candidates():
         yield path, "pkg-config"
 
 
-def load():
+def load() -> tuple[ctypes.CDLL, str]:
     """The library with typed functions, and its path; ImportError lists what was tried."""
     tried = []
+    candidates: list[tuple[str, str]] | Iterator[tuple[str, str]]
     if os.environ.get(VARIABLE):
         candidates = [(_from_variable(os.environ[VARIABLE]), VARIABLE)]
     else:
@@ -68,7 +72,7 @@ def load():
                       f"loader looks. Tried:\n  " + "\n  ".join(tried))
 
 
-def _checked(library, path):
+def _checked(library: ctypes.CDLL, path: str) -> ctypes.CDLL:
     missing = _raw.bind(library)
     if "delam_abi" in missing:
         raise ImportError(f"{path} is no libdelam: it has no function delam_abi")

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The C interface, one to one. Generated from delam.h by tools/generate_raw.py: change that, not this."""
-from ctypes import CFUNCTYPE, POINTER, Structure, c_char, c_char_p, c_double, c_int32, c_int64, c_uint8, c_void_p
+from ctypes import (CDLL, CFUNCTYPE, POINTER, Structure, c_char, c_char_p, c_double, c_int32, c_int64,
+                    c_uint8, c_void_p)
+from typing import Any
 
 DELAM_ABI = 1
 DELAM_OK = 0
@@ -55,7 +57,7 @@ delam_dissipation_callback = CFUNCTYPE(
     c_int32, c_double, c_double, POINTER(c_double), POINTER(c_double), POINTER(c_double), c_void_p)
 
 # Name: (result, ((argument, type), ...))
-FUNCTIONS = {
+FUNCTIONS: dict[str, tuple[Any, tuple[tuple[str, Any], ...]]] = {
     "delam_version": (c_char_p, ()),
     "delam_commit": (c_char_p, ()),
     "delam_abi": (c_int32, ()),
@@ -342,7 +344,7 @@ FUNCTIONS = {
 }
 
 
-def bind(library):
+def bind(library: CDLL) -> list[str]:
     """Gives the functions of a loaded library their types; returns the names that it lacks."""
     missing = []
     for name, (result, arguments) in FUNCTIONS.items():

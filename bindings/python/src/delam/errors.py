@@ -9,23 +9,26 @@ Cancelled      stopped on request; the state before the call is restored. Always
 LimitReached   no equilibrium: a dead load acts on a part that nothing holds any more. No step is pending. Always
                raised.
 """
+from __future__ import annotations
+
 from . import _raw
 
 
 class DelamError(Exception):
     """An error or an outcome of the library. `status` is its number, `name` the constant of the C header."""
 
-    status = _raw.DELAM_ERROR_INTERNAL
+    status: int = _raw.DELAM_ERROR_INTERNAL
 
-    def __init__(self, message, status=None):
+    def __init__(self, message: str, status: int | None = None) -> None:
         super().__init__(message)
         if status is not None:
             self.status = status
 
     @property
-    def name(self):
+    def name(self) -> str:
+        """Constant of the C header, such as "DELAM_ERROR_ARGUMENT"."""
         from ._library import library
-        return library.delam_status_name(self.status).decode()
+        return str(library.delam_status_name(self.status).decode())
 
 
 class ArgumentError(DelamError, ValueError):
@@ -59,6 +62,8 @@ class StateError(DelamError, RuntimeError):
 
 
 class OutOfMemory(DelamError, MemoryError):
+    """The library could not get the memory that it asked for."""
+
     status = _raw.DELAM_ERROR_MEMORY
 
 
@@ -113,11 +118,12 @@ class NotConvergedWarning(RuntimeWarning):
     """The warning in place of NotConverged, if the solver is to continue."""
 
 
-_KINDS = {kind.status: kind for kind in (ArgumentError, HandleError, MeshError, ProblemError, StateError, OutOfMemory,
-                                         NumericalError, SnapshotError, FileError, InternalError, NotConverged,
-                                         Cancelled, LimitReached)}
+_KINDS: dict[int, type[DelamError]] = {
+    kind.status: kind for kind in (ArgumentError, HandleError, MeshError, ProblemError, StateError, OutOfMemory,
+                                   NumericalError, SnapshotError, FileError, InternalError, NotConverged, Cancelled,
+                                   LimitReached)}
 
 
-def error_of(status, message):
+def error_of(status: int, message: str) -> DelamError:
     """The exception of a status; one that this package does not know is a DelamError with that number."""
     return _KINDS.get(status, DelamError)(message, status)

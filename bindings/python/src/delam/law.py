@@ -4,19 +4,21 @@ from __future__ import annotations
 
 import ctypes
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from . import _raw
-from ._arrays import floats, listed, pointer, spread
+from ._arrays import FloatArray, floats, listed, pointer, spread
 from ._call import Context, Object, keep_exception, number, stopped, text
 from ._library import library
 from .errors import ArgumentError, error_of
 
+
 class Parameter(NamedTuple):
-    """Description of a parameter or an option. initial is "" if it must be given."""
+    """Description of a parameter or an option, as texts. type: "number", "integer" or "text"; unit: in terms of force
+    and length; initial: the value without a setting, "" if it must be given; range: the admissible values."""
 
     key: str
     type: str
@@ -27,14 +29,15 @@ class Parameter(NamedTuple):
 
 
 class Bounds(NamedTuple):
-    """Between what a number lies. open: the bound itself is outside; infinite: there is no bound, numbers are finite."""
+    """Between what a number lies. open: the bound itself is outside; infinite: there is no bound, numbers are
+    finite."""
 
     lower: float
     upper: float
     lower_open: bool
     upper_open: bool
 
-    def __contains__(self, value: object) -> bool:
+    def __contains__(self, value: Any) -> bool:
         above = value > self.lower if self.lower_open else value >= self.lower
         return bool(above and (value < self.upper if self.upper_open else value <= self.upper))
 
@@ -45,16 +48,17 @@ def kinds() -> dict[str, str]:
     found = {}
     for i in range(library.delam_law_kind_count()):
         library.delam_law_kind_info(i, name, meaning, None)
-        found[name.value.decode()] = meaning.value.decode()
+        found[(name.value or b"").decode()] = (meaning.value or b"").decode()
     return found
 
 
-def described(function, *arguments):
+def described(function: Any, *arguments: Any) -> Parameter:
+    """What a function of the library says of a parameter or an option."""
     texts = [ctypes.c_char_p() for _ in Parameter._fields]
     status = function(*arguments, *(ctypes.byref(item) for item in texts))
     if status != _raw.DELAM_OK:
         raise error_of(status, f"no description {arguments}")
-    return Parameter(*(item.value.decode() for item in texts))
+    return Parameter(*((item.value or b"").decode() for item in texts))
 
 
 class Law(Object):
@@ -62,7 +66,12 @@ class Law(Object):
 
         Law("piecewise-linear", normal_stiffness=125e9, tangential_stiffness=125e9, normal_onset=100, ...)
 
-    Law.parameters(kind) lists them. A tabulated law takes softening=(xi, s)."""
+    Law.parameters(kind) lists them, with units. A tabulated law takes softening=(xi, s). ArgumentError names a kind, a
+    parameter or a value that is not known or out of range. `kind` is the kind as given, "host" for Law.host."""
+
+    kind: str
+    _callbacks: tuple[Any, ...]
+    _instead = "Keep its kind and parameters, and make the Law from them where it is needed."
 
     def __init__(self, kind: str, **parameters: object) -> None:
         kind_text = text("kind", kind)
@@ -94,17 +103,17 @@ class Law(Object):
     def __repr__(self) -> str:
         return f"<Law {self.kind!r}>"
 
-    def _create(self, function, *arguments, keep=()):
+    def _create(self, function: Any, *arguments: Any, keep: tuple[Any, ...] = ()) -> None:
         context = Context()
         self._callbacks = keep
         self._make(context, _raw.delam_law, library.delam_law_destroy, function, context.handle, *arguments, keep=keep)
 
-    def _call(self, function, *arguments):
+    def _call(self, function: Any, *arguments: Any) -> None:
         self.context.call(function, self._handle, *arguments)
 
     @staticmethod
     def parameters(kind: str) -> dict[str, Parameter]:
-        """Parameters of a kind: {key: Parameter}."""
+        """Parameters of a kind: {key: Parameter}. ArgumentError: there is no such kind."""
         key = text("kind", kind)
         count = library.delam_law_parameter_count(key)
         if count == 0:
@@ -129,14 +138,16 @@ class Law(Object):
         return found
 
     def set(self, **parameters: object) -> None:
-        """Sets numbers, texts and the table softening=(xi, s). Set texts first: a criterion resets its exponents to their
-        initial values."""
+        """Sets numbers, texts and the table softening=(xi, s), two arrays [points]. Texts are set first: a criterion
+        resets its exponents to their initial values. ArgumentError names a key that is not known, or a value out of
+        range."""
         for key, value in sorted(parameters.items(), key=lambda item: not isinstance(item[1], str)):
             if isinstance(value, str):
                 self._call(library.delam_law_set_text, key.encode(), text(key, value))
             elif key == "softening":
                 try:
-                    xi, s = value
+                    pair: Any = value
+                    xi, s = pair
                 except (TypeError, ValueError):
                     raise ArgumentError("softening must be the two arrays (xi, s)") from None
                 xi = floats("softening[0]", xi, (None,))
@@ -149,16 +160,18 @@ class Law(Object):
         """ProblemError names the first parameter that is missing or not admissible."""
         self._call(library.delam_law_check)
 
-    def toughness(self, mixity: ArrayLike) -> tuple[NDArray, NDArray]:
-        """Onset and total toughness at mixities B = Y_t/Y in [0, 1]."""
+    def toughness(self, mixity: ArrayLike) -> tuple[FloatArray, FloatArray]:
+        """Onset and total toughness [n], energies per area, at mixities B = Y_t/Y in [0, 1], a number or [n]."""
         mixity = floats("mixity", listed(mixity), (None,))
         onset, toughness = np.empty(mixity.size), np.empty(mixity.size)
         self._call(library.delam_law_toughness, mixity.size, pointer(mixity), pointer(onset), pointer(toughness))
         return onset, toughness
 
-    def respond(self, jump: ArrayLike, mixity: ArrayLike, adhesion: ArrayLike = 1.0) -> tuple[NDArray, NDArray]:
-        """One damage step at given jumps [n][2 or 3], local (normal first), at frozen mixities, from old adhesions: the
-        new adhesions [n] and tractions [n][2 or 3]."""
+    def respond(self, jump: ArrayLike, mixity: ArrayLike,
+                adhesion: ArrayLike = 1.0) -> tuple[FloatArray, FloatArray]:
+        """One damage step at given jumps [n][2 or 3], lengths in local directions (normal first), at frozen mixities
+        and from old adhesions, both one for all or [n]: the new adhesions [n] and the tractions [n][2 or 3],
+        stresses."""
         jump = floats("jump", jump, (None, (2, 3)))
         count, dimension = jump.shape
         mixity, old = spread("mixity", mixity, count), spread("adhesion", adhesion, count)
@@ -168,8 +181,8 @@ class Law(Object):
         return new, traction
 
 
-def _adhesion_callback(function):
-    def adhesion(mixity, driving, value, slope, _):
+def _adhesion_callback(function: Callable[[float, float], tuple[float, float]]) -> Any:
+    def adhesion(mixity: float, driving: float, value: Any, slope: Any, _: object) -> int:
         if stopped():
             return 1
         try:
@@ -182,8 +195,8 @@ def _adhesion_callback(function):
     return _raw.delam_adhesion_callback(adhesion)
 
 
-def _dissipation_callback(function):
-    def dissipation(mixity, adhesion, value, slope, mixity_slope, _):
+def _dissipation_callback(function: Callable[[float, float], tuple[float, float, float]]) -> Any:
+    def dissipation(mixity: float, adhesion: float, value: Any, slope: Any, mixity_slope: Any, _: object) -> int:
         if stopped():
             return 1
         try:

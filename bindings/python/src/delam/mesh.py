@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Mapping
-from typing import NamedTuple
+import os
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _raw
 from ._arrays import direction as axis
-from ._arrays import floats, gate, indices, listed, ndim, pointer, spread
+from ._arrays import FloatArray, IntArray, floats, gate, indices, listed, ndim, pointer, spread
 from ._call import Context, Object, integer, number
 from ._library import library
 from .errors import ArgumentError
+
+if TYPE_CHECKING:
+    import meshio
 
 
 class CellType(NamedTuple):
@@ -24,12 +28,12 @@ class CellType(NamedTuple):
     nodes: int
     dimension: int
     corners: int
-    faces: np.ndarray  # [faces][nodes of a face], local nodes: corners in outward order, then mid-side nodes
+    faces: NDArray[np.int32]  # [faces][nodes of a face], local nodes: corners in outward order, then mid-side nodes
     face_corners: int
-    middle: np.ndarray  # [nodes - corners][2], the corners on either side of each node that is not a corner
+    middle: NDArray[np.int32]  # [nodes - corners][2], the corners on either side of each node that is not a corner
 
 
-def cell_types():
+def cell_types() -> dict[str, CellType]:
     """{name: CellType} of all types that the library has."""
     found = {}
     for index in range(library.delam_cell_type_count()):
@@ -39,7 +43,7 @@ def cell_types():
         face = np.empty((faces.value, face_nodes.value), np.int32)
         middle = np.empty((nodes.value - corners.value, 2), np.int32)
         library.delam_cell_type_topology(index, pointer(face), pointer(middle))
-        found[name.value.decode()] = CellType(type_.value, nodes.value, dimension.value, corners.value, face,
+        found[(name.value or b"").decode()] = CellType(type_.value, nodes.value, dimension.value, corners.value, face,
                                               face_corners.value, middle)
     return found
 
@@ -50,46 +54,51 @@ CELLS = {name: (cell.number, cell.nodes) for name, cell in CELL_TYPES.items()}
 _CELL_NAMES = {number: name for name, (number, _) in CELLS.items()}
 
 
-def cell_type(name):
+def cell_type(name: str) -> tuple[int, int]:
+    """Number and nodes of a cell type; ArgumentError: there is none of this name."""
     if name not in CELLS:
         raise ArgumentError(f"cells = {name!r} is no cell type; known are {', '.join(CELLS)}")
     return CELLS[name]
 
 
-def body_label(body):
+def body_label(body: int | None) -> int:
     """None: all bodies."""
     return -1 if body is None else integer("body", body, 32)
 
 
 class Cells(NamedTuple):
-    """Cells in the order they were added."""
+    """Cells in the order they were added: types [cells], numbers of CELLS; bodies [cells], labels; connectivity, the
+    nodes of cell c at offsets[c] .. offsets[c+1]-1, with offsets [cells + 1]."""
 
-    types: np.ndarray  # [cells], numbers of CELLS
-    bodies: np.ndarray  # [cells]
-    offsets: np.ndarray  # [cells + 1] into connectivity
-    connectivity: np.ndarray
+    types: NDArray[np.int32]
+    bodies: NDArray[np.int32]
+    offsets: IntArray
+    connectivity: IntArray
 
-    def of(self, name: str) -> NDArray:
-        """Connectivity [n][nodes of a cell] of the cells of one type."""
+    def of(self, name: str) -> IntArray:
+        """Connectivity [n][nodes of a cell] of the cells of one type, "quad4" for instance. ArgumentError: there is no
+        such type."""
         number, size = cell_type(name)
         rows = np.flatnonzero(self.types == number)
-        return self.connectivity[self.offsets[rows][:, None] + np.arange(size)]
+        nodes: IntArray = self.connectivity[self.offsets[rows][:, None] + np.arange(size)]
+        return nodes
 
     def names(self) -> list[str]:
-        """The cell types of the mesh."""
+        """The cell types that the mesh has, by name."""
         return [_CELL_NAMES[number] for number in sorted(set(self.types.tolist()))]
 
 
 class Ties(NamedTuple):
-    """Tied nodes: u of nodes[i] is the sum of weights[e] u of of[e] over e = starts[i] .. starts[i+1]-1."""
+    """Tied nodes: u of nodes[i] is the sum of weights[e] u of of[e] over e = starts[i] .. starts[i+1]-1; starts has an
+    entry more than nodes."""
 
-    nodes: np.ndarray
-    starts: np.ndarray
-    of: np.ndarray
-    weights: np.ndarray
+    nodes: IntArray
+    starts: IntArray
+    of: IntArray
+    weights: FloatArray
 
 
-def interface_index(value, mesh):
+def interface_index(value: int | Interface, mesh: Mesh) -> int:
     """Of an interface of this mesh, itself or its index."""
     if isinstance(value, Interface) and value.mesh is not mesh:
         raise ArgumentError(f"interface {value.index} given is one of another mesh")
@@ -97,10 +106,10 @@ def interface_index(value, mesh):
 
 
 class Interface:
-    """An interface of a mesh; may be used wherever an index is expected. Its jump is u_b - u_a, its normals point from a
-    to b."""
+    """An interface of a mesh; may be used wherever an index is expected. Its jump is u_b - u_a, its normals point from
+    a to b."""
 
-    def __init__(self, mesh: Mesh, index: int):
+    def __init__(self, mesh: Mesh, index: int) -> None:
         self.mesh = mesh
         self.index = index
 
@@ -110,7 +119,7 @@ class Interface:
     def __repr__(self) -> str:
         return f"<Interface {self.index}: bodies {self.body_a} and {self.body_b}, {self.pair_count} pairs>"
 
-    def _size(self):
+    def _size(self) -> tuple[int, int, int, int, int]:
         body_a, body_b, per_face = ctypes.c_int32(), ctypes.c_int32(), ctypes.c_int32()
         pairs, faces = ctypes.c_int64(), ctypes.c_int64()
         self.mesh._call(library.delam_mesh_interface_size, self.index, body_a, body_b, pairs, faces, per_face)
@@ -118,50 +127,59 @@ class Interface:
 
     @property
     def body_a(self) -> int:
-        """-1 for an obstacle."""
+        """Label of the body on side a; -1 for an obstacle."""
         return self._size()[0]
 
     @property
     def body_b(self) -> int:
+        """Label of the body on side b, to which the normals point."""
         return self._size()[1]
 
     @property
     def pair_count(self) -> int:
+        """Number of pairs of nodes."""
         return self._size()[2]
 
-    def _pairs(self, which):
+    def _pairs(self, which: int) -> Any:
         pairs, dimension = self.pair_count, self.mesh.dimension
-        out = [None, None, None, None]
+        out: list[NDArray[Any] | None] = [None, None, None, None]
         out[which] = np.empty(pairs, np.int64) if which < 2 else np.empty(pairs) if which == 2 else np.empty(
             (pairs, dimension, dimension))
         self.mesh._call(library.delam_mesh_interface_pairs, self.index, *(pointer(array) for array in out))
         return out[which]
 
     @property
-    def nodes_a(self) -> NDArray:
-        return self._pairs(0)
+    def nodes_a(self) -> IntArray:
+        """[pairs]: the node of each pair on side a."""
+        nodes: IntArray = self._pairs(0)
+        return nodes
 
     @property
-    def nodes_b(self) -> NDArray:
-        return self._pairs(1)
+    def nodes_b(self) -> IntArray:
+        """[pairs]: the node of each pair on side b."""
+        nodes: IntArray = self._pairs(1)
+        return nodes
 
     @property
-    def weights(self) -> NDArray:
-        """Length (2D) or area (3D) of each pair."""
-        return self._pairs(2)
+    def weights(self) -> FloatArray:
+        """[pairs]: length (2D) or area (3D) of each pair."""
+        weights: FloatArray = self._pairs(2)
+        return weights
 
     @property
-    def frames(self) -> NDArray:
-        """[pairs][dimension][dimension]: rows normal, tangent(s)."""
-        return self._pairs(3)
+    def frames(self) -> FloatArray:
+        """[pairs][dimension][dimension], unit vectors: rows normal, tangent(s)."""
+        frames: FloatArray = self._pairs(3)
+        return frames
 
     @property
-    def places(self) -> NDArray:
-        """[pairs][dimension]: positions of the nodes of body b."""
-        return self.mesh.nodes[self.nodes_b]
+    def places(self) -> FloatArray:
+        """[pairs][dimension]: positions of the nodes of body b, in the unit of length of the mesh."""
+        places: FloatArray = self.mesh.nodes[self.nodes_b]
+        return places
 
     @property
-    def faces(self) -> NDArray:
+    def faces(self) -> IntArray:
         """[faces][nodes of a face], as indices of pairs."""
         _, _, _, faces, per_face = self._size()
         out = np.empty((faces, per_face), np.int64)
@@ -177,7 +195,13 @@ class Mesh(Object):
         interface = mesh.add_interface(0, 1)
 
     Indices are 0-based throughout. Nodes without cells are control nodes or tied nodes, which belong to no body, or
-    nodes of bodies whose stiffness the host provides (add_host_body)."""
+    nodes of bodies whose stiffness the host provides (add_host_body). Positions are in the unit of length of the scene,
+    whichever it is. MeshError says where cells are inverted, nodes are shared or faces do not match. `body_names` is
+    {label: name} where a file named its groups, else empty."""
+
+    body_names: dict[int, str]
+    _instead = ("Keep its arrays (nodes, cells) and add the interfaces again, or write it to a file with to_meshio, "
+                "and make the Mesh from them where it is needed.")
 
     def __init__(self, nodes: ArrayLike) -> None:
         nodes = floats("nodes", nodes, (None, (2, 3)))
@@ -188,7 +212,8 @@ class Mesh(Object):
                cells: str = "quad4") -> Mesh:
         """Block of layers stacked along the last axis (y in 2D, z in 3D), each a separate body, body 0 at the bottom;
         without interfaces. lengths, divisions: along the other axes, a number in 2D or two in 3D; thickness,
-        layer_divisions: of each layer."""
+        layer_divisions: of each layer, [layers] each. ArgumentError names a value that is not positive or
+        an array of another size."""
         lengths = floats("lengths", listed(lengths), ((1, 2),))
         divisions = indices("divisions", divisions, (lengths.size,))
         thickness = floats("thickness", listed(thickness), (None,))
@@ -199,24 +224,47 @@ class Mesh(Object):
         return mesh
 
     @classmethod
-    def from_meshio(cls, source: object, bodies: object | None = None, interfaces: bool = True) -> Mesh:
-        """A meshio.Mesh, or a file that meshio reads; see delam.meshes.read."""
+    def from_meshio(cls, source: meshio.Mesh | str | os.PathLike[str],
+                    bodies: str | Sequence[str] | None = None, interfaces: bool = True) -> Mesh:
+        """A meshio.Mesh, or a file that meshio reads. bodies: name of the cell data with a label for each cell, or
+        names of cell sets; see delam.meshes.read."""
         from .meshes import read
         return read(source, bodies, interfaces)
 
-    def to_meshio(self, point_data: Mapping | None = None, cell_data: Mapping | None = None):
+    @classmethod
+    def from_vtk(cls, grid: Any, bodies: str | None = None, interfaces: bool = True) -> Mesh:
+        """A vtkUnstructuredGrid, or a grid of PyVista. bodies: name of the cell array with a label for each cell; see
+        delam.meshes.from_vtk."""
+        from .meshes import from_vtk
+        return from_vtk(grid, bodies, interfaces)
+
+    def to_vtk(self, point_data: Mapping[str, ArrayLike] | None = None,
+               cell_data: Mapping[str, ArrayLike] | None = None) -> Any:
+        """A vtkUnstructuredGrid with the same nodes and cells, and data as for to_meshio. ImportError: VTK is not
+        installed."""
+        from .meshes import grid_of
+        return grid_of(self, point_data, cell_data).to_vtk()
+
+    def to_pyvista(self, point_data: Mapping[str, ArrayLike] | None = None,
+                   cell_data: Mapping[str, ArrayLike] | None = None) -> Any:
+        """The same as a pyvista.UnstructuredGrid. ImportError: PyVista is not installed."""
+        from .meshes import grid_of
+        return grid_of(self, point_data, cell_data).to_pyvista()
+
+    def to_meshio(self, point_data: Mapping[str, ArrayLike] | None = None,
+                  cell_data: Mapping[str, ArrayLike] | None = None) -> meshio.Mesh:
         """A meshio.Mesh with the same nodes and cells, to be written in any of meshio's formats; see
-        delam.meshes.write."""
+        delam.meshes.write. ArgumentError: data with another number of rows than there are nodes or cells."""
         from .meshes import write
         return write(self, point_data, cell_data)
 
-    def _create(self, function, *arguments):
+    def _create(self, function: Any, *arguments: Any) -> None:
         context = Context()
         self._make(context, _raw.delam_mesh, library.delam_mesh_destroy, function, context.handle, *arguments,
                    long=True)
         self.body_names = {}
 
-    def _call(self, function, *arguments, long=False):
+    def _call(self, function: Any, *arguments: Any, long: bool = False) -> None:
         self.context.call(function, self._handle, *arguments, long=long)
 
     def __repr__(self) -> str:
@@ -227,34 +275,36 @@ class Mesh(Object):
 
     # ---- cells and interfaces
 
-    def _add_cells(self, function, cells, connectivity, bodies):
+    def _add_cells(self, function: Any, cells: str, connectivity: ArrayLike, bodies: ArrayLike) -> None:
         number, size = cell_type(cells)
         connectivity = indices("connectivity", connectivity, (None, size))
         count = connectivity.shape[0]
         if ndim(bodies) == 0:
             bodies = np.full(count, integer("bodies", bodies, 32), np.int32)
-        bodies = gate("bodies", bodies, np.int32, (count,))
-        self._call(function, number, count, pointer(connectivity), pointer(bodies), 0, long=True)
+        labels = gate("bodies", bodies, np.int32, (count,))
+        self._call(function, number, count, pointer(connectivity), pointer(labels), 0, long=True)
 
-    def add_cells(self, cells: str, connectivity: ArrayLike, bodies: ArrayLike = 0):
-        """Cells of one type, e.g. "quad4". bodies: a label for all, or one each. A node belongs to one body only."""
+    def add_cells(self, cells: str, connectivity: ArrayLike, bodies: ArrayLike = 0) -> None:
+        """Cells of one type, e.g. "quad4"; connectivity: [cells][nodes of a cell]. bodies: a label for all, or one each
+        [cells]. A node belongs to one body only (MeshError otherwise, and where a cell is inverted)."""
         self._add_cells(library.delam_mesh_add_cells, cells, connectivity, bodies)
 
-    def add_conforming_cells(self, cells: str, connectivity: ArrayLike, bodies: ArrayLike = 0):
+    def add_conforming_cells(self, cells: str, connectivity: ArrayLike, bodies: ArrayLike = 0) -> None:
         """As add_cells, of a mesh whose bodies share nodes: those are doubled (node_origins has the originals)."""
         self._add_cells(library.delam_mesh_add_conforming_cells, cells, connectivity, bodies)
 
-    def _add_interface(self, function, body_a, body_b, distance):
+    def _add_interface(self, function: Any, body_a: int, body_b: int, distance: float) -> Interface:
         index = ctypes.c_int64()
         self._call(function, integer("body_a", body_a, 32), integer("body_b", body_b, 32), distance, index,
                    long=True)
         return Interface(self, index.value)
 
     def add_interface(self, body_a: int, body_b: int, tolerance: float = 0.0) -> Interface:
-        """Pairs the coinciding faces of two bodies. tolerance: a fraction of the shortest edge, 0: 1e-6."""
+        """Pairs the coinciding faces of two bodies. tolerance: a fraction of the shortest edge, 0: 1e-6. MeshError:
+        no faces coincide, or not all of their nodes."""
         return self._add_interface(library.delam_mesh_add_interface, body_a, body_b, number("tolerance", tolerance))
 
-    def add_all_interfaces(self, tolerance: float = 0.0):
+    def add_all_interfaces(self, tolerance: float = 0.0) -> list[Interface]:
         """Adds an interface between every two bodies that share faces and have none yet; returns the new ones."""
         before, count = self.interface_count, ctypes.c_int64()
         self._call(library.delam_mesh_add_all_interfaces, number("tolerance", tolerance), count, long=True)
@@ -262,25 +312,25 @@ class Mesh(Object):
 
     def add_projected_interface(self, body_a: int, body_b: int, gap: float = 0.0) -> Interface:
         """An interface of two bodies whose meshes do not match; b should be the finer one. gap: distance of the faces,
-        0: 1e-6 of the shortest edge."""
+        a length, 0: 1e-6 of the shortest edge. The nodes of b are tied to a (ties)."""
         return self._add_interface(library.delam_mesh_add_projected_interface, body_a, body_b, number("gap", gap))
 
     def add_obstacle(self, nodes: ArrayLike, normals: ArrayLike, control_node: int,
                      weights: ArrayLike | None = None) -> Interface:
-        """A rigid obstacle that moves with its control node, a node of no body. normals: from the obstacle into the
-        body, one per pair or one for all."""
+        """A rigid obstacle that moves with its control node, a node of no body. nodes: those that may touch it, indices
+        or a mask; normals: from the obstacle into the body, one per pair [nodes][dimension] or one for all; weights:
+        length or area of each node [nodes], None: computed."""
         nodes = indices("nodes", nodes, size=self.node_count)
         normals = self._normals(normals, nodes.size)
-        if weights is not None:
-            weights = floats("weights", weights, (nodes.size,))
+        given = None if weights is None else floats("weights", weights, (nodes.size,))
         index = ctypes.c_int64()
-        self._call(library.delam_mesh_add_obstacle, nodes.size, pointer(nodes), pointer(normals), pointer(weights),
+        self._call(library.delam_mesh_add_obstacle, nodes.size, pointer(nodes), pointer(normals), pointer(given),
                    integer("control_node", control_node), 0, index, long=True)
         return Interface(self, index.value)
 
-    def add_host_body(self, body: int, nodes: ArrayLike):
-        """A body without cells, whose stiffness is given by Problem.set_stiffness. nodes: indices or a mask, of nodes that
-        belong to no body yet."""
+    def add_host_body(self, body: int, nodes: ArrayLike) -> None:
+        """A body without cells, whose stiffness is given by Problem.set_stiffness. nodes: indices or a mask, of nodes
+        that belong to no body yet."""
         nodes = indices("nodes", nodes, size=self.node_count)
         self._call(library.delam_mesh_add_host_body, integer("body", body, 32), nodes.size, pointer(nodes), 0,
                    long=True)
@@ -289,6 +339,7 @@ class Mesh(Object):
                   weights: ArrayLike, faces: ArrayLike | None = None) -> Interface:
         """An interface of pairs given by the host, in the given order; the nodes of a pair may lie apart.
 
+        nodes_a, nodes_b: [pairs], nodes of each pair;
         normals: from a to b, one per pair or one for all; weights: length (2D) or area (3D) of a pair, likewise; faces:
         [faces][nodes of a face] as indices of pairs. Fronts, the gradient term and the neighbours to which an energetic
         search advances require faces."""
@@ -303,62 +354,68 @@ class Mesh(Object):
                    faces.shape[1], pointer(faces), 0, index, long=True)
         return Interface(self, index.value)
 
-    def _normals(self, normals, count):
+    def _normals(self, normals: str | ArrayLike, count: int) -> FloatArray:
         """One per pair, or one for all."""
         if ndim(normals) == 1 or isinstance(normals, str):
             normals = np.tile(axis("normals", normals, self.dimension), (count, 1))
         return floats("normals", normals, (count, self.dimension))
 
     @property
-    def interfaces(self):
+    def interfaces(self) -> list[Interface]:
+        """All interfaces, in the order they were added."""
         return [Interface(self, i) for i in range(self.interface_count)]
 
     # ---- queries
 
-    def _size(self):
+    def _size(self) -> tuple[int, int, int, int, int]:
         dimension = ctypes.c_int32()
-        counts = [ctypes.c_int64() for _ in range(4)]
-        self._call(library.delam_mesh_size, dimension, *counts)
-        return (dimension.value, *(count.value for count in counts))
+        nodes, cells, bodies, interfaces = (ctypes.c_int64() for _ in range(4))
+        self._call(library.delam_mesh_size, dimension, nodes, cells, bodies, interfaces)
+        return dimension.value, nodes.value, cells.value, bodies.value, interfaces.value
 
     @property
     def dimension(self) -> int:
+        """2 or 3."""
         return self._size()[0]
 
     @property
     def node_count(self) -> int:
+        """Number of nodes, those of no body included."""
         return self._size()[1]
 
     @property
     def cell_count(self) -> int:
+        """Number of cells."""
         return self._size()[2]
 
     @property
     def body_count(self) -> int:
+        """Number of bodies, those of the host included."""
         return self._size()[3]
 
     @property
     def interface_count(self) -> int:
+        """Number of interfaces, obstacles included."""
         return self._size()[4]
 
     @property
-    def nodes(self) -> NDArray:
-        """[nodes][dimension]"""
+    def nodes(self) -> FloatArray:
+        """Positions [nodes][dimension], a copy."""
         dimension, count = self._size()[:2]
         out = np.empty((count, dimension))
         self._call(library.delam_mesh_nodes, out.size, pointer(out))
         return out
 
     @property
-    def node_bodies(self) -> NDArray:
-        """Body of each node, -1 for nodes of no body."""
+    def node_bodies(self) -> NDArray[np.int32]:
+        """[nodes]: body of each node, -1 for nodes of no body."""
         out = np.empty(self.node_count, np.int32)
         self._call(library.delam_mesh_node_bodies, out.size, pointer(out))
         return out
 
     @property
-    def node_origins(self) -> NDArray:
-        """The original of each doubled node (add_conforming_cells); otherwise the node itself."""
+    def node_origins(self) -> IntArray:
+        """[nodes]: the original of each doubled node (add_conforming_cells); otherwise the node itself."""
         out = np.empty(self.node_count, np.int64)
         self._call(library.delam_mesh_node_origins, out.size, pointer(out))
         return out
@@ -375,6 +432,7 @@ class Mesh(Object):
 
     @property
     def cells(self) -> Cells:
+        """All cells, a copy."""
         count, needed = self.cell_count, ctypes.c_int64()
         self._call(library.delam_mesh_cells, None, None, None, 0, None, needed)
         cells = Cells(np.empty(count, np.int32), np.empty(count, np.int32), np.empty(count + 1, np.int64),
@@ -383,8 +441,9 @@ class Mesh(Object):
                    needed.value, pointer(cells.connectivity), None)
         return cells
 
-    def find_nodes(self, lower: ArrayLike, upper: ArrayLike | None = None, body: int | None = None) -> NDArray:
-        """Nodes of a body (None: of all) inside the closed box lower..upper, ascending; without upper, at a point."""
+    def find_nodes(self, lower: ArrayLike, upper: ArrayLike | None = None, body: int | None = None) -> IntArray:
+        """Nodes of a body (None: of all) inside the closed box lower..upper, ascending; without upper, at a point.
+        None is an empty array, no error."""
         dimension = self.dimension
         lower = floats("lower", lower, (dimension,))
         upper = lower if upper is None else floats("upper", upper, (dimension,))
@@ -396,7 +455,7 @@ class Mesh(Object):
         return nodes
 
     def find_node(self, place: ArrayLike, body: int | None = None) -> int:
-        """The one node of a body at a point."""
+        """The one node of a body (None: of all) at a point. ArgumentError: there is none, or more than one."""
         place = floats("place", place, (self.dimension,))
         nodes = self.find_nodes(place, body=body)
         if nodes.size != 1:
@@ -406,9 +465,9 @@ class Mesh(Object):
         return int(nodes[0])
 
     def find_patch(self, body: int, lower: ArrayLike, upper: ArrayLike,
-                   direction: str | ArrayLike) -> tuple[NDArray, NDArray]:
-        """Nodes and weights of a uniform traction on the part of a body's boundary (None: of each body's) inside the
-        box whose outward normal is within 45 degrees of the direction."""
+                   direction: str | ArrayLike) -> tuple[IntArray, FloatArray]:
+        """Nodes [n] and weights [n] (lengths in 2D, areas in 3D) of a uniform traction on the part of a body's boundary
+        (None: of each body's) inside the box whose outward normal is within 45 degrees of the direction."""
         dimension = self.dimension
         lower, upper = floats("lower", lower, (dimension,)), floats("upper", upper, (dimension,))
         along = axis("direction", direction, dimension)

@@ -1,24 +1,85 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Meshes through meshio: Gmsh, Abaqus, VTK, MED and its other formats. Its node orders are VTK's, and so are
-those of this package."""
+"""Meshes and results in and out: through meshio (Gmsh, Abaqus, VTK, MED and its other formats), and as grids of VTK and
+PyVista. All of them order the nodes of a cell as VTK does, and so does this package."""
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
+from ._arrays import FloatArray, IntArray
 from .errors import ArgumentError, MeshError
 from .mesh import CELL_TYPES, CELLS, Mesh
+
+if TYPE_CHECKING:
+    import meshio
+
+    from .result import Result
+    from .solver import Solver
 
 # meshio's names of our cells.
 NAMES = {"triangle": "tri3", "quad": "quad4", "tetra": "tet4", "hexahedron": "hex8", "triangle6": "tri6",
          "quad8": "quad8", "quad9": "quad9", "tetra10": "tet10", "hexahedron20": "hex20"}
+# VTK's numbers of meshio's cells, those of faces of interfaces included.
+VTK_TYPES = {"line": 3, "triangle": 5, "quad": 9, "tetra": 10, "hexahedron": 12, "line3": 21, "triangle6": 22,
+             "quad8": 23, "tetra10": 24, "hexahedron20": 25, "quad9": 28}
 # Where meshers keep the labels of bodies.
 LABELS = ("bodies", "gmsh:physical", "medit:ref", "cell_tags", "gmsh:geometrical")
+# meshio's names of the cells of a result by dimension and number of nodes, and of the faces of its interfaces.
+_RESULT_CELLS = {2: {3: "triangle", 4: "quad", 6: "triangle6", 8: "quad8", 9: "quad9"},
+                 3: {4: "tetra", 8: "hexahedron", 10: "tetra10", 20: "hexahedron20"}}
+_RESULT_FACES = {2: {2: "line", 3: "line3"}, 3: {3: "triangle", 4: "quad", 6: "triangle6", 8: "quad8", 9: "quad9"}}
 
 
-def _meshio():
+class Grid(NamedTuple):
+    """Points [n][3], blocks of cells (meshio's name of their type, connectivity [cells][nodes of a cell]), data over
+    points [n] or [n][columns], and over cells in the order of the blocks."""
+
+    points: FloatArray
+    blocks: list[tuple[str, IntArray]]
+    point_data: dict[str, NDArray[Any]]
+    cell_data: dict[str, NDArray[Any]]
+
+    def to_meshio(self) -> meshio.Mesh:
+        """As a meshio.Mesh. ImportError: meshio is not installed."""
+        ends = np.cumsum([len(cells) for _, cells in self.blocks])[:-1]
+        return _meshio().Mesh(self.points, self.blocks, point_data=self.point_data,
+                              cell_data={name: np.split(values, ends) for name, values in self.cell_data.items()})
+
+    def to_vtk(self) -> Any:
+        """As a vtkUnstructuredGrid. ImportError: VTK is not installed."""
+        model, support = _vtk()
+        grid, points = model.vtkUnstructuredGrid(), model_points()
+        points.SetData(support.numpy_to_vtk(self.points, deep=True))
+        grid.SetPoints(points)
+        types = np.concatenate([np.full(len(cells), VTK_TYPES[name], np.uint8) for name, cells in self.blocks])
+        sizes = np.concatenate([np.full(len(cells), cells.shape[1], np.int64) for _, cells in self.blocks])
+        offsets = np.concatenate([np.zeros(1, np.int64), np.cumsum(sizes)])
+        nodes = np.concatenate([cells.ravel() for _, cells in self.blocks]).astype(np.int64)
+        array = model.vtkCellArray()
+        array.SetData(support.numpy_to_vtkIdTypeArray(offsets, deep=True),
+                      support.numpy_to_vtkIdTypeArray(nodes, deep=True))
+        grid.SetCells(support.numpy_to_vtk(types, deep=True), array)
+        for data, arrays in ((grid.GetPointData(), self.point_data), (grid.GetCellData(), self.cell_data)):
+            for name, values in arrays.items():
+                item = support.numpy_to_vtk(np.ascontiguousarray(values), deep=True)
+                item.SetName(name)
+                data.AddArray(item)
+        return grid
+
+    def to_pyvista(self) -> Any:
+        """As a pyvista.UnstructuredGrid. ImportError: PyVista is not installed."""
+        try:
+            import pyvista
+        except ImportError:
+            raise ImportError("this needs PyVista; to_vtk() needs VTK alone (Debian: python3-vtk9)") from None
+        return pyvista.wrap(self.to_vtk())
+
+
+def _meshio() -> Any:
     try:
         import meshio
     except ImportError:
@@ -26,79 +87,221 @@ def _meshio():
     return meshio
 
 
-def read(source: object, bodies: object | None = None, interfaces: bool = True):
+def _vtk() -> tuple[Any, Any]:
+    try:
+        from vtkmodules import vtkCommonDataModel
+        from vtkmodules.util import numpy_support
+    except ImportError:
+        raise ImportError("grids of VTK need VTK (Debian: python3-vtk9)") from None
+    return vtkCommonDataModel, numpy_support
+
+
+def model_points() -> Any:
+    """Empty points of VTK."""
+    from vtkmodules import vtkCommonCore
+    return vtkCommonCore.vtkPoints()
+
+
+# ---- in
+
+
+def read(source: meshio.Mesh | str | os.PathLike[str], bodies: str | Sequence[str] | None = None,
+         interfaces: bool = True) -> Mesh:
     """The cells of highest dimension of a meshio.Mesh or of a file; those of lower dimension (edges, faces of solids)
     are left out. Plane cells make a mesh in 2D; all must have the same z.
 
-    bodies      name of the cell data with a label for each cell; None: the first of `LABELS` that exists, else one
+    bodies      name of the cell data with a label for each cell, or names of cell sets, which become the bodies 0, 1
+                ..; None: the first of `LABELS` that exists, else the cell sets if each cell is in one of them, else one
                 body
     interfaces  pair the faces that bodies share (they may share nodes, these are doubled)
 
-    Nodes keep their indices. body_names of the mesh has {label: name} if the file names its groups."""
+    Nodes keep their indices. body_names of the mesh has {label: name} if the source names its groups. MeshError: cells
+    that have no place here; ArgumentError: there are no such data or sets, or a cell is in none or several of them."""
     if isinstance(source, (str, os.PathLike)):
         source = _meshio().read(source)
-    kinds = [NAMES.get(block.type) for block in source.cells]
+    blocks = [(block.type, np.asarray(block.data, np.int64)) for block in source.cells]
+    chosen = _chosen([name for name, _ in blocks])
+    labels, names = _labels(source, blocks, chosen, bodies)
+    dimension = 3 if CELL_TYPES[NAMES[blocks[chosen[0]][0]]].dimension == 3 else 2
+    if not names:
+        names = {int(tag): name for name, (tag, of) in source.field_data.items()
+                 if of == dimension and any(tag in label for label in labels)}
+    return _made(np.asarray(source.points, np.float64), [blocks[i] for i in chosen], labels, names, interfaces)
+
+
+def from_vtk(grid: Any, bodies: str | None = None, interfaces: bool = True) -> Mesh:
+    """The cells of highest dimension of a vtkUnstructuredGrid, or of a grid of PyVista, as `read` takes those of
+    meshio. bodies: name of the cell array with a label for each cell; None: the first of `LABELS` that exists, else one
+    body."""
+    model, support = _vtk()
+    if not isinstance(grid, model.vtkUnstructuredGrid):
+        raise ArgumentError(f"grid = {type(grid).__name__}, expected a vtkUnstructuredGrid or one of PyVista")
+    known = {number: name for name, number in VTK_TYPES.items()}
+    types = support.vtk_to_numpy(grid.GetCellTypesArray()) if grid.GetNumberOfCells() else np.empty(0, np.uint8)
+    offsets = support.vtk_to_numpy(grid.GetCells().GetOffsetsArray()).astype(np.int64)
+    nodes = support.vtk_to_numpy(grid.GetCells().GetConnectivityArray()).astype(np.int64)
+    data = grid.GetCellData()
+    there = [data.GetArrayName(i) for i in range(data.GetNumberOfArrays())]
+    bodies = _label_name(bodies, there)
+    values = np.zeros(len(types), np.int64) if bodies is None else support.vtk_to_numpy(data.GetArray(bodies))
+    rows = [np.flatnonzero(types == number) for number in np.unique(types)]
+    blocks = [(known.get(int(types[row[0]]), f"VTK type {types[row[0]]}"),
+               nodes[offsets[row][:, None] + np.arange(offsets[row[0] + 1] - offsets[row[0]])]) for row in rows]
+    chosen = _chosen([name for name, _ in blocks])
+    points = np.asarray(support.vtk_to_numpy(grid.GetPoints().GetData()), np.float64)
+    return _made(points, [blocks[i] for i in chosen], [values[rows[i]] for i in chosen], {}, interfaces)
+
+
+def _chosen(types: Sequence[str]) -> list[int]:
+    """Which blocks of cells make the bodies."""
+    kinds = [NAMES.get(name) for name in types]
     solid = [i for i, kind in enumerate(kinds) if kind is not None and CELL_TYPES[kind].dimension == 3]
     chosen = solid or [i for i, kind in enumerate(kinds) if kind is not None]
     if not chosen:
-        there = ", ".join(sorted({block.type for block in source.cells})) or "none"
+        there = ", ".join(sorted(set(types))) or "none"
         raise MeshError(f"no cells of a known type; there are {there}, known are {', '.join(NAMES)}")
-    unknown = sorted({block.type for block, kind in zip(source.cells, kinds)
-                      if kind is None and _fills(block.type, bool(solid))})
+    unknown = sorted({name for name, kind in zip(types, kinds) if kind is None and _fills(name, bool(solid))})
     if unknown:
         raise MeshError(f"cells of type {', '.join(unknown)} have no place here; known are {', '.join(NAMES)}")
+    return chosen
 
-    points = np.asarray(source.points, float)
-    if not solid and points.shape[1] == 3:
-        used = points[np.unique(np.concatenate([np.ravel(source.cells[i].data) for i in chosen]))]
+
+def _fills(kind: str, solid: bool) -> bool:
+    """Whether an unknown cell type belongs to a body, which is then incomplete."""
+    volumes = ("tetra", "hexahedron", "wedge", "pyramid", "VTK type")
+    surfaces = ("triangle", "quad")
+    return kind.startswith(volumes if solid else volumes + surfaces)
+
+
+def _label_name(bodies: str | None, there: Iterable[str]) -> str | None:
+    there = list(there)
+    if bodies is None:
+        return next((name for name in LABELS if name in there), None)
+    if bodies not in there:
+        raise ArgumentError(f"bodies = {bodies!r} is no cell data; there are {', '.join(there) or 'none'}")
+    return bodies
+
+
+def _labels(source: Any, blocks: list[tuple[str, IntArray]], chosen: list[int],
+            bodies: str | Sequence[str] | None) -> tuple[list[NDArray[Any]], dict[int, str]]:
+    """The label of each cell of the chosen blocks, and the names of labels that cell sets make."""
+    if bodies is None or isinstance(bodies, str):
+        name = _label_name(bodies, source.cell_data)
+        if name is not None:
+            return [np.asarray(source.cell_data[name][i]) for i in chosen], {}
+    sets = {name: parts for name, parts in source.cell_sets.items() if ":" not in name}
+    names = list(sets) if bodies is None else list(bodies)
+    lost = [name for name in names if name not in source.cell_sets]
+    if lost:
+        raise ArgumentError(f"bodies = {bodies!r}: {lost[0]!r} is no cell set; there are {', '.join(sets) or 'none'}")
+    if bodies is None:  # sets of edges and faces make no bodies
+        names = [name for name in names if any(np.size(sets[name][i]) for i in chosen)]
+    labels = [np.full(len(blocks[i][1]), -1, np.int64) for i in chosen]
+    times = [np.zeros(len(label), np.int64) for label in labels]
+    for number, name in enumerate(names):
+        for label, count, i in zip(labels, times, chosen):
+            rows = np.asarray(source.cell_sets[name][i] if source.cell_sets[name][i] is not None else [], np.int64)
+            label[rows] = number
+            count[rows] += 1
+    if all((count == 1).all() for count in times):
+        return labels, dict(enumerate(names))
+    if bodies is None:
+        return [np.zeros(len(label), np.int64) for label in labels], {}
+    wrong = sum(int((count != 1).sum()) for count in times)
+    raise ArgumentError(f"bodies = {bodies!r}: {wrong} cells are in none or in several of these sets")
+
+
+def _made(points: FloatArray, blocks: list[tuple[str, IntArray]], labels: list[NDArray[Any]], names: dict[int, str],
+          interfaces: bool) -> Mesh:
+    if CELL_TYPES[NAMES[blocks[0][0]]].dimension == 2 and points.shape[1] == 3:
+        used = points[np.unique(np.concatenate([np.ravel(cells) for _, cells in blocks]))]
         if used.size and np.ptp(used[:, 2]) > 1e-9 * np.ptp(used[:, :2]):
             low, high = used[:, 2].min(), used[:, 2].max()
             raise MeshError(f"plane cells have z from {low:g} to {high:g}: shells have no place here")
         points = points[:, :2]
-
-    if bodies is None:
-        bodies = next((name for name in LABELS if name in source.cell_data), None)
-    elif bodies not in source.cell_data:
-        raise ArgumentError(f"bodies = {bodies!r} is no cell data; there are {', '.join(source.cell_data) or 'none'}")
     mesh = Mesh(points)
-    labels = set()
-    for i in chosen:
-        count = len(source.cells[i].data)
-        label = np.zeros(count, np.int64) if bodies is None else np.asarray(source.cell_data[bodies][i])
-        labels.update(np.unique(label).tolist())
-        mesh.add_conforming_cells(kinds[i], np.asarray(source.cells[i].data, np.int64), label.astype(np.int64))
-    dimension = points.shape[1]
-    mesh.body_names = {int(tag): name for name, (tag, of) in source.field_data.items()
-                       if of == dimension and tag in labels}
+    for (name, cells), label in zip(blocks, labels):
+        mesh.add_conforming_cells(NAMES[name], cells, np.asarray(label).astype(np.int64))
+    mesh.body_names = names
     if interfaces and mesh.body_count > 1:
         mesh.add_all_interfaces()
     return mesh
 
 
-def _fills(kind, solid):
-    """Whether an unknown cell type belongs to a body, which is then incomplete."""
-    volumes = ("tetra", "hexahedron", "wedge", "pyramid")
-    surfaces = ("triangle", "quad")
-    return kind.startswith(volumes if solid else volumes + surfaces)
+# ---- out
 
 
-def write(mesh: Mesh, point_data: Mapping | None = None, cell_data: Mapping | None = None):
-    """A meshio.Mesh with the nodes and cells of `mesh`; plane ones get z = 0. cell_data are arrays over all cells, in
-    the order they were added; "bodies" is among them."""
-    meshio = _meshio()
+def _in_space(values: FloatArray) -> FloatArray:
+    """Two columns as three."""
+    return np.column_stack([values, np.zeros(len(values))]) if values.shape[1] == 2 else values
+
+
+def _rows(name: str, values: ArrayLike, count: int) -> NDArray[Any]:
+    array = np.asarray(values)
+    if array.ndim == 0 or len(array) != count:
+        have = "no" if array.ndim == 0 else len(array)
+        raise ArgumentError(f"{name} has {have} rows, expected {count}")
+    return array
+
+
+def grid_of(mesh: Mesh, point_data: Mapping[str, ArrayLike] | None = None,
+            cell_data: Mapping[str, ArrayLike] | None = None) -> Grid:
+    """The nodes and cells of a mesh; plane ones get z = 0. point_data: arrays over all nodes; cell_data: arrays over
+    all cells, in the order they were added; "bodies" is among them. ArgumentError: another number of rows."""
     nodes, cells = mesh.nodes, mesh.cells
-    if nodes.shape[1] == 2:
-        nodes = np.column_stack([nodes, np.zeros(len(nodes))])
     back = {ours: theirs for theirs, ours in NAMES.items()}
-    data = {"bodies": cells.bodies, **(cell_data or {})}
-    blocks, rows = [], []
-    for name in cells.names():
-        if name not in back:
-            raise ArgumentError(f"cells of type {name} have no name in meshio")
-        blocks.append((back[name], cells.of(name)))
-        rows.append(np.flatnonzero(cells.types == CELLS[name][0]))
-    for name, values in data.items():
-        if len(values) != len(cells.types):
-            raise ArgumentError(f"cell_data[{name!r}] has {len(values)} rows, expected {len(cells.types)}")
-    return meshio.Mesh(nodes, blocks, point_data=point_data,
-                       cell_data={name: [np.asarray(values)[row] for row in rows] for name, values in data.items()})
+    unnamed = [name for name in cells.names() if name not in back]
+    if unnamed:
+        raise ArgumentError(f"cells of type {unnamed[0]} have no name in meshio")
+    order = np.concatenate([np.flatnonzero(cells.types == CELLS[name][0]) for name in cells.names()]
+                           or [np.empty(0, np.int64)])
+    given: dict[str, Any] = {"bodies": cells.bodies, **(cell_data or {})}
+    data = {name: _rows(f"cell_data[{name!r}]", values, len(cells.types))[order] for name, values in given.items()}
+    return Grid(_in_space(nodes), [(back[name], cells.of(name)) for name in cells.names()],
+                {name: _rows(f"point_data[{name!r}]", values, len(nodes))
+                 for name, values in (point_data or {}).items()}, data)
+
+
+def write(mesh: Mesh, point_data: Mapping[str, ArrayLike] | None = None,
+          cell_data: Mapping[str, ArrayLike] | None = None) -> meshio.Mesh:
+    """A meshio.Mesh with the nodes and cells of `mesh`; plane ones get z = 0. cell_data are arrays over all cells, in
+    the order they were added; "bodies" is among them. ArgumentError: another number of rows."""
+    return grid_of(mesh, point_data, cell_data).to_meshio()
+
+
+def solver_grid(solver: Solver) -> Grid:
+    """The bodies of the state described (Solver.values): displacement [nodes][3] over points, stress [cells][6] and
+    bodies over cells. Nodes beyond the problem's own have none: zero."""
+    mesh = solver.problem.mesh
+    found = solver.field("displacement")
+    displacement = np.zeros((mesh.node_count, found.shape[1]))
+    displacement[:len(found)] = found
+    return grid_of(mesh, {"displacement": _in_space(displacement)}, {"stress": solver.field("stress")})
+
+
+def result_grid(result: Result, step: int = -1, interface: int | None = None) -> Grid:
+    """The bodies of a result at a step, with its fields over nodes and cells; or the faces of one interface, with its
+    adhesion (zeta), jump, traction, contact and displacement over their points. KeyError: the step has no fields, or
+    there is no such interface."""
+    fields, dimension = result.fields(step), int(result.about["scene"]["dimension"])
+    if interface is not None:
+        name = f"interface_{interface}"
+        points, faces = result._interface(name)
+        kind = _RESULT_FACES[dimension][faces.shape[1]]
+        of = fields[name] if name in fields else {}
+        return Grid(points, [(kind, faces)], _over(of, len(points)), {})
+    points, cells, rows = result.nodes, result.cells, result.cell_rows
+    order = np.concatenate(rows)
+    over_cells = {"bodies": result.bodies, **_over(fields, len(order), {"stress", "rotation"})}
+    names = _RESULT_CELLS[dimension]
+    return Grid(points, [(names[block.shape[1]], block) for block in cells],
+                _over(fields, len(points), None, {"stress", "rotation"}),
+                {name: values[order] for name, values in over_cells.items()})
+
+
+def _over(fields: Mapping[str, Any], count: int, only: set[str] | None = None,
+          without: Iterable[str] = ()) -> dict[str, NDArray[Any]]:
+    """The fields with as many rows."""
+    return {name: np.asarray(values) for name, values in fields.items()
+            if not isinstance(values, Mapping) and np.ndim(values) > 0 and len(values) == count
+            and (only is None or name in only) and name not in without and not name.startswith("front_")}

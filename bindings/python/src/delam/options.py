@@ -6,10 +6,18 @@ import collections.abc
 import ctypes
 import difflib
 import functools
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING, Any
 
 from ._call import number, text
 from ._library import library
-from .law import Bounds, described
+from .law import Bounds, Parameter, described
+
+if TYPE_CHECKING:
+    from .problem import Problem
+
+# The value of an option.
+Value = str | int | float
 
 
 def options() -> dict[str, Parameter]:
@@ -19,12 +27,13 @@ def options() -> dict[str, Parameter]:
 
 
 @functools.cache
-def known():
+def known() -> dict[str, Parameter]:
+    """options(), asked for once."""
     return options()
 
 
 @functools.cache
-def aliases():
+def aliases() -> dict[str, str]:
     """Alternative keys: {alias: key}."""
     found = {}
     for index, key in enumerate(known()):
@@ -36,7 +45,7 @@ def aliases():
 
 
 @functools.cache
-def bounds():
+def bounds() -> dict[str, Bounds]:
     """Bounds of the options that are numbers: {key: Bounds}."""
     found = {}
     for index, parameter in enumerate(known().values()):
@@ -48,7 +57,7 @@ def bounds():
     return found
 
 
-def key_of(key):
+def key_of(key: str) -> str:
     """The key for a key or an alias."""
     key = aliases().get(key, key)
     if key not in known():
@@ -56,33 +65,35 @@ def key_of(key):
     return key
 
 
-def initial_values():
+def initial_values() -> dict[str, Value]:
+    """{key: value} without any setting."""
     return {key: _value(parameter, parameter.initial) for key, parameter in known().items()}
 
 
-def unknown(key, known, what):
+def unknown(key: object, known: Iterable[str], what: str) -> KeyError:
     """KeyError with the nearest name."""
-    near = difflib.get_close_matches(str(key), known, 1)
+    near = difflib.get_close_matches(str(key), list(known), 1)
     return KeyError(f"{what} {key!r} is not known" + (f"; did you mean {near[0]!r}?" if near else ""))
 
 
-def _value(parameter, words):
-    return words if parameter.type == "text" else int(words) if parameter.type == "integer" else float(words)
+def _value(parameter: Parameter, words: Any) -> Value:
+    return str(words) if parameter.type == "text" else int(words) if parameter.type == "integer" else float(words)
 
 
-class Options(collections.abc.MutableMapping):
+class Options(collections.abc.MutableMapping[str, Value]):
     """problem.options["solution"] = "energetic"; del resets an option to its initial value. Iterates over all options;
-    describe() explains them. An alias works like its key."""
+    describe() explains them. An alias works like its key. KeyError: there is no such option; ArgumentError: the value
+    is out of range. Solvers that exist keep the options that they were made with."""
 
-    def __init__(self, problem: Problem, values):
+    def __init__(self, problem: Problem, values: dict[str, Value]) -> None:
         self._call = problem._call
         self._known = known()
         self._values = values
 
-    def __getitem__(self, key: str):
+    def __getitem__(self, key: str) -> Value:
         return self._values[key_of(key)]
 
-    def __setitem__(self, key, value):
+    def __setitem__(self, key: str, value: Value) -> None:
         key = key_of(key)
         parameter = self._known[key]
         if parameter.type == "text":
@@ -92,27 +103,28 @@ class Options(collections.abc.MutableMapping):
             self._call(library.delam_problem_set_number, key.encode(), value)
         self._values[key] = _value(parameter, value)
 
-    def __delitem__(self, key):
+    def __delitem__(self, key: str) -> None:
         key = key_of(key)
         self[key] = _value(self._known[key], self._known[key].initial)
 
-    def __iter__(self):
+    def __iter__(self) -> Iterator[str]:
         return iter(self._known)
 
-    def __len__(self):
+    def __len__(self) -> int:
         return len(self._known)
 
     def __repr__(self) -> str:
         return f"Options({self._values})"
 
     def info(self, key: str) -> Parameter:
+        """Type, unit, range and meaning of an option. KeyError: there is none of this key."""
         return self._known[key_of(key)]
 
-    def bounds(self, key: str):
-        """Bounds of a number; None for a text."""
+    def bounds(self, key: str) -> Bounds | None:
+        """Bounds of a number; None for a text. KeyError: there is no option of this key."""
         return bounds().get(key_of(key))
 
-    def describe(self):
+    def describe(self) -> str:
         """A line for each option: value, range, meaning."""
         return "\n".join(f"{key} = {self._values[key]}  ({item.range}; initially {item.initial})  {item.meaning}"
                          for key, item in self._known.items())

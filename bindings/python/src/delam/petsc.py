@@ -25,7 +25,7 @@ import pathlib
 import pickle
 from collections.abc import Callable
 from ctypes import POINTER, c_char_p, c_double, c_int32, c_int64, c_uint8, c_void_p
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -43,10 +43,11 @@ if TYPE_CHECKING:
 
 SONAME = f"libdelam-petsc.so.{_raw.DELAM_ABI}"
 VARIABLE = "DELAM_PETSC_LIBRARY"
+_Result = TypeVar("_Result")
 _WORK = ctypes.CFUNCTYPE(c_int32, c_void_p)
 _TASK = ctypes.CFUNCTYPE(c_int32, c_int64, POINTER(c_uint8), c_void_p)
 # Without the two functions that make a handle: the type of a communicator is known only with mpi4py.
-_FUNCTIONS = {
+_FUNCTIONS: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "delam_petsc_destroy": (None, (POINTER(c_void_p),)),
     "delam_petsc_message": (c_char_p, (c_void_p,)),
     "delam_petsc_set_part": (c_int32, (c_void_p, c_int32, c_int64, POINTER(c_int64), POINTER(c_double),
@@ -68,7 +69,7 @@ _FUNCTIONS = {
                                          POINTER(c_int64))),
     "delam_petsc_value": (c_int32, (c_void_p, c_char_p, POINTER(c_double))),
 }
-_loaded = []
+_loaded: list[ctypes.CDLL] = []
 
 
 class WorkError(DelamError, RuntimeError):
@@ -76,7 +77,7 @@ class WorkError(DelamError, RuntimeError):
     raised on all ranks, with the original as its cause on each rank that has one."""
 
 
-def _candidates():
+def _candidates() -> list[str]:
     value = os.environ.get(VARIABLE)
     if value:
         path = pathlib.Path(value)
@@ -85,7 +86,7 @@ def _candidates():
     return ([str(beside)] if beside.exists() else []) + [SONAME]
 
 
-def _library_of_ranks():
+def _library_of_ranks() -> ctypes.CDLL:
     """libdelam-petsc with typed functions, loaded once."""
     if not _loaded:
         tried = []
@@ -127,31 +128,32 @@ class Ranks:
         self._comm = comm.Dup()
         self.rank: int = comm.rank
         self.size: int = comm.size
-        self._agreed = None  # an error that all ranks have
+        self._agreed: BaseException | None = None  # an error that all ranks have
         self._running = False
-        self._task = None  # the C function that holds the task
+        self._task: Any = None  # the C function that holds the task
         self._tasks = 0  # that have run, the same number on all ranks
-        self._raised = None  # by the last task of this rank
+        self._raised: BaseException | None = None  # by the last task of this rank
 
     # ---- handle
 
-    def _check_open(self):
+    def _check_open(self) -> None:
         if not self._pointer:
             raise HandleError("these Ranks are closed")
 
-    def _check(self):
+    def _check(self) -> None:
         self._check_open()
         # The other ranks would not answer.
         if self._running:
             raise StateError("these Ranks are running a function")
 
     @property
-    def _handle(self):
+    def _handle(self) -> Any:
         self._check()
         return self._pointer
 
     @property
     def closed(self) -> bool:
+        """Whether close() has freed what the ranks hold."""
         return not self._pointer
 
     def close(self) -> None:
@@ -160,19 +162,23 @@ class Ranks:
             self._library.delam_petsc_destroy(ctypes.byref(self._handle))
             self._comm.Free()
 
+    def __reduce_ex__(self, protocol: Any) -> NoReturn:
+        raise TypeError("Ranks cannot be pickled or copied: they belong to the communicator of this process. Make them "
+                        "in each process")
+
     def __enter__(self) -> Ranks:
         return self
 
-    def __exit__(self, kind, error, trace) -> None:
+    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
         # Where one rank alone has failed, the others do not come here.
         if error is None or error is self._agreed or self.size == 1:
             self.close()
 
-    def _raise(self, error, cause=None):
+    def _raise(self, error: BaseException, cause: BaseException | None = None) -> NoReturn:
         self._agreed = error
         raise error from cause
 
-    def _call(self, function, *arguments, problem=None):
+    def _call(self, function: Any, *arguments: Any, problem: Problem | None = None) -> None:
         """problem: this rank's, which the function uses, and of which libdelam tells what is wrong."""
         if problem is None:
             status, told = function(self._handle, *arguments), ""
@@ -183,20 +189,21 @@ class Ranks:
             told = next(filter(None, self._comm.allgather(told)), "")
             self._raise(error_of(status, f"{message}: {told}" if told else message))
 
-    def _here(self, function, *arguments):
+    def _here(self, function: Any, *arguments: Any) -> None:
         """A call of this rank alone, which may be inside `run`."""
         self._check_open()
         status = function(self._pointer, *arguments)
         if status != _raw.DELAM_OK:
             raise error_of(status, self._message())
 
-    def _message(self):
-        return self._library.delam_petsc_message(self._pointer).decode(errors="replace")
+    def _message(self) -> str:
+        return str(self._library.delam_petsc_message(self._pointer).decode(errors="replace"))
 
-    def _together(self, function):
+    def _together(self, function: Callable[[], _Result]) -> _Result:
         """What the function returns; an error of some rank is raised on all of them."""
         self._check()
-        result, error = None, None
+        result: Any = None
+        error: DelamError | None = None
         try:
             result = function()
         except DelamError as exception:
@@ -206,9 +213,10 @@ class Ranks:
         if failures:
             rank, status, message = failures[0]
             self._raise(error_of(status, f"rank {rank}: {message}"), error)
-        return result
+        agreed: _Result = result
+        return agreed
 
-    def _first(self, name, value, kind):
+    def _first(self, name: str, value: Any, kind: type[Mesh] | type[Problem]) -> c_void_p | None:
         """Handle of an object that rank 0 has, None on the others."""
         if self.rank != 0:
             return None
@@ -216,7 +224,7 @@ class Ranks:
             raise ArgumentError(f"{name} = {value!r}, expected a {kind.__name__} on rank 0")
         return ctypes.cast(value._handle, c_void_p)
 
-    def _only_first(self, value):
+    def _only_first(self, value: Problem | None) -> Problem | None:
         return value if self.rank == 0 else None
 
     # ---- parts
@@ -248,11 +256,12 @@ class Ranks:
         PETSc's option -delam_pc_type bddc is refused."""
         # Columns in the place of rows are for symmetric matrices alone.
         if getattr(matrix, "format", "csr") == "csc":
-            matrix = matrix.tocsr()
+            matrix = matrix.tocsr()  # type: ignore[attr-defined]
         self._set("delam_petsc_set_rows", nodes, matrix, coordinates, dimension)
 
-    def _set(self, function, nodes, matrix, coordinates, dimension):
-        def arrays():
+    def _set(self, function: str, nodes: ArrayLike, matrix: object, coordinates: ArrayLike | None,
+             dimension: int) -> None:
+        def arrays() -> tuple[Any, ...]:
             count = indices("nodes", nodes)
             size = count.size * integer("dimension", dimension, 32)
             row_starts, columns, values = _rows_of(matrix)
@@ -277,12 +286,13 @@ class Ranks:
         nodes    for each node of this mesh its number for set_part; each once
 
         Eigenstrains are refused as loads are."""
-        def handles():
+        def handles() -> tuple[Any, Any, Any]:
             if problem is None and nodes is None:
                 return None, None, None
             if not isinstance(problem, Problem):
                 raise ArgumentError(f"problem = {problem!r}, expected a Problem, or None without nodes")
-            return *(ctypes.cast(one._handle, c_void_p) for one in (problem.mesh, problem)), indices("nodes", nodes)
+            mesh, own = (ctypes.cast(one._handle, c_void_p) for one in (problem.mesh, problem))
+            return mesh, own, indices("nodes", nodes)
 
         mesh, own, numbers = self._together(handles)
         self._call(self._library.delam_petsc_set_cells, mesh, own, 0 if numbers is None else numbers.size,
@@ -297,7 +307,7 @@ class Ranks:
     def take_cells(self, mesh: Mesh | None, problem: Problem | None, ranks: ArrayLike | None = None) -> None:
         """As take_scene, with a partition of the host's own. ranks: on rank 0, the rank of each cell of the mesh. Cells
         on the two sides of an interface are best on one rank."""
-        def arguments():
+        def arguments() -> tuple[Any, ...]:
             handles = self._first("mesh", mesh, Mesh), self._first("problem", problem, Problem)
             given = gate("ranks", ranks, "int32", (None,)) if self.rank == 0 else None
             return *handles, 0 if given is None else given.size, given
@@ -313,19 +323,20 @@ class Ranks:
         handle = self._together(lambda: self._first("problem", problem, Problem))
         self._call(self._library.delam_petsc_attach, handle, problem=self._only_first(problem))
 
-    def run(self, function: Callable | None = None):
+    def run(self, function: Callable[[], Any] | None = None) -> Any:
         """Calls function() on rank 0, which may use everything of the package, and of these Ranks `everywhere`,
         `recover` and the fields of its part, while the other ranks work for it. Returns its result on rank 0, None on
         the others. What it raises is raised on all ranks: a DelamError as such, another exception as WorkError (on rank
         0 with the exception as its cause). What is no Exception, such as KeyboardInterrupt, is raised again on rank 0
         and is a WorkError on the others."""
         handle = self._handle
-        results, failures = [], []
+        results: list[Any] = []
+        failures: list[BaseException] = []
 
-        @_WORK
-        def work(_):
+        @_WORK  # type: ignore[misc]
+        def work(_: object) -> int:
             try:
-                results.append(function())
+                results.append(function())  # type: ignore[misc]  # None is for the other ranks
             except BaseException as exception:
                 failures.append(exception)
                 status = exception.status if isinstance(exception, DelamError) else 0
@@ -343,7 +354,7 @@ class Ranks:
         told = None
         if failure is not None:
             ours = isinstance(failure, DelamError)
-            told = (failure.status if ours and not isinstance(failure, WorkError) else None,
+            told = (getattr(failure, "status") if ours and not isinstance(failure, WorkError) else None,
                     str(failure) if ours else f"{type(failure).__name__}: {failure}", getattr(failure, "_task", None))
         told = self._comm.bcast(told)
         if told is None:
@@ -358,17 +369,17 @@ class Ranks:
 
     # ---- what all ranks do in the work of rank 0
 
-    def set_task(self, function: Callable) -> None:
+    def set_task(self, function: Callable[[Any], object]) -> None:
         """What this rank does in `everywhere`: function(data), a function of its own. It may communicate with the other
         ranks and read the fields of its part, but not solve. All ranks call this."""
-        def checked():
+        def checked() -> None:
             if not callable(function):
                 raise ArgumentError(f"function = {function!r}, expected one that can be called")
 
         self._together(checked)
 
-        @_TASK
-        def task(size, data, _):
+        @_TASK  # type: ignore[misc]
+        def task(size: int, data: Any, _: object) -> int:
             self._tasks += 1
             self._raised = None
             try:
@@ -378,7 +389,7 @@ class Ranks:
                 ours = isinstance(exception, DelamError)
                 told = str(exception) if ours else f"{type(exception).__name__}: {exception}"
                 self._library.delam_petsc_explain(self._pointer, told.encode())
-                return (exception.status if ours else 0) or _raw.DELAM_ERROR_INTERNAL
+                return int(getattr(exception, "status") if ours else 0) or _raw.DELAM_ERROR_INTERNAL
             return _raw.DELAM_OK
 
         self._call(self._library.delam_petsc_set_task, task, None)
@@ -401,7 +412,7 @@ class Ranks:
         if status != _raw.DELAM_OK:
             message = self._message()
             error = WorkError(message) if status == _raw.DELAM_ERROR_INTERNAL else error_of(status, message)
-            error._task = self._tasks
+            error._task = self._tasks  # type: ignore[attr-defined]
             raise error from own
 
     def recover(self, solver: Solver) -> None:

@@ -3,16 +3,27 @@
 new axes, and returns them."""
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Any
+
 import numpy as np
 
-from .mesh import CELL_TYPES
+from ._arrays import FloatArray, IntArray
+from .history import History
+from .mesh import CELL_TYPES, Interface
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.colors import Colormap
+
+    from .solver import Solver
 
 # Corners of plane cells, in order around.
 _BODIES = ("#f4f1e8", "#dde5ee", "#e6ebdf")
 _DAMAGE = ("#b3122a", "#f2a541", "#f5e9b8", "#2b6cb0", "#0b2e59")  # adhesion 0 ... 1
 
 
-def _pyplot():
+def _pyplot() -> Any:
     try:
         import matplotlib.pyplot
     except ImportError:
@@ -20,19 +31,21 @@ def _pyplot():
     return matplotlib.pyplot
 
 
-def _axes(ax, **options):
+def _axes(ax: Axes | None, **options: object) -> Axes:
     if ax is not None:
         return ax
     return _pyplot().subplots(layout="constrained", subplot_kw=options)[1]
 
 
-def _adhesion_colours():
+def _adhesion_colours() -> Colormap:
     from matplotlib.colors import LinearSegmentedColormap
     return LinearSegmentedColormap.from_list("adhesion", _DAMAGE)
 
 
-def history(history: object, y, x="time", ax=None, **style: object):
-    """Plots values against each other: y is one name or several. `history`: a History, or any mapping of arrays."""
+def history(history: History | Mapping[str, FloatArray], y: str | Iterable[str], x: str = "time",
+            ax: Axes | None = None, **style: Any) -> Axes:
+    """Plots values against each other: y is one name or several. `history`: a History, or any mapping of arrays; style:
+    for matplotlib's plot. KeyError: there is no such value."""
     ax = _axes(ax)
     names = [y] if isinstance(y, str) else list(y)
     for name in names:
@@ -45,9 +58,10 @@ def history(history: object, y, x="time", ax=None, **style: object):
     return ax
 
 
-def interface(solver, field="adhesion", interface: int | Interface = 0, component=0, ax=None, **style: object):
+def interface(solver: Solver, field: str = "adhesion", interface: int | Interface = 0, component: int = 0,
+              ax: Axes | None = None, **style: Any) -> Axes:
     """A field of pairs: in 2D along the interface, in 3D in colour on its faces. component: column of jumps and
-    tractions."""
+    tractions, 0 the normal one. ArgumentError: there is no such field."""
     view = solver.problem.mesh.interfaces[interface]
     values = solver.field(field, interface)
     if values.ndim == 2:
@@ -67,9 +81,9 @@ def interface(solver, field="adhesion", interface: int | Interface = 0, componen
     return ax
 
 
-def _chains(edges, count):
+def _chains(edges: IntArray, count: int) -> list[IntArray]:
     """Pairs in the order of the lines that two-node faces make; loops end where they begin."""
-    neighbours = [[] for _ in range(count)]
+    neighbours: list[list[int]] = [[] for _ in range(count)]
     for a, b in edges.tolist():
         neighbours[a].append(b)
         neighbours[b].append(a)
@@ -88,7 +102,7 @@ def _chains(edges, count):
     return chains
 
 
-def _faces(view, values, field, ax, style):
+def _faces(view: Interface, values: FloatArray, field: str, ax: Axes | None, style: dict[str, Any]) -> Axes:
     from mpl_toolkits.mplot3d.art3d import Poly3DCollection
     ax = _axes(ax, projection="3d")
     places, faces = view.places, view.faces
@@ -105,8 +119,9 @@ def _faces(view, values, field, ax, style):
     return ax
 
 
-def bodies(solver, scale=1.0, ax=None):
-    """Deformed plane bodies, displacements times `scale`, with the adhesion of interfaces in colour."""
+def bodies(solver: Solver, scale: float = 1.0, ax: Axes | None = None) -> Axes:
+    """Deformed plane bodies, displacements times `scale`, with the adhesion of interfaces in colour. ValueError: the
+    scene is one in space."""
     from matplotlib.collections import LineCollection, PolyCollection
     mesh = solver.problem.mesh
     if solver.problem.dimension != 2:

@@ -5,15 +5,15 @@ from __future__ import annotations
 import collections.abc
 import ctypes
 import weakref
-from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from . import _raw
 from ._arrays import direction as axis
-from ._arrays import floats, indices, listed, ndim, pointer, spread
+from ._arrays import FloatArray, IntArray, floats, indices, listed, ndim, pointer, spread
 from ._call import Context, Object, integer, number, text
 from ._library import library
 from .errors import ArgumentError, DelamError
@@ -37,21 +37,22 @@ class Sparse(NamedTuple):
     """A matrix by rows: the entries of row i are row_starts[i] .. row_starts[i+1]-1 of columns and values. For SciPy:
     csr_matrix((m.values, m.columns, m.row_starts), m.shape)."""
 
-    shape: tuple
-    row_starts: np.ndarray
-    columns: np.ndarray
-    values: np.ndarray
+    shape: tuple[int, int]
+    row_starts: IntArray
+    columns: IntArray
+    values: FloatArray
 
-    def toarray(self) -> NDArray:
+    def toarray(self) -> FloatArray:
+        """The matrix in full, [rows][columns]; entries at the same place are summed."""
         out = np.zeros(self.shape)
         rows = np.repeat(np.arange(self.shape[0]), np.diff(self.row_starts))
         np.add.at(out, (rows, self.columns), self.values)
         return out
 
 
-def _rows_of(matrix):
-    """row_starts, columns and values of a Sparse or of a class with SciPy's attribute names. Compressed columns work too,
-    because the stiffness is symmetric."""
+def _rows_of(matrix: Any) -> tuple[Any, Any, Any]:
+    """row_starts, columns and values of a Sparse or of a class with SciPy's attribute names. Compressed columns work
+    too, because the stiffness is symmetric."""
     if isinstance(matrix, Sparse):
         return matrix.row_starts, matrix.columns, matrix.values
     if getattr(matrix, "format", "csr") not in ("csr", "csc") and hasattr(matrix, "tocsr"):
@@ -64,14 +65,14 @@ def _rows_of(matrix):
 
 
 class Pattern:
-    """A load pattern of a problem; may be used wherever an index is expected."""
+    """A load pattern of a problem, with its name and index; may be used wherever an index is expected."""
 
-    def __init__(self, name: str, index: int, problem: Problem):
+    def __init__(self, name: str, index: int, problem: Problem | None) -> None:
         self.name = name
         self.index = index
         self.problem = None if problem is None else weakref.ref(problem)
 
-    def __reduce__(self):  # pickled as its index
+    def __reduce__(self) -> tuple[type[Pattern], tuple[str, int, None]]:  # pickled as its index
         return Pattern, (self.name, self.index, None)
 
     def __index__(self) -> int:
@@ -81,7 +82,11 @@ class Pattern:
         return f"<Pattern {self.index}: {self.name}>"
 
 
-def pattern_index(which, problem, names):
+# What prescribes a value: a pattern, or patterns with coefficients.
+Drive = int | str | Pattern | Mapping[Any, ArrayLike] | None
+
+
+def pattern_index(which: int | str | Pattern, problem: Problem, names: Sequence[str]) -> int:
     """Of a pattern of this problem: itself, one of the names, or its index."""
     if isinstance(which, str):
         if which not in names:
@@ -100,13 +105,23 @@ class Problem(Object):
     "-y").
 
     progress: a function (stage, done, total) called inside long work, on the calling thread; a true result cancels,
-    except in calls that only read, such as fields."""
+    except in calls that only read, such as fields. `mesh` is the mesh given, `dimension` 2 or 3.
 
-    def __init__(self, mesh: Mesh, plane: str | None = None, progress: Callable | None = None) -> None:
+    Units are whichever are consistent: with lengths in m and forces in N, stresses and stiffnesses are in Pa. In 2D all
+    is per unit of width. ArgumentError names a value out of range or an array of the wrong shape, ProblemError (of
+    check and Solver) what the scene lacks."""
+
+    mesh: Mesh
+    dimension: int
+    _instead = ("Make it in each process from the arrays of its mesh and from its laws and loads; Solver.save() gives "
+                "the state of a solver as bytes, for a solver of an equal problem to load().")
+
+    def __init__(self, mesh: Mesh, plane: str | None = None,
+                 progress: Callable[[str, int, int], object] | None = None) -> None:
         if not isinstance(mesh, Mesh):
             raise ArgumentError(f"mesh = {mesh!r}, expected a Mesh")
         context = Context()
-        self._keep = []
+        self._keep: list[Any] = []
         self._make(context, _raw.delam_problem, library.delam_problem_destroy, library.delam_problem_create,
                    context.handle, mesh._handle, keep=self._keep, other=mesh.context)
         self.mesh = mesh
@@ -114,10 +129,11 @@ class Problem(Object):
         self._pair_counts = [interface.pair_count for interface in mesh.interfaces]
         self.progress = progress
         self._values = initial_values()
+        self._drives: dict[int, str] = {}  # what each pattern drives, for pictures
         if plane is not None:
             self.set_plane(plane)
 
-    def _call(self, function, *arguments, long=False):
+    def _call(self, function: Any, *arguments: Any, long: bool = False) -> None:
         self.context.call(function, self._handle, *arguments, long=long)
 
     @property
@@ -126,11 +142,12 @@ class Problem(Object):
         return Options(self, self._values)
 
     @property
-    def progress(self):
+    def progress(self) -> Callable[[str, int, int], object] | None:
+        """The function (stage, done, total) that long work calls, or None; may be set at any time."""
         return self.context.progress
 
     @progress.setter
-    def progress(self, function: Callable | None):
+    def progress(self, function: Callable[[str, int, int], object] | None) -> None:
         if function is not None and not callable(function):
             raise ArgumentError(f"progress = {function!r} cannot be called")
         self.context.progress = function
@@ -143,39 +160,40 @@ class Problem(Object):
 
     # ---- materials
 
-    def set_plane(self, assumption: str):
+    def set_plane(self, assumption: str) -> None:
         """"plane-strain" (initially) or "plane-stress"."""
         self._call(library.delam_problem_set_plane, text("assumption", assumption))
 
-    def set_elastic(self, young: float, poisson: float, body: int | None = None):
+    def set_elastic(self, young: float, poisson: float, body: int | None = None) -> None:
+        """Isotropic elasticity: Young's modulus, a stress > 0, and Poisson's ratio in (-1, 0.5)."""
         self._call(library.delam_problem_set_elastic, body_label(body), number("young", young),
                    number("poisson", poisson))
 
-    def set_orthotropic(self, constants: ArrayLike, body: int | None = None):
-        """E1 E2 E3 nu12 nu13 nu23 G12 G13 G23 in the material axes; nu_ij: contraction along j under tension along
-        i."""
+    def set_orthotropic(self, constants: ArrayLike, body: int | None = None) -> None:
+        """E1 E2 E3 nu12 nu13 nu23 G12 G13 G23 in the material axes, moduli as stresses; nu_ij: contraction along j
+        under tension along i."""
         constants = floats("constants", constants, (9,))
         self._call(library.delam_problem_set_orthotropic, body_label(body), pointer(constants))
 
-    def set_orientation(self, axes: ArrayLike, cells: ArrayLike | None = None, body: int | None = None):
+    def set_orientation(self, axes: ArrayLike, cells: ArrayLike | None = None, body: int | None = None) -> None:
         """Directions of the material axes 1 and 2 in space, [2][3] for all cells of the body or [cells][2][3]."""
         if cells is None:
             axes = floats("axes", axes, (2, 3))
             self._call(library.delam_problem_set_orientation, body_label(body), 1, None, pointer(axes), 0, long=True)
             return
-        cells = indices("cells", cells, size=self._cell_count)
+        of = indices("cells", cells, size=self._cell_count)
         if ndim(axes) == 2:
-            axes = np.tile(floats("axes", axes, (2, 3)), (cells.size, 1, 1))
-        axes = floats("axes", axes, (cells.size, 2, 3))
-        self._call(library.delam_problem_set_orientation, body_label(body), cells.size, pointer(cells), pointer(axes),
-                   0, long=True)
+            axes = np.tile(floats("axes", axes, (2, 3)), (of.size, 1, 1))
+        axes = floats("axes", axes, (of.size, 2, 3))
+        self._call(library.delam_problem_set_orientation, body_label(body), of.size, pointer(of), pointer(axes), 0,
+                   long=True)
 
-    def set_formulation(self, formulation: str, body: int | None = None):
+    def set_formulation(self, formulation: str, body: int | None = None) -> None:
         """"standard" (initially), "incompatible" or "mean-dilatation"."""
         self._call(library.delam_problem_set_formulation, body_label(body), text("formulation", formulation))
 
     def set_stiffness(self, nodes: ArrayLike, matrix: object, dofs: ArrayLike | None = None,
-                      kernel: ArrayLike | None = None):
+                      kernel: ArrayLike | None = None) -> None:
         """The stiffness of whole bodies as assembled by the host, in place of cells and material.
 
         nodes   all nodes of one or several bodies, indices or a mask
@@ -192,18 +210,17 @@ class Problem(Object):
         # The library reads as many entries as the last row ends with.
         if row_starts[-1] != values.size:
             raise ArgumentError(f"row_starts[{size}] = {row_starts[-1]}, expected {values.size}, the number of values")
-        if dofs is not None:
-            dofs = indices("dofs", dofs, (nodes.size, self.dimension))
-        motions = -1
+        places = None if dofs is None else indices("dofs", dofs, (nodes.size, self.dimension))
+        motions, rigid = -1, None
         if kernel is not None:
-            kernel = floats("kernel", kernel, (None, size)) if np.size(kernel) else np.empty((0, size))
-            motions = kernel.shape[0]
-        self._call(library.delam_problem_set_stiffness, nodes.size, pointer(nodes), pointer(dofs), pointer(row_starts),
-                   pointer(columns), pointer(values), motions, pointer(kernel), 0, long=True)
+            rigid = floats("kernel", kernel, (None, size)) if np.size(kernel) else np.empty((0, size))
+            motions = rigid.shape[0]
+        self._call(library.delam_problem_set_stiffness, nodes.size, pointer(nodes), pointer(places),
+                   pointer(row_starts), pointer(columns), pointer(values), motions, pointer(rigid), 0, long=True)
 
     # ---- interfaces
 
-    def set_law(self, interface: int | Interface, law: Law):
+    def set_law(self, interface: int | Interface, law: Law) -> None:
         """Copies the law's present parameters. The adhesion does not change: 1, or the value of set_adhesion."""
         if not isinstance(law, Law):
             raise ArgumentError(f"law = {law!r}, expected a Law")
@@ -219,16 +236,17 @@ class Problem(Object):
             self.context.hosted = hosted
             raise
 
-    def set_bonded(self, interface: int | Interface):
+    def set_bonded(self, interface: int | Interface) -> None:
         """Perfectly and permanently bonded."""
         self._call(library.delam_problem_set_bonded, interface_index(interface, self.mesh))
 
-    def set_contact(self, interface: int | Interface):
+    def set_contact(self, interface: int | Interface) -> None:
         """Faces without adhesion that may separate but not overlap."""
         self._call(library.delam_problem_set_contact, interface_index(interface, self.mesh))
 
-    def set_adhesion(self, interface: int | Interface, pairs: ArrayLike, adhesion: ArrayLike = 0.0):
-        """Initial adhesion of some pairs, indices or a mask; 0 makes a notch."""
+    def set_adhesion(self, interface: int | Interface, pairs: ArrayLike, adhesion: ArrayLike = 0.0) -> None:
+        """Initial adhesion in [0, 1] of some pairs, one for all or [pairs]; 0 makes a notch. pairs: indices or a
+        mask."""
         interface = interface_index(interface, self.mesh)
         size = self._pair_counts[interface] if 0 <= interface < len(self._pair_counts) else None
         pairs = indices("pairs", pairs, size=size)
@@ -238,7 +256,8 @@ class Problem(Object):
     # ---- supports and loads
 
     def add_pattern(self, name: str, times: ArrayLike, values: ArrayLike) -> Pattern:
-        """A named factor that follows a piecewise-linear history, constant beyond its ends."""
+        """A named factor that follows a piecewise-linear history, constant beyond its ends. times and
+        values: [n], times ascending. ArgumentError: the name is taken."""
         times = floats("times", listed(times), (None,))
         values = floats("values", listed(values), (times.size,))
         index = ctypes.c_int64()
@@ -247,17 +266,19 @@ class Problem(Object):
         return Pattern(name, index.value, self)
 
     @property
-    def patterns(self):
+    def patterns(self) -> list[str]:
         """Names of the patterns, in the order of their indices."""
         count = ctypes.c_int64()
         self._call(library.delam_problem_pattern_count, count)
-        return [self.context.text(library.delam_problem_pattern_name, self._handle, i) for i in range(count.value)]
+        name = library.delam_problem_pattern_name
+        return [self.context.text(name, self._handle, i) or "" for i in range(count.value)]
 
-    def pattern(self, which: int | str | Pattern):
-        """Index of a pattern: itself, its name or its index."""
+    def pattern(self, which: int | str | Pattern) -> int:
+        """Index of a pattern: itself, its name or its index. ArgumentError: there is none of this name, or it is one of
+        another problem."""
         return pattern_index(which, self, self.patterns if isinstance(which, str) else ())
 
-    def _driven(self, drive, count=None):
+    def _driven(self, drive: Drive, count: int | None = None) -> tuple[IntArray, FloatArray]:
         """Patterns and their coefficients, [count][patterns] or [patterns]."""
         if drive is None:
             drive = {}
@@ -265,16 +286,17 @@ class Problem(Object):
             drive = {drive: 1.0}
         patterns = np.array([self.pattern(which) for which in drive], np.int64)
         if count is None:
-            coefficients = np.array([number(f"drive[{which!r}]", value) for which, value in drive.items()], float)
+            coefficients = np.array([number(f"drive[{which!r}]", value) for which, value in drive.items()], np.float64)
         else:
             columns = [spread(f"drive[{which!r}]", value, count) for which, value in drive.items()]
-            coefficients = np.ascontiguousarray(np.array(columns, float).reshape(len(columns), count).T)
+            coefficients = np.ascontiguousarray(np.array(columns, np.float64).reshape(len(columns), count).T)
         if not np.isfinite(coefficients).all():
             raise ArgumentError(f"drive = {drive} must be finite")
         return patterns, coefficients
 
-    def prescribe(self, nodes: ArrayLike, direction: str | ArrayLike, drive: Mapping | None = None):
-        """Prescribes direction . u of each node; fixed at zero without drive."""
+    def prescribe(self, nodes: ArrayLike, direction: str | ArrayLike, drive: Drive = None) -> None:
+        """Prescribes direction . u of each node, a length where the direction is a unit vector; fixed at zero without
+        drive. nodes: indices or a mask."""
         nodes = indices("nodes", nodes, size=self._node_count)
         along = axis("direction", direction, self.dimension)
         patterns, coefficients = self._driven(drive, nodes.size)
@@ -282,9 +304,9 @@ class Problem(Object):
                    pointer(patterns), pointer(coefficients), 0, long=True)
 
     def prescribe_mean(self, nodes: ArrayLike, weights: ArrayLike, direction: str | ArrayLike,
-                       drive: Mapping | None = None):
-        """Prescribes the weighted mean of direction . u over nodes; with the weights of Mesh.find_patch, a support spread
-        over a patch."""
+                       drive: Drive = None) -> None:
+        """Prescribes the weighted mean of direction . u over nodes; with the weights of Mesh.find_patch, a support
+        spread over a patch."""
         nodes = indices("nodes", nodes)
         weights = floats("weights", weights, (nodes.size,))
         along = axis("direction", direction, self.dimension)
@@ -292,39 +314,45 @@ class Problem(Object):
         self._call(library.delam_problem_prescribe_mean, nodes.size, pointer(nodes), pointer(weights), pointer(along),
                    patterns.size, pointer(patterns), pointer(coefficients), 0, long=True)
 
-    def add_equation(self, nodes: ArrayLike, coefficients: ArrayLike, drive: Mapping | None = None):
-        """sum_i coefficients[i] . u_nodes[i] = sum over patterns of drive * factor."""
+    def add_equation(self, nodes: ArrayLike, coefficients: ArrayLike, drive: Drive = None) -> None:
+        """sum_i coefficients[i] . u_nodes[i] = sum over patterns of drive * factor; coefficients:
+        [nodes][dimension]."""
         nodes = indices("nodes", nodes)
         coefficients = floats("coefficients", coefficients, (nodes.size, self.dimension))
         patterns, prescribed = self._driven(drive)
         self._call(library.delam_problem_add_equation, nodes.size, pointer(nodes), pointer(coefficients), patterns.size,
                    pointer(patterns), pointer(prescribed), 0, long=True)
 
-    def add_periodic(self, periods: ArrayLike, control_nodes: ArrayLike, tolerance: float = 0.0):
-        """u(x + period_k) - u(x) = u of control node k, on opposite faces of the mesh. periods:
-        [periods][dimension]."""
+    def add_periodic(self, periods: ArrayLike, control_nodes: ArrayLike, tolerance: float = 0.0) -> None:
+        """u(x + period_k) - u(x) = u of control node k, on opposite faces of the mesh. periods: [periods][dimension],
+        lengths; control_nodes: [periods]; tolerance: a fraction of the shortest edge, 0: 1e-6. MeshError: faces do not
+        match."""
         periods = floats("periods", [periods] if ndim(periods) == 1 else periods, (None, self.dimension))
         control_nodes = indices("control_nodes", control_nodes, (periods.shape[0],))
         self._call(library.delam_problem_add_periodic, periods.shape[0], pointer(periods), pointer(control_nodes),
                    number("tolerance", tolerance), 0, long=True)
 
-    def add_forces(self, pattern: int | str | Pattern, nodes: ArrayLike, forces: ArrayLike):
-        """Dead forces times the factor of a pattern: [nodes][dimension], or one vector for all."""
+    def add_forces(self, pattern: int | str | Pattern, nodes: ArrayLike, forces: ArrayLike) -> None:
+        """Dead forces (in 2D per unit of width) times the factor of a pattern: [nodes][dimension], or one vector for
+        all."""
         nodes = indices("nodes", nodes, size=self._node_count)
         if ndim(forces) == 1:
             forces = np.tile(floats("forces", forces, (self.dimension,)), (nodes.size, 1))
         forces = floats("forces", forces, (nodes.size, self.dimension))
-        self._call(library.delam_problem_add_forces, self.pattern(pattern), nodes.size, pointer(nodes), pointer(forces),
-                   0, long=True)
+        index = self.pattern(pattern)
+        self._call(library.delam_problem_add_forces, index, nodes.size, pointer(nodes), pointer(forces), 0, long=True)
+        self._drives.setdefault(index, "force")
 
-    def add_eigenstrain(self, pattern: int | str | Pattern, strain: ArrayLike, body: int | None = None):
+    def add_eigenstrain(self, pattern: int | str | Pattern, strain: ArrayLike, body: int | None = None) -> None:
         """xx, yy, zz, 2xy, 2yz, 2zx in the material axes, times the factor of a pattern."""
         strain = floats("strain", strain, (6,))
-        self._call(library.delam_problem_add_eigenstrain, self.pattern(pattern), body_label(body), pointer(strain))
+        index = self.pattern(pattern)
+        self._call(library.delam_problem_add_eigenstrain, index, body_label(body), pointer(strain))
+        self._drives.setdefault(index, "strain")
 
     # ---- queries
 
-    def check(self):
+    def check(self) -> None:
         """ProblemError names what is missing or contradictory."""
         self._call(library.delam_problem_check, long=True)
 
@@ -336,16 +364,17 @@ class Problem(Object):
         return out.value.decode()
 
     @property
-    def dofs(self):
+    def dofs(self) -> tuple[int, int]:
         """Numbers of displacements and of jumps."""
         primal, dual = ctypes.c_int64(), ctypes.c_int64()
         self._call(library.delam_problem_dofs, primal, dual)
         return primal.value, dual.value
 
-    def process_zone(self, interface: int | Interface):
-        """Expected length of the process zone, 0 if there is none, and the mean distance of pairs."""
+    def process_zone(self, interface: int | Interface) -> tuple[float, float]:
+        """Expected length of the process zone, 0 if there is none, and the mean distance of pairs, both lengths."""
         length, spacing = ctypes.c_double(), ctypes.c_double()
-        self._call(library.delam_problem_process_zone, interface_index(interface, self.mesh), length, spacing, long=True)
+        self._call(library.delam_problem_process_zone, interface_index(interface, self.mesh), length, spacing,
+                   long=True)
         return length.value, spacing.value
 
     def plan(self) -> Forecast:
@@ -355,7 +384,7 @@ class Problem(Object):
         return Forecast((plan.value or b"").decode(), setup.value, memory.value)
 
     def option(self, key: str) -> str:
-        """Value of an option as text."""
+        """Value of an option as text. ArgumentError: there is none of this key."""
         value = self.context.text(library.delam_problem_option, self._handle, text("key", key))
         if value is None:
             raise ArgumentError(f"option '{key}' is not known")
@@ -373,7 +402,8 @@ class Problem(Object):
         return keys
 
     def body_matrix(self, body: int) -> Sparse:
-        """Stiffness of a body over its nodes in ascending order, both triangles."""
+        """Stiffness of a body, forces per length, over its nodes in ascending order, both triangles: row
+        dimension * i + component of node i."""
         body = integer("body", body, 32)
         rows, entries = ctypes.c_int64(), ctypes.c_int64()
         self._call(library.delam_problem_body_matrix, body, rows, entries, None, None, None, long=True)
@@ -383,8 +413,8 @@ class Problem(Object):
                    long=True)
         return out
 
-    def constraints(self):
-        """Constraints over the mesh's displacements, and their right-hand sides [rows][patterns]."""
+    def constraints(self) -> tuple[Sparse, FloatArray]:
+        """Constraints [rows][displacements of the mesh], and their right-hand sides [rows][patterns] at factor 1."""
         rows, entries, patterns = ctypes.c_int64(), ctypes.c_int64(), ctypes.c_int64()
         sizes = rows, entries, patterns
         self._call(library.delam_problem_constraints, *sizes, None, None, None, None, long=True)
@@ -395,20 +425,21 @@ class Problem(Object):
                    pointer(coefficients), long=True)
         return out, coefficients
 
-    def forces(self, pattern: int | str | Pattern) -> NDArray:
+    def forces(self, pattern: int | str | Pattern) -> FloatArray:
         """Nodal forces [nodes][dimension] of a pattern at factor 1."""
         out = np.empty((self.dofs[0] // self.dimension, self.dimension))
         self._call(library.delam_problem_forces, self.pattern(pattern), out.size, pointer(out), long=True)
         return out
 
-    def eigenstrain_energy(self) -> NDArray:
-        """[patterns][patterns]"""
+    def eigenstrain_energy(self) -> FloatArray:
+        """[patterns][patterns]: W_pq, the integral of e_p : C : e_q over the bodies, e_p the eigenstrain of pattern p
+        and C the elasticity; 0 for other patterns."""
         out = np.zeros((len(self.patterns),) * 2)
         self._call(library.delam_problem_eigenstrain_energy, out.size, pointer(out), long=True)
         return out
 
-    def factors(self, time: float) -> NDArray:
-        """Factors of all patterns at a time."""
+    def factors(self, time: float) -> FloatArray:
+        """[patterns]: factors of all patterns at a time."""
         out = np.empty(len(self.patterns))
         self._call(library.delam_problem_factors, number("time", time), out.size, pointer(out))
         return out

@@ -2,19 +2,18 @@
 """Load steps, and the results of their states."""
 from __future__ import annotations
 
-import collections.abc
 import contextlib
 import ctypes
 import os
 import warnings
-from collections.abc import Callable, Iterable
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Iterable, Iterator, Mapping
+from typing import TYPE_CHECKING, Any, NamedTuple, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _raw
-from ._arrays import floats, listed, pointer
+from ._arrays import FloatArray, IntArray, floats, listed, pointer
 from ._call import Object, integer, number, text
 from ._library import library
 from .errors import ArgumentError, NotConverged, NotConvergedWarning
@@ -24,6 +23,8 @@ from .options import unknown
 from .problem import Problem, Sparse, pattern_index
 
 if TYPE_CHECKING:
+    import meshio
+
     from .mesh import Interface
     from .problem import Pattern
 
@@ -42,44 +43,62 @@ class ValueInfo(NamedTuple):
 
 
 class Average(NamedTuple):
-    """Over the volume of a body; xx, yy, zz, xy, yz, zx, shear strains doubled."""
+    """Over the volume of a body (in 2D its area): strain [6] and stress [6], xx, yy, zz, xy, yz, zx, shear strains
+    doubled."""
 
     volume: float
-    strain: np.ndarray
-    stress: np.ndarray
+    strain: FloatArray
+    stress: FloatArray
 
 
 class Condensed(NamedTuple):
     """All bodies condensed onto the interfaces, and the loads with them: at the factors theta the energy of bodies and
     dead forces is 1/2 x.S x - theta.L x + 1/2 theta.A theta, and the local jumps of all pairs, component by component,
-    are N x + O theta. The energy stored in the interfaces is not included."""
+    are N x + O theta. The energy stored in the interfaces is not included.
 
-    stiffness: np.ndarray  # S [unknowns][unknowns], symmetric
-    load: np.ndarray  # L [patterns][unknowns]
-    constant: np.ndarray  # A [patterns][patterns]
-    jump: Sparse  # N
-    offset: np.ndarray  # O [rows of N][patterns]
+    stiffness  S [unknowns][unknowns], symmetric
+    load       L [patterns][unknowns]
+    constant   A [patterns][patterns]
+    jump       N [dimension * pairs][unknowns]
+    offset     O [dimension * pairs][patterns]"""
+
+    stiffness: FloatArray
+    load: FloatArray
+    constant: FloatArray
+    jump: Sparse
+    offset: FloatArray
 
 
 class Fronts(NamedTuple):
-    """Crack fronts of an interface; front f has the points starts[f] .. starts[f+1]-1."""
+    """Crack fronts of an interface; front f has the points starts[f] .. starts[f+1]-1.
 
-    starts: np.ndarray  # [fronts + 1]
-    closed: np.ndarray  # [fronts] of bool: a loop
-    places: np.ndarray  # [points][dimension]
-    directions: np.ndarray  # [points][dimension], along the interface, into the adhering part
-    lengths: np.ndarray  # [points], 2D: length of the crack, 3D: length of front that belongs to a point
-    rates: np.ndarray  # [points][3], energy release rates in modes I, II, III
-    zone_lengths: np.ndarray  # [points], of the process zone
-    zone_pairs: np.ndarray  # [points]
+    starts        [fronts + 1]
+    closed        [fronts] of bool: a loop
+    places        [points][dimension]
+    directions    [points][dimension], unit vectors along the interface, into the adhering part
+    lengths       [points], 2D: length of the crack, 3D: length of front that belongs to a point
+    rates         [points][3], energy release rates (energy per area) in modes I, II, III
+    zone_lengths  [points], of the process zone
+    zone_pairs    [points], pairs in the process zone"""
 
-    def lines(self):
-        """Positions of each front."""
+    starts: IntArray
+    closed: NDArray[np.bool_]
+    places: FloatArray
+    directions: FloatArray
+    lengths: FloatArray
+    rates: FloatArray
+    zone_lengths: FloatArray
+    zone_pairs: FloatArray
+
+    def lines(self) -> list[FloatArray]:
+        """Positions [points of the front][dimension] of each front."""
         return [self.places[begin:end] for begin, end in zip(self.starts[:-1], self.starts[1:])]
 
 
 class Jump(NamedTuple):
-    """A jump of the state between the times `before` and `time` of a step; reactions: [patterns]."""
+    """A jump of the state between the times `before` and `time` of a step: energies that are stored, dissipated and
+    released by it (in 2D per unit of width), the area (in 2D length) that it debonded, the interface and the pairs
+    where, and the reactions [patterns] before and after."""
 
     step: int
     before: float
@@ -91,12 +110,13 @@ class Jump(NamedTuple):
     interface: int
     first_pair: int
     last_pair: int
-    reaction_before: NDArray
-    reaction_after: NDArray
+    reaction_before: FloatArray
+    reaction_after: FloatArray
 
 
 class PlanItem(NamedTuple):
-    """A part of the method that the scene needs or that was left out, and why."""
+    """A part of the method that the scene needs or that was left out, and why; cost and saving are predicted numbers of
+    `unit`."""
 
     subject: str
     decision: str
@@ -106,7 +126,7 @@ class PlanItem(NamedTuple):
     unit: str
 
 
-def _encoded(path):
+def _encoded(path: str | os.PathLike[str]) -> bytes:
     """A path in the encoding of the file system."""
     try:
         encoded = os.fsencode(path)
@@ -117,11 +137,12 @@ def _encoded(path):
     return encoded
 
 
-class Values(collections.abc.Mapping):
-    """Scalars of the state described, by name; computed on access. The state described is the step that look() has
-    selected, otherwise the pending state, or the committed one if no step is pending."""
+class Values(Mapping[str, float]):
+    """Scalars of the state described, by name; computed on access. KeyError: there is none of this name. The state
+    described is the step that look() has selected, otherwise the pending state, or the committed one if no step is
+    pending."""
 
-    def __init__(self, solver, keys):
+    def __init__(self, solver: Solver, keys: dict[str, bytes]) -> None:
         self._solver = solver
         self._keys = keys
 
@@ -133,20 +154,20 @@ class Values(collections.abc.Mapping):
         self._solver._call(library.delam_solver_value, key, out)
         return out.value
 
-    def __iter__(self):
+    def __iter__(self) -> Iterator[str]:
         return iter(self._keys)
 
-    def __len__(self):
+    def __len__(self) -> int:
         return len(self._keys)
 
-    def __contains__(self, name: str):
+    def __contains__(self, name: object) -> bool:
         return name in self._keys or self._solver._alias(name) is not None
 
     def describe(self) -> dict[str, ValueInfo]:
         """What each of them is: {name: ValueInfo}."""
         return self._solver._described()
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"<Values: {', '.join(self._keys)}>"
 
 
@@ -156,9 +177,14 @@ class Solver(Object):
         solver.advance(0.05)        # pending: results can be read
         solver.commit()             # kept, or solver.rollback()
 
-    not_converged: the effect of a step that reaches an iteration limit: "warn" (NotConvergedWarning, the step is pending),
-    "raise" (NotConverged, pending too) or "ignore". An interrupted call (Ctrl-C, or an exception from a callback)
-    restores the state before it."""
+    not_converged: the effect of a step that reaches an iteration limit: "warn" (NotConvergedWarning, the step is
+    pending), "raise" (NotConverged, pending too) or "ignore". An interrupted call (Ctrl-C, or an exception from a
+    callback) restores the state before it. `problem` is the problem given."""
+
+    problem: Problem
+    not_converged: str
+    _instead = ("Use save(), whose bytes can be pickled or written to a file, and load() them into a Solver of an "
+                "equal problem: it continues bit for bit.")
 
     def __init__(self, problem: Problem, time: float = 0.0, not_converged: str = "warn") -> None:
         if not_converged not in ("warn", "raise", "ignore"):
@@ -173,36 +199,38 @@ class Solver(Object):
         self._patterns = problem.patterns  # at creation: the solver stays usable when the problem is closed
         count = ctypes.c_int64()
         self._call(library.delam_solver_value_count, count)
-        names = (self.context.text(library.delam_solver_value_name, self._pointer, i) for i in range(count.value))
+        names = (self.context.text(library.delam_solver_value_name, self._pointer, i) or "" for i in range(count.value))
         self._keys = {name: name.encode() for name in names}
-        self._infos = None
+        self._infos: dict[str, ValueInfo] | None = None
         self._outcome(outcome, 3)
 
-    def _call(self, function, *arguments, long=False):
+    def _call(self, function: Any, *arguments: Any, long: bool = False) -> None:
         self.context.call(function, self._handle, *arguments, long=long)
 
-    def _described(self):
+    def _described(self) -> dict[str, ValueInfo]:
         """Of every value; asked for once."""
         if self._infos is None:
             texts, recorded = [ctypes.c_char_p() for _ in range(5)], ctypes.c_int32()
             infos = {}
             for i, name in enumerate(self._keys):
                 self._call(library.delam_solver_value_info, i, *texts, recorded)
-                infos[name] = ValueInfo(*(item.value.decode() for item in texts), bool(recorded))
+                alias, unit, cost, scope, meaning = ((item.value or b"").decode() for item in texts)
+                infos[name] = ValueInfo(alias, unit, cost, scope, meaning, bool(recorded))
             self._infos = infos
         return self._infos
 
-    def _alias(self, name):
+    def _alias(self, name: object) -> bytes | None:
         """The name as bytes if the library knows it as an alias, else None."""
-        known = isinstance(name, str) and name and any(name == info.alias for info in self._described().values())
-        return name.encode() if known else None
+        if not isinstance(name, str) or not name:
+            return None
+        return name.encode() if any(name == info.alias for info in self._described().values()) else None
 
     @property
-    def _pattern_count(self):
+    def _pattern_count(self) -> int:
         """Number at the solver's creation; its problem may have more by now."""
         return sum(name.startswith("load:") for name in self._keys)
 
-    def _outcome(self, outcome, level):
+    def _outcome(self, outcome: tuple[int, str], level: int) -> None:
         status, message = outcome
         if status == _raw.DELAM_NOT_CONVERGED:
             if self.not_converged == "raise":
@@ -217,7 +245,7 @@ class Solver(Object):
 
     @property
     def values(self) -> Values:
-        """Scalars by name, a mapping."""
+        """Scalars by name, a mapping; values.describe() says what each is, with its unit."""
         return Values(self, self._keys)
 
     # ---- steps
@@ -229,12 +257,12 @@ class Solver(Object):
         self._call(library.delam_solver_pending, out)
         return bool(out.value)
 
-    def _whole(self, function, *arguments, long=True):
+    def _whole(self, function: Any, *arguments: Any, long: bool = True) -> tuple[int, str]:
         """Calls a function that changes the state; Ctrl-C is raised after it."""
         return self.context.call(function, self._handle, *arguments, whole=True, long=long,
                                  outcomes=(_raw.DELAM_NOT_CONVERGED,))
 
-    def _step(self, function, *arguments):
+    def _step(self, function: Any, *arguments: Any) -> None:
         already = self.pending
         try:
             outcome = self._whole(function, *arguments)
@@ -245,38 +273,40 @@ class Solver(Object):
             raise
         self._outcome(outcome, 4)
 
-    def advance(self, time: float):
-        """One load step to `time`, pending."""
+    def advance(self, time: float) -> None:
+        """One load step to `time`, pending. StateError: a step is pending already; ArgumentError: the time does not lie
+        after the committed one; NumericalError: a factorisation broke down; LimitReached: there is no equilibrium."""
         self._step(library.delam_solver_advance, number("time", time))
 
-    def equilibrate(self, time: float, adhesion: ArrayLike | None = None):
-        """Displacements of least energy at `time` with fixed adhesion of all pairs, given interface after interface; None:
-        the committed one. Pending like a step."""
-        if adhesion is not None:
-            adhesion = floats("adhesion", adhesion, (self._shape("adhesion", -1)[0],))
-        self._step(library.delam_solver_equilibrate, number("time", time), pointer(adhesion))
+    def equilibrate(self, time: float, adhesion: ArrayLike | None = None) -> None:
+        """Displacements of least energy at `time` with fixed adhesion of all pairs, [pairs] interface after interface;
+        None: the committed one. Pending like a step."""
+        fixed = None if adhesion is None else floats("adhesion", adhesion, (self._shape("adhesion", -1)[0],))
+        self._step(library.delam_solver_equilibrate, number("time", time), pointer(fixed))
 
     def commit(self) -> None:
+        """Keeps the pending step. StateError: there is none."""
         self._whole(library.delam_solver_commit, long=False)
 
     def rollback(self) -> None:
-        """Restores the state before the pending step, bit for bit."""
+        """Restores the state before the pending step, bit for bit. StateError: there is none."""
         self._whole(library.delam_solver_rollback, long=False)
 
-    def set_history(self, pattern: int | str | Pattern, times: ArrayLike, values: ArrayLike):
-        """Changes the history of a load pattern from the committed time on: linear from the factor there to values[0] at
-        times[0] and through the further points, constant after the last. It is saved with the state."""
+    def set_history(self, pattern: int | str | Pattern, times: ArrayLike, values: ArrayLike) -> None:
+        """Changes the history of a load pattern from the committed time on: linear from the factor there to values[0]
+        at times[0] and through the further points, constant after the last; [n] both. It is saved with the state."""
         times = floats("times", listed(times), (None,))
         values = floats("values", listed(values), (times.size,))
         self._call(library.delam_solver_set_history, pattern_index(pattern, self.problem, self._patterns), times.size,
                    pointer(times), pointer(values))
 
-    def march(self, times: Iterable[float], values: Iterable[str] | None = None, progress: bool | Callable = False):
+    def march(self, times: Iterable[float], values: Iterable[str] | None = None,
+              progress: bool = False) -> Iterator[dict[str, float]]:
         """Advances and commits, time after time; yields a dict of values after each step.
 
-        values: names, None for all but the costly ones. progress: a bar (tqdm's if it is installed) on standard
-        error. A step that raises is rolled back. With option backtracking a step may replace earlier ones: value
-        revised_from is the first of those, look() reads them; history() does so by itself."""
+        values: names, None for all but the costly ones. progress: a bar (tqdm's if it is installed, also in notebooks)
+        on standard error. A step that raises is rolled back. With option backtracking a step may replace earlier ones:
+        value revised_from is the first of those, look() reads them; history() does so by itself."""
         names = self._names(values)
         for time in steps_of(times, progress):
             try:
@@ -289,16 +319,17 @@ class Solver(Object):
             yield {name: self.values[name] for name in names}
 
     def history(self, times: Iterable[float], values: Iterable[str] | None = None,
-                progress: bool | Callable = False) -> History:
+                progress: bool = False) -> History:
         """Runs the analysis and returns the History of all steps, with the present state as its first row."""
         history = History(self, values)
         for _ in self.march(times, (), progress):
             history.record()
         return history
 
-    def record(self, *names: str):
-        """Records these values for the committed state and, with each later commit, for every further step, including steps
-        that returns replace; save() saves them. Any values but the costly ones and the counts over the solver's life."""
+    def record(self, *names: str) -> None:
+        """Records these values for the committed state and, with each later commit, for every further step, including
+        steps that returns replace; save() saves them. Any values but the costly ones and the counts over the solver's
+        life."""
         for name in names:
             if name not in self.values:
                 raise unknown(name, self._keys, "value")
@@ -306,38 +337,41 @@ class Solver(Object):
             self._call(library.delam_solver_record, text("name", name))
 
     @property
-    def recorded_steps(self):
-        """range of the recorded steps, up to the committed one."""
+    def recorded_steps(self) -> range:
+        """Range of the recorded steps, up to the committed one."""
         first, count = ctypes.c_int64(), ctypes.c_int64()
         self._call(library.delam_solver_recorded_size, first, count)
         return range(first.value, first.value + count.value)
 
-    def recorded(self, name: str) -> NDArray:
-        """A recorded value for each step, an array; NaN for steps before record()."""
+    def recorded(self, name: str) -> FloatArray:
+        """[recorded_steps]: a recorded value for each step; NaN for steps before record(). ArgumentError: it is not
+        recorded."""
         out = np.empty(len(self.recorded_steps))
         self._call(library.delam_solver_recorded, text("name", name), out.size, pointer(out))
         return out
 
-    def _names(self, values):
+    def _names(self, values: Iterable[str] | None) -> tuple[str, ...]:
         if values is None:
             # A history has what recovers the displacements only when it is asked for.
             return tuple(name for name, info in self._described().items() if info.cost != "recovers")
-        for name in values:
+        names = tuple(values)
+        for name in names:
             if name not in self.values:
                 raise unknown(name, tuple(self.values), "value")
-        return tuple(values)
+        return names
 
     @property
     def time(self) -> float:
         """Time of the state described (Values)."""
         return self.values["time"]
 
-    def look(self, step: int):
-        """Selects the state described: an earlier step (option backtracking); -1: the pending or committed one again."""
+    def look(self, step: int) -> None:
+        """Selects the state described: an earlier step (option backtracking); -1: the pending or committed one
+        again."""
         self._call(library.delam_solver_look, integer("step", step))
 
     @contextlib.contextmanager
-    def looking(self, step: int):
+    def looking(self, step: int) -> Iterator[Solver]:
         """with solver.looking(3): values and fields of step 3."""
         self.look(step)
         try:
@@ -347,9 +381,15 @@ class Solver(Object):
 
     # ---- the committed state, as bytes or as a file
 
-    def save(self, path: str | os.PathLike | None = None):
-        """Returns the committed state as bytes, or writes them to a file, which replaces `path` when it is complete and on
-        disk."""
+    @overload
+    def save(self, path: None = None) -> bytes: ...
+
+    @overload
+    def save(self, path: str | os.PathLike[str]) -> None: ...
+
+    def save(self, path: str | os.PathLike[str] | None = None) -> bytes | None:
+        """Returns the committed state as bytes, or writes them to a file, which replaces `path` when it is complete and
+        on disk. FileError says why it could not be written."""
         if path is not None:
             self._call(library.delam_solver_save_file, _encoded(path))
             return None
@@ -359,30 +399,33 @@ class Solver(Object):
         self._call(library.delam_solver_save, out.size, pointer(out), needed)
         return out.tobytes()
 
-    def load(self, state: bytes | str | os.PathLike):
-        """Continues from a state of the same scene and options: saved bytes, or the path (str, os.PathLike) of a file with
-        them. Discards a pending step."""
+    def load(self, state: bytes | bytearray | memoryview | str | os.PathLike[str]) -> None:
+        """Continues from a state of the same scene and options: saved bytes, or the path (str, os.PathLike) of a file
+        with them. Discards a pending step. SnapshotError: damaged, or of another scene or version; FileError: not
+        readable."""
         if isinstance(state, (str, os.PathLike)):
             self._whole(library.delam_solver_load_file, _encoded(state))
             return
         try:
-            state = np.frombuffer(state, np.uint8)
+            data = np.frombuffer(state, np.uint8)
         except (TypeError, ValueError, BufferError) as error:
             raise ArgumentError(f"state: {error}") from None
-        self._whole(library.delam_solver_load, state.size, pointer(state))
+        self._whole(library.delam_solver_load, data.size, pointer(data))
 
     # ---- fields
 
-    def _shape(self, name, part):
+    def _shape(self, name: str, part: int) -> tuple[int, int]:
         rows, columns = ctypes.c_int64(), ctypes.c_int64()
         self._call(library.delam_solver_field_shape, text("name", name), part, rows, columns)
         return rows.value, columns.value
 
-    def field(self, name: str, interface: int | Interface | None = None) -> NDArray:
+    def field(self, name: str, interface: int | Interface | None = None) -> FloatArray:
         """A field of the state described (Values): [rows][columns], or [rows] if there is one column.
 
-        Over nodes: displacement. Cells: stress, rotation. Pairs of an interface, None for all one after another: jump,
-        traction, adhesion, mixity, contact. Constraints: reaction."""
+        Over nodes: displacement [nodes][dimension], lengths. Over cells: stress [cells][6] (xx, yy, zz, xy, yz, zx),
+        rotation. Over pairs of an interface, None for all one after another: jump and traction [pairs][dimension]
+        (normal, tangents; lengths and stresses), adhesion, mixity and contact [pairs]. Over constraints: reaction.
+        ArgumentError: there is no such field."""
         part = -1 if interface is None else interface_index(interface, self.problem.mesh)
         rows, columns = self._shape(name, part)
         out = np.empty((rows, columns) if columns > 1 else rows)
@@ -390,13 +433,13 @@ class Solver(Object):
         return out
 
     def average(self, body: int | None = None) -> Average:
-        """Volume, average strain and average stress of a body; None: of all."""
+        """Volume, average strain and average stress of a body; None: of all. It recovers the displacements."""
         volume, strain, stress = ctypes.c_double(), np.empty(6), np.empty(6)
         self._call(library.delam_solver_average, body_label(body), volume, pointer(strain), pointer(stress), long=True)
         return Average(volume.value, strain, stress)
 
     def fronts(self, interface: int | Interface = 0) -> Fronts:
-        """The fronts of the cracks of an interface."""
+        """The fronts of the cracks of an interface in the state described (Values)."""
         interface = interface_index(interface, self.problem.mesh)
         fronts, points = ctypes.c_int64(), ctypes.c_int64()
         self._call(library.delam_solver_front_count, interface, fronts, points)
@@ -406,14 +449,15 @@ class Solver(Object):
         self._call(library.delam_solver_front, interface, m, n, *(pointer(array) for array in out))
         return out._replace(closed=out.closed.astype(bool))
 
-    def tangent(self) -> NDArray:
+    def tangent(self) -> FloatArray:
         """[patterns][patterns]: change of reactions with factors at fixed adhesion and contact; symmetric."""
         out = np.empty((self._pattern_count,) * 2)
         self._call(library.delam_solver_tangent, out.size, pointer(out), long=True)
         return out
 
-    def step_tangent(self) -> NDArray:
-        """[patterns][patterns]: change of reactions with factors at the end of the pending step, damage included."""
+    def step_tangent(self) -> FloatArray:
+        """[patterns][patterns]: change of reactions with factors at the end of the pending step, damage included.
+        StateError: no step is pending."""
         out = np.empty((self._pattern_count,) * 2)
         self._call(library.delam_solver_step_tangent, out.size, pointer(out), long=True)
         return out
@@ -433,28 +477,45 @@ class Solver(Object):
                    *(pointer(array) for array in jump[1:]), pointer(out.offset), long=True)
         return out
 
+    def to_meshio(self) -> meshio.Mesh:
+        """The bodies of the state described (Values) as a meshio.Mesh: displacement [nodes][3] as point data, stress
+        [cells][6] and bodies as cell data; to_meshio().write("now.vtu") is for ParaView."""
+        from .meshes import solver_grid
+        return solver_grid(self).to_meshio()
+
+    def to_vtk(self) -> Any:
+        """The same as a vtkUnstructuredGrid. ImportError: VTK is not installed."""
+        from .meshes import solver_grid
+        return solver_grid(self).to_vtk()
+
+    def to_pyvista(self) -> Any:
+        """The same as a pyvista.UnstructuredGrid. ImportError: PyVista is not installed."""
+        from .meshes import solver_grid
+        return solver_grid(self).to_pyvista()
+
     # ---- reports
 
     @property
     def plan(self) -> str:
         """The parts of the method that the scene needs and those left out, as text."""
-        return self.context.text(library.delam_solver_plan, self._handle)
+        return self.context.text(library.delam_solver_plan, self._handle) or ""
 
     @property
     def plan_items(self) -> list[PlanItem]:
+        """The parts of the plan, one by one."""
         count = ctypes.c_int64()
         self._call(library.delam_solver_plan_count, count)
         items = []
         for i in range(count.value):
-            subject, decision, reason, unit = (ctypes.c_char_p() for _ in range(4))
+            texts = [ctypes.c_char_p() for _ in range(4)]
             cost, saving = ctypes.c_double(), ctypes.c_double()
-            self._call(library.delam_solver_plan_item, i, subject, decision, reason, cost, saving, unit)
-            items.append(PlanItem(subject.value.decode(), decision.value.decode(), reason.value.decode(), cost.value,
-                                  saving.value, unit.value.decode()))
+            self._call(library.delam_solver_plan_item, i, *texts[:3], cost, saving, texts[3])
+            subject, decision, reason, unit = ((text.value or b"").decode() for text in texts)
+            items.append(PlanItem(subject, decision, reason, cost.value, saving.value, unit))
         return items
 
     def option(self, key: str) -> str:
-        """Value of an option as text, as copied by the solver."""
+        """Value of an option as text, as copied by the solver. KeyError: there is none of this key."""
         value = self.context.text(library.delam_solver_option, self._handle, text("key", key))
         if value is None:
             raise unknown(key, tuple(self.problem.options), "option")
@@ -463,7 +524,7 @@ class Solver(Object):
     @property
     def searched(self) -> str:
         """What the energetic search of the last step compared."""
-        return self.context.text(library.delam_solver_searched, self._handle)
+        return self.context.text(library.delam_solver_searched, self._handle) or ""
 
     @property
     def jumps(self) -> list[Jump]:
@@ -472,7 +533,8 @@ class Solver(Object):
         self._call(library.delam_solver_jump_count, count)
         jumps = []
         for i in range(count.value):
-            out = [ctypes.c_int64(), *(ctypes.c_double() for _ in range(6)), *(ctypes.c_int64() for _ in range(3))]
+            out: list[Any] = [ctypes.c_int64(), *(ctypes.c_double() for _ in range(6)),
+                              *(ctypes.c_int64() for _ in range(3))]
             self._call(library.delam_solver_jump, i, *out)
             reactions = [np.empty(self._pattern_count) for _ in range(2)]
             self._call(library.delam_solver_jump_reactions, i, self._pattern_count, *map(pointer, reactions))

@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Interfaces of a body in space, seen in plan."""
+import os
+
+import h5py
 import numpy as np
 from matplotlib.collections import LineCollection
 
-from result import axis, plt
-from section import PIECES
+from .cells import ZETA, text_of
+from .result import Nothing, axis, plt
+from .section import PIECES
 
 LARGEST = 8  # interfaces in one picture
 
@@ -29,7 +33,8 @@ def seen_from_above(points):
 
 
 def plan_of(points):
-    """A function from places [n][3] to plan [n][2]: from above, or along the normal of an interface that does not lie."""
+    """A function from places [n][3] to plan [n][2]: from above, or along the normal of an interface that does not
+    lie."""
     if seen_from_above(points):
         return lambda at: at[:, :2]
     middle, spread = main_axes(points)
@@ -43,8 +48,8 @@ def triangles_of(faces):
 
 
 def sides_of(group):
-    """The sides of an interface around a body, upper and lower: name, which nodes, which triangles. One side with all of them
-    where it does not fold."""
+    """The sides of an interface around a body, upper and lower: name, which nodes, which triangles. One side with all
+    of them where it does not fold."""
     points, weights, triangles = group["points"][()], group["weights"][()], triangles_of(group["faces"][()])
     up = np.array([0.0, 0.0, 1.0]) if seen_from_above(points) else main_axes(points)[1][2]
     nodes = group["frames"][()].reshape(-1, 3, 3)[:, 0] @ up > 0
@@ -78,12 +83,22 @@ def lines_of(group, plan, points, side):
         order = np.arange(starts[f], starts[f + 1])
         if closed[f] and len(order):
             order = np.append(order, order[0])
-        lines += [at[part] for part in np.split(order, np.flatnonzero(np.diff(on_side[order])) + 1) if on_side[part[:1]].all()]
+        parts = np.split(order, np.flatnonzero(np.diff(on_side[order])) + 1)
+        lines += [at[part] for part in parts if on_side[part[:1]].all()]
     return [line for line in lines if len(line) > 1]
 
 
-def plot_fronts(result, file, title_of, colours):
-    """Adhesion at the last step in plan, and over it the fronts of all stored steps, by time. None where there is no front."""
+def fronts_figure(result):
+    """Adhesion at the last step in plan, and over it the fronts of all stored steps, by time."""
+    if result.about["scene"]["dimension"] == 2:
+        raise Nothing("fronts are drawn of scenes in space")
+    with h5py.File(os.path.join(result.folder, "fields.h5"), "r") as file:
+        figure = draw_fronts(result, file)
+    result.stamp(figure)
+    return figure
+
+
+def draw_fronts(result, file):
     steps = [file["steps"][name] for name in sorted(file["steps"])]
     times = np.array([float(step.attrs["time"]) for step in steps])
     panels = []
@@ -97,27 +112,27 @@ def plot_fronts(result, file, title_of, colours):
         if any(any(fronts) for _, _, fronts in sides):
             panels += [(name, plan, *side) for side in sides]
     if not panels:
-        return None
+        raise Nothing("no interface has a front")
     columns = 1 if len(panels) < 3 else 2
     rows = -(-len(panels) // columns)
     width = 10.0 if columns == 1 else 6.5
     shapes = [np.ptp(plan(file["interfaces"][name]["points"][()]), axis=0) for name, plan, *_ in panels]
     heights = [min(max(0.8 * width * shape[1] / shape[0], 1.2), 6.0) for shape in shapes]
     heights = [max(heights[r:r + columns]) for r in range(0, len(panels), columns)]
-    figure, axes = plt.subplots(rows, columns, figsize=(columns * width, sum(heights) + 0.8 * rows + 0.9), squeeze=False,
-                                height_ratios=heights, layout="constrained")
+    figure, axes = plt.subplots(rows, columns, figsize=(columns * width, sum(heights) + 0.8 * rows + 0.9),
+                                squeeze=False, height_ratios=heights, layout="constrained")
     shades = plt.get_cmap("gray")
     scale = plt.Normalize(times[0], times[-1])
     for ax, (name, plan, title, seen, fronts) in zip(axes.flat, panels):
         interface = file["interfaces"][name]
         at = plan(interface["points"][()])
         drawn = ax.tripcolor(at[:, 0], at[:, 1], triangles_of(interface["faces"][()])[seen],
-                             steps[-1][name]["zeta"][()], cmap=colours, vmin=0, vmax=1, shading="gouraud")
+                             steps[-1][name]["zeta"][()], cmap=ZETA, vmin=0, vmax=1, shading="gouraud")
         for time, lines in zip(times, fronts):
             ax.add_collection(LineCollection(lines, colors=[shades(scale(time))], linewidths=1.3))
         ax.set_aspect("equal")
         ax.grid(False)
-        ax.set_title(title_of(interface) + title, fontsize=9, loc="left")
+        ax.set_title(text_of(interface.attrs["name"]) + title, fontsize=9, loc="left")
         above = seen_from_above(interface["points"][()])
         ax.set_xlabel(axis("x" if above else "along the first direction", result.length))
         ax.set_ylabel(axis("y" if above else "across", result.length))

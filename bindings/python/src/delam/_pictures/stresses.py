@@ -6,9 +6,9 @@ import h5py
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 
-from cells import boundary_edges, cell_blocks
-from result import axis, plt
-from snapshots import load_text, snapshot_steps
+from .cells import boundary_edges, cell_blocks
+from .result import Nothing, axis, plt
+from .snapshots import load_text, snapshot_steps
 
 
 def draw_stress(ax, moved, file, step, factor, largest):
@@ -25,17 +25,17 @@ def draw_stress(ax, moved, file, step, factor, largest):
     return drawn
 
 
-def plot_stresses(result):
+def stresses_figure(result):
     """Of a plane scene with prescribed strains: stress along x, where most cells have less than the colours end at."""
     output = result.about["output"]
     if not result.prescribed_strains() or result.about["scene"]["dimension"] != 2 or "stress" not in output["fields"]:
-        return
+        raise Nothing("stresses are drawn of plane scenes with prescribed strains that store the field stress")
     factor, unit = result.stress_unit()
     with h5py.File(os.path.join(result.folder, "fields.h5"), "r") as file:
         shots = snapshot_steps(file, output["snapshots"])
         points = file["mesh/points"][:, :2]
         if "displacement" not in shots[0][1]:
-            return
+            raise Nothing("no displacement in fields.h5")
         height = min(4.0, 0.75 + 10 * np.ptp(points[:, 1]) / np.ptp(points[:, 0]))
         figure, axes = plt.subplots(len(shots), 1, squeeze=False, layout="constrained",
                                     figsize=(11.0, 1.0 + len(shots) * height))
@@ -54,4 +54,4 @@ def plot_stresses(result):
             bar.outline.set_visible(False)
         figure.suptitle(result.title(f"stress along x, displacements × {output['displacement_scale']:g}"), fontsize=11)
         result.stamp(figure)
-        result.save(figure, "stresses.png")
+    return figure

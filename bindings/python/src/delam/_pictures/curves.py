@@ -2,10 +2,10 @@
 """Pictures of the history alone: load and displacement, average stress and strain, energies."""
 import numpy as np
 
-from result import BLUE, GREEN, GREY, ORANGE, RED, axis, early_end, plt, zoom
+from .result import BLUE, GREEN, GREY, ORANGE, RED, Nothing, axis, early_end, plt, zoom
 
 
-def plot_load(result):
+def load_figure(result):
     """A picture for each pattern; of a single one also the beginning where that is where things happen."""
     patterns = result.patterns()
     number = len(patterns)
@@ -32,14 +32,14 @@ def plot_load(result):
             drawn[1].set_title("the beginning", fontsize=10, loc="left")
     figure.suptitle(result.title("load and displacement"), fontsize=11)
     result.stamp(figure)
-    result.save(figure, "load-displacement.png")
+    return figure
 
 
-def plot_averages(result):
+def averages_figure(result):
     """Average stress over average strain."""
     averages = result.averages()
     if not averages:
-        return
+        raise Nothing("the history has no component of both average strain and average stress")
     factor, unit = result.stress_unit()
     figure, ax = plt.subplots(figsize=(6.8, 4.4), layout="constrained")
     for component, strain, stress in averages:
@@ -58,7 +58,7 @@ def plot_averages(result):
         ax.set_title(averages[0][0], fontsize=10, loc="left")
     figure.suptitle(result.title("average stress and strain"), fontsize=11)
     result.stamp(figure)
-    result.save(figure, "stress-strain.png")
+    return figure
 
 
 def draw_energies(ax, result):
@@ -78,7 +78,7 @@ def draw_energies(ax, result):
     return [(h["time"], y) for _, y, _ in curves]
 
 
-def plot_energies(result):
+def energies_figure(result):
     h = result.history
     t = h["time"]
     closer = early_end(result)
@@ -110,11 +110,11 @@ def plot_energies(result):
     bottom.set_xlabel(axis("time", result.time))
     bottom.legend(loc="upper left", bbox_to_anchor=(0, -0.2), ncols=3, fontsize=8)
     # As the run judged it: the picture and its closing line must not disagree.
-    broken = len(result.about.get("estimate_violated", []))
+    violated = result.about.get("estimate_violated", [])
     eta = result.about["options"]["backtracking_tolerance"]
-    bottom.set_title(("two-sided estimate: met in every step" if broken == 0 else
-                      f"two-sided estimate: violated in {broken} of {len(t) - 1} steps") + f" (tolerance {eta:g})",
-                     fontsize=9, loc="left")
+    said = "" if violated is None else ": met in every step" if len(violated) == 0 else (
+        f": violated in {len(violated)} of {len(t) - 1} steps")
+    bottom.set_title(f"two-sided estimate{said} (tolerance {eta:g})", fontsize=9, loc="left")
     returns = int(np.sum(h["backtracks"]))
     if returns:
         bottom.set_title(f"returns to earlier steps: {returns}", fontsize=9, loc="right")
@@ -123,4 +123,4 @@ def plot_energies(result):
         bottom.set_ylim(-1.15 * room, 1.15 * room)
     figure.suptitle(result.title("energies"), fontsize=11)
     result.stamp(figure)
-    result.save(figure, "energies.png")
+    return figure

@@ -1,16 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Bodies in space cut open by a plane, deformed, with the adhesion of their interfaces in colour along the cut."""
 import os
-import sys
 
 import h5py
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 
-from cells import BODIES, ZETA, body_of_nodes, body_tones
-from result import plt
-from section import Section, cut_triangles, on_plane, triangles_of
-from snapshots import adhesion_bar, plane_axes, snapshot_steps, stamp_scale
+from .cells import BODIES, ZETA, body_of_nodes, body_tones
+from .result import Nothing, plt
+from .section import Section, cut_triangles, on_plane, triangles_of
+from .snapshots import adhesion_bar, plane_axes, snapshot_steps, stamp_scale
 
 AXES = "xyz"
 PLACES = (0.5, 0.25, 0.75)  # of the box of the bodies
@@ -44,7 +43,8 @@ def plane_of(text):
 
 
 def interface_lines(group, distance, side):
-    """Where one side of an interface crosses the plane: pairs of its nodes [lines][2][2], counted as the interface does."""
+    """Where one side of an interface crosses the plane: pairs of its nodes [lines][2][2], counted as the interface
+    does."""
     nodes = group[side][()]
     triangles = triangles_of(group["faces"][()], nodes)
     return cut_triangles(triangles, distance[nodes])[0]
@@ -126,21 +126,20 @@ def box_of(file, step, scale, plane, section):
     return at.min(0), at.max(0)
 
 
-def plot_cut(result, plane=None):
+def cut_figure(result, plane=None):
     """Bodies in space at the instants of the snapshots, cut open by this plane, or by one that shows much."""
     output = result.about["output"]
     scale = output["displacement_scale"]
     if result.about["scene"]["dimension"] == 2:
-        return
+        raise Nothing("plane bodies are not cut")
     with h5py.File(os.path.join(result.folder, "fields.h5"), "r") as file:
         shots = snapshot_steps(file, output["snapshots"])
         if "displacement" not in shots[0][1]:
-            return
+            raise Nothing("no displacement in fields.h5")
         plane = plane or chosen_plane(file, shots[-1][1])
         section = Section(file["mesh/cells"][()], file["mesh/body"][()], plane.distance(file["mesh/points"][()]))
         if len(section.polygons) == 0:
-            print(f"plot.py: the {plane.text(result.length)} meets no cell, so no cut.png", file=sys.stderr)
-            return
+            raise Nothing(f"the {plane.text(result.length)} meets no cell", expected=False)
         boxes = [box_of(file, step, scale, plane, section) for _, step in shots]
         wide = max((high - low)[0] for low, high in boxes) > 5 * max((high - low)[1] for low, high in boxes)
         figure, axes = plane_axes(result, shots, boxes, *((1, 10.0) if wide else (2, 5.6)))
@@ -148,6 +147,7 @@ def plot_cut(result, plane=None):
             drawn = draw_cut(ax, file, step, scale, plane, section)
         if drawn is not None:
             adhesion_bar(figure, drawn, axes)
-        figure.suptitle(result.title(f"{plane.text(result.length)}, {plane.view()}, displacements × {scale:g}"), fontsize=11)
+        said = f"{plane.text(result.length)}, {plane.view()}, displacements × {scale:g}"
+        figure.suptitle(result.title(said), fontsize=11)
         stamp_scale(result, figure, scale)
-        result.save(figure, "cut.png")
+    return figure

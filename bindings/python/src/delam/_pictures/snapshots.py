@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Bodies at some instants: deformed, with the adhesion of their interfaces in colour."""
 import os
-import sys
 
 import h5py
 import matplotlib
@@ -9,10 +8,10 @@ import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
-from cells import (BODIES, ZETA, body_of_nodes, body_tones, boundary_edges, boundary_faces, cell_blocks, cell_outlines,
+from .cells import (BODIES, ZETA, body_of_nodes, body_tones, boundary_edges, boundary_faces, cell_blocks, cell_outlines,
                    hidden_bodies, text_of, without)
-from fronts import chosen_interfaces, plan_of, triangles_of
-from result import plt
+from .fronts import chosen_interfaces, plan_of, triangles_of
+from .result import Nothing, plt
 
 
 def snapshot_steps(file, instants):
@@ -45,7 +44,8 @@ def load_text(result, time):
     if drives == "force":
         return text
     # Without a name of a unit no blank is left before the comma.
-    return f"{text} {result.length}".rstrip() + f", reaction {four_digits(result.history[reaction][row])} {result.force}"
+    force = f"{four_digits(result.history[reaction][row])} {result.force}"
+    return f"{text} {result.length}".rstrip() + f", reaction {force}"
 
 
 def draw_plane(ax, file, step, scale, light_mesh):
@@ -195,18 +195,17 @@ def plot_solid(result, file, shots, scale):
     return figure, axes, drawn
 
 
-def plot_snapshots(result):
+def snapshots_figure(result):
     output = result.about["output"]
     scale = output["displacement_scale"]
     with h5py.File(os.path.join(result.folder, "fields.h5"), "r") as file:
         shots = snapshot_steps(file, output["snapshots"])
         if "displacement" not in shots[0][1]:
-            print("plot.py: no displacement in fields.h5, so no snapshots.png", file=sys.stderr)
-            return
+            raise Nothing("no displacement in fields.h5", expected=False)
         draw = plot_plane if result.about["scene"]["dimension"] == 2 else plot_solid
         figure, axes, drawn = draw(result, file, shots, scale)
         if drawn is not None:
             adhesion_bar(figure, drawn, axes)
         figure.suptitle(result.title(f"displacements × {scale:g}"), fontsize=11)
         stamp_scale(result, figure, scale)
-        result.save(figure, "snapshots.png")
+    return figure

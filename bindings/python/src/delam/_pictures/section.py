@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Plane sections through solid cells: marching tetrahedra, with curved cells in as many flat pieces as they have nodes for."""
+"""Plane sections through solid cells: marching tetrahedra, with curved cells in as many flat pieces as they have nodes
+for."""
 import numpy as np
 
 PIECES = {3: [[0, 1, 2]], 4: [[0, 1, 2], [0, 2, 3]], 6: [[0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]],
@@ -37,7 +38,8 @@ def triangles_of(faces, key=None):
 
 
 def cut_triangles(triangles, distance):
-    """The lines in which triangles cross the plane: pairs of nodes [lines][2 ends][2], and the triangles that cross it."""
+    """The lines in which triangles cross the plane: pairs of nodes [lines][2 ends][2], and the triangles that cross
+    it."""
     above = distance[triangles] >= 0
     number = above.sum(1)
     crossing = np.flatnonzero((number > 0) & (number < 3))
@@ -108,7 +110,8 @@ class Section:
         return corner * values[nodes[:, :CORNERS[number]]].sum(1) + side * values[nodes[:, CORNERS[number]:]].sum(1)
 
     def lines(self, blocks):
-        """Lines between cells, and those of faces of one cell alone. A face that crosses the plane belongs to cells that do."""
+        """Lines between cells, and those of faces of one cell alone. A face that crosses the plane belongs to cells
+        that do."""
         edges, skin = [np.empty((0, 2, 2), int)], [np.empty((0, 2, 2), int)]
         for faces in blocks:
             _, index, count = np.unique(np.sort(faces, 1), axis=0, return_index=True, return_counts=True)

@@ -1,21 +1,46 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the plot scripts share: a result of `delam run` as it lies in its folder, and how pictures look."""
+"""What the pictures share: a result of `delam run` as it lies in its folder, and how pictures look."""
+import contextlib
 import csv
 import json
 import os
 
 import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
 BLUE, RED, GREEN, ORANGE, GREY = "#1f5a99", "#b3312c", "#2f7d4f", "#d18b1f", "#7a7f87"
-plt.rcParams.update({
+STYLE = {
     "font.size": 10, "axes.titlesize": 11, "axes.spines.top": False, "axes.spines.right": False,
     "axes.grid": True, "grid.color": "#e4e6ea", "grid.linewidth": 0.8, "axes.axisbelow": True,
     "axes.edgecolor": "#50555c", "lines.linewidth": 1.6, "legend.frameon": False, "figure.dpi": 110, "savefig.dpi": 150,
-})
+}
+
+
+class Nothing(Exception):
+    """Why there is no picture. expected: a result of this kind has none."""
+
+    def __init__(self, reason, expected=True):
+        super().__init__(reason)
+        self.expected = expected
+
+
+def for_files():
+    """Pictures are written, not shown: for scripts."""
+    matplotlib.use("Agg")
+    plt.rcParams.update(STYLE)
+
+
+@contextlib.contextmanager
+def styled():
+    """The style for a while. Not pyplot's rc_context: at its end it forgets what a notebook sets with its first
+    figure."""
+    before = {key: plt.rcParams[key] for key in STYLE}
+    plt.rcParams.update(STYLE)
+    try:
+        yield
+    finally:
+        plt.rcParams.update(before)
 
 
 def axis(label, unit):
@@ -30,8 +55,8 @@ def save(figure, path):
 
 
 def early_end(result):
-    """Step up to which to look more closely: twice as far as where half of what dissipates has done so, if that is in the
-    first sixth of the march; else None."""
+    """Step up to which to look more closely: twice as far as where half of what dissipates has done so, if that is in
+    the first sixth of the march; else None."""
     dissipated = result.history["dissipated"]
     time = result.history["time"]
     half = int(np.argmax(dissipated >= 0.5 * dissipated[-1]))
@@ -63,6 +88,10 @@ class Result:
         self.history = {name: np.array([float(row[i]) for row in rows[1:]]) for i, name in enumerate(rows[0])
                         if name not in ("solution", "mixity_rule")}
         self.cell = self.about.get("cell")
+        self.name_units()
+
+    def name_units(self):
+        """Names of the units of lengths, times, forces and energies, "" where they are not known."""
         units = self.about["units"]
         flat = self.about["scene"]["dimension"] == 2
         self.length, self.time = units["length"], units["time"]

@@ -3,7 +3,7 @@
 import matplotlib.colors
 import numpy as np
 
-from section import CORNERS, FACES
+from .section import CORNERS, FACES
 
 # Pale tones of the bodies, by turns; fibre-1 and fibre-2 have the same.
 BODIES = ["#f4f1e8", "#dde5ee", "#e6ebdf"]
@@ -63,7 +63,8 @@ def cell_faces(cells):
 
 
 def face_keys(faces):
-    """The same numbers for the same corners [n][4], however they are turned, and whichever of a triangle's is there twice."""
+    """The same numbers for the same corners [n][4], however they are turned, and whichever of a triangle's is there
+    twice."""
     key = np.sort(faces, 1)
     triangle = faces[:, 2] == faces[:, 3]
     if triangle.any():
