@@ -11,6 +11,12 @@ const byId = (id) => document.getElementById(id);
 const darkness = window.matchMedia('(prefers-color-scheme: dark)');
 const oneFrame = 120; // milliseconds between steps that are played
 
+function drawsInSpace() {
+  const context = document.createElement('canvas').getContext('webgl2');
+  context?.getExtension('WEBGL_lose_context')?.loseContext();
+  return Boolean(context);
+}
+
 // In space the interfaces are inside.
 const bodyOpacity = ({ flat }) => (flat ? 1 : 0.25);
 
@@ -56,12 +62,8 @@ class Page {
     byId('scene').setAttribute('aria-label', `Deformed body: ${byId('title').textContent}`);
     byId('drag').textContent = flat ? 'move' : 'turn';
     // The numbers and charts are there without a picture, too.
-    try {
-      this.scene = new Scene(byId('scene'), mesh, drawTriad);
-    } catch (error) {
-      this.scene = null;
-      byId('waiting').textContent = `This browser draws no picture (WebGL: ${error.message}).`;
-    }
+    if (drawsInSpace()) this.scene = new Scene(byId('scene'), mesh, drawTriad);
+    else byId('waiting').textContent = 'No picture: this browser has no WebGL 2, or it is switched off.';
     this.colours = painter(darkness.matches);
     await this.bind(mesh);
     await this.show(this.index);

@@ -132,15 +132,13 @@ export class Scene {
     this.interfacePoints = vtkPoints.newInstance();
     this.interfaceData.setPoints(this.interfacePoints);
     this.interfaces = actorOf(this.interfaceData);
-    this.interfaces
-      .getProperty()
-      .set({
-        lighting: !mesh.flat,
-        ambient: 0.55,
-        diffuse: 0.45,
-        interpolation: 0,
-        lineWidth: mesh.flat ? 4 * Math.max(1, window.devicePixelRatio || 1) : 1,
-      });
+    this.interfaces.getProperty().set({
+      lighting: !mesh.flat,
+      ambient: 0.55,
+      diffuse: 0.45,
+      interpolation: 0,
+      lineWidth: mesh.flat ? 4 * Math.max(1, window.devicePixelRatio || 1) : 1,
+    });
     for (const actor of [this.body, this.edges, this.interfaces]) this.renderer.addActor(actor);
     this.edges.getMapper().setResolveCoincidentTopologyToPolygonOffset();
     this.showInterfaces('all');
