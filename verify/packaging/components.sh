@@ -43,7 +43,7 @@ for name in "${named[@]}"; do
     [[ -f $work/development/share/doc/delam/$name ]] || fail "component development has no $name, which delam.h names"
 done
 if has cli; then
-    only cli 'bin/delam|lib/delam/delam-gmsh\.so|share/delam/[a-z_]+\.py|share/doc/delam/(bindings/cli/[A-Z]+\.md|examples/enf/enf\.toml)' \
+    only cli 'bin/delam|lib/delam/delam-gmsh\.so|share/delam/[a-z_]+\.py|share/delam/view\.html|share/doc/delam/(bindings/cli/[A-Z]+\.md|examples/enf/enf\.toml)' \
         bin/delam lib/delam/delam-gmsh.so share/delam/plot.py share/doc/delam/bindings/cli/README.md share/doc/delam/bindings/cli/SCENE.md
     # Their links lead to files that are installed with them.
     documents=$work/cli/share/doc/delam/bindings/cli
