@@ -3,6 +3,7 @@
 import { makeCharts } from './charts.js';
 import { painter } from './colours.js';
 import { Result, summary } from './data.js';
+import { box } from './geometry.js';
 import { frameOf, Scene, views } from './scene.js';
 import { element, sayColours, sayResult, sayStep } from './texts.js';
 import { Units } from './units.js';
@@ -15,6 +16,12 @@ function drawsInSpace() {
   const context = document.createElement('canvas').getContext('webgl2');
   context?.getExtension('WEBGL_lose_context')?.loseContext();
   return Boolean(context);
+}
+
+// A beam seen from the side needs less height.
+function isLong({ points }) {
+  const { low, high } = box(points);
+  return high[0] - low[0] > 3 * (high[1] - low[1]);
 }
 
 // In space the interfaces are inside.
@@ -58,7 +65,7 @@ class Page {
       opacity: bodyOpacity(mesh),
       apart: 0,
     };
-    byId('scene').classList.toggle('flat', flat);
+    byId('scene').classList.toggle('long', flat && isLong(mesh));
     byId('scene').setAttribute('aria-label', `Deformed body: ${byId('title').textContent}`);
     byId('drag').textContent = flat ? 'move' : 'turn';
     // The numbers and charts are there without a picture, too.
