@@ -297,7 +297,10 @@ export class Scene {
     // Below the legend, and as far from the lower edge.
     const legend = this.container.querySelector('#legend')?.offsetHeight ?? 0;
     const free = Math.max(0.4 * clientHeight, clientHeight - 2 * (legend + 12));
-    return 1.05 * Math.max((tall * clientHeight) / Math.max(1, free), (wide * clientHeight) / Math.max(1, clientWidth), 1e-12);
+    return (
+      1.05 *
+      Math.max((tall * clientHeight) / Math.max(1, free), (wide * clientHeight) / Math.max(1, clientWidth), 1e-12)
+    );
   }
 
   // By keys: x and y in units of the picture's height, turned in space and shifted in the plane.
