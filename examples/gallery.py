@@ -10,6 +10,7 @@ import sys
 # The first that a result has: what it looks like, in space before it is cut.
 PICTURES = ("snapshots.png", "cut.png", "load-displacement.png")
 STYLE = """
+* { box-sizing: border-box; }
 :root { --paper: #fff; --ink: #1d2127; --soft: #5a616b; --line: #cdd2d9; --accent: #1f5a99; --red: #b3451a; }
 @media (prefers-color-scheme: dark) {
   :root { --paper: #15181c; --ink: #e8eaed; --soft: #a5acb6; --line: #3d444d; --accent: #7db3ee; --red: #f08a4b; } }

@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -66,6 +67,15 @@ void write_atomic(const std::string& path, std::string_view bytes) {
         ::unlink(beside.c_str());
         throw;
     }
+}
+
+void require_replaceable(const std::string& path, bool replace) {
+    std::error_code code;
+    const std::filesystem::file_status there = std::filesystem::status(path, code);
+    if (!std::filesystem::exists(there)) return;
+    if (!std::filesystem::is_regular_file(there))
+        throw Failure(exit_scene, path + ": this cannot be replaced, as it is no regular file");
+    if (!replace) throw Failure(exit_scene, path + " is there already: --replace overwrites it");
 }
 
 void rename_file(const std::string& from, const std::string& to) {

@@ -11,6 +11,10 @@ namespace cli {
 // Writes PATH.new, synchronises and renames it: PATH has either the old or the new content.
 void write_atomic(const std::string& path, std::string_view bytes);
 
+// Throws Failure where a file that a person named is there already and `replace` is not set, or where it is no regular
+// file: renaming would put an ordinary file in the place of a device or a pipe.
+void require_replaceable(const std::string& path, bool replace);
+
 void rename_file(const std::string& from, const std::string& to);
 // A missing file is no error.
 void remove_file(const std::string& path);

@@ -24,8 +24,7 @@ int import(const std::string& deck, const std::string& scene_file, bool replace)
         for (const std::string& line : import_lines(scene)) complain("{}\n", line);
         return exit_done;
     }
-    if (!replace && fs::exists(scene_file, code))
-        throw Failure(exit_output, scene_file + " is there already: --replace overwrites it");
+    require_replaceable(scene_file, replace);
     write_atomic(scene_file, scene.text);
     for (const std::string& line : import_lines(scene)) say("{}\n", line);
     say("wrote     {}: look at it, then delam check {}\n", scene_file, scene_file);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
-#include <filesystem>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -139,16 +138,6 @@ std::string json_element(const json& value) {
     return "<script type=\"application/json\" id=\"delam-data\">" + text + "</script>\n";
 }
 
-// The page replaces what is there; that must not be a device, a pipe or a folder.
-void require_place(const std::string& to, bool replace) {
-    std::error_code code;
-    const std::filesystem::file_status there = std::filesystem::status(to, code);
-    if (!std::filesystem::exists(there)) return;
-    if (!std::filesystem::is_regular_file(there))
-        throw Failure(exit_scene, to + ": the page cannot take its place, as it is no regular file");
-    if (!replace) throw Failure(exit_scene, to + " is there already: --replace overwrites it");
-}
-
 std::string title_text(const json& about) {
     for (const char* key : {"title", "file"})
         if (const json& text = about["scene"][key]; text.is_string() && !text.get<std::string>().empty()) return text;
@@ -160,7 +149,7 @@ std::string title_text(const json& about) {
 int view(const std::string& folder, const ViewWishes& wishes) {
     const std::string to = wishes.page.empty() ? folder + "/view.html" : wishes.page;
     std::signal(SIGXFSZ, SIG_IGN);  // a limit of the size of files gives a reason, like a full disk
-    require_place(to, wishes.page.empty() || wishes.replace);
+    require_replaceable(to, wishes.page.empty() || wishes.replace);
     json data{{"format", 1}, {"about", view_about(folder)}};
     std::string page = view_template(wishes.page_template);
     data["history"] = view_history(folder);

@@ -139,7 +139,10 @@ def check_two_commands():
     same("the scene that import wrote, in another folder", scene, history(deck), 0.0)
     before = read(scene)
     expect('[units]\nlength = ""\nforce = ""\n' in before.decode(), "a deck has no units to label pictures with")
-    expect_error(delam("import", deck, "--out", scene), 3, "is there already", "--replace")
+    expect_error(delam("import", deck, "--out", scene), 2, "is there already", "--replace")
+    pipe = scene + ".pipe"
+    os.mkfifo(pipe)
+    expect_error(delam("import", deck, "--out", pipe, "--replace"), 2, "it is no regular file")
     expect(read(scene) == before, "the scene is as it was")
     expect(delam("import", deck, "--out", scene, "--replace")[0] == 0, "--replace")
     expect_error(delam("import", os.path.join(place, "none.inp")), 2, "none.inp")

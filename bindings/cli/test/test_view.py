@@ -180,7 +180,7 @@ expect_error(delam(*words, "--out", os.path.join(out, "none", "page.html")), 3, 
 pipe = os.path.join(folder(), "pipe")
 os.mkfifo(pipe)
 for place in (pipe, os.path.dirname(pipe)):
-    expect_error(delam(*words, "--out", place, "--replace"), 2, "the page cannot take its place, as it is no regular file")
+    expect_error(delam(*words, "--out", place, "--replace"), 2, "this cannot be replaced, as it is no regular file")
 expect(stat.S_ISFIFO(os.stat(pipe).st_mode), "the pipe stays")
 before = read(other)
 answer = start(*words, "--out", other, "--replace",

@@ -159,6 +159,10 @@ def judge(out, answer, pictures, what, red):
                "MPa" in found["legends"]["mises"], f"{at}: legends {found['legends']['mises']!r}")
     quiet(answer["old"], f"{what}, dark, without DecompressionStream")
     compare(exact, answer["old"]["seen"][0], f"{what}, without DecompressionStream")
+    blind = answer["blind"]
+    expect(blind["state"] == "shown" and "no WebGL 2" in blind["said"] and blind["errors"] == [],
+           f"{what}: said where there is no WebGL {blind['said']!r} {blind['errors']}")
+    compare(exact, blind["seen"][0], f"{what}, without WebGL")
     expect(image(pictures, "dark-1280.png").mean() < 0.5 < image(pictures, "last-1280.png").mean(), f"{what}: dark where it is wished")
 
 

@@ -7,7 +7,7 @@ import { line } from 'd3-shape';
 
 import { number } from './units.js';
 
-const margin = { left: 62, right: 12, top: 8, bottom: 40 };
+const margin = { right: 12, top: 8, bottom: 40 };
 
 // From the least to the largest number of several lists.
 function extent(lists) {
@@ -78,9 +78,12 @@ export class Chart {
     svg.selectAll('*').remove();
     const jumpX = this.jumps.flatMap(({ x, x0, x1 }) => (x === undefined ? [x0, x1] : [x]));
     const jumpY = this.jumps.flatMap(({ y0, y1 }) => (y0 === undefined ? [] : [y0, y1]));
-    this.x = scaleLinear(extent([...this.curves.map(({ x }) => x), jumpX]), [margin.left, width - margin.right]);
-    this.y = scaleLinear(extent([...this.curves.map(({ y }) => y), jumpY]), [height - margin.bottom, margin.top]);
     const format = (value) => number(value, 3);
+    this.y = scaleLinear(extent([...this.curves.map(({ y }) => y), jumpY]), [height - margin.bottom, margin.top]);
+    // Room for the longest number, beside the name of the axis.
+    const ticks = 5;
+    const left = 36 + 6 * Math.max(...this.y.ticks(ticks).map((value) => format(value).length));
+    this.x = scaleLinear(extent([...this.curves.map(({ x }) => x), jumpX]), [left, width - margin.right]);
     svg
       .append('g')
       .attr('transform', `translate(0,${height - margin.bottom})`)
@@ -89,11 +92,11 @@ export class Chart {
           .ticks(Math.max(3, width / 90))
           .tickFormat(format),
       );
-    svg.append('g').attr('transform', `translate(${margin.left},0)`).call(axisLeft(this.y).ticks(5).tickFormat(format));
+    svg.append('g').attr('transform', `translate(${left},0)`).call(axisLeft(this.y).ticks(ticks).tickFormat(format));
     svg
       .append('text')
       .attr('class', 'name')
-      .attr('x', (margin.left + width - margin.right) / 2)
+      .attr('x', (left + width - margin.right) / 2)
       .attr('y', height - 6)
       .attr('text-anchor', 'middle')
       .text(this.xLabel);

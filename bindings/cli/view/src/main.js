@@ -3,6 +3,7 @@
 import { makeCharts } from './charts.js';
 import { painter } from './colours.js';
 import { Result, summary } from './data.js';
+import { box } from './geometry.js';
 import { frameOf, Scene, views } from './scene.js';
 import { element, sayColours, sayResult, sayStep } from './texts.js';
 import { Units } from './units.js';
@@ -10,6 +11,18 @@ import { Units } from './units.js';
 const byId = (id) => document.getElementById(id);
 const darkness = window.matchMedia('(prefers-color-scheme: dark)');
 const oneFrame = 120; // milliseconds between steps that are played
+
+function drawsInSpace() {
+  const context = document.createElement('canvas').getContext('webgl2');
+  context?.getExtension('WEBGL_lose_context')?.loseContext();
+  return Boolean(context);
+}
+
+// A beam seen from the side needs less height.
+function isLong({ points }) {
+  const { low, high } = box(points);
+  return high[0] - low[0] > 3 * (high[1] - low[1]);
+}
 
 // In space the interfaces are inside.
 const bodyOpacity = ({ flat }) => (flat ? 1 : 0.25);
@@ -52,16 +65,12 @@ class Page {
       opacity: bodyOpacity(mesh),
       apart: 0,
     };
-    byId('scene').classList.toggle('flat', flat);
+    byId('scene').classList.toggle('long', flat && isLong(mesh));
     byId('scene').setAttribute('aria-label', `Deformed body: ${byId('title').textContent}`);
     byId('drag').textContent = flat ? 'move' : 'turn';
     // The numbers and charts are there without a picture, too.
-    try {
-      this.scene = new Scene(byId('scene'), mesh, drawTriad);
-    } catch (error) {
-      this.scene = null;
-      byId('waiting').textContent = `This browser draws no picture (WebGL: ${error.message}).`;
-    }
+    if (drawsInSpace()) this.scene = new Scene(byId('scene'), mesh, drawTriad);
+    else byId('waiting').textContent = 'No picture: this browser has no WebGL 2, or it is switched off.';
     this.colours = painter(darkness.matches);
     await this.bind(mesh);
     await this.show(this.index);

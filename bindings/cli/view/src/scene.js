@@ -132,15 +132,13 @@ export class Scene {
     this.interfacePoints = vtkPoints.newInstance();
     this.interfaceData.setPoints(this.interfacePoints);
     this.interfaces = actorOf(this.interfaceData);
-    this.interfaces
-      .getProperty()
-      .set({
-        lighting: !mesh.flat,
-        ambient: 0.55,
-        diffuse: 0.45,
-        interpolation: 0,
-        lineWidth: mesh.flat ? 4 * Math.max(1, window.devicePixelRatio || 1) : 1,
-      });
+    this.interfaces.getProperty().set({
+      lighting: !mesh.flat,
+      ambient: 0.55,
+      diffuse: 0.45,
+      interpolation: 0,
+      lineWidth: mesh.flat ? 3 * Math.max(1, window.devicePixelRatio || 1) : 1,
+    });
     for (const actor of [this.body, this.edges, this.interfaces]) this.renderer.addActor(actor);
     this.edges.getMapper().setResolveCoincidentTopologyToPolygonOffset();
     this.showInterfaces('all');
@@ -296,7 +294,13 @@ export class Scene {
       tall = Math.max(tall, Math.abs(d[0] * up[0] + d[1] * up[1] + d[2] * up[2]));
     }
     const { clientWidth, clientHeight } = this.container;
-    return 1.08 * Math.max(1.35 * tall, (wide * clientHeight) / Math.max(1, clientWidth), 1e-12);
+    // Below the legend, and as far from the lower edge.
+    const legend = this.container.querySelector('#legend')?.offsetHeight ?? 0;
+    const free = Math.max(0.4 * clientHeight, clientHeight - 2 * (legend + 12));
+    return (
+      1.05 *
+      Math.max((tall * clientHeight) / Math.max(1, free), (wide * clientHeight) / Math.max(1, clientWidth), 1e-12)
+    );
   }
 
   // By keys: x and y in units of the picture's height, turned in space and shifted in the plane.

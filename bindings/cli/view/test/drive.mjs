@@ -152,19 +152,30 @@ async function walk(browser, width) {
   return found;
 }
 
-const browser = await puppeteer.launch({
-  executablePath: browserPath,
-  // Drawn without a graphics card; the sandbox does not work for root.
-  args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist'],
-  protocolTimeout: 2 * most,
-});
+// What a browser shows that draws nothing.
+async function unpictured() {
+  const browser = await launched(['--disable-3d-apis']);
+  const { tab, found } = await open(browser, 1280);
+  found.said = await tab.evaluate(() => document.getElementById('waiting').textContent);
+  await tab.focus('#step');
+  await tab.keyboard.press('Home');
+  found.seen = [await shown(tab, 0)];
+  await browser.close();
+  return found;
+}
+
+// The sandbox does not work for root.
+const launched = (more) =>
+  puppeteer.launch({ executablePath: browserPath, args: ['--no-sandbox', ...more], protocolTimeout: 2 * most });
+// Drawn without a graphics card.
+const browser = await launched(['--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist']);
 try {
   const walks = [];
   for (const width of [1280, 380]) walks.push(await walk(browser, width));
   const { tab, found: old } = await open(browser, 1280, { old: true, dark: true });
   old.seen = [await state(tab)];
   await picture(tab, 'dark-1280.png');
-  process.stdout.write(JSON.stringify({ walks, old }));
+  process.stdout.write(JSON.stringify({ walks, old, blind: await unpictured() }));
 } finally {
   await browser.close();
 }
