@@ -197,20 +197,22 @@ DELAM_API int32_t delam_experimental_solver_eigenstrains(delam_solver *solver, i
 
 /* ---- sensitivities ---------------------------------------------------------------------------------------------- */
 
-/* Follows the derivative of the analysis with respect to a number of the laws, e.g. normal_toughness (delam_law_set): in
- * all of the interfaces [interface_count] together, which must have the same value, not 0. *parameter: its index, 0 for
- * the first. Call it before the first step. It costs one displacement solve per parameter in each step, and one per
+/* Follows the derivative of the analysis with respect to a number of the laws: key, as of delam_law_set, e.g.
+ * normal_toughness, in all of the interfaces [interface_count] together, which must have the same value, not 0.
+ * *parameter: its index, 0 for the first. Call it before the first step. It costs one displacement solve per parameter in each step, and one per
  * damaging pair. DELAM_ERROR_ARGUMENT: no such interface, law or number; `gradient`. DELAM_ERROR_STATE: there are steps
- * already; a law has a gradient term; `mixity_rule = variational`. */
+ * already; a law has a gradient term; `mixity_rule = variational`.
+ * [null parameter; status cancelled, argument, state, numerical; source none; since 0.2] */
 DELAM_API int32_t delam_experimental_solver_follow(delam_solver *solver, int64_t interface_count,
                                                    const int64_t *interfaces, const char *key, int64_t *parameter);
 
 /* Returns the derivatives of the reactions in the state described (delam_solver_value): matrix [pattern_count]
  * [parameters], row p that of reaction:p. They are derivatives of the branch on which the march is: at a jump of the
- * state, at a change of the contact set and where a pair reaches a corner of its law, the march has none. *unknown: pairs
- * whose adhesion came to rest within a step, so far; their adhesion is taken as constant. 0 in marches without jumps.
- * Unit: of the reaction over that of the parameter. DELAM_ERROR_STATE: the state was loaded or set. Source: P.
- * Michaleris, D. Tortorelli, C. Vidal, Int. J. Numer. Meth. Engng 37 (1994) 2471-2499. */
+ * state, at a change of the contact set and where a pair reaches a corner of its law, the march has none. *unknown: the
+ * number of pairs whose adhesion came to rest within a step, so far; it is taken as constant. It is 0 in marches that do
+ * not jump. The unit is that of the reaction over that of the parameter. DELAM_ERROR_STATE: the state was loaded or set.
+ * [unit matrix of factors; null unknown; status argument, state; source P. Michaleris, D. Tortorelli, C. Vidal, Int. J.
+ * Numer. Meth. Engng 37 (1994) 2471-2499; since 0.2] */
 DELAM_API int32_t delam_experimental_solver_sensitivity(const delam_solver *solver, int64_t capacity, double *matrix,
                                                         int64_t *unknown);
 

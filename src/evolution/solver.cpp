@@ -249,8 +249,10 @@ std::vector<double> Solver::step_tangent() {
 std::int64_t Solver::follow(std::span<const std::int64_t> interfaces, const std::string& key) {
     if (pending_ || committed_.step != 0)
         fail(DELAM_ERROR_STATE, "sensitivities are followed from the initial state on: there are steps already");
-    followed_.push_back(followed_parameter(problem_, interfaces, key));
-    committed_.sensitivity = stepper_.follow(followed_, committed_);
+    std::vector<FollowedParameter> parameters = followed_;
+    parameters.push_back(followed_parameter(problem_, interfaces, key));
+    committed_.sensitivity = stepper_.follow(parameters, committed_);
+    followed_ = std::move(parameters);
     return followed() - 1;
 }
 

@@ -11,12 +11,9 @@ import os
 import sys
 
 import numpy as np
-from scipy.optimize import least_squares
-from scipy.stats import t as student
 
 from curve_data import CurveData
 from fit_model import Infeasible, Model, Parameter
-from fit_pictures import draw_fit
 from marches import DONE, INTERRUPTED, NUMERICAL, Trouble, given_words, make_folder, read_about, write_file
 
 WORSE = 10.0  # what a step into an infeasible region costs, in residuals: the trust region then shrinks
@@ -66,6 +63,7 @@ class Fit:
         return self._at(scaled)[1]
 
     def run(self):
+        from scipy.optimize import least_squares  # here, for it loads for a second, and words may be wrong
         lower = np.array([p.lower for p in self.model.parameters]) / self.start
         upper = np.array([p.upper for p in self.model.parameters]) / self.start
         return least_squares(self.residual, np.ones(len(self.start)), jac=self.jacobian, bounds=(lower, upper),
@@ -74,6 +72,7 @@ class Fit:
 
 def estimates(fit, found, level):
     """Values, standard errors and intervals; the errors of the data are taken as independent and alike."""
+    from scipy.stats import t as student
     points, count = found.jac.shape
     values = fit.start * found.x
     freedom = points - count
@@ -93,6 +92,7 @@ def estimates(fit, found, level):
 
 
 def report(model, fit, found, level, out):
+    from fit_pictures import draw_fit
     values, errors, intervals, correlation = estimates(fit, found, level)
     jumps = [sorted(set(map(float, at))) for at in model.jumps]
     rows = []

@@ -22,7 +22,6 @@ import numpy as np
 
 from marches import (DONE, INTERRUPTED, NOT_CONVERGED, Trouble, given_words, last_words, make_folder,
                      read_about, read_history, setting, start, write_file)
-from sweep_pictures import draw_curves, draw_response
 from variations import Variation, grid, latin
 
 RESULTS = ["exit_code", "steps", "peak_reaction", "load_at_peak", "last_reaction", "dissipated", "released", "jumps",
@@ -161,6 +160,7 @@ def main():
             if row["exit_code"] in (DONE, NOT_CONVERGED)}
     written = ["table.csv"]
     if good:
+        from sweep_pictures import draw_curves, draw_response  # Matplotlib loads for a second
         about = read_about(sweep.folder(min(good)))
         draw_curves(sweep, good, about)
         draw_response(sweep, about)

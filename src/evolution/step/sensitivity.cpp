@@ -204,8 +204,6 @@ FollowedParameter followed_parameter(const Problem& problem, std::span<const std
         const auto& law = problem.interfaces[i].law;
         if (law && law->gradient > 0.0)
             fail(DELAM_ERROR_STATE, "interface ", i, " has a gradient term: its sensitivities are not followed");
-        if (law && law->depends_on_mixity() && problem.options.mixity_rule == "variational")
-            fail(DELAM_ERROR_STATE, "mixity_rule = variational: sensitivities are not followed");
         out.law.insert(out.law.end(), problem.mesh->interfaces()[i].weight.size(), law_of[i]);
     }
     return out;

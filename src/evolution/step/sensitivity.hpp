@@ -38,8 +38,7 @@ struct FollowedParameter {
 };
 
 // The parameter of these interfaces. Error(DELAM_ERROR_ARGUMENT): an interface has no law, its law has no such number
-// or a value of 0, or values that differ from those of the others; DELAM_ERROR_STATE: a law has a gradient term, or the
-// rule is variational.
+// or a value of 0, or values that differ from those of the others; DELAM_ERROR_STATE: a law has a gradient term.
 FollowedParameter followed_parameter(const Problem& problem, std::span<const std::int64_t> interfaces,
                                      const std::string& key);
 

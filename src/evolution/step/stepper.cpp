@@ -321,6 +321,10 @@ Stepper::Result Stepper::step(const State& before, double time, std::span<const 
 }
 
 Sensitivity Stepper::follow(std::vector<FollowedParameter> parameters, const State& initial) {
+    if (!increment(initial, initial.mixity)->quadratic())
+        fail(DELAM_ERROR_STATE,
+             "sensitivities are not followed where the traction depends on the mixity itself (mixity_rule = "
+             "variational)");
     followed_ = std::move(parameters);
     Linearised linearised(*operator_, pairs_, contact_, initial);
     return sensitivity(linearised, followed_, problem_.patterns, nullptr, {});
