@@ -199,9 +199,9 @@ DELAM_API int32_t delam_experimental_solver_eigenstrains(delam_solver *solver, i
 
 /* Follows the derivative of the analysis with respect to a number of the laws: key, as of delam_law_set, e.g.
  * normal_toughness, in all of the interfaces [interface_count] together, which must have the same value, not 0.
- * *parameter: its index, 0 for the first. Call it before the first step. It costs one displacement solve per parameter in each step, and one per
- * damaging pair. DELAM_ERROR_ARGUMENT: no such interface, law or number; `gradient`. DELAM_ERROR_STATE: there are steps
- * already; a law has a gradient term; `mixity_rule = variational`.
+ * *parameter: its index, 0 for the first. Call it before the first step. It costs one displacement solve per parameter
+ * in each step, and one per damaging pair. DELAM_ERROR_ARGUMENT: no such interface, law or number; `gradient`.
+ * DELAM_ERROR_STATE: there are steps already; a law has a gradient term; `mixity_rule = variational`.
  * [null parameter; status cancelled, argument, state, numerical; source none; since 0.2] */
 DELAM_API int32_t delam_experimental_solver_follow(delam_solver *solver, int64_t interface_count,
                                                    const int64_t *interfaces, const char *key, int64_t *parameter);
