@@ -209,8 +209,9 @@ FollowedParameter followed_parameter(const Problem& problem, std::span<const std
     return out;
 }
 
-Sensitivity sensitivity(Linearised& linearised, std::span<const FollowedParameter> parameters,
-                        std::span<const Pattern> patterns, const Increment* step, const Sensitivity& before) {
+Sensitivity sensitivity(Linearised linearised, std::span<const FollowedParameter> parameters,
+                        std::span<const Pattern> patterns, const Increment* step) {
+    const Sensitivity none, &before = step != nullptr ? step->before().sensitivity : none;
     const State& state = linearised.state();
     const std::size_t pairs = state.adhesion.size();
     const Linearised::Damaging damaging =

@@ -43,8 +43,8 @@ FollowedParameter followed_parameter(const Problem& problem, std::span<const std
                                      const std::string& key);
 
 // Of the state that the tangent has been made for. step: the increment that ended in it; null: it is the initial state,
-// without any damage. before: of the state before the step.
-Sensitivity sensitivity(Linearised& linearised, std::span<const FollowedParameter> parameters,
-                        std::span<const Pattern> patterns, const Increment* step, const Sensitivity& before);
+// without any damage.
+Sensitivity sensitivity(Linearised linearised, std::span<const FollowedParameter> parameters,
+                        std::span<const Pattern> patterns, const Increment* step);
 
 }  // namespace delam

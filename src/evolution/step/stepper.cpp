@@ -312,8 +312,7 @@ Stepper::Result Stepper::step(const State& before, double time, std::span<const 
         keep_lower(best, std::move(other), *step, from.descends && later ? &dissipated : nullptr);
     }
     if (problem_.options.solution == "energetic") search(best, *step);
-    if (!followed_.empty())
-        best.state.sensitivity = derived(best.state, increment(before, best.state.mixity).get(), before.sensitivity);
+    if (!followed_.empty()) best.state.sensitivity = derived(best.state, increment(before, best.state.mixity).get());
     return best;
 }
 
@@ -323,12 +322,11 @@ Sensitivity Stepper::follow(std::vector<FollowedParameter> parameters, const Sta
              "sensitivities are not followed where the traction depends on the mixity itself (mixity_rule = "
              "variational)");
     followed_ = std::move(parameters);
-    return derived(initial, nullptr, {});
+    return derived(initial, nullptr);
 }
 
-Sensitivity Stepper::derived(const State& state, const Increment* step, const Sensitivity& before) {
-    Linearised linearised(*operator_, pairs_, contact_, state);
-    return sensitivity(linearised, followed_, problem_.patterns, step, before);
+Sensitivity Stepper::derived(const State& state, const Increment* step) {
+    return sensitivity(Linearised(*operator_, pairs_, contact_, state), followed_, problem_.patterns, step);
 }
 
 // Minimises from another start and keeps the lower state. All effort is counted.
