@@ -140,7 +140,8 @@ typedef void (*delam_log_callback)(int32_t level, const char *text, void *user);
  * total: completed and total work of the stage (total 0: unknown). If the callback returns a value other than 0, the
  * running call stops with DELAM_CANCELLED. Functions that only read ignore this value, so that a host that has stopped
  * an analysis can still read its results. These functions are delam_mesh_find_patch; delam_problem_hash, _process_zone,
- * _body_matrix, _constraints, _forces and _eigenstrain_energy; delam_solver_value, _field, _average and _condensed.
+ * _propose, _body_matrix, _constraints, _forces and _eigenstrain_energy; delam_solver_value, _field, _average and
+ * _condensed.
  * [null user; owns stage static; status cancelled; thread call's; since 0.1] */
 typedef int32_t (*delam_progress_callback)(const char *stage, int64_t done, int64_t total, void *user);
 
@@ -622,6 +623,15 @@ DELAM_API int32_t delam_problem_set_contact(delam_problem *problem, int64_t inte
  * [unit adhesion 1 in [0, 1]; null none; status argument; since 0.1] */
 DELAM_API int32_t delam_problem_set_adhesion(delam_problem *problem, int64_t interface_index, int64_t count,
                                              const int64_t *pairs, const double *adhesion, int32_t index_base);
+/* Sets the initial adhesion of the pairs inside the closed box from lower [dimension] to upper [dimension], e.g. of a
+ * notch: the box may be flat or higher than the interface. *count receives the number of these pairs; with NULL, it is
+ * an error if there is none. Where the interface goes on beyond a side of the box, that side is the tip of a crack, and
+ * the pairs exactly on it keep their adhesion (tolerance: 1e-6 of the shortest edge of the two bodies); where the
+ * interface ends, the pairs on the side belong to the box. If a side lies between two pairs, the log (level 1) names the
+ * next pair, which is the tip then. The place of a pair is that of its node_b.
+ * [unit lower L finite, upper L >= lower, adhesion 1 in [0, 1]; null count; status argument; since 0.1] */
+DELAM_API int32_t delam_problem_set_adhesion_box(delam_problem *problem, int64_t interface_index, const double *lower,
+                                                 const double *upper, double adhesion, int64_t *count);
 
 /* Adds a load pattern: a named factor with a piecewise-linear history, constant before the first and after the last
  * point. times: [count] strictly increasing; values: [count]; count >= 1. name: unique, of letters, digits, '_' and
@@ -755,6 +765,21 @@ DELAM_API int32_t delam_problem_dofs(const delam_problem *problem, int64_t *prim
  * Fract. 133 (2005); since 0.1] */
 DELAM_API int32_t delam_problem_process_zone(const delam_problem *problem, int64_t interface_index, double *length,
                                              double *spacing);
+/* Proposes numbers for the law of an interface (delam_law_set). *stiffness = 50 E3/t is the least stiffness that adds
+ * little compliance; E3 is the modulus of an adjacent body along the normal and t its extent along the normal, and the
+ * body with the larger E3/t counts. *share = 1/(1 + E3/(k t)) is what the law's present normal stiffness k leaves of
+ * that body's stiffness; with *stiffness it would be 0.98. Both are 0 if the interface is curved or none of its bodies
+ * has both cells and a material, because t is then unknown. *normal_strength and *tangential_strength are the largest
+ * strengths with which the process zone of that mode is predicted to have `pairs` pairs of the present spacing (3 is
+ * enough): delam_problem_process_zone, inverted. Both are 0 where it returns the length 0, or if no pair adheres. A
+ * lower strength changes the load at which damage begins, but hardly that at which a crack grows, which follows from
+ * the toughness. If the interface has no law, all four are 0.
+ * [unit pairs 1 > 0, stiffness F/L3, share 1, normal_strength F/L2, tangential_strength F/L2; null stiffness, share,
+ * normal_strength, tangential_strength; status cancelled, argument, problem; source A. Turon, C. Davila, P. Camanho, J.
+ * Costa, Eng. Fract. Mech. 74 (2007) 1665-1682; since 0.1] */
+DELAM_API int32_t delam_problem_propose(const delam_problem *problem, int64_t interface_index, double pairs,
+                                        double *stiffness, double *share, double *normal_strength,
+                                        double *tangential_strength);
 
 /* Returns the stiffness of a body as the library assembled it, for hosts that check or reuse it: CSR with both
  * triangles over the DOFs of the body. Local node i is the i-th node of the body in ascending order, and its DOFs are

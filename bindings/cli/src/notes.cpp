@@ -26,25 +26,6 @@ void beyond(const Region& region, const Geometry& geometry, std::vector<std::str
     }
 }
 
-// Appends "ends at 0.0304, between two pairs: the tip of the crack is the next pair, at 0.031" and the like.
-void between_pairs(const Region& region, const Geometry& geometry, std::vector<std::string>& out) {
-    const double slack = 1e-6 * geometry.smallest_edge;
-    for (std::size_t axis = 0; axis < geometry.lengths.size(); ++axis) {
-        const std::string along = geometry.lengths.size() > 1 ? (axis == 0 ? " along x" : " along y") : "";
-        const double length = geometry.lengths[axis];
-        const double pairs =
-            static_cast<double>(geometry.divisions[axis]) * (shape_of(geometry.cell_type).linear() ? 1.0 : 2.0);
-        const auto tip = [&](const char* what, double end, double (*outward)(double)) {
-            if (end <= slack || end >= length - slack) return;
-            if (std::abs(std::round(end / length * pairs) / pairs * length - end) <= slack) return;
-            out.push_back(fmt::format("{} at {}, between two pairs{}: the tip of the crack is the next pair, at {:.6g}",
-                                      what, end, along, outward(end / length * pairs) / pairs * length));
-        };
-        tip("begins", region.lower[axis], [](double x) { return std::floor(x); });
-        tip("ends", region.upper[axis], [](double x) { return std::ceil(x); });
-    }
-}
-
 void interface_warnings(const Model& model, const Scene& scene, std::vector<std::string>& out) {
     for (std::size_t i = 0; i < model.interfaces.size(); ++i) {
         const InterfaceData& data = model.interfaces[i];
@@ -57,9 +38,6 @@ void interface_warnings(const Model& model, const Scene& scene, std::vector<std:
                 out.push_back(region.place.path + " " + text + (model.adheres[i] ? "" : ": nothing adheres"));
                 said = true;
             }
-            texts.clear();
-            between_pairs(region, scene.geometry, texts);
-            for (const std::string& text : texts) out.push_back(region.place.path + " " + text);
         }
         if (!said) out.push_back(data.place.path + ": nothing adheres");
     }
@@ -94,7 +72,7 @@ void patch_warnings(const Scene& scene, const Selection& where, std::vector<std:
 }  // namespace
 
 std::vector<std::string> warnings_of(const Model& model, const Scene& scene) {
-    std::vector<std::string> out;
+    std::vector<std::string> out = model.said;
     interface_warnings(model, scene, out);
     for (const Prescription& data : scene.prescriptions) patch_warnings(scene, data.where, out);
     for (const DeadForce& data : scene.forces) patch_warnings(scene, data.where, out);

@@ -120,9 +120,9 @@ warned(changed("from = 0.0, to", "from = -1, to"),
        "warning: interfaces[0].notch[0] begins at -1, the interface at 0\n")
 warned(changed("to = 0.030", "to = 0.12"), "warning: interfaces[0]: nothing adheres")
 warned(changed("to = 0.030", "to = 0.0304"),
-       "warning: interfaces[0].notch[0] ends at 0.0304, between two pairs: the tip of the crack is the next pair, at 0.0315\n")
+       "warning: interfaces[0].notch[0] ends at x = 0.0304, between two pairs: the tip of the crack is the next pair, at 0.0315\n")
 warned(changed("from = 0.0, to", "from = 0.0106, to"),
-       "warning: interfaces[0].notch[0] begins at 0.0106, between two pairs: the tip of the crack is the next pair, at 0.0105\n")
+       "warning: interfaces[0].notch[0] begins at x = 0.0106, between two pairs: the tip of the crack is the next pair, at 0.0105\n")
 warned(changed("length = 0.002", "length = 0.2", patch), "warning: loads[0].patch reaches from x = -0.04 to 0.16")
 warned(changed("values = [0.0, 0.006]", "values = [0.001, 0.006]"), 'patterns[0] "press" is 0.001 at the start',
        "its stored energy is not in `work`")
