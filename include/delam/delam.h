@@ -627,8 +627,8 @@ DELAM_API int32_t delam_problem_set_adhesion(delam_problem *problem, int64_t int
  * notch: the box may be flat or higher than the interface. *count receives the number of these pairs; with NULL, it is
  * an error if there is none. Where the interface goes on beyond a side of the box, that side is the tip of a crack, and
  * the pairs exactly on it keep their adhesion (tolerance: 1e-6 of the shortest edge of the two bodies); where the
- * interface ends, the pairs on the side belong to the box. If a side lies between two pairs, the log (level 1) names the
- * next pair, which is the tip then. The place of a pair is that of its node_b.
+ * interface ends, the pairs on the side belong to the box. If a side lies between two pairs, the log (level 1) names
+ * the next pair, which is the tip then. The place of a pair is that of its node_b.
  * [unit lower L finite, upper L >= lower, adhesion 1 in [0, 1]; null count; status argument; since 0.1] */
 DELAM_API int32_t delam_problem_set_adhesion_box(delam_problem *problem, int64_t interface_index, const double *lower,
                                                  const double *upper, double adhesion, int64_t *count);
@@ -903,13 +903,13 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  * of a pair. For B, zeta, Y, g and Gc see delam_law_create.
  *   step                   number of the step; the initial state is step 0
  *   time                   t: time of the state
- *   stored_bulk, stored_interface, dissipated, stored_interface_slides, dissipated_slides, load_potential, work, lower,
+ *   stored_bulk, stored_interface, dissipated, stored_interface_linear, dissipated_linear, load_potential, work, lower,
  *   increment, upper, increment_lower   F L: energies. The stored energies and `load_potential` belong to the state;
- *                          `dissipated`, `dissipated_slides` and `work` accumulate from the start; `lower`,
+ *                          `dissipated`, `dissipated_linear` and `work` accumulate from the start; `lower`,
  *                          `increment`, `upper` and `increment_lower` belong to the step. `stored_interface` is the
  *                          sum of w zeta Y, plus the energy of the gradient term if there is one; a step adds the sum
  *                          of w (g(B, zeta) - g(B, zeta_old)) to `dissipated`, with `mixity_rule = converged` as an
- *                          integral along the jumps of each pair. The keys that end in _slides split stored from
+ *                          integral along the jumps of each pair. The keys that end in _linear split stored from
  *                          dissipated energy as in Zeman, Kruzik and Gruber (PANM 15, 2010): the sum of w f(B, zeta),
  *                          f = g - Gc (1 - zeta), belongs to the stored energy, and a step dissipates the sum of w
  *                          Gc(B) (zeta_old - zeta). `increment` is the sum of what the step adds to stored energy,
@@ -924,16 +924,18 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  *                          Otherwise, and always with `mixity_rule = variational`, the bounds follow from a
  *                          displacement field that carries the change of the loads, and are wider. `increment_lower`
  *                          is the increment at the mixities of the step before; with `converged` it equals
- *                          `increment`. With `variational`, both use the _slides split. `work` is the work of the
+ *                          `increment`. With `variational`, both use the _linear split. `work` is the work of the
  *                          reactions: each step adds the mean of the reactions before and after it, times the changes
  *                          of the factors. Two kinds of step add something else: a jump that bisection has located
  *                          adds `upper`; a step that was followed in parts (`mixity_rule = converged`, loads in
  *                          proportion) adds the work along these parts, each of which happens at the load within the
  *                          step that first drives it
- *   defect, defect_slides  F L: error of the energy balance since the start: stored energies + load_potential +
+ *   defect, defect_linear  F L: error of the energy balance since the start: stored energies + load_potential +
  *                          dissipated + released (sum over all steps) - work - energy of the initial state.
- *                          `defect_slides` uses the _slides split for all of these. delam_solver_equilibrate changes
+ *                          `defect_linear` uses the _linear split for all of these. delam_solver_equilibrate changes
  *                          neither: what it adds to the energy of the state counts as energy of the initial state
+ *   stored_interface_slides, dissipated_slides, defect_slides   F L: the older names of the keys in _linear, which
+ *                          delam_solver_value_name lists
  *   mixity_error           estimated error of what the step dissipates, relative to it, because the mode mixity
  *                          changes; 0 if no pair was damaged. With `mixity_rule = converged`, the difference from an
  *                          integral of the next lower order along the jumps of the pairs. Otherwise sum w |dzeta|
@@ -1012,9 +1014,8 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  *                          pattern, minus the conjugate displacement; for an eigenstrain, minus the integral of stress
  *                          times strain
  * delam_solver_value_count counts all of them. Some keys have a second name (delam_solver_value_info):
- * staggered_iterations for am_iterations, unstable_debonds for debond_moves, state_jumps for jumps. Every key that ends
- * in _slides has a second name in _linear, e.g. dissipated_linear, because the dissipation of this split is linear in
- * the damage.
+ * staggered_iterations for am_iterations, unstable_debonds for debond_moves, state_jumps for jumps, and the names in
+ * _linear for the older ones in _slides. Both names work for ever.
  * [unit value of key; null none; status cancelled, argument, problem; source of what is computed: at
  * delam_solver_advance and delam_solver_front; since 0.1] */
 DELAM_API int32_t delam_solver_value(delam_solver *solver, const char *key, double *value);

@@ -10,6 +10,7 @@
 #include "build_mesh.hpp"
 #include "call.hpp"
 #include "named.hpp"
+#include "notes.hpp"
 #include "selection.hpp"
 #include "sensitivities.hpp"
 
@@ -67,8 +68,9 @@ void set_interfaces(Model& model, const Scene& scene) {
     }
 }
 
-void prescribe(const Model& model, const Scene& scene, const Prescription& data) {
+void prescribe(Model& model, const Scene& scene, const Prescription& data) {
     const Selected at = select(model.context.get(), model.mesh.get(), scene, data.where, data.mean);
+    note_place(model, scene, data.where, at);
     if (data.mean && at.weights.empty()) throw SceneFailure(data.place, "mean: a single node has no face");
     std::vector<std::int64_t> patterns;
     std::vector<double> coefficients;
@@ -92,8 +94,9 @@ void prescribe(const Model& model, const Scene& scene, const Prescription& data)
     }
 }
 
-void add_force(const Model& model, const Scene& scene, const DeadForce& data) {
+void add_force(Model& model, const Scene& scene, const DeadForce& data) {
     const Selected at = select(model.context.get(), model.mesh.get(), scene, data.where, true);
+    note_place(model, scene, data.where, at);
     if (data.kind != ForceKind::total && at.weights.empty())
         throw SceneFailure(data.place, "a single node has no face: give force instead of a force per area");
     const double total = std::accumulate(at.weights.begin(), at.weights.end(), 0.0);

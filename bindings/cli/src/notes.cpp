@@ -2,8 +2,10 @@
 #include "notes.hpp"
 
 #include <cmath>
+#include <numeric>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "call.hpp"
 #include "cell_shape.hpp"
@@ -115,6 +117,26 @@ std::vector<std::string> notes_of(const Scene& scene) {
                             geometry.dimension == 2 ? "tri6 or quad8" : "tet10 or hex20"));
     }
     return out;
+}
+
+void note_place(Model& model, const Scene& scene, const Selection& where, const Selected& taken) {
+    if (const auto* point = std::get_if<Point>(&where.shape)) {
+        double square = 0;
+        for (std::size_t a = 0; a < point->at.size(); ++a) square += std::pow(taken.at[a] - point->at[a], 2);
+        if (std::sqrt(square) > 1e-3 * scene.geometry.smallest_edge)
+            model.said.push_back(fmt::format("{}.point is [{:.6g}], its node is at [{:.6g}], {:.3g} away",
+                                             where.place.path, fmt::join(point->at, ", "), fmt::join(taken.at, ", "),
+                                             std::sqrt(square)));
+    }
+    const auto* patch = std::get_if<Patch>(&where.shape);
+    if (patch == nullptr || !scene.mesh) return;  // patch_warnings knows the extent of layers
+    double asked = 1;
+    for (std::size_t axis = 0; axis < patch->lower.size(); ++axis)
+        if (std::abs(patch->normal[axis]) < 0.5) asked *= patch->upper[axis] - patch->lower[axis];
+    const double covered = std::accumulate(taken.weights.begin(), taken.weights.end(), 0.0);
+    if (covered < (1 - 1e-6) * asked)
+        model.said.push_back(fmt::format("{}.patch covers {:.6g} of {:.6g}: only what is on the boundary counts",
+                                         where.place.path, covered, asked));
 }
 
 }  // namespace cli
