@@ -153,6 +153,11 @@ with open(os.path.join(place, "m.inp"), "w", encoding="utf-8") as file:
     file.write(MESH)
 with open(os.path.join(place, "scene.toml"), "w", encoding="utf-8") as file:
     file.write(TEXT)
+for centre, words in (([0.75, 1.0], "loads[0].patch covers 0.75 of 1: only what is on the boundary counts"), ([0.5, 1.0], "")):
+    with open(os.path.join(place, "patch.toml"), "w", encoding="utf-8") as file:
+        file.write(TEXT.replace('[[loads]]\nset = "top"', f'[[loads]]\npatch = {{ centre = {centre}, length = 1.0, face = "+y" }}'))
+    _, _, error = delam("check", os.path.join(place, "patch.toml"))
+    expect((words in error) if words else "patch" not in error, f"a patch of a mesh at {centre}: {error.strip()}")
 code, _, error = delam("run", os.path.join(place, "scene.toml"), "--out", os.path.join(place, "out"))
 expect(code == 0, f"an obstacle under a set of faces {error.strip()}")
 with open(os.path.join(place, "out", "history.csv"), newline="", encoding="utf-8") as file:
