@@ -152,7 +152,7 @@ lowered = pasted(strong, found[0]["keys"])
 expect(proposals(lowered) == ([], []), "with the strengths pasted, three pairs are in the zone")
 more = dict(found[0]["keys"], normal_strength=1.01 * found[0]["keys"]["normal_strength"])
 expect(proposals(pasted(strong, more))[1] != [], "one per cent more is too much")
-expect(proposals(strong + '[solver]\nsolution = "energetic"\n')[0] == [], "energetic solutions need no zone")
+expect(proposals(strong + '\n[solver]\nsolution = "energetic"\n')[0] == [], "energetic solutions need no zone")
 
 warned(changed("to = 0.030", "to = 30"),
        "warning: interfaces[0].notch[0] ends at 30, the interface at 0.12: nothing adheres")

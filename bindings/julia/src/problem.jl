@@ -266,9 +266,9 @@ function process_zone(problem::Problem, interface)
 end
 
 """
-Numbers for the law of an interface, 0 if unknown: `stiffness`, the least, 50 E3/t of the adjacent layer; `share` of that
-layer's stiffness that the present normal stiffness leaves; `normal_strength` and `tangential_strength`, the largest with
-which the process zone has `pairs` pairs.
+Numbers for the law of an interface, 0 if unknown: `stiffness`, the least, 50 E3/t of the adjacent layer; `share` of
+that layer's stiffness that the present normal stiffness leaves; `normal_strength` and `tangential_strength`, the
+largest with which the process zone has `pairs` pairs.
 """
 function propose(problem::Problem, interface; pairs=3.0)
     stiffness, share, normal, tangential = Ref(0.0), Ref(0.0), Ref(0.0), Ref(0.0)

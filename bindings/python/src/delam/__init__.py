@@ -35,7 +35,8 @@ __version__ = "0.1.0"
 __all__ = ["ArgumentError", "Average", "Bounds", "CELLS", "Cancelled", "Cells", "Condensed", "DelamError", "Fields",
            "FileError", "Forecast", "Fronts", "HandleError", "History", "Interface", "InternalError", "Jump", "Law",
            "LimitReached", "Mesh", "MeshError", "NotConverged", "NotConvergedWarning", "NumericalError", "Options",
-           "OutOfMemory", "Outcome", "Parameter", "Pattern", "PlanItem", "Problem", "ProblemError", "Proposal", "Result",
+           "OutOfMemory", "Outcome", "Parameter", "Pattern", "PlanItem", "Problem", "ProblemError", "Proposal",
+           "Result",
            "SnapshotError", "Solver", "Sparse", "StateError", "Ties", "ValueInfo", "Values", "blas_threads",
            "library_commit", "library_location", "library_version", "options"]
 
