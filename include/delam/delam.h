@@ -771,9 +771,9 @@ DELAM_API int32_t delam_problem_process_zone(const delam_problem *problem, int64
  * that body's stiffness; with *stiffness it would be 0.98. Both are 0 if the interface is curved or none of its bodies
  * has both cells and a material, because t is then unknown. *normal_strength and *tangential_strength are the largest
  * strengths with which the process zone of that mode is predicted to have `pairs` pairs of the present spacing (3 is
- * enough): delam_problem_process_zone, inverted. Both are 0 where it returns the length 0, or if no pair adheres. A
- * lower strength changes the load at which damage begins, but hardly that at which a crack grows, which follows from
- * the toughness. If the interface has no law, all four are 0.
+ * enough): delam_problem_process_zone, inverted. A law whose strength is lower already keeps it. Both are 0 where that
+ * function returns the length 0, or if no pair adheres. A lower strength changes the load at which damage begins, but
+ * hardly that at which a crack grows, which follows from the toughness. If the interface has no law, all four are 0.
  * [unit pairs 1 > 0, stiffness F/L3, share 1, normal_strength F/L2, tangential_strength F/L2; null stiffness, share,
  * normal_strength, tangential_strength; status cancelled, argument, problem; source A. Turon, C. Davila, P. Camanho, J.
  * Costa, Eng. Fract. Mech. 74 (2007) 1665-1682; since 0.1] */

@@ -36,8 +36,7 @@ __all__ = ["ArgumentError", "Average", "Bounds", "CELLS", "Cancelled", "Cells", 
            "FileError", "Forecast", "Fronts", "HandleError", "History", "Interface", "InternalError", "Jump", "Law",
            "LimitReached", "Mesh", "MeshError", "NotConverged", "NotConvergedWarning", "NumericalError", "Options",
            "OutOfMemory", "Outcome", "Parameter", "Pattern", "PlanItem", "Problem", "ProblemError", "Proposal",
-           "Result",
-           "SnapshotError", "Solver", "Sparse", "StateError", "Ties", "ValueInfo", "Values", "blas_threads",
+           "Result", "SnapshotError", "Solver", "Sparse", "StateError", "Ties", "ValueInfo", "Values", "blas_threads",
            "library_commit", "library_location", "library_version", "options"]
 
 
