@@ -11,7 +11,6 @@
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 #include "delam/delam.h"
 
@@ -19,7 +18,6 @@ static const double length = 60e-3;  /* m */
 static const double width = 8e-3;    /* m */
 static const double height = 1.5e-3; /* of an arm, m */
 static const double notch = 20e-3;   /* m */
-static const double cell = 1e-3;     /* length of an element, m */
 static const int steps = 16;
 
 typedef struct {
@@ -98,43 +96,12 @@ static int make_law(scene *s) {
     return 0;
 }
 
-/* Pairs left of the notch tip have no adhesion from the start; those at the tip are bonded. */
+/* The notch has no adhesion from the start; the pairs at its tip, on the side of the box, are bonded. */
 static int make_notch(scene *s) {
-    int64_t pairs = 0;
-    int64_t nodes = 0;
-    int64_t i;
-    int64_t cut = 0;
-    int status = 1;
-    double *xyz = NULL;
-    double *adhesion = NULL;
-    int64_t *below = NULL;
-    int64_t *list = NULL;
-    TRY(delam_mesh_size(s->mesh, NULL, &nodes, NULL, NULL, NULL));
-    TRY(delam_mesh_interface_size(s->mesh, 0, NULL, NULL, &pairs, NULL, NULL));
-    xyz = malloc((size_t)(3 * nodes) * sizeof *xyz);
-    below = malloc((size_t)pairs * sizeof *below);
-    list = malloc((size_t)pairs * sizeof *list);
-    adhesion = calloc((size_t)pairs, sizeof *adhesion);
-    if (xyz == NULL || below == NULL || list == NULL || adhesion == NULL) {
-        fprintf(stderr, "dcb_host_law: out of memory\n");
-    } else if (delam_mesh_nodes(s->mesh, 3 * nodes, xyz) != DELAM_OK ||
-               delam_mesh_interface_pairs(s->mesh, 0, below, NULL, NULL, NULL) != DELAM_OK) {
-        fprintf(stderr, "dcb_host_law: %s\n", delam_context_message(s->context));
-    } else {
-        for (i = 0; i < pairs; ++i) {
-            if (xyz[3 * below[i]] < notch - 1e-3 * cell) list[cut++] = i;
-        }
-        if (delam_problem_set_adhesion(s->problem, 0, cut, list, adhesion, 0) == DELAM_OK) {
-            status = 0;
-        } else {
-            fprintf(stderr, "dcb_host_law: %s\n", delam_context_message(s->context));
-        }
-    }
-    free(xyz);
-    free(below);
-    free(list);
-    free(adhesion);
-    return status;
+    const double lower[3] = {0.0, 0.0, 0.0};
+    const double upper[3] = {notch, width, 2.0 * height};
+    TRY(delam_problem_set_adhesion_box(s->problem, 0, lower, upper, 0.0, NULL));
+    return 0;
 }
 
 /* Prescribes one direction of all nodes in a box: held, or driven by `coefficient` times the pattern. */

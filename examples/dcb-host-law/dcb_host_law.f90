@@ -69,7 +69,6 @@ program dcb_host_law
   real(dp), parameter :: width = 8e-3_dp      ! m
   real(dp), parameter :: height = 1.5e-3_dp   ! of an arm, m
   real(dp), parameter :: notch = 20e-3_dp     ! m
-  real(dp), parameter :: cell = 1e-3_dp       ! length of an element, m
   integer, parameter :: steps = 16
 
   ! Columns of the history, and the library's name for each.
@@ -119,15 +118,9 @@ program dcb_host_law
 
 contains
 
-  ! Pairs left of the notch tip have no adhesion from the start; those at the tip are bonded.
+  ! The notch has no adhesion from the start; the pairs at its tip, on the side of the box, are bonded.
   subroutine make_notch()
-    real(dp), allocatable :: nodes(:,:)
-    integer(delam_index), allocatable :: below(:), cut(:)
-    integer(delam_index) :: p
-    nodes = mesh%nodes()
-    call mesh%interface_pairs(1, nodes_a=below)
-    cut = pack([(p, p=1, size(below))], nodes(1, below) < notch - 1e-3_dp*cell)
-    call problem%set_adhesion(1, cut, spread(0.0_dp, 1, size(cut)))
+    call problem%set_adhesion_box(1, [0.0_dp, 0.0_dp, 0.0_dp], [notch, width, 2.0_dp*height], 0.0_dp)
   end subroutine make_notch
 
   subroutine make_loads()

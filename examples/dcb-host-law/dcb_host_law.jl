@@ -11,7 +11,6 @@ const SPAN = 60e-3      # m
 const WIDTH = 8e-3      # m
 const HEIGHT = 1.5e-3   # of an arm, m
 const NOTCH = 20e-3     # m
-const CELL = 1e-3       # length of an element, m
 const STEPS = 16
 const ONSET = 5.0       # energy at which the traction begins to fall, J/m2
 const TOUGHNESS = 250.0 # J/m2
@@ -44,8 +43,8 @@ function make_problem()
     set_elastic!(problem, 120e9, 0.3)
     set_formulation!(problem, "incompatible")
     set_law!(problem, glue, law)
-    # Pairs left of the notch tip have no adhesion from the start; those at the tip are bonded.
-    set_adhesion!(problem, glue, places(glue)[1, :] .< NOTCH - 1e-3 * CELL)
+    # The notch has no adhesion from the start; the pairs at its tip, on the side of the box, are bonded.
+    set_adhesion_box!(problem, glue, (0.0, 0.0, 0.0), (NOTCH, WIDTH, 2.0 * HEIGHT))
 
     opening = add_pattern!(problem, "opening", [0.0, 1.0], [0.0, 1.6e-3])
     right = find_nodes(mesh, (SPAN, 0.0, 0.0), (SPAN, WIDTH, 2.0 * HEIGHT))

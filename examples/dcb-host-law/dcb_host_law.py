@@ -16,7 +16,6 @@ LENGTH = 60e-3  # m
 WIDTH = 8e-3  # m
 HEIGHT = 1.5e-3  # of an arm, m
 NOTCH = 20e-3  # m
-CELL = 1e-3  # length of an element, m
 STEPS = 16
 ONSET = 5.0  # energy at which the traction begins to fall, J/m2
 TOUGHNESS = 250.0  # J/m2
@@ -52,8 +51,8 @@ def make_problem():
     problem.set_elastic(120e9, 0.3)
     problem.set_formulation("incompatible")
     problem.set_law(interface, law)
-    # Pairs left of the notch tip have no adhesion from the start; those at the tip are bonded.
-    problem.set_adhesion(interface, interface.places[:, 0] < NOTCH - 1e-3 * CELL, 0.0)
+    # The notch has no adhesion from the start; the pairs at its tip, on the side of the box, are bonded.
+    problem.set_adhesion_box(interface, (0.0, 0.0, 0.0), (NOTCH, WIDTH, 2.0 * HEIGHT))
 
     opening = problem.add_pattern("opening", [0.0, 1.0], [0.0, 1.6e-3])
     right = mesh.find_nodes((LENGTH, 0.0, 0.0), (LENGTH, WIDTH, 2.0 * HEIGHT))

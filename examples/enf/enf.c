@@ -9,14 +9,12 @@
  */
 #include <stdint.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 #include "delam/delam.h"
 
 static const double length = 120e-3; /* span, m */
 static const double height = 3e-3;   /* of an arm, m */
 static const double notch = 30e-3;   /* m */
-static const double cell = 0.5e-3;   /* edge of an element, m */
 static const int steps = 40;
 
 typedef struct {
@@ -65,43 +63,12 @@ static int make_law(scene *s) {
     return 0;
 }
 
-/* Pairs left of the notch tip have no adhesion from the start; the pair at the tip is bonded. */
+/* The notch has no adhesion from the start; the pair at its tip, on the side of the box, is bonded. */
 static int make_notch(scene *s) {
-    int64_t pairs = 0;
-    int64_t nodes = 0;
-    int64_t i;
-    int64_t cut = 0;
-    int status = 1;
-    double *xy = NULL;
-    double *adhesion = NULL;
-    int64_t *below = NULL;
-    int64_t *list = NULL;
-    TRY(delam_mesh_size(s->mesh, NULL, &nodes, NULL, NULL, NULL));
-    TRY(delam_mesh_interface_size(s->mesh, 0, NULL, NULL, &pairs, NULL, NULL));
-    xy = malloc((size_t)(2 * nodes) * sizeof *xy);
-    below = malloc((size_t)pairs * sizeof *below);
-    list = malloc((size_t)pairs * sizeof *list);
-    adhesion = calloc((size_t)pairs, sizeof *adhesion);
-    if (xy == NULL || below == NULL || list == NULL || adhesion == NULL) {
-        fprintf(stderr, "enf: out of memory\n");
-    } else if (delam_mesh_nodes(s->mesh, 2 * nodes, xy) != DELAM_OK ||
-               delam_mesh_interface_pairs(s->mesh, 0, below, NULL, NULL, NULL) != DELAM_OK) {
-        fprintf(stderr, "enf: %s\n", delam_context_message(s->context));
-    } else {
-        for (i = 0; i < pairs; ++i) {
-            if (xy[2 * below[i]] < notch - 1e-3 * cell) list[cut++] = i;
-        }
-        if (delam_problem_set_adhesion(s->problem, 0, cut, list, adhesion, 0) == DELAM_OK) {
-            status = 0;
-        } else {
-            fprintf(stderr, "enf: %s\n", delam_context_message(s->context));
-        }
-    }
-    free(xy);
-    free(below);
-    free(list);
-    free(adhesion);
-    return status;
+    const double lower[2] = {0.0, 0.0};
+    const double upper[2] = {notch, 2.0 * height};
+    TRY(delam_problem_set_adhesion_box(s->problem, 0, lower, upper, 0.0, NULL));
+    return 0;
 }
 
 /* The one node of a body at a place. */
@@ -157,8 +124,8 @@ static const char *const columns[][2] = {
     {"stored_bulk", "stored_bulk"},
     {"stored_interface", "stored_interface"},
     {"dissipated", "dissipated"},
-    {"stored_interface_slides", "stored_interface_slides"},
-    {"dissipated_slides", "dissipated_slides"},
+    {"stored_interface_slides", "stored_interface_linear"},
+    {"dissipated_slides", "dissipated_linear"},
     {"work", "work"},
     {"lower", "lower"},
     {"increment", "increment"},

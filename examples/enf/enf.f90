@@ -13,7 +13,6 @@ program enf
   real(dp), parameter :: length = 120e-3_dp   ! span, m
   real(dp), parameter :: height = 3e-3_dp     ! of an arm, m
   real(dp), parameter :: notch = 30e-3_dp     ! m
-  real(dp), parameter :: cell = 0.5e-3_dp     ! edge of an element, m
   integer, parameter :: steps = 40
 
   ! Columns of the history, and the library's name for each.
@@ -78,15 +77,9 @@ contains
     call law%set('toughness_exponent_2', 2.0_dp)
   end subroutine make_law
 
-  ! Pairs left of the notch tip have no adhesion from the start; the pair at the tip is bonded.
+  ! The notch has no adhesion from the start; the pair at its tip, on the side of the box, is bonded.
   subroutine make_notch()
-    real(dp), allocatable :: nodes(:,:)
-    integer(delam_index), allocatable :: below(:), cut(:)
-    integer(delam_index) :: p
-    nodes = mesh%nodes()
-    call mesh%interface_pairs(1, nodes_a=below)
-    cut = pack([(p, p=1, size(below))], nodes(1, below) < notch - 1e-3_dp*cell)
-    call problem%set_adhesion(1, cut, spread(0.0_dp, 1, size(cut)))
+    call problem%set_adhesion_box(1, [0.0_dp, 0.0_dp], [notch, 2.0_dp*height], 0.0_dp)
   end subroutine make_notch
 
   subroutine make_loads()

@@ -10,7 +10,6 @@ using Delam
 const SPAN = 120e-3   # m
 const HEIGHT = 3e-3   # of an arm, m
 const NOTCH = 30e-3   # m
-const CELL = 0.5e-3   # edge of an element, m
 const STEPS = 40
 
 const VALUES = ["step", "time", "load:load", "reaction:load", "stored_bulk", "stored_interface", "dissipated",
@@ -27,8 +26,8 @@ function make_problem()
     problem = Problem(mesh; plane="plane-strain")
     set_elastic!(problem, 75e9, 0.3)
     set_law!(problem, glue, law)
-    # Pairs left of the notch tip have no adhesion from the start; the pair at the tip is bonded.
-    set_adhesion!(problem, glue, places(glue)[1, :] .< NOTCH - 1e-3 * CELL)
+    # The notch has no adhesion from the start; the pair at its tip, on the side of the box, is bonded.
+    set_adhesion_box!(problem, glue, (0.0, 0.0), (NOTCH, 2.0 * HEIGHT))
 
     load = add_pattern!(problem, "load", [0.0, 2.0], [0.0, 6e-3])
     left, right = find_node(mesh, (0.0, 0.0); body=0), find_node(mesh, (SPAN, 0.0); body=0)

@@ -13,7 +13,6 @@ import delam
 LENGTH = 120e-3  # span, m
 HEIGHT = 3e-3  # of an arm, m
 NOTCH = 30e-3  # m
-CELL = 0.5e-3  # edge of an element, m
 STEPS = 40
 
 VALUES = ("step", "time", "load:load", "reaction:load", "stored_bulk", "stored_interface", "dissipated",
@@ -31,8 +30,8 @@ def make_problem():
     problem = delam.Problem(mesh, plane="plane-strain")
     problem.set_elastic(75e9, 0.3)
     problem.set_law(interface, law)
-    # Pairs left of the notch tip have no adhesion from the start; the pair at the tip is bonded.
-    problem.set_adhesion(interface, interface.places[:, 0] < NOTCH - 1e-3 * CELL, 0.0)
+    # The notch has no adhesion from the start; the pair at its tip, on the side of the box, is bonded.
+    problem.set_adhesion_box(interface, (0.0, 0.0), (NOTCH, 2.0 * HEIGHT))
 
     load = problem.add_pattern("load", [0.0, 2.0], [0.0, 6e-3])
     left, right = mesh.find_node((0.0, 0.0), body=0), mesh.find_node((LENGTH, 0.0), body=0)

@@ -37,7 +37,10 @@
  *              interface or pattern. index: place in a list, from 0 to its count - 1. body: label of a body; -1 means
  *              all bodies where the function allows it. capacity: number of entries that the array can hold. If it is
  *              negative, the call returns DELAM_ERROR_ARGUMENT; so it does if it is too small, unless the function says
- *              that it writes as many entries as fit. user: passed to the callback unchanged.
+ *              that it writes as many entries as fit. user: passed to the callback unchanged. lower, upper: of a box,
+ *              [dimension] each, its corner with the smallest and its corner with the largest coordinates; of a
+ *              parameter or an option, the ends of its range. The values `lower` and `upper` are something else, bounds
+ *              of what a step adds to the energy (delam_solver_value).
  *   backticks  Words in backticks stand for themselves: names of parameters, keys, and texts that a key can take, as in
  *              `solution = energetic`.
  *
@@ -52,11 +55,12 @@
  *   owns       pointers that outlive the call, and who frees or keeps them. "out caller": the caller frees *out with
  *              the object's destroy function. "static": valid as long as the library is loaded. "the problem", "the
  *              solver": valid as long as that object exists
- *   status     statuses that the function may return besides DELAM_OK. Every function with a handle may also return
- *              DELAM_ERROR_HANDLE, _MEMORY and _INTERNAL and, inside a callback, _STATE; the list omits these. "usual":
- *              only these. "only": nothing but the statuses listed. "-": none. A function that returns a text cannot
- *              return a status: its list says why it may return NULL, and delam_context_message() has the text of the
- *              error
+ *   status     statuses that the function may return besides DELAM_OK. Four statuses are understood and not listed,
+ *              because every function with a handle may return them: DELAM_ERROR_HANDLE, DELAM_ERROR_MEMORY,
+ *              DELAM_ERROR_INTERNAL and, inside a callback, DELAM_ERROR_STATE. "usual": the function returns these
+ *              four and no other. "only" before a list: it returns those listed, and not these four. "-": it returns
+ *              no status. A function that returns a text cannot return a status: its list says why it may return NULL,
+ *              and delam_context_message() has the text of the error
  *   thread     "any": any thread may call at any time. If absent, the rule for threads above applies
  *   source     publication or document that describes the method. "none": the function computes no new result; it
  *              returns inputs, counts or results of other functions
@@ -119,10 +123,10 @@ DELAM_API int32_t delam_abi(void);
  * [owns result static; status -; thread any; since 0.1] */
 DELAM_API const char *delam_status_name(int32_t status);
 /* Returns the number of threads that the host has given to BLAS in this process; 0 if BLAS does not report it. The
- * library uses one thread in its calls of BLAS and restores the number; only large sparse factorisations have all of
- * them (src/capi/CONTRACT.md, "Threads"), and two runs with such give identical digits only with the same number. It
- * leaves 1 where a limit of the address space leaves too little room for OpenBLAS' threads. The option `threads` sets
- * the library's own threads.
+ * library uses one thread in its calls of BLAS and restores the number afterwards. Only large sparse factorisations use
+ * all of them (src/capi/CONTRACT.md, "Threads"); two runs with such factorisations give identical digits only if the
+ * number is the same. Where the process may use too little address space for OpenBLAS' threads, the library sets the
+ * number to 1 for good. The option `threads` sets the library's own threads.
  * [status -; thread any; since 0.1] */
 DELAM_API int32_t delam_blas_threads(void);
 
@@ -136,7 +140,8 @@ typedef void (*delam_log_callback)(int32_t level, const char *text, void *user);
  * total: completed and total work of the stage (total 0: unknown). If the callback returns a value other than 0, the
  * running call stops with DELAM_CANCELLED. Functions that only read ignore this value, so that a host that has stopped
  * an analysis can still read its results. These functions are delam_mesh_find_patch; delam_problem_hash, _process_zone,
- * _body_matrix, _constraints, _forces and _eigenstrain_energy; delam_solver_value, _field, _average and _condensed.
+ * _propose, _body_matrix, _constraints, _forces and _eigenstrain_energy; delam_solver_value, _field, _average and
+ * _condensed.
  * [null user; owns stage static; status cancelled; thread call's; since 0.1] */
 typedef int32_t (*delam_progress_callback)(const char *stage, int64_t done, int64_t total, void *user);
 
@@ -159,9 +164,9 @@ DELAM_API int32_t delam_context_set_log(delam_context *context, delam_log_callba
  * [null callback, user; owns callback and user: as delam_context_set_log; status usual; since 0.1] */
 DELAM_API int32_t delam_context_set_progress(delam_context *context, delam_progress_callback callback, void *user);
 /* Asks the running call to stop at its next check. Any thread and any signal handler may call this function; it only
- * increments a lock-free counter. The call that it stops consumes the request. If no call is running, if the running
- * call makes no further check, or if that call fails because of its arguments, the request waits and stops the next
- * call of delam_solver_create, _advance, _equilibrate, _tangent, _step_tangent, _load, _load_file or
+ * increments a lock-free counter. A request stops one call. If it finds none to stop, because no call is running, or
+ * because the running one makes no further check or fails because of its arguments, it waits and stops the next call
+ * of delam_solver_create, _advance, _equilibrate, _tangent, _step_tangent, _load, _load_file or
  * delam_problem_set_stiffness. The other functions that list `cancelled` only build or read; a request stops them only
  * if it arrives while they run.
  * [status only handle; thread any; since 0.1] */
@@ -618,6 +623,15 @@ DELAM_API int32_t delam_problem_set_contact(delam_problem *problem, int64_t inte
  * [unit adhesion 1 in [0, 1]; null none; status argument; since 0.1] */
 DELAM_API int32_t delam_problem_set_adhesion(delam_problem *problem, int64_t interface_index, int64_t count,
                                              const int64_t *pairs, const double *adhesion, int32_t index_base);
+/* Sets the initial adhesion of the pairs inside the closed box from lower [dimension] to upper [dimension], e.g. of a
+ * notch: the box may be flat or higher than the interface. *count receives the number of these pairs; with NULL, it is
+ * an error if there is none. Where the interface goes on beyond a side of the box, that side is the tip of a crack, and
+ * the pairs exactly on it keep their adhesion (tolerance: 1e-6 of the shortest edge of the two bodies); where the
+ * interface ends, the pairs on the side belong to the box. If a side lies between two pairs, the log (level 1) names
+ * the next pair, which is the tip then. The place of a pair is that of its node_b.
+ * [unit lower L finite, upper L >= lower, adhesion 1 in [0, 1]; null count; status argument; since 0.1] */
+DELAM_API int32_t delam_problem_set_adhesion_box(delam_problem *problem, int64_t interface_index, const double *lower,
+                                                 const double *upper, double adhesion, int64_t *count);
 
 /* Adds a load pattern: a named factor with a piecewise-linear history, constant before the first and after the last
  * point. times: [count] strictly increasing; values: [count]; count >= 1. name: unique, of letters, digits, '_' and
@@ -751,6 +765,21 @@ DELAM_API int32_t delam_problem_dofs(const delam_problem *problem, int64_t *prim
  * Fract. 133 (2005); since 0.1] */
 DELAM_API int32_t delam_problem_process_zone(const delam_problem *problem, int64_t interface_index, double *length,
                                              double *spacing);
+/* Proposes numbers for the law of an interface (delam_law_set). *stiffness = 50 E3/t is the least stiffness that adds
+ * little compliance; E3 is the modulus of an adjacent body along the normal and t its extent along the normal, and the
+ * body with the larger E3/t counts. *share = 1/(1 + E3/(k t)) is what the law's present normal stiffness k leaves of
+ * that body's stiffness; with *stiffness it would be 0.98. Both are 0 if the interface is curved or none of its bodies
+ * has both cells and a material, because t is then unknown. *normal_strength and *tangential_strength are the largest
+ * strengths with which the process zone of that mode is predicted to have `pairs` pairs of the present spacing (3 is
+ * enough): delam_problem_process_zone, inverted. A law whose strength is lower already keeps it. Both are 0 where that
+ * function returns the length 0, or if no pair adheres. A lower strength changes the load at which damage begins, but
+ * hardly that at which a crack grows, which follows from the toughness. If the interface has no law, all four are 0.
+ * [unit pairs 1 > 0, stiffness F/L3, share 1, normal_strength F/L2, tangential_strength F/L2; null stiffness, share,
+ * normal_strength, tangential_strength; status cancelled, argument, problem; source A. Turon, C. Davila, P. Camanho, J.
+ * Costa, Eng. Fract. Mech. 74 (2007) 1665-1682; since 0.1] */
+DELAM_API int32_t delam_problem_propose(const delam_problem *problem, int64_t interface_index, double pairs,
+                                        double *stiffness, double *share, double *normal_strength,
+                                        double *tangential_strength);
 
 /* Returns the stiffness of a body as the library assembled it, for hosts that check or reuse it: CSR with both
  * triangles over the DOFs of the body. Local node i is the i-th node of the body in ascending order, and its DOFs are
@@ -860,9 +889,10 @@ DELAM_API int32_t delam_solver_set_history(delam_solver *solver, int64_t pattern
                                            const double *values);
 /* Performs one displacement step alone: finds the displacements of least energy at `time` for a given adhesion, which
  * is held fixed. adhesion: [pairs of all interfaces, one after another]; NULL takes the committed one. The result is a
- * pending step with the number of the committed one. It does not enter the energy balance: the stored energies and
- * `load_potential` are those of the new state, whereas `dissipated`, `work`, `lower`, `increment` and `upper` do not
- * change. Once it is committed, the solver discards the earlier steps, so that backtracking cannot return to them.
+ * pending step with the number of the committed one. It does not enter the energy balance: of the values
+ * (delam_solver_value), the stored energies and `load_potential` are those of the new state, whereas `dissipated`,
+ * `work`, `lower`, `increment` and `upper` do not change. Once it is committed, the solver discards the earlier steps,
+ * so that backtracking cannot return to them.
  * [unit time t finite, adhesion 1 in [0, 1]; null adhesion; status not_converged, cancelled, limit, argument, problem,
  * state, numerical; source M. Hintermueller, K. Ito, K. Kunisch, SIAM J. Optim. 13 (2002) 865-888; since 0.1] */
 DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, const double *adhesion);
@@ -873,34 +903,39 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  * of a pair. For B, zeta, Y, g and Gc see delam_law_create.
  *   step                   number of the step; the initial state is step 0
  *   time                   t: time of the state
- *   stored_bulk, stored_interface, dissipated, stored_interface_slides, dissipated_slides, load_potential, work, lower,
+ *   stored_bulk, stored_interface, dissipated, stored_interface_linear, dissipated_linear, load_potential, work, lower,
  *   increment, upper, increment_lower   F L: energies. The stored energies and `load_potential` belong to the state;
- *                          `dissipated`, `dissipated_slides` and `work` accumulate from the start; `lower`,
+ *                          `dissipated`, `dissipated_linear` and `work` accumulate from the start; `lower`,
  *                          `increment`, `upper` and `increment_lower` belong to the step. `stored_interface` is the
  *                          sum of w zeta Y, plus the energy of the gradient term if there is one; a step adds the sum
  *                          of w (g(B, zeta) - g(B, zeta_old)) to `dissipated`, with `mixity_rule = converged` as an
- *                          integral along the jumps of each pair. The keys that end in _slides split stored from
+ *                          integral along the jumps of each pair. The keys that end in _linear split stored from
  *                          dissipated energy as in Zeman, Kruzik and Gruber (PANM 15, 2010): the sum of w f(B, zeta),
  *                          f = g - Gc (1 - zeta), belongs to the stored energy, and a step dissipates the sum of w
  *                          Gc(B) (zeta_old - zeta). `increment` is the sum of what the step adds to stored energy,
- *                          `load_potential` and dissipated energy; `lower` and `upper` are its bounds in the two-sided
- *                          estimate (PANM 15, eq. (3)): lower <= increment <= upper, up to `backtracking_tolerance`
- *                          times the larger of |stored energy + load_potential| and |work|. Backtracking tests the
- *                          lower bound only. Let E be stored energy + load_potential without the gradient term. If the
- *                          factors of all patterns before the step are a > 0 times those after it, lower = (1 - a^2)
- *                          E(after) and upper = (1/a^2 - 1) E(before). In a step that damages nothing, all three are
- *                          equal. Otherwise, and always with `mixity_rule = variational`, the bounds follow from a
+ *                          `load_potential` and dissipated energy. `lower` and `upper` are bounds of it, the two-sided
+ *                          estimate (PANM 15, eq. (3)): what the change of the loads adds to the energy at constant
+ *                          damage, for `upper` that before the step, for `lower` that after it. A step to a state of
+ *                          least energy has lower <= increment <= upper, up to `backtracking_tolerance` times the
+ *                          larger of |stored energy + load_potential| and |work|. Backtracking tests the lower bound
+ *                          only. Let E be stored energy + load_potential without the gradient term. If the factors of
+ *                          all patterns before the step are a > 0 times those after it, lower = (1 - a^2) E(after) and
+ *                          upper = (1/a^2 - 1) E(before). In a step that damages nothing, all three are equal.
+ *                          Otherwise, and always with `mixity_rule = variational`, the bounds follow from a
  *                          displacement field that carries the change of the loads, and are wider. `increment_lower`
  *                          is the increment at the mixities of the step before; with `converged` it equals
- *                          `increment`. With `variational`, both use the _slides split. `work` is the work of the
+ *                          `increment`. With `variational`, both use the _linear split. `work` is the work of the
  *                          reactions: each step adds the mean of the reactions before and after it, times the changes
- *                          of the factors. A jump that bisection has located adds `upper` instead. With `mixity_rule =
- *                          converged` and loads in proportion, a step that was followed in parts adds the work along
- *                          them, each of which happens at the load within the step that first drives it
- *   defect, defect_slides  F L: error of the energy balance since the start: stored energies + load_potential +
+ *                          of the factors. Two kinds of step add something else: a jump that bisection has located
+ *                          adds `upper`; a step that was followed in parts (`mixity_rule = converged`, loads in
+ *                          proportion) adds the work along these parts, each of which happens at the load within the
+ *                          step that first drives it
+ *   defect, defect_linear  F L: error of the energy balance since the start: stored energies + load_potential +
  *                          dissipated + released (sum over all steps) - work - energy of the initial state.
- *                          `defect_slides` uses the _slides split for all of these. delam_solver_equilibrate changes
- *                          neither, because it changes the last term by as much as the energy of the state
+ *                          `defect_linear` uses the _linear split for all of these. delam_solver_equilibrate changes
+ *                          neither: what it adds to the energy of the state counts as energy of the initial state
+ *   stored_interface_slides, dissipated_slides, defect_slides   F L: the older names of the keys in _linear, which
+ *                          delam_solver_value_name lists
  *   mixity_error           estimated error of what the step dissipates, relative to it, because the mode mixity
  *                          changes; 0 if no pair was damaged. With `mixity_rule = converged`, the difference from an
  *                          integral of the next lower order along the jumps of the pairs. Otherwise sum w |dzeta|
@@ -929,12 +964,13 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  *   search_candidates      number of states that the energetic search compared
  *   search_margin          F L: lowest energy of these states minus the energy of the accepted state (>= 0 up to
  *                          rounding); 0 if none was compared
- *   search_gap             F L: energy of the accepted state minus a lower bound of the energy at the front positions
- *                          that the search omitted. The bound assumes the mixities that the search has found, and its
- *                          contact outside the zone about each front. 0: no further advance of a single front by whole
- *                          rings has a lower energy. The value does not cover new cracks, combined fronts or partly
- *                          damaged states. Infinite: no bound exists (dead loads on parts that nothing holds,
- *                          `mixity_rule = variational`)
+ *   search_gap             F L: how much energy the search may have missed. It does not try every position of a front;
+ *                          the states at the other positions have at least the energy of the accepted state minus this
+ *                          value. 0: none of them has less. The estimate assumes the mixities that the search has
+ *                          found, and outside the zone about each front also the contact. It covers advances of a
+ *                          single front by whole rings of pairs, but not new cracks, fronts that advance together or
+ *                          partly damaged states. Infinite: there is no such bound (dead loads on parts that nothing
+ *                          holds, `mixity_rule = variational`)
  *   substeps, refused_steps  number of accepted substeps of the step, and of substeps that were computed and rejected
  *   jumps                  number of jumps of the state (instabilities) within the step (see delam_solver_jump_count)
  *   released               F L: energy that the step releases, i.e. that is neither stored nor dissipated. With
@@ -978,9 +1014,8 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  *                          pattern, minus the conjugate displacement; for an eigenstrain, minus the integral of stress
  *                          times strain
  * delam_solver_value_count counts all of them. Some keys have a second name (delam_solver_value_info):
- * staggered_iterations for am_iterations, unstable_debonds for debond_moves, state_jumps for jumps. Every key that ends
- * in _slides has a second name in _linear, e.g. dissipated_linear, because the dissipation of this split is linear in
- * the damage.
+ * staggered_iterations for am_iterations, unstable_debonds for debond_moves, state_jumps for jumps, and the names in
+ * _linear for the older ones in _slides. Both names work for ever.
  * [unit value of key; null none; status cancelled, argument, problem; source of what is computed: at
  * delam_solver_advance and delam_solver_front; since 0.1] */
 DELAM_API int32_t delam_solver_value(delam_solver *solver, const char *key, double *value);
@@ -1189,25 +1224,27 @@ DELAM_API int32_t delam_solver_look(delam_solver *solver, int64_t step);
 
 /* Returns in *count the number of jumps of the state, i.e. abrupt changes, up to the pending state, or up to the
  * committed state if no step is pending; delam_solver_look does not change it. They are ordered by time. With the
- * option `jump_tolerance`, jumps are the located ones. Without it, a step is a jump if it releases energy (value
- * `released`), debonds on some interface more than 1.5 pairs for each pair next to the debonded region of this
- * interface that it damages (in mean weights; a front in the plane has one such pair, in space a row of them), and
- * either loses more than 2 % of the load, i.e. of the sum of factor times reaction over the norm of the factors, or
- * releases more than 1e-3 of the larger of |stored energy + load_potential| and |work|. Where the parts of a step are
- * known (`mixity_rule = converged`, loads in proportion), the parts that happen at one load and release more than 1e-3
- * of what they dissipate count together, and these conditions apply to the longest advance among them, of all
- * interfaces together, and to the pairs of the interface that debonds most; an energetic step to another state counts
- * without release.
+ * option `jump_tolerance`, jumps are the located ones. Without it, a step is a jump if all of this is true:
+ *   - it releases energy (value `released`);
+ *   - on some interface, it debonds more than 1.5 rows of pairs: the sum of weight times loss of adhesion exceeds 1.5
+ *     mean weights times the number of pairs that the step damages right next to the debonded region. A front in the
+ *     plane has one such pair, a front in space a row of them;
+ *   - the load, i.e. the sum of factor times reaction over the norm of the factors, falls by more than 2 %, or the step
+ *     releases more than 1e-3 of the larger of |stored energy + load_potential| and |work|.
+ * Where the parts of a step are known (`mixity_rule = converged`, loads in proportion), the parts that happen at one
+ * load and release more than 1e-3 of what they dissipate count together. The conditions then apply to the longest
+ * advance among them, of all interfaces together, and to the pairs of the interface that debonds most. An energetic
+ * step to another state counts even if it releases nothing.
  * [null none; status argument; since 0.1] */
 DELAM_API int32_t delam_solver_jump_count(const delam_solver *solver, int64_t *count);
 /* Returns one jump of the state. It lies between *before and *time, in step *step: in the interval that bisection has
  * found (option `jump_tolerance`), or else in the whole step or substep; where its instant follows from the parts of
  * the step (`mixity_rule = converged`, loads in proportion), *before and *time are both this instant. Energies:
  * *stored, change of stored energy and load potential; *dissipated; *released, the energy that is neither stored nor
- * dissipated (in reality, waves would carry it away; for energetic jumps it is 0 up to the tolerance). For a located
- * jump, *released is E(time, state before) - E(time, state after) - dissipated; where the instant follows from the
- * parts, what this jump releases, while the other energies and *debonded are those of the whole step; else, see the
- * value `released`.
+ * dissipated (in reality, waves would carry it away; for energetic jumps it is 0 up to the tolerance). Of a located
+ * jump, *released is E(time, state before) - E(time, state after) - dissipated. Where the instant follows from the
+ * parts, *released is what this jump alone releases, while the other energies and *debonded are those of the whole
+ * step. Of any other jump, *released is the value `released` of the step.
  * *debonded: change of the sum of weight (1 - zeta). *interface_index: the interface that changed most; *first_pair,
  * *last_pair: the first and last of its pairs whose adhesion changed (-1: none).
  * [unit before t, time t, stored F L, dissipated F L, released F L, debonded L or L2; null step, before, time, stored,

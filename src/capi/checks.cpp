@@ -44,6 +44,17 @@ void require_base(std::int32_t index_base) {
     if (index_base != 0 && index_base != 1) fail(DELAM_ERROR_ARGUMENT, "index_base = ", index_base, ", must be 0 or 1");
 }
 
+void require_box(int dimension, const double* lower, const double* upper) {
+    require_pointer(lower, "lower");
+    require_pointer(upper, "upper");
+    require_finite(lower, dimension, "lower");
+    require_finite(upper, dimension, "upper");
+    for (int d = 0; d < dimension; ++d) {
+        if (lower[d] > upper[d])
+            fail(DELAM_ERROR_ARGUMENT, "lower[", d, "] = ", lower[d], " > upper[", d, "] = ", upper[d]);
+    }
+}
+
 std::int64_t require_index(std::int64_t value, std::int64_t size, std::int32_t index_base, const std::string& what) {
     if (value < index_base || value - index_base >= size) {
         if (size == 0) fail(DELAM_ERROR_ARGUMENT, what, " = ", value, ", but there are none");

@@ -6,6 +6,7 @@
 #include "capi/handles.hpp"
 #include "scene/problem.hpp"
 #include "scene/process_zone.hpp"
+#include "scene/proposal.hpp"
 #include "scene/strain_loads.hpp"
 
 namespace {
@@ -134,9 +135,28 @@ int32_t delam_problem_process_zone(const delam_problem* problem, int64_t interfa
                                    double* spacing) {
     return guard_read(problem, [&] {
         const auto count = static_cast<std::int64_t>(problem->core->interfaces.size());
-        const ProcessZone zone =
-            predicted_process_zone(*problem->core, require_index(interface_index, count, 0, "interface_index"));
-        if (length != nullptr) *length = zone.length;
+        const std::int64_t interface = require_index(interface_index, count, 0, "interface_index");
+        if (length == nullptr) {  // the spacing alone needs no look at the bodies
+            if (spacing != nullptr) *spacing = pair_spacing(*problem->core, interface);
+            return;
+        }
+        const ProcessZone zone = predicted_process_zone(*problem->core, interface);
+        *length = zone.length;
         if (spacing != nullptr) *spacing = zone.spacing;
+    });
+}
+
+int32_t delam_problem_propose(const delam_problem* problem, int64_t interface_index, double pairs, double* stiffness,
+                              double* share, double* normal_strength, double* tangential_strength) {
+    return guard_read(problem, [&] {
+        const auto count = static_cast<std::int64_t>(problem->core->interfaces.size());
+        const std::int64_t interface = require_index(interface_index, count, 0, "interface_index");
+        if (!(pairs > 0.0 && std::isfinite(pairs)))
+            fail(DELAM_ERROR_ARGUMENT, "pairs = ", pairs, ": must be > 0 and finite");
+        const Proposal found = proposal(*problem->core, interface, pairs);
+        if (stiffness != nullptr) *stiffness = found.stiffness;
+        if (share != nullptr) *share = found.share;
+        if (normal_strength != nullptr) *normal_strength = found.strength[0];
+        if (tangential_strength != nullptr) *tangential_strength = found.strength[1];
     });
 }

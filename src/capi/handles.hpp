@@ -214,6 +214,8 @@ void require_apart(const double* a, const char* name_a, std::int64_t count_a, co
                    std::int64_t count_b);
 void require_capacity(std::int64_t capacity, std::int64_t needed, const char* name);
 void require_base(std::int32_t index_base);
+// The corners of a box, [dimension] each.
+void require_box(int dimension, const double* lower, const double* upper);
 // Checks a second handle argument of a call.
 template <class H>
 void require_handle(const H* handle, const char* name) {

@@ -104,17 +104,6 @@ void require_two_bodies(const Mesh& mesh, std::int32_t body_a, std::int32_t body
     if (body_a == body_b) fail(DELAM_ERROR_ARGUMENT, "body_a and body_b are both ", body_a, ", expected two bodies");
 }
 
-void require_box(const Mesh& mesh, const double* lower, const double* upper) {
-    require_pointer(lower, "lower");
-    require_pointer(upper, "upper");
-    require_finite(lower, mesh.dimension(), "lower");
-    require_finite(upper, mesh.dimension(), "upper");
-    for (int d = 0; d < mesh.dimension(); ++d) {
-        if (lower[d] > upper[d])
-            fail(DELAM_ERROR_ARGUMENT, "lower[", d, "] = ", lower[d], " > upper[", d, "] = ", upper[d]);
-    }
-}
-
 // Writes as many as fit and returns how many there are.
 template <class T>
 void give(const std::vector<T>& list, std::int64_t capacity, T* out) {
@@ -385,7 +374,7 @@ int32_t delam_mesh_find_nodes(const delam_mesh* mesh, int32_t body, const double
         require_pointer(count, "count");
         require_count(capacity, "capacity");
         require_array(nodes, capacity, "nodes");
-        require_box(core, lower, upper);
+        require_box(core.dimension(), lower, upper);
         const std::vector<std::int64_t> found = find_nodes(
             core, require_body(core, body, "body", true), view(lower, core.dimension()), view(upper, core.dimension()));
         give(found, capacity, nodes);
@@ -403,7 +392,7 @@ int32_t delam_mesh_find_patch(const delam_mesh* mesh, int32_t body, const double
         require_count(capacity, "capacity");
         require_array(nodes, capacity, "nodes");
         require_array(weights, capacity, "weights");
-        require_box(core, lower, upper);
+        require_box(core.dimension(), lower, upper);
         require_pointer(direction, "direction");
         require_finite(direction, dimension, "direction");
         if (std::all_of(direction, direction + dimension, [](double d) { return d == 0.0; })) {

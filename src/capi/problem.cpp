@@ -11,6 +11,7 @@
 #include <string>
 
 #include "capi/handles.hpp"
+#include "mesh/selection.hpp"
 #include "scene/given_stiffness.hpp"
 
 namespace {
@@ -33,6 +34,16 @@ void set_material(Problem& problem, std::int32_t body, const Material& material)
     const std::int32_t index = require_body(problem, body);
     for (std::size_t i = 0; i < problem.material.size(); ++i)
         if (body == -1 || i == static_cast<std::size_t>(index)) problem.material[i] = material;
+}
+
+// Tells the host where a box ends between two pairs.
+void say_moved(const Context& context, std::int64_t interface, double adhesion, const PairsInBox& found) {
+    for (const MovedEnd& moved : found.moved)
+        context.monitor.log(
+            1,
+            text("interface ", interface, ": the box ", moved.upper ? "ends" : "begins", " at ", "xyz"[moved.axis],
+                 " = ", moved.end, ", between two pairs: ",
+                 adhesion == 0.0 ? "the tip of the crack is the next pair, at " : "the next pair is at ", moved.next));
 }
 
 }  // namespace
@@ -239,6 +250,25 @@ int32_t delam_problem_set_adhesion(delam_problem* problem, int64_t interface_ind
             changed[static_cast<std::size_t>(pair)] = adhesion[i];
         }
         interface.adhesion = std::move(changed);
+    });
+}
+
+int32_t delam_problem_set_adhesion_box(delam_problem* problem, int64_t interface_index, const double* lower,
+                                       const double* upper, double adhesion, int64_t* count) {
+    return guard(problem, [&] {
+        const std::size_t i = require_interface(*problem->core, interface_index);
+        const Mesh& mesh = *problem->core->mesh;
+        require_box(mesh.dimension(), lower, upper);
+        if (!(adhesion >= 0.0 && adhesion <= 1.0))
+            fail(DELAM_ERROR_ARGUMENT, "adhesion = ", adhesion, " is outside 0 .. 1");
+        const auto axes = static_cast<std::size_t>(mesh.dimension());
+        const PairsInBox found = find_pairs(mesh, interface_index, {lower, axes}, {upper, axes});
+        if (found.pairs.empty() && count == nullptr)
+            fail(DELAM_ERROR_ARGUMENT, "lower, upper: no pair of interface ", interface_index, " is in this box");
+        for (const std::int64_t pair : found.pairs)
+            problem->core->interfaces[i].adhesion[static_cast<std::size_t>(pair)] = adhesion;
+        if (count != nullptr) *count = static_cast<std::int64_t>(found.pairs.size());
+        say_moved(*problem->context, interface_index, adhesion, found);
     });
 }
 

@@ -23,4 +23,21 @@ struct Patch {
 Patch find_patch(const Mesh& mesh, std::int32_t body, std::span<const double> lower, std::span<const double> upper,
                  std::span<const double> direction);
 
+// An end of a box that lies between two pairs, so that what begins or ends there does so at the next pair outside.
+struct MovedEnd {
+    std::size_t axis;
+    bool upper;
+    double end;
+    double next;
+};
+struct PairsInBox {
+    std::vector<std::int64_t> pairs;  // ascending
+    std::vector<MovedEnd> moved;
+};
+// Pairs of an interface inside the closed box. A pair exactly on a side of the box (to 1e-6 of the shortest edge of the
+// two bodies) counts unless the interface goes on beyond that side: it is then the tip of what the box cuts out. The
+// interface goes on where a face at the pair reaches beyond; without faces, where any pair lies beyond.
+PairsInBox find_pairs(const Mesh& mesh, std::int64_t interface, std::span<const double> lower,
+                      std::span<const double> upper);
+
 }  // namespace delam

@@ -2,7 +2,9 @@
 // Prediction of the length of an interface's process zone, before anything is solved.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <vector>
 
 #include "scene/problem.hpp"
 
@@ -16,6 +18,14 @@ struct ProcessZone {
     double length = 0.0;   // 0: no softening law
     double spacing = 0.0;  // mean distance of its initially adhering pairs
 };
+// Mean distance of the initially adhering pairs of an interface; 0: none adheres.
+double pair_spacing(const Problem& problem, std::int64_t interface);
 ProcessZone predicted_process_zone(const Problem& problem, std::int64_t interface);
+// The largest peak tractions, normal and tangential, at which the predicted zone of that mode is at least `length`
+// long; 0: no softening law.
+std::array<double, 2> resolved_strengths(const Problem& problem, std::int64_t interface, double length);
+
+// Those bodies beside an interface that have cells and a material.
+std::vector<std::int32_t> elastic_bodies(const Problem& problem, std::int64_t interface);
 
 }  // namespace delam

@@ -103,6 +103,8 @@ def keys_of(library, header):
         found[f"cell {name}"] = {"type": f"number {number}", "shape": f"[{nodes}][{dimension}]"}
     recorded, aliases = recorded_of(library, header)
     for name, unit in values_of(header).items():
+        if name in aliases.values():  # in the line of its key
+            continue
         found[f"value {name}"] = {"unit": unit, "recorded": recorded.get(name, "no")}
         if aliases.get(name):
             found[f"value {name}"]["alias"] = aliases[name]
@@ -347,8 +349,11 @@ def measured(library, header):
             if info["alias"] and one.of_alias(info["alias"]) != before[name]:
                 wrong.append(f"value {general(name)}: its alias {info['alias']} has another value")
         keys = {general(name): name for name in before}
+        others = {info["alias"]: general(name) for name, info in one.infos().items()}
         for name in values:
-            if name not in keys:
+            if name in others and values[name] != values.get(others[name]):
+                wrong.append(f"value {name}: in the header, another unit than {others[name]}, whose alias it is")
+            if name not in keys and name not in others:
                 wrong.append(f"value {name}: in the header, delam_solver_value_name does not give it")
         for name, own in keys.items():
             if name not in values:

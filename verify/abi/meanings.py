@@ -46,7 +46,7 @@ SPECIAL = re.compile(r"(?<![\w.])(?<!index from )(?:0|-1|NULL)(?:\)?: | selects|
 RESULTS = {
     "blas_threads: 0 if BLAS", "problem_process_zone: length 0: ",
     "solver_value: 0 if no pair", "solver_value: 0 if none was compared",
-    "solver_value: 0: no further", "solver_value: 0 if they are direct",
+    "solver_value: 0: none of them has less", "solver_value: 0 if they are direct",
     "solver_value: largest jump (0: none)", "solver_value: of a pair (0: none)",
     "solver_value: 0 if there is no front", "solver_recorded_size: 0 if nothing",
     "solver_average: 0 if no body", "solver_plan_item: (0 if left out)",

@@ -442,6 +442,12 @@ START_TEST(scenes) {
            "pairs[0] = 6 is outside 0 .. 2");
     expect(delam_problem_set_adhesion(problem, 0, 1, pairs, fraction, 1), DELAM_ERROR_ARGUMENT,
            "pairs[0] = 0 is outside 1 .. 3");
+    expect(delam_problem_set_adhesion_box(problem, 0, NULL, axes, 0.0, NULL), DELAM_ERROR_ARGUMENT, "lower is NULL");
+    expect(delam_problem_set_adhesion_box(problem, 0, axes, fraction, 1.5, NULL), DELAM_ERROR_ARGUMENT,
+           "adhesion = 1.5 is outside");
+    expect(delam_problem_set_adhesion_box(problem, 0, axes, axes, 0.0, NULL), DELAM_ERROR_ARGUMENT,
+           "no pair of interface 0 is in this box");
+    expect(delam_problem_propose(problem, 0, -1.0, NULL, NULL, NULL, NULL), DELAM_ERROR_ARGUMENT, "pairs = -1");
     expect(delam_problem_set_number(problem, "tolerance", 1.0), DELAM_ERROR_ARGUMENT,
            "'tolerance' is not known; known are");
     expect(delam_problem_set_number(problem, "damage_tolerance", NAN), DELAM_ERROR_ARGUMENT,
@@ -696,6 +702,30 @@ START_TEST(log_hears_of_errors) {
 }
 END_TEST
 
+static void keep_line(int32_t level, const char *text, void *user) {
+    if (level == 1) snprintf((char *)user, 200, "%s", text);
+}
+
+/* Pairs at 0, 1, 2: a side between two of them is told to the log, one on a pair is not. */
+START_TEST(log_hears_of_moved_tips) {
+    const double lower[2] = {0.0, 0.0};
+    double upper[2] = {1.0, 2.0};
+    char line[200] = "";
+    int64_t count = -1;
+    fine(delam_context_set_log(context, keep_line, line));
+    fine(delam_problem_set_adhesion_box(problem, 0, lower, upper, 0.0, &count));
+    ck_assert_str_eq(line, "");
+    ck_assert_int_eq(count, 1);
+    upper[0] = 1.25;
+    fine(delam_problem_set_adhesion_box(problem, 0, lower, upper, 0.0, &count));
+    ck_assert_str_eq(line,
+                     "interface 0: the box ends at x = 1.25, between two pairs: the tip of the crack is the next pair, "
+                     "at 2");
+    ck_assert_int_eq(count, 2);
+    fine(delam_context_set_log(context, NULL, NULL));
+}
+END_TEST
+
 int main(void) {
     int failed;
     Suite *suite = suite_create("capi");
@@ -719,6 +749,7 @@ int main(void) {
     tcase_add_test(tests, exports);
     tcase_add_test(tests, plans);
     tcase_add_test(tests, log_hears_of_errors);
+    tcase_add_test(tests, log_hears_of_moved_tips);
     suite_add_tcase(suite, tests);
     runner = srunner_create(suite);
     srunner_run_all(runner, CK_NORMAL);

@@ -16,8 +16,8 @@ using faults::expect;
 bool reads(const std::string& name) {
     for (const char* function : {"delam_mesh_find_patch", "delam_problem_body_matrix", "delam_problem_constraints",
                                  "delam_problem_eigenstrain_energy", "delam_problem_forces", "delam_problem_hash",
-                                 "delam_problem_process_zone", "delam_solver_average", "delam_solver_condensed",
-                                 "delam_solver_field", "delam_solver_value"})
+                                 "delam_problem_process_zone", "delam_problem_propose", "delam_solver_average",
+                                 "delam_solver_condensed", "delam_solver_field", "delam_solver_value"})
         if (name.substr(0, name.find(' ')) == function) return true;
     return false;
 }

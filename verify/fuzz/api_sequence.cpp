@@ -978,6 +978,14 @@ const Call calls[] = {
          return in_order{delam_problem_set_adhesion, a.problem, a.in.index(2), static_cast<std::int64_t>(count),
                                            maybe(a.in, pairs), maybe(a.in, adhesion), base}.status;
      }},
+    {"delam_problem_set_adhesion_box", Subject::problem, may::argument,
+     [](const Asked& a) {
+         std::vector<double> lower = a.in.reals(3), upper = a.in.reals(3);
+         const double adhesion = a.in.fraction();
+         std::int64_t count = 0;
+         return in_order{delam_problem_set_adhesion_box, a.problem, a.in.index(2), maybe(a.in, lower),
+                                           maybe(a.in, upper), adhesion, a.in.seldom() ? nullptr : &count}.status;
+     }},
     {"delam_problem_add_pattern", Subject::problem, may::argument,
      [](const Asked& a) { return add_pattern(a.in, a.problem); }},
     {"delam_problem_prescribe_nodes", Subject::problem, may::cancelled | may::argument | may::problem,
@@ -1014,6 +1022,13 @@ const Call calls[] = {
      [](const Asked& a) {
          double length = 0.0;
          return delam_problem_process_zone(a.problem, a.in.index(2), &length, nullptr);
+     }},
+    {"delam_problem_propose", Subject::problem, may::cancelled | may::argument | may::problem,
+     [](const Asked& a) {
+         const std::int64_t interface_index = a.in.index(2);
+         double stiffness = 0.0, share = 0.0, normal = 0.0, tangential = 0.0;
+         return in_order{delam_problem_propose, a.problem, interface_index, a.in.seldom() ? a.in.hostile_real() : 3.0,
+                         &stiffness, &share, &normal, &tangential}.status;
      }},
     {"delam_problem_body_matrix", Subject::problem, may::cancelled | may::argument | may::problem,
      [](const Asked& a) { return body_matrix(a.in, a.problem); }},

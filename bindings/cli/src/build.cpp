@@ -10,6 +10,7 @@
 #include "build_mesh.hpp"
 #include "call.hpp"
 #include "named.hpp"
+#include "notes.hpp"
 #include "selection.hpp"
 #include "sensitivities.hpp"
 
@@ -17,48 +18,15 @@ namespace cli {
 
 namespace {
 
-// Inside, or on an end shared with the interface: an end within the interface is a crack tip, whose pair stays bonded.
-bool inside(double x, double lower, double upper, double length, double slack) {
-    const bool from = lower <= slack ? x >= lower - slack : x > lower + slack;
-    const bool to = upper >= length - slack ? x <= upper + slack : x < upper - slack;
-    return from && to;
-}
-
-// Whether any pair adheres.
-bool set_adhesion(const Model& model, const Scene& scene, std::int64_t index, const InterfaceData& data) {
-    const delam_context* context = model.context.get();
-    std::int64_t pairs = 0;
-    std::int64_t nodes = 0;
-    call(context, delam_mesh_interface_size(model.mesh.get(), index, nullptr, nullptr, &pairs, nullptr, nullptr),
-         data.place);
-    call(context, delam_mesh_size(model.mesh.get(), nullptr, &nodes, nullptr, nullptr, nullptr), data.place);
-    const auto dimension = static_cast<std::size_t>(scene.geometry.dimension);
-    std::vector<std::int64_t> face_a(static_cast<std::size_t>(pairs));
-    std::vector<double> coordinates(static_cast<std::size_t>(nodes) * dimension);
-    call(context, delam_mesh_interface_pairs(model.mesh.get(), index, face_a.data(), nullptr, nullptr, nullptr),
-         data.place);
-    call(context, delam_mesh_nodes(model.mesh.get(), nodes * scene.geometry.dimension, coordinates.data()), data.place);
-    const double slack = 1e-6 * scene.geometry.smallest_edge;
-    std::vector<double> initial(face_a.size(), 1.0);
-    for (const Region& region : data.regions) {
-        std::vector<std::int64_t> chosen;
-        for (std::size_t i = 0; i < face_a.size(); ++i) {
-            const double* at = coordinates.data() + static_cast<std::size_t>(face_a[i]) * dimension;
-            bool in = true;
-            for (std::size_t axis = 0; axis + 1 < dimension; ++axis)
-                in =
-                    in && inside(at[axis], region.lower[axis], region.upper[axis], scene.geometry.lengths[axis], slack);
-            if (in) chosen.push_back(static_cast<std::int64_t>(i));
-        }
-        if (chosen.empty()) throw SceneFailure(region.place, "no pair of the interface is in this region");
-        const std::vector<double> adhesion(chosen.size(), region.adhesion);
-        call(context,
-             delam_problem_set_adhesion(model.problem.get(), index, static_cast<std::int64_t>(chosen.size()),
-                                        chosen.data(), adhesion.data(), 0),
-             region.place);
-        for (const std::int64_t pair : chosen) initial[static_cast<std::size_t>(pair)] = region.adhesion;
+// The regions of a block of layers reach over its height.
+void set_layer_regions(Model& model, const Scene& scene, std::int64_t index, const InterfaceData& data) {
+    const auto last = static_cast<std::size_t>(scene.geometry.dimension) - 1;
+    for (Region region : data.regions) {
+        region.lower[last] = -scene.geometry.height;
+        region.upper[last] = 2.0 * scene.geometry.height;
+        if (set_box(model, index, region) == 0)
+            throw SceneFailure(region.place, "no pair of the interface is in this region");
     }
-    return std::any_of(initial.begin(), initial.end(), [](double zeta) { return zeta > 0; });
 }
 
 void set_interfaces(Model& model, const Scene& scene) {
@@ -93,13 +61,16 @@ void set_interfaces(Model& model, const Scene& scene) {
                  at("softening"));
         call(context, delam_law_check(law.get()), from.place);
         call(context, delam_problem_set_law(model.problem.get(), index, law.get()), data.place);
-        model.adheres.push_back(scene.mesh ? set_mesh_adhesion(model, scene, index, data)
-                                           : set_adhesion(model, scene, index, data));
+        scene.mesh ? set_mesh_regions(model, scene, index, data) : set_layer_regions(model, scene, index, data);
+        double spacing = 0;
+        call(context, delam_problem_process_zone(model.problem.get(), index, nullptr, &spacing), data.place);
+        model.adheres.push_back(spacing > 0);
     }
 }
 
-void prescribe(const Model& model, const Scene& scene, const Prescription& data) {
+void prescribe(Model& model, const Scene& scene, const Prescription& data) {
     const Selected at = select(model.context.get(), model.mesh.get(), scene, data.where, data.mean);
+    note_place(model, scene, data.where, at);
     if (data.mean && at.weights.empty()) throw SceneFailure(data.place, "mean: a single node has no face");
     std::vector<std::int64_t> patterns;
     std::vector<double> coefficients;
@@ -123,8 +94,9 @@ void prescribe(const Model& model, const Scene& scene, const Prescription& data)
     }
 }
 
-void add_force(const Model& model, const Scene& scene, const DeadForce& data) {
+void add_force(Model& model, const Scene& scene, const DeadForce& data) {
     const Selected at = select(model.context.get(), model.mesh.get(), scene, data.where, true);
+    note_place(model, scene, data.where, at);
     if (data.kind != ForceKind::total && at.weights.empty())
         throw SceneFailure(data.place, "a single node has no face: give force instead of a force per area");
     const double total = std::accumulate(at.weights.begin(), at.weights.end(), 0.0);
@@ -162,6 +134,10 @@ void note_constraints(Model& model, const Place& place) {
 }
 
 namespace {
+
+extern "C" void on_build_log(std::int32_t level, const char* text, void* said) {
+    if (level == 1) static_cast<std::vector<std::string>*>(said)->emplace_back(text);
+}
 
 void fill(Model& model, const Scene& scene) {
     const delam_context* owner = model.context.get();
@@ -216,6 +192,7 @@ void fill(Model& model, const Scene& scene) {
 Model build(Context context, const Scene& scene) {
     Model model;
     model.context = std::move(context);
+    delam_context_set_log(model.context.get(), on_build_log, &model.said);
     try {
         fill(model, scene);
     } catch (const Failure& failure) {
@@ -223,6 +200,7 @@ Model build(Context context, const Scene& scene) {
         if (failure.place().file.empty()) throw Failure(failure.code(), text);
         throw Failure(failure.code(), failure.place(), text);
     }
+    delam_context_set_log(model.context.get(), nullptr, nullptr);
     return model;
 }
 

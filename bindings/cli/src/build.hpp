@@ -17,6 +17,7 @@ struct Model {
     Problem problem;
     std::vector<InterfaceData> interfaces;  // in the order of the mesh's interfaces
     std::vector<bool> adheres;              // per interface: whether any pair adheres at the start
+    std::vector<std::string> said;          // warnings of the library while it was built, with places in the scene
     std::vector<Place> constraint_places;   // for each constraint of the problem: its place in the scene
     std::vector<std::int32_t> partitions;   // of each cell, from 1 on, as the mesh file has them; empty: it has none
 };

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "call.hpp"
+#include "notes.hpp"
 #include "selection.hpp"
 
 namespace cli {
@@ -38,10 +39,11 @@ void impose(const Model& model, const Equation& equation, const std::vector<Term
          place);
 }
 
-void add_equation(const Model& model, const Scene& scene, const EquationData& data) {
+void add_equation(Model& model, const Scene& scene, const EquationData& data) {
     Equation equation;
     for (const EquationTerm& term : data.left) {
         const Selected at = select(model.context.get(), model.mesh.get(), scene, term.where, true);
+        note_place(model, scene, term.where, at);
         const double total = std::accumulate(at.weights.begin(), at.weights.end(), 0.0);
         for (std::size_t i = 0; i < at.nodes.size(); ++i)
             equation.add(at.nodes[i], term.direction,

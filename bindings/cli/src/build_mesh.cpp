@@ -215,13 +215,11 @@ void build_from(Model& model, const Scene& scene) {
     add_other_interfaces(model, scene);
 }
 
-// The pairs of an interface that lie in a region.
+// The pairs of an interface that lie in a set.
 class RegionPairs {
 public:
     RegionPairs(const Model& model, const Scene& scene, std::int64_t index, const Place& place)
-        : dimension_(static_cast<std::size_t>(scene.geometry.dimension)),
-          slack_(1e-6 * scene.geometry.smallest_edge),
-          mesh_(*scene.mesh) {
+        : dimension_(static_cast<std::size_t>(scene.geometry.dimension)), mesh_(*scene.mesh) {
         const delam_context* context = model.context.get();
         const delam_mesh* mesh = model.mesh.get();
         std::int64_t pairs = 0;
@@ -231,48 +229,38 @@ public:
         call(context, delam_mesh_interface_size(mesh, index, nullptr, nullptr, &pairs, &faces, &per_face), place);
         call(context, delam_mesh_size(mesh, nullptr, &nodes, nullptr, nullptr, nullptr), place);
         node_b_.resize(static_cast<std::size_t>(pairs));
-        coordinates_.resize(static_cast<std::size_t>(nodes) * dimension_);
         origins_.resize(static_cast<std::size_t>(nodes));
         faces_.resize(static_cast<std::size_t>(faces * per_face));
         per_face_ = static_cast<std::size_t>(per_face);
         // Face b's nodes always exist; face a's nodes may be points within faces.
         call(context, delam_mesh_interface_pairs(mesh, index, nullptr, node_b_.data(), nullptr, nullptr), place);
         call(context, delam_mesh_interface_faces(mesh, index, faces_.data()), place);
-        call(context, delam_mesh_nodes(mesh, nodes * scene.geometry.dimension, coordinates_.data()), place);
         call(context, delam_mesh_node_origins(mesh, nodes, origins_.data()), place);
     }
 
+    // Of a set: the pairs all of whose faces lie in it, or those without a face in it.
     [[nodiscard]] std::vector<std::int64_t> in(const Region& region) const {
         if (region.outside) return outside(region.set);
-        std::vector<Where> where(node_b_.size(), Where::outside);
-        if (region.set.empty()) {
-            for (std::size_t i = 0; i < node_b_.size(); ++i) where[i] = in_box(region, i);
-        } else {
-            const std::vector<std::int64_t>& set = mesh_.node_sets.at(region.set);
-            for (std::size_t i = 0; i < node_b_.size(); ++i)
-                if (std::binary_search(set.begin(), set.end(), origins_[static_cast<std::size_t>(node_b_[i])]))
-                    where[i] = Where::edge;
-        }
-        // A pair on the edge belongs to the region only if no face leads out of it.
+        const std::vector<std::int64_t>& set = mesh_.node_sets.at(region.set);
+        const auto in_set = [&](std::int64_t pair) {
+            return std::binary_search(set.begin(), set.end(),
+                                      origins_[static_cast<std::size_t>(node_b_[static_cast<std::size_t>(pair)])]);
+        };
+        // A pair from which a face leads out is a tip.
         std::vector<bool> tip(node_b_.size(), false);
         for (std::size_t f = 0; f < faces_.size(); f += per_face_) {
             const auto begin = faces_.begin() + static_cast<std::ptrdiff_t>(f);
             const auto end = begin + static_cast<std::ptrdiff_t>(per_face_);
-            if (std::all_of(begin, end,
-                            [&](std::int64_t pair) { return where[static_cast<std::size_t>(pair)] != Where::outside; }))
-                continue;
+            if (std::all_of(begin, end, in_set)) continue;
             std::for_each(begin, end, [&](std::int64_t pair) { tip[static_cast<std::size_t>(pair)] = true; });
         }
         std::vector<std::int64_t> out;
-        for (std::size_t i = 0; i < where.size(); ++i)
-            if (where[i] == Where::inside || (where[i] == Where::edge && !tip[i]))
-                out.push_back(static_cast<std::int64_t>(i));
+        for (std::size_t i = 0; i < node_b_.size(); ++i)
+            if (!tip[i] && in_set(static_cast<std::int64_t>(i))) out.push_back(static_cast<std::int64_t>(i));
         return out;
     }
 
 private:
-    enum class Where { outside, edge, inside };
-
     // The pairs without a face in the set, which is one of faces or else one of nodes that hold all corners of a face.
     [[nodiscard]] std::vector<std::int64_t> outside(const std::string& name) const {
         const std::size_t corners = dimension_ == 2 ? 2 : per_face_ % 3 == 0 ? 3 : 4;
@@ -308,24 +296,12 @@ private:
         return out;
     }
 
-    [[nodiscard]] Where in_box(const Region& region, std::size_t pair) const {
-        const double* at = coordinates_.data() + static_cast<std::size_t>(node_b_[pair]) * dimension_;
-        Where out = Where::inside;
-        for (std::size_t a = 0; a < dimension_; ++a) {
-            if (at[a] < region.lower[a] - slack_ || at[a] > region.upper[a] + slack_) return Where::outside;
-            if (at[a] <= region.lower[a] + slack_ || at[a] >= region.upper[a] - slack_) out = Where::edge;
-        }
-        return out;
-    }
-
     std::size_t dimension_;
-    double slack_;
     const MeshData& mesh_;
     std::size_t per_face_ = 1;
     std::vector<std::int64_t> node_b_;
     std::vector<std::int64_t> faces_;
     std::vector<std::int64_t> origins_;
-    std::vector<double> coordinates_;
 };
 
 }  // namespace
@@ -338,28 +314,41 @@ void build_mesh(Model& model, const Scene& scene) {
     add_obstacles(model, scene);
 }
 
-bool set_mesh_adhesion(const Model& model, const Scene& scene, std::int64_t index, const InterfaceData& data) {
-    const RegionPairs pairs(model, scene, index, data.place);
+std::int64_t set_box(Model& model, std::int64_t index, const Region& region) {
+    const std::size_t before = model.said.size();
     std::int64_t count = 0;
     call(model.context.get(),
-         delam_mesh_interface_size(model.mesh.get(), index, nullptr, nullptr, &count, nullptr, nullptr), data.place);
-    std::vector<double> initial(static_cast<std::size_t>(count), 1.0);
+         delam_problem_set_adhesion_box(model.problem.get(), index, region.lower.data(), region.upper.data(),
+                                        region.adhesion, &count),
+         region.place);
+    // The library knows the number of the interface, the scene the place of the region.
+    const std::string library = fmt::format("interface {}: the box ", index);
+    for (std::size_t i = before; i < model.said.size(); ++i)
+        if (model.said[i].rfind(library, 0) == 0)
+            model.said[i] = region.place.path + " " + model.said[i].substr(library.size());
+    return count;
+}
+
+void set_mesh_regions(Model& model, const Scene& scene, std::int64_t index, const InterfaceData& data) {
+    const RegionPairs sets(model, scene, index, data.place);
     for (const Region& region : data.regions) {
-        const std::vector<std::int64_t> chosen = pairs.in(region);
+        std::int64_t count = 0;
+        if (region.set.empty()) {
+            count = set_box(model, index, region);
+        } else {
+            const std::vector<std::int64_t> chosen = sets.in(region);
+            count = static_cast<std::int64_t>(chosen.size());
+            const std::vector<double> adhesion(chosen.size(), region.adhesion);
+            call(model.context.get(),
+                 delam_problem_set_adhesion(model.problem.get(), index, count, chosen.data(), adhesion.data(), 0),
+                 region.place);
+        }
         // A region for several interfaces may lie on only some of them, and a set may hold all faces.
-        if (chosen.empty() && (region.outside || data.a.empty() || is_pattern(data.a + data.b))) continue;
-        if (chosen.empty())
+        if (count == 0 && !(region.outside || data.a.empty() || is_pattern(data.a + data.b)))
             throw SceneFailure(region.place,
                                "no pair of the interface is in this region (pairs at its edge are its "
                                "own only where no face of the interface leads out of it)");
-        const std::vector<double> adhesion(chosen.size(), region.adhesion);
-        call(model.context.get(),
-             delam_problem_set_adhesion(model.problem.get(), index, static_cast<std::int64_t>(chosen.size()),
-                                        chosen.data(), adhesion.data(), 0),
-             region.place);
-        for (const std::int64_t pair : chosen) initial[static_cast<std::size_t>(pair)] = region.adhesion;
     }
-    return std::any_of(initial.begin(), initial.end(), [](double zeta) { return zeta > 0; });
 }
 
 }  // namespace cli

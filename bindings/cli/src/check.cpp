@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `delam check`: finds out what would be computed as one JSON object, which is printed as it is or in lines for people.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "call.hpp"
@@ -90,7 +91,8 @@ Found find(const std::string& scene_file, const Scene& scene, const Model& model
     for (const auto& [option, value] : concept_of(problem)) found["concept"][option] = value;
     found["scene_hash"] = hash_of(model);
     found["unknowns"] = {{"primal", primal}, {"dual", dual}};
-    for (const char* list : {"bodies", "sets", "interfaces", "patterns", "process_zones", "plan", "notes", "warnings"})
+    for (const char* list :
+         {"bodies", "sets", "interfaces", "patterns", "process_zones", "proposals", "plan", "notes", "warnings"})
         found[list] = Found::array();
     if (scene.mesh) find_mesh(*scene.mesh, scene, found);
     for (const Layer& layer : scene.mesh ? std::vector<Layer>{} : scene.layers)
@@ -105,6 +107,12 @@ Found find(const std::string& scene_file, const Scene& scene, const Model& model
                                      {"to", pattern.times.back()}});
     found["time"] = {{"from", scene.times.front()}, {"to", scene.times.back()}, {"steps", scene.step_count()}};
     found["process_zones"] = process_zones(model);
+    for (const Advice& one : advice(model, scene)) {
+        Found keys = Found::object();
+        for (const auto& [key, value] : one.keys) keys[key] = value;
+        found["proposals"].push_back(
+            {{"law", one.law}, {"interfaces", one.interfaces}, {"keys", keys}, {"reason", one.reason}});
+    }
     found["notes"] = notes_of(scene);
     return found;
 }
@@ -152,6 +160,12 @@ void say_lines_of(const Found& found) {
     say("time        {} to {} in {}\n", found["time"]["from"].get<double>(), found["time"]["to"].get<double>(),
         counted(found["time"]["steps"], "step"));
     for (const Found& zone : found["process_zones"]) say("zone        {}\n", zone.get<std::string>());
+    for (const Found& proposal : found["proposals"]) {
+        std::vector<std::string> keys;
+        for (const auto& [key, value] : proposal["keys"].items())
+            keys.push_back(fmt::format("{} = {:.3e}", key, value.get<double>()));
+        say("propose     law \"{}\", {}: {}\n", text(proposal, "law"), fmt::join(keys, ", "), text(proposal, "reason"));
+    }
     say("\n");
     for (const Found& line : found["plan"]) say("{}\n", line.get<std::string>());
     for (const Found& note : found["notes"]) say("note: {}\n", note.get<std::string>());
@@ -180,8 +194,8 @@ Found examined(const std::string& scene_file, const std::vector<std::string>& se
     if (scene.imported) imported = import_lines(*scene.imported);
     Context context = new_context();
     const Interrupt interrupt(context.get());
-    delam_context_set_log(context.get(), on_check_log, &warnings);
     const Model model = build(std::move(context), scene);
+    delam_context_set_log(model.context.get(), on_check_log, &warnings);
     const History history(model, scene);
     Planned planned;
     const auto make_plan = [&] {

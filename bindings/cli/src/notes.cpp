@@ -2,8 +2,10 @@
 #include "notes.hpp"
 
 #include <cmath>
+#include <numeric>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "call.hpp"
 #include "cell_shape.hpp"
@@ -26,25 +28,6 @@ void beyond(const Region& region, const Geometry& geometry, std::vector<std::str
     }
 }
 
-// Appends "ends at 0.0304, between two pairs: the tip of the crack is the next pair, at 0.031" and the like.
-void between_pairs(const Region& region, const Geometry& geometry, std::vector<std::string>& out) {
-    const double slack = 1e-6 * geometry.smallest_edge;
-    for (std::size_t axis = 0; axis < geometry.lengths.size(); ++axis) {
-        const std::string along = geometry.lengths.size() > 1 ? (axis == 0 ? " along x" : " along y") : "";
-        const double length = geometry.lengths[axis];
-        const double pairs =
-            static_cast<double>(geometry.divisions[axis]) * (shape_of(geometry.cell_type).linear() ? 1.0 : 2.0);
-        const auto tip = [&](const char* what, double end, double (*outward)(double)) {
-            if (end <= slack || end >= length - slack) return;
-            if (std::abs(std::round(end / length * pairs) / pairs * length - end) <= slack) return;
-            out.push_back(fmt::format("{} at {}, between two pairs{}: the tip of the crack is the next pair, at {:.6g}",
-                                      what, end, along, outward(end / length * pairs) / pairs * length));
-        };
-        tip("begins", region.lower[axis], [](double x) { return std::floor(x); });
-        tip("ends", region.upper[axis], [](double x) { return std::ceil(x); });
-    }
-}
-
 void interface_warnings(const Model& model, const Scene& scene, std::vector<std::string>& out) {
     for (std::size_t i = 0; i < model.interfaces.size(); ++i) {
         const InterfaceData& data = model.interfaces[i];
@@ -57,9 +40,6 @@ void interface_warnings(const Model& model, const Scene& scene, std::vector<std:
                 out.push_back(region.place.path + " " + text + (model.adheres[i] ? "" : ": nothing adheres"));
                 said = true;
             }
-            texts.clear();
-            between_pairs(region, scene.geometry, texts);
-            for (const std::string& text : texts) out.push_back(region.place.path + " " + text);
         }
         if (!said) out.push_back(data.place.path + ": nothing adheres");
     }
@@ -94,7 +74,7 @@ void patch_warnings(const Scene& scene, const Selection& where, std::vector<std:
 }  // namespace
 
 std::vector<std::string> warnings_of(const Model& model, const Scene& scene) {
-    std::vector<std::string> out;
+    std::vector<std::string> out = model.said;
     interface_warnings(model, scene, out);
     for (const Prescription& data : scene.prescriptions) patch_warnings(scene, data.where, out);
     for (const DeadForce& data : scene.forces) patch_warnings(scene, data.where, out);
@@ -137,6 +117,26 @@ std::vector<std::string> notes_of(const Scene& scene) {
                             geometry.dimension == 2 ? "tri6 or quad8" : "tet10 or hex20"));
     }
     return out;
+}
+
+void note_place(Model& model, const Scene& scene, const Selection& where, const Selected& taken) {
+    if (const auto* point = std::get_if<Point>(&where.shape)) {
+        double square = 0;
+        for (std::size_t a = 0; a < point->at.size(); ++a) square += std::pow(taken.at[a] - point->at[a], 2);
+        if (std::sqrt(square) > 1e-3 * scene.geometry.smallest_edge)
+            model.said.push_back(fmt::format("{}.point is [{:.6g}], its node is at [{:.6g}], {:.3g} away",
+                                             where.place.path, fmt::join(point->at, ", "), fmt::join(taken.at, ", "),
+                                             std::sqrt(square)));
+    }
+    const auto* patch = std::get_if<Patch>(&where.shape);
+    if (patch == nullptr || !scene.mesh) return;  // patch_warnings knows the extent of layers
+    double asked = 1;
+    for (std::size_t axis = 0; axis < patch->lower.size(); ++axis)
+        if (std::abs(patch->normal[axis]) < 0.5) asked *= patch->upper[axis] - patch->lower[axis];
+    const double covered = std::accumulate(taken.weights.begin(), taken.weights.end(), 0.0);
+    if (covered < (1 - 1e-6) * asked)
+        model.said.push_back(fmt::format("{}.patch covers {:.6g} of {:.6g}: only what is on the boundary counts",
+                                         where.place.path, covered, asked));
 }
 
 }  // namespace cli

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "build.hpp"
+#include "selection.hpp"
 
 namespace cli {
 
@@ -13,5 +14,9 @@ namespace cli {
 std::vector<std::string> warnings_of(const Model& model, const Scene& scene);
 // Meshes whose cells are known to be too stiff for the model.
 std::vector<std::string> notes_of(const Scene& scene);
+
+// Adds to what was said while the model was built where a place was not taken as it was given: a point whose node lies
+// elsewhere, a patch of which a mesh has only a part.
+void note_place(Model& model, const Scene& scene, const Selection& where, const Selected& taken);
 
 }  // namespace cli

@@ -2,6 +2,8 @@
 #include "resolution.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -14,6 +16,8 @@ namespace {
 
 constexpr double resolving_pairs = 3.0;
 constexpr double small_rotation = 0.1;
+constexpr double stiffest =
+    100.0;  // times the least: a further digit of the layer's stiffness is not worth its rounding
 
 struct Prediction {
     double length = 0;  // 0: nothing softens
@@ -37,6 +41,32 @@ bool has_onset(const std::string& kind) {
         if (std::string_view(key) == "normal_onset") return true;
     }
     return false;
+}
+
+// To three digits, so that a proposal still holds when it is pasted.
+double rounded(double value, double (*towards)(double)) {
+    const double unit = std::pow(10.0, std::floor(std::log10(value)) - 2.0);
+    return towards(value / unit) * unit;
+}
+double rounded_down(double value) {
+    return rounded(value, [](double x) { return std::floor(x); });
+}
+double rounded_up(double value) {
+    return rounded(value, [](double x) { return std::ceil(x); });
+}
+
+// 0: the law has no such number.
+double number_of_law(const LawData& law, std::string_view key) {
+    for (const auto& [name, value] : law.parameters)
+        if (name == key) return value;
+    return 0;
+}
+
+// The peak of the traction in a mode, "normal" or "tangential"; 0: none.
+double peak_of(const LawData& law, const std::string& mode) {
+    const double strength = number_of_law(law, mode + "_strength");
+    if (strength > 0) return strength;
+    return std::sqrt(2 * number_of_law(law, mode + "_stiffness") * number_of_law(law, mode + "_onset"));
 }
 
 bool energetic(const Model& model) {
@@ -68,6 +98,87 @@ std::vector<std::string> resolution_warnings(const Model& model) {
             "{:.2g}: a local solution then depends on the mesh; a spacing of {:.2g} would do, or "
             "solution = \"energetic\"",
             model.interfaces[i].name, zone.length, resolving_pairs, zone.spacing, zone.length / resolving_pairs));
+    }
+    return out;
+}
+
+namespace {
+
+// What the interfaces of a law need together.
+struct Needs {
+    std::vector<std::string> interfaces;
+    double stiffness = 0, share = 1;
+    std::array<double, 2> strength{};
+    double pairs = 0;  // in the shortest process zone; 0: none is predicted
+};
+
+void add(double& least, double value) {
+    if (value > 0) least = least > 0 ? std::min(least, value) : value;
+}
+
+Needs needs_of(const Model& model, std::size_t law) {
+    Needs out;
+    for (std::size_t i = 0; i < model.interfaces.size(); ++i) {
+        const InterfaceData& data = model.interfaces[i];
+        if (data.bonded || data.contact || data.law != law) continue;
+        double stiffness = 0, share = 0, normal = 0, tangential = 0;
+        call(model.context.get(),
+             delam_problem_propose(model.problem.get(), static_cast<std::int64_t>(i), resolving_pairs, &stiffness,
+                                   &share, &normal, &tangential),
+             std::string("proposal"));
+        out.interfaces.push_back(data.name);
+        out.stiffness = std::max(out.stiffness, stiffness);
+        add(out.share, share);
+        add(out.strength[0], normal);
+        add(out.strength[1], tangential);
+        const Prediction zone = prediction(model, i);
+        if (zone.spacing > 0) add(out.pairs, zone.length / zone.spacing);
+    }
+    return out;
+}
+
+Advice advice_for(const Model& model, const LawData& law, const Needs& needs) {
+    Advice out{law.name, needs.interfaces, {}, ""};
+    const double own = number_of_law(law, "normal_stiffness");
+    const bool unresolved = !energetic(model) && needs.pairs > 0 && needs.pairs < resolving_pairs;
+    const bool apart = needs.stiffness > 0 && (own < needs.stiffness || own > stiffest * needs.stiffness);
+    if (apart) {
+        for (const char* key : {"normal_stiffness", "tangential_stiffness"})
+            out.keys.emplace_back(key, rounded_up(needs.stiffness));
+        out.reason = fmt::format(
+            "50 E3/t of the adjacent layer, which then keeps 98 % of its stiffness instead of "
+            "{:.3g} % (Turon et al. 2007; in range up to {:.2g})",
+            100 * needs.share, stiffest * needs.stiffness);
+    }
+    // Another stiffness would change the peaks of a law with given onsets.
+    const bool onsets = number_of_law(law, "normal_onset") + number_of_law(law, "tangential_onset") > 0;
+    if (!unresolved && !(apart && onsets)) return out;
+    for (const std::size_t mode : {0, 1}) {
+        const std::string name = mode == 0 ? "normal" : "tangential";
+        const double peak = peak_of(law, name);
+        if (!(peak > 0)) continue;
+        const bool lower = unresolved && needs.strength[mode] < peak;
+        out.keys.emplace_back(name + "_strength", lower ? rounded_down(needs.strength[mode]) : peak);
+    }
+    if (unresolved)
+        out.reason += fmt::format(
+            "{}{:g} pairs in the process zone instead of {:.2g}: damage then begins at a lower "
+            "load, but cracks grow at the same, which follows from the toughness",
+            out.reason.empty() ? "" : "; ", resolving_pairs, needs.pairs);
+    else
+        out.reason += "; the strengths are those of now";
+    return out;
+}
+
+}  // namespace
+
+std::vector<Advice> advice(const Model& model, const Scene& scene) {
+    std::vector<Advice> out;
+    for (std::size_t law = 0; law < scene.laws.size(); ++law) {
+        const Needs needs = needs_of(model, law);
+        if (needs.interfaces.empty()) continue;
+        Advice one = advice_for(model, scene.laws[law], needs);
+        if (!one.keys.empty()) out.push_back(std::move(one));
     }
     return out;
 }

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "build.hpp"
@@ -16,6 +17,15 @@ namespace cli {
 std::vector<std::string> process_zones(const Model& model);
 // Interfaces with fewer than 3 pairs, with the required spacing. None for energetic solutions.
 std::vector<std::string> resolution_warnings(const Model& model);
+// Numbers for a law that are better than its own.
+struct Advice {
+    std::string law;
+    std::vector<std::string> interfaces;  // with this law
+    std::vector<std::pair<std::string, double>> keys;
+    std::string reason;
+};
+// Strengths where resolution_warnings has a warning, and stiffnesses where they are far from what layers need.
+std::vector<Advice> advice(const Model& model, const Scene& scene);
 // Steps in which a crack grew with fewer than 3 pairs in its process zone, before and after. None for energetic
 // solutions and for scenes whose laws do not soften.
 std::vector<std::int64_t> unresolved_steps(const Rows& rows, const Model& model, const Scene& scene);

@@ -73,7 +73,8 @@ Selected select_point(const delam_context* context, const delam_mesh* mesh, cons
             where, fmt::format("{}: {} nodes are there, of {} {}; name one with {} = \"..\"", point.at, hits.size(),
                                scene.mesh ? "bodies" : "layers", fmt::join(names, ", "), noun(scene)));
     }
-    return {hits, {}, {}};
+    const auto* at = nodes.coordinates.data() + static_cast<std::size_t>(hits.front()) * dimension;
+    return {hits, {}, {at, at + dimension}, {}};
 }
 
 Selected select_box(const delam_context* context, const delam_mesh* mesh, const Selection& selection, const Box& box) {
@@ -101,12 +102,12 @@ Selected select_box(const delam_context* context, const delam_mesh* mesh, const 
     return out;
 }
 
+// Without a body, of all: what they have there side by side acts as one.
 Selected select_patch(const delam_context* context, const delam_mesh* mesh, const Scene& scene,
                       const Selection& selection, const Patch& patch) {
     Selected out;
     const std::int32_t first = selection.body < 0 ? 0 : selection.body;
     const std::int32_t last = selection.body < 0 ? static_cast<std::int32_t>(scene.layers.size()) - 1 : selection.body;
-    std::int32_t bodies = 0;
     for (std::int32_t body = first; body <= last; ++body) {
         std::int64_t count = 0;
         const auto find = [&](std::int64_t capacity, std::int64_t* nodes, double* weights) {
@@ -117,17 +118,13 @@ Selected select_patch(const delam_context* context, const delam_mesh* mesh, cons
         };
         find(0, nullptr, nullptr);
         if (count == 0) continue;
-        ++bodies;
         const std::size_t old = out.nodes.size();
         out.nodes.resize(old + static_cast<std::size_t>(count));
         out.weights.resize(out.nodes.size());
         find(count, out.nodes.data() + old, out.weights.data() + old);
     }
     const Place where{selection.place.file, selection.place.path + ".patch", selection.place.line};
-    if (bodies == 0) throw SceneFailure(where, "no boundary face with this outward normal is there");
-    if (bodies > 1 && selection.body < 0)
-        throw SceneFailure(where, fmt::format("{} {} have faces there; name one with {} = \"..\"", bodies,
-                                              scene.mesh ? "bodies" : "layers", noun(scene)));
+    if (out.nodes.empty()) throw SceneFailure(where, "no boundary face with this outward normal is there");
     return out;
 }
 
@@ -174,7 +171,7 @@ Selected select(const delam_context* context, const delam_mesh* mesh, const Scen
         return select_set(context, mesh, scene, selection, set->name);
     }
     if (const auto* control = std::get_if<ControlNode>(&selection.shape))
-        return {{control_node(context, mesh, scene, control->index, selection.place)}, {}, {}};
+        return {{control_node(context, mesh, scene, control->index, selection.place)}, {}, {}, {}};
     if (const auto* point = std::get_if<Point>(&selection.shape))
         return select_point(context, mesh, scene, selection, *point);
     if (const auto* box = std::get_if<Box>(&selection.shape)) return select_box(context, mesh, selection, *box);

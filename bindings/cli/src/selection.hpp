@@ -13,6 +13,7 @@ namespace cli {
 struct Selected {
     std::vector<std::int64_t> nodes;
     std::vector<double> weights;  // of a patch or of faces; empty otherwise
+    std::vector<double> at;       // of a point: where its node is
     std::vector<double> normals;  // of faces: [nodes][dimension] integrals of shape function times outward normal
 };
 

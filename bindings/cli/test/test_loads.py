@@ -54,6 +54,51 @@ rows, error, about = run(dead, 4)
 expect("limit" in error.lower(), f"the march says so: {error.strip().splitlines()[-1:]}")
 expect(about.get("status") == "incomplete" and len(rows) == 10, f"the {len(rows) - 1} steps up to 5e6 N/m2 are kept")
 
+# The end of a stack, pulled as one: a patch over two layers that are bonded is that of one layer as thick, in the plane and in space, and so is a force on it.
+for space in (False, True):
+    axes = "xyz" if space else "xy"
+    middle, size = ([0.005, 0.002], [0.01, 0.004]) if space else ([0.002], [0.004])
+    block = f"""
+schema = 1
+[geometry]
+dimension = {len(axes)}
+length = 0.04
+{"width = 0.01" if space else ""}
+h = 0.001
+[[materials]]
+name = "m"
+young = 70e9
+poisson = 0.3
+LAYERS
+[[supports]]
+box = {{ lower = {[0.0] * len(axes)}, upper = {[0.0, 0.01, 0.004] if space else [0.0, 0.004]} }}
+fix = {list(axes)}
+[[patterns]]
+name = "pull"
+times = [0.0, 1.0]
+values = [0.0, 1e-5]
+[[loads]]
+patch = {{ centre = {[0.04] + middle}, length = {size}, face = "+x" }}
+direction = {[1.0, 0.3, 0.0][:len(axes)]}
+pattern = "pull"
+[time]
+end = 1.0
+steps = 1
+"""
+    layer = '[[layers]]\nname = "{}"\nthickness = {}\nmaterial = "m"\n'
+    stack = layer.format("thin", 0.001) + layer.format("thick", 0.003) + '[[interfaces]]\nlower = "thin"\nupper = "thick"\nbonded = true\n'
+    alone, together = block.replace("LAYERS", layer.format("whole", 0.004)), block.replace("LAYERS", stack)
+    for wanted in ("reaction", "stored_bulk"):
+        one, two = (run(text)[0][-1][wanted] for text in (alone, together))
+        expect(one > 0 and abs(two - one) < 1e-9 * one, f"a displacement over two layers in {axes}: {wanted} {two}, of one layer {one}")
+    pull = f'[[forces]]\npatch = {{ centre = {[0.04] + middle}, length = {size}, face = "+x" }}\nforce = {[2e3, 5e2, 0.0][:len(axes)]}\n'
+    forces = [text[:text.index("[[loads]]")] + pull + text[text.index('pattern = "pull"'):] for text in (alone, together)]
+    one, two = (run(text)[0][-1]["stored_bulk"] for text in forces)
+    expect(one > 0 and abs(two - one) < 1e-9 * one, f"a force over two layers in {axes}: {two}, of one layer {one}")
+    thin = together.replace('face = "+x" }', 'face = "+x" }\nlayer = "thin"')
+    code, _, error = delam("check", write(thin))
+    expect(code == 0 and "only what is on the body counts" in error, f"a layer may still be named: {error.strip()}")
+
 # A square that a rigid plane supports from below, named as a set of faces of a mesh.
 MESH = """*NODE
 1, 0, 0
@@ -108,6 +153,11 @@ with open(os.path.join(place, "m.inp"), "w", encoding="utf-8") as file:
     file.write(MESH)
 with open(os.path.join(place, "scene.toml"), "w", encoding="utf-8") as file:
     file.write(TEXT)
+for centre, words in (([0.75, 1.0], "loads[0].patch covers 0.75 of 1: only what is on the boundary counts"), ([0.5, 1.0], "")):
+    with open(os.path.join(place, "patch.toml"), "w", encoding="utf-8") as file:
+        file.write(TEXT.replace('[[loads]]\nset = "top"', f'[[loads]]\npatch = {{ centre = {centre}, length = 1.0, face = "+y" }}'))
+    _, _, error = delam("check", os.path.join(place, "patch.toml"))
+    expect((words in error) if words else "patch" not in error, f"a patch of a mesh at {centre}: {error.strip()}")
 code, _, error = delam("run", os.path.join(place, "scene.toml"), "--out", os.path.join(place, "out"))
 expect(code == 0, f"an obstacle under a set of faces {error.strip()}")
 with open(os.path.join(place, "out", "history.csv"), newline="", encoding="utf-8") as file:

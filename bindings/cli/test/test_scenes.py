@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Bad scenes: every message names the place, the value and what is allowed; good ones pass `check`."""
+import json
 import re
 import subprocess
 
@@ -114,15 +115,56 @@ def warned(text, *parts):
 
 
 expect(delam("check", write(SCENE))[2] == "", "no warning where nothing is odd")
+
+
+def proposals(text):
+    """By `check`: those of the JSON object, and the warnings."""
+    code, out, _ = delam("check", write(text), "--json")
+    expect(code == 0, "a scene with proposals is correct")
+    found = json.loads(out)
+    return found["proposals"], found["warnings"]
+
+
+# The law of the ENF is far softer than its layers; pasted, the numbers leave nothing to propose, and the peaks as they were.
+soft, _ = proposals(SCENE)
+expect(len(soft) == 1 and soft[0]["law"] == "ductile" and soft[0]["interfaces"] == ["lower-upper"], f"a proposal: {soft}")
+keys = soft[0]["keys"]
+expect(abs(keys["normal_stiffness"] - 50 * 75e9 / 0.003) < 1e-9 * 1.25e15 and abs(keys["normal_strength"] - 5e6) < 1, f"{keys}")
+expect("propose     law \"ductile\", normal_stiffness = 1.250e+15" in delam("check", write(SCENE))[1], "the same for people")
+
+
+def pasted(text, keys):
+    lines = [line for line in text.splitlines() if line.split(" = ")[0] not in
+             set(keys) | {key.replace("strength", "onset") for key in keys}]
+    at = lines.index('name = "ductile"') + 1
+    return "\n".join(lines[:at] + [f"{key} = {value!r}" for key, value in keys.items()] + lines[at:])
+
+
+stiff = pasted(SCENE, keys)
+expect(proposals(stiff) == ([], []), "with the numbers pasted, nothing is left to propose")
+# Strengths too high for the mesh: those proposed give three pairs, the most that they can.
+strong = changed("normal_strength = 5000000.0", "normal_strength = 40e6", stiff)
+found, warnings = proposals(strong)
+expect(len(found) == 1 and set(found[0]["keys"]) == {"normal_strength", "tangential_strength"}, f"strengths: {found}")
+expect(any("process zone" in text for text in warnings), "and a warning")
+expect(found[0]["keys"]["tangential_strength"] == 5e6 and found[0]["keys"]["normal_strength"] < 40e6, "only what is too strong is lowered")
+lowered = pasted(strong, found[0]["keys"])
+expect(proposals(lowered) == ([], []), "with the strengths pasted, three pairs are in the zone")
+more = dict(found[0]["keys"], normal_strength=1.01 * found[0]["keys"]["normal_strength"])
+expect(proposals(pasted(strong, more))[1] != [], "one per cent more is too much")
+expect(proposals(strong + '\n[solver]\nsolution = "energetic"\n')[0] == [], "energetic solutions need no zone")
+
 warned(changed("to = 0.030", "to = 30"),
        "warning: interfaces[0].notch[0] ends at 30, the interface at 0.12: nothing adheres")
 warned(changed("from = 0.0, to", "from = -1, to"),
        "warning: interfaces[0].notch[0] begins at -1, the interface at 0\n")
 warned(changed("to = 0.030", "to = 0.12"), "warning: interfaces[0]: nothing adheres")
 warned(changed("to = 0.030", "to = 0.0304"),
-       "warning: interfaces[0].notch[0] ends at 0.0304, between two pairs: the tip of the crack is the next pair, at 0.0315\n")
+       "warning: interfaces[0].notch[0] ends at x = 0.0304, between two pairs: the tip of the crack is the next pair, at 0.0315\n")
 warned(changed("from = 0.0, to", "from = 0.0106, to"),
-       "warning: interfaces[0].notch[0] begins at 0.0106, between two pairs: the tip of the crack is the next pair, at 0.0105\n")
+       "warning: interfaces[0].notch[0] begins at x = 0.0106, between two pairs: the tip of the crack is the next pair, at 0.0105\n")
+warned(changed("point = [0.060, 0.006]", "point = [0.0604, 0.006]\ntolerance = 5e-4"),
+       "warning: loads[0].point is [0.0604, 0.006], its node is at [0.06, 0.006], 0.0004 away")
 warned(changed("length = 0.002", "length = 0.2", patch), "warning: loads[0].patch reaches from x = -0.04 to 0.16")
 warned(changed("values = [0.0, 0.006]", "values = [0.001, 0.006]"), 'patterns[0] "press" is 0.001 at the start',
        "its stored energy is not in `work`")

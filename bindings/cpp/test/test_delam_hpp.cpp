@@ -195,6 +195,10 @@ void test_problem() {
     problem.set_law(0, make_law(context, false));
     problem.set_adhesion(0, {1}, {0.5});
     expect(problem.process_zone(0).spacing > 0.0, "the distance of pairs");
+    expect(problem.set_adhesion_box(0, {-9.0, -9.0}, {9.0, 9.0}, 0.5) == 2, "the pairs in a box");
+    expect(problem.set_adhesion_box(0, {8.0, 8.0}, {9.0, 9.0}) == 0, "no pair in a box");
+    const auto proposal = problem.propose(0);
+    expect(proposal.stiffness > 0.0 && proposal.share > 0.0 && proposal.share < 1.0, "a stiffness is proposed");
     const auto pull = problem.add_pattern("pull", {0.0}, {1.0});
     const auto push = problem.add_pattern("push", {0.0, 1.0}, {0.0, 2.0});
     const auto heat = problem.add_pattern("heat", {0.0}, {3.0});

@@ -28,6 +28,7 @@ module delam_problems
     procedure :: set_bonded => problem_set_bonded
     procedure :: set_contact => problem_set_contact
     procedure :: set_adhesion => problem_set_adhesion
+    procedure :: set_adhesion_box => problem_set_adhesion_box
     procedure :: add_pattern => problem_add_pattern
     procedure, private :: problem_prescribe_nodes, problem_prescribe_patterns
     generic :: prescribe_nodes => problem_prescribe_nodes, problem_prescribe_patterns
@@ -42,6 +43,7 @@ module delam_problems
     procedure :: hash => problem_hash
     procedure :: dofs => problem_dofs
     procedure :: process_zone => problem_process_zone
+    procedure :: propose => problem_propose
     procedure :: plan => problem_plan
     procedure :: body_matrix => problem_body_matrix
     procedure :: constraints => problem_constraints
@@ -221,6 +223,24 @@ contains
     call settle(delam_problem_set_adhesion(self%handle(), interface - 1_c_int64_t, size(pairs, kind=c_int64_t), pairs, &
                                            adhesion, 1_c_int32_t), self, status, message)
   end subroutine problem_set_adhesion
+
+  ! Of the pairs in the box from lower to upper, (dimension) each; count: their number. Without count, a box without
+  ! pairs is an error.
+  subroutine problem_set_adhesion_box(self, interface, lower, upper, adhesion, count, status, message)
+    class(delam_problem), intent(in) :: self
+    integer, intent(in) :: interface
+    real(delam_real), intent(in), contiguous :: lower(:), upper(:)
+    real(delam_real), intent(in) :: adhesion
+    integer(delam_index), intent(out), optional :: count
+    integer, intent(out), optional :: status
+    character(*), intent(out), optional :: message
+    if (size(lower) /= size(upper)) then
+      call refuse('lower and upper: unequal sizes', status, message)
+      return
+    end if
+    call settle(delam_problem_set_adhesion_box(self%handle(), interface - 1_c_int64_t, lower, upper, adhesion, count), &
+                self, status, message)
+  end subroutine problem_set_adhesion_box
 
   ! A factor that follows the line through (times, values).
   subroutine problem_add_pattern(self, name, times, values, pattern, status, message)
@@ -459,6 +479,19 @@ contains
     call settle(delam_problem_process_zone(self%handle(), interface - 1_c_int64_t, length, spacing), self, status, &
                 message)
   end subroutine problem_process_zone
+
+  ! For the law of an interface, with at least `pairs` pairs in the process zone; 0: unknown or none.
+  subroutine problem_propose(self, interface, pairs, stiffness, share, normal_strength, tangential_strength, status, &
+                             message)
+    class(delam_problem), intent(in) :: self
+    integer, intent(in) :: interface
+    real(delam_real), intent(in) :: pairs
+    real(delam_real), intent(out), optional :: stiffness, share, normal_strength, tangential_strength
+    integer, intent(out), optional :: status
+    character(*), intent(out), optional :: message
+    call settle(delam_problem_propose(self%handle(), interface - 1_c_int64_t, pairs, stiffness, share, &
+                                      normal_strength, tangential_strength), self, status, message)
+  end subroutine problem_propose
 
   ! What an analysis would do, before it begins; nothing is factored. setup: seconds of the factorisations before the
   ! first step; memory: bytes at the peak.

@@ -601,6 +601,17 @@ module delam_raw
       integer(c_int32_t), value :: index_base
       integer(c_int32_t) :: status
     end function delam_problem_set_adhesion
+    function delam_problem_set_adhesion_box(problem, interface_index, lower, upper, adhesion, count) bind(c, &
+        name="delam_problem_set_adhesion_box") result(status)
+      import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
+      type(c_ptr), value :: problem
+      integer(c_int64_t), value :: interface_index
+      real(c_double), intent(in), optional :: lower(*)
+      real(c_double), intent(in), optional :: upper(*)
+      real(c_double), value :: adhesion
+      integer(c_int64_t), intent(inout), optional :: count
+      integer(c_int32_t) :: status
+    end function delam_problem_set_adhesion_box
     function delam_problem_add_pattern(problem, name, count, times, values, out_pattern) bind(c, &
         name="delam_problem_add_pattern") result(status)
       import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
@@ -757,6 +768,18 @@ module delam_raw
       real(c_double), intent(inout), optional :: spacing
       integer(c_int32_t) :: status
     end function delam_problem_process_zone
+    function delam_problem_propose(problem, interface_index, pairs, stiffness, share, normal_strength, &
+        tangential_strength) bind(c, name="delam_problem_propose") result(status)
+      import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
+      type(c_ptr), value :: problem
+      integer(c_int64_t), value :: interface_index
+      real(c_double), value :: pairs
+      real(c_double), intent(inout), optional :: stiffness
+      real(c_double), intent(inout), optional :: share
+      real(c_double), intent(inout), optional :: normal_strength
+      real(c_double), intent(inout), optional :: tangential_strength
+      integer(c_int32_t) :: status
+    end function delam_problem_propose
     function delam_problem_body_matrix(problem, body, rows, entries, row_starts, columns, values) bind(c, &
         name="delam_problem_body_matrix") result(status)
       import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double

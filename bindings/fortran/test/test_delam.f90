@@ -268,10 +268,10 @@ contains
     type(delam_mesh) :: mesh
     type(delam_law) :: law
     type(delam_problem) :: problem
-    integer(delam_index) :: one, two, three
+    integer(delam_index) :: one, two, three, inside
     integer(delam_index), allocatable :: starts(:), columns(:)
     real(dp), allocatable :: values(:), coefficients(:,:), forces(:), work(:,:)
-    real(dp) :: length
+    real(dp) :: length, stiffness, share
     integer :: status
     call context%create()
     call make_squares(mesh, context)
@@ -292,6 +292,12 @@ contains
     call problem%set_adhesion(1, [1_delam_index, 2_delam_index], [0.5_dp, 1.0_dp])
     call problem%process_zone(1, length)
     call expect(length >= 0, 'a process zone')
+    call problem%set_adhesion_box(1, [-9.0_dp, -9.0_dp], [9.0_dp, 9.0_dp], 0.5_dp, inside)
+    call expect(inside == 2, 'the pairs in a box')
+    call problem%set_adhesion_box(1, [8.0_dp, 8.0_dp], [9.0_dp, 9.0_dp], 0.0_dp, status=status)
+    call expect(status == DELAM_ERROR_ARGUMENT, 'without a count, a box without pairs is an error')
+    call problem%propose(1, 3.0_dp, stiffness, share)
+    call expect(stiffness > 0 .and. share > 0 .and. share < 1, 'a stiffness is proposed')
     call problem%add_pattern('pull', [0.0_dp], [1.0_dp], one)
     call problem%add_pattern('push', [0.0_dp, 1.0_dp], [0.0_dp, 2.0_dp], two)
     call problem%add_pattern('heat', [0.0_dp], [3.0_dp], three)

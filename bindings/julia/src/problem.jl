@@ -127,6 +127,17 @@ function set_adhesion!(problem::Problem, interface, pairs, adhesion=0.0)
     return problem
 end
 
+"Initial adhesion of the pairs in the box from lower to upper; 0 makes a notch. Returns their number, which may be 0."
+function set_adhesion_box!(problem::Problem, interface, lower, upper, adhesion=0.0)
+    d = dimension(problem.mesh)
+    low, high = expect("lower", floats(lower), d), expect("upper", floats(upper), d)
+    count = Ref{Int64}(0)
+    ask(problem) do handle
+        Raw.delam_problem_set_adhesion_box(handle, from_zero(interface), low, high, Float64(adhesion), count)
+    end
+    return count[]
+end
+
 # ---- supports and loads
 
 "A named factor that follows a piecewise-linear history, constant beyond its ends; its `Pattern`."
@@ -252,6 +263,19 @@ function process_zone(problem::Problem, interface)
     length_, spacing = Ref(0.0), Ref(0.0)
     ask(handle -> Raw.delam_problem_process_zone(handle, from_zero(interface), length_, spacing), problem)
     return length_[], spacing[]
+end
+
+"""
+Numbers for the law of an interface, 0 if unknown: `stiffness`, the least, 50 E3/t of the adjacent layer; `share` of
+that layer's stiffness that the present normal stiffness leaves; `normal_strength` and `tangential_strength`, the
+largest with which the process zone has `pairs` pairs.
+"""
+function propose(problem::Problem, interface; pairs=3.0)
+    stiffness, share, normal, tangential = Ref(0.0), Ref(0.0), Ref(0.0), Ref(0.0)
+    ask(problem) do handle
+        Raw.delam_problem_propose(handle, from_zero(interface), Float64(pairs), stiffness, share, normal, tangential)
+    end
+    return (stiffness=stiffness[], share=share[], normal_strength=normal[], tangential_strength=tangential[])
 end
 
 """

@@ -346,6 +346,11 @@ function delam_problem_set_adhesion(problem, interface_index, count, pairs, adhe
         count::Int64, pairs::Ptr{Int64}, adhesion::Ptr{Cdouble}, index_base::Int32)::Int32
 end
 
+function delam_problem_set_adhesion_box(problem, interface_index, lower, upper, adhesion, count)
+    @ccall libdelam.delam_problem_set_adhesion_box(problem::Ptr{delam_problem}, interface_index::Int64,
+        lower::Ptr{Cdouble}, upper::Ptr{Cdouble}, adhesion::Cdouble, count::Ptr{Int64})::Int32
+end
+
 function delam_problem_add_pattern(problem, name, count, times, values, out_pattern)
     @ccall libdelam.delam_problem_add_pattern(problem::Ptr{delam_problem}, name::Cstring, count::Int64,
         times::Ptr{Cdouble}, values::Ptr{Cdouble}, out_pattern::Ptr{Int64})::Int32
@@ -428,6 +433,12 @@ end
 function delam_problem_process_zone(problem, interface_index, length, spacing)
     @ccall libdelam.delam_problem_process_zone(problem::Ptr{delam_problem}, interface_index::Int64,
         length::Ptr{Cdouble}, spacing::Ptr{Cdouble})::Int32
+end
+
+function delam_problem_propose(problem, interface_index, pairs, stiffness, share, normal_strength, tangential_strength)
+    @ccall libdelam.delam_problem_propose(problem::Ptr{delam_problem}, interface_index::Int64, pairs::Cdouble,
+        stiffness::Ptr{Cdouble}, share::Ptr{Cdouble}, normal_strength::Ptr{Cdouble},
+        tangential_strength::Ptr{Cdouble})::Int32
 end
 
 function delam_problem_body_matrix(problem, body, rows, entries, row_starts, columns, values)
@@ -667,12 +678,13 @@ const FUNCTIONS = (
     :delam_law_destroy, :delam_problem_create, :delam_problem_destroy, :delam_problem_set_plane,
     :delam_problem_set_elastic, :delam_problem_set_orthotropic, :delam_problem_set_orientation,
     :delam_problem_set_formulation, :delam_problem_set_stiffness, :delam_problem_set_law, :delam_problem_set_bonded,
-    :delam_problem_set_contact, :delam_problem_set_adhesion, :delam_problem_add_pattern, :delam_problem_prescribe_nodes,
-    :delam_problem_prescribe_mean, :delam_problem_add_equation, :delam_problem_add_periodic, :delam_problem_add_forces,
-    :delam_problem_add_eigenstrain, :delam_problem_set_number, :delam_problem_set_text, :delam_option_count,
-    :delam_option_info, :delam_option_alias, :delam_option_bounds, :delam_problem_check, :delam_problem_hash,
-    :delam_problem_dofs, :delam_problem_process_zone, :delam_problem_body_matrix, :delam_problem_constraints,
-    :delam_problem_forces, :delam_problem_eigenstrain_energy, :delam_problem_factors, :delam_problem_pattern_count,
+    :delam_problem_set_contact, :delam_problem_set_adhesion, :delam_problem_set_adhesion_box,
+    :delam_problem_add_pattern, :delam_problem_prescribe_nodes, :delam_problem_prescribe_mean,
+    :delam_problem_add_equation, :delam_problem_add_periodic, :delam_problem_add_forces, :delam_problem_add_eigenstrain,
+    :delam_problem_set_number, :delam_problem_set_text, :delam_option_count, :delam_option_info, :delam_option_alias,
+    :delam_option_bounds, :delam_problem_check, :delam_problem_hash, :delam_problem_dofs, :delam_problem_process_zone,
+    :delam_problem_propose, :delam_problem_body_matrix, :delam_problem_constraints, :delam_problem_forces,
+    :delam_problem_eigenstrain_energy, :delam_problem_factors, :delam_problem_pattern_count,
     :delam_problem_pattern_name, :delam_problem_option, :delam_problem_value_count, :delam_problem_value_info,
     :delam_problem_plan, :delam_solver_create, :delam_solver_destroy, :delam_solver_advance, :delam_solver_commit,
     :delam_solver_rollback, :delam_solver_pending, :delam_solver_set_history, :delam_solver_equilibrate,

@@ -22,6 +22,14 @@
     @test size(coefficients) == (1, rows.rows)
     @test coefficients[1, 1:2] == [0.5, 0.5]
 
+    # A notch by a box is that by pairs.
+    boxed, listed = double_cantilever(), double_cantilever()
+    @test set_adhesion_box!(boxed, 1, (0.0, 0.0), (0.04, 3e-3)) == 20
+    set_adhesion!(listed, 1, places(interfaces(listed.mesh)[1])[1, :] .< 0.04 - 1e-6)
+    @test problem_hash(boxed) == problem_hash(listed)
+    @test propose(boxed, 1).stiffness ≈ 50 * 135e9 / 1.5e-3
+    @test propose(boxed, 1; pairs=2.0).normal_strength > propose(boxed, 1).normal_strength > 0
+
     # The same matrix handed back is the same problem.
     own = Problem(problem.mesh; plane="plane-strain")
     set_elastic!(own, 135e9, 0.3)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Scenes: options as a mapping, loads by pattern, what the library assembled, errors."""
+import math
 import unittest
 
 import support
@@ -154,6 +155,18 @@ class Interfaces(unittest.TestCase):
         self.assertAlmostEqual(spacing, 0.1 / 51, delta=1e-4)
         self.assertGreater(length, 0.0)
 
+    def test_propose(self):
+        problem = support.double_cantilever()
+        spacing = problem.process_zone(0)[1]
+        found = problem.propose(problem.mesh.interfaces[0], 2.5)
+        self.assertAlmostEqual(found.stiffness, 50 * 135e9 / 1.5e-3, delta=1e-9 * found.stiffness)
+        self.assertAlmostEqual(found.share, 1 / (1 + 135e9 / 1.5e-3 / 1e12), delta=1e-12)
+        self.assertGreater(found.tangential_strength, math.sqrt(2 * 1e12 * 50))  # that of the law is low enough
+        problem.set_law(0, support.bilinear(normal_strength=found.normal_strength))
+        self.assertAlmostEqual(problem.process_zone(0)[0], 2.5 * spacing, delta=1e-12 * spacing)
+        self.assertGreater(problem.propose(0, 2.0).normal_strength, found.normal_strength)
+        with self.assertRaisesRegex(delam.ArgumentError, "pairs = 0"):
+            problem.propose(0, 0)
 
     def test_plan(self):
         problem = support.double_cantilever()
@@ -180,6 +193,20 @@ class Scene(unittest.TestCase):
         self.assertRegex(hashes.pop(), "^[0-9a-f]{16}$")
         with self.assertRaisesRegex(delam.ArgumentError, r"pairs is a mask of shape \(3,\), expected \(51,\)"):
             problem.set_adhesion(0, [True, False, True])
+
+    def test_adhesion_in_a_box(self):
+        hashes = set()
+        for notch in (lambda p, i: p.set_adhesion(i, i.places[:, 0] < 0.04 - 1e-6, 0.25),
+                      lambda p, i: self.assertEqual(p.set_adhesion_box(i, (0, 0), (0.04, 3e-3), 0.25), 20)):
+            problem = support.double_cantilever()
+            notch(problem, problem.mesh.interfaces[0])
+            hashes.add(problem.hash)
+        self.assertEqual(len(hashes), 1)
+        self.assertEqual(problem.set_adhesion_box(0, (0, 1), (1, 2)), 0)
+        with self.assertRaisesRegex(delam.ArgumentError, "lower"):
+            problem.set_adhesion_box(0, (0, 0, 0), (1, 1, 1))
+        with self.assertRaisesRegex(delam.ArgumentError, r"lower\[1\] = 2 > upper\[1\] = 1"):
+            problem.set_adhesion_box(0, (0, 2), (1, 1))
 
     def test_patterns(self):
         problem = support.double_cantilever()

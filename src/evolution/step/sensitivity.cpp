@@ -222,6 +222,10 @@ Sensitivity sensitivity(Linearised linearised, std::span<const FollowedParameter
     out.unknown = before.unknown;
     for (std::size_t p = 0; p < pairs && step != nullptr; ++p)
         if (active[p] == 0 && state.adhesion[p] > 0.0 && state.adhesion[p] < step->adhesion_before()[p]) ++out.unknown;
+    // In the first loaded step, the mixity of the rule `frozen` is that of an elastic solution, which is not followed.
+    if (step != nullptr && !step->in_parts() && step->before().loaded == 0)
+        out.unknown += std::count_if(damaging.directions.begin(), damaging.directions.end(),
+                                     [&](const PairDirection& d) { return linearised.pairs().mixed(d.pair); });
     for (std::size_t k = 0; k < parameters.size(); ++k) {
         std::vector<double> at_rest(pairs, 0.0), mixity(pairs, 0.0);
         for (std::size_t p = 0; p < pairs && step != nullptr; ++p) {

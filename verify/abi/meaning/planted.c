@@ -347,6 +347,13 @@ int32_t delam_problem_set_adhesion(delam_problem *problem, int64_t interface_ind
     return status;
 }
 
+int32_t delam_problem_set_adhesion_box(delam_problem *problem, int64_t interface_index, const double *lower,
+                                       const double *upper, double adhesion, int64_t *count) {
+    BEHIND(delam_problem_set_adhesion_box);
+    return behind(problem, interface_index, lower, upper,
+                  planted("adhesion of a box as damage") ? 1.0 - adhesion : adhesion, count);
+}
+
 int32_t delam_problem_prescribe_nodes(delam_problem *problem, int64_t count, const int64_t *nodes,
                                       const double *direction, int64_t pattern_count, const int64_t *patterns,
                                       const double *coefficients, int32_t index_base) {
@@ -441,6 +448,14 @@ int32_t delam_problem_process_zone(const delam_problem *problem, int64_t interfa
     BEHIND(delam_problem_process_zone);
     return planted("length of the zone and spacing") ? behind(problem, interface_index, spacing, length)
                                                      : behind(problem, interface_index, length, spacing);
+}
+
+int32_t delam_problem_propose(const delam_problem *problem, int64_t interface_index, double pairs, double *stiffness,
+                              double *share, double *normal_strength, double *tangential_strength) {
+    BEHIND(delam_problem_propose);
+    return planted("strengths exchanged")
+               ? behind(problem, interface_index, pairs, stiffness, share, tangential_strength, normal_strength)
+               : behind(problem, interface_index, pairs, stiffness, share, normal_strength, tangential_strength);
 }
 
 /* ---- solvers ---- */

@@ -307,6 +307,29 @@ def adhesion(host, see):
     see.near("contact: of the pair that is open", field(host, solver, "contact"), [0.0, 0.0, 1.0, 0.0, 0.0])
 
 
+@row("adhesion in a box", tells=["problem_set_adhesion_box lower", "problem_set_adhesion_box upper",
+                                 "problem_set_adhesion_box count"])
+def adhesion_box(host, see):
+    """Boxes whose sides lie on pairs: at a tip they keep their adhesion, at the end of the interface they do not. The
+    heights of the boxes tell the axes apart: across them, the second box would miss the interface."""
+    mesh = host("mesh_create_layers", host.context, 2, [4.0], [4], 2, [1.0, 1.0], [1, 1], TYPES["quad4"], Out())
+    host("mesh_add_interface", mesh, 0, 1, 0.0, Out())
+    problem = host("problem_create", host.context, mesh, Out())
+    host("problem_set_elastic", problem, -1, 1.0, 0.0)
+    host("problem_set_law", problem, 0, scenes.strong(host, 10.0, 10.0))
+    counts = [host("problem_set_adhesion_box", problem, 0, [2.5, 1.0], [4.0, 1.0], 0.5, Out()),
+              host("problem_set_adhesion_box", problem, 0, [-1.0, 0.5], [1.0, 1.5], 0.25, Out()),
+              host("problem_set_adhesion_box", problem, 0, [0.0, 1.5], [4.0, 2.0], 0.0, Out())]
+    see.equal("pairs in the boxes", counts, [2, 1, 0])
+    see.that("with NULL, no pair is an error",
+             host.status("problem_set_adhesion_box", problem, 0, [0.0, 1.5], [4.0, 2.0], 0.0, None) < 0)
+    scenes.hold(host, problem, list(range(20)), [[1.0, 0.0]])
+    scenes.hold(host, problem, list(range(5)), [[0.0, 1.0]])
+    scenes.hold(host, problem, list(range(15, 20)), [[0.0, 1.0]])
+    solver = host("solver_create", problem, 0.0, Out())
+    see.near("adhesion", field(host, solver, "adhesion"), [0.25, 1.0, 1.0, 0.5, 0.5])
+
+
 @row("histories", tells=["problem_add_pattern times", "problem_add_pattern values", "problem_factors factors",
                          "solver_set_history times", "solver_set_history values", "problem_add_pattern out_pattern",
                          "problem_pattern_count count"])
@@ -434,6 +457,39 @@ def periodic_tolerance(host, see):
     see.equal("status 0.98e-6 of the extent off", status(0.98e-6), 0)
     see.equal("status 1.02e-6 of the extent off", status(1.02e-6), -3)
     see.equal("status at tolerance 1e-3", status(0.9e-3, 1e-3), 0)
+
+
+@row("proposal for a law", tells=["problem_propose stiffness", "problem_propose share",
+                                  "problem_propose normal_strength", "problem_propose tangential_strength"],
+     says=["problem_propose: 0 if the interface is curved"])
+def proposal(host, see):
+    """Two layers of unlike thickness and modulus: the thick one decides the stiffness. The strengths, set in the law,
+    lead to as many pairs as were asked for: the mode whose strength is as proposed decides, the other is weaker."""
+    mesh = host("mesh_create_layers", host.context, 2, [8.0], [4], 2, [0.5, 0.25], [1, 1], TYPES["quad4"], Out())
+    host("mesh_add_interface", mesh, 0, 1, 0.0, Out())
+    problem = host("problem_create", host.context, mesh, Out())
+    host("problem_set_elastic", problem, 0, 70.0, 0.3)
+    host("problem_set_elastic", problem, 1, 30.0, 0.2)
+    host("problem_set_law", problem, 0, scenes.bilinear(host, (200.0, 50.0), (0.3, 0.5), (1.2, 3.0)))
+    stiffness, share, normal, tangential = host("problem_propose", problem, 0, 1.5, Out(), Out(), Out(), Out())
+    see.near("stiffness", stiffness, 50 * 70.0 / 0.5, "F/L3")
+    see.near("share", share, 1 / (1 + 70.0 / 0.5 / 200.0))
+    for name, strengths in (("normal", (normal, 0.5 * tangential)), ("tangential", (0.5 * normal, tangential))):
+        onsets = tuple(s * s / (2 * k) for s, k in zip(strengths, (200.0, 50.0)))
+        host("problem_set_law", problem, 0, scenes.bilinear(host, (200.0, 50.0), onsets, (1.2, 3.0)))
+        length, spacing = host("problem_process_zone", problem, 0, Out(), Out())
+        see.near(f"pairs with the {name} strength", length / spacing, 1.5)
+    # Two sides of a ridge: no normal is that of the interface.
+    mesh = host("mesh_create", host.context, 2, 12, [0, 0, 1, 1, 2, 0, 0, 2, 1, 3, 2, 2, 0, 0, 1, 1, 2, 0, 0, -2, 1, -1, 2, -2],
+                Out())
+    host("mesh_add_cells", mesh, TYPES["quad4"], 4, [9, 10, 7, 6, 10, 11, 8, 7, 0, 1, 4, 3, 1, 2, 5, 4], [0, 0, 1, 1], 0)
+    host("mesh_add_interface", mesh, 0, 1, 0.0, Out())
+    problem = host("problem_create", host.context, mesh, Out())
+    host("problem_set_elastic", problem, -1, 70.0, 0.3)
+    host("problem_set_law", problem, 0, scenes.bilinear(host, (200.0, 50.0), (0.3, 0.5), (1.2, 3.0)))
+    ridge = host("problem_propose", problem, 0, 1.5, Out(), Out(), Out(), Out())
+    see.equal("stiffness and share of a ridge", ridge[:2], [0.0, 0.0])
+    see.that("strengths of a ridge", ridge[2] > 0.0 and ridge[3] > 0.0)
 
 
 @row("process zone", tells=["problem_process_zone length", "problem_process_zone spacing", "problem_dofs primal",

@@ -23,7 +23,7 @@ from .history import History
 from .law import Bounds, Law, Parameter
 from .mesh import CELLS, Cells, Interface, Mesh, Ties
 from .options import Options, options
-from .problem import Forecast, Pattern, Problem, Sparse
+from .problem import Forecast, Pattern, Problem, Proposal, Sparse
 from .result import Fields, Result
 from .solver import Average, Condensed, Fronts, Jump, PlanItem, Solver, ValueInfo, Values
 
@@ -35,8 +35,8 @@ __version__ = "0.1.0"
 __all__ = ["ArgumentError", "Average", "Bounds", "CELLS", "Cancelled", "Cells", "Condensed", "DelamError", "Fields",
            "FileError", "Forecast", "Fronts", "HandleError", "History", "Interface", "InternalError", "Jump", "Law",
            "LimitReached", "Mesh", "MeshError", "NotConverged", "NotConvergedWarning", "NumericalError", "Options",
-           "OutOfMemory", "Outcome", "Parameter", "Pattern", "PlanItem", "Problem", "ProblemError", "Result",
-           "SnapshotError", "Solver", "Sparse", "StateError", "Ties", "ValueInfo", "Values", "blas_threads",
+           "OutOfMemory", "Outcome", "Parameter", "Pattern", "PlanItem", "Problem", "ProblemError", "Proposal",
+           "Result", "SnapshotError", "Solver", "Sparse", "StateError", "Ties", "ValueInfo", "Values", "blas_threads",
            "library_commit", "library_location", "library_version", "options"]
 
 

@@ -198,6 +198,9 @@ FUNCTIONS: dict[str, tuple[Any, tuple[tuple[str, Any], ...]]] = {
     "delam_problem_set_adhesion": (c_int32, (
         ("problem", POINTER(delam_problem)), ("interface_index", c_int64), ("count", c_int64),
         ("pairs", POINTER(c_int64)), ("adhesion", POINTER(c_double)), ("index_base", c_int32))),
+    "delam_problem_set_adhesion_box": (c_int32, (
+        ("problem", POINTER(delam_problem)), ("interface_index", c_int64), ("lower", POINTER(c_double)),
+        ("upper", POINTER(c_double)), ("adhesion", c_double), ("count", POINTER(c_int64)))),
     "delam_problem_add_pattern": (c_int32, (
         ("problem", POINTER(delam_problem)), ("name", c_char_p), ("count", c_int64), ("times", POINTER(c_double)),
         ("values", POINTER(c_double)), ("out_pattern", POINTER(c_int64)))),
@@ -239,6 +242,10 @@ FUNCTIONS: dict[str, tuple[Any, tuple[tuple[str, Any], ...]]] = {
     "delam_problem_process_zone": (c_int32, (
         ("problem", POINTER(delam_problem)), ("interface_index", c_int64), ("length", POINTER(c_double)),
         ("spacing", POINTER(c_double)))),
+    "delam_problem_propose": (c_int32, (
+        ("problem", POINTER(delam_problem)), ("interface_index", c_int64), ("pairs", c_double),
+        ("stiffness", POINTER(c_double)), ("share", POINTER(c_double)), ("normal_strength", POINTER(c_double)),
+        ("tangential_strength", POINTER(c_double)))),
     "delam_problem_body_matrix": (c_int32, (
         ("problem", POINTER(delam_problem)), ("body", c_int32), ("rows", POINTER(c_int64)),
         ("entries", POINTER(c_int64)), ("row_starts", POINTER(c_int64)), ("columns", POINTER(c_int64)),

@@ -33,6 +33,15 @@ class Forecast(NamedTuple):
     memory: float
 
 
+class Proposal(NamedTuple):
+    """Numbers for the law of an interface; 0: unknown or none."""
+
+    stiffness: float  #: the least, 50 E3/t of the adjacent layer
+    share: float  #: of that layer's stiffness, what the present normal stiffness leaves
+    normal_strength: float  #: the largest with which the process zone has enough pairs
+    tangential_strength: float
+
+
 class Sparse(NamedTuple):
     """A matrix by rows: the entries of row i are row_starts[i] .. row_starts[i+1]-1 of columns and values. For SciPy:
     csr_matrix((m.values, m.columns, m.row_starts), m.shape)."""
@@ -253,6 +262,18 @@ class Problem(Object):
         adhesion = spread("adhesion", adhesion, pairs.size)
         self._call(library.delam_problem_set_adhesion, interface, pairs.size, pointer(pairs), pointer(adhesion), 0)
 
+    def set_adhesion_box(self, interface: int | Interface, lower: ArrayLike, upper: ArrayLike,
+                         adhesion: float = 0.0) -> int:
+        """Initial adhesion of the pairs in the box from lower to upper, [dimension] each; 0 makes a notch. Pairs
+        exactly on a side beyond which the interface goes on are the tip of a crack and stay as they are. Returns the
+        number of pairs in the box, which may be 0."""
+        lower, upper = (floats(name, corner, (self.mesh.dimension,))
+                        for name, corner in (("lower", lower), ("upper", upper)))
+        count = ctypes.c_int64()
+        self._call(library.delam_problem_set_adhesion_box, interface_index(interface, self.mesh), pointer(lower),
+                   pointer(upper), number("adhesion", adhesion), count)
+        return count.value
+
     # ---- supports and loads
 
     def add_pattern(self, name: str, times: ArrayLike, values: ArrayLike) -> Pattern:
@@ -376,6 +397,13 @@ class Problem(Object):
         self._call(library.delam_problem_process_zone, interface_index(interface, self.mesh), length, spacing,
                    long=True)
         return length.value, spacing.value
+
+    def propose(self, interface: int | Interface, pairs: float = 3.0) -> Proposal:
+        """Stiffness and strengths for the law of an interface, with at least `pairs` pairs in the process zone."""
+        values = [ctypes.c_double() for _ in Proposal._fields]
+        self._call(library.delam_problem_propose, interface_index(interface, self.mesh), number("pairs", pairs),
+                   *values, long=True)
+        return Proposal(*(value.value for value in values))
 
     def plan(self) -> Forecast:
         """Plans an analysis without beginning it: nothing is factored."""

@@ -144,6 +144,8 @@ DELAM_API int32_t delam_problem_set_bonded(delam_problem *problem, int64_t inter
 DELAM_API int32_t delam_problem_set_contact(delam_problem *problem, int64_t interface_index);
 DELAM_API int32_t delam_problem_set_adhesion(delam_problem *problem, int64_t interface_index, int64_t count,
                                              const int64_t *pairs, const double *adhesion, int32_t index_base);
+DELAM_API int32_t delam_problem_set_adhesion_box(delam_problem *problem, int64_t interface_index, const double *lower,
+                                                 const double *upper, double adhesion, int64_t *count);
 DELAM_API int32_t delam_problem_add_pattern(delam_problem *problem, const char *name, int64_t count,
                                             const double *times, const double *values, int64_t *out_pattern);
 DELAM_API int32_t delam_problem_prescribe_nodes(delam_problem *problem, int64_t count, const int64_t *nodes,
@@ -174,6 +176,9 @@ DELAM_API int32_t delam_problem_hash(const delam_problem *problem, char *out);
 DELAM_API int32_t delam_problem_dofs(const delam_problem *problem, int64_t *primal, int64_t *dual);
 DELAM_API int32_t delam_problem_process_zone(const delam_problem *problem, int64_t interface_index, double *length,
                                              double *spacing);
+DELAM_API int32_t delam_problem_propose(const delam_problem *problem, int64_t interface_index, double pairs,
+                                        double *stiffness, double *share, double *normal_strength,
+                                        double *tangential_strength);
 DELAM_API int32_t delam_problem_body_matrix(const delam_problem *problem, int32_t body, int64_t *rows, int64_t *entries,
                                             int64_t *row_starts, int64_t *columns, double *values);
 DELAM_API int32_t delam_problem_constraints(const delam_problem *problem, int64_t *rows, int64_t *entries,

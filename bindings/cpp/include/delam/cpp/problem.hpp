@@ -32,6 +32,12 @@ struct Constraints {
 struct ProcessZone {
     double length, spacing;
 };
+// Numbers for the law of an interface; 0: unknown or none.
+struct Proposal {
+    double stiffness;  // the least, 50 E3/t of the adjacent layer
+    double share;      // of that layer's stiffness that the present normal stiffness leaves
+    double normal_strength, tangential_strength;
+};
 // What an analysis would do, before it begins.
 struct Forecast {
     std::string plan;
@@ -109,6 +115,16 @@ public:
         shared_->check(
             delam_problem_set_adhesion(get(), interface_index, pairs.count(), pairs.data(), adhesion.data(), 0));
     }
+    // Of the pairs in a box from lower to upper, [dimension] each; returns their number.
+    std::int64_t set_adhesion_box(std::int64_t interface_index, View<double> lower, View<double> upper,
+                                  double adhesion = 0.0) {
+        in_space(lower.size(), 1);
+        in_space(upper.size(), 1);
+        std::int64_t count = 0;
+        shared_->check(
+            delam_problem_set_adhesion_box(get(), interface_index, lower.data(), upper.data(), adhesion, &count));
+        return count;
+    }
 
     std::int64_t add_pattern(Text name, View<double> times, View<double> values) {
         detail::require(times.size() == values.size(), "times and values: unequal sizes");
@@ -173,6 +189,13 @@ public:
         ProcessZone zone{};
         shared_->check(delam_problem_process_zone(get(), interface_index, &zone.length, &zone.spacing));
         return zone;
+    }
+    // For the law of an interface, with at least `pairs` pairs in the process zone.
+    Proposal propose(std::int64_t interface_index, double pairs = 3.0) const {
+        Proposal found{};
+        shared_->check(delam_problem_propose(get(), interface_index, pairs, &found.stiffness, &found.share,
+                                             &found.normal_strength, &found.tangential_strength));
+        return found;
     }
     // Nothing is factored.
     Forecast plan() {
