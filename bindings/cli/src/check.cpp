@@ -227,6 +227,7 @@ int check(const std::string& scene_file, const std::vector<std::string>& setting
         say("{}\n", examined(scene_file, settings, caller).dump(2, ' ', false, replace));
         return exit_done;
     } catch (const Failure& failure) {
+        if (failure.code() != exit_scene) throw;  // the scene may be right
         const Place& place = failure.place();
         Found error{{"file", place.file}, {"line", nullptr}, {"key", place.path}, {"message", failure.text()}};
         if (place.line > 0) error["line"] = place.line;

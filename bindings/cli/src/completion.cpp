@@ -55,14 +55,19 @@ std::vector<std::string> commands_of(const ProgramText& program) {
     return out;
 }
 
-// What bash offers for a value.
+bool is_file(const OptionText& option) {
+    return option.value == scene_value || option.value == deck_value || option.value == file_value;
+}
+
+// What bash offers for a value; only names of files are quoted.
 std::string bash_reply(const OptionText& option) {
     if (!option.choices.empty()) return fmt::format("compgen -W {} -- \"$word\"", quoted(words(option.choices)));
     if (option.value == setting_value) return "compgen -W \"$settings\" -- \"$word\"";
-    if (option.value == folder_value) return "compgen -d -- \"$word\"";
-    if (option.value == scene_value) return "compgen -f -X '!*.@(toml|inp)' -- \"$word\"; compgen -d -- \"$word\"";
-    if (option.value == deck_value) return "compgen -f -X '!*.inp' -- \"$word\"; compgen -d -- \"$word\"";
-    return "compgen -f -- \"$word\"";
+    const std::string folders = "compgen -d -- \"$word\"";
+    if (option.value == folder_value) return folders;
+    if (option.value == scene_value) return "compgen -f -X '!*.@(toml|inp)' -- \"$word\"; " + folders;
+    if (option.value == deck_value) return "compgen -f -X '!*.inp' -- \"$word\"; " + folders;
+    return option.value == file_value ? "compgen -f -- \"$word\"" : ":";
 }
 
 std::string bash(const ProgramText& program) {
@@ -102,11 +107,12 @@ std::string bash(const ProgramText& program) {
         "    # Of KEY=VALUE, bash inserts what follows the sign.\n"
         "    if [[ $whole == *=* ]]; then COMPREPLY=(\"${{COMPREPLY[@]#\"${{whole%%=*}}=\"}}\"); fi\n"
         "    if [[ ${{#COMPREPLY[@]}} == 1 && ${{COMPREPLY[0]}} == *= ]]; then compopt -o nospace; fi\n"
+        "    if [[ -e ${{COMPREPLY[0]:-}} ]]; then compopt -o filenames; fi\n"
         "}}\n"
         "_{0}_values() {{\n"
         "    case ${{COMP_WORDS[1]}} in\n{3}    esac\n"
         "}}\n"
-        "complete -o filenames -F _{0} {0}\n",
+        "complete -F _{0} {0}\n",
         program.name, quoted(words(settings())),
         quoted(words(commands_of(program)) + " " + words(names_of(program.options))), cases);
 }
@@ -114,6 +120,7 @@ std::string bash(const ProgramText& program) {
 std::string zsh_values(const OptionText& option) {
     if (!option.choices.empty()) return "(" + words(option.choices) + ")";
     if (option.value == setting_value) return "($settings)";
+    if (option.value != folder_value && !is_file(option)) return " ";
     if (option.value == folder_value) return "_files -/";
     if (option.value == scene_value) return "_files -g \"*.(toml|inp)\"";
     if (option.value == deck_value) return "_files -g \"*.inp\"";
@@ -173,22 +180,21 @@ std::string fish(const ProgramText& program) {
     for (const CommandText& command : program.commands) {
         const std::string when = quoted("__fish_seen_subcommand_from " + command.name);
         for (const OptionText& option : command.options) {
-            std::string values;
+            std::string values = option.argument || option.value.empty() ? "" : "-x ";
             if (!option.choices.empty())
-                values = "-a " + quoted(words(option.choices));
+                values += "-a " + quoted(words(option.choices));
             else if (option.value == setting_value)
-                values = "-a " + quoted(words(settings()));
+                values += "-a " + quoted(words(settings()));
             else if (option.value == folder_value)
-                values = "-a '(__fish_complete_directories)'";
-            else if (!option.value.empty())
-                values = "-F";
+                values += "-a '(__fish_complete_directories)'";
+            else if (is_file(option))
+                values = option.argument ? "-F" : "-r -F";
             std::string names;
             for (const std::string& name : option.names)
                 if (!option.argument)
                     names += (name.starts_with("--") ? " -l " : " -s ") + name.substr(name.find_first_not_of('-'));
-            out +=
-                fmt::format("complete -c {} -n {}{} {}{} -d {}\n", program.name, when, names,
-                            option.argument || option.value.empty() ? "" : "-x ", values, quoted(option.meaning, true));
+            out += fmt::format("complete -c {} -n {}{} {} -d {}\n", program.name, when, names, values,
+                               quoted(option.meaning, true));
         }
     }
     return out;

@@ -184,7 +184,9 @@ void add_fit(CLI::App& app, Arguments& into, Commands& of) {
                      "curve (default): residuals over the largest y of their curve; equal: as they are")
         ->type_name("HOW")
         ->check(CLI::IsMember(of.choices["weights"] = {"curve", "equal"}));
-    of.fit->add_option("--confidence", study.confidence, "of the intervals (default 0.95)")->type_name("LEVEL");
+    of.fit->add_option("--confidence", study.confidence, "of the intervals (default 0.95)")
+        ->type_name("LEVEL")
+        ->check(CLI::Range(0.01, 0.9999));
     of.fit->add_option("--out,-o", into.folder, "folder for fit.json, fit.csv and pictures")
         ->type_name(folder_value)
         ->required();

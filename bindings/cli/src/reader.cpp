@@ -161,9 +161,11 @@ std::string suggestion(std::string_view word, const std::vector<std::string>& kn
 
 Table::Table(const toml::table& table, Place place, const KeyTable& keys, Scenes scenes)
     : table_(&table), place_(std::move(place)), keys_(&keys), scenes_(scenes) {
+    if (keys.row("schema") != nullptr) (void)whole("schema");  // another version has other keys
     check_keys();
     for (const KeyRule& rule : keys.rules)
         if (!rule.message.empty() && (rule.scenes == Scenes::any || rule.scenes == scenes_)) check_rule(rule);
+    for (const std::string& key : this->keys()) check_value(row(key));
 }
 
 void Table::check_keys() const {
@@ -180,7 +182,9 @@ void Table::check_keys() const {
 
 bool Table::given(std::string_view key) const {
     const toml::node* node = table_->get(key);
-    return node != nullptr && (!node->is_boolean() || *node->value<bool>());
+    const KeyRow* of = keys_->row(key);
+    const bool is_flag = of != nullptr && of->kind == KeyKind::flag;
+    return node != nullptr && !(is_flag && node->is_boolean() && !*node->value<bool>());
 }
 
 // A value that its own row does not allow is complained of where it is read.
@@ -353,10 +357,44 @@ Table Table::table_or_empty(std::string_view key) const {
     return has(key) ? table(key) : Table(none, place(key), scene_table(row(key).content), scenes_);
 }
 
+// Whether it is read later or not.
+void Table::check_value(const KeyRow& of) const {
+    const bool alone = of.or_one && !is_list(of.key);
+    switch (of.kind) {
+        case KeyKind::number:
+            (void)number(of.key);
+            return;
+        case KeyKind::whole:
+            (void)whole(of.key);
+            return;
+        case KeyKind::flag:
+            (void)flag(of.key);
+            return;
+        case KeyKind::text:
+        case KeyKind::choice:
+            (void)text(of.key);
+            return;
+        case KeyKind::texts:
+            (void)texts(of.key);
+            return;
+        case KeyKind::numbers:
+            (void)(alone ? std::vector<double>{number(of.key)} : numbers(of.key));
+            return;
+        case KeyKind::wholes:
+            if (alone) (void)whole(of.key);
+            return;
+        case KeyKind::points:
+        case KeyKind::table:
+        case KeyKind::tables:
+            return;
+    }
+}
+
 std::vector<Table> Table::tables(std::string_view key) const {
     if (!has(key)) return {};
     const toml::array* list = need(key).as_array();
     if (list == nullptr) fail(key, fmt::format("{}: a list of tables is expected", shown(need(key))));
+    if (list->size() < row(key).count.least) fail(key, "is empty: at least one is expected");
     std::vector<Table> out;
     for (std::size_t i = 0; i < list->size(); ++i) {
         const toml::node& entry = *list->get(i);

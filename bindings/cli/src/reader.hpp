@@ -59,6 +59,7 @@ public:
 private:
     void check_keys() const;
     void check_rule(const KeyRule& rule) const;
+    void check_value(const KeyRow& of) const;
     [[nodiscard]] bool given(std::string_view key) const;  // and not false
     [[nodiscard]] bool is_one_of(const std::string& key, const std::vector<std::string>& values, bool otherwise) const;
     [[nodiscard]] const KeyRow& row(std::string_view key) const;

@@ -212,16 +212,6 @@ void read_units(const Table& root, Scene& scene) {
     scene.units = {table.text("length"), table.text("force"), table.text("time")};
 }
 
-// Before anything else: another schema has other keys.
-void require_schema(const toml::table& parsed, const std::string& source) {
-    const toml::node* schema = parsed.get("schema");
-    if (schema == nullptr) throw SceneFailure({source, "schema", 0}, "is missing: schema = 1 is expected");
-    const KeyTable only_schema{"scene", "", {*scene_table("scene").row("schema")}, {}};
-    toml::table alone;
-    alone.insert("schema", *schema);
-    (void)Table(alone, {source, "", 0}, only_schema, Scenes::any).whole("schema");
-}
-
 }  // namespace
 
 Scene read_scene(const std::string& file, const std::vector<std::string>& settings) {
@@ -245,7 +235,6 @@ Scene read_scene(const std::string& file, const std::vector<std::string>& settin
     scene.content_hash = hash_text(content.str());
     scene.file_hash = hash_text(bytes);
 
-    require_schema(parsed, source);
     const Table root(parsed, {source, "", 0}, scene_table("scene"),
                      parsed.contains("mesh") ? Scenes::mesh : Scenes::layers);
     scene.title = root.text("title", "");

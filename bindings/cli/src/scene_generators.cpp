@@ -35,6 +35,7 @@ MeshData weave(const Table& table) {
     cell.width = table.number("width");
     cell.thickness = table.number("thickness");
     cell.gap = table.number("gap", 0.1 * cell.thickness);
+    if (!(cell.gap > 0)) table.fail("gap", "0 is not allowed: > 0 (finite)");
     if (table.has("height")) cell.height = table.number("height");
     cell.section = table.text("section");
     cell.stacked = table.flag("stacked");

@@ -62,6 +62,7 @@ KeyRow table_key(std::string_view key, std::string_view content) {
 
 KeyRow tables_key(std::string_view key, std::string_view content) {
     KeyRow row = row_of(key, KeyKind::tables);
+    row.count = {0, 0};
     row.content = content;
     return row;
 }
@@ -79,7 +80,7 @@ KeyTable scene_file() {
         whole_key("schema", 1, 1).need().says("version of this schema"),
         text_key("title").says("text for pictures and results"),
         table_key("geometry", "geometry").in_layers().says("a block of layers and its mesh"),
-        tables_key("layers", "layer").in_layers().says("the layers, from the bottom up"),
+        tables_key("layers", "layer").entries(1, 0).in_layers().says("the layers, from the bottom up"),
         table_key("mesh", "mesh").in_mesh().says("a mesh from a file or a generator, instead of geometry and layers"),
         tables_key("bodies", "body").in_mesh().says("materials of the bodies of a mesh"),
         tables_key("materials", "material").need().says("elastic materials"),

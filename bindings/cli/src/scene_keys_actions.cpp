@@ -76,7 +76,7 @@ void add_direction(KeyTable& table, const char* key) {
 void add_terms(KeyTable& table, const std::string& needed) {
     table.rows.push_back(text_key("pattern").says("name of the pattern that it follows"));
     table.rows.push_back(number_key("coefficient").otherwise("1").says("factor on the pattern"));
-    table.rows.push_back(tables_key("terms", "term").says("instead: several patterns"));
+    table.rows.push_back(tables_key("terms", "term").entries(1, 0).says("instead: several patterns"));
     table.rules.push_back(
         {Kind::excludes, {"terms"}, {"pattern", "coefficient"}, {}, "give either terms or pattern and coefficient"});
     if (!needed.empty()) table.rules.push_back({Kind::at_least_one, {"pattern", "terms"}, {}, {}, needed});
@@ -173,7 +173,7 @@ KeyTable equation_side_table() {
 KeyTable equation_table() {
     KeyTable table{"equation", "a linear equation between displacements", {}, {}};
     table.rows = {text_key("name").says("free text"),
-                  tables_key("left", "equation_side").need().says("the terms of its left-hand side")};
+                  tables_key("left", "equation_side").entries(1, 0).need().says("the terms of its left-hand side")};
     add_terms(table, "");
     return table;
 }

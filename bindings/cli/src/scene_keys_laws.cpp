@@ -5,6 +5,8 @@
 #include <list>
 #include <map>
 
+#include <fmt/format.h>
+
 #include "delam/delam.h"
 #include "scene_keys.hpp"
 
@@ -50,6 +52,13 @@ void add_parameters(LawKinds& laws, const std::string& kind) {
             double lower = 0, upper = 0;
             std::int32_t lower_open = 0, upper_open = 0;
             delam_law_parameter_bounds(kind.c_str(), i, &lower, &upper, &lower_open, &upper_open);
+            // The words of a table are about all of it, not about each number.
+            static std::list<std::string> intervals;
+            if (what == "table")
+                range = intervals
+                            .emplace_back(fmt::format("in {}{:g}, {:g}{}", lower_open != 0 ? '(' : '[', lower, upper,
+                                                      upper_open != 0 ? ')' : ']'))
+                            .c_str();
             KeyRow row = what == "text"
                              ? choice_key(key, words_of(range))
                              : number_key(key, kept({lower, upper, lower_open != 0, upper_open != 0, range}));

@@ -65,7 +65,8 @@ SchemaJson text_schema(const KeyRow& row) {
 }
 
 SchemaJson list_schema(const SchemaJson& items, const Count& count) {
-    SchemaJson out{{"type", "array"}, {"items", items}, {"minItems", count.least}};
+    SchemaJson out{{"type", "array"}, {"items", items}};
+    if (count.least > 0) out["minItems"] = count.least;
     if (count.most > 0) out["maxItems"] = count.most;
     if (count.between) return out;
     SchemaJson fewer = out, more = out;
@@ -93,7 +94,7 @@ SchemaJson value_schema(const KeyRow& row, Scenes scenes) {
         case KeyKind::table:
             return reference(row.content, scenes);
         case KeyKind::tables:
-            return {{"type", "array"}, {"items", reference(row.content, scenes)}};
+            return list_schema(reference(row.content, scenes), row.count);
         case KeyKind::numbers:
             one = number_schema(*row.range);
             break;

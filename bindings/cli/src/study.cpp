@@ -34,7 +34,12 @@ int study(const Study& of) {
                                {"weights", of.weights},
                                {"scale", of.scale},
                                {"confidence", of.confidence}};
-    const std::string words = given.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+    std::string words;
+    try {
+        words = given.dump(-1, ' ', true);
+    } catch (const nlohmann::json::exception&) {
+        throw Failure(exit_scene, "a name on the command line is not UTF-8, which studies need");
+    }
     (void)setenv("DELAM", program_path().c_str(), 1);
     // Debian's modules belong to this interpreter; elsewhere the first one counts.
     for (const char* python : {"/usr/bin/python3", "python3"})

@@ -56,8 +56,8 @@ class CurveData:
                 rows.append([float(cell) if cell else np.nan for cell in row])
             except ValueError as error:
                 raise Trouble(f"{path}: row {number + 1} of the numbers: {error}") from error
-            if len(row) != len(table[0]):
-                raise Trouble(f"{path}: row {number + 1} of the numbers has {len(row)} columns, the first {len(table[0])}")
+            if len(row) != len(header or table[0]):
+                raise Trouble(f"{path}: row {number + 1} of the numbers has {len(row)} columns, {len(header or table[0])} are expected")
         if not rows:
             raise Trouble(f"{path}: there are no numbers")
         return header, rows

@@ -8,13 +8,14 @@ DIR/fit.csv (data and model); the last lines say the parameters with their confi
 """
 import json
 import os
+import signal
 import sys
 
 import numpy as np
 
 from curve_data import CurveData
 from fit_model import Infeasible, Model, Parameter
-from marches import DONE, INTERRUPTED, NUMERICAL, Trouble, given_words, make_folder, read_about, write_file
+from marches import DONE, INTERRUPTED, NUMERICAL, OUTPUT, Trouble, end_all, given_words, hold, make_folder, read_about, refuse_set, write_file
 
 WORSE = 10.0  # what a step into an infeasible region costs, in residuals: the trust region then shrinks
 
@@ -39,6 +40,7 @@ class Fit:
         key = scaled.tobytes()
         if key not in self.known:
             values = self.start * scaled
+            first = self.norm is None
             try:
                 curves, slopes = self.model.evaluate(values)
                 residual = (np.concatenate(curves) - self.y) / self.size
@@ -46,8 +48,8 @@ class Fit:
                 jacobian = slopes * self.start / self.size[:, None]
                 note = ""
             except Infeasible as error:
-                if self.norm is None:
-                    raise Trouble(f"the scene does not run at the start: {error}", NUMERICAL) from error
+                if first:
+                    raise Trouble(f"the scene does not run at the start: {error}", error.code) from error
                 residual = np.full(len(self.y), WORSE * max(self.norm, 1e-12) / np.sqrt(len(self.y)))
                 jacobian, note = np.zeros((len(self.y), len(values))), f"  not feasible: {error}"
             self.known[key] = residual, jacobian
@@ -76,14 +78,16 @@ def estimates(fit, found, level):
     points, count = found.jac.shape
     values = fit.start * found.x
     freedom = points - count
-    if freedom < 1:
-        return values, np.full(count, np.nan), np.full((count, 2), np.nan), np.full((count, count), np.nan)
-    variance = 2 * found.cost / freedom
+    if freedom < 0:
+        raise Trouble(f"{points} points for {count} parameters: as many are expected, and more for intervals", NUMERICAL)
     _, singular, vectors = np.linalg.svd(found.jac, full_matrices=False)
     if singular[-1] <= 1e-10 * singular[0]:
         weak = np.abs(vectors[-1]) > 0.1
         names = ", ".join(p.path for p, is_weak in zip(fit.model.parameters, weak) if is_weak)
         raise Trouble(f"the data do not tell these parameters apart: {names}; give fewer, or other curves", NUMERICAL)
+    if freedom == 0:
+        return values, np.full(count, np.nan), np.full((count, 2), np.nan), np.full((count, count), np.nan)
+    variance = max(2 * found.cost / freedom, np.finfo(float).tiny)
     covariance = (vectors.T / singular ** 2) @ vectors * variance
     errors = np.sqrt(np.diag(covariance))
     half = student.ppf(0.5 + 0.5 * level, freedom) * errors * fit.start
@@ -104,8 +108,10 @@ def report(model, fit, found, level, out):
     about = {"parameters": rows, "confidence": level, "correlation": correlation.tolist(), "rms": rms,
              "points": len(fit.y), "marches": model.marches, "converged": bool(found.success),
              "message": found.message, "scenes": model.files, "data": [d.path for d in model.data],
-             "jumps": jumps}
-    write_file(os.path.join(out, "fit.json"), json.dumps(about, indent=1))
+             "jumps": jumps, "unknown_pairs": model.unknown}
+    # JSON has no NaN: there are no intervals.
+    known = json.loads(json.dumps(about), parse_constant=lambda _: None)
+    write_file(os.path.join(out, "fit.json"), json.dumps(known, indent=1, allow_nan=False))
     lines = ["scene,x,y,model,residual"]
     for which, (data, curve) in enumerate(zip(model.data, fit.model.evaluate(values)[0])):
         lines += [f"{which + 1},{x!r},{y!r},{m!r},{m - y!r}" for x, y, m in zip(*map(np.ndarray.tolist, (data.x, data.y, curve)))]
@@ -115,10 +121,18 @@ def report(model, fit, found, level, out):
         print(f"{row['key']} = {row['value']:.6g}, {100 * level:g} % interval {row['interval'][0]:.6g} to "
               f"{row['interval'][1]:.6g}" + (" (at its bound)" if row["at_bound"] else ""))
     print(f"root mean square of the residuals {rms:.4g}, {len(fit.y)} points, {model.marches} marches")
+    for path, count in zip(model.files, model.unknown):
+        if count:
+            print(f"warning: {path}: the adhesion of {count:.0f} pairs came to rest within a step and is taken as constant; "
+                  "the derivatives, and with them the intervals, are not exact")
     for path, at in zip(model.files, jumps):
         if at:
             print(f"warning: {path} jumps at {model.x_name} {', '.join(f'{x:.6g}' for x in at[:5])}: the march has no "
                   "derivative there, and the intervals do not know of it")
+
+
+def interrupt(*_):
+    raise KeyboardInterrupt
 
 
 def main():
@@ -128,14 +142,24 @@ def main():
     if not 0 < given.confidence < 1:
         raise Trouble(f"--confidence {given.confidence:g}: between 0 and 1")
     parameters = [Parameter(text) for text in given.parameters]
+    refuse_set([p.path for p in parameters], given.set, "--parameters")
+    for path in given.scenes:
+        if path.lower().endswith(".inp"):
+            raise Trouble(f"{path}: write the scene of a deck first: delam import {path} --out scene.toml")
     if len({p.path for p in parameters}) < len(parameters):
         raise Trouble("--parameters: a key is given twice")
     data = [CurveData(path, given.columns, given.scale) for path in given.data]
+    held = hold(given.out)  # until the end
     make_folder(os.path.join(given.out, "work"))
+    signal.signal(signal.SIGTERM, interrupt)
     model = Model(given.scenes, data, parameters, given)
     fit = Fit(model, given.weights)
     found = fit.run()
-    report(model, fit, found, given.confidence, given.out)
+    try:
+        report(model, fit, found, given.confidence, given.out)
+    except Infeasible as error:
+        raise Trouble(f"the scene does not run at the end: {error}", error.code) from error
+    held.close()
     print(f"wrote {given.out}: fit.json, fit.csv, fit.png" if len(data) == 1 else
           f"wrote {given.out}: fit.json, fit.csv, fit-1.png to fit-{len(data)}.png")
     return DONE if found.success else NUMERICAL
@@ -147,6 +171,10 @@ if __name__ == "__main__":
     except Trouble as trouble:
         print(f"delam: fit: {trouble}", file=sys.stderr)
         sys.exit(trouble.code)
+    except OSError as error:
+        print(f"delam: fit: {error}", file=sys.stderr)
+        sys.exit(OUTPUT)
     except KeyboardInterrupt:
+        end_all()
         print("delam: fit: interrupted", file=sys.stderr)
         sys.exit(INTERRUPTED)

@@ -11,7 +11,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
-from marches import (DONE, INTERRUPTED, NOT_CONVERGED, Trouble, last_words, path_of, read_history, setting, start,
+from marches import (DONE, INTERRUPTED, NOT_CONVERGED, NUMERICAL, WRONG, Trouble, finish, last_words, path_of, read_history, setting, start,
                      value_at)
 
 DIFFERENCE = 1e-3  # of a parameter without derivatives; far above what an unconverged digit moves
@@ -53,7 +53,11 @@ class Parameter:
 
 
 class Infeasible(Exception):
-    """The scene is none, or has no end, at these parameters."""
+    """The scene is none, or has no end, at these parameters; with the exit code of the march."""
+
+    def __init__(self, text, code):
+        super().__init__(text)
+        self.code = code
 
 
 class Model:
@@ -65,6 +69,7 @@ class Model:
         self.x_name, self.y_name = given.x, given.y
         self.marches = 0
         self.jumps = [np.zeros(0)] * len(scenes)
+        self.unknown = [0.0] * len(scenes)  # pairs that the derivatives leave out
         parsed = []
         for path in scenes:
             try:
@@ -77,12 +82,16 @@ class Model:
 
     def _march(self, which, name, settings):
         out = os.path.join(self.work, f"{which + 1}-{name}")
-        code = start(self.files[which], out, settings).wait()
+        code = finish(start(self.files[which], out, settings))
         self.marches += 1
         if code == INTERRUPTED:
             raise KeyboardInterrupt
+        if code < 0:
+            raise Trouble(f"{self.files[which]}: the march was ended by signal {-code}", NUMERICAL)
+        if code not in (DONE, NOT_CONVERGED, WRONG, NUMERICAL):
+            raise Trouble(f"{self.files[which]}: {last_words(out)}", code)
         if code not in (DONE, NOT_CONVERGED):
-            raise Infeasible(last_words(out))
+            raise Infeasible(last_words(out), code)
         return read_history(out)
 
     def _column(self, history, name, which):
@@ -112,6 +121,7 @@ class Model:
         history = self._march(which, "at", settings + asked)
         y = self._at_data(which, history, self._column(history, self.y_name, which))
         self.jumps[which] = self._column(history, self.x_name, which)[history["jumps"] > 0]
+        self.unknown[which] = float(history["sensitivities_unknown"][-1]) if asked else 0.0
         slopes = []
         for k, parameter in enumerate(self.parameters):
             if parameter.of_law and asked:

@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the studies share: marches of `delam run` with settings of their own, and how parameters are written."""
 import csv
+import fcntl
 import json
 import os
 import re
+import signal
 import subprocess
 import sys
+import threading
 import types
 
 import numpy as np
@@ -60,13 +63,52 @@ def value_at(scene, path):
     return float(at) if isinstance(at, (int, float)) and not isinstance(at, bool) else None
 
 
+running = []  # marches that a signal must end
+lock = threading.Lock()
+
+
+def end_all():
+    """Every march keeps its finished steps."""
+    with lock:
+        for child in running:
+            child.send_signal(signal.SIGTERM)
+
+
+def finish(child):
+    """The exit code of a march."""
+    code = child.wait()
+    with lock:
+        running.remove(child)
+    return code
+
+
+def hold(folder):
+    """Keeps other studies out of a folder, as long as the file that it returns is open."""
+    make_folder(folder)
+    file = open(os.path.join(folder, "study.lock"), "a", encoding="utf-8")  # pylint: disable=consider-using-with
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError as error:
+        raise Trouble(f"{folder}: another study is writing there", OUTPUT) from error
+    return file
+
+
+def refuse_set(paths, settings, option):
+    """A key is either varied or set."""
+    for word in settings:
+        if word.partition("=")[0] in paths:
+            raise Trouble(f"--set {word}: {option} has the same key")
+
+
 def start(scene, out, settings, resume=False, one_thread=True):
     """A running `delam run`; its words go to OUT.log beside the folder of the result."""
     command = [program(), "run", scene, "--out", out] + [word for one in settings for word in ("--set", one)]
     environment = dict(os.environ, **({"OPENBLAS_NUM_THREADS": "1"} if one_thread else {}))
     with open(out + ".log", "w", encoding="utf-8") as log:
-        return subprocess.Popen(command + (["--resume"] if resume else []), stdout=log, stderr=subprocess.STDOUT,
-                                env=environment)
+        with lock:
+            running.append(subprocess.Popen(command + (["--resume"] if resume else []), stdout=log,
+                                            stderr=subprocess.STDOUT, env=environment))
+            return running[-1]
 
 
 def last_words(out):

@@ -20,7 +20,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
-from marches import (DONE, INTERRUPTED, NOT_CONVERGED, Trouble, given_words, last_words, make_folder,
+from marches import (DONE, INTERRUPTED, NOT_CONVERGED, OUTPUT, WRONG, Trouble, end_all, finish, hold, refuse_set, given_words, last_words, make_folder,
                      read_about, read_history, setting, start, write_file)
 from variations import Variation, grid, latin
 
@@ -37,11 +37,11 @@ class Sweep:
         if not self.variations:
             raise Trouble("--vary: at least one is expected")
         paths = [variation.path for variation in self.variations]
+        refuse_set(paths, self.common, "--vary")
         if len(set(paths)) < len(paths):
             raise Trouble("--vary: a key is given twice")
         self.points = grid(self.variations) if given.latin == 0 else latin(self.variations, given.latin, given.seed)
         self.ended = threading.Event()
-        self.running = []
         self.rows = {}
         self.lock = threading.Lock()
         self.began = time.monotonic()
@@ -50,20 +50,24 @@ class Sweep:
         """Notes what the sweep is, and refuses the folder of another one."""
         try:
             with open(self.scene, "rb") as file:
-                text = file.read().decode("utf-8", "replace")
+                self.text = file.read().decode("utf-8", "replace")
         except OSError as error:
             raise Trouble(f"{self.scene}: cannot be read: {error.strerror}") from error
-        definition = {"scene": text, "set": self.common, "vary": [v.path for v in self.variations],
+        definition = {"scene": self.text, "set": self.common, "vary": [v.path for v in self.variations],
                       "points": [list(point) for point in self.points]}
         path = os.path.join(self.out, "sweep.json")
         if os.path.exists(path):
-            with open(path, encoding="utf-8") as file:
-                same = json.load(file) == json.loads(json.dumps(definition))
+            try:
+                with open(path, encoding="utf-8") as file:
+                    same = json.load(file) == json.loads(json.dumps(definition))
+            except ValueError:
+                same = False
             if not same and not replace:
                 raise Trouble(f"{self.out} holds another sweep: --replace discards it")
-            if not same:
+            if replace:
                 self.discard()
-        make_folder(self.out)
+        elif os.path.exists(os.path.join(self.out, "table.csv")):
+            raise Trouble(f"{self.out} holds a table.csv that is of no sweep: choose another folder")
         write_file(path, json.dumps(definition, indent=1))
 
     def discard(self):
@@ -74,6 +78,14 @@ class Sweep:
                 shutil.rmtree(path)
             elif re.fullmatch(r"\d{4,}\.log|table\.csv|curves\.png|response\.png", name):
                 os.remove(path)
+
+    def can_resume(self, out):
+        """Sensitivities are followed from the initial state on: only a complete result is kept then."""
+        try:
+            complete = read_about(out)["status"] == "complete"
+        except (OSError, ValueError, KeyError):
+            complete = False
+        return complete or not any("sensitivities" in text for text in (self.text, *self.common))
 
     def settings(self, point):
         return self.common + [setting(v.path, value) for v, value in zip(self.variations, point)]
@@ -86,12 +98,8 @@ class Sweep:
         out = self.folder(number)
         if self.ended.is_set():
             return
+        code = finish(start(self.scene, out, self.settings(self.points[number]), resume=self.can_resume(out)))
         with self.lock:
-            child = start(self.scene, out, self.settings(self.points[number]), resume=True)
-            self.running.append(child)
-        code = child.wait()
-        with self.lock:
-            self.running.remove(child)
             if code == INTERRUPTED or self.ended.is_set():
                 return
             self.rows[number] = self.row(number, code)
@@ -136,8 +144,7 @@ class Sweep:
     def stop(self, *_):
         """Every run keeps its finished steps."""
         self.ended.set()
-        for child in list(self.running):
-            child.send_signal(signal.SIGTERM)
+        end_all()
 
     def run(self, jobs):
         signal.signal(signal.SIGINT, self.stop)
@@ -151,6 +158,7 @@ class Sweep:
 def main():
     given = given_words()
     sweep = Sweep(given)
+    held = hold(given.out)  # until the end
     sweep.define(given.replace)
     if not sweep.run(given.jobs):
         print(f"interrupted after {len(sweep.rows)} of {len(sweep.points)} runs; the same command goes on",
@@ -165,7 +173,10 @@ def main():
         draw_curves(sweep, good, about)
         draw_response(sweep, about)
         written += ["curves.png", "response.png"]
+    held.close()
     failed = len(sweep.points) - len(good)
+    if not good and all(row["exit_code"] == WRONG for row in sweep.rows.values()):
+        raise Trouble(f"no run is a scene, e.g. {sweep.rows[0]['message'].removeprefix('delam: ')}")
     print(f"wrote {sweep.out}: {', '.join(written)}" + (f"; {failed} runs failed" if failed else ""))
     return DONE if not failed and all(row["exit_code"] == DONE for row in sweep.rows.values()) else NOT_CONVERGED
 
@@ -176,3 +187,6 @@ if __name__ == "__main__":
     except Trouble as trouble:
         print(f"delam: sweep: {trouble}", file=sys.stderr)
         sys.exit(trouble.code)
+    except OSError as error:
+        print(f"delam: sweep: {error}", file=sys.stderr)
+        sys.exit(OUTPUT)

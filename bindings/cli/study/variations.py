@@ -19,7 +19,7 @@ class Variation:
         self.log = parts[-1] == "log"
         if self.log:
             parts.pop()
-        self.ends, self.values = None, None
+        self.ends, self.values, self.whole = None, None, False
         if len(parts) == 1 and not self.log:
             self.values = [self._value(word) for word in parts[0].split(",")]
         elif len(parts) in (2, 3):
@@ -47,12 +47,17 @@ class Variation:
         if count is not None and count < 2:
             raise Trouble(f"--vary {self.text}: at least 2 values are expected")
         self.ends = (low, high)
+        # Numbers of cells or steps stay whole.
+        self.whole = not any(c in word for word in parts[:2] for c in ".eE") and not self.log
         if count is not None:
+            self.whole = self.whole and (int(parts[1]) - int(parts[0])) % (count - 1) == 0
             self.values = [self.at(k / (count - 1)) for k in range(count)]
 
     def at(self, share):
         """The value at a share of the way, 0 to 1; the ends exactly."""
         low, high = self.ends
+        if self.whole:
+            return round(low + (high - low) * share)
         if share in (0.0, 1.0):
             return (low, high)[int(share)]
         return low * (high / low) ** share if self.log else low + (high - low) * share

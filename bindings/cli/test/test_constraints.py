@@ -257,7 +257,7 @@ lever = block(2, '[[supports]]\nbox = { lower = [0, 0], upper = [0, 1] }\nfix = 
                  'left = [{ point = [1.0, 1.0], component = ["y"] }]\npattern = "p"\n')
 for old, new, *patterns in (
         ('component = ["y"]', 'component = ["x", "y"]', r"component: has 2 entries: 1 is expected"),
-        ('[{ point = [1.0, 1.0], component = ["y"] }]', "[]", r"left: is needed"),
+        ('[{ point = [1.0, 1.0], component = ["y"] }]', "[]", r"left: is empty"),
         ("point = [1.0, 1.0]", "point = [1.01, 1.0]", r"no node within"),
         ("point = [1.0, 1.0]", "box = { lower = [0, 0], upper = [1, 1] }", r"box: unknown key"),
         ("point = [1.0, 1.0], ", "", r"give one of point, patch, control \(0 are given\)"),

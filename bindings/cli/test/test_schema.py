@@ -117,6 +117,10 @@ BROKEN = {
                                       'patch = { centre = [0, 0], length = 0.003, face = "-y" }\n',
     "a pattern without values": changed("values = [0.0, 0.006]\n", ""),
     "a strain of four components": SCENE + '[[eigenstrains]]\npattern = "press"\nstrain = [0, 0, 0, 0]\n',
+    "a law that is false": changed('law = "ductile"\n', "law = false\nbonded = true\n"),
+    "a name that is a number": SCENE + '[[supports]]\nname = 3\npoint = [0.0, 0.0]\nfix = ["x"]\n',
+    "no terms": changed('pattern = "press"\n', "terms = []\n"),
+    "instants, and an end that is false": changed("end = 2.0\nsteps = 20", "instants = [0, 1]\nend = false"),
     "no steps": changed("steps = 20\n", ""),
     "half a step": changed("steps = 20", "steps = 0.5"),
     "instants and steps": changed("steps = 20", "steps = 20\ninstants = [0, 1]"),
@@ -277,7 +281,8 @@ def test_completion():
     check(f"scenes alone: {offered}", sorted(map(os.path.basename, offered)) == ["a.toml", "b.inp"])
     for shell in ("zsh", "fish"):
         if shutil.which(shell):
-            done = subprocess.run([shell, "-n"], input=delam("completion", shell)[1], capture_output=True,
+            # fish complains of options of `complete` only where it runs them; zsh needs its functions for that.
+            done = subprocess.run([shell] if shell == "fish" else [shell, "-n"], input=delam("completion", shell)[1], capture_output=True,
                                   text=True, check=False)
             check(f"{shell} reads its script: {done.stderr}", done.returncode == 0 and not done.stderr)
 
