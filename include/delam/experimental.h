@@ -209,8 +209,8 @@ DELAM_API int32_t delam_experimental_solver_follow(delam_solver *solver, int64_t
 /* Returns the derivatives of the reactions in the state described (delam_solver_value): matrix [pattern_count]
  * [parameters], row p that of reaction:p, in its unit over that of the parameter. They are derivatives of the branch on
  * which the march is: at a jump of the state, at a change of the contact set and where a pair reaches a corner of its
- * law, the march has none. *unknown: the number of pairs, so far, whose adhesion came to rest within a step and is taken
- * as constant, or that damaged in the very first loaded step with `mixity_rule = frozen`, whose mixity is taken as
+ * law, the march has none. *unknown: the number of pairs whose adhesion came to rest within a step and is taken as
+ * constant, or that damaged in the very first loaded step with `mixity_rule = frozen`, whose mixity is taken as
  * constant. It is usually 0 in marches that do not jump. DELAM_ERROR_STATE: the state was loaded or set.
  * [unit matrix of factors; null unknown; status argument, state; source P. Michaleris, D. Tortorelli, C. Vidal, Int. J.
  * Numer. Meth. Engng 37 (1994) 2471-2499; since 0.2] */
