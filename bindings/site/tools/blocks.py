@@ -84,22 +84,28 @@ def unit(number):
     return 10.0 ** (int(power or 0) - decimals)
 
 
-def same_words(shown, printed):
-    """Two texts without numbers; `...` of the first is any text."""
-    pattern = ".*".join(re.escape(part) for part in " ".join(shown.split()).split("..."))
-    return re.fullmatch(pattern, " ".join(printed.split())) is not None
+def words_pattern(shown):
+    """An expression for a printed line: numbers in groups, `...` any text, any number of blanks between words."""
+    parts = []
+    for part in re.split(r"(\.\.\.)", " ".join(shown.split())):
+        if part == "...":
+            parts.append(".*")
+            continue
+        ends = [0, *(k for match in NUMBER.finditer(part) for k in match.span()), len(part)]
+        for k, (first, last) in enumerate(zip(ends, ends[1:])):
+            parts.append("(" + NUMBER.pattern + ")" if k % 2 else re.escape(part[first:last]))
+    return "".join(parts)
 
 
 def same_line(shown, printed):
-    """Equal words, and numbers that agree to one in the last digit that is shown."""
-    if "..." in shown:
-        return same_words(shown, printed)
-    if same_words(shown, printed):
+    """Equal words, and numbers that agree to one in the last digit that is shown; `...` is any text."""
+    printed = " ".join(printed.split())
+    if " ".join(shown.split()) == printed:
         return True
-    if not same_words(NUMBER.sub("#", shown), NUMBER.sub("#", printed)):
-        return False
-    pairs = zip(NUMBER.findall(shown), NUMBER.findall(printed))
-    return all(abs(float(a) - float(b)) <= 1.001 * max(unit(a), unit(b)) for a, b in pairs)
+    match = re.fullmatch(words_pattern(shown), printed)
+    numbers = [number for part in shown.split("...") for number in NUMBER.findall(part)]
+    return match is not None and all(abs(float(a) - float(b)) <= 1.001 * max(unit(a), unit(b))
+                                     for a, b in zip(numbers, match.groups()))
 
 
 def difference(shown, printed):
@@ -122,3 +128,21 @@ def difference(shown, printed):
     if at < len(have) and not free:
         return "(nothing more is shown)", have[at]
     return None
+
+
+def filled(shown, printed):
+    """The shown text with what was printed in the place of lines `?`, for --update; None where its other lines differ."""
+    want, have = shown.rstrip().splitlines(), printed.rstrip().splitlines()
+    lines, at = [], 0
+    for number, line in enumerate(want):
+        if line.strip() in ("...", "?"):
+            rest = next((other for other in want[number + 1:] if other.strip() not in ("...", "?")), None)
+            end = next((k for k in range(at, len(have)) if rest is not None and same_line(rest, have[k])), len(have))
+            lines += ["..."] if line.strip() == "..." else [text.rstrip() for text in have[at:end]]
+            at = end
+            continue
+        if at >= len(have) or not same_line(line, have[at]):
+            return None
+        lines.append(line)
+        at += 1
+    return "\n".join(lines) + "\n"

@@ -5,7 +5,7 @@
 
 The pages of a folder are run in the order of their names, and a later one finds what an earlier one left. --skipped
 is the number of blocks that may say that they are not run; any other number is an error. --update writes what was
-printed into the blocks `text output` that differ, for people who change a page; it fills only those without `...`.
+printed in the place of lines `?` of blocks `text output`, and of whole blocks that differ and have no `...`.
 """
 import argparse
 import pathlib
@@ -13,7 +13,7 @@ import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
 
-from blocks import BlockError, blocks_of, difference
+from blocks import BlockError, blocks_of, difference, filled
 from sandbox import Failure, SITE, Sandbox
 
 
@@ -29,9 +29,13 @@ def groups(pages):
 
 def fill(path, block, printed):
     """The block shows what was printed."""
+    text = filled(block.text, printed) if "?\n" in block.text or "..." in block.text else None
+    if text is None and "..." in block.text:
+        return
+    shown = (text or printed).rstrip().splitlines()
     lines = path.read_text(encoding="utf-8").splitlines(keepends=True)
     first, length = block.line - 1, len(block.text.splitlines())
-    lines[first:first + length] = [line.rstrip() + "\n" for line in printed.rstrip().splitlines()]
+    lines[first:first + length] = [line.rstrip() + "\n" for line in shown]
     path.write_text("".join(lines), encoding="utf-8")
 
 
@@ -43,8 +47,7 @@ def run_page(sandbox, path, name, update):
         if number == len(blocks):
             return number
         block = blocks[number]
-        if update and "output" in block.words and sandbox.printed is not None \
-                and "..." not in block.text and difference(block.text, sandbox.printed):
+        if update and "output" in block.words and sandbox.printed and difference(block.text, sandbox.printed):
             fill(path, block, sandbox.printed)
             block = blocks_of(path.read_text(encoding="utf-8"), name)[number]
         sandbox.run(block)
