@@ -13,7 +13,8 @@ ROOT = SITE.parents[1]
 LINKS = ("bindings", "examples", "include")  # of the sources, as commands on the pages name them
 LIMIT = 600
 
-sys.path.insert(0, str(ROOT / "bindings/julia/tools"))
+sys.path[:0] = [str(ROOT / "bindings/julia/tools"), str(ROOT / "verify/abi")]
+import check_julia  # noqa: E402
 import syntax  # noqa: E402
 
 
@@ -120,17 +121,19 @@ class Sandbox:
             raise Failure(f"{block.place}: the page shows\n    {differs[0]}\nand the run prints\n    {differs[1]}")
 
     def parse_julia(self, block):
-        """There is no Julia in Debian 12: the text is parsed and not run."""
+        """There is no Julia in Debian 12: the text is parsed, its names and calls are compared with the package."""
         try:
             folder = syntax.fetch(self.build / "bindings/julia/parser")
         except syntax.Unavailable as missing:
             self.ran -= 1
             self.unparsed.append((block.place, str(missing)))
             return
-        tree = syntax.parse({block.place: block.text}, folder)[block.place]
-        wrong = [node for node in tree.walk() if node.type in ("ERROR", "MISSING")]
+        package = check_julia.package_files()
+        trees = syntax.parse({**package, block.place: block.text}, folder)
+        header = check_julia.public_header.read(check_julia.HEADER)
+        wrong = [line for line in check_julia.Check(header, trees) if block.place in line]
         if wrong:
-            raise Failure(f"{block.page}:{block.line + wrong[0].line - 1}: this is no Julia")
+            raise Failure(f"{block.place}: the Julia program: {wrong[0]}")
 
     def finish(self):
         """Every program that a page shows is used by it; scenes have been checked."""
