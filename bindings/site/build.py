@@ -6,6 +6,7 @@
 OUT/html is the site, which a browser reads without a network. The blocks must have run in OUT/work (run_blocks.py).
 """
 import argparse
+import importlib.util
 import os
 import pathlib
 import re
@@ -13,6 +14,7 @@ import shutil
 import subprocess
 import sys
 import time
+import xml.etree.ElementTree as ElementTree
 
 SITE = pathlib.Path(__file__).resolve().parent
 ROOT = SITE.parents[1]
@@ -40,7 +42,20 @@ def doxygen(out):
     settings += "\nGENERATE_HTML = NO\nGENERATE_XML = YES\n"
     subprocess.run(["doxygen", "-"], input=settings, text=True, cwd=ROOT, check=True,
                    env={**os.environ, "DELAM_DOXYGEN_OUTPUT": str(out)})
+    for path in (out / "xml").glob("*_8h.xml"):
+        without_typedefs(path)
     return out / "xml"
+
+
+def without_typedefs(path):
+    """A struct and the typedef of its name are one thing in C; Sphinx would declare the name twice."""
+    tree = ElementTree.parse(path)
+    structs = {node.text for node in tree.iter("innerclass")}
+    for section in tree.iter("sectiondef"):
+        for member in section.findall("memberdef[@kind='typedef']"):
+            if member.findtext("name") in structs:
+                section.remove(member)
+    tree.write(path, encoding="utf-8", xml_declaration=True)
 
 
 def copy_mathjax(target):
@@ -53,11 +68,19 @@ def copy_mathjax(target):
             shutil.copy(source, target / part)
 
 
+def copy_script(target):
+    """Furo's script as one file: Debian leaves an import in it, which no browser takes here."""
+    folder = pathlib.Path("/usr/lib/python3/dist-packages/furo/assets/scripts")
+    parts = [(folder / name).read_text(encoding="utf-8") for name in ("gumshoe-patched.js", "furo.js")]
+    target.parent.mkdir(parents=True, exist_ok=True)
+    target.write_text(parts[0] + "\n" + re.sub(r"^import .*\n", "", parts[1], flags=re.M), encoding="utf-8")
+
+
 def staged(given, source):
     """Fills the folder that Sphinx reads."""
     stage = Stage(ROOT, SITE, source, given.work or given.out / "work")
-    pages = generate.pages(given.build, ROOT)
-    stage.generated = set(pages) | {"notebook/first_steps.md"}
+    pages = generate.pages(given.build)
+    stage.generated = set(generate.PAGES)
     stage.gather()
     for name, text in pages.items():
         stage.put(name, text)
@@ -67,6 +90,7 @@ def staged(given, source):
     stage.put("documents.md", generate.documents(sorted(documents, key=str), source))
     shutil.copytree(SITE / "static", source / "_static")
     copy_mathjax(source / "_static/mathjax")
+    copy_script(source / "_static/scripts/furo.js")
     return stage
 
 
@@ -85,6 +109,13 @@ def main():
     parser.add_argument("--work", type=pathlib.Path, help="where the blocks have run (default OUT/work)")
     parser.add_argument("--jobs", type=int, default=2)
     given = parser.parse_args()
+    missing = [name for name in ("sphinx", "myst_parser", "breathe", "furo", "nbclient", "matplotlib_inline")
+               if importlib.util.find_spec(name) is None]
+    missing += [name for name in ("doxygen",) if shutil.which(name) is None]
+    missing += [str(path) for path in (MATHJAX,) if not path.is_dir()]
+    if missing:
+        print(f"skipped: missing: {', '.join(missing)} (verify/packages.sh: DELAM_SITE_PACKAGES)")
+        return 77
     given.build, given.out = given.build.resolve(), given.out.resolve()
     began = time.monotonic()
     source, html = given.out / "source", given.out / "html"
@@ -100,7 +131,8 @@ def main():
     os.environ["DELAM_SITE_XML"] = str(doxygen(given.out / "doxygen"))
     code = sphinx(given, source, html)
     pages = len(list(html.rglob("*.html")))
-    print(f"{pages} pages, {len(stage.documents)} of them from documents, {len(stage.files)} files, "
+    documents = sum(stage.pages not in path.parents for path in stage.documents)
+    print(f"{pages} pages, {documents} of them from documents, {len(stage.files)} files, "
           f"{stage.links['inside']} links inside, {time.monotonic() - began:.0f} s: {html}/index.html")
     return code
 

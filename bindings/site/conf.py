@@ -25,6 +25,7 @@ myst_heading_anchors = 6
 suppress_warnings = ["myst.header"]
 
 # MathJax 2 of Debian, copied by build.py: formulas need no network.
+myst_update_mathjax = False
 mathjax_path = "mathjax/MathJax.js?config=TeX-AMS_SVG"
 mathjax2_config = {"messageStyle": "none", "SVG": {"font": "TeX", "scale": 95},
                    "tex2jax": {"inlineMath": [["\\(", "\\)"]], "displayMath": [["\\[", "\\]"]]}}
@@ -41,6 +42,8 @@ autodoc_default_options = {"members": True, "undoc-members": False}
 
 def plain(app, what, name, obj, options, lines):
     """Docstrings are written for help(), without markup: their words stand as they are, paragraph by paragraph."""
+    if lines and lines[0].startswith("Alias for field number"):
+        lines[:] = []
     paragraphs, inside = [], []
     for line in [*lines, ""]:
         if line.strip():

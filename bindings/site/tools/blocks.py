@@ -6,6 +6,7 @@ The words after the language say what a block is:
     ```toml file=scene.toml     is written into the folder of the page; `add=scene.toml` adds to a file
     ```text output              what the block before prints; a line `...` stands for any lines, `...` within one for any text
     ```bash exit=2              ends with this code
+    ```bash needs=view          is not run where the build has no page of `delam view`, which takes npm
     ```text skip="reason"       is not run
 """
 import re
@@ -14,7 +15,7 @@ from dataclasses import dataclass, field
 
 FENCE = re.compile(r"^(`{3,})\s*(.*)$")
 LANGUAGES = {"bash", "toml", "text", "c", "cpp", "fortran", "python", "julia"}
-KEYS = {"file", "add", "exit", "skip", "output", "shown"}
+KEYS = {"file", "add", "exit", "skip", "output", "needs"}
 
 
 @dataclass
@@ -84,6 +85,12 @@ def unit(number):
     return 10.0 ** (int(power or 0) - decimals)
 
 
+def same_number(shown, printed):
+    """The printed number rounds to the shown one; of more than three digits, the last may differ by one."""
+    one, value = unit(shown), float(shown)
+    return abs(value - float(printed)) <= 1.001 * one * (1.0 if one <= 1.001e-3 * abs(value) else 0.5)
+
+
 def words_pattern(shown):
     """An expression for a printed line: numbers in groups, `...` any text, any number of blanks between words."""
     parts = []
@@ -98,14 +105,13 @@ def words_pattern(shown):
 
 
 def same_line(shown, printed):
-    """Equal words, and numbers that agree to one in the last digit that is shown; `...` is any text."""
+    """Equal words, and numbers that agree to the digits that are shown; `...` is any text."""
     printed = " ".join(printed.split())
     if " ".join(shown.split()) == printed:
         return True
     match = re.fullmatch(words_pattern(shown), printed)
     numbers = [number for part in shown.split("...") for number in NUMBER.findall(part)]
-    return match is not None and all(abs(float(a) - float(b)) <= 1.001 * max(unit(a), unit(b))
-                                     for a, b in zip(numbers, match.groups()))
+    return match is not None and all(same_number(a, b) for a, b in zip(numbers, match.groups()))
 
 
 def difference(shown, printed):

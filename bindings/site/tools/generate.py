@@ -3,6 +3,8 @@
 import json
 import subprocess
 
+PAGES = ("reference/options.md", "reference/laws.md", "reference/scene-keys.md", "notebook/first_steps.md")
+
 
 def asked(build, *words):
     done = subprocess.run([f"{build}/bin/delam", *words], capture_output=True, text=True, check=True)
@@ -96,11 +98,11 @@ def scene_keys(schema):
     return "\n".join(parts)
 
 
-def pages(build, root):
-    """{name: text} of all of them."""
+def pages(build):
+    """{name: text} of PAGES, but for the notebook."""
     said, schema = asked(build, "options", "--json"), asked(build, "schema")
     scene = scene_keys(schema).replace("(../cli/SCENE.md)", "(../tree/bindings/cli/SCENE.md)")
-    return {"reference/options.md": options(said), "reference/laws.md": laws(said), "reference/scene-keys.md": scene}
+    return dict(zip(PAGES, (options(said), laws(said), scene)))
 
 
 def documents(names, source):

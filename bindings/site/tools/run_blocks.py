@@ -9,6 +9,7 @@ printed in the place of lines `?` of blocks `text output`, and of whole blocks t
 """
 import argparse
 import pathlib
+import shutil
 import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
@@ -55,7 +56,7 @@ def run_page(sandbox, path, name, update):
 
 
 def run_group(build, work, name, paths, pages, update):
-    """(seconds, blocks run, skipped, unparsed, trouble or None)."""
+    """(seconds, the sandbox with what it did, trouble or None)."""
     began = time.monotonic()
     sandbox = Sandbox(build, work, name)
     trouble = None
@@ -79,6 +80,9 @@ def main():
     parser.add_argument("--jobs", type=int, default=2)
     given = parser.parse_args()
     build, work = given.build.resolve(), given.work.resolve()
+    if shutil.which("gmsh") is None:
+        print("skipped: gmsh is not installed (verify/packages.sh: DELAM_SITE_PACKAGES)")
+        return 77
     chosen = {name: paths for name, paths in groups(given.pages.resolve()).items()
               if not given.only or name in given.only}
     if not chosen:
@@ -93,8 +97,8 @@ def main():
             ran += sandbox.ran
             skipped += sandbox.skipped
             print(f"{name}: {len(chosen[name])} pages, {sandbox.ran} blocks, {seconds:.1f} s")
-            for place, reason in sandbox.unparsed:
-                print(f"  not parsed: {place}: {reason}")
+            for place, reason in sandbox.absent:
+                print(f"  not run here: {place}: {reason}")
             for place, reason in sandbox.skipped:
                 print(f"  skipped: {place}: {reason}")
             if trouble:

@@ -67,7 +67,7 @@ class Sandbox:
         self.folder.mkdir(parents=True)
         for link in LINKS:
             (self.folder / link).symlink_to(ROOT / link)
-        self.skipped, self.unparsed, self.ran, self.printed = [], [], 0, None
+        self.skipped, self.absent, self.ran, self.printed, self.lacking = [], [], 0, None, False
         self.written = {}
 
     def call(self, command, block, given=None):
@@ -95,6 +95,8 @@ class Sandbox:
                 raise Failure(f"{block.place}: no reason for which it is skipped")
             self.skipped.append((block.place, block.words["skip"]))
             return
+        if self.lacks(block):
+            return
         self.ran += 1
         if "output" in block.words:
             self.compare(block)
@@ -113,6 +115,17 @@ class Sandbox:
         else:
             raise Failure(f"{block.place}: a block of {block.language} that is neither a file nor an output")
 
+    def lacks(self, block):
+        """Whether a block, or the one whose output it shows, needs what this build does not have."""
+        if "output" in block.words:
+            return self.lacking
+        if block.words.get("needs", "view") != "view":
+            raise Failure(f"{block.place}: nothing is known of {block.words['needs']}")
+        self.lacking = "needs" in block.words and not (self.build / "share/delam/view.html").is_file()
+        if self.lacking:
+            self.absent.append((block.place, "no page for `delam view`: npm was not found"))
+        return self.lacking
+
     def compare(self, block):
         if self.printed is None:
             raise Failure(f"{block.place}: no block before it printed anything")
@@ -126,7 +139,7 @@ class Sandbox:
             folder = syntax.fetch(self.build / "bindings/julia/parser")
         except syntax.Unavailable as missing:
             self.ran -= 1
-            self.unparsed.append((block.place, str(missing)))
+            self.absent.append((block.place, f"not parsed: {missing}"))
             return
         package = check_julia.package_files()
         trees = syntax.parse({**package, block.place: block.text}, folder)

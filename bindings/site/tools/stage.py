@@ -15,6 +15,7 @@ from blocks import FENCE
 LINK = re.compile(r"(!?\[(?:[^\[\]]|\[[^\]]*\])*\]\()([^()\s]+)(\))")
 CODE = re.compile(r"(`+[^`]*`+)")
 RUN = re.compile(r"^(`{3,}\{figure\}) run:(\S+)$")
+HEADING = re.compile(r"^#{1,6} +(.+?) *#*$")
 SCHEME = re.compile(r"[a-z][a-z0-9+.-]*:", re.IGNORECASE)
 
 
@@ -22,13 +23,28 @@ class StageError(Exception):
     """A link that leads nowhere."""
 
 
+def places_of(text):
+    """The names of the headings of a document, as GitHub and MyST make them."""
+    found, fence = set(), None
+    for line in text.splitlines():
+        match = FENCE.match(line)
+        if match and (fence is None or match[1] == fence and not match[2]):
+            fence = match[1] if fence is None else None
+        elif fence is None and (heading := HEADING.match(line)):
+            words = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading[1])
+            name = re.sub(r"[^\w\- ]", "", words.lower()).replace(" ", "-")
+            found.add(name if name not in found else next(f"{name}-{k}" for k in range(1, 99) if f"{name}-{k}" not in found))
+    return found
+
+
 class Stage:
-    """root: of the sources; out: the folder to fill; results: where the blocks of the pages have run."""
+    """root: of the sources; out: the folder to fill; results: where the blocks of the pages have run, None: unknown."""
 
     def __init__(self, root, site, out, results):
         self.root, self.site, self.out, self.results = root, site, out, results
         self.pages = site / "pages"
         self.documents, self.todo, self.files, self.generated = {}, [], set(), set()
+        self.places, self.wanted = {}, []
         self.links = {"inside": 0, "outside": set()}
         shutil.rmtree(out, ignore_errors=True)
         out.mkdir(parents=True)
@@ -47,7 +63,11 @@ class Stage:
             path = self.todo.pop()
             text = self.listing(path) if path.is_dir() else path.read_text(encoding="utf-8")
             source = path / "index.md" if path.is_dir() else path
+            self.places[path] = places_of(text)
             self.put(self.documents[path], self.rewritten(text, source))
+        for place, path, anchor in self.wanted:
+            if anchor not in self.places.get(path, {anchor}):
+                raise StageError(f"{place}: {path.relative_to(self.root)} has no heading #{anchor}")
 
     def put(self, name, text):
         target = self.out / name
@@ -80,42 +100,53 @@ class Stage:
             elif fence is not None:
                 fence = None if match and match[1] == fence and not match[2] else fence
             elif not line.startswith("    "):
-                parts = CODE.split(line)
-                parts[::2] = [self.line(part, source, number) for part in parts[::2]]
-                line = "".join(parts) if len(parts) == 1 or "](" not in line else self.line(line, source, number)
+                line = self.line(line, source, number)
             lines.append(line)
         return "\n".join(lines) + "\n"
 
     def line(self, text, source, number):
         def link(match):
-            return match[1] + self.target(match[2], source, number, match[1].startswith("!")) + match[3]
-        return LINK.sub(link, text)
+            return match[1] + self.target(match[2], source, number) + match[3]
+
+        # Code that looks like a link is none; the text of a link may be code.
+        code = [span for span in CODE.findall(text) if "](" in span]
+        for k, span in enumerate(code):
+            text = text.replace(span, f"\0{k}\0", 1)
+        text = LINK.sub(link, text)
+        for k, span in enumerate(code):
+            text = text.replace(f"\0{k}\0", span)
+        return text
 
     def figure(self, line, source, number):
-        """A picture that the blocks of a page have made."""
+        """A picture that the blocks of a page have made: `run:FILE`, or `run:/PAGE/FILE` of another page."""
         match = RUN.match(line)
-        if not match:
+        if not match or self.results is None:
             return line
         page = source.relative_to(self.pages)
         name = page.stem if len(page.parts) == 1 else str(page.parent)
-        made = self.results / "pages" / name / match[2]
+        picture = match[2].lstrip("/") if match[2].startswith("/") else f"{name}/{match[2]}"
+        made = self.results / "pages" / picture
         if not made.is_file():
             raise StageError(f"{page}:{number}: no block makes {match[2]}")
-        kept = self.out / "made" / name / match[2]
+        kept = self.out / "made" / picture
         kept.parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(made, kept)
         return f"{match[1]} /{kept.relative_to(self.out)}"
 
-    def target(self, link, source, number, picture):
+    def target(self, link, source, number):
         """A link of the stage in the place of a link of the tree."""
         if SCHEME.match(link):
             self.links["outside"].add(link)
             return link
+        place = f"{source.relative_to(self.root)}:{number}"
         if link.startswith("#"):
+            self.wanted.append((place, source, link[1:]))
             return link
         self.links["inside"] += 1
         path, _, anchor = link.partition("#")
-        found = self.generated_page(path, source) or self.file(path, source, number, picture)
+        found = self.generated_page(path, source) or self.file(path, source, place)
+        if anchor:
+            self.wanted.append((place, (source.parent / path).resolve(), anchor))
         here = (self.documents.get(source) or self.staged(source)).parent
         return os.path.relpath(found, here) + (f"#{anchor}" if anchor else "")
 
@@ -126,10 +157,10 @@ class Stage:
         wanted = os.path.normpath(source.relative_to(self.pages).parent / path)
         return wanted if wanted in self.generated else None
 
-    def file(self, path, source, number, picture):
+    def file(self, path, source, place):
         linked = (source.parent / path).resolve()
         if not linked.exists() or self.root not in [linked, *linked.parents]:
-            raise StageError(f"{source.relative_to(self.root)}:{number}: {path} is not there")
+            raise StageError(f"{place}: {path} is not there")
         if linked.is_dir():
             readme = linked / "README.md"
             return self.want(readme if readme.is_file() else linked)
