@@ -102,8 +102,9 @@ class Blocks(unittest.TestCase):
 
     def test_digits(self):
         for shown, printed, same in (("1.25", "1.2549", True), ("1.25", "1.2561", False), ("3", "2", False),
-                                     ("42244", "42245", True), ("42244", "42246", False), ("1.50e-05", "1.505e-05", True), ("a 1", "b 1", False),
-                                     ("1e3", "1000", True), ("... 5 mm", "left 5 mm", True), ("x ... 5", "x y 7", False)):
+                                     ("42244", "42245", True), ("42244", "42246", False),
+                                     ("1.50e-05", "1.505e-05", True), ("a 1", "b 1", False), ("1e3", "1000", True),
+                                     ("... 5 mm", "left 5 mm", True), ("x ... 5", "x y 7", False)):
             self.assertEqual(blocks.same_line(shown, printed), same, (shown, printed))
 
     def test_every_page_has_blocks_that_the_runner_sees(self):
@@ -130,7 +131,8 @@ class Links(unittest.TestCase):
         inside, addresses, wrong, pages = self.checked(good)
         self.assertEqual((inside, len(addresses), wrong, pages), (2, 1, [], 2))
         for old, new, words in (("b.html#here", "c.html", "no such file"), ("#here", "#there", "no such place"),
-                                ("p.png", "../p.png", "leads out of the site"), ("https://example.org", "https://", "no host"),
+                                ("p.png", "../p.png", "leads out of the site"),
+                                ("https://example.org", "https://", "no host"),
                                 ("https:", "htps:", "unknown scheme"), ("example.org", "exam ple.org", "no host")):
             wrong = self.checked({**good, "a.html": good["a.html"].replace(old, new)})[2]
             self.assertEqual(len(wrong), 1, (old, new))

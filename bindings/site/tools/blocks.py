@@ -4,7 +4,8 @@
 The words after the language say what a block is:
 
     ```toml file=scene.toml     is written into the folder of the page; `add=scene.toml` adds to a file
-    ```text output              what the block before prints; a line `...` stands for any lines, `...` within one for any text
+    ```text output              what the block before prints; a line `...` stands for any lines, `...` within one
+                                for any text
     ```bash exit=2              ends with this code
     ```bash needs=view          is not run where the build has no page of `delam view`, which takes npm
     ```text skip="reason"       is not run
@@ -137,7 +138,7 @@ def difference(shown, printed):
 
 
 def filled(shown, printed):
-    """The shown text with what was printed in the place of lines `?`, for --update; None where its other lines differ."""
+    """The shown text with what was printed in the place of lines `?`, for --update; None: its other lines differ."""
     want, have = shown.rstrip().splitlines(), printed.rstrip().splitlines()
     lines, at = [], 0
     for number, line in enumerate(want):

@@ -33,14 +33,14 @@ def described(row):
 
 def options(said):
     rows = [described(row) for row in said["options"]]
-    return ("# Options of the solver\n\nWhat `delam options --json` of version " + said["version"] + " says. A scene sets "
-            "them in `[solver]`, a program by `delam_problem_set_option` and its like.\n\n"
+    return (f"# Options of the solver\n\nWhat `delam options --json` of version {said['version']} says. "
+            "A scene sets them in `[solver]`, a program by `delam_problem_set_option` and its like.\n\n"
             + table(["key", "type", "range and default", "meaning"], rows))
 
 
 def laws(said):
-    parts = ["# Parameters of the laws\n\nWhat `delam options --json` of version " + said["version"] + " says. A scene sets "
-             "them in `[[laws]]`, a program by `delam_law_set`. Units: F force, L length.\n"]
+    parts = [f"# Parameters of the laws\n\nWhat `delam options --json` of version {said['version']} says. "
+             "A scene sets them in `[[laws]]`, a program by `delam_law_set`. Units: F force, L length.\n"]
     for law in said["laws"]:
         rows = [described(row) for row in law["parameters"]]
         parts.append(f"## {law['kind']}\n\n{cell(law['meaning'])}.\n\n"
@@ -74,13 +74,13 @@ def allowed(schema, part):
     bounds = []
     for key, sign, strict in (("minimum", ">", "exclusiveMinimum"), ("maximum", "<", "exclusiveMaximum")):
         if key in part:
-            bounds.append(f"{sign if part.get(strict) else sign + '='} {part[key]:g}".replace("<", "\\<").replace(">", "\\>"))
+            bounds.append(cell(f"{sign if part.get(strict) else sign + '='} {part[key]:g}"))
     return " ".join([words, " and ".join(bounds)]).strip()
 
 
 def scene_keys(schema):
-    parts = ["# Keys of a scene, from the schema\n\nWhat `delam schema` prints, table by table. The words and the rules behind "
-             "them are in [the description of scene files](../cli/SCENE.md).\n"]
+    parts = ["# Keys of a scene, from the schema\n\nWhat `delam schema` prints, table by table. The words and rules "
+             "behind them are in [the description of scene files](../cli/SCENE.md).\n"]
     for name, part in schema["properties"].items():
         inner = resolved(schema, part)
         title = f"[[{name}]]" if inner.get("type") == "array" else f"[{name}]"
@@ -114,5 +114,5 @@ def documents(names, source):
         rows.append(f"- [{title}]({name}): `{name.relative_to('tree')}`")
     listed = "\n".join(rows)
     tree = "\n".join(map(str, names))
-    return ("# Documents of the tree\n\nEach is read from where it is in the sources; here are all that some page of this site "
-            f"links.\n\n{listed}\n\n```{{toctree}}\n:hidden:\n\n{tree}\n```\n")
+    return ("# Documents of the tree\n\nEach is read from where it is in the sources; here are all that some page of "
+            f"this site links.\n\n{listed}\n\n```{{toctree}}\n:hidden:\n\n{tree}\n```\n")

@@ -34,8 +34,9 @@ def write_pkgconfig(build, folder):
     folder.mkdir(parents=True, exist_ok=True)
     sources = " ".join(map(str, fortran_sources()))
     (folder / "delam.pc").write_text(
-        f"fortrandir={ROOT}/bindings/fortran/src\nfortransources={sources}\n\nName: delam\nDescription: of a build folder\n"
-        f"Version: 0\nCflags: -I{ROOT}/include -I{ROOT}/bindings/cpp/include\n"
+        f"fortrandir={ROOT}/bindings/fortran/src\nfortransources={sources}\n\n"
+        f"Name: delam\nDescription: of a build folder\nVersion: 0\n"
+        f"Cflags: -I{ROOT}/include -I{ROOT}/bindings/cpp/include\n"
         f"Libs: -L{build}/lib -Wl,-rpath,{build}/lib -ldelam\n", encoding="utf-8")
 
 

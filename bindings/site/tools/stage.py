@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Gathers what Sphinx reads: the pages of the site, and the documents of the tree from where they are.
 
-A page `pages/X.md` becomes `X.md`, a document `PATH.md` of the tree `tree/PATH.md`. Links keep their meaning: those to a
-document lead to its page, those to a folder to its README, or to a list of its files, those to any other file to
+A page `pages/X.md` becomes `X.md`, a document `PATH.md` of the tree `tree/PATH.md`. Links keep their meaning: those to
+a document lead to its page, those to a folder to its README, or to a list of its files, those to any other file to
 a copy of it. What is linked is gathered as well, so that no link leads out of the site, unless it names a host.
 """
 import os
@@ -33,7 +33,8 @@ def places_of(text):
         elif fence is None and (heading := HEADING.match(line)):
             words = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading[1])
             name = re.sub(r"[^\w\- ]", "", words.lower()).replace(" ", "-")
-            found.add(name if name not in found else next(f"{name}-{k}" for k in range(1, 99) if f"{name}-{k}" not in found))
+            again = next(k for k in range(99) if (f"{name}-{k}" if k else name) not in found)
+            found.add(f"{name}-{again}" if again else name)
     return found
 
 
