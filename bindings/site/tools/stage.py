@@ -12,7 +12,7 @@ import subprocess
 
 from blocks import FENCE
 
-LINK = re.compile(r"(!?\[(?:[^\[\]]|\[[^\]]*\])*\]\()([^()\s]+)(\))")
+LINK = re.compile(r"(\]\()([^()\s]+)(\))")  # its words may have begun in an earlier line
 CODE = re.compile(r"(`+[^`]*`+)")
 RUN = re.compile(r"^(`{3,}\{figure\}) run:(\S+)$")
 HEADING = re.compile(r"^#{1,6} +(.+?) *#*$")
