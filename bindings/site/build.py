@@ -43,18 +43,23 @@ def doxygen(out):
     subprocess.run(["doxygen", "-"], input=settings, text=True, cwd=ROOT, check=True,
                    env={**os.environ, "DELAM_DOXYGEN_OUTPUT": str(out)})
     for path in (out / "xml").glob("*_8h.xml"):
-        without_typedefs(path)
+        tidied(path)
     return out / "xml"
 
 
-def without_typedefs(path):
-    """A struct and the typedef of its name are one thing in C; Sphinx would declare the name twice."""
+def tidied(path):
+    """A struct and the typedef of its name are one thing in C, which Sphinx would declare twice; and a line of dashes
+    that divides the header describes nothing."""
     tree = ElementTree.parse(path)
     structs = {node.text for node in tree.iter("innerclass")}
     for section in tree.iter("sectiondef"):
         for member in section.findall("memberdef[@kind='typedef']"):
             if member.findtext("name") in structs:
                 section.remove(member)
+            for description in member.findall("detaileddescription"):
+                for paragraph in description.findall("para"):
+                    if "-----" in "".join(paragraph.itertext()):
+                        description.remove(paragraph)
     tree.write(path, encoding="utf-8", xml_declaration=True)
 
 
@@ -84,7 +89,7 @@ def staged(given, source):
     stage.gather()
     for name, text in pages.items():
         stage.put(name, text)
-    notebook.convert(ROOT / "bindings/python/notebooks/first_steps.ipynb", source / "notebook",
+    notebook.convert(ROOT / "bindings/python/notebooks/first_steps.ipynb", source / "notebook", given.build,
                      {"DELAM_LIBRARY": f"{given.build}/lib", "PYTHONPATH": str(ROOT / "bindings/python/src")})
     documents = [name for path, name in stage.documents.items() if stage.pages not in path.parents]
     stage.put("documents.md", generate.documents(sorted(documents, key=str), source))

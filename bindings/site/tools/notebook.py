@@ -32,8 +32,8 @@ def output_text(output, folder, name):
     return f"```text\n{text}\n```\n" if text else ""
 
 
-def convert(path, folder, environment):
-    """Writes folder/NAME.md and its pictures."""
+def convert(path, folder, build, environment):
+    """Writes folder/NAME.md and its pictures; the folder of the build is none of the reader's business."""
     folder.mkdir(parents=True, exist_ok=True)
     parts, pictures = [], 0
     for cell in execute(path, environment):
@@ -46,4 +46,5 @@ def convert(path, folder, environment):
                 raise RuntimeError(json.dumps(output))
             pictures += 1
             parts.append(output_text(output, folder, f"{path.stem}-{pictures}.png"))
-    (folder / f"{path.stem}.md").write_text("\n".join(parts), encoding="utf-8")
+    text = "\n".join(parts).replace(str(build), "build")
+    (folder / f"{path.stem}.md").write_text(text, encoding="utf-8")
