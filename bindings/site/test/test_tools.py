@@ -47,7 +47,7 @@ PLANTED = [
 ]
 
 
-def run(pages, *words):
+def run(pages, *words, build=BUILD):
     """(exit code, all that is printed) of the runner on pages {name: text}."""
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
@@ -55,7 +55,7 @@ def run(pages, *words):
             (folder / "pages" / name).parent.mkdir(parents=True, exist_ok=True)
             (folder / "pages" / name).write_text(text, encoding="utf-8")
         out = io.StringIO()
-        before, sys.argv = sys.argv, ["run_blocks.py", "--build", str(BUILD), "--work", str(folder / "work"), "--pages",
+        before, sys.argv = sys.argv, ["run_blocks.py", "--build", str(build), "--work", str(folder / "work"), "--pages",
                                       str(folder / "pages"), *words]
         try:
             with contextlib.redirect_stdout(out), contextlib.redirect_stderr(out):
@@ -92,6 +92,16 @@ class Blocks(unittest.TestCase):
         code, printed = run(page)
         self.assertEqual(code, 1)
         self.assertIn("1 blocks are skipped; 0 are expected", printed)
+
+    def test_block_that_needs_a_viewer(self):
+        page = {"page.md": "```bash needs=view\nfalse\n```\n```text output\nx\n```\n"}
+        with tempfile.TemporaryDirectory() as build:
+            code, printed = run(page, build=pathlib.Path(build))
+            self.assertEqual(code, 0, printed)
+            self.assertIn("not run here: page.md:2", printed)
+            (pathlib.Path(build) / "share/delam").mkdir(parents=True)
+            (pathlib.Path(build) / "share/delam/view.html").touch()
+            self.assertEqual(run(page, build=pathlib.Path(build))[0], 1)
 
     def test_julia(self):
         code, printed = run({"page.md": "```julia\nusing Delam\nmesh = Mash(lengths=0.1)\n```\n"})
@@ -152,7 +162,8 @@ class Staging(unittest.TestCase):
             return (site / "out/index.md").read_text(encoding="utf-8"), stage
 
     def test_kinds_of_links(self):
-        text, stage = self.staged("[a,\nof two lines](../../../../README.md#a-first-program) [b](../../../../examples/enf)\n\n"
+        text, stage = self.staged("[a,\nof two lines](../../../../README.md#a-first-program) "
+                                  "[b](../../../../examples/enf)\n\n"
                                   "[c](../../../../LICENSE) `[d](nowhere.md)` <https://example.org>\n")
         self.assertEqual(text, "[a,\nof two lines](tree/README.md#a-first-program) [b](tree/examples/enf/index.md)\n\n"
                                "[c](tree/LICENSE) `[d](nowhere.md)` <https://example.org>\n")
