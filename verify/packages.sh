@@ -26,6 +26,10 @@ fi
 DELAM_LONG_PACKAGES=(libclang-rt-dev dpkg-dev valgrind paraview python3-paraview python3-getfem
     python3-nbclient python3-ipykernel chromium)
 
+# The site (bindings/site), which the long tier builds as well.
+DELAM_SITE_PACKAGES=(python3-sphinx python3-myst-parser python3-breathe furo libjs-mathjax doxygen gmsh
+    python3-nbclient python3-ipykernel python3-matplotlib-inline)
+
 # delam_install PACKAGE...: installs what is missing, as root or through sudo; else prints the command and fails.
 delam_install() {
     local package missing=()

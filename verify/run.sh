@@ -91,7 +91,7 @@ threads_checked() {
 
 delam_install "${DELAM_PACKAGES[@]}" "${DELAM_MPI_PACKAGES[@]}" "${DELAM_PARSER_PACKAGES[@]}"
 if [[ $all == yes ]]; then
-    delam_install "${DELAM_LONG_PACKAGES[@]}"
+    delam_install "${DELAM_LONG_PACKAGES[@]}" "${DELAM_SITE_PACKAGES[@]}"
 fi
 delam_blas
 export OPENBLAS_NUM_THREADS=1

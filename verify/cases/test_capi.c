@@ -112,7 +112,7 @@ END_TEST
 START_TEST(constants) {
     int64_t i;
     const char *key = NULL;
-    ck_assert_str_eq(delam_version(), "0.1.0");
+    ck_assert_str_eq(delam_version(), "0.2.0");
     ck_assert(strlen(delam_commit()) > 0);
     ck_assert_int_eq(delam_abi(), DELAM_ABI);
     ck_assert_str_eq(delam_status_name(DELAM_ERROR_MESH), "DELAM_ERROR_MESH");

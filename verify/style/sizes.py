@@ -13,7 +13,7 @@ import scanner
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 WIDTH, FUNCTION, FILE = 120, 80, 500
-PYTHON = ("examples/", "verify/petsc/", "bindings/python/")  # the Python files whose width is checked
+PYTHON = ("examples/", "verify/petsc/", "bindings/python/", "bindings/site/")  # the Python files whose width is checked
 CODE = {".c", ".h", ".cpp", ".hpp", ".cmake", ".f90", ".jl"}
 FOLDERS = ("include", "src", "bindings", "verify", "examples")
 

@@ -29,16 +29,16 @@ class Backend(unittest.TestCase):
 
     def test_wheel(self):
         name = delam_build.build_wheel(self.folder)
-        self.assertEqual(name, "delam-0.1.0-py3-none-any.whl")
+        self.assertEqual(name, "delam-0.2.0-py3-none-any.whl")
         with zipfile.ZipFile(self.folder / name) as wheel:
             self.assertIsNone(wheel.testzip())
             names = wheel.namelist()
-            record = wheel.read("delam-0.1.0.dist-info/RECORD").decode().splitlines()
-            metadata = wheel.read("delam-0.1.0.dist-info/METADATA").decode()
+            record = wheel.read("delam-0.2.0.dist-info/RECORD").decode().splitlines()
+            metadata = wheel.read("delam-0.2.0.dist-info/METADATA").decode()
         self.assertEqual({line.split(",")[0] for line in record}, set(names))
         modules = {path.relative_to(PACKAGE / "src").as_posix() for path in (PACKAGE / "src" / "delam").rglob("*.py")}
         self.assertEqual({name for name in names if name.startswith("delam/")}, modules | {"delam/py.typed"})
-        self.assertIn("delam-0.1.0.dist-info/LICENSE", names)
+        self.assertIn("delam-0.2.0.dist-info/LICENSE", names)
         self.assertIn("\nRequires-Dist: numpy", metadata)
         self.assertIn('\nRequires-Dist: meshio; extra == "meshes"', metadata)
         first = (self.folder / name).read_bytes()
@@ -47,10 +47,10 @@ class Backend(unittest.TestCase):
 
     def test_wheel_from_sdist_is_the_same(self):
         name = delam_build.build_sdist(self.folder)
-        self.assertEqual(name, "delam-0.1.0.tar.gz")
+        self.assertEqual(name, "delam-0.2.0.tar.gz")
         with tarfile.open(self.folder / name) as archive:
             archive.extractall(self.folder)
-        root = self.folder / "delam-0.1.0"
+        root = self.folder / "delam-0.2.0"
         self.assertTrue((root / "PKG-INFO").is_file())
         subprocess.run([sys.executable, "-c", "import delam_build; delam_build.build_wheel('..')"],
                        cwd=root / "backend", check=True)

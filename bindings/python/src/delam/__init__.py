@@ -30,7 +30,7 @@ from .solver import Average, Condensed, Fronts, Jump, PlanItem, Solver, ValueInf
 if TYPE_CHECKING:
     from . import meshes, plot
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 
 __all__ = ["ArgumentError", "Average", "Bounds", "CELLS", "Cancelled", "Cells", "Condensed", "DelamError", "Fields",
            "FileError", "Forecast", "Fronts", "HandleError", "History", "Interface", "InternalError", "Jump", "Law",
