@@ -629,7 +629,7 @@ DELAM_API int32_t delam_problem_set_adhesion(delam_problem *problem, int64_t int
  * the pairs exactly on it keep their adhesion (tolerance: 1e-6 of the shortest edge of the two bodies); where the
  * interface ends, the pairs on the side belong to the box. If a side lies between two pairs, the log (level 1) names
  * the next pair, which is the tip then. The place of a pair is that of its node_b.
- * [unit lower L finite, upper L >= lower, adhesion 1 in [0, 1]; null count; status argument; since 0.1] */
+ * [unit lower L finite, upper L >= lower, adhesion 1 in [0, 1]; null count; status argument; since 0.2] */
 DELAM_API int32_t delam_problem_set_adhesion_box(delam_problem *problem, int64_t interface_index, const double *lower,
                                                  const double *upper, double adhesion, int64_t *count);
 
@@ -776,7 +776,7 @@ DELAM_API int32_t delam_problem_process_zone(const delam_problem *problem, int64
  * hardly that at which a crack grows, which follows from the toughness. If the interface has no law, all four are 0.
  * [unit pairs 1 > 0, stiffness F/L3, share 1, normal_strength F/L2, tangential_strength F/L2; null stiffness, share,
  * normal_strength, tangential_strength; status cancelled, argument, problem; source A. Turon, C. Davila, P. Camanho, J.
- * Costa, Eng. Fract. Mech. 74 (2007) 1665-1682; since 0.1] */
+ * Costa, Eng. Fract. Mech. 74 (2007) 1665-1682; since 0.2] */
 DELAM_API int32_t delam_problem_propose(const delam_problem *problem, int64_t interface_index, double pairs,
                                         double *stiffness, double *share, double *normal_strength,
                                         double *tangential_strength);
