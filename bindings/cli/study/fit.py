@@ -73,25 +73,29 @@ class Fit:
 
 
 def estimates(fit, found, level):
-    """Values, standard errors and intervals; the errors of the data are taken as independent and alike."""
+    """Values, standard errors and intervals; the errors of the data are taken as independent."""
     from scipy.stats import t as student
     points, count = found.jac.shape
     values = fit.start * found.x
     freedom = points - count
     if freedom < 0:
         raise Trouble(f"{points} points for {count} parameters: as many are expected, and more for intervals", NUMERICAL)
-    _, singular, vectors = np.linalg.svd(found.jac, full_matrices=False)
+    left, singular, vectors = np.linalg.svd(found.jac, full_matrices=False)
     if singular[-1] <= 1e-10 * singular[0]:
         weak = np.abs(vectors[-1]) > 0.1
         names = ", ".join(p.path for p, is_weak in zip(fit.model.parameters, weak) if is_weak)
         raise Trouble(f"the data do not tell these parameters apart: {names}; give fewer, or other curves", NUMERICAL)
     if freedom == 0:
         return values, np.full(count, np.nan), np.full((count, 2), np.nan), np.full((count, count), np.nan)
-    variance = max(2 * found.cost / freedom, np.finfo(float).tiny)
-    covariance = (vectors.T / singular ** 2) @ vectors * variance
+    # The errors may differ from point to point (noise in proportion to the load): HC3 of J. MacKinnon, H. White, J.
+    # Econometrics 29 (1985) 305-325, with the leverages h of the points.
+    inverse = (vectors.T / singular) @ left.T
+    leverage = np.sum(left ** 2, axis=1)
+    covariance = (inverse * (found.fun / np.maximum(1 - leverage, 0.1)) ** 2) @ inverse.T
     errors = np.sqrt(np.diag(covariance))
     half = student.ppf(0.5 + 0.5 * level, freedom) * errors * fit.start
-    correlation = covariance / np.outer(errors, errors)
+    with np.errstate(invalid="ignore"):  # exact data have no errors
+        correlation = covariance / np.outer(errors, errors)
     return values, errors * fit.start, np.array([values - half, values + half]).T, correlation
 
 
