@@ -180,10 +180,12 @@ void add_fit(CLI::App& app, Arguments& into, Commands& of) {
                      "factor on the y of the data, e.g. 1/width where a plane scene has forces per width")
         ->type_name("NUMBER");
     of.fit
-        ->add_option("--weights", study.weights,
-                     "curve (default): residuals over the largest y of their curve; equal: as they are")
+        ->add_option(
+            "--weights", study.weights,
+            "curve (default): residuals over the largest y of their curve; relative: over their own y; equal: as "
+            "they are")
         ->type_name("HOW")
-        ->check(CLI::IsMember(of.choices["weights"] = {"curve", "equal"}));
+        ->check(CLI::IsMember(of.choices["weights"] = {"curve", "equal", "relative"}));
     of.fit->add_option("--confidence", study.confidence, "of the intervals (default 0.95)")
         ->type_name("LEVEL")
         ->check(CLI::Range(0.01, 0.9999));

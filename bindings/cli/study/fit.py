@@ -29,12 +29,18 @@ class Fit:
         self.model = model
         self.start = np.array([p.start for p in model.parameters])
         self.y = np.concatenate([data.y for data in model.data])
-        sizes = [np.full(len(data.y), np.max(np.abs(data.y)) if weights == "curve" else 1.0) for data in model.data]
-        self.size = np.concatenate(sizes)
+        self.size = np.concatenate([self._sizes(np.abs(data.y), weights) for data in model.data])
         if not (self.size > 0).all():
             raise Trouble("--data: a curve is zero throughout")
         self.known, self.norm = {}, None
         self.worst = None
+
+    @staticmethod
+    def _sizes(y, weights):
+        """By what residuals are divided; errors in proportion to y are no smaller than 5 % of the largest allow."""
+        if weights == "relative":
+            return np.maximum(y, 0.05 * np.max(y))
+        return np.full(len(y), np.max(y) if weights == "curve" else 1.0)
 
     def _at(self, scaled):
         key = scaled.tobytes()
