@@ -8,6 +8,7 @@
 #include <map>
 
 #include "api.hpp"
+#include "delam/experimental.h"
 #include "support.hpp"
 
 namespace {
@@ -285,6 +286,38 @@ CASE_TEST(no_operator_by_feti) {
         delam_context_message(scene.context()));
 }
 
+// Derivatives by numbers of laws are followed from the initial state on; a state that was set or loaded has none, nor
+// have the steps from it.
+CASE_TEST(sensitivities_end_where_a_state_is_set) {
+    const Scene scene = strip(settings[2]);
+    Solver solver(scene, 0.0);
+    const std::int64_t interface = 0, nowhere = 7;
+    const auto follow = [&](const std::int64_t& where, const char* key) {
+        return delam_experimental_solver_follow(solver.get(), 1, &where, key, nullptr);
+    };
+    std::vector<double> by(3);
+    const auto known = [&] { return delam_experimental_solver_sensitivity(solver.get(), 3, by.data(), nullptr); };
+    cases::expect(follow(nowhere, "normal_toughness") == DELAM_ERROR_ARGUMENT, "an interface that is not there");
+    cases::expect(follow(interface, "toughness") == DELAM_ERROR_ARGUMENT, "a number that the law does not have");
+    cases::expect(follow(interface, "normal_stiffness") == DELAM_OK, delam_context_message(scene.context()));
+    solver.step(0.2);
+    solver.commit();
+    cases::expect(known() == DELAM_OK && by[0] > 0.0, "a stiffer interface pulls more");
+    cases::expect(follow(interface, "normal_toughness") == DELAM_ERROR_STATE, "not from a later state on");
+    const std::vector<std::uint8_t> saved = solver.save();
+    const std::vector<double> adhesion = solver.field("adhesion");
+    solver.equilibrate(0.3, adhesion);
+    solver.commit();
+    cases::expect(known() == DELAM_ERROR_STATE, "a state that was set");
+    solver.step(0.4);
+    cases::expect(known() == DELAM_ERROR_STATE, "a step from it");
+    solver.commit();
+    solver.load(saved);
+    cases::expect(known() == DELAM_ERROR_STATE, "a state that was loaded");
+    solver.step(0.3);
+    cases::expect(known() == DELAM_ERROR_STATE, "a step from that");
+}
+
 }  // namespace
 
 int main() {
@@ -294,6 +327,7 @@ int main() {
     tcase_add_test(tests, tangent_refused);
     tcase_add_loop_test(tests, condensed, 0, 2);
     tcase_add_test(tests, no_operator_by_feti);
+    tcase_add_test(tests, sensitivities_end_where_a_state_is_set);
     suite_add_tcase(suite, tests);
     return cases::run_suite(suite);
 }

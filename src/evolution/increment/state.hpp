@@ -118,6 +118,9 @@ struct Sensitivity {
     std::vector<double> adhesion;   // [parameters][pairs]
     std::vector<double> mixity;     // [parameters][pairs] of the mode that the jumps show
     std::int64_t unknown = 0;       // pairs whose adhesion came to rest within a step, so far: taken as constant
+
+    // False: nothing is followed, or the state was loaded or set.
+    bool known() const { return !conjugate.empty(); }
 };
 
 struct State {

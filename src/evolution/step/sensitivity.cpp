@@ -88,7 +88,8 @@ public:
         find_mixity(mixity);
     }
 
-    // False: the system is singular, a jump is about to happen; the adhesions of the pairs that damage are then kept.
+    // False: the system is singular, a jump is about to happen; the adhesions of the pairs that damage are then taken
+    // as constant.
     bool known() const { return known_; }
     const std::vector<double>& conjugate() const { return conjugate_; }
     const std::vector<double>& adhesion() const { return adhesion_; }
@@ -182,7 +183,6 @@ FollowedParameter followed_parameter(const Problem& problem, std::span<const std
     if (key == "gradient") fail(DELAM_ERROR_ARGUMENT, "key 'gradient' is not followed: the gradient term is not");
     if (interfaces.empty()) fail(DELAM_ERROR_ARGUMENT, "interfaces: at least one is expected");
     FollowedParameter out;
-    out.key = key;
     std::vector<std::int64_t> law_of(problem.interfaces.size(), -1);
     double value = 0.0;
     for (const std::int64_t i : interfaces) {

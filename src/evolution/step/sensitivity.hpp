@@ -31,7 +31,6 @@ namespace delam {
 
 // A number of the laws of some interfaces, changed in all of them together.
 struct FollowedParameter {
-    std::string key;
     std::vector<Law> more, less;    // the laws with a slightly larger and a smaller value
     double difference = 0.0;        // between their values
     std::vector<std::int64_t> law;  // [pairs] index into more and less; -1: not concerned

@@ -312,7 +312,9 @@ Stepper::Result Stepper::step(const State& before, double time, std::span<const 
         keep_lower(best, std::move(other), *step, from.descends && later ? &dissipated : nullptr);
     }
     if (problem_.options.solution == "energetic") search(best, *step);
-    if (!followed_.empty()) best.state.sensitivity = derived(best.state, increment(before, best.state.mixity).get());
+    if (before.sensitivity.known())
+        best.state.sensitivity = sensitivity(Linearised(*operator_, pairs_, contact_, best.state), followed_,
+                                             problem_.patterns, increment(before, best.state.mixity).get());
     return best;
 }
 
@@ -322,11 +324,7 @@ Sensitivity Stepper::follow(std::vector<FollowedParameter> parameters, const Sta
              "sensitivities are not followed where the traction depends on the mixity itself (mixity_rule = "
              "variational)");
     followed_ = std::move(parameters);
-    return derived(initial, nullptr);
-}
-
-Sensitivity Stepper::derived(const State& state, const Increment* step) {
-    return sensitivity(Linearised(*operator_, pairs_, contact_, state), followed_, problem_.patterns, step);
+    return sensitivity(Linearised(*operator_, pairs_, contact_, initial), followed_, problem_.patterns, nullptr);
 }
 
 // Minimises from another start and keeps the lower state. All effort is counted.

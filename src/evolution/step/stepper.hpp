@@ -92,7 +92,6 @@ private:
     // begun: what is dissipated down to the adhesion of `next`, where the step is followed in parts. displaced: the
     // displacements of `next` are those of its adhesion.
     bool minimise(State& next, const Increment& step, const Dissipation* begun = nullptr, bool displaced = false);
-    Sensitivity derived(const State& state, const Increment* step);
     void refuse_runaway(const State& state, const Increment& step);
     // The largest part of its toughness that a pair loses in a step.
     double largest_loss(const Increment& step, const State& next) const;
