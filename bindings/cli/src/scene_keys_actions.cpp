@@ -5,6 +5,8 @@
 #include <string>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "scene_keys.hpp"
 
 namespace cli {
@@ -20,11 +22,7 @@ bool has(const Places& places, const char* place) {
     return std::find(places.begin(), places.end(), place) != places.end();
 }
 
-std::string or_list(const Places& places) {
-    std::string out;
-    for (const std::string& place : places) out += (out.empty() ? "" : ", ") + place;
-    return out;
-}
+std::string one_of(const Places& places) { return fmt::format("give one of {}", fmt::join(places, ", ")); }
 
 void add_places(KeyTable& table, const Places& places) {
     std::vector<KeyRow>& rows = table.rows;
@@ -45,13 +43,12 @@ void add_places(KeyTable& table, const Places& places) {
         if (place != "set" && place != "body") of_layers.push_back(place);
         if (place != "body") of_mesh.push_back(place);
     }
-    const std::string words = "give one of ";
-    table.rules.push_back({Kind::exactly_one, of_layers, {}, {}, words + or_list(of_layers), Scenes::layers});
+    table.rules.push_back({Kind::exactly_one, of_layers, {}, {}, one_of(of_layers), Scenes::layers});
     if (has(places, "body")) {
-        table.rules.push_back({Kind::at_most_one, of_mesh, {}, {}, words + or_list(places), Scenes::mesh});
-        table.rules.push_back({Kind::at_least_one, places, {}, {}, words + or_list(places), Scenes::mesh});
+        table.rules.push_back({Kind::at_most_one, of_mesh, {}, {}, one_of(places), Scenes::mesh});
+        table.rules.push_back({Kind::at_least_one, places, {}, {}, one_of(places), Scenes::mesh});
     } else {
-        table.rules.push_back({Kind::exactly_one, of_mesh, {}, {}, words + or_list(of_mesh), Scenes::mesh});
+        table.rules.push_back({Kind::exactly_one, of_mesh, {}, {}, one_of(of_mesh), Scenes::mesh});
     }
     if (has(places, "control"))
         table.rules.push_back(

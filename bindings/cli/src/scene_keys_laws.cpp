@@ -86,12 +86,6 @@ LawKinds law_kinds() {
     return laws;
 }
 
-std::string listed(const std::vector<std::string>& words) {
-    std::string out;
-    for (const std::string& word : words) out += (out.empty() ? "" : ", ") + word;
-    return out;
-}
-
 KeyTable law_table() {
     const LawKinds laws = law_kinds();
     KeyTable table{"law", "a traction-separation law", {}, {}};
@@ -102,7 +96,8 @@ KeyTable law_table() {
         table.rows.push_back(laws.rows.at(key));
         const std::vector<std::string>& kinds = laws.kinds.at(key);
         if (kinds.size() < laws.all.size())
-            table.rules.push_back({KeyRule::only_where, {key}, {"kind"}, kinds, "is for kind " + listed(kinds)});
+            table.rules.push_back(
+                {KeyRule::only_where, {key}, {"kind"}, kinds, fmt::format("is for kind {}", fmt::join(kinds, ", "))});
         const auto needed = laws.needed.find(key);
         if (needed == laws.needed.end()) continue;
         // A strength takes the place of an onset.

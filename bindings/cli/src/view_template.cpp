@@ -8,6 +8,7 @@
 #include "data_file.hpp"
 #include "error.hpp"
 #include "input_file.hpp"
+#include "xml_text.hpp"
 
 namespace cli {
 
@@ -26,19 +27,6 @@ std::string template_path() {
                               file.path));
 }
 
-std::string escaped_title(std::string_view text) {
-    std::string out;
-    for (const char c : text) {
-        if (c == '&')
-            out += "&amp;";
-        else if (c == '<')
-            out += "&lt;";
-        else
-            out += c;
-    }
-    return out;
-}
-
 }  // namespace
 
 std::string view_template(const std::string& named) {
@@ -51,7 +39,7 @@ std::string view_template(const std::string& named) {
 }
 
 std::string filled_template(std::string page, std::string_view title, std::string_view data) {
-    page.replace(page.find(place_of_title), place_of_title.size(), escaped_title(title));
+    page.replace(page.find(place_of_title), place_of_title.size(), xml_text(title));
     page.replace(page.find(place_of_data), place_of_data.size(), data);
     return page;
 }

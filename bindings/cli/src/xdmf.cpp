@@ -5,26 +5,11 @@
 
 #include <fmt/format.h>
 
+#include "xml_text.hpp"
+
 namespace cli {
 
 namespace {
-
-std::string escaped(const std::string& text) {
-    std::string out;
-    for (const char c : text) {
-        if (c == '&')
-            out += "&amp;";
-        else if (c == '<')
-            out += "&lt;";
-        else if (c == '>')
-            out += "&gt;";
-        else if (c == '"')
-            out += "&quot;";
-        else
-            out += c;
-    }
-    return out;
-}
 
 std::string item(const std::string& dimensions, bool real, const std::string& path, int bytes = 8) {
     return fmt::format(
@@ -71,7 +56,7 @@ std::string xdmf_text(const std::vector<XdmfBlock>& blocks, const std::vector<Xd
             step.group, step.time);
         for (std::size_t i = 0; i < blocks.size(); ++i) {
             const XdmfBlock& block = blocks[i];
-            out += fmt::format("        <Grid Name=\"{}\" GridType=\"Uniform\">\n", escaped(block.name));
+            out += fmt::format("        <Grid Name=\"{}\" GridType=\"Uniform\">\n", xml_text(block.name));
             if (i == 0) {
                 out += mesh(block, "/mesh/points", "/mesh/cells", "/mesh/mixed");
                 out += fmt::format(

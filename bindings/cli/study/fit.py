@@ -9,13 +9,12 @@ DIR/fit.csv (data and model); the last lines say the parameters with their confi
 import json
 import os
 import signal
-import sys
 
 import numpy as np
 
 from curve_data import CurveData
 from fit_model import Infeasible, Model, Parameter
-from marches import DONE, INTERRUPTED, NUMERICAL, OUTPUT, Trouble, end_all, given_words, hold, make_folder, read_about, refuse_set, write_file
+from marches import DONE, NUMERICAL, Trouble, given_words, hold, make_folder, read_about, refuse_set, run_study, write_file
 
 WORSE = 10.0  # what a step into an infeasible region costs, in residuals: the trust region then shrinks
 
@@ -176,15 +175,4 @@ def main():
 
 
 if __name__ == "__main__":
-    try:
-        sys.exit(main())
-    except Trouble as trouble:
-        print(f"delam: fit: {trouble}", file=sys.stderr)
-        sys.exit(trouble.code)
-    except OSError as error:
-        print(f"delam: fit: {error}", file=sys.stderr)
-        sys.exit(OUTPUT)
-    except KeyboardInterrupt:
-        end_all()
-        print("delam: fit: interrupted", file=sys.stderr)
-        sys.exit(INTERRUPTED)
+    run_study("fit", main)

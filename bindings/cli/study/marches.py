@@ -82,6 +82,21 @@ def finish(child):
     return code
 
 
+def run_study(name, main):
+    """Ends the program with the exit code of main(), or with one line for what went wrong."""
+    try:
+        sys.exit(main())
+    except Trouble as trouble:
+        text, code = trouble, trouble.code
+    except OSError as error:
+        text, code = error, OUTPUT
+    except KeyboardInterrupt:
+        end_all()
+        text, code = "interrupted", INTERRUPTED
+    print(f"delam: {name}: {text}", file=sys.stderr)
+    sys.exit(code)
+
+
 def hold(folder):
     """Keeps other studies out of a folder, as long as the file that it returns is open."""
     make_folder(folder)

@@ -20,8 +20,8 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
-from marches import (DONE, INTERRUPTED, NOT_CONVERGED, OUTPUT, WRONG, Trouble, end_all, finish, hold, refuse_set, given_words, last_words, make_folder,
-                     read_about, read_history, setting, start, write_file)
+from marches import (DONE, INTERRUPTED, NOT_CONVERGED, WRONG, Trouble, end_all, finish, given_words, hold, last_words,
+                     read_about, read_history, refuse_set, run_study, setting, start, write_file)
 from variations import Variation, grid, latin
 
 RESULTS = ["exit_code", "steps", "peak_reaction", "load_at_peak", "last_reaction", "dissipated", "released", "jumps",
@@ -182,11 +182,4 @@ def main():
 
 
 if __name__ == "__main__":
-    try:
-        sys.exit(main())
-    except Trouble as trouble:
-        print(f"delam: sweep: {trouble}", file=sys.stderr)
-        sys.exit(trouble.code)
-    except OSError as error:
-        print(f"delam: sweep: {error}", file=sys.stderr)
-        sys.exit(OUTPUT)
+    run_study("sweep", main)

@@ -162,7 +162,7 @@ compare(viewed(changed("dimension = 3", 'dimension = 3\ncell = "tet10"', solid))
 # What the scene says is text, wherever it comes.
 page = Page(os.path.join(viewed(changed("small ENF", "a </script><b> & <!--delam:data-->", coarse)), "view.html"))
 expect(page.data["about"]["scene"]["title"] == "a </script><b> & <!--delam:data-->" and
-       "<title>a &lt;/script>&lt;b> &amp; &lt;!--delam:data--></title>" in page.text, "a title like a page's end")
+       "<title>a &lt;/script&gt;&lt;b&gt; &amp; &lt;!--delam:data--&gt;</title>" in page.text, "a title like a page's end")
 
 # Only adhesion, every second step and the last.
 thin = viewed(coarse + '[output]\nfields = ["zeta"]\n', "--every", "3")
