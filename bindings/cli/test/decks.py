@@ -5,14 +5,30 @@ E1, E2, NU12, NU23, G12 = 126e9, 10e9, 0.3, 0.4, 5e9
 STIFFNESS, NORMAL, SHEAR, G_I, G_II, ETA = 1e14, 12e6, 20e6, 280.0, 790.0, 2.3
 
 
+# The ways along the edges of a brick from its first corner to the opposite one, and whether the tetrahedron of such a way
+# has to be turned inside out to have a positive volume.
+PATHS = (((0, 1, 2), False), ((1, 2, 0), False), ((2, 0, 1), False), ((0, 2, 1), True), ((1, 0, 2), True),
+         ((2, 1, 0), True))
+
+
+def corners_along(path):
+    axes, turned = path
+    at = [0, 0, 0]
+    corners = [tuple(at)]
+    for axis in axes:
+        at[axis] = 1
+        corners.append(tuple(at))
+    return [corners[n] for n in (0, 2, 1, 3)] if turned else corners
+
+
 class Beam:
     """Two arms of `length`, each `thick`, notched over `notch`; cells nx by ny by nz in an arm. The nodes of the middle
-    are doubled, `gap` apart."""
+    are doubled, `gap` apart. tets: each brick is cut into six tetrahedra around its diagonal."""
 
-    def __init__(self, length=0.06, width=0.006, thick=0.0015, notch=0.03, nx=60, ny=2, nz=2, gap=0.0):
+    def __init__(self, length=0.06, width=0.006, thick=0.0015, notch=0.03, nx=60, ny=2, nz=2, gap=0.0, tets=False):
         self.length, self.width, self.thick, self.notch = length, width, thick, notch
         self.nx, self.ny, self.nz, self.gap = nx, ny, nz, gap
-        self.plane = ny == 0
+        self.plane, self.tets = ny == 0, tets
 
     def node(self, arm, i, j, k):
         rows = self.ny + 1
@@ -35,6 +51,9 @@ class Beam:
                 for i in range(self.nx):
                     if self.plane:
                         yield [self.node(arm, i + a, 0, k + c) for a, c in ((0, 0), (1, 0), (1, 1), (0, 1))]
+                    elif self.tets:
+                        for path in PATHS:
+                            yield [self.node(arm, i + a, j + b, k + c) for a, b, c in corners_along(path)]
                     else:
                         yield [self.node(arm, i + a, j + b, k + c) for c in (0, 1)
                                for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
@@ -48,6 +67,10 @@ class Beam:
                 if self.plane:
                     yield [self.node(0, i, 0, self.nz), self.node(0, i + 1, 0, self.nz),
                            self.node(1, i + 1, 0, 0), self.node(1, i, 0, 0)]
+                elif self.tets:  # on both sides of the diagonal along which the tetrahedra cut the face
+                    for corners in (((0, 0), (1, 0), (1, 1)), ((0, 0), (1, 1), (0, 1))):
+                        yield [self.node(arm, i + a, j + b, self.nz if arm == 0 else 0) for arm in (0, 1)
+                               for a, b in corners]
                 else:
                     yield [self.node(arm, i + a, j + b, self.nz if arm == 0 else 0) for arm in (0, 1)
                            for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
@@ -62,7 +85,7 @@ def lines(numbers, each=8):
 
 
 def mesh(beam, name_of_cells="Arms"):
-    cell, cohesive = ("CPE4I", "COH2D4") if beam.plane else ("C3D8I", "COH3D8")
+    cell, cohesive = (("CPE4I", "COH2D4") if beam.plane else ("C3D4", "COH3D6") if beam.tets else ("C3D8I", "COH3D8"))
     text = "*Node\n" + "".join(f"{n}, {', '.join(repr(x) for x in at)}\n" for n, at in beam.nodes())
     number = 0
     text += f"*Element, type={cell}, elset={name_of_cells}\n"
@@ -124,13 +147,24 @@ def parts(beam, displacement=0.001, steps=20):
             opened(displacement, steps, beam.plane))
 
 
+def surface_of_tets(beam, arm):
+    """The lines of *SURFACE: element and side, along the cohesive elements."""
+    sides = ((0, 1, 2), (0, 3, 1), (1, 3, 2), (2, 3, 0))
+    first = 1 + arm * 6 * beam.nx * beam.ny * beam.nz
+    held = {frozenset(nodes[3 * arm:3 * arm + 3]) for nodes in beam.cohesive()}
+    for number, nodes in enumerate(beam.cells(arm), first):
+        for side, corners in enumerate(sides, 1):
+            if frozenset(nodes[c] for c in corners) in held:
+                yield f"{number}, S{side}\n"
+
+
 def surfaces(beam, displacement=0.001, steps=20, initial=False):
     """Two bodies and a pair of surfaces that adhere, in the style of PrePoMax (OP=New in each step)."""
     text = mesh(beam)
     head, rest = text.split("*Element, type=COH", 1)
     sets = rest[rest.index("*Nset"):]
     side_below, side_above = ("S3", "S1") if beam.plane else ("S2", "S1")
-    each = beam.nx * max(1, beam.ny)
+    each = beam.nx * max(1, beam.ny) * (6 if beam.tets else 1)
     last = each * beam.nz
     below = range(last - each + 1, last + 1)   # the upper row of the lower arm
     above = range(last + 1, last + each + 1)
@@ -138,11 +172,17 @@ def surfaces(beam, displacement=0.001, steps=20, initial=False):
               if i * beam.length / beam.nx > beam.notch - 1e-9]
     if not initial:
         held = [n for n in range(each) if (n % beam.nx) * beam.length / beam.nx > beam.notch - 1e-9]
-        below, above = [below[n] for n in held], [above[n] for n in held]
-    text = (head + sets + "*Elset, elset=E-below\n" + lines(below) + "*Elset, elset=E-above\n" + lines(above) +
-            f"*Elset, elset=Lower, generate\n1, {last}, 1\n*Elset, elset=Upper, generate\n{last + 1}, {2 * last}, 1\n"
-            f"*Surface, name=Below, type=ELEMENT\nE-below, {side_below}\n"
-            f"*Surface, name=Above, type=ELEMENT\nE-above, {side_above}\n" + PLY +
+        below, above = ([side[n] for n in held if n < len(side)] for side in (below, above))
+    if beam.tets:
+        sides = [f"*Surface, name={name}, type=ELEMENT\n" + "".join(surface_of_tets(beam, arm))
+                 for arm, name in enumerate(("Below", "Above"))]
+    else:
+        sides = ["*Elset, elset=E-below\n" + lines(below) + "*Elset, elset=E-above\n" + lines(above),
+                 f"*Surface, name=Below, type=ELEMENT\nE-below, {side_below}\n"
+                 f"*Surface, name=Above, type=ELEMENT\nE-above, {side_above}\n"]
+    text = (head + sets + sides[0] +
+            f"*Elset, elset=Lower, generate\n1, {last}, 1\n*Elset, elset=Upper, generate\n{last + 1}, {2 * last}, 1\n" +
+            sides[1] + PLY +
             "*Solid section, Elset=Lower, Material=Ply\n*Solid section, Elset=Upper, Material=Ply\n"
             "*Surface interaction, Name=Glue\n*Cohesive behavior" +
             (", eligibility=SPECIFIED CONTACTS" if initial else "") + f"\n{STIFFNESS}, {STIFFNESS}, {STIFFNESS}\n" +

@@ -128,6 +128,16 @@ def check_dialects():
         same(f"{name}, thick cohesive elements", saved(decks.abaqus(apart)), reference, 1e-7)
 
 
+def check_tetrahedra():
+    """COH3D6 between the sides of tetrahedra, against the same sides as surfaces that adhere."""
+    beam = Beam(length=0.024, notch=0.012, nx=16, ny=2, nz=1, tets=True)
+    reference = history(saved(decks.surfaces(beam)))
+    expect(reference is not None and reference[-1]["dissipated"] > 0, "the crack between tetrahedra grows")
+    same("COH3D6", saved(decks.abaqus(beam)), reference)
+    thick = Beam(length=0.024, notch=0.012, nx=16, ny=2, nz=1, tets=True, gap=1e-5)
+    same("thick COH3D6", saved(decks.abaqus(thick)), reference, 1e-7)
+
+
 def check_two_commands():
     """A scene that is written is the one that runs from the deck."""
     place = folder()
@@ -506,6 +516,7 @@ def check_doubled_nodes():
 
 
 check_dialects()
+check_tetrahedra()
 check_doubled_nodes()
 check_two_commands()
 check_laws()
