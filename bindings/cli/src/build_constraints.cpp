@@ -52,14 +52,45 @@ void add_equation(Model& model, const Scene& scene, const EquationData& data) {
     impose(model, equation, data.right, data.place);
 }
 
+// [nodes][dimension]
+std::vector<double> node_coordinates(const Model& model, std::size_t dimension, const Place& place) {
+    std::int64_t count = 0;
+    call(model.context.get(), delam_mesh_size(model.mesh.get(), nullptr, &count, nullptr, nullptr, nullptr), place);
+    std::vector<double> out(static_cast<std::size_t>(count) * dimension);
+    call(model.context.get(), delam_mesh_nodes(model.mesh.get(), static_cast<std::int64_t>(out.size()), out.data()),
+         place);
+    return out;
+}
+
+// A point at the distance r from the centre of a small rotation w moves by w x r, along a direction d by w . (r x d). In
+// the plane, w is the first component of its control node.
+std::vector<double> lever(const std::vector<double>& r, const std::vector<double>& d) {
+    if (r.size() == 2) return {r[0] * d[1] - r[1] * d[0], 0.0};
+    return {r[1] * d[2] - r[2] * d[1], r[2] * d[0] - r[0] * d[2], r[0] * d[1] - r[1] * d[0]};
+}
+
+// d . (u_node - u_control) - w . (r x d) = 0
 void couple(const Model& model, const Scene& scene, const CouplingData& data) {
     const Selected at = select(model.context.get(), model.mesh.get(), scene, data.where);
     const std::int64_t control = control_node(model.context.get(), model.mesh.get(), scene, data.control, data.place);
+    const std::vector<double>& centre = scene.controls[data.control].at;
+    std::int64_t rotation = -1;
+    std::vector<double> coordinates;
+    if (data.rotation) {
+        rotation = control_node(model.context.get(), model.mesh.get(), scene, *data.rotation, data.place);
+        coordinates = node_coordinates(model, centre.size(), data.place);
+    }
     for (const std::vector<double>& direction : data.directions)
         for (const std::int64_t node : at.nodes) {
             Equation equation;
             equation.add(node, direction, 1.0);
             equation.add(control, direction, -1.0);
+            if (rotation >= 0) {
+                std::vector<double> r(centre.size());
+                for (std::size_t a = 0; a < r.size(); ++a)
+                    r[a] = coordinates[static_cast<std::size_t>(node) * r.size() + a] - centre[a];
+                equation.add(rotation, lever(r, direction), -1.0);
+            }
             impose(model, equation, {}, data.place);
         }
 }
@@ -100,13 +131,10 @@ struct Nodes {
 
 Nodes nodes_of(const Model& model, const CellData& cell) {
     const delam_context* context = model.context.get();
-    const auto dimension = static_cast<std::int64_t>(cell.periods.front().size());
-    std::int64_t count = 0;
-    call(context, delam_mesh_size(model.mesh.get(), nullptr, &count, nullptr, nullptr, nullptr), cell.place);
     Nodes out;
-    out.coordinates.resize(static_cast<std::size_t>(count * dimension));
+    out.coordinates = node_coordinates(model, cell.periods.front().size(), cell.place);
+    const auto count = static_cast<std::int64_t>(out.coordinates.size() / cell.periods.front().size());
     std::vector<std::int32_t> bodies(static_cast<std::size_t>(count));
-    call(context, delam_mesh_nodes(model.mesh.get(), count * dimension, out.coordinates.data()), cell.place);
     call(context, delam_mesh_node_bodies(model.mesh.get(), count, bodies.data()), cell.place);
     for (std::int64_t i = 0; i < count; ++i)
         if (bodies[static_cast<std::size_t>(i)] >= 0) out.used.push_back(i);

@@ -139,6 +139,7 @@ struct Prescription {
 struct ControlData {
     std::string name;
     std::vector<double> at;
+    bool placed = false;  // the scene says where
     Place place;
 };
 
@@ -154,11 +155,12 @@ struct EquationData {
     Place place;
 };
 
-// Nodes that move with a control node along some directions.
+// Nodes that move with a control node along some directions, as points of a rigid body where it has a rotation.
 struct CouplingData {
     Selection where;
     std::vector<std::vector<double>> directions;
     std::size_t control = 0;
+    std::optional<std::size_t> rotation;  // a control node too
     Place place;
 };
 

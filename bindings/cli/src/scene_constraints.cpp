@@ -12,7 +12,8 @@ namespace cli {
 
 namespace {
 
-// The position of control nodes does not affect the solution, and must not enlarge pictures.
+// Where nothing rotates about it, the position of a control node does not affect the solution, and it must not enlarge
+// pictures.
 std::vector<double> lower_corner(const Scene& scene) {
     const auto dimension = static_cast<std::size_t>(scene.geometry.dimension);
     std::vector<double> corner(dimension, 0.0);
@@ -58,8 +59,8 @@ std::vector<Term> read_right(const Table& table, const Scene& scene) {
     return {};
 }
 
-std::size_t control_of(const Table& table, const Scene& scene) {
-    return find_named(table, "control", table.text("control"), scene.controls, "control node");
+std::size_t control_of(const Table& table, const Scene& scene, const std::string& key = "control") {
+    return find_named(table, key, table.text(key), scene.controls, "control node");
 }
 
 CellComponent read_component(const Table& table, const Scene& scene, bool stress) {
@@ -127,7 +128,8 @@ void read_controls(const Table& root, Scene& scene) {
     for (const Table& table : root.tables("controls")) {
         ControlData control;
         control.name = new_name(table, scene.controls, "control node");
-        control.at = table.has("at") ? table.numbers("at", dimension) : corner;
+        control.placed = table.has("at");
+        control.at = control.placed ? table.numbers("at", dimension) : corner;
         control.place = table.place();
         scene.controls.push_back(std::move(control));
     }
@@ -160,6 +162,15 @@ void read_constraints(const Table& root, Scene& scene) {
         const Places places{"point", "box", "set", "body"};
         CouplingData coupling;
         coupling.control = control_of(table, scene);
+        if (table.has("rotation")) {
+            coupling.rotation = control_of(table, scene, "rotation");
+            if (*coupling.rotation == coupling.control)
+                table.fail("rotation", "is the control node that is translated: another one is expected");
+            const ControlData& centre = scene.controls[coupling.control];
+            if (!centre.placed)
+                table.fail("rotation", fmt::format("is about the control node \"{}\": give its coordinates, `at`",
+                                                   centre.name));
+        }
         coupling.where = read_selection(table, scene, places);
         coupling.directions = read_directions(table, "component", scene.geometry);
         coupling.place = table.place();

@@ -154,7 +154,7 @@ KeyTable control_table() {
     KeyTable table{"control", "a node of no body, to which other tables refer", {}, {}};
     table.rows = {
         text_key("name").need().says("by which other tables refer to it"),
-        vector_key("at").otherwise("the lower corner of the mesh").says("coordinates, for pictures alone"),
+        vector_key("at").otherwise("the lower corner of the mesh").says("coordinates: the point about which what is coupled to it rotates, and for pictures"),
     };
     return table;
 }
@@ -180,6 +180,7 @@ KeyTable coupling_table() {
     add_places(table, {"point", "box", "set", "body"});
     add_direction(table, "component");
     table.rows.push_back(text_key("control").need().says("name of the control node"));
+    table.rows.push_back(text_key("rotation").says("name of a control node whose components are the rotation"));
     return table;
 }
 

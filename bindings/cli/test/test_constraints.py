@@ -136,6 +136,47 @@ fix = {axes(dimension).replace(f', "{up}"', "")}
     whole = last_row(direct)
     near(last_row(nose), "reaction", whole["reaction"] if whole else 0.0, f"{dimension}D: a rigid nose")
 
+    # A rigid grip that rotates. A moment bends a bar without lateral contraction as beam theory says.
+    grip = block(dimension, held + f'''
+[[controls]]
+name = "grip"
+at = {at(dimension, 2.0, 0.5)}
+[[controls]]
+name = "turn"
+[[couplings]]
+box = {{ lower = {at(dimension, 2.0, 0.0).replace("0.5", "0.0")}, upper = {at(dimension, 2.0, 1.0).replace("0.5", "1.5")} }}
+component = {axes(dimension)}
+control = "grip"
+rotation = "turn"
+ACTION
+[[supports]]
+control = "turn"
+fix = {'["y"]' if dimension == 2 else '["x", "z"]'}
+''').replace("poisson = 0.3", "poisson = 0.0\nformulation = \"incompatible\"")
+    turn = 'component = ["x"]' if dimension == 2 else 'component = ["y"]'
+    stiffness = 8.0 * (1.0 if dimension == 2 else 1.5) / 12 / 2.0
+    row = last_row(grip.replace("ACTION", f'[[loads]]\ncontrol = "turn"\n{turn}\npattern = "p"\ncoefficient = 0.01'))
+    near(row, "reaction", stiffness * 0.01 ** 2, f"{dimension}D: a grip is turned")
+    moment = "[0.02, 0.0]" if dimension == 2 else "[0.0, 0.02, 0.0]"
+    row = last_row(grip.replace("ACTION", f'[[forces]]\ncontrol = "turn"\nforce = {moment}\npattern = "p"'))
+    near(row, "stored_bulk", 0.02 ** 2 / stiffness / 2, f"{dimension}D: a moment on a grip")
+    # Both ends in one grip that is not at their centre: the block turns as a whole.
+    whole = grip.replace(held, "").replace("at = " + at(dimension, 2.0, 0.5), "at = " + at(dimension, 0.25, 3.0))
+    ends = whole.split("[[couplings]]")[1].split("ACTION")[0]
+    whole = whole.replace("ACTION", "[[couplings]]" + ends.replace("2.0,", "0.0,") + f'''
+[[supports]]
+control = "grip"
+fix = {axes(dimension)}
+[[loads]]
+control = "turn"
+{turn}
+pattern = "p"
+''')
+    row = last_row(whole)
+    near(row, "stored_bulk", 0.0, f"{dimension}D: a grip on both ends turns the block", 1e-12, 1.0)
+    expect_error(delam("check", write(grip.replace("ACTION", "").replace("at = " + at(dimension, 2.0, 0.5), ""))), 2,
+                 "rotation", "is about the control node", "grip")
+
     # A rigid plane under the block, moved by its control node: it presses but does not pull.
     bottom = f'patch = {{ centre = {at(dimension, 1.0, 0.0).replace("0.5", "0.75")}, ' \
              f'length = {"2.0" if dimension == 2 else "[2.0, 1.5]"}, face = "-{up}" }}'
