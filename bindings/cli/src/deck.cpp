@@ -1,7 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "deck.hpp"
 
+#include <cstdint>
+
+#include <fmt/format.h>
+
 namespace cli::abaqus {
+
+int degree_of_freedom(const std::string& field, int most, const Place& place) {
+    const std::int64_t value = inp_whole(field, place);
+    if (value < 1 || value > most)
+        throw SceneFailure(place, fmt::format("degree of freedom {}: 1 to {} are expected", value, most));
+    return static_cast<int>(value);
+}
 
 SectionOf section_named(const Deck& deck, const Model& model, std::vector<Entry> Part::*sections,
                         const std::string& name) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,6 +17,8 @@
 namespace cli::abaqus {
 
 using Numbers = std::vector<double>;
+
+inline constexpr const char* axis_names[] = {"x", "y", "z"};
 
 // *DAMAGE INITIATION and *DAMAGE EVOLUTION, of a material or of a surface interaction.
 struct DamageCards {
@@ -84,6 +87,22 @@ struct Amplitude {
     Place place;
 };
 
+// A term of *EQUATION.
+struct EquationEntry {
+    Entry where;
+    int dof = 0;
+    double coefficient = 0;
+};
+
+// Nodes that move with a reference node as one rigid body: *COUPLING with *KINEMATIC, *RIGID BODY.
+struct Coupling {
+    Entry reference;
+    Entry where;
+    std::vector<int> dofs;               // 1 to 3; empty: all
+    std::optional<Entry> rotation_node;  // of CalculiX: its degrees of freedom 1 to 3 are the rotation
+    Place place;
+};
+
 // A line of *BOUNDARY, *CLOAD or *DSLOAD.
 struct LoadLine {
     Entry where;
@@ -92,6 +111,7 @@ struct LoadLine {
     double magnitude = 0;
     Numbers direction{};  // of TRVEC
     std::string amplitude{};
+    bool named = false;  // ENCASTRE, ..: of its degrees of freedom, those that the node has
 };
 
 struct Step {
@@ -112,6 +132,8 @@ struct Deck {
     std::vector<InteractionCards> interactions;
     std::vector<ContactPair> pairs;
     std::vector<Amplitude> amplitudes;
+    std::vector<std::vector<EquationEntry>> equations;
+    std::vector<Coupling> couplings;
     std::vector<LoadLine> held;  // *BOUNDARY before the first step
     std::vector<Step> steps;
     bool general_contact = false;
@@ -132,6 +154,9 @@ SectionOf section_named(const Deck& deck, const Model& model, std::vector<Entry>
 // The names that sets of nodes and surfaces have in the scene; "": there is none.
 std::string node_set_name(const Model& model, const Entry& raw);
 std::string surface_name(const Model& model, const Entry& raw);
+
+// 1 to `most`. Throws SceneFailure at `place`.
+int degree_of_freedom(const std::string& field, int most, const Place& place);
 
 // Adds a line for people, once.
 inline void say_once(std::vector<std::string>& texts, const std::string& text) {

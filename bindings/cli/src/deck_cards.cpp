@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "deck_constraint_cards.hpp"
 #include "deck_step_cards.hpp"
 #include "reader.hpp"
 
@@ -57,10 +58,12 @@ const std::pair<const char*, const char*> otherwise[] = {
 
 class DeckReader {
 public:
-    DeckReader(const std::string& path, const Part& root) : path_(path), root_(root), steps_(deck_, root) {}
+    DeckReader(const std::string& path, const Part& root)
+        : path_(path), root_(root), steps_(deck_, root), constraints_(deck_, root) {}
 
     Deck read(const std::vector<InpCard>& cards) {
         for (const InpCard& card : cards) take(card);
+        constraints_.finish();
         if (deck_.steps.empty())
             throw SceneFailure({path_, "", 0}, "there is no *STEP in it: a deck with loads is expected");
         for (const std::string& name : left_) deck_.left_out.push_back("*" + name);
@@ -80,6 +83,10 @@ private:
         for (const auto& [keyword, text] : otherwise)
             if (word == keyword) return say_once(deck_.changed, text);
         if (steps_.take(card)) return;
+        if (constraints_.take(card)) {
+            if (!part_.empty()) throw SceneFailure(card.place, "within a *PART it is not imported: give it outside");
+            return;
+        }
         using Take = void (DeckReader::*)(const InpCard&);
         static const std::pair<const char*, Take> known[] = {
             {"COHESIVE BEHAVIOR", &DeckReader::take_behavior},
@@ -373,6 +380,7 @@ private:
     Deck deck_;
     DamageCards& (DeckReader::*damage_of_)() = nullptr;
     StepReader steps_;
+    ConstraintReader constraints_;
     std::string part_;  // that is open
     std::set<std::string> left_;
 };

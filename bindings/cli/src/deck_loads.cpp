@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -20,7 +21,6 @@ using Points = std::vector<std::pair<double, double>>;  // instants and values
 
 constexpr std::int64_t most_single_nodes = 200;
 constexpr double most_increments = 100000;
-constexpr const char* axis_names[] = {"x", "y", "z"};
 
 double between(const Points& points, double x) {
     if (x <= points.front().first) return points.front().second;
@@ -74,7 +74,8 @@ struct Pattern {
 
 class Loads {
 public:
-    Loads(Deck& deck, const Model& model, const MeshData& mesh) : deck_(deck), model_(model), mesh_(mesh) {}
+    Loads(Deck& deck, const Model& model, const MeshData& mesh, References& references)
+        : deck_(deck), model_(model), mesh_(mesh), references_(references) {}
 
     std::string text() {
         for (const LoadLine& line : deck_.held)
@@ -83,30 +84,32 @@ public:
         say_width();
         std::string out = time_text();
         std::string loads;
-        std::map<std::string, std::vector<int>> held;  // places with nothing but 0
+        std::map<std::string, std::vector<std::size_t>> held;  // places with nothing but 0
         std::vector<std::string> order;
         for (const auto& key : keys_) {
             const History& history = histories_.at(key);
             if (history.force) {
-                loads += force_text(history);
+                loads += force_text(history, key.dof);
             } else if (history.peak() != 0) {
                 const auto [pattern, coefficient] = pattern_of(history);
-                for (const std::string& place : places_of(history.line.where))
+                for (const auto& [place, axis] : prescribed(history.line.where, key.dof))
                     loads += fmt::format(
-                        "[[loads]]\n{}component = [\"{}\"]\npattern = {}\n{}\n", place, axis_names[key.dof - 1],
+                        "[[loads]]\n{}component = [\"{}\"]\npattern = {}\n{}\n", place, axis_names[axis],
                         toml_text(pattern),
                         coefficient == 1 ? "" : fmt::format("coefficient = {}\n", toml_number(coefficient)));
             } else {
-                for (const std::string& place : places_of(history.line.where)) {
+                for (const auto& [place, axis] : prescribed(history.line.where, key.dof)) {
                     if (!held.contains(place)) order.push_back(place);
-                    held[place].push_back(key.dof);
+                    held[place].push_back(axis);
                 }
             }
         }
         for (const std::string& place : order) {
             std::vector<std::string> axes;
-            std::sort(held[place].begin(), held[place].end());
-            for (const int dof : held[place]) axes.emplace_back(axis_names[dof - 1]);
+            std::vector<std::size_t>& all = held[place];
+            std::sort(all.begin(), all.end());
+            all.erase(std::unique(all.begin(), all.end()), all.end());
+            for (const std::size_t axis : all) axes.emplace_back(axis_names[axis]);
             out += fmt::format("[[supports]]\n{}fix = {}\n\n", place, toml_list(axes));
         }
         return patterns_ + out + loads;
@@ -124,7 +127,11 @@ private:
 
     // Null: the mesh has no such degree of freedom.
     History* at_one(const LoadLine& line, bool force, int dof) {
-        if (dof > mesh_.dimension && line.distributed.empty()) {
+        if (dof > mesh_.dimension && line.distributed.empty() && !moves(line.where, dof)) {
+            if (force && dof > 3)
+                throw SceneFailure(line.where.place,
+                                   fmt::format("a moment on \"{}\", which does not rotate", line.where.text));
+            if (line.named && dof > 3) return nullptr;
             const std::string text = dof > 3 ? "degrees of freedom 4 to 6: nodes of solids do not rotate"
                                              : "degree of freedom 3: a plane mesh has none";
             say_once(deck_.left_out, text);
@@ -142,6 +149,14 @@ private:
         }
         found->second.active = true;
         return &found->second;
+    }
+
+    // Whether all nodes of an entry are reference nodes that have this degree of freedom.
+    [[nodiscard]] bool moves(const Entry& where, int dof) const {
+        const std::vector<std::int64_t> nodes = references_.of(where);
+        return !nodes.empty() && std::all_of(nodes.begin(), nodes.end(), [&](std::int64_t node) {
+            return references_.component(node, dof).has_value();
+        });
     }
 
     void march(const Step& step) {
@@ -287,32 +302,35 @@ private:
         return {made_.back().name, history.peak() / unit};
     }
 
-    [[nodiscard]] const Node* node_of(const Entry& raw, std::int64_t& number) const {
+    // Of an entry that is a number.
+    [[nodiscard]] std::optional<std::int64_t> node_of(const Entry& raw) const {
         const Entry entry = model_.resolved_scope(raw);
         const auto id = inp_whole(entry.text);
-        if (!id) return nullptr;
-        number = node_number(*entry.scope, *id, entry.place);
-        return &entry.scope->nodes[entry.scope->node_of.at(*id)];
+        if (!id) return std::nullopt;
+        return node_number(*entry.scope, *id, entry.place);
     }
 
-    [[nodiscard]] std::string point_text(const std::array<double, 3>& at, std::int32_t body) const {
-        const std::vector<double> x(at.begin(), at.begin() + mesh_.dimension);
-        return fmt::format("point = {}\nbody = {}\n", toml_list(x),
-                           toml_text(mesh_.body_names[static_cast<std::size_t>(body)]));
-    }
-
-    // The lines of a place in the scene; a node of several bodies is one in each.
-    [[nodiscard]] std::vector<std::string> places_of(const Entry& raw) const {
-        std::int64_t number = 0;
-        if (const Node* node = node_of(raw, number)) {
-            std::vector<std::string> out;
-            for (const std::int32_t body : bodies_at(mesh_, number)) out.push_back(point_text(node->at, body));
-            if (out.empty())
-                throw SceneFailure(raw.place,
-                                   "node " + raw.text + " belongs to no body: reference nodes are not imported");
-            return out;
+    // Where a degree of freedom of an entry is in the scene; that of a node of several bodies is in each of them.
+    [[nodiscard]] std::vector<SceneComponent> components(const Entry& raw, int dof) const {
+        std::vector<SceneComponent> out;
+        const auto axis = static_cast<std::size_t>(dof - 1);
+        if (const std::vector<std::int64_t> nodes = references_.of(raw); !nodes.empty()) {
+            for (const std::int64_t node : nodes)
+                if (const auto at = references_.component(node, dof)) out.push_back(*at);
+        } else if (const std::optional<std::int64_t> node = node_of(raw)) {
+            for (const std::int32_t body : bodies_at(mesh_, *node))
+                out.push_back({point_text(mesh_, *node, body), axis});
+        } else {
+            out.push_back({fmt::format("set = {}\n", toml_text(set_name(raw))), axis});
         }
-        return {fmt::format("set = {}\n", toml_text(set_name(raw)))};
+        return out;
+    }
+
+    [[nodiscard]] std::vector<SceneComponent> prescribed(const Entry& raw, int dof) {
+        std::vector<SceneComponent> out = components(raw, dof);
+        if (!references_.of(raw).empty())
+            for (const SceneComponent& component : out) references_.prescribe(component);
+        return out;
     }
 
     [[nodiscard]] std::string set_name(const Entry& raw) const {
@@ -328,7 +346,7 @@ private:
         return name;
     }
 
-    std::string force_text(const History& history) {
+    std::string force_text(const History& history, int dof) {
         if (history.peak() == 0) return "";
         const Entry& where = history.line.where;
         const auto [name, peak] = pattern_of(history);
@@ -349,40 +367,37 @@ private:
         }
         // The scene is per unit of thickness.
         const double width = mesh_.dimension == 2 && deck_.width > 0 ? deck_.width : 1.0;
-        force[static_cast<std::size_t>(history.line.first - 1)] = peak / width;
         // *CLOAD gives each node of a set the whole force.
         std::string out;
-        for (const auto& [at, body] : nodes_of(history))
-            out += fmt::format("[[forces]]\n{}{}force = {}\n\n", point_text(at, body), pattern, toml_list(force));
+        for (const auto& [place, axis] : pushed(where, dof)) {
+            std::fill(force.begin(), force.end(), 0.0);
+            force[axis] = peak / width;
+            out += fmt::format("[[forces]]\n{}{}force = {}\n\n", place, pattern, toml_list(force));
+        }
         return out;
     }
 
-    // Each with the first of its bodies.
-    [[nodiscard]] std::vector<std::pair<std::array<double, 3>, std::int32_t>> nodes_of(const History& history) {
-        const Entry& raw = history.line.where;
-        std::int64_t number = 0;
-        std::vector<std::int64_t> numbers;
-        if (node_of(raw, number) != nullptr)
-            numbers.push_back(number);
-        else
-            numbers = mesh_.node_sets.at(set_name(raw));
+    // The places on which a force acts; a node of several bodies with the first of them.
+    [[nodiscard]] std::vector<SceneComponent> pushed(const Entry& raw, int dof) {
+        std::vector<SceneComponent> out;
+        if (!references_.of(raw).empty()) {
+            out = components(raw, dof);
+            for (const SceneComponent& component : out) references_.push(component, raw.place);
+            return out;
+        }
+        const std::optional<std::int64_t> one = node_of(raw);
+        const std::vector<std::int64_t> numbers = one ? std::vector{*one} : mesh_.node_sets.at(set_name(raw));
         if (static_cast<std::int64_t>(numbers.size()) > most_single_nodes)
             throw SceneFailure(raw.place, fmt::format("forces at {} nodes: at most {} are imported; give a surface a "
                                                       "traction (*DSLOAD)",
                                                       numbers.size(), most_single_nodes));
-        std::vector<std::pair<std::array<double, 3>, std::int32_t>> out;
         for (const std::int64_t node : numbers) {
             // A later line replaces the force of an earlier one only where both have the same place.
-            if (!loaded_.insert({node, history.line.first}).second)
+            if (!loaded_.insert({node, dof}).second)
                 throw SceneFailure(raw.place, fmt::format("a node of \"{}\" has a force from another line by another "
                                                           "name: give each node one",
                                                           raw.text));
-            const std::vector<std::int32_t> bodies = bodies_at(mesh_, node);
-            if (bodies.empty()) throw SceneFailure(raw.place, "a node of \"" + raw.text + "\" belongs to no body");
-            std::array<double, 3> at{};
-            for (std::size_t a = 0; a < static_cast<std::size_t>(mesh_.dimension); ++a)
-                at[a] = mesh_.nodes[static_cast<std::size_t>(node * mesh_.dimension) + a];
-            out.emplace_back(at, bodies.front());
+            out.push_back({point_text(mesh_, node, bodies_at(mesh_, node).front()), static_cast<std::size_t>(dof - 1)});
         }
         return out;
     }
@@ -390,6 +405,7 @@ private:
     Deck& deck_;
     const Model& model_;
     const MeshData& mesh_;
+    References& references_;
     std::map<Key, History> histories_;
     std::vector<Key> keys_;                          // in the order of the deck
     std::set<std::pair<std::int64_t, int>> loaded_;  // nodes and degrees of freedom with a force of their own
@@ -401,6 +417,8 @@ private:
 
 }  // namespace
 
-std::string loads_text(Deck& deck, const Model& model, const MeshData& mesh) { return Loads(deck, model, mesh).text(); }
+std::string loads_text(Deck& deck, const Model& model, const MeshData& mesh, References& references) {
+    return Loads(deck, model, mesh, references).text();
+}
 
 }  // namespace cli::abaqus

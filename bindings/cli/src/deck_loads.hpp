@@ -5,11 +5,13 @@
 #include <string>
 
 #include "deck.hpp"
+#include "deck_references.hpp"
 #include "mesh_data.hpp"
 
 namespace cli::abaqus {
 
 // model, mesh: of the same file, with the same numbers of nodes. Throws SceneFailure at lines that cannot be taken.
-std::string loads_text(Deck& deck, const Model& model, const MeshData& mesh);
+// references: learns what the loads prescribe.
+std::string loads_text(Deck& deck, const Model& model, const MeshData& mesh, References& references);
 
 }  // namespace cli::abaqus

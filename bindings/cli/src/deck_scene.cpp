@@ -69,7 +69,9 @@ public:
         out += "\n";
         out += bodies_and_materials();
         out += interfaces_text(deck_, model_, mesh_);
-        out += loads_text(deck_, model_, mesh_);
+        References references(deck_, model_, mesh_);
+        const std::string loads = loads_text(deck_, model_, mesh_, references);
+        out += references.text() + loads;
         out += "# For labels: the deck does not say which units it has.\n[units]\nlength = \"\"\nforce = \"\"\n";
         return out;
     }
@@ -264,6 +266,10 @@ ImportedScene import_deck(const std::string& deck_path, const std::string& mesh_
         fmt::format("{} in {}", counted(cells, "cell"),
                     mesh.body_names.size() == 1 ? "1 body" : fmt::format("{} bodies", mesh.body_names.size())));
     if (held > 0) out.taken.push_back(counted(held, "cohesive element"));
+    if (!deck.couplings.empty())
+        out.taken.push_back(counted(static_cast<std::int64_t>(deck.couplings.size()), "rigid coupling"));
+    if (!deck.equations.empty())
+        out.taken.push_back(counted(static_cast<std::int64_t>(deck.equations.size()), "equation"));
     out.taken.push_back(counted(static_cast<std::int64_t>(deck.steps.size()), "step"));
     out.text = abaqus::header(out, deck_path) + text;
     return out;

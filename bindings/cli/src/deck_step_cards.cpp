@@ -2,7 +2,6 @@
 #include "deck_step_cards.hpp"
 
 #include <algorithm>
-#include <cstdint>
 
 #include <fmt/format.h>
 
@@ -12,18 +11,14 @@ namespace cli::abaqus {
 
 namespace {
 
-// Of the translations; solids have no rotations.
-const std::pair<const char*, std::vector<int>> named_supports[] = {
-    {"ENCASTRE", {1, 2, 3}}, {"PINNED", {1, 2, 3}}, {"XSYMM", {1}},     {"YSYMM", {2}},
-    {"ZSYMM", {3}},          {"XASYMM", {2, 3}},    {"YASYMM", {1, 3}}, {"ZASYMM", {1, 2}}};
-
-// 1 to `most`, of a field.
-int degree_of_freedom(const std::string& field, int most, const Place& place) {
-    const std::int64_t value = inp_whole(field, place);
-    if (value < 1 || value > most)
-        throw SceneFailure(place, fmt::format("degree of freedom {}: 1 to {} are expected", value, most));
-    return static_cast<int>(value);
-}
+const std::pair<const char*, std::vector<int>> named_supports[] = {{"ENCASTRE", {1, 2, 3, 4, 5, 6}},
+                                                                   {"PINNED", {1, 2, 3}},
+                                                                   {"XSYMM", {1, 5, 6}},
+                                                                   {"YSYMM", {2, 4, 6}},
+                                                                   {"ZSYMM", {3, 4, 5}},
+                                                                   {"XASYMM", {2, 3, 4}},
+                                                                   {"YASYMM", {1, 3, 5}},
+                                                                   {"ZASYMM", {1, 2, 6}}};
 
 }  // namespace
 
@@ -127,6 +122,7 @@ void StepReader::take_boundary(const InpCard& card) {
         load.amplitude = card.parameter("AMPLITUDE");
         for (const auto& [name, dofs] : named_supports)
             if (upper(line.fields[1]) == name) {
+                load.named = true;
                 for (const int dof : dofs) {
                     load.first = load.last = dof;
                     boundaries().push_back(load);
@@ -155,7 +151,7 @@ void StepReader::take_forces(const InpCard& card) {
         LoadLine load;
         load.where = {&root_, line.fields[0], line.place};
         load.amplitude = card.parameter("AMPLITUDE");
-        load.first = load.last = degree_of_freedom(line.fields[1], 3, line.place);
+        load.first = load.last = degree_of_freedom(line.fields[1], 6, line.place);
         load.magnitude = inp_number(line.fields[2], line.place);
         step(card).forces.push_back(std::move(load));
     }

@@ -168,8 +168,8 @@ void read_constraints(const Table& root, Scene& scene) {
                 table.fail("rotation", "is the control node that is translated: another one is expected");
             const ControlData& centre = scene.controls[coupling.control];
             if (!centre.placed)
-                table.fail("rotation", fmt::format("is about the control node \"{}\": give its coordinates, `at`",
-                                                   centre.name));
+                table.fail("rotation",
+                           fmt::format("is about the control node \"{}\": give its coordinates, `at`", centre.name));
         }
         coupling.where = read_selection(table, scene, places);
         coupling.directions = read_directions(table, "component", scene.geometry);

@@ -154,7 +154,9 @@ KeyTable control_table() {
     KeyTable table{"control", "a node of no body, to which other tables refer", {}, {}};
     table.rows = {
         text_key("name").need().says("by which other tables refer to it"),
-        vector_key("at").otherwise("the lower corner of the mesh").says("coordinates: the point about which what is coupled to it rotates, and for pictures"),
+        vector_key("at")
+            .otherwise("the lower corner of the mesh")
+            .says("coordinates: the point about which what is coupled to it rotates, and for pictures"),
     };
     return table;
 }

@@ -99,11 +99,11 @@ def off(rows, reference, key):
     return max(abs(a[key] - b[key]) for a, b in zip(rows, reference, strict=True)) / largest
 
 
-def same(what, path, reference, allowed=1e-8):
+def same(what, path, reference, allowed=1e-8, keys=("reaction", "dissipated", "stored_bulk")):
     rows = history(path)
     if rows is None or reference is None:
         return
-    found = {key: off(rows, reference, key) for key in ("reaction", "dissipated", "stored_bulk")}
+    found = {key: off(rows, reference, key) for key in keys}
     expect(max(found.values()) <= allowed, f"{what}: {found}")
 
 
@@ -357,6 +357,92 @@ def check_bonded():
     same("bonded sections", saved(split), history(saved(text)), 1e-7)
 
 
+def check_reference_nodes():
+    """Nodes of no body that bodies are tied to, against the same motion prescribed node by node."""
+    for plane in (True, False):
+        beam = Beam(nx=20, ny=0 if plane else 2, nz=2)
+        text = decks.abaqus(beam)
+        reference = history(saved(text))
+        across = 2 if plane else 3
+        middle = "" if plane else f"{beam.width / 2}, "
+        dummies = f"*Node\n9001, 0., {middle}0.01\n9002, 0., {middle}-0.01\n"
+        pulled = text.replace("Top, ", "9001, ").replace("Bottom, ", "9002, ")
+        equations = (dummies + f"*Equation\n2\nTop, {across}, 1., 9001, {across}, -1.\n"
+                     f"2\nBottom, {across}, 1.,\n9002, {across}, -1.\n")
+        by_equations = pulled.replace("*Boundary\nClamp", equations + "*Boundary\nClamp")
+        same(f"{plane=}: equations with dummy nodes", saved(by_equations), reference)
+        coupled = dummies + "*Nset, nset=RP-1\n9001\n"
+        for name, node in (("Top", "RP-1"), ("Bottom", "9002")):
+            coupled += (f"*Surface, name=S-{name}, type=NODE\n{name}\n"
+                        f"*Coupling, constraint name={name}, ref node={node}, surface=S-{name}\n"
+                        f"*Kinematic\n{across}, {across}\n")
+        # No rotation can move this line of nodes in the plane; in space the line may tilt, which symmetry prevents.
+        by_coupling = pulled.replace("*Boundary\nClamp", coupled + "*Boundary\nClamp")
+        scene, said = imported(by_coupling)
+        expect('name = "RP-1"' in scene and 'name = "node-9002"' in scene and "2 rigid couplings" in said, "couplings")
+        expect(("-rotation" in scene) != plane, f"{plane=}: rotations only where they move nodes")
+        same(f"{plane=}: couplings", saved(by_coupling), reference)
+        clamped = text.replace("Clamp, ENCASTRE", "9001, ENCASTRE").replace(
+            "*Boundary\n9001", dummies + "*Rigid body, nset=Clamp, ref node=9001, rot node=9002\n*Boundary\n"
+            "9002, 1, 3\n9001")
+        same(f"{plane=}: a rigid clamp", saved(clamped), reference)
+
+
+def check_rotations():
+    """The end of the upper arm in a grip that is moved and turned about a point beside it."""
+    for plane in (True, False):
+        beam = Beam(nx=20, ny=0 if plane else 2, nz=2)
+        nodes = dict(beam.nodes())
+        ends = beam.set_at(0, (1,), range(beam.nz + 1))
+        centre = (-0.005, 0.004) if plane else (-0.005, 0.001, 0.004)
+        moved = (1e-4, 1e-3) if plane else (1e-4, -2e-5, 3e-3)
+        turned = (0.0, 0.0, 0.05) if plane else (0.01, 0.05, -0.02)
+        text = decks.abaqus(beam)
+        before = text[:text.index("*Boundary\nTop")]
+        after = "*End Step\n"
+        lines = []
+        for node in ends:
+            r = [a - b for a, b in zip(nodes[node], centre)] + [0.0] * (3 - len(centre))
+            w = turned
+            swung = (w[1] * r[2] - w[2] * r[1], w[2] * r[0] - w[0] * r[2], w[0] * r[1] - w[1] * r[0])
+            lines += [f"{node}, {a + 1}, {a + 1}, {moved[a] + swung[a]!r}\n" for a in range(len(centre))]
+        reference = history(saved(before + "*Boundary\n" + "".join(lines) + after))
+        expect(reference is not None and reference[-1]["dissipated"] > 0, "the crack grows")
+        grip = ("*Node\n9001, " + ", ".join(map(str, centre)) + "\n9002, 0., 0.\n"
+                "*Nset, nset=Grip\n9001\n*Nset, nset=Ends\n" + decks.lines(ends))
+        kinds = {"coupling": "*Surface, name=End, type=NODE\nEnds\n"
+                             "*Coupling, constraint name=C, ref node=Grip, surface=End\n*Kinematic\n"}
+        first = 6 if plane else 4
+        values = {"coupling": [f"9001, {4 + a}, {4 + a}, {w}\n" for a, w in enumerate(turned) if 4 + a >= first]}
+        kinds["rigid body"] = "*Rigid body, nset=Ends, ref node=9001, rot node=9002\n"
+        values["rigid body"] = [f"9002, {1 + a}, {1 + a}, {w}\n" for a, w in enumerate(turned) if 4 + a >= first]
+        energies = ("dissipated", "stored_bulk", "stored_interface", "work")
+        for kind, card in kinds.items():
+            driven = "".join([f"9001, {a + 1}, {a + 1}, {u}\n" for a, u in enumerate(moved)] + values[kind])
+            deck = before.replace("*Boundary\nClamp", grip + card + "*Boundary\nClamp") + "*Boundary\n" + driven + after
+            same(f"{plane=}: {kind}", saved(deck), reference, 1e-6, energies)
+        # A moment bends the arm.
+        card = before.replace("*Boundary\nClamp", grip + kinds["coupling"] + "*Boundary\nClamp")
+        scene, _ = imported(card + f"*Cload\nGrip, {6 if plane else 5}, 0.25\n" + after)
+        expect('control = "Grip-rotation"\npattern = "force"\nforce = ' +
+               ("[0.25, 0.0]" if plane else "[0.0, 0.25, 0.0]") in scene, "a moment")
+        expect_error(delam("import", saved(card + f"*Cload\nEnds, {6 if plane else 5}, 0.25\n" + after)), 2, "a moment on")
+        one = card.replace("*Kinematic\n", "*Kinematic\n2, 2\n")
+        expect_error(delam("import", saved(one + "*Cload\nGrip, 1, 0.25\n" + after)), 2, "with which nothing moves")
+        upright = one.replace("Clamp, ENCASTRE\n", "Clamp, ENCASTRE\nGrip, 4, 6\n") + "*Cload\nGrip, 2, 0.25\n" + after
+        expect(delam("check", saved(upright))[0] == 0, "and one with which nodes move")
+        for old, new, pattern in (("*Kinematic\n", "*Distributing\n", "distribute a force are not imported"),
+                                  ("ref node=Grip", "ref node=1", "belongs to no body is expected"),
+                                  ("surface=End", "surface=Ent", "no surface or node set of this name"),
+                                  ("*Kinematic\n", "*Kinematic\n4, 6\n", "nodes of solids do not rotate"),
+                                  ("*Kinematic\n", "*Kinematic\n*Equation\n2\nGrip, 1, 1.\n", "1 terms: 2 are expected"),
+                                  ("*Kinematic\n", "*Kinematic\n*Equation\n1\nEnds, 4, 1.\n", "a node of a body has 1 to"),
+                                  ("*Kinematic\n", "*Kinematic\n*Equation\n2\nEnds, 1, 1., Clamp, 1, 1.\n",
+                                   "nodes, and another set"),
+                                  ("*Nset, nset=Ends\n", "*Nset, nset=Ends\n9001\n", "belong to no body")):
+            expect_error(delam("import", saved(card.replace(old, new) + after)), 2, pattern)
+
+
 REFUSED = [
     ("280.0, 790.0, 790.0\n", "280.0, 790.0, 790.0, 20.\n300.0, 800.0, 800.0, 60.\n", "values at one temperature"),
     ("type=ENERGY", "type=DISPLACEMENT", "MIXED MODE BEHAVIOR=BK needs TYPE=ENERGY"),
@@ -526,5 +612,7 @@ check_axes()
 check_repeated_lines()
 check_parts_of_their_own()
 check_bonded()
+check_reference_nodes()
+check_rotations()
 check_refusals()
 finish()

@@ -89,11 +89,6 @@ private:
 
 }  // namespace
 
-struct EngineSolver::Raw {
-    delam_experimental_answer answer{};
-    std::vector<double> correction, correction_balance;
-};
-
 EngineSolver::EngineSolver(const BodySystem& bodies, std::shared_ptr<Engine> engine, Monitor& monitor)
     : bodies_(bodies),
       engine_(std::move(engine)),

@@ -66,8 +66,12 @@ private:
     bool balanced(std::span<const double> theta, std::span<const double> force) const;
     std::vector<double> forces(std::span<const double> theta, std::span<const double> row_force) const;
     std::vector<double> rights(std::span<const double> theta) const;
-    // Of the engine. Fills x, but for the rigid motions.
-    struct Raw;
+    // What the engine has answered.
+    struct Raw {
+        delam_experimental_answer answer{};
+        std::vector<double> correction, correction_balance;
+    };
+    // Fills x, but for the rigid motions.
     Raw ask(std::span<const double> theta, std::span<const double> force, std::span<const double> right,
             std::span<const double> start, double tolerance, std::int64_t limit, const Forcing& forcing,
             std::vector<double>& x, bool reading = false);

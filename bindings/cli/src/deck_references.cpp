@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "deck_references.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "deck_bodies.hpp"
+#include "toml_text.hpp"
+
+namespace cli::abaqus {
+
+namespace {
+
+constexpr std::size_t most_equations = 200;
+
+using Row = std::array<double, 3>;
+
+double dot(const Row& a, const Row& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Row axis_row(std::size_t axis) {
+    Row out{};
+    out[axis] = 1;
+    return out;
+}
+
+// What is left of a row of length 1 across an orthonormal basis.
+Row across(const std::vector<Row>& basis, Row row) {
+    for (const Row& b : basis) {
+        const double share = dot(row, b);
+        for (std::size_t a = 0; a < 3; ++a) row[a] -= share * b[a];
+    }
+    return row;
+}
+
+// Adds what a row has across the basis; a millionth of it is rounding.
+void extend(std::vector<Row>& basis, const Row& row) {
+    const double length = std::sqrt(dot(row, row));
+    if (!(length > 0)) return;
+    Row rest = across(basis, {row[0] / length, row[1] / length, row[2] / length});
+    const double left = std::sqrt(dot(rest, rest));
+    if (left < 1e-6) return;
+    for (double& x : rest) x /= left;
+    basis.push_back(rest);
+}
+
+// Orthonormal directions across all rows; axes where these are such.
+std::vector<Row> complement(const std::vector<Row>& rows, std::size_t dimension) {
+    std::vector<Row> basis;
+    for (const Row& row : rows) extend(basis, row);
+    const std::size_t given = basis.size();
+    while (basis.size() < dimension) {
+        std::size_t best = 0;
+        double most = -1;
+        for (std::size_t a = 0; a < dimension; ++a) {
+            const Row rest = across(basis, axis_row(a));
+            if (dot(rest, rest) > most + 1e-9) {
+                most = dot(rest, rest);
+                best = a;
+            }
+        }
+        extend(basis, axis_row(best));
+    }
+    return {basis.begin() + static_cast<std::ptrdiff_t>(given), basis.end()};
+}
+
+// A point at the distance r from the centre of a rotation w moves along axis a by w . (r x e_a).
+Row lever(const Row& r, std::size_t axis) {
+    const Row d = axis_row(axis);
+    return {r[1] * d[2] - r[2] * d[1], r[2] * d[0] - r[0] * d[2], r[0] * d[1] - r[1] * d[0]};
+}
+
+}  // namespace
+
+std::string point_text(const MeshData& mesh, std::int64_t node, std::int32_t body) {
+    const auto first = mesh.nodes.begin() + static_cast<std::ptrdiff_t>(node * mesh.dimension);
+    return fmt::format("point = {}\nbody = {}\n", toml_list(std::vector<double>(first, first + mesh.dimension)),
+                       toml_text(mesh.body_names[static_cast<std::size_t>(body)]));
+}
+
+References::References(const Deck& deck, const Model& model, const MeshData& mesh)
+    : deck_(deck), model_(model), mesh_(mesh), dimension_(static_cast<std::size_t>(mesh.dimension)) {
+    in_cell_.resize(mesh.nodes.size() / dimension_);
+    for (const CellBlock& block : mesh.blocks)
+        for (const std::int64_t node : block.connectivity) in_cell_[static_cast<std::size_t>(node)] = true;
+    for (const Coupling& coupling : deck.couplings) couple(coupling);
+    for (const auto& terms : deck.equations) equate(terms);
+}
+
+std::vector<std::int64_t> References::nodes_of(const Entry& where) const {
+    std::set<std::int64_t> nodes;
+    model_.collect_nodes(where, nodes);
+    return {nodes.begin(), nodes.end()};
+}
+
+std::vector<std::int64_t> References::of(const Entry& where) const {
+    const std::vector<std::int64_t> nodes = nodes_of(where);
+    const auto loose = std::count_if(nodes.begin(), nodes.end(), [&](std::int64_t node) { return of_no_body(node); });
+    if (loose == 0) return {};
+    if (loose < static_cast<std::ptrdiff_t>(nodes.size()))
+        throw SceneFailure(where.place,
+                           fmt::format("{} of the {} nodes of \"{}\" belong to no body: give them, and the "
+                                       "others, sets of their own",
+                                       loose, nodes.size(), where.text));
+    return nodes;
+}
+
+std::vector<double> References::position(std::int64_t node) const {
+    const auto first = mesh_.nodes.begin() + static_cast<std::ptrdiff_t>(node * mesh_.dimension);
+    return {first, first + mesh_.dimension};
+}
+
+// That of a set which consists of it, or its number.
+std::string References::name_of(std::int64_t node) const {
+    for (const auto& [name, nodes] : mesh_.node_sets)
+        if (nodes.size() == 1 && nodes.front() == node) return name;
+    for (const Part* scope : model_.scopes()) {
+        const std::int64_t at = node - scope->first_node;
+        if (at >= 0 && at < static_cast<std::int64_t>(scope->nodes.size()))
+            return "node-" + full_name(*scope, std::to_string(scope->nodes[static_cast<std::size_t>(at)].id));
+    }
+    return "node";
+}
+
+std::string References::place_of(const Control& control) {
+    return fmt::format("control = {}\n", toml_text(control.name));
+}
+
+std::size_t References::control_of(std::int64_t node) {
+    const auto [at, fresh] = translations_.emplace(node, controls_.size());
+    if (fresh) controls_.push_back({name_of(node), position(node), {}, {}});
+    return at->second;
+}
+
+std::size_t References::rotation_of(std::int64_t node) {
+    const auto [at, fresh] = rotations_.emplace(node, controls_.size());
+    if (fresh) controls_.push_back({name_of(node) + "-rotation", position(node), {}, {}});
+    return at->second;
+}
+
+References::Control& References::owner(const SceneComponent& component) {
+    return *std::find_if(controls_.begin(), controls_.end(),
+                         [&](const Control& control) { return place_of(control) == component.place; });
+}
+
+std::optional<SceneComponent> References::component(std::int64_t node, int dof) {
+    if (const auto turned = rotation_nodes_.find(node); turned != rotation_nodes_.end()) {
+        if (dof > 3) return std::nullopt;
+        return component(turned->second, dof + 3);
+    }
+    if (dof <= mesh_.dimension)
+        return SceneComponent{place_of(controls_[control_of(node)]), static_cast<std::size_t>(dof - 1)};
+    const bool plane = mesh_.dimension == 2;
+    if (dof <= 3 || !rotations_.contains(node) || (plane && dof != 6)) return std::nullopt;
+    // In the plane the rotation about z is the first component.
+    const Control& control = controls_[rotations_.at(node)];
+    return SceneComponent{place_of(control), plane ? 0 : static_cast<std::size_t>(dof - 4)};
+}
+
+void References::prescribe(const SceneComponent& component) {
+    owner(component).determined.push_back(axis_row(component.axis));
+}
+
+void References::push(const SceneComponent& component, const Place& place) {
+    owner(component).pushed.emplace(component.axis, place);
+}
+
+void References::couple(const Coupling& coupling) {
+    const std::vector<std::int64_t> found = of(coupling.reference);
+    if (found.size() != 1)
+        throw SceneFailure(coupling.place, fmt::format("REF NODE={}: one node that belongs to no body is expected",
+                                                       coupling.reference.text));
+    const std::int64_t reference = found.front();
+    if (coupling.rotation_node) {
+        const std::vector<std::int64_t> turned = of(*coupling.rotation_node);
+        if (turned.size() != 1 || turned.front() == reference)
+            throw SceneFailure(coupling.place, fmt::format("ROT NODE={}: one further node that belongs to no body is "
+                                                           "expected",
+                                                           coupling.rotation_node->text));
+        rotation_nodes_[turned.front()] = reference;
+    }
+    std::string set = surface_name(model_, coupling.where);
+    if (set.empty()) set = node_set_name(model_, coupling.where);
+    if (!mesh_.node_sets.contains(set))
+        throw SceneFailure(coupling.place,
+                           fmt::format("\"{}\": no surface or node set of this name has nodes", coupling.where.text));
+    const std::vector<std::int64_t>& nodes = mesh_.node_sets.at(set);
+    if (std::any_of(nodes.begin(), nodes.end(), [&](std::int64_t node) { return of_no_body(node); }))
+        throw SceneFailure(coupling.place, fmt::format("\"{}\" has nodes that belong to no body", coupling.where.text));
+    std::vector<std::size_t> axes;
+    for (std::size_t a = 0; a < dimension_; ++a)
+        if (coupling.dofs.empty() ||
+            std::find(coupling.dofs.begin(), coupling.dofs.end(), static_cast<int>(a) + 1) != coupling.dofs.end())
+            axes.push_back(a);
+    if (axes.empty())
+        throw SceneFailure(coupling.place, "couples degree of freedom 3 alone, which a plane mesh does not have");
+
+    Control& control = controls_[control_of(reference)];
+    const std::vector<double> centre = control.at;
+    const std::string place = place_of(control);
+    std::vector<Row> levers;
+    double longest = 0;
+    for (const std::int64_t node : nodes) {
+        const std::vector<double> at = position(node);
+        Row r{};
+        for (std::size_t a = 0; a < dimension_; ++a) r[a] = at[a] - centre[a];
+        longest = std::max(longest, std::sqrt(dot(r, r)));
+        for (const std::size_t a : axes) levers.push_back(lever(r, a));
+    }
+    std::vector<std::string> names;
+    for (const std::size_t a : axes) {
+        control.determined.push_back(axis_row(a));
+        names.emplace_back(axis_names[a]);
+    }
+    constraints_ += fmt::format("[[couplings]]\nset = {}\ncomponent = {}\n{}", toml_text(set), toml_list(names), place);
+    // A rotation that moves none of the nodes is left out.
+    std::erase_if(levers, [&](const Row& row) { return !(std::sqrt(dot(row, row)) > 1e-9 * longest); });
+    if (!levers.empty()) {
+        Control& rotation = controls_[rotation_of(reference)];
+        for (const Row& row : levers) rotation.determined.push_back(dimension_ == 2 ? Row{row[2], 0, 0} : row);
+        constraints_ += fmt::format("rotation = {}\n", toml_text(rotation.name));
+    }
+    constraints_ += "\n";
+}
+
+std::string References::term_text(const EquationEntry& term, std::int64_t node) {
+    SceneComponent at;
+    if (of_no_body(node)) {
+        const auto found = component(node, term.dof);
+        if (!found)
+            throw SceneFailure(term.where.place, fmt::format("degree of freedom {} of \"{}\": nothing moves with it",
+                                                             term.dof, term.where.text));
+        prescribe(*found);
+        at = *found;
+    } else {
+        if (term.dof > mesh_.dimension)
+            throw SceneFailure(term.where.place,
+                               fmt::format("degree of freedom {} of \"{}\": a node of a body has 1 to {}", term.dof,
+                                           term.where.text, mesh_.dimension));
+        at = {point_text(mesh_, node, bodies_at(mesh_, node).front()), static_cast<std::size_t>(term.dof - 1)};
+    }
+    std::string keys = at.place;
+    while (!keys.empty() && keys.back() == '\n') keys.pop_back();
+    for (std::size_t i = 0; (i = keys.find('\n', i)) != std::string::npos; i += 2) keys.replace(i, 1, ", ");
+    return fmt::format("    {{ {}, component = [\"{}\"], coefficient = {} }},\n", keys, axis_names[at.axis],
+                       toml_number(term.coefficient));
+}
+
+// An equation between sets is one for each of their nodes, in ascending order.
+void References::equate(const std::vector<EquationEntry>& terms) {
+    std::vector<std::vector<std::int64_t>> nodes;
+    std::size_t count = 1;
+    for (const EquationEntry& term : terms) {
+        nodes.push_back(nodes_of(term.where));
+        count = std::max(count, nodes.back().size());
+    }
+    for (std::size_t k = 0; k < terms.size(); ++k)
+        if (nodes[k].size() != count && nodes[k].size() != 1)
+            throw SceneFailure(terms[k].where.place, fmt::format("\"{}\" has {} nodes, and another set of the equation "
+                                                                 "has {}",
+                                                                 terms[k].where.text, nodes[k].size(), count));
+    if (count > most_equations)
+        throw SceneFailure(terms.front().where.place,
+                           fmt::format("equations for {} nodes: at most {} are imported; couple the nodes of a rigid "
+                                       "face (*COUPLING, *KINEMATIC)",
+                                       count, most_equations));
+    for (std::size_t i = 0; i < count; ++i) {
+        std::string left;
+        for (std::size_t k = 0; k < terms.size(); ++k)
+            if (std::fpclassify(terms[k].coefficient) != FP_ZERO)
+                left += term_text(terms[k], nodes[k][nodes[k].size() == 1 ? 0 : i]);
+        if (left.empty()) throw SceneFailure(terms.front().where.place, "all coefficients of the equation are 0");
+        constraints_ += fmt::format("[[equations]]\nleft = [\n{}]\n\n", left);
+    }
+}
+
+std::string References::held_text(const Control& control) const {
+    const std::vector<Row> free = complement(control.determined, dimension_);
+    for (const auto& [axis, place] : control.pushed)
+        for (const Row& row : free)
+            if (std::abs(row[axis]) > 1e-6)
+                throw SceneFailure(
+                    place, fmt::format("acts on a degree of freedom of \"{}\" with which nothing moves", control.name));
+    std::string out;
+    std::vector<std::string> axes;
+    for (const Row& row : free) {
+        const auto at =
+            std::find_if(row.begin(), row.end(), [](double x) { return std::abs(std::abs(x) - 1) < 1e-12; });
+        if (at != row.end())
+            axes.emplace_back(axis_names[at - row.begin()]);
+        else
+            out += fmt::format("[[supports]]\n{}direction = {}\n\n", place_of(control),
+                               toml_list(std::vector<double>(row.begin(), row.end())));
+    }
+    std::sort(axes.begin(), axes.end());
+    if (!axes.empty()) out += fmt::format("[[supports]]\n{}fix = {}\n\n", place_of(control), toml_list(axes));
+    return out;
+}
+
+std::string References::text() {
+    std::string out, held;
+    for (const Control& control : controls_) {
+        out += fmt::format("[[controls]]\nname = {}\nat = {}\n\n", toml_text(control.name), toml_list(control.at));
+        held += held_text(control);
+    }
+    if (!held.empty()) held = "# Motions of control nodes with which nothing moves.\n" + held;
+    return out + constraints_ + held;
+}
+
+}  // namespace cli::abaqus
