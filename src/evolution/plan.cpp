@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "base/team.hpp"
 #include "evolution/solver.hpp"
+#include "scene/scene_warnings.hpp"
 
 namespace delam {
 
@@ -267,6 +268,7 @@ Forecast forecast(const Problem& problem, Monitor& monitor) {
     const Design design = design_operator(problem, monitor);
     const ReductionCost& cost = design.choice.own();
     if (!design.refusal.empty()) monitor.log(1, design.refusal);
+    warn_of_scene(problem, monitor);
     return {items_of({problem, design.choice, design.description, design.refusal, design.prescribed,
                       gradient_terms(problem)}),
             cost.setup / nominal_rate, cost.bytes};

@@ -16,13 +16,14 @@
 #include "evolution/step/fronts.hpp"
 #include "evolution/step_control.hpp"
 #include "evolution/values.hpp"
+#include "scene/process_zone.hpp"
+#include "scene/scene_warnings.hpp"
 #include "scene/strain_loads.hpp"
 
 namespace delam {
 
 namespace {
 
-constexpr double resolving_pairs = 3.0;  // in a process zone; with fewer its traction depends on the mesh
 constexpr double small_rotation = 0.1;   // rad
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
@@ -69,6 +70,7 @@ Solver::Solver(const Problem& problem, Monitor& monitor, double time)
     if (!first.converged) initial_outcome_ = unconverged_displacement(committed_);
     require_sound(problem_, committed_, first.converged);
     judge_balance(committed_, initial_outcome_);
+    warn_of_scene(problem_, monitor_);
     const std::int64_t threads = problem_.options.threads;
     if (threads > processors())
         monitor_.log(1, text("option threads = ", threads, ": ", useful_threads(threads),
@@ -137,6 +139,7 @@ Outcome Solver::advance(double time) {
     for (const State& revised : pending.revised) require_sound(problem_, revised, result.converged);
     warned_of_mixity_ = warned_of_mixity_ || stepper_.warn(pending.state);
     warn_of_unresolved_front(committed_, pending.state);
+    step_warnings_.judge(chain.at(committed_.step), pending.state, options, monitor_);
     Outcome outcome;
     if (!result.converged)
         outcome = {DELAM_NOT_CONVERGED, text("step ", pending.state.step, " at time ", time,

@@ -14,6 +14,7 @@
 #include "evolution/plan.hpp"
 #include "evolution/record.hpp"
 #include "evolution/step/stepper.hpp"
+#include "evolution/step_warnings.hpp"
 #include "scene/problem.hpp"
 
 namespace delam {
@@ -152,6 +153,7 @@ private:
     mutable std::vector<std::optional<std::vector<CrackFront>>> fronts_;  // likewise, [interfaces]
     bool warned_of_mixity_ = false;
     bool warned_of_front_ = false;
+    StepWarnings step_warnings_;
     bool warned_of_balance_ = false;
     mutable bool warned_of_rotation_ = false;
 };

@@ -18,6 +18,8 @@ struct ProcessZone {
     double length = 0.0;   // 0: no softening law
     double spacing = 0.0;  // mean distance of its initially adhering pairs
 };
+// Fewer pairs in a process zone make the traction in it, and with it the load of a local solution, depend on the mesh.
+inline constexpr double resolving_pairs = 3.0;
 // Mean distance of the initially adhering pairs of an interface; 0: none adheres.
 double pair_spacing(const Problem& problem, std::int64_t interface);
 ProcessZone predicted_process_zone(const Problem& problem, std::int64_t interface);
@@ -25,6 +27,8 @@ ProcessZone predicted_process_zone(const Problem& problem, std::int64_t interfac
 // long; 0: no softening law.
 std::array<double, 2> resolved_strengths(const Problem& problem, std::int64_t interface, double length);
 
+// The least thickness of the bodies beside an interface, as ProcessZone has it; 0: none has cells and a material.
+double arm_thickness(const Problem& problem, std::int64_t interface);
 // Those bodies beside an interface that have cells and a material.
 std::vector<std::int32_t> elastic_bodies(const Problem& problem, std::int64_t interface);
 

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "base/cancel_scope.hpp"
+#include "base/numbers.hpp"
 #include "scene/process_zone.hpp"
 
 namespace delam {

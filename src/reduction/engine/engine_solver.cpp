@@ -199,7 +199,7 @@ bool EngineSolver::set(std::vector<Zone::Coupling> couplings, std::span<const st
     floating_.update();
     const auto changed = [this] {
         const std::vector<std::uint8_t> rows = differing_rows(system_, lagged_);
-        return std::any_of(rows.begin(), rows.end(), [](std::uint8_t differs) { return differs != 0; });
+        return std::any_of(rows.begin(), rows.end(), [](std::uint8_t row) { return row != 0; });
     };
     // A residual weighs too little where springs have become softer than in the preconditioner: a crack that opens goes
     // unnoticed. Energies are then compared with a new one. (The other way round a residual weighs too much.)

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What makes the results of a scene doubtful before anything is solved: a mesh that does not resolve the process zone,
+// a law that hardly softens, a jump at debonding that is longer than a body is thick.
+#pragma once
+
+#include "base/monitor.hpp"
+#include "scene/problem.hpp"
+
+namespace delam {
+
+// Tells the host (log level 1) of each, with the interfaces that have it.
+void warn_of_scene(const Problem& problem, const Monitor& monitor);
+
+}  // namespace delam
