@@ -101,7 +101,8 @@ if [[ $report == yes ]]; then
     exec /usr/bin/python3 verify/report/make.py --build build/release --out out/report "$@"
 fi
 
-# A build from scratch compiles the files of a folder together; with --all each is compiled by itself.
+# A build from scratch compiles the files of a folder together, and a check then reads each by itself; with --all each is
+# compiled by itself.
 if [[ $all == yes ]]; then
     whole=(-DDELAM_UNITY=OFF)
     sanitizer=(-DDELAM_UNITY=ON -DDELAM_SANITIZE_LESS= -DDELAM_TEST_OBJECTS=)
@@ -120,6 +121,9 @@ if ((failed == 0)); then
     else
         tests release -j2 --label-exclude long
     fi
+fi
+if [[ $all == no && -f build/release/compile_commands.json ]]; then
+    check "each file by itself" /usr/bin/python3 verify/style/alone.py build/release
 fi
 check "build with sanitizers" build asan -DDELAM_BUILD_CLI=OFF -DDELAM_BUILD_EXAMPLES=OFF "${sanitizer[@]}"
 if [[ -f build/asan/verify/CTestTestfile.cmake ]]; then

@@ -1008,6 +1008,9 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  *   front_mixity           (G_II + G_III)/G at that point
  *   process_zone_length    L: at that point
  *   process_zone_pairs     at that point (see delam_solver_front for all of these)
+ *   energy_release_rate_mean   F/L: mean of G along the fronts, in 3D weighted by length, in 2D over the tips. In 3D, G
+ *                          scatters from point to point, its mean much less
+ *   front_mixity_mean      (G_II + G_III)/G of that mean
  * and per pattern
  *   load:NAME              factor of the pattern
  *   reaction:NAME          F L: conjugate of the factor, positive when the testing machine does work; for a force

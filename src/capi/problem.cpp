@@ -269,6 +269,9 @@ int32_t delam_problem_set_adhesion_box(delam_problem* problem, int64_t interface
             problem->core->interfaces[i].adhesion[static_cast<std::size_t>(pair)] = adhesion;
         if (count != nullptr) *count = static_cast<std::int64_t>(found.pairs.size());
         say_moved(*problem->context, interface_index, adhesion, found);
+        if (found.pairs.empty())
+            problem->context->monitor.log(
+                1, text("interface ", interface_index, ": no pair is in a box of delam_problem_set_adhesion_box"));
     });
 }
 

@@ -127,6 +127,25 @@ FrontPoint leading_point(const Reading& r, std::int64_t interface) {
     return leading;
 }
 
+// The mean of the energy release rates along an interface's fronts (-1: along all), by modes: in 3D weighted by the length
+// of front that belongs to each point, in 2D over the tips.
+Vector3 mean_rate(const Reading& r, std::int64_t interface) {
+    Vector3 sum{};
+    double whole = 0.0;
+    for (std::int64_t i = 0; i < r.interfaces(); ++i) {
+        if (interface >= 0 && i != interface) continue;
+        for (const CrackFront& front : r.fronts(i))
+            for (const FrontPoint& point : front.points) {
+                const double share = r.dimension() == 2 ? 1.0 : point.length;
+                for (std::size_t mode = 0; mode < 3; ++mode) sum[mode] += share * point.rate[mode];
+                whole += share;
+            }
+    }
+    for (double& rate : sum) rate = whole > 0.0 ? rate / whole : 0.0;
+    return sum;
+}
+double total_of(const Vector3& rate) { return rate[0] + rate[1] + rate[2]; }
+
 constexpr const char* by_recovery = "reading it takes a sparse solve, which recovers the displacements";
 constexpr const char* counts_on = "it counts since the solver was created and is not part of a state";
 
@@ -281,6 +300,13 @@ constexpr Row table[] = {
               [](const Reading& r, std::int64_t i) { return leading_point(r, i).zone; }),
     front_row("process_zone_pairs", "-", "pairs in the process zone at that point",
               [](const Reading& r, std::int64_t i) { return leading_point(r, i).zone_pairs; }),
+    front_row("energy_release_rate_mean", "F/L", "mean energy release rate along the fronts; 0: there is no front",
+              [](const Reading& r, std::int64_t i) { return total_of(mean_rate(r, i)); }),
+    front_row("front_mixity_mean", "-", "share of the shearing modes in that mean",
+              [](const Reading& r, std::int64_t i) {
+                  const Vector3 rate = mean_rate(r, i);
+                  return total_of(rate) > 0.0 ? (rate[1] + rate[2]) / total_of(rate) : 0.0;
+              }),
     pattern_row("load", "-", "factor of the load pattern",
                 [](const Reading& r, std::int64_t p) { return r.state().theta[index(p)]; }),
     pattern_row("reaction", "F L", "conjugate of the load pattern, positive when it does work on the structure",

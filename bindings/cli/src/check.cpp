@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `delam check`: finds out what would be computed as one JSON object, which is printed as it is or in lines for people.
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
@@ -9,6 +11,7 @@
 #include "concept.hpp"
 #include "history.hpp"
 #include "interrupt.hpp"
+#include "named.hpp"
 #include "notes.hpp"
 #include "resolution.hpp"
 #include "result.hpp"
@@ -184,18 +187,29 @@ std::vector<std::string> lines_of(const std::string& text) {
 }
 
 // An error ends the call, whose caller says it.
-extern "C" void on_check_log(std::int32_t level, const char* text, void* warnings) {
-    if (level == 1) static_cast<std::vector<std::string>*>(warnings)->emplace_back(text);
+struct Said {
+    const Scene& scene;
+    const Model& model;
+    std::vector<std::string> warnings;
+};
+// A prediction and a solver say the same.
+extern "C" void on_check_log(std::int32_t level, const char* text, void* user) {
+    Said& said = *static_cast<Said*>(user);
+    if (level != 1) return;
+    std::string warning = named(text, said.scene, said.model);
+    if (std::find(said.warnings.begin(), said.warnings.end(), warning) == said.warnings.end())
+        said.warnings.push_back(std::move(warning));
 }
 
 Found examined(const std::string& scene_file, const std::vector<std::string>& settings, const Caller& caller) {
     const Scene scene = read_scene(scene_file, settings);
-    std::vector<std::string> imported, warnings;
+    std::vector<std::string> imported;
     if (scene.imported) imported = import_lines(*scene.imported);
     Context context = new_context();
     const Interrupt interrupt(context.get());
     const Model model = build(std::move(context), scene);
-    delam_context_set_log(model.context.get(), on_check_log, &warnings);
+    Said said{scene, model, {}};
+    delam_context_set_log(model.context.get(), on_check_log, &said);
     const History history(model, scene);
     Planned planned;
     const auto make_plan = [&] {
@@ -206,8 +220,9 @@ Found examined(const std::string& scene_file, const std::vector<std::string>& se
     Found found = find(scene_file, scene, model);
     found["imported"] = imported;
     found["plan"] = lines_of(planned.text);
-    for (auto&& more : {resolution_warnings(model), warnings_of(model, scene)})
-        warnings.insert(warnings.end(), more.begin(), more.end());
+    std::vector<std::string>& warnings = said.warnings;
+    const std::vector<std::string> more = warnings_of(model, scene);
+    warnings.insert(warnings.end(), more.begin(), more.end());
     if (!planned.converged) warnings.emplace_back("the displacement of the initial state did not converge");
     found["warnings"] = warnings;
     return found;

@@ -86,12 +86,14 @@ public:
         std::string loads;
         std::map<std::string, std::vector<std::size_t>> held;  // places with nothing but 0
         std::vector<std::string> order;
+        std::map<std::string, int> moved;  // places by pattern
         for (const auto& key : keys_) {
             const History& history = histories_.at(key);
             if (history.force) {
                 loads += force_text(history, key.dof);
             } else if (history.peak() != 0) {
                 const auto [pattern, coefficient] = pattern_of(history);
+                ++moved[pattern];
                 for (const auto& [place, axis] : prescribed(history.line.where, key.dof))
                     loads += fmt::format(
                         "[[loads]]\n{}component = [\"{}\"]\npattern = {}\n{}\n", place, axis_names[axis],
@@ -104,6 +106,12 @@ public:
                 }
             }
         }
+        for (const auto& [pattern, places] : moved)
+            if (places > 1)
+                deck_.changed.push_back(
+                    fmt::format("pattern \"{}\" moves {} places in proportion: its reaction is the sum of their forces, "
+                                "each times its coefficient",
+                                pattern, places));
         for (const std::string& place : order) {
             std::vector<std::string> axes;
             std::vector<std::size_t>& all = held[place];
@@ -269,7 +277,7 @@ private:
     }
 
     // A pattern, and what its factor is multiplied by to give these values. The first of several that are in proportion
-    // gives the factor its values, so that the reaction is the force there; the factor of forces goes to 1.
+    // gives the factor the size of its values, so that the reaction is the force there; the factor of forces goes to 1.
     std::pair<std::string, double> pattern_of(const History& history) {
         Points points;
         std::vector<double> values;
@@ -284,7 +292,7 @@ private:
                 }
             }
             points.emplace_back(time, share);
-            values.push_back(history.force ? share : value);
+            values.push_back(history.force ? share : share * std::abs(history.peak()));
         }
         std::size_t alike = 1;
         for (const Pattern& known : made_) {
@@ -293,7 +301,7 @@ private:
             ++alike;
         }
         const std::string base = history.force ? "force" : "displacement";
-        const double unit = history.force ? 1.0 : history.peak();
+        const double unit = history.force ? 1.0 : std::abs(history.peak());
         made_.push_back({alike == 1 ? base : fmt::format("{}-{}", base, alike), points, history.force, unit});
         std::vector<double> times;
         for (const auto& [time, share] : points) times.push_back(time);

@@ -8,7 +8,8 @@
 
 namespace cli {
 
-// `message` with the numbers of bodies and control nodes replaced by names, and those of constraints by places.
+// `message` with the numbers of bodies, interfaces and control nodes replaced by names, and those of constraints by
+// places.
 std::string named(const std::string& message, const Scene& scene, const Model& model);
 
 }  // namespace cli

@@ -87,21 +87,6 @@ std::vector<std::string> process_zones(const Model& model) {
     return out;
 }
 
-std::vector<std::string> resolution_warnings(const Model& model) {
-    std::vector<std::string> out;
-    if (energetic(model)) return out;
-    for (std::size_t i = 0; i < model.interfaces.size(); ++i) {
-        const Prediction zone = prediction(model, i);
-        if (!(zone.length > 0) || zone.length >= resolving_pairs * zone.spacing) continue;
-        out.push_back(fmt::format(
-            "interface \"{}\": the process zone, about {:.2g}, is shorter than {:g} pairs of spacing "
-            "{:.2g}: a local solution then depends on the mesh; a spacing of {:.2g} would do, or "
-            "solution = \"energetic\"",
-            model.interfaces[i].name, zone.length, resolving_pairs, zone.spacing, zone.length / resolving_pairs));
-    }
-    return out;
-}
-
 namespace {
 
 // What the interfaces of a law need together.

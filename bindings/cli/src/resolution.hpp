@@ -15,8 +15,6 @@ namespace cli {
 
 // One line for each interface with a softening law: predicted process zone and the pairs in it.
 std::vector<std::string> process_zones(const Model& model);
-// Interfaces with fewer than 3 pairs, with the required spacing. None for energetic solutions.
-std::vector<std::string> resolution_warnings(const Model& model);
 // Numbers for a law that are better than its own.
 struct Advice {
     std::string law;
@@ -24,7 +22,7 @@ struct Advice {
     std::vector<std::pair<std::string, double>> keys;
     std::string reason;
 };
-// Strengths where resolution_warnings has a warning, and stiffnesses where they are far from what layers need.
+// Strengths where the process zone has fewer than 3 pairs, and stiffnesses where they are far from what layers need.
 std::vector<Advice> advice(const Model& model, const Scene& scene);
 // Steps in which a crack grew with fewer than 3 pairs in its process zone, before and after. None for energetic
 // solutions and for scenes whose laws do not soften.

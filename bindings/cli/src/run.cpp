@@ -18,6 +18,7 @@
 #include "history.hpp"
 #include "interrupt.hpp"
 #include "jumps.hpp"
+#include "named.hpp"
 #include "notes.hpp"
 #include "output_folder.hpp"
 #include "progress.hpp"
@@ -36,10 +37,19 @@ extern "C" std::int32_t on_progress(const char* stage, std::int64_t done, std::i
     return Interrupt::requested() ? 1 : 0;
 }
 
+struct Log {
+    Progress& progress;
+    const Scene& scene;
+    const Model& model;
+};
+
 extern "C" void on_log(std::int32_t level, const char* text, void* user) {
     // The program says itself that it was interrupted.
     if (Interrupt::requested() && std::string_view(text).starts_with("cancelled by the host")) return;
-    if (level <= 1) static_cast<Progress*>(user)->note(fmt::format("{}: {}", level == 0 ? "error" : "warning", text));
+    const Log& log = *static_cast<Log*>(user);
+    if (level <= 1)
+        log.progress.note(
+            fmt::format("{}: {}", level == 0 ? "error" : "warning", named(text, log.scene, log.model)));
 }
 
 // Reads results, whatever it takes: a request to stop that arrives meanwhile ends the call that reads, and is obeyed
@@ -364,7 +374,8 @@ int run(const std::string& scene_file, const std::vector<std::string>& settings,
                                   scene.file));
     const std::int64_t first = state ? state->state.step : 0;
     progress.begin_after(first);
-    delam_context_set_log(model.context.get(), on_log, &progress);
+    Log log{progress, scene, model};
+    delam_context_set_log(model.context.get(), on_log, &log);
     say("delam {} ({}): {}{}\n", delam_version(), delam_commit(), scene_file,
         scene.title.empty() ? "" : ", " + scene.title);
     if (resume) say("{}\n", state ? fmt::format("resumed after step {}", first) : "nothing to resume: started anew");

@@ -253,6 +253,13 @@ def check_steps():
     values = [float(word) for word in re.search(r"^values = \[(.*)\]", scene, re.M).group(1).split(",")]
     # The point in the middle, where the curve is straight, is left out.
     expect(len(values) == 16 and math.isclose(values[4], 0.001 * 0.103515625), "smooth step")
+    # The factor grows, whichever way the first set moves.
+    turned = text.replace("Top, 2, 2, 0.001\nBottom, 2, 2, -0.001", "Bottom, 2, 2, -0.001\nTop, 2, 2, 0.001")
+    assert turned != text
+    scene, said = imported(turned)
+    expect("values = [0.0, 0.001]" in scene and scene.index("coefficient = -1.0") < scene.index('set = "Top"'),
+           "a pattern that grows")
+    expect("moves 2 places in proportion: its reaction is the sum" in said, "what the reaction is")
     nodes = beam.set_at(0, (1,), (2,))
     scene, _ = imported(text.replace("*Boundary\nTop, 2, 2", f"*Boundary\n{nodes[0]}, 2, 2"))
     expect('point = [0.0, 0.003]\nbody = "Arms-2"' in scene, "a node by its number")
