@@ -24,7 +24,7 @@ namespace delam {
 
 namespace {
 
-constexpr double small_rotation = 0.1;   // rad
+constexpr double small_rotation = 0.1;  // rad
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 // The part of the minimisation that did not come to its end, with its measure and limit.

@@ -11,7 +11,7 @@ namespace delam {
 
 namespace {
 
-constexpr double rounding = 1e-9;   // of the energy
+constexpr double rounding = 1e-9;    // of the energy
 constexpr double noticeable = 0.01;  // the same: what a ledger may leave open
 
 }  // namespace

@@ -127,8 +127,8 @@ FrontPoint leading_point(const Reading& r, std::int64_t interface) {
     return leading;
 }
 
-// The mean of the energy release rates along an interface's fronts (-1: along all), by modes: in 3D weighted by the length
-// of front that belongs to each point, in 2D over the tips.
+// The mean of the energy release rates along an interface's fronts (-1: along all), by modes: in 3D weighted by the
+// length of front that belongs to each point, in 2D over the tips.
 Vector3 mean_rate(const Reading& r, std::int64_t interface) {
     Vector3 sum{};
     double whole = 0.0;

@@ -94,7 +94,8 @@ std::vector<std::int32_t> elastic_bodies(const Problem& problem, std::int64_t in
 
 double arm_thickness(const Problem& problem, std::int64_t interface) {
     double least = 0.0;
-    for (const Arm& arm : arms_of(problem, interface)) least = least > 0.0 ? std::min(least, arm.thickness) : arm.thickness;
+    for (const Arm& arm : arms_of(problem, interface))
+        least = least > 0.0 ? std::min(least, arm.thickness) : arm.thickness;
     return least;
 }
 

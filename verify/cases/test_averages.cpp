@@ -143,7 +143,8 @@ CASE_TEST(eigenstrains) {
     }
 }
 
-// Warns once: of a rotation of more than 0.1, and only when it is read; of a front that grows over too few pairs.
+// Warns once: of a rotation of more than 0.1, and only when it is read; of a process zone that the mesh does not
+// resolve, as predicted and as found; of a step outside its two-sided estimate.
 CASE_TEST(warnings) {
     const bool brittle = loop == 0;
     reference::Scene scene = make_mmf(1e-3, brittle ? mmf_brittle : mmf_ductile, "converged");
@@ -158,7 +159,10 @@ CASE_TEST(warnings) {
         expect(solver.advance(enf_end_time * k / 40) >= 0, "step");
         solver.commit();
     }
-    expect(count("process zone") == (brittle ? 1 : 0), "a warning of an unresolved front where there is one, once");
+    expect(count("the process zone, about") == (brittle ? 1 : 0), "a warning of a zone that is predicted to be short");
+    expect(count("pairs in its process zone") == (brittle ? 1 : 0),
+           "a warning of an unresolved front where there is one, once");
+    expect(count("two-sided estimate") == 1, "a warning of a step outside its estimate, once");
     expect(count("rad") == 0 && solver.value("field_recoveries") == 0.0, "rotations are not computed unasked");
     expect(solver.value("rotation_max") > 0.1 && solver.value("rotation_max") > 0.1, "large rotations");
     expect(count("rad") == 1, "a warning of rotations, once");

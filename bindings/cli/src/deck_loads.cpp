@@ -108,10 +108,10 @@ public:
         }
         for (const auto& [pattern, places] : moved)
             if (places > 1)
-                deck_.changed.push_back(
-                    fmt::format("pattern \"{}\" moves {} places in proportion: its reaction is the sum of their forces, "
-                                "each times its coefficient",
-                                pattern, places));
+                deck_.changed.push_back(fmt::format(
+                    "pattern \"{}\" moves {} places in proportion: its reaction is the sum of their forces, "
+                    "each times its coefficient",
+                    pattern, places));
         for (const std::string& place : order) {
             std::vector<std::string> axes;
             std::vector<std::size_t>& all = held[place];
@@ -282,7 +282,7 @@ private:
         Points points;
         std::vector<double> values;
         for (const auto& [time, value] : history.points) {
-            const double share = value / history.peak();
+            const double share = value / history.peak() + 0.0;  // no negative zero
             if (points.size() > 1) {
                 const auto& [a, fa] = points[points.size() - 2];
                 const double straight = fa + (share - fa) * (points.back().first - a) / (time - a);

@@ -46,10 +46,11 @@ std::string named(const std::string& message, const Scene& scene, const Model& m
         const std::size_t index = std::stoul(number);
         return index < model.interfaces.size() ? fmt::format("\"{}\"", model.interfaces[index].name) : number;
     };
-    out = replaced(out, std::regex(R"(\b(interfaces?) (\d{1,9}(?:(?:, | and )\d{1,9}){0,30}))"), [&](const std::smatch& m) {
-        return m[1].str() + " " + replaced(m[2].str(), std::regex(R"(\d+)"),
-                                           [&](const std::smatch& n) { return interface(n.str()); });
-    });
+    out = replaced(
+        out, std::regex(R"(\b(interfaces?) (\d{1,9}(?:(?:, | and )\d{1,9}){0,30}))"), [&](const std::smatch& m) {
+            return m[1].str() + " " +
+                   replaced(m[2].str(), std::regex(R"(\d+)"), [&](const std::smatch& n) { return interface(n.str()); });
+        });
     out = replaced(out, std::regex(R"(\bcontrol node (\d{1,9}))"), [&](const std::smatch& m) {
         if (scene.controls.empty() || model.mesh == nullptr) return m.str();
         const std::int64_t first = control_node(model.context.get(), model.mesh.get(), scene, 0, scene.geometry.place);

@@ -48,8 +48,7 @@ extern "C" void on_log(std::int32_t level, const char* text, void* user) {
     if (Interrupt::requested() && std::string_view(text).starts_with("cancelled by the host")) return;
     const Log& log = *static_cast<Log*>(user);
     if (level <= 1)
-        log.progress.note(
-            fmt::format("{}: {}", level == 0 ? "error" : "warning", named(text, log.scene, log.model)));
+        log.progress.note(fmt::format("{}: {}", level == 0 ? "error" : "warning", named(text, log.scene, log.model)));
 }
 
 // Reads results, whatever it takes: a request to stop that arrives meanwhile ends the call that reads, and is obeyed
