@@ -29,7 +29,7 @@ from .errors import ArgumentError, HandleError, StateError, error_of
 
 Self = TypeVar("Self", bound="Object")
 
-_logger = logging.getLogger("delam")
+logger = logging.getLogger("delam")
 _thread = threading.local()
 
 
@@ -191,7 +191,7 @@ class Context:
             text = line.decode(errors="replace")
             # An error's text, and an outcome's, go with the exception or warning.
             if level > 0 and text != message:
-                _logger.log(logging.WARNING if level == 1 else logging.INFO, "%s", text)
+                logger.log(logging.WARNING if level == 1 else logging.INFO, "%s", text)
 
     def text(self, function: Any, *arguments: Any) -> str | None:
         """Calls a function that returns text; None stays None."""
@@ -362,8 +362,10 @@ def number(name: str, value: Any) -> float:
 
 
 def integer(name: str, value: Any, bits: int = 64) -> int:
-    """An integer as the library takes it."""
+    """An integer as the library takes it. True and False are none."""
     try:
+        if isinstance(value, bool):
+            raise TypeError
         index = operator.index(value)
     except TypeError:
         raise ArgumentError(f"{name} = {value!r} is no integer") from None

@@ -14,11 +14,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _raw
 from ._arrays import FloatArray, IntArray, floats, listed, pointer
-from ._call import Object, integer, number, text
+from ._call import Object, integer, logger, number, text
 from ._library import library
 from .errors import ArgumentError, NotConverged, NotConvergedWarning
 from .history import History, steps_of
-from .mesh import body_label, interface_index
+from .mesh import Body, interface_index
 from .options import unknown
 from .problem import Problem, Sparse, pattern_index
 
@@ -202,7 +202,19 @@ class Solver(Object):
         names = (self.context.text(library.delam_solver_value_name, self._pointer, i) or "" for i in range(count.value))
         self._keys = {name: name.encode() for name in names}
         self._infos: dict[str, ValueInfo] | None = None
+        self._warn_of_bare_interfaces()
         self._outcome(outcome, 3)
+
+    def _warn_of_bare_interfaces(self) -> None:
+        """Those with a law that no pair holds from the start."""
+        counts = self.problem._pair_counts
+        adhesion = np.empty(sum(counts))
+        self._call(library.delam_solver_field, b"adhesion", -1, adhesion.size, pointer(adhesion))
+        for i, part in enumerate(np.split(adhesion, np.cumsum(counts)[:-1])):
+            if i in self.problem._adhesive and not part.any():
+                logger.warning("interface %d has a law, but none of its %d pairs has any adhesion: a notch takes some "
+                               "of them (Problem.set_adhesion); faces that only touch need Problem.set_contact",
+                               i, part.size)
 
     def _call(self, function: Any, *arguments: Any, long: bool = False) -> None:
         self.context.call(function, self._handle, *arguments, long=long)
@@ -432,10 +444,11 @@ class Solver(Object):
         self._call(library.delam_solver_field, text("name", name), part, out.size, pointer(out), long=True)
         return out
 
-    def average(self, body: int | None = None) -> Average:
+    def average(self, body: Body | None = None) -> Average:
         """Volume, average strain and average stress of a body; None: of all. It recovers the displacements."""
         volume, strain, stress = ctypes.c_double(), np.empty(6), np.empty(6)
-        self._call(library.delam_solver_average, body_label(body), volume, pointer(strain), pointer(stress), long=True)
+        self._call(library.delam_solver_average, self.problem.mesh._chosen(body), volume, pointer(strain),
+                   pointer(stress), long=True)
         return Average(volume.value, strain, stress)
 
     def fronts(self, interface: int | Interface = 0) -> Fronts:
