@@ -129,7 +129,7 @@ class Bodies(unittest.TestCase):
             problem.check()
         problem.set_elastic(2.0, 0.3, body="upper")
         np.testing.assert_allclose(problem.body_matrix("upper").toarray(), 2 * problem.body_matrix("lower").toarray())
-        with self.assertRaisesRegex(delam.ArgumentError, "body = 'uper' is not the name of one body; did you mean "
+        with self.assertRaisesRegex(delam.ArgumentError, "body = 'uper' is not the name of one body .did you mean "
                                                          "'upper'.*there are lower, upper"):
             problem.set_elastic(1.0, 0.3, body="uper")
 

@@ -241,7 +241,7 @@ class Scene(unittest.TestCase):
             again.prescribe(0, "x", opening if isinstance(drive, delam.Pattern) else drive)
             hashes.add(again.hash)
         self.assertEqual(len(hashes), 1)
-        with self.assertRaisesRegex(delam.ArgumentError, "'openning' is not known; did you mean 'opening'"):
+        with self.assertRaisesRegex(delam.ArgumentError, "'openning' is not known .did you mean 'opening'"):
             problem.prescribe(0, "x", "openning")
 
     def test_nothing_is_selected(self):

@@ -66,7 +66,7 @@ class Steps(unittest.TestCase):
         self.assertEqual([list(row) for row in rows], [["time", "reaction:opening"]] * 3)
         self.assertAlmostEqual(self.solver.time, 0.3)
         with self.assertRaises(KeyError):
-            next(self.solver.march([0.4], ["reaction"]))
+            next(self.solver.march([0.4], ["reactions"]))
         with self.assertRaises(delam.ArgumentError):
             list(self.solver.march([0.4, 0.2]))
         self.assertFalse(self.solver.pending)

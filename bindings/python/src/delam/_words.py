@@ -20,4 +20,4 @@ def meant(name: object, known: Iterable[object]) -> str:
     texts, word = [str(one) for one in known], str(name)
     near = [one for one in texts if word and one.startswith(word + ":")][:3]
     near = near or difflib.get_close_matches(word, texts, 1)
-    return f"; did you mean {' or '.join(map(repr, near))}?" if near else ""
+    return f" (did you mean {' or '.join(map(repr, near))}?)" if near else ""

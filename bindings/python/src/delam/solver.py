@@ -7,7 +7,7 @@ import ctypes
 import os
 import warnings
 from collections.abc import Iterable, Iterator, Mapping
-from typing import TYPE_CHECKING, Any, NamedTuple, overload
+from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,7 +16,7 @@ from . import _raw
 from ._arrays import FloatArray, IntArray, floats, listed, pointer
 from ._call import Object, integer, logger, number, text
 from ._library import library
-from .errors import ArgumentError, NotConverged, NotConvergedWarning
+from .errors import ArgumentError, DelamError, NotConverged, NotConvergedWarning
 from .history import History, steps_of
 from .mesh import Body, interface_index
 from .options import unknown
@@ -147,9 +147,9 @@ class Values(Mapping[str, float]):
         self._keys = keys
 
     def __getitem__(self, name: str) -> float:
-        key = self._keys.get(name) or self._solver._alias(name)
+        key = self._keys.get(name) or self._keys.get(self._solver._aliased().get(name, ""))
         if key is None:
-            raise unknown(name, self._keys, "value")
+            raise unknown(name, (*self._keys, *self._solver._aliased()), "value")
         out = ctypes.c_double()
         self._solver._call(library.delam_solver_value, key, out)
         return out.value
@@ -161,7 +161,11 @@ class Values(Mapping[str, float]):
         return len(self._keys)
 
     def __contains__(self, name: object) -> bool:
-        return name in self._keys or self._solver._alias(name) is not None
+        return name in self._keys or name in self._solver._aliased()
+
+    def __reduce__(self) -> NoReturn:
+        raise TypeError("Values read the solver in this process and cannot be pickled or copied: use "
+                        "dict(solver.values) of this state, or a History, whose rows can be")
 
     def describe(self) -> dict[str, ValueInfo]:
         """What each of them is: {name: ValueInfo}."""
@@ -202,6 +206,7 @@ class Solver(Object):
         names = (self.context.text(library.delam_solver_value_name, self._pointer, i) or "" for i in range(count.value))
         self._keys = {name: name.encode() for name in names}
         self._infos: dict[str, ValueInfo] | None = None
+        self._aliases: dict[str, str] | None = None
         self._warn_of_bare_interfaces()
         self._outcome(outcome, 3)
 
@@ -231,11 +236,14 @@ class Solver(Object):
             self._infos = infos
         return self._infos
 
-    def _alias(self, name: object) -> bytes | None:
-        """The name as bytes if the library knows it as an alias, else None."""
-        if not isinstance(name, str) or not name:
-            return None
-        return name.encode() if any(name == info.alias for info in self._described().values()) else None
+    def _aliased(self) -> dict[str, str]:
+        """{alias: name} of values: those of the library and, of a single pattern, the command line's names."""
+        if self._aliases is None:
+            found = {info.alias: name for name, info in self._described().items() if info.alias}
+            if len(self._patterns) == 1:
+                found.update((kind, f"{kind}:{self._patterns[0]}") for kind in ("load", "reaction"))
+            self._aliases = {alias: name for alias, name in found.items() if alias not in self._keys}
+        return self._aliases
 
     @property
     def _pattern_count(self) -> int:
@@ -316,11 +324,16 @@ class Solver(Object):
               progress: bool = False) -> Iterator[dict[str, float]]:
         """Advances and commits, time after time; yields a dict of values after each step.
 
-        values: names, None for all but the costly ones. progress: a bar (tqdm's if it is installed, also in notebooks)
-        on standard error. A step that raises is rolled back. With option backtracking a step may replace earlier ones:
-        value revised_from is the first of those, look() reads them; history() does so by itself."""
+        times: each after the one before; if the first is the committed time, the present state is yielded without a
+        step, so that linspace(0, 1, 11) makes 10 steps. values: names, None for all but the costly ones. progress: a
+        bar (tqdm's if it is installed, also in notebooks) on standard error. A step that raises is rolled back. With
+        option backtracking a step may replace earlier ones: value revised_from is the first of those, look() reads
+        them; history() does so by itself."""
         names = self._names(values)
-        for time in steps_of(times, progress):
+        for i, time in enumerate(steps_of(times, progress)):
+            if i == 0 and not self.pending and number("time", time) == self.time:
+                yield {name: self.values[name] for name in names}
+                continue
             try:
                 self.advance(time)
                 self.commit()
@@ -332,21 +345,38 @@ class Solver(Object):
 
     def history(self, times: Iterable[float], values: Iterable[str] | None = None,
                 progress: bool = False) -> History:
-        """Runs the analysis and returns the History of all steps, with the present state as its first row."""
+        """Runs the analysis and returns the History of all steps, with the present state as its first row.
+
+        times, values, progress: as of march; with one pattern, values may be "load" and "reaction".
+
+        Whatever ends it early (Ctrl-C, Cancelled, LimitReached, an error) carries the rows so far:
+
+            try:
+                history = solver.history(times)
+            except KeyboardInterrupt as stop:
+                history = stop.history
+
+        In a notebook or at a prompt, sys.last_value.history has them. The solver stands at the last of these rows."""
         history = History(self, values)
-        for _ in self.march(times, (), progress):
-            history.record()
+        try:
+            for _ in self.march(times, (), progress):
+                history.record()
+        except BaseException as error:
+            # The stop may have come between a commit and its row.
+            with contextlib.suppress(DelamError):
+                history.record()
+            setattr(error, "history", history)
+            error.add_note(f"The {len(history)} rows up to time {history._column('time')[-1]:g} are kept: attribute "
+                           f"history of this exception.")
+            raise
         return history
 
     def record(self, *names: str) -> None:
         """Records these values for the committed state and, with each later commit, for every further step, including
         steps that returns replace; save() saves them. Any values but the costly ones and the counts over the solver's
         life."""
-        for name in names:
-            if name not in self.values:
-                raise unknown(name, self._keys, "value")
-        for name in names:
-            self._call(library.delam_solver_record, text("name", name))
+        for name in map(self._checked, names):
+            self._call(library.delam_solver_record, text("name", self._aliased().get(name, name)))
 
     @property
     def recorded_steps(self) -> range:
@@ -359,18 +389,23 @@ class Solver(Object):
         """[recorded_steps]: a recorded value for each step; NaN for steps before record(). ArgumentError: it is not
         recorded."""
         out = np.empty(len(self.recorded_steps))
-        self._call(library.delam_solver_recorded, text("name", name), out.size, pointer(out))
+        key = self._aliased().get(name, name) if isinstance(name, str) else name
+        self._call(library.delam_solver_recorded, text("name", key), out.size, pointer(out))
         return out
 
     def _names(self, values: Iterable[str] | None) -> tuple[str, ...]:
         if values is None:
             # A history has what recovers the displacements only when it is asked for.
             return tuple(name for name, info in self._described().items() if info.cost != "recovers")
-        names = tuple(values)
-        for name in names:
-            if name not in self.values:
-                raise unknown(name, tuple(self.values), "value")
-        return names
+        if isinstance(values, str):
+            raise ArgumentError(f"values = {values!r} is a str, expected names in a list: [{values!r}]")
+        return tuple(self._checked(name) for name in values)
+
+    def _checked(self, name: str) -> str:
+        """The name of a value, or an alias."""
+        if name not in self.values:
+            raise unknown(name, (*self._keys, *self._aliased()), "value")
+        return name
 
     @property
     def time(self) -> float:
@@ -542,10 +577,14 @@ class Solver(Object):
     @property
     def jumps(self) -> list[Jump]:
         """Jumps of the state, in the order of time."""
+        return self._jumps(0)
+
+    def _jumps(self, first: int) -> list[Jump]:
+        """From one of them on."""
         count = ctypes.c_int64()
         self._call(library.delam_solver_jump_count, count)
         jumps = []
-        for i in range(count.value):
+        for i in range(first, count.value):
             out: list[Any] = [ctypes.c_int64(), *(ctypes.c_double() for _ in range(6)),
                               *(ctypes.c_int64() for _ in range(3))]
             self._call(library.delam_solver_jump, i, *out)
