@@ -14,6 +14,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from . import _raw
+from ._words import in_python
 
 if TYPE_CHECKING:
     from .history import History
@@ -133,4 +134,4 @@ _KINDS: dict[int, type[DelamError]] = {
 
 def error_of(status: int, message: str) -> DelamError:
     """The exception of a status; one that this package does not know is a DelamError with that number."""
-    return _KINDS.get(status, DelamError)(message, status)
+    return _KINDS.get(status, DelamError)(in_python(message), status)

@@ -238,9 +238,11 @@ class Problem(Object):
     # ---- interfaces
 
     def set_law(self, interface: int | Interface, law: Law) -> None:
-        """Copies the law's present parameters. The adhesion does not change: 1, or the value of set_adhesion."""
+        """Copies the law's present parameters. The adhesion does not change: 1, or the value of set_adhesion.
+        ProblemError names the parameters that are missing."""
         if not isinstance(law, Law):
             raise ArgumentError(f"law = {law!r}, expected a Law")
+        law._complete()
         hosted = self.context.hosted
         # Before the call, which may be interrupted after it has finished.
         if law._callbacks:

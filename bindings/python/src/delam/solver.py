@@ -16,6 +16,7 @@ from . import _raw
 from ._arrays import FloatArray, IntArray, floats, listed, pointer
 from ._call import Object, integer, logger, number, text
 from ._library import library
+from ._words import in_python, meant
 from .errors import ArgumentError, DelamError, NotConverged, NotConvergedWarning
 from .history import History, steps_of
 from .mesh import Body, interface_index
@@ -27,6 +28,13 @@ if TYPE_CHECKING:
 
     from .mesh import Interface
     from .problem import Pattern
+
+
+# Fields of a state and what they are over.
+FIELDS = {"displacement": "nodes", "stress": "cells", "rotation": "cells", "jump": "pairs", "traction": "pairs",
+          "adhesion": "pairs", "mixity": "pairs", "contact": "pairs", "reaction": "constraints"}
+# What others call a field.
+_SYNONYMS = {"damage": "'adhesion', which is 1 - damage", "zeta": "'adhesion'", "opening": "'jump'"}
 
 
 class ValueInfo(NamedTuple):
@@ -231,7 +239,7 @@ class Solver(Object):
             infos = {}
             for i, name in enumerate(self._keys):
                 self._call(library.delam_solver_value_info, i, *texts, recorded)
-                alias, unit, cost, scope, meaning = ((item.value or b"").decode() for item in texts)
+                alias, unit, cost, scope, meaning = (in_python((item.value or b"").decode()) for item in texts)
                 infos[name] = ValueInfo(alias, unit, cost, scope, meaning, bool(recorded))
             self._infos = infos
         return self._infos
@@ -469,10 +477,18 @@ class Solver(Object):
     def field(self, name: str, interface: int | Interface | None = None) -> FloatArray:
         """A field of the state described (Values): [rows][columns], or [rows] if there is one column.
 
-        Over nodes: displacement [nodes][dimension], lengths. Over cells: stress [cells][6] (xx, yy, zz, xy, yz, zx),
-        rotation. Over pairs of an interface, None for all one after another: jump and traction [pairs][dimension]
-        (normal, tangents; lengths and stresses), adhesion, mixity and contact [pairs]. Over constraints: reaction.
-        ArgumentError: there is no such field."""
+        Over nodes: displacement [nodes][dimension], lengths. Over cells: stress [cells][6] (xx, yy, zz, xy, yz, zx; in
+        2D [cells][4], the first four), rotation. Over pairs of an interface, None for all one after another: jump and
+        traction [pairs][dimension] (normal, tangents; lengths and stresses), adhesion, mixity and contact [pairs]. Over
+        constraints: reaction. ArgumentError: there is no such field, or it is none of an interface."""
+        over = FIELDS.get(name) if isinstance(name, str) else None
+        if over is None:
+            near = f" (did you mean {_SYNONYMS[name]}?)" if name in _SYNONYMS else meant(name, FIELDS)
+            raise ArgumentError(f"field {name!r} is not known{near}; known are {', '.join(FIELDS)}")
+        if interface is not None and over != "pairs":
+            of_pairs = ", ".join(field for field, where in FIELDS.items() if where == "pairs")
+            raise ArgumentError(f"field {name!r} is one over all {over} and takes no interface, but {interface!r} was "
+                                f"given; those of an interface are {of_pairs}")
         part = -1 if interface is None else interface_index(interface, self.problem.mesh)
         rows, columns = self._shape(name, part)
         out = np.empty((rows, columns) if columns > 1 else rows)
