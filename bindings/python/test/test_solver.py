@@ -175,7 +175,7 @@ class Reading(unittest.TestCase):
         np.testing.assert_allclose(self.solver.field("jump", interface)[:, 0], opening[:, 1], atol=1e-9)
         for name, part, words in (
                 ("zzz", None, "'zzz' is not known; known are displacement, stress"), ("jump", 3, "3"),
-                ("damage", interface, r"'damage' is not known \(did you mean 'adhesion', which is 1 - damage\?\); known"),
+                ("damage", interface, r"'damage' is not known \(did you mean 'adhesion', which is 1 - damage\?\);"),
                 ("tractoin", 0, r"did you mean 'traction'\?"), (None, None, "field None is not known"),
                 ("displacement", 0, "'displacement' is one over all nodes and takes no interface, but 0 was given; "
                                     "those of an interface are jump, traction, adhesion, mixity, contact")):
