@@ -137,7 +137,8 @@ class Reading(unittest.TestCase):
             found = [line for _, line in lines if "turned round" in line]
             words = "clockwise" if plane else "inside out"
             count = len(right)
-            self.assertEqual(found, [f"{count} of {count} cells of type {kind} were numbered {words} and were turned round"])
+            self.assertEqual(found, [f"{count} of {count} cells of type {kind} were numbered {words} and were turned "
+                                     f"round"])
             np.testing.assert_array_equal(np.sort(back.cells.connectivity.reshape(right.shape), 1), np.sort(right, 1))
             self.assertTrue((back.cells.connectivity.reshape(right.shape) != right).any(1).all())
             # The library has checked corners; these are the nodes between them.

@@ -202,10 +202,11 @@ def _integers(name: str, values: ArrayLike) -> IntArray:
     """Labels of cells."""
     array = np.asarray(values)
     if not _are_integers(array):
-        wrong = np.flatnonzero(array != np.rint(array)) if array.ndim == 1 and array.dtype.kind == "f" else []
-        what = f"{name!r} of cell {wrong[0]} is {array[wrong[0]]}" if len(wrong) else (
-            f"{name!r} has shape {array.shape} and type {array.dtype}")
-        raise ArgumentError(f"cell data {what}; labels of bodies are integers, one for each cell")
+        what = f"has shape {array.shape} and type {array.dtype}"
+        if array.ndim == 1 and array.dtype.kind == "f":
+            wrong = int(np.flatnonzero(array != np.rint(array))[0])
+            what = f"of cell {wrong} is {array[wrong]}"
+        raise ArgumentError(f"cell data {name!r} {what}; labels of bodies are integers, one for each cell")
     return array.astype(np.int64)
 
 
