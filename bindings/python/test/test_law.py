@@ -7,6 +7,7 @@ import support
 import numpy as np
 
 import delam
+from delam.law import kinds
 
 NUMBERS = dict(normal_stiffness=1e12, tangential_stiffness=1e12, normal_onset=50.0, tangential_onset=50.0,
                normal_toughness=280.0, tangential_toughness=280.0)
@@ -23,8 +24,37 @@ class Parameters(unittest.TestCase):
         self.assertEqual(known["plateau"].type, "real")
         self.assertEqual(known["normal_stiffness"].unit, "F/L3")
         self.assertEqual(known["normal_stiffness"].initial, "")
-        with self.assertRaisesRegex(delam.ArgumentError, "'bilinear' is not known; known are piecewise-linear"):
-            delam.Law.parameters("bilinear")
+        for make in (delam.Law, delam.Law.parameters, delam.Law.bounds):
+            for kind, words in (("bilinear", r" \(piecewise-linear is the bilinear law\)"), ("zzz", ""),
+                                ("exponental", r" \(did you mean 'exponential'\?\)")):
+                with self.assertRaisesRegex(delam.ArgumentError, f"'{kind}' is not known{words}; known are piece"):
+                    make(kind)
+        with self.assertRaisesRegex(delam.ArgumentError, "kind = 'host' needs callbacks: use Law.host$"):
+            delam.Law("host")
+        self.assertIn("Law.host", kinds()["host"])
+
+    def test_missing_parameters(self):
+        law = delam.Law("trapezoidal", normal_stiffness=1e12, normal_onset=50.0, tangential_onset=50.0)
+        problem = support.double_cantilever()
+        before = problem.hash
+        for use in (law.check, lambda: law.respond([[0.0, 0.0]], 0.0), lambda: problem.set_law(0, law)):
+            with self.assertRaisesRegex(delam.ProblemError, r"^law 'trapezoidal': tangential_stiffness \(finite and > 0"
+                                                            r"\), normal_toughness .*, plateau \(>= 0 and < 1\) are "
+                                                            r"missing$"):
+                use()
+        self.assertEqual(problem.hash, before)
+        law.set(tangential_stiffness=1e12, normal_toughness=280.0, tangential_toughness=280.0)
+        with self.assertRaisesRegex(delam.ProblemError, "^law 'trapezoidal': plateau .* is missing$"):
+            law.check()
+        law.set(plateau=0.5)
+        law.check()
+        # A strength is another way to give an onset.
+        strengths = {key: value for key, value in NUMBERS.items() if "onset" not in key}
+        for law in (delam.Law("exponential", **strengths, normal_strength=1e7, tangential_strength=1e7),
+                    delam.Law("griffith", **strengths)):
+            law.check()
+        with self.assertRaisesRegex(delam.ProblemError, "normal_onset or normal_strength .* is missing"):
+            delam.Law("exponential", **strengths, tangential_strength=1e7).check()
 
     def test_kinds_and_bounds(self):
         kinds = delam.Law.kinds()

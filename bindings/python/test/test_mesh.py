@@ -113,6 +113,45 @@ class Arrays(unittest.TestCase):
         self.assertEqual(mesh.cell_count, 0)
 
 
+class Bodies(unittest.TestCase):
+    def setUp(self):
+        self.mesh = delam.Mesh(SQUARES)
+        self.mesh.add_conforming_cells("quad4", [[0, 1, 2, 3], [3, 2, 4, 5]], [7, 9])
+
+    def test_by_name(self):
+        self.mesh.body_names = {7: "lower", 9: "upper"}
+        interface = self.mesh.add_interface("lower", "upper")
+        self.assertEqual((interface.body_a, interface.body_b), (7, 9))
+        np.testing.assert_array_equal(self.mesh.find_nodes((0, 1), (1, 1), body="upper"), [6, 7])
+        problem = delam.Problem(self.mesh)
+        problem.set_elastic(1.0, 0.3, body="lower")
+        with self.assertRaisesRegex(delam.ProblemError, "body 9"):
+            problem.check()
+        problem.set_elastic(2.0, 0.3, body="upper")
+        np.testing.assert_allclose(problem.body_matrix("upper").toarray(), 2 * problem.body_matrix("lower").toarray())
+        with self.assertRaisesRegex(delam.ArgumentError, "body = 'uper' is not the name of one body .did you mean "
+                                                         "'upper'.*there are lower, upper"):
+            problem.set_elastic(1.0, 0.3, body="uper")
+
+    def test_labels_are_listed(self):
+        with self.assertRaisesRegex(delam.ArgumentError, "body = 0: no body has this label; there are 7, 9"):
+            delam.Problem(self.mesh).set_elastic(1.0, 0.3, body=0)
+        self.mesh.body_names = {7: "lower"}
+        with self.assertRaisesRegex(delam.ArgumentError, r"body_b = 8: .*there are 7 \(lower\), 9"):
+            self.mesh.add_interface(7, 8)
+        with self.assertRaisesRegex(delam.ArgumentError, "body = True is no integer"):
+            self.mesh.find_nodes((0, 0), body=True)
+
+    def test_a_problem_needs_no_open_mesh(self):
+        problem = delam.Problem(self.mesh)
+        self.mesh.close()
+        problem.set_elastic(1.0, 0.3, body=7)
+        with self.assertRaisesRegex(delam.ArgumentError, "body = 8: no body has this label"):
+            problem.set_elastic(1.0, 0.3, body=8)
+        with self.assertRaisesRegex(delam.ArgumentError, "nodes is empty, expected at least one node$"):
+            problem.prescribe([], "x")
+
+
 class Made(unittest.TestCase):
     def test_layers(self):
         for cells, lengths, nodes in (("quad4", 2.0, 2 * 3 * 2), ("quad8", 2.0, 2 * 13), ("hex8", (2.0, 1.0), 2 * 12)):
@@ -129,8 +168,17 @@ class Made(unittest.TestCase):
         np.testing.assert_array_equal(mesh.find_nodes((0, 0), (2, 0)), range(5))
         self.assertEqual(len(mesh.find_nodes((1.0, 0.5))), 2)
         self.assertEqual(mesh.find_node((1.0, 0.5), body=0), 7)
-        with self.assertRaisesRegex(delam.ArgumentError, r"\(1.0, 0.5\): 2 nodes are there, expected 1"):
-            mesh.find_node((1.0, 0.5))
+        for call, words in (
+                (lambda: mesh.find_node((1.0, 0.5)), r"\(1, 0.5\): 2 nodes are there, expected 1 \(7 of body 0, 12 of "
+                                                     r"body 1\): give body="),
+                (lambda: mesh.find_node((1.1, 0.5), body=1), r"\(1.1, 0.5\): 0 nodes of body 1 are there, expected 1; "
+                                                             r"the nearest is node 12 at \(1, 0.5\), 0.1 away"),
+                (lambda: mesh.find_patch(1, (0, 1), (2, 1), "-y"),
+                 r"no face of body 1 from \(0, 1\) to \(2, 1\) has its outward normal within 45 degrees of direction "
+                 r"\(0, -1\); the nodes lie from \(0, 0\) to \(2, 1\)")):
+            with self.assertRaisesRegex(delam.ArgumentError, words):
+                call()
+        self.assertEqual(mesh.find_nodes((3, 3), body=0).size, 0)
         nodes, weights = mesh.find_patch(1, (0.0, 1.0), (1.25, 1.0), "y")
         self.assertAlmostEqual(weights.sum(), 1.25)
         self.assertEqual(len(nodes), len(weights))

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Meshes through meshio. Skipped without it."""
 import importlib.util
+import logging
 import pathlib
 import sys
 import tempfile
@@ -11,6 +12,8 @@ import support
 import numpy as np
 
 import delam
+from delam.mesh import CELL_TYPES
+from delam.meshes import LABELS, _distance
 
 HAVE = importlib.util.find_spec("meshio") is not None
 if HAVE:
@@ -81,6 +84,87 @@ class Reading(unittest.TestCase):
         self.assertEqual(delam.Mesh.from_meshio(source).body_count, 1)
         mesh = delam.Mesh.from_meshio(source, bodies="parts", interfaces=False)
         self.assertEqual((mesh.body_count, mesh.interface_count), (2, 0))
+
+    def told(self, source, **options):
+        """What the logger is told, by level, and the mesh."""
+        with self.assertLogs("delam", logging.INFO) as caught:
+            logging.getLogger("delam").info("one at least")
+            mesh = delam.Mesh.from_meshio(source, **options)
+        return [(record.levelname, record.getMessage()) for record in caught.records[1:]], mesh
+
+    def test_what_was_taken_for_bodies(self):
+        blocks = [("quad", [[0, 1, 2, 3]]), ("quad", [[3, 2, 4, 5]])]
+        for data, level, words, bodies in (
+                ({"zones": [[3], [4]], "number": [[0.5], [1.5]]}, "WARNING", "may be in zones: bodies='zones'", 1),
+                ({"zones": [[3], [4]], "material": [[1.0], [2.0]]}, "INFO",
+                 "those of cell data 'material'; bodies= takes others: zones", 2),
+                ({"part": [[7], [9]], "same": [[1], [1]]}, "INFO", "the bodies are those of cell data 'part'$", 2),
+                ({}, "INFO", "all cells make one body: the mesh has no labels", 1)):
+            lines, mesh = self.told(meshio.Mesh(POINTS, blocks, cell_data=data))
+            self.assertEqual((len(lines), lines[0][0], mesh.body_count), (1, level, bodies))
+            self.assertRegex(lines[0][1], words)
+        self.assertEqual(self.told(meshio.Mesh(POINTS, blocks, cell_data={"zones": [[3], [4]]}), bodies="zones")[0], [])
+        sets = {"lower": [[0], []], "upper": [[], [0]]}
+        self.assertIn("the bodies are the cell sets lower, upper",
+                      self.told(meshio.Mesh(POINTS, blocks, cell_sets=sets))[0][0][1])
+        ((level, line),), mesh = self.told(meshio.Mesh(POINTS, blocks, cell_sets={"lower": [[0], []]}))
+        self.assertEqual((level, mesh.body_count), ("WARNING", 1))
+        self.assertIn("none or in several of the cell sets lower", line)
+        for name in LABELS:
+            self.assertIn(name, delam.meshes.read.__doc__)
+            mesh = delam.Mesh.from_meshio(meshio.Mesh(POINTS, blocks, cell_data={name: [[3], [4]]}))
+            self.assertEqual(mesh.body_count, 2, name)
+
+    def test_labels_are_integers(self):
+        blocks = [("quad", [[0, 1, 2, 3], [3, 2, 4, 5]])]
+        for values, words in (([2.0, 2.5], "'part' of cell 1 is 2.5; labels of bodies are integers"),
+                              ([[1, 2], [3, 4]], r"'part' has shape \(2, 2\)")):
+            with self.assertRaisesRegex(delam.ArgumentError, words):
+                delam.Mesh.from_meshio(meshio.Mesh(POINTS, blocks, cell_data={"part": [values]}), bodies="part")
+        mesh = delam.Mesh.from_meshio(meshio.Mesh(POINTS, blocks, cell_data={"part": [[2.0, 3.0]]}))
+        self.assertEqual(mesh.cells.bodies.tolist(), [2, 3])
+
+    def test_cells_are_turned_round(self):
+        for kind in delam.CELLS:
+            plane = CELL_TYPES[kind].dimension == 2
+            mesh = delam.Mesh.layers(*((1.0, 2) if plane else ((1.0, 1.0), (2, 1))), [0.5, 0.5], [1, 1], kind)
+            theirs = mesh.to_meshio()
+            right = theirs.cells[0].data
+            blocks = [(theirs.cells[0].type, right)]
+            # A mirror turns every cell inside out, wherever its nodes stand in it.
+            mirrored = meshio.Mesh(theirs.points * [-1, 1, 1], blocks, cell_data=theirs.cell_data)
+            lines, back = self.told(mirrored)
+            found = [line for _, line in lines if "turned round" in line]
+            words = "clockwise" if plane else "inside out"
+            count = len(right)
+            self.assertEqual(found, [f"{count} of {count} cells of type {kind} were numbered {words} and were turned "
+                                     f"round"])
+            np.testing.assert_array_equal(np.sort(back.cells.connectivity.reshape(right.shape), 1), np.sort(right, 1))
+            self.assertTrue((back.cells.connectivity.reshape(right.shape) != right).any(1).all())
+            # The library has checked corners; these are the nodes between them.
+            nodes, cell = back.nodes, CELL_TYPES[kind]
+            for row in back.cells.of(kind):
+                ends = nodes[row[cell.middle]].mean(1) if len(cell.middle) else np.empty((0, back.dimension))
+                np.testing.assert_allclose(nodes[row[cell.corners:]], ends, atol=1e-14)
+            self.assertEqual(self.told(meshio.Mesh(theirs.points, blocks))[0],
+                             [("INFO", "all cells make one body: the mesh has no labels")])
+
+    def test_bodies_that_touch_nowhere(self):
+        mesh = delam.Mesh.layers(1.0, 4, [0.5, 0.5, 0.5], [1, 2, 2])
+        source = mesh.to_meshio()
+        source.points[mesh.node_bodies == 2, 1] += 3e-4
+        (_, (level, line)), back = self.told(source)
+        self.assertEqual((level, back.interface_count), ("WARNING", 1))
+        self.assertIn("no interface was made for body 2, whose faces coincide with none of another body; the nearest "
+                      "nodes of body 2 and of others are 0.0003 apart", line)
+        self.assertEqual(len(self.told(source, interfaces=False)[0]), 1)
+        self.assertEqual(len(self.told(mesh.to_meshio())[0]), 1)
+        generator = np.random.default_rng(3)
+        one, other = generator.random((40, 2)), generator.random((300, 2)) + [1.1, 0]
+        exact = min(np.linalg.norm(other - place, axis=1).min() for place in one)
+        self.assertEqual(_distance(one, other), exact)
+        far = np.column_stack([np.linspace(0, 1, 6000), np.zeros(6000)])
+        self.assertAlmostEqual(_distance(far, far + [0.0, 0.25]), 0.25)
 
     def test_every_cell_type_goes_through_a_file(self):
         for kind in delam.CELLS:

@@ -34,9 +34,11 @@ class Refused(unittest.TestCase):
                 self.assertIn(words, str(caught.exception))
                 self.assertNotIn("ctypes", str(caught.exception))
         # Whatever holds one, too.
-        for thing in (problem.mesh.interfaces[0], solver.values, problem.options, solver.history([])):
+        for thing in (problem.mesh.interfaces[0], problem.options):
             with self.subTest(type(thing).__name__), self.assertRaisesRegex(TypeError, "cannot be pickled: its data"):
                 pickle.dumps(thing)
+        with self.assertRaisesRegex(TypeError, r"Values read the solver .*: use dict\(solver.values\)"):
+            pickle.dumps(solver.values)
 
     def test_results_can_be_pickled(self):
         problem = support.double_cantilever()
@@ -49,6 +51,27 @@ class Refused(unittest.TestCase):
             self.assertEqual(repr(copy.deepcopy(thing)), repr(thing))
         pattern = pickle.loads(pickle.dumps(problem.add_pattern("more", [0, 1], [0, 1])))
         self.assertEqual((pattern.name, pattern.index), ("more", 1))
+
+    def test_a_history_leaves_its_solver_behind(self):
+        solver = delam.Solver(support.double_cantilever())
+        history = solver.history(np.linspace(0.1, 0.5, 5))
+        for again in (pickle.loads(pickle.dumps(history)), copy.copy(history), copy.deepcopy(history)):
+            np.testing.assert_array_equal(again.array, history.array)
+            self.assertEqual((again.names, again.closing, repr(again)),
+                             (history.names, history.closing, repr(history)))
+            with self.assertRaisesRegex(delam.StateError, "no solver to record"):
+                again.record()
+        again = copy.copy(history)
+        solver.advance(1.0)
+        solver.commit()
+        history.record()
+        self.assertEqual((len(again), len(history)), (6, 7))
+
+    def test_fields_can_be_pickled(self):
+        fields = delam.Fields(3, 0.5, {"stress": np.eye(6), "interface_0": {"zeta": np.ones(4)}})
+        again = pickle.loads(pickle.dumps(fields))
+        self.assertEqual((again.step, again.time, list(again)), (3, 0.5, ["stress", "interface_0"]))
+        np.testing.assert_array_equal(again["interface_0"]["zeta"], np.ones(4))
 
     def test_errors_can_be_pickled(self):
         with self.assertRaises(delam.DelamError) as caught:

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Scenes: options as a mapping, loads by pattern, what the library assembled, errors."""
+import logging
 import math
 import unittest
 
@@ -220,6 +221,67 @@ class Scene(unittest.TestCase):
             problem.prescribe(0, "x", "cold")
         with self.assertRaisesRegex(delam.ArgumentError, "must be finite"):
             problem.prescribe_mean([0], [1.0], "x", {"opening": np.inf})
+
+    def test_a_number_is_no_drive(self):
+        problem = support.double_cantilever()
+        before = problem.hash
+        for drive in (0, 0.5, np.int64(0), True, [0], ("opening", 0.5), {0: 1.0}, {0: 0.0, 1.0: 6e-3}):
+            for use in (lambda: problem.prescribe(0, "x", drive),
+                        lambda: problem.prescribe_mean([0], [1.0], "x", drive),
+                        lambda: problem.add_equation([0], [[1.0, 0.0]], drive)):
+                with self.subTest(drive=drive), self.assertRaisesRegex(
+                        delam.ArgumentError, r"^drive = .*expected the pattern that add_pattern returned, its name, "
+                                             r"\{pattern: coefficient\}, or None: held at zero"):
+                    use()
+        self.assertEqual(problem.hash, before)
+        hashes = set()
+        for drive in (delam.problem.Pattern("opening", 0, problem), "opening", {"opening": 1.0}, {"opening": [1.0]}):
+            again = support.double_cantilever()
+            opening = delam.problem.Pattern("opening", 0, again)
+            again.prescribe(0, "x", opening if isinstance(drive, delam.Pattern) else drive)
+            hashes.add(again.hash)
+        self.assertEqual(len(hashes), 1)
+        with self.assertRaisesRegex(delam.ArgumentError, "'openning' is not known .did you mean 'opening'"):
+            problem.prescribe(0, "x", "openning")
+
+    def test_nothing_is_selected(self):
+        problem = support.double_cantilever()
+        mesh, dead, before = problem.mesh, problem.add_pattern("dead", [0, 1], [0, 1]), problem.hash
+        for nodes in (mesh.find_nodes((0, 7), (0.1, 8), body=1), np.zeros(mesh.node_count, bool), []):
+            for use in (lambda: problem.prescribe(nodes, "x"), lambda: problem.prescribe_mean(nodes, [], "x"),
+                        lambda: problem.add_forces(dead, nodes, (0.0, 1.0))):
+                with self.assertRaisesRegex(
+                        ValueError, r"nodes is empty, expected at least one node; find_nodes last found none of body 1 "
+                                    r"from \(0, 7\) to \(0.1, 8\); the nodes lie from \(0, 0\) to \(0.1, 0.003\)"):
+                    use()
+        for pairs in ([], np.zeros(51, bool)):
+            with self.assertRaisesRegex(ValueError, r"pairs is empty, expected at least one of the 51 pairs of "
+                                                    r"interface 0; they lie from \(0, 0.0015\) to \(0.1, 0.0015\)"):
+                problem.set_adhesion(0, pairs)
+        self.assertEqual(problem.hash, before)
+
+    def test_an_interface_that_nothing_holds(self):
+        def warnings_of(change):
+            problem = support.double_cantilever(divisions=400)
+            problem.prescribe(problem.mesh.find_nodes((0.1, 0), (0.1, 3e-3)), "y")
+            change(problem)
+            with self.assertLogs("delam", logging.WARNING) as caught:
+                logging.getLogger("delam").warning("one at least")
+                delam.Solver(problem)
+            return [line for line in caught.output if "has any adhesion" in line]
+
+        every = np.arange(401)
+        (found,) = warnings_of(lambda problem: problem.set_adhesion(0, every, 0.0))
+        self.assertIn("interface 0 has a law, but none of its 401 pairs has any adhesion", found)
+        self.assertEqual(len(warnings_of(lambda problem: problem.set_adhesion_box(0, (-1, -1), (1, 1)))), 1)
+        self.assertEqual(warnings_of(lambda problem: None), [])
+        self.assertEqual(warnings_of(lambda problem: problem.set_adhesion(0, every[:-1], 0.0)), [])
+
+        def free(problem):
+            problem.set_adhesion(0, every, 0.0)
+            problem.set_contact(0)
+
+        self.assertEqual(warnings_of(free), [])
 
     def test_things_of_another_scene(self):
         one, other = support.double_cantilever(), support.double_cantilever()

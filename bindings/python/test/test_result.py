@@ -15,6 +15,7 @@ import support
 import numpy as np
 
 import delam
+from delam._closing import lines
 
 PROGRAM = os.environ.get("DELAM", "")
 HAVE = {name: importlib.util.find_spec(name) is not None for name in ("h5py", "matplotlib", "meshio", "pandas")}
@@ -56,6 +57,22 @@ class OfTheCommandLine(unittest.TestCase):
         self.assertTrue(self.result.complete)
         self.assertEqual(self.result.closing, json.loads((self.folder / "result.json").read_text())["closing"])
         self.assertIn("complete, 10 steps", repr(self.result))
+
+    def test_closing_lines_of_histories_are_the_same(self):
+        examples, said = support.ROOT / "examples", ""
+        for scene, steps in (("enf", 1), ("enf-brittle-local", 12)):
+            folder = self.folder.parent / f"closing-{scene}"
+            run(folder, "geometry.h=0.003", f"time.steps={steps}", scene=examples / scene / f"{scene}.toml")
+            result = delam.Result(folder)
+            table = result.history
+            columns = {name: table[name] for name in table.dtype.names if name not in ("solution", "mixity_rule")}
+            columns["load_potential"] = np.zeros(len(table))
+            ours = lines(columns, [], result.about["options"])
+            theirs = [line.replace(" J/m", "") for line in result.closing]
+            self.assertEqual(ours, [line for line in theirs if "balance" in line or "two-sided" in line])
+            said += "\n".join(ours)
+        for words in ("warning: energy balance", "less than 0.001 %", "violated in steps: 3, 4", "nothing in 1 step"):
+            self.assertIn(words, said)
 
     @unittest.skipUnless(HAVE["pandas"], "pandas is not installed")
     def test_pandas(self):
@@ -245,9 +262,12 @@ class OfASolver(unittest.TestCase):
 
     @unittest.skipUnless(HAVE["matplotlib"], "matplotlib is not installed")
     def test_what_is_missing(self):
-        short = delam.Solver(support.double_cantilever()).history([0.5], values=("step", "time", "dissipated"))
-        with self.assertRaisesRegex(ValueError, "the history lacks 'load'"):
-            short.plot()
+        with self.assertRaisesRegex(ValueError, "no picture of load: the problem has no load pattern"):
+            problem = delam.Problem(delam.Mesh.layers(1.0, 2, [1.0], [1]))
+            problem.set_elastic(1.0, 0.3)
+            for axis in "xy":
+                problem.prescribe([0, 1], axis)
+            delam.Solver(problem).history([]).plot()
         with self.assertRaisesRegex(delam.ArgumentError, "'snapshots' is no picture; known are load, energies, bodies"):
             self.history.plot("snapshots")
 

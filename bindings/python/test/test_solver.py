@@ -9,6 +9,7 @@ import support
 import numpy as np
 
 import delam
+from delam.solver import FIELDS
 
 
 class Steps(unittest.TestCase):
@@ -66,7 +67,7 @@ class Steps(unittest.TestCase):
         self.assertEqual([list(row) for row in rows], [["time", "reaction:opening"]] * 3)
         self.assertAlmostEqual(self.solver.time, 0.3)
         with self.assertRaises(KeyError):
-            next(self.solver.march([0.4], ["reaction"]))
+            next(self.solver.march([0.4], ["reactions"]))
         with self.assertRaises(delam.ArgumentError):
             list(self.solver.march([0.4, 0.2]))
         self.assertFalse(self.solver.pending)
@@ -172,10 +173,20 @@ class Reading(unittest.TestCase):
         moved = self.solver.field("displacement")
         opening = moved[interface.nodes_b] - moved[interface.nodes_a]
         np.testing.assert_allclose(self.solver.field("jump", interface)[:, 0], opening[:, 1], atol=1e-9)
-        for name, part, words in (("stretch", None, "stretch"), ("jump", 3, "3"),
-                                  ("displacement", 0, "displacement|part")):
+        for name, part, words in (
+                ("zzz", None, "'zzz' is not known; known are displacement, stress"), ("jump", 3, "3"),
+                ("damage", interface, r"'damage' is not known \(did you mean 'adhesion', which is 1 - damage\?\);"),
+                ("tractoin", 0, r"did you mean 'traction'\?"), (None, None, "field None is not known"),
+                ("displacement", 0, "'displacement' is one over all nodes and takes no interface, but 0 was given; "
+                                    "those of an interface are jump, traction, adhesion, mixity, contact")):
             with self.assertRaisesRegex(delam.ArgumentError, words):
                 self.solver.field(name, part)
+        with self.assertRaises(delam.ArgumentError) as caught:
+            self.solver._shape("stretch", -1)
+        self.assertEqual(str(caught.exception).split("known: ")[1].split(", "), list(FIELDS))
+        for name, over in FIELDS.items():
+            if over == "pairs":
+                self.assertEqual(len(self.solver.field(name, 0)), pairs)
 
     def test_fronts_average_tangent(self):
         fronts = self.solver.fronts()

@@ -22,7 +22,8 @@ state: bytes = solver.save()
 peak: float = float(solver.history([0.5, 1.0])["reaction:opening"].max())
 reveal_type(solver.field("traction", glue))
 '''
-WRONG = {'mesh.add_interface("lower", "upper")': "arg-type", "solver.save('state.bin').hex()": "attr-defined",
+WRONG = {'mesh.add_interface(0.5, "upper")': "arg-type", 'problem.prescribe(0, "y", 0)': "arg-type",
+         "solver.save('state.bin').hex()": "attr-defined",
          "glue.pairs": "attr-defined", "solver.advance()": "call-arg"}
 
 

@@ -71,6 +71,20 @@ class Grids(unittest.TestCase):
         np.testing.assert_array_equal(vtk_to_numpy(grid.GetCellData().GetArray("stress")), solver.field("stress"))
         self.assertGreater(np.abs(displacement).max(), 1e-3)
 
+    def test_labels(self):
+        mesh = block("quad4")
+        for name, level in (("bodies", "INFO"), ("zones", "WARNING")):
+            grid = mesh.to_vtk(cell_data={"zones": mesh.cells.bodies + 0.0})
+            if name == "zones":
+                grid.GetCellData().RemoveArray("bodies")
+            with self.assertLogs("delam", "INFO") as caught:
+                back = delam.Mesh.from_vtk(grid)
+            self.assertEqual(([record.levelname for record in caught.records], back.body_count),
+                             ([level], 2 if name == "bodies" else 1))
+            self.assertEqual(delam.Mesh.from_vtk(grid, bodies="zones").body_count, 2)
+        with self.assertRaisesRegex(delam.ArgumentError, "'half' of cell 0 is 0.5; labels of bodies are integers"):
+            delam.Mesh.from_vtk(mesh.to_vtk(cell_data={"half": mesh.cells.bodies + 0.5}), bodies="half")
+
     def test_what_has_no_place(self):
         from vtkmodules.vtkCommonDataModel import VTK_VOXEL
         grid = block("hex8").to_vtk()

@@ -25,11 +25,12 @@ from typing import Any, NoReturn, TypeVar
 
 from . import _raw
 from ._library import library
+from ._words import in_python
 from .errors import ArgumentError, HandleError, StateError, error_of
 
 Self = TypeVar("Self", bound="Object")
 
-_logger = logging.getLogger("delam")
+logger = logging.getLogger("delam")
 _thread = threading.local()
 
 
@@ -167,7 +168,7 @@ class Context:
                 del exception
         if status != _raw.DELAM_OK and status not in outcomes:
             raise error_of(status, message)
-        return status, message
+        return status, in_python(message)
 
     def beside(self, function: Any, *arguments: Any, other: Context | None = None) -> tuple[int, str]:
         """Calls a function of another library that uses objects of this context, and of another: its status, and the
@@ -191,7 +192,7 @@ class Context:
             text = line.decode(errors="replace")
             # An error's text, and an outcome's, go with the exception or warning.
             if level > 0 and text != message:
-                _logger.log(logging.WARNING if level == 1 else logging.INFO, "%s", text)
+                logger.log(logging.WARNING if level == 1 else logging.INFO, "%s", in_python(text))
 
     def text(self, function: Any, *arguments: Any) -> str | None:
         """Calls a function that returns text; None stays None."""
@@ -362,8 +363,10 @@ def number(name: str, value: Any) -> float:
 
 
 def integer(name: str, value: Any, bits: int = 64) -> int:
-    """An integer as the library takes it."""
+    """An integer as the library takes it. True and False are none."""
     try:
+        if isinstance(value, bool):
+            raise TypeError
         index = operator.index(value)
     except TypeError:
         raise ArgumentError(f"{name} = {value!r} is no integer") from None

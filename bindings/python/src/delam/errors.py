@@ -11,13 +11,21 @@ LimitReached   no equilibrium: a dead load acts on a part that nothing holds any
 """
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from . import _raw
+from ._words import in_python
+
+if TYPE_CHECKING:
+    from .history import History
 
 
 class DelamError(Exception):
-    """An error or an outcome of the library. `status` is its number, `name` the constant of the C header."""
+    """An error or an outcome of the library. `status` is its number, `name` the constant of the C header; `history` has
+    the rows so far where Solver.history has raised it."""
 
     status: int = _raw.DELAM_ERROR_INTERNAL
+    history: History | None = None
 
     def __init__(self, message: str, status: int | None = None) -> None:
         super().__init__(message)
@@ -126,4 +134,4 @@ _KINDS: dict[int, type[DelamError]] = {
 
 def error_of(status: int, message: str) -> DelamError:
     """The exception of a status; one that this package does not know is a DelamError with that number."""
-    return _KINDS.get(status, DelamError)(message, status)
+    return _KINDS.get(status, DelamError)(in_python(message), status)

@@ -5,63 +5,115 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Iterable, Iterator, Mapping, Sized
-from typing import IO, TYPE_CHECKING
+from typing import IO, TYPE_CHECKING, Any
 
 import numpy as np
 
 from ._arrays import FloatArray
+from ._words import listing, meant
+from .errors import ArgumentError, StateError
 
 if TYPE_CHECKING:
     import pandas
     from matplotlib.figure import Figure
     from numpy.typing import NDArray
 
-    from .solver import Solver
+    from .solver import Jump, Solver
+
+# What pictures and closing lines need, whichever values are asked for. All of it costs nothing to read.
+_ALWAYS = ("step", "time", "stored_bulk", "stored_interface", "dissipated", "load_potential", "work", "lower",
+           "increment", "upper", "defect", "defect_slides", "backtracks")
 
 
 class History:
     """Values of a solver over its steps, as numpy arrays by name: history["reaction:load"]. The first row is the state
     at the time of construction; record() appends the present one. If a step has replaced earlier ones (option
     backtracking), their rows are read again. names: the values that it keeps, in their order; Solver.values.describe()
-    has their units."""
+    has their units.
+
+    An alias of a value works like its name. With a single load pattern, "load" and "reaction" are those of the command
+    line: short for "load:NAME" and "reaction:NAME".
+
+    Pictures of curves and closing need no open solver, and so does what pickle or copy makes of a History: its rows,
+    without the solver."""
 
     names: tuple[str, ...]
 
     def __init__(self, solver: Solver, values: Iterable[str] | None = None) -> None:
-        self._solver = solver
+        self._solver: Solver | None = solver
         self.names = solver._names(values)
-        self._steps: list[int] = []
+        self._aliases = solver._aliased()
+        self._known = tuple(solver.values)
+        self._keys = tuple(self._aliases.get(name, name) for name in self.names)
+        of_patterns = (name for name in self._known if name.startswith(("load:", "reaction:")))
+        columns = dict.fromkeys((*self._keys, *_ALWAYS, *of_patterns))
+        self._columns = {name: column for column, name in enumerate(columns)}
         self._rows: list[list[float]] = []
+        self._jumps: list[Jump] = []
+        drives = solver.problem._drives
+        self._about: dict[str, Any] = {
+            "patterns": [{"name": name, "drives": drives.get(i, "displacement")}
+                         for i, name in enumerate(solver._patterns)],
+            "scene": {"dimension": solver.problem.dimension},
+            "options": {key: solver.option(key) for key in ("solution", "mixity_rule")}
+                       | {"backtracking_tolerance": float(solver.option("backtracking_tolerance"))}}
         self.record()
 
     def record(self) -> None:
         """Appends a row of the state described (Solver.values); in the place of the last row if that is of the same
-        step."""
-        values = self._solver.values
-        step, first = int(values["step"]), int(values["revised_from"])
-        if first < step and self._steps:
-            for i, other in enumerate(self._steps):
+        step. StateError: this History was pickled or copied, and has no solver."""
+        solver = self._solver
+        if solver is None:
+            raise StateError("this History was pickled or copied: it has its rows, but no solver to record")
+        step, first = int(solver.values["step"]), int(solver.values["revised_from"])
+        steps = [int(row[self._columns["step"]]) for row in self._rows]
+        if first < step:
+            for i, other in enumerate(steps):
                 if first <= other < step:
-                    with self._solver.looking(other):
-                        self._rows[i] = self._row()
-        if self._steps and self._steps[-1] == step:
-            self._rows[-1] = self._row()
+                    with solver.looking(other):
+                        self._rows[i] = self._row(solver)
+        # In one go each, so that Ctrl-C leaves whole rows.
+        if steps and steps[-1] == step:
+            self._rows[-1] = self._row(solver)
         else:
-            self._steps.append(step)
-            self._rows.append(self._row())
+            self._rows.append(self._row(solver))
+        old = [jump for jump in self._jumps if jump.step < first]
+        self._jumps = old + solver._jumps(len(old))
 
-    def _row(self) -> list[float]:
-        return [self._solver.values[name] for name in self.names]
+    def _row(self, solver: Solver) -> list[float]:
+        values = solver.values
+        return [values[name] for name in self._columns]
 
-    def __getitem__(self, name: str) -> FloatArray:
-        try:
-            column = self.names.index(name)
-        except ValueError:
-            raise KeyError(f"{name!r} is not among {', '.join(self.names)}") from None
+    def _column(self, key: str) -> FloatArray:
+        column = self._columns[key]
         return np.array([row[column] for row in self._rows])
 
+    def _key(self, name: object) -> str | None:
+        """Of the values asked for, the one of this name or alias."""
+        if name in self.names:
+            return self._keys[self.names.index(str(name))]
+        key = self._aliases.get(str(name), str(name))
+        return key if key in self._keys else None
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**vars(self), "_solver": None, "_rows": list(self._rows)}
+
+    def __getitem__(self, name: str) -> FloatArray:
+        key = self._key(name)
+        if key is not None:
+            return self._column(key)
+        if self._aliases.get(name, name) in self._known:
+            raise KeyError(f"{name!r} is not in this history, which has {listing(self.names) or 'no values'}; name it "
+                           f"in values= where the history is made")
+        raise KeyError(f"{name!r} is no value{meant(name, (*self.names, *self._aliases))}; this history has "
+                       f"{listing(self.names) or 'none'}")
+
     def __contains__(self, name: object) -> bool:
-        return name in self.names
+        return self._key(name) is not None
+
+    def __repr__(self) -> str:
+        times = self._column("time")
+        return f"<History of {len(times)} rows, time {times[0]:g} to {times[-1]:g}: {listing(self.names)}>"
 
     def __iter__(self) -> Iterator[str]:
         return iter(self.names)
@@ -76,7 +128,16 @@ class History:
 
     def row(self, index: int) -> dict[str, float]:
         """{name: value} of one row; -1 is the last one. IndexError: there is none."""
-        return dict(zip(self.names, self._rows[index]))
+        row = self._rows[index]
+        return {name: row[self._columns[key]] for name, key in zip(self.names, self._keys)}
+
+    @property
+    def closing(self) -> list[str]:
+        """What the command line ends a run with, a line each, as far as steps say it: jumps and the energy that they
+        released, the largest defect of the energy balance with its step, steps outside their two-sided estimate, and
+        steps whose estimate says nothing."""
+        from ._closing import lines
+        return lines({name: self._column(name) for name in self._columns}, self._jumps, self._about["options"])
 
     @property
     def array(self) -> NDArray[np.void]:
@@ -96,18 +157,20 @@ class History:
         figure.savefig() writes it. delam.plot.history draws any values.
 
         kind   "load" (over displacement, a picture for each pattern), "energies" with the two-sided estimate, or
-               "bodies": the plane bodies at the present state, with the adhesion in colour
+               "bodies": the plane bodies at the present state of the solver, with the adhesion in colour
         units  names for the axes: {"length": "m", "force": "N", "time": "s"}
 
-        ArgumentError: there is no such kind; ValueError: the history lacks a value for it, or the bodies are in space;
-        ImportError: matplotlib is not installed."""
+        "load" and "energies" draw any history; "bodies" needs the solver open. ArgumentError: there is no such kind or
+        unit; ValueError: there is no load pattern, the bodies are in space, or the solver is closed; ImportError:
+        matplotlib is not installed."""
         from .result import picture
-        kinds = {"load": ("._pictures.curves", "load_figure"), "energies": ("._pictures.curves", "energies_figure"),
+        named = _units(units)
+        kinds = {"load": ("._live", "load_figure"), "energies": ("._pictures.curves", "energies_figure"),
                  "bodies": ("._live", "bodies_figure")}
 
         def shown() -> object:
             from ._live import shown as made
-            return made(self, units, title)
+            return made(self, named, title)
 
         return picture(shown, kind, kinds)
 
@@ -118,8 +181,26 @@ class History:
                 self.write_csv(opened, titles)
             return
         file.write(",".join(titles or self.names) + "\n")
+        columns = [self._columns[key] for key in self._keys]
         for row in self._rows:
-            file.write(",".join(format(value + 0.0, ".17g") for value in row) + "\n")
+            file.write(",".join(format(row[column] + 0.0, ".17g") for column in columns) + "\n")
+
+
+def _units(units: Mapping[str, str] | None) -> dict[str, str]:
+    """Names of the units of length, force and time, "" where they have none."""
+    named = {"length": "", "force": "", "time": ""}
+    if units is None:
+        return named
+    if not isinstance(units, Mapping):
+        raise TypeError(f"units = {units!r} is a {type(units).__name__}, expected a mapping such as "
+                        f"{{'length': 'mm', 'force': 'N', 'time': 's'}}")
+    for key, name in units.items():
+        if key not in named:
+            raise ArgumentError(f"units: {key!r} is no quantity{meant(key, named)}; these are {listing(named)}")
+        if not isinstance(name, str):
+            raise TypeError(f"units[{key!r}] = {name!r} is a {type(name).__name__}, expected a str")
+        named[key] = name
+    return named
 
 
 def steps_of(times: Iterable[float], progress: bool) -> Iterable[float]:

@@ -13,7 +13,8 @@ from . import _raw
 from ._arrays import FloatArray, floats, listed, pointer, spread
 from ._call import Context, Object, keep_exception, number, stopped, text
 from ._library import library
-from .errors import ArgumentError, error_of
+from ._words import in_python, meant
+from .errors import ArgumentError, ProblemError, error_of
 
 
 class Parameter(NamedTuple):
@@ -48,8 +49,22 @@ def kinds() -> dict[str, str]:
     found = {}
     for i in range(library.delam_law_kind_count()):
         library.delam_law_kind_info(i, name, meaning, None)
-        found[(name.value or b"").decode()] = (meaning.value or b"").decode()
+        found[(name.value or b"").decode()] = in_python((meaning.value or b"").decode())
     return found
+
+
+# What others call a kind.
+_SYNONYMS = {"bilinear": "piecewise-linear is the bilinear law", "triangular": "piecewise-linear is the bilinear law",
+             "linear": "piecewise-linear softens on a straight line", "brittle": "griffith is the brittle law"}
+
+
+def _known_kind(kind: str) -> bytes:
+    """A kind as the library takes it."""
+    key, there = text("kind", kind), kinds()
+    if kind not in there:
+        hint = f" ({_SYNONYMS[kind]})" if kind in _SYNONYMS else meant(kind, there)
+        raise ArgumentError(f"kind = {kind!r} is not known{hint}; known are {', '.join(there)}")
+    return key
 
 
 def described(function: Any, *arguments: Any) -> Parameter:
@@ -58,7 +73,7 @@ def described(function: Any, *arguments: Any) -> Parameter:
     status = function(*arguments, *(ctypes.byref(item) for item in texts))
     if status != _raw.DELAM_OK:
         raise error_of(status, f"no description {arguments}")
-    return Parameter(*((item.value or b"").decode() for item in texts))
+    return Parameter(*(in_python((item.value or b"").decode()) for item in texts))
 
 
 class Law(Object):
@@ -67,14 +82,15 @@ class Law(Object):
         Law("piecewise-linear", normal_stiffness=125e9, tangential_stiffness=125e9, normal_onset=100, ...)
 
     Law.parameters(kind) lists them, with units. A tabulated law takes softening=(xi, s). ArgumentError names a kind, a
-    parameter or a value that is not known or out of range. `kind` is the kind as given, "host" for Law.host."""
+    parameter or a value that is not known or out of range; ProblemError, where the law is used, the parameters that are
+    missing. `kind` is the kind as given, "host" for Law.host."""
 
     kind: str
     _callbacks: tuple[Any, ...]
     _instead = "Keep its kind and parameters, and make the Law from them where it is needed."
 
     def __init__(self, kind: str, **parameters: object) -> None:
-        kind_text = text("kind", kind)
+        kind_text = _known_kind(kind)
         self._create(library.delam_law_create, kind_text)
         self.kind = kind
         self.set(**parameters)
@@ -106,6 +122,8 @@ class Law(Object):
     def _create(self, function: Any, *arguments: Any, keep: tuple[Any, ...] = ()) -> None:
         context = Context()
         self._callbacks = keep
+        self._given: set[str] = set()
+        self._is_complete = False
         self._make(context, _raw.delam_law, library.delam_law_destroy, function, context.handle, *arguments, keep=keep)
 
     def _call(self, function: Any, *arguments: Any) -> None:
@@ -114,10 +132,8 @@ class Law(Object):
     @staticmethod
     def parameters(kind: str) -> dict[str, Parameter]:
         """Parameters of a kind: {key: Parameter}. ArgumentError: there is no such kind."""
-        key = text("kind", kind)
+        key = _known_kind(kind)
         count = library.delam_law_parameter_count(key)
-        if count == 0:
-            raise ArgumentError(f"kind = {kind!r} is not known; known are {', '.join(kinds())}")
         items = (described(library.delam_law_parameter_info, key, i) for i in range(count))
         return {item.key: item for item in items}
 
@@ -155,9 +171,27 @@ class Law(Object):
                 self._call(library.delam_law_set_table, xi.size, pointer(xi), pointer(s))
             else:
                 self._call(library.delam_law_set, key.encode(), number(key, value))
+            self._given.add(key)
+
+    def _complete(self) -> None:
+        """ProblemError names the parameters that are missing."""
+        if self._is_complete:
+            return
+        known = self.parameters(self.kind)
+        missing = []
+        for key, item in known.items():
+            # A strength stands for the onset that it replaces.
+            others = [other.key for other in known.values() if other.initial == f"that of {key}"]
+            if not item.initial and not self._given & {key, *others}:
+                missing.append(f"{' or '.join([key, *others])} ({item.range})")
+        if missing:
+            verb = "is" if len(missing) == 1 else "are"
+            raise ProblemError(f"law {self.kind!r}: {', '.join(missing)} {verb} missing")
+        self._is_complete = True
 
     def check(self) -> None:
-        """ProblemError names the first parameter that is missing or not admissible."""
+        """ProblemError names the parameters that are missing, or the first that is not admissible."""
+        self._complete()
         self._call(library.delam_law_check)
 
     def toughness(self, mixity: ArrayLike) -> tuple[FloatArray, FloatArray]:
@@ -171,7 +205,8 @@ class Law(Object):
                 adhesion: ArrayLike = 1.0) -> tuple[FloatArray, FloatArray]:
         """One damage step at given jumps [n][2 or 3], lengths in local directions (normal first), at frozen mixities
         and from old adhesions, both one for all or [n]: the new adhesions [n] and the tractions [n][2 or 3],
-        stresses."""
+        stresses. ProblemError names the parameters that are missing."""
+        self._complete()
         jump = floats("jump", jump, (None, (2, 3)))
         count, dimension = jump.shape
         mixity, old = spread("mixity", mixity, count), spread("adhesion", adhesion, count)

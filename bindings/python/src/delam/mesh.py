@@ -15,6 +15,7 @@ from ._arrays import direction as axis
 from ._arrays import FloatArray, IntArray, floats, gate, indices, listed, ndim, pointer, spread
 from ._call import Context, Object, integer, number
 from ._library import library
+from ._words import listing, meant
 from .errors import ArgumentError
 
 if TYPE_CHECKING:
@@ -61,9 +62,13 @@ def cell_type(name: str) -> tuple[int, int]:
     return CELLS[name]
 
 
-def body_label(body: int | None) -> int:
-    """None: all bodies."""
-    return -1 if body is None else integer("body", body, 32)
+# A body, by its label or by the name that its file gave it (Mesh.body_names).
+Body = int | str
+
+
+def place_text(place: FloatArray) -> str:
+    """A position in a message."""
+    return f"({', '.join(format(float(x), 'g') for x in place)})"
 
 
 class Cells(NamedTuple):
@@ -197,7 +202,7 @@ class Mesh(Object):
     Indices are 0-based throughout. Nodes without cells are control nodes or tied nodes, which belong to no body, or
     nodes of bodies whose stiffness the host provides (add_host_body). Positions are in the unit of length of the scene,
     whichever it is. MeshError says where cells are inverted, nodes are shared or faces do not match. `body_names` is
-    {label: name} where a file named its groups, else empty."""
+    {label: name} where a file named its groups, else empty; wherever a body is taken, its label or its name is."""
 
     body_names: dict[int, str]
     _instead = ("Keep its arrays (nodes, cells) and add the interfaces again, or write it to a file with to_meshio, "
@@ -263,9 +268,49 @@ class Mesh(Object):
         self._make(context, _raw.delam_mesh, library.delam_mesh_destroy, function, context.handle, *arguments,
                    long=True)
         self.body_names = {}
+        self._bodies: list[int] = []  # their labels, as far as they have been asked for
+        self._sought = ""  # where find_nodes has found nothing last
 
     def _call(self, function: Any, *arguments: Any, long: bool = False) -> None:
         self.context.call(function, self._handle, *arguments, long=long)
+
+    def _labels(self) -> list[int]:
+        """Labels of the bodies, ascending."""
+        if not self.closed and self.body_count != len(self._bodies):
+            self._bodies = sorted(set(self.node_bodies.tolist()) - {-1})
+        return self._bodies
+
+    def _label(self, body: Body, argument: str = "body") -> int:
+        """Label of a body, itself or its name."""
+        if isinstance(body, str):
+            found = [label for label, name in self.body_names.items() if name == body]
+            if len(found) == 1:
+                return found[0]
+            names = self.body_names.values()
+            raise ArgumentError(f"{argument} = {body!r} is not the name of one body{meant(body, names)}; in "
+                                f"Mesh.body_names there are {listing(names) or 'none'}")
+        label = integer(argument, body, 32)
+        there = self._labels()
+        if there and label not in there:
+            named = [f"{of} ({self.body_names[of]})" if of in self.body_names else str(of) for of in there]
+            raise ArgumentError(f"{argument} = {label}: no body has this label; there are {listing(named)}")
+        return label
+
+    def _chosen(self, body: Body | None) -> int:
+        """Label of a body as the library takes it: None are all."""
+        return -1 if body is None else self._label(body)
+
+    def _extent(self) -> str:
+        """Where the nodes lie, for a message."""
+        if self.closed or self.node_count == 0:
+            return ""
+        nodes = self.nodes
+        return f"; the nodes lie from {place_text(nodes.min(0))} to {place_text(nodes.max(0))}"
+
+    def _nothing(self, argument: str) -> ArgumentError:
+        """The error of an argument without nodes."""
+        sought = f"; find_nodes last found none {self._sought}" if self._sought else ""
+        return ArgumentError(f"{argument} is empty, expected at least one node{sought}{self._extent()}")
 
     def __repr__(self) -> str:
         if self.closed:
@@ -293,13 +338,12 @@ class Mesh(Object):
         """As add_cells, of a mesh whose bodies share nodes: those are doubled (node_origins has the originals)."""
         self._add_cells(library.delam_mesh_add_conforming_cells, cells, connectivity, bodies)
 
-    def _add_interface(self, function: Any, body_a: int, body_b: int, distance: float) -> Interface:
+    def _add_interface(self, function: Any, body_a: Body, body_b: Body, distance: float) -> Interface:
         index = ctypes.c_int64()
-        self._call(function, integer("body_a", body_a, 32), integer("body_b", body_b, 32), distance, index,
-                   long=True)
+        self._call(function, self._label(body_a, "body_a"), self._label(body_b, "body_b"), distance, index, long=True)
         return Interface(self, index.value)
 
-    def add_interface(self, body_a: int, body_b: int, tolerance: float = 0.0) -> Interface:
+    def add_interface(self, body_a: Body, body_b: Body, tolerance: float = 0.0) -> Interface:
         """Pairs the coinciding faces of two bodies. tolerance: a fraction of the shortest edge, 0: 1e-6. MeshError:
         no faces coincide, or not all of their nodes."""
         return self._add_interface(library.delam_mesh_add_interface, body_a, body_b, number("tolerance", tolerance))
@@ -310,7 +354,7 @@ class Mesh(Object):
         self._call(library.delam_mesh_add_all_interfaces, number("tolerance", tolerance), count, long=True)
         return [Interface(self, before + i) for i in range(count.value)]
 
-    def add_projected_interface(self, body_a: int, body_b: int, gap: float = 0.0) -> Interface:
+    def add_projected_interface(self, body_a: Body, body_b: Body, gap: float = 0.0) -> Interface:
         """An interface of two bodies whose meshes do not match; b should be the finer one. gap: distance of the faces,
         a length, 0: 1e-6 of the shortest edge. The nodes of b are tied to a (ties)."""
         return self._add_interface(library.delam_mesh_add_projected_interface, body_a, body_b, number("gap", gap))
@@ -335,7 +379,7 @@ class Mesh(Object):
         self._call(library.delam_mesh_add_host_body, integer("body", body, 32), nodes.size, pointer(nodes), 0,
                    long=True)
 
-    def add_pairs(self, body_a: int, body_b: int, nodes_a: ArrayLike, nodes_b: ArrayLike, normals: ArrayLike,
+    def add_pairs(self, body_a: Body, body_b: Body, nodes_a: ArrayLike, nodes_b: ArrayLike, normals: ArrayLike,
                   weights: ArrayLike, faces: ArrayLike | None = None) -> Interface:
         """An interface of pairs given by the host, in the given order; the nodes of a pair may lie apart.
 
@@ -349,7 +393,7 @@ class Mesh(Object):
         weights = spread("weights", weights, nodes_a.size)
         faces = np.empty((0, 0), np.int64) if faces is None else indices("faces", faces, (None, None))
         index = ctypes.c_int64()
-        self._call(library.delam_mesh_add_pairs, integer("body_a", body_a, 32), integer("body_b", body_b, 32),
+        self._call(library.delam_mesh_add_pairs, self._label(body_a, "body_a"), self._label(body_b, "body_b"),
                    nodes_a.size, pointer(nodes_a), pointer(nodes_b), pointer(normals), pointer(weights), faces.shape[0],
                    faces.shape[1], pointer(faces), 0, index, long=True)
         return Interface(self, index.value)
@@ -441,39 +485,64 @@ class Mesh(Object):
                    needed.value, pointer(cells.connectivity), None)
         return cells
 
-    def find_nodes(self, lower: ArrayLike, upper: ArrayLike | None = None, body: int | None = None) -> IntArray:
+    def find_nodes(self, lower: ArrayLike, upper: ArrayLike | None = None, body: Body | None = None) -> IntArray:
         """Nodes of a body (None: of all) inside the closed box lower..upper, ascending; without upper, at a point.
-        None is an empty array, no error."""
+        Where there are none, the array is empty; what takes nodes refuses it."""
         dimension = self.dimension
         lower = floats("lower", lower, (dimension,))
         upper = lower if upper is None else floats("upper", upper, (dimension,))
         count = ctypes.c_int64()
-        box = body_label(body), pointer(lower), pointer(upper)
+        box = self._chosen(body), pointer(lower), pointer(upper)
         self._call(library.delam_mesh_find_nodes, *box, 0, None, count)
+        if count.value == 0:
+            where = f"at {place_text(lower)}" if upper is lower else f"from {place_text(lower)} to {place_text(upper)}"
+            self._sought = where if body is None else f"of body {body} {where}"
         nodes = np.empty(count.value, np.int64)
         self._call(library.delam_mesh_find_nodes, *box, nodes.size, pointer(nodes), count)
         return nodes
 
-    def find_node(self, place: ArrayLike, body: int | None = None) -> int:
-        """The one node of a body (None: of all) at a point. ArgumentError: there is none, or more than one."""
+    def find_node(self, place: ArrayLike, body: Body | None = None) -> int:
+        """The one node of a body (None: of all) at a point. ArgumentError: there is none, and the nearest is named; or
+        there are several, as at an interface, where `body` says which."""
         place = floats("place", place, (self.dimension,))
         nodes = self.find_nodes(place, body=body)
         if nodes.size != 1:
             of = "" if body is None else f" of body {body}"
-            place = tuple(place.tolist())
-            raise ArgumentError(f"place = {place}: {nodes.size} nodes{of} are there, expected 1")
+            raise ArgumentError(f"place = {place_text(place)}: {nodes.size} nodes{of} are there, expected 1"
+                                + (self._which(nodes) if nodes.size else self._nearest(place, self._chosen(body))))
         return int(nodes[0])
 
-    def find_patch(self, body: int, lower: ArrayLike, upper: ArrayLike,
+    def _which(self, nodes: IntArray) -> str:
+        """Of several nodes at a place, for a message."""
+        bodies = self.node_bodies[nodes].tolist()
+        own = [f"{node} of body {body}" if body >= 0 else f"{node} of no body" for node, body in zip(nodes, bodies)]
+        return f" ({listing(own)})" + (": give body=" if len(set(bodies)) > 1 else "")
+
+    def _nearest(self, place: FloatArray, label: int) -> str:
+        """The node nearest to a place, for a message."""
+        rows = np.flatnonzero(self.node_bodies == label) if label >= 0 else np.arange(self.node_count)
+        if rows.size == 0:
+            return ""
+        nodes = self.nodes[rows]
+        distances = np.linalg.norm(nodes - place, axis=1)
+        near = int(distances.argmin())
+        return f"; the nearest is node {rows[near]} at {place_text(nodes[near])}, {distances[near]:g} away"
+
+    def find_patch(self, body: Body | None, lower: ArrayLike, upper: ArrayLike,
                    direction: str | ArrayLike) -> tuple[IntArray, FloatArray]:
         """Nodes [n] and weights [n] (lengths in 2D, areas in 3D) of a uniform traction on the part of a body's boundary
-        (None: of each body's) inside the box whose outward normal is within 45 degrees of the direction."""
+        (None: of each body's) inside the box whose outward normal is within 45 degrees of the direction. ArgumentError:
+        there is none."""
         dimension = self.dimension
         lower, upper = floats("lower", lower, (dimension,)), floats("upper", upper, (dimension,))
         along = axis("direction", direction, dimension)
         count = ctypes.c_int64()
-        box = body_label(body), pointer(lower), pointer(upper), pointer(along)
+        box = self._chosen(body), pointer(lower), pointer(upper), pointer(along)
         self._call(library.delam_mesh_find_patch, *box, 0, None, None, count, long=True)
+        if count.value == 0:
+            of = "any body" if body is None else f"body {body}"
+            raise ArgumentError(f"no face of {of} from {place_text(lower)} to {place_text(upper)} has its outward "
+                                f"normal within 45 degrees of direction {place_text(along)}{self._extent()}")
         nodes, weights = np.empty(count.value, np.int64), np.empty(count.value)
         self._call(library.delam_mesh_find_patch, *box, nodes.size, pointer(nodes), pointer(weights), count, long=True)
         return nodes, weights

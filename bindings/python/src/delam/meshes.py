@@ -11,6 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._arrays import FloatArray, IntArray
+from ._call import logger
+from ._words import listing, meant
 from .errors import ArgumentError, MeshError
 from .mesh import CELL_TYPES, CELLS, Mesh
 
@@ -26,8 +28,9 @@ NAMES = {"triangle": "tri3", "quad": "quad4", "tetra": "tet4", "hexahedron": "he
 # VTK's numbers of meshio's cells, those of faces of interfaces included.
 VTK_TYPES = {"line": 3, "triangle": 5, "quad": 9, "tetra": 10, "hexahedron": 12, "line3": 21, "triangle6": 22,
              "quad8": 23, "tetra10": 24, "hexahedron20": 25, "quad9": 28}
-# Where meshers keep the labels of bodies.
-LABELS = ("bodies", "gmsh:physical", "medit:ref", "cell_tags", "gmsh:geometrical")
+# Cell data in which meshers and solvers keep the labels of bodies, the first that exists counts.
+LABELS = ("bodies", "gmsh:physical", "medit:ref", "cell_tags", "gmsh:geometrical", "body", "part", "region", "material",
+          "CellEntityIds", "MaterialIds", "ElementBlockIds")
 # meshio's names of the cells of a result by dimension and number of nodes, and of the faces of its interfaces.
 _RESULT_CELLS = {2: {3: "triangle", 4: "quad", 6: "triangle6", 8: "quad8", 9: "quad9"},
                  3: {4: "tetra", 8: "hexahedron", 10: "tetra10", 20: "hexahedron20"}}
@@ -111,12 +114,16 @@ def read(source: meshio.Mesh | str | os.PathLike[str], bodies: str | Sequence[st
     are left out. Plane cells make a mesh in 2D; all must have the same z.
 
     bodies      name of the cell data with a label for each cell, or names of cell sets, which become the bodies 0, 1
-                ..; None: the first of `LABELS` that exists, else the cell sets if each cell is in one of them, else one
-                body
+                ..; None: the first of delam.meshes.LABELS that exists (bodies, gmsh:physical, medit:ref, cell_tags,
+                gmsh:geometrical, body, part, region, material, CellEntityIds, MaterialIds, ElementBlockIds), else the
+                cell sets if each cell is in one of them, else one body
     interfaces  pair the faces that bodies share (they may share nodes, these are doubled)
 
-    Nodes keep their indices. body_names of the mesh has {label: name} if the source names its groups. MeshError: cells
-    that have no place here; ArgumentError: there are no such data or sets, or a cell is in none or several of them."""
+    Nodes keep their indices. body_names of the mesh has {label: name} if the source names its groups. Cells that are
+    numbered clockwise or inside out are turned round. The logger "delam" is told what was taken for bodies, how many
+    cells were turned, and, as a warning, of labels that nobody asked for and of bodies that touch no other. MeshError:
+    cells that have no place here; ArgumentError: there are no such data or sets, a cell is in none or several of them,
+    or a label is no integer."""
     if isinstance(source, (str, os.PathLike)):
         source = _meshio().read(source)
     blocks = [(block.type, np.asarray(block.data, np.int64)) for block in source.cells]
@@ -131,7 +138,7 @@ def read(source: meshio.Mesh | str | os.PathLike[str], bodies: str | Sequence[st
 
 def from_vtk(grid: Any, bodies: str | None = None, interfaces: bool = True) -> Mesh:
     """The cells of highest dimension of a vtkUnstructuredGrid, or of a grid of PyVista, as `read` takes those of
-    meshio. bodies: name of the cell array with a label for each cell; None: the first of `LABELS` that exists, else one
+    meshio. bodies: name of the cell array with a label for each cell; None: the first of LABELS that exists, else one
     body."""
     model, support = _vtk()
     if not isinstance(grid, model.vtkUnstructuredGrid):
@@ -142,14 +149,18 @@ def from_vtk(grid: Any, bodies: str | None = None, interfaces: bool = True) -> M
     nodes = support.vtk_to_numpy(grid.GetCells().GetConnectivityArray()).astype(np.int64)
     data = grid.GetCellData()
     there = [data.GetArrayName(i) for i in range(data.GetNumberOfArrays())]
-    bodies = _label_name(bodies, there)
-    values = np.zeros(len(types), np.int64) if bodies is None else support.vtk_to_numpy(data.GetArray(bodies))
+    name = _label_name(bodies, there)
+    labels = np.zeros(len(types), np.int64)
+    if name is not None:
+        labels = _integers(name, support.vtk_to_numpy(data.GetArray(name)))
+    if bodies is None:
+        _tell_bodies(name, {name: [support.vtk_to_numpy(data.GetArray(name))] for name in there if data.GetArray(name)})
     rows = [np.flatnonzero(types == number) for number in np.unique(types)]
     blocks = [(known.get(int(types[row[0]]), f"VTK type {types[row[0]]}"),
                nodes[offsets[row][:, None] + np.arange(offsets[row[0] + 1] - offsets[row[0]])]) for row in rows]
     chosen = _chosen([name for name, _ in blocks])
     points = np.asarray(support.vtk_to_numpy(grid.GetPoints().GetData()), np.float64)
-    return _made(points, [blocks[i] for i in chosen], [values[rows[i]] for i in chosen], {}, interfaces)
+    return _made(points, [blocks[i] for i in chosen], [labels[rows[i]] for i in chosen], {}, interfaces)
 
 
 def _chosen(types: Sequence[str]) -> list[int]:
@@ -178,8 +189,50 @@ def _label_name(bodies: str | None, there: Iterable[str]) -> str | None:
     if bodies is None:
         return next((name for name in LABELS if name in there), None)
     if bodies not in there:
-        raise ArgumentError(f"bodies = {bodies!r} is no cell data; there are {', '.join(there) or 'none'}")
+        raise ArgumentError(f"bodies = {bodies!r} is no cell data{meant(bodies, there)}; there are "
+                            f"{', '.join(there) or 'none'}")
     return bodies
+
+
+def _are_integers(values: NDArray[Any]) -> bool:
+    return values.ndim == 1 and values.dtype.kind in "iuf" and bool((values == np.rint(values)).all())
+
+
+def _integers(name: str, values: ArrayLike) -> IntArray:
+    """Labels of cells."""
+    array = np.asarray(values)
+    if not _are_integers(array):
+        what = f"has shape {array.shape} and type {array.dtype}"
+        if array.ndim == 1 and array.dtype.kind == "f":
+            wrong = int(np.flatnonzero(array != np.rint(array))[0])
+            what = f"of cell {wrong} is {array[wrong]}"
+        raise ArgumentError(f"cell data {name!r} {what}; labels of bodies are integers, one for each cell")
+    return array.astype(np.int64)
+
+
+def _tell_bodies(taken: str | None, data: Mapping[str, Sequence[ArrayLike]], sets: Sequence[str] = ()) -> None:
+    """Logs what was taken for bodies where nobody has said it. sets: those that say it not of every cell."""
+    rivals = []
+    for name, parts in data.items():
+        arrays = [np.asarray(part) for part in parts]
+        if name != taken and all(map(_are_integers, arrays)) and len(np.unique(np.concatenate(arrays))) > 1:
+            rivals.append(name)
+    if taken is not None:
+        also = f"; bodies= takes others: {listing(rivals)}" if rivals else ""
+        logger.info("the bodies are those of cell data %r%s", taken, also)
+    elif rivals:
+        logger.warning("all cells make one body, because no cell data have one of the names %s; labels may be in %s: "
+                       "bodies=%r takes them", ", ".join(LABELS), listing(rivals), rivals[0])
+    elif sets:
+        logger.warning("all cells make one body, because some are in none or in several of the cell sets %s; "
+                       "bodies=[..] chooses among these", listing(sets))
+    else:
+        logger.info("all cells make one body: the mesh has no labels")
+
+
+def _of_blocks(source: Any, chosen: list[int]) -> dict[str, list[Any]]:
+    """Cell data of the chosen blocks."""
+    return {name: [parts[i] for i in chosen] for name, parts in source.cell_data.items()}
 
 
 def _labels(source: Any, blocks: list[tuple[str, IntArray]], chosen: list[int],
@@ -188,7 +241,9 @@ def _labels(source: Any, blocks: list[tuple[str, IntArray]], chosen: list[int],
     if bodies is None or isinstance(bodies, str):
         name = _label_name(bodies, source.cell_data)
         if name is not None:
-            return [np.asarray(source.cell_data[name][i]) for i in chosen], {}
+            if bodies is None:
+                _tell_bodies(name, _of_blocks(source, chosen))
+            return [_integers(name, source.cell_data[name][i]) for i in chosen], {}
     sets = {name: parts for name, parts in source.cell_sets.items() if ":" not in name}
     names = list(sets) if bodies is None else list(bodies)
     lost = [name for name in names if name not in source.cell_sets]
@@ -204,11 +259,75 @@ def _labels(source: Any, blocks: list[tuple[str, IntArray]], chosen: list[int],
             label[rows] = number
             count[rows] += 1
     if all((count == 1).all() for count in times):
+        if bodies is None:
+            logger.info("the bodies are the cell sets %s", listing(names))
         return labels, dict(enumerate(names))
     if bodies is None:
+        _tell_bodies(None, _of_blocks(source, chosen), names)
         return [np.zeros(len(label), np.int64) for label in labels], {}
     wrong = sum(int((count != 1).sum()) for count in times)
     raise ArgumentError(f"bodies = {bodies!r}: {wrong} cells are in none or in several of these sets")
+
+
+def _reversal(kind: str) -> IntArray:
+    """Where each node of a cell of this kind stands in its mirror image."""
+    cell = CELL_TYPES[kind]
+    corners = {3: [0, 2, 1], 4: [0, 3, 2, 1]}[cell.corners] if cell.dimension == 2 else (
+        {4: [0, 2, 1, 3], 8: [0, 3, 2, 1, 4, 7, 6, 5]}[cell.corners])
+    between = {frozenset(pair): cell.corners + i for i, pair in enumerate(cell.middle.tolist())}
+    middle = [between[frozenset((corners[a], corners[b]))] for a, b in cell.middle.tolist()]
+    return np.array([*corners, *middle], np.int64)
+
+
+def _turned(points: FloatArray, kind: str, cells: IntArray) -> IntArray:
+    """The cells with those turned round whose corners go clockwise or inside out: whose Jacobian at the centre is
+    negative."""
+    if cells.size == 0 or cells.min() < 0 or cells.max() >= len(points):
+        return cells
+    cell = CELL_TYPES[kind]
+    x = points[cells[:, :cell.corners]]
+    if cell.dimension == 2:
+        after = np.roll(x, -1, axis=1)
+        size = (x[..., 0] * after[..., 1] - x[..., 1] * after[..., 0]).sum(1)
+    else:
+        ends = ([1], [0]), ([2], [0]), ([3], [0])
+        if cell.corners == 8:
+            ends = ([1, 2, 5, 6], [0, 3, 4, 7]), ([2, 3, 6, 7], [0, 1, 4, 5]), ([4, 5, 6, 7], [0, 1, 2, 3])
+        edges = np.stack([x[:, there].mean(1) - x[:, here].mean(1) for there, here in ends], axis=1)
+        size = np.linalg.det(edges)
+    wrong = size < 0
+    if wrong.any():
+        logger.info("%d of %d cells of type %s were numbered %s and were turned round", wrong.sum(), len(cells), kind,
+                    "clockwise" if cell.dimension == 2 else "inside out")
+        cells = np.where(wrong[:, None], cells[:, _reversal(kind)], cells)
+    return cells
+
+
+def _distance(one: FloatArray, other: FloatArray) -> float:
+    """Of the nearest nodes; of large bodies an upper bound, from some nodes and their nearest ones in turn."""
+    few, many = (one, other) if len(one) < len(other) else (other, one)
+    step = 1 + int(len(few) * len(many) / 2e7)
+    best, at = min((float(np.linalg.norm(many - place, axis=1).min()), i) for i, place in enumerate(few[::step]))
+    place = few[at * step]
+    for nodes in (many, few) * 3:
+        distances = np.linalg.norm(nodes - place, axis=1)
+        best, place = min(best, float(distances.min())), nodes[distances.argmin()]
+    return best
+
+
+def _warn_of_lone_bodies(mesh: Mesh) -> None:
+    """Those that share no face with another."""
+    joined = {body for interface in mesh.interfaces for body in (interface.body_a, interface.body_b)}
+    lone = [body for body in mesh._labels() if body not in joined]
+    if not lone:
+        return
+    nodes, bodies = mesh.nodes, mesh.node_bodies
+    first = lone[0]
+    distance = _distance(nodes[bodies == first], nodes[(bodies != first) & (bodies >= 0)])
+    logger.warning("no interface was made for %s %s, whose faces coincide with none of another body; the nearest nodes "
+                   "of body %s and of others are %.3g apart. Mesh.add_interface(tolerance=..) or, where meshes do not "
+                   "match, Mesh.add_projected_interface(gap=..) joins faces at a distance",
+                   "bodies" if len(lone) > 1 else "body", listing(lone), first, distance)
 
 
 def _made(points: FloatArray, blocks: list[tuple[str, IntArray]], labels: list[NDArray[Any]], names: dict[int, str],
@@ -221,10 +340,11 @@ def _made(points: FloatArray, blocks: list[tuple[str, IntArray]], labels: list[N
         points = points[:, :2]
     mesh = Mesh(points)
     for (name, cells), label in zip(blocks, labels):
-        mesh.add_conforming_cells(NAMES[name], cells, np.asarray(label).astype(np.int64))
+        mesh.add_conforming_cells(NAMES[name], _turned(points, NAMES[name], cells), label)
     mesh.body_names = names
     if interfaces and mesh.body_count > 1:
         mesh.add_all_interfaces()
+        _warn_of_lone_bodies(mesh)
     return mesh
 
 

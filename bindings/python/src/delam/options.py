@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import collections.abc
 import ctypes
-import difflib
 import functools
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Any
 
 from ._call import number, text
 from ._library import library
+from ._words import listing, meant
 from .law import Bounds, Parameter, described
 
 if TYPE_CHECKING:
@@ -71,9 +71,9 @@ def initial_values() -> dict[str, Value]:
 
 
 def unknown(key: object, known: Iterable[str], what: str) -> KeyError:
-    """KeyError with the nearest name."""
-    near = difflib.get_close_matches(str(key), list(known), 1)
-    return KeyError(f"{what} {key!r} is not known" + (f"; did you mean {near[0]!r}?" if near else ""))
+    """KeyError with the nearest names, or with some that there are."""
+    names = list(known)
+    return KeyError(f"{what} {key!r} is not known" + (meant(key, names) or f"; there are {listing(names)}"))
 
 
 def _value(parameter: Parameter, words: Any) -> Value:

@@ -16,9 +16,10 @@ from ._arrays import direction as axis
 from ._arrays import FloatArray, IntArray, floats, indices, listed, ndim, pointer, spread
 from ._call import Context, Object, integer, number, text
 from ._library import library
+from ._words import meant
 from .errors import ArgumentError, DelamError
 from .law import Law
-from .mesh import Mesh, body_label, interface_index
+from .mesh import Body, Mesh, interface_index, place_text
 from .options import Options, initial_values
 
 if TYPE_CHECKING:
@@ -91,15 +92,18 @@ class Pattern:
         return f"<Pattern {self.index}: {self.name}>"
 
 
-# What prescribes a value: a pattern, or patterns with coefficients.
-Drive = int | str | Pattern | Mapping[Any, ArrayLike] | None
+# What prescribes a value: a pattern or its name, or {pattern: coefficient}.
+Drive = str | Pattern | Mapping[Any, ArrayLike] | None
+_DRIVES = ("the pattern that add_pattern returned, its name, {pattern: coefficient}, or None: held at zero; a value "
+           "other than zero needs a pattern that reaches it, add_pattern(name, [0, 1], [0, value])")
 
 
 def pattern_index(which: int | str | Pattern, problem: Problem, names: Sequence[str]) -> int:
     """Of a pattern of this problem: itself, one of the names, or its index."""
     if isinstance(which, str):
         if which not in names:
-            raise ArgumentError(f"pattern {which!r} is not known; known are {', '.join(names) or 'none'}")
+            raise ArgumentError(f"pattern {which!r} is not known{meant(which, names)}; known are "
+                                f"{', '.join(names) or 'none'}")
         return names.index(which)
     if isinstance(which, Pattern) and which.problem is not None and which.problem() is not problem:
         raise ArgumentError(f"pattern {which.name!r} given is one of another problem")
@@ -109,9 +113,11 @@ def pattern_index(which: int | str | Pattern, problem: Problem, names: Sequence[
 class Problem(Object):
     """Takes a copy of the mesh.
 
-    Bodies are chosen by label, None means all. `drive` is the prescribed value: a pattern (itself, its name or
-    index), a mapping {pattern: coefficient, or one per node}, or None for zero. Directions are vectors or axes ("x",
-    "-y").
+    Bodies are chosen by label or by name (Mesh.body_names), None means all. Directions are vectors or axes ("x", "-y").
+
+    `drive` says what prescribes a value: a pattern, the object that add_pattern returned or its name, whose factor is
+    the value; a mapping {pattern: coefficient, or one per node}, whose sum it is; or None, held at zero. A number is
+    refused: a value is a factor of a pattern, so that reactions belong to patterns.
 
     progress: a function (stage, done, total) called inside long work, on the calling thread; a true result cancels,
     except in calls that only read, such as fields. `mesh` is the mesh given, `dimension` 2 or 3.
@@ -138,6 +144,7 @@ class Problem(Object):
         self._pair_counts = [interface.pair_count for interface in mesh.interfaces]
         self.progress = progress
         self._values = initial_values()
+        self._adhesive: set[int] = set()  # the interfaces with laws
         self._drives: dict[int, str] = {}  # what each pattern drives, for pictures
         if plane is not None:
             self.set_plane(plane)
@@ -173,33 +180,34 @@ class Problem(Object):
         """"plane-strain" (initially) or "plane-stress"."""
         self._call(library.delam_problem_set_plane, text("assumption", assumption))
 
-    def set_elastic(self, young: float, poisson: float, body: int | None = None) -> None:
+    def set_elastic(self, young: float, poisson: float, body: Body | None = None) -> None:
         """Isotropic elasticity: Young's modulus, a stress > 0, and Poisson's ratio in (-1, 0.5)."""
-        self._call(library.delam_problem_set_elastic, body_label(body), number("young", young),
+        self._call(library.delam_problem_set_elastic, self.mesh._chosen(body), number("young", young),
                    number("poisson", poisson))
 
-    def set_orthotropic(self, constants: ArrayLike, body: int | None = None) -> None:
+    def set_orthotropic(self, constants: ArrayLike, body: Body | None = None) -> None:
         """E1 E2 E3 nu12 nu13 nu23 G12 G13 G23 in the material axes, moduli as stresses; nu_ij: contraction along j
         under tension along i."""
         constants = floats("constants", constants, (9,))
-        self._call(library.delam_problem_set_orthotropic, body_label(body), pointer(constants))
+        self._call(library.delam_problem_set_orthotropic, self.mesh._chosen(body), pointer(constants))
 
-    def set_orientation(self, axes: ArrayLike, cells: ArrayLike | None = None, body: int | None = None) -> None:
+    def set_orientation(self, axes: ArrayLike, cells: ArrayLike | None = None, body: Body | None = None) -> None:
         """Directions of the material axes 1 and 2 in space, [2][3] for all cells of the body or [cells][2][3]."""
         if cells is None:
             axes = floats("axes", axes, (2, 3))
-            self._call(library.delam_problem_set_orientation, body_label(body), 1, None, pointer(axes), 0, long=True)
+            self._call(library.delam_problem_set_orientation, self.mesh._chosen(body), 1, None, pointer(axes), 0,
+                       long=True)
             return
         of = indices("cells", cells, size=self._cell_count)
         if ndim(axes) == 2:
             axes = np.tile(floats("axes", axes, (2, 3)), (of.size, 1, 1))
         axes = floats("axes", axes, (of.size, 2, 3))
-        self._call(library.delam_problem_set_orientation, body_label(body), of.size, pointer(of), pointer(axes), 0,
-                   long=True)
+        self._call(library.delam_problem_set_orientation, self.mesh._chosen(body), of.size, pointer(of), pointer(axes),
+                   0, long=True)
 
-    def set_formulation(self, formulation: str, body: int | None = None) -> None:
+    def set_formulation(self, formulation: str, body: Body | None = None) -> None:
         """"standard" (initially), "incompatible" or "mean-dilatation"."""
-        self._call(library.delam_problem_set_formulation, body_label(body), text("formulation", formulation))
+        self._call(library.delam_problem_set_formulation, self.mesh._chosen(body), text("formulation", formulation))
 
     def set_stiffness(self, nodes: ArrayLike, matrix: object, dofs: ArrayLike | None = None,
                       kernel: ArrayLike | None = None) -> None:
@@ -230,9 +238,11 @@ class Problem(Object):
     # ---- interfaces
 
     def set_law(self, interface: int | Interface, law: Law) -> None:
-        """Copies the law's present parameters. The adhesion does not change: 1, or the value of set_adhesion."""
+        """Copies the law's present parameters. The adhesion does not change: 1, or the value of set_adhesion.
+        ProblemError names the parameters that are missing."""
         if not isinstance(law, Law):
             raise ArgumentError(f"law = {law!r}, expected a Law")
+        law._complete()
         hosted = self.context.hosted
         # Before the call, which may be interrupted after it has finished.
         if law._callbacks:
@@ -244,21 +254,31 @@ class Problem(Object):
         except DelamError:
             self.context.hosted = hosted
             raise
+        self._adhesive.add(interface_index(interface, self.mesh))
 
     def set_bonded(self, interface: int | Interface) -> None:
         """Perfectly and permanently bonded."""
         self._call(library.delam_problem_set_bonded, interface_index(interface, self.mesh))
+        self._adhesive.discard(interface_index(interface, self.mesh))
 
     def set_contact(self, interface: int | Interface) -> None:
         """Faces without adhesion that may separate but not overlap."""
         self._call(library.delam_problem_set_contact, interface_index(interface, self.mesh))
+        self._adhesive.discard(interface_index(interface, self.mesh))
 
     def set_adhesion(self, interface: int | Interface, pairs: ArrayLike, adhesion: ArrayLike = 0.0) -> None:
-        """Initial adhesion in [0, 1] of some pairs, one for all or [pairs]; 0 makes a notch. pairs: indices or a
-        mask."""
+        """Initial adhesion in [0, 1] of some pairs, one for all or [pairs]; 0 makes a notch. pairs: indices or a mask;
+        ArgumentError: there are none. A Solver warns of an interface that no pair holds."""
         interface = interface_index(interface, self.mesh)
         size = self._pair_counts[interface] if 0 <= interface < len(self._pair_counts) else None
         pairs = indices("pairs", pairs, size=size)
+        if pairs.size == 0:
+            where = ""
+            if size and not self.mesh.closed:
+                places = self.mesh.interfaces[interface].places
+                where = f"; they lie from {place_text(places.min(0))} to {place_text(places.max(0))}"
+            raise ArgumentError(f"pairs is empty, expected at least one of the {size} pairs of interface "
+                                f"{interface}{where}")
         adhesion = spread("adhesion", adhesion, pairs.size)
         self._call(library.delam_problem_set_adhesion, interface, pairs.size, pointer(pairs), pointer(adhesion), 0)
 
@@ -303,8 +323,14 @@ class Problem(Object):
         """Patterns and their coefficients, [count][patterns] or [patterns]."""
         if drive is None:
             drive = {}
-        elif not isinstance(drive, collections.abc.Mapping):
+        elif isinstance(drive, (str, Pattern)):
             drive = {drive: 1.0}
+        elif not isinstance(drive, collections.abc.Mapping):
+            raise ArgumentError(f"drive = {drive!r}, expected {_DRIVES}")
+        for which in drive:
+            # The number of a pattern would pass for a value or a time.
+            if not isinstance(which, (str, Pattern)):
+                raise ArgumentError(f"drive = {drive!r} has the key {which!r}, expected {_DRIVES}")
         patterns = np.array([self.pattern(which) for which in drive], np.int64)
         if count is None:
             coefficients = np.array([number(f"drive[{which!r}]", value) for which, value in drive.items()], np.float64)
@@ -315,10 +341,20 @@ class Problem(Object):
             raise ArgumentError(f"drive = {drive} must be finite")
         return patterns, coefficients
 
+    def _nodes(self, nodes: ArrayLike) -> IntArray:
+        """Nodes by index or mask, at least one."""
+        found = indices("nodes", nodes, size=self._node_count)
+        if found.size == 0:
+            raise self.mesh._nothing("nodes")
+        return found
+
     def prescribe(self, nodes: ArrayLike, direction: str | ArrayLike, drive: Drive = None) -> None:
-        """Prescribes direction . u of each node, a length where the direction is a unit vector; fixed at zero without
-        drive. nodes: indices or a mask."""
-        nodes = indices("nodes", nodes, size=self._node_count)
+        """Prescribes direction . u of each node, a length where the direction is a unit vector.
+
+        nodes  indices or a mask; ArgumentError: there are none
+        drive  what prescribes the value: a pattern, {pattern: coefficient, or one per node}, or None: held at zero;
+               never a number (Problem says why)"""
+        nodes = self._nodes(nodes)
         along = axis("direction", direction, self.dimension)
         patterns, coefficients = self._driven(drive, nodes.size)
         self._call(library.delam_problem_prescribe_nodes, nodes.size, pointer(nodes), pointer(along), patterns.size,
@@ -327,8 +363,8 @@ class Problem(Object):
     def prescribe_mean(self, nodes: ArrayLike, weights: ArrayLike, direction: str | ArrayLike,
                        drive: Drive = None) -> None:
         """Prescribes the weighted mean of direction . u over nodes; with the weights of Mesh.find_patch, a support
-        spread over a patch."""
-        nodes = indices("nodes", nodes)
+        spread over a patch. nodes: indices or a mask; drive: as of prescribe, with one coefficient for each pattern."""
+        nodes = self._nodes(nodes)
         weights = floats("weights", weights, (nodes.size,))
         along = axis("direction", direction, self.dimension)
         patterns, coefficients = self._driven(drive)
@@ -336,8 +372,8 @@ class Problem(Object):
                    patterns.size, pointer(patterns), pointer(coefficients), 0, long=True)
 
     def add_equation(self, nodes: ArrayLike, coefficients: ArrayLike, drive: Drive = None) -> None:
-        """sum_i coefficients[i] . u_nodes[i] = sum over patterns of drive * factor; coefficients:
-        [nodes][dimension]."""
+        """sum_i coefficients[i] . u_nodes[i] = sum over patterns of drive * factor; coefficients: [nodes][dimension];
+        drive: as of prescribe, with one coefficient for each pattern; None: the sum is zero."""
         nodes = indices("nodes", nodes)
         coefficients = floats("coefficients", coefficients, (nodes.size, self.dimension))
         patterns, prescribed = self._driven(drive)
@@ -355,8 +391,8 @@ class Problem(Object):
 
     def add_forces(self, pattern: int | str | Pattern, nodes: ArrayLike, forces: ArrayLike) -> None:
         """Dead forces (in 2D per unit of width) times the factor of a pattern: [nodes][dimension], or one vector for
-        all."""
-        nodes = indices("nodes", nodes, size=self._node_count)
+        all. nodes: indices or a mask; ArgumentError: there are none."""
+        nodes = self._nodes(nodes)
         if ndim(forces) == 1:
             forces = np.tile(floats("forces", forces, (self.dimension,)), (nodes.size, 1))
         forces = floats("forces", forces, (nodes.size, self.dimension))
@@ -364,11 +400,11 @@ class Problem(Object):
         self._call(library.delam_problem_add_forces, index, nodes.size, pointer(nodes), pointer(forces), 0, long=True)
         self._drives.setdefault(index, "force")
 
-    def add_eigenstrain(self, pattern: int | str | Pattern, strain: ArrayLike, body: int | None = None) -> None:
+    def add_eigenstrain(self, pattern: int | str | Pattern, strain: ArrayLike, body: Body | None = None) -> None:
         """xx, yy, zz, 2xy, 2yz, 2zx in the material axes, times the factor of a pattern."""
         strain = floats("strain", strain, (6,))
         index = self.pattern(pattern)
-        self._call(library.delam_problem_add_eigenstrain, index, body_label(body), pointer(strain))
+        self._call(library.delam_problem_add_eigenstrain, index, self.mesh._chosen(body), pointer(strain))
         self._drives.setdefault(index, "strain")
 
     # ---- queries
@@ -429,10 +465,10 @@ class Problem(Object):
             keys.append((key.value or b"").decode())
         return keys
 
-    def body_matrix(self, body: int) -> Sparse:
+    def body_matrix(self, body: Body) -> Sparse:
         """Stiffness of a body, forces per length, over its nodes in ascending order, both triangles: row
         dimension * i + component of node i."""
-        body = integer("body", body, 32)
+        body = self.mesh._label(body)
         rows, entries = ctypes.c_int64(), ctypes.c_int64()
         self._call(library.delam_problem_body_matrix, body, rows, entries, None, None, None, long=True)
         out = Sparse((rows.value, rows.value), np.empty(rows.value + 1, np.int64), np.empty(entries.value, np.int64),

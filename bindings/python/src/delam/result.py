@@ -77,10 +77,11 @@ def as_frame(table: NDArray[np.void]) -> pandas.DataFrame:
 
 
 class Fields(Mapping[str, Any]):
-    """The fields of one step, by name, as arrays: displacement [nodes][3], stress [cells][6] (xx, yy, zz, xy, yz, zx)
-    and what else the scene stores; "interface_0" and so on are mappings of the same kind with zeta (the adhesion)
-    [pairs], jump and traction [pairs][3] (normal, tangents), contact, displacement, and the fronts. In 2D the remaining
-    components are zero. Units are those of the result (Result.about["units"])."""
+    """A mapping of the fields of one step by name, fields["stress"], as arrays: displacement [nodes][3], stress
+    [cells][6] (xx, yy, zz, xy, yz, zx) and what else the scene stores; "interface_0" and so on are mappings of the same
+    kind with zeta (the adhesion) [pairs], jump and traction [pairs][3] (normal, tangents), contact, displacement, and
+    the fronts. In 2D the remaining components are zero. Units are those of the result (Result.about["units"]). `step`
+    and `time` say which step it is; list(fields) has the names."""
 
     def __init__(self, step: int, time: float, data: dict[str, Any]) -> None:
         self.step = step

@@ -7,18 +7,19 @@ import ctypes
 import os
 import warnings
 from collections.abc import Iterable, Iterator, Mapping
-from typing import TYPE_CHECKING, Any, NamedTuple, overload
+from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _raw
 from ._arrays import FloatArray, IntArray, floats, listed, pointer
-from ._call import Object, integer, number, text
+from ._call import Object, integer, logger, number, text
 from ._library import library
-from .errors import ArgumentError, NotConverged, NotConvergedWarning
+from ._words import in_python, meant
+from .errors import ArgumentError, DelamError, NotConverged, NotConvergedWarning
 from .history import History, steps_of
-from .mesh import body_label, interface_index
+from .mesh import Body, interface_index
 from .options import unknown
 from .problem import Problem, Sparse, pattern_index
 
@@ -27,6 +28,13 @@ if TYPE_CHECKING:
 
     from .mesh import Interface
     from .problem import Pattern
+
+
+# Fields of a state and what they are over.
+FIELDS = {"displacement": "nodes", "stress": "cells", "rotation": "cells", "jump": "pairs", "traction": "pairs",
+          "adhesion": "pairs", "mixity": "pairs", "contact": "pairs", "reaction": "constraints"}
+# What others call a field.
+_SYNONYMS = {"damage": "'adhesion', which is 1 - damage", "zeta": "'adhesion'", "opening": "'jump'"}
 
 
 class ValueInfo(NamedTuple):
@@ -147,9 +155,9 @@ class Values(Mapping[str, float]):
         self._keys = keys
 
     def __getitem__(self, name: str) -> float:
-        key = self._keys.get(name) or self._solver._alias(name)
+        key = self._keys.get(name) or self._keys.get(self._solver._aliased().get(name, ""))
         if key is None:
-            raise unknown(name, self._keys, "value")
+            raise unknown(name, (*self._keys, *self._solver._aliased()), "value")
         out = ctypes.c_double()
         self._solver._call(library.delam_solver_value, key, out)
         return out.value
@@ -161,7 +169,11 @@ class Values(Mapping[str, float]):
         return len(self._keys)
 
     def __contains__(self, name: object) -> bool:
-        return name in self._keys or self._solver._alias(name) is not None
+        return name in self._keys or name in self._solver._aliased()
+
+    def __reduce__(self) -> NoReturn:
+        raise TypeError("Values read the solver in this process and cannot be pickled or copied: use "
+                        "dict(solver.values) of this state, or a History, whose rows can be")
 
     def describe(self) -> dict[str, ValueInfo]:
         """What each of them is: {name: ValueInfo}."""
@@ -202,7 +214,20 @@ class Solver(Object):
         names = (self.context.text(library.delam_solver_value_name, self._pointer, i) or "" for i in range(count.value))
         self._keys = {name: name.encode() for name in names}
         self._infos: dict[str, ValueInfo] | None = None
+        self._aliases: dict[str, str] | None = None
+        self._warn_of_bare_interfaces()
         self._outcome(outcome, 3)
+
+    def _warn_of_bare_interfaces(self) -> None:
+        """Those with a law that no pair holds from the start."""
+        counts = self.problem._pair_counts
+        adhesion = np.empty(sum(counts))
+        self._call(library.delam_solver_field, b"adhesion", -1, adhesion.size, pointer(adhesion))
+        for i, part in enumerate(np.split(adhesion, np.cumsum(counts)[:-1])):
+            if i in self.problem._adhesive and not part.any():
+                logger.warning("interface %d has a law, but none of its %d pairs has any adhesion: a notch takes some "
+                               "of them (Problem.set_adhesion); faces that only touch need Problem.set_contact",
+                               i, part.size)
 
     def _call(self, function: Any, *arguments: Any, long: bool = False) -> None:
         self.context.call(function, self._handle, *arguments, long=long)
@@ -214,16 +239,19 @@ class Solver(Object):
             infos = {}
             for i, name in enumerate(self._keys):
                 self._call(library.delam_solver_value_info, i, *texts, recorded)
-                alias, unit, cost, scope, meaning = ((item.value or b"").decode() for item in texts)
+                alias, unit, cost, scope, meaning = (in_python((item.value or b"").decode()) for item in texts)
                 infos[name] = ValueInfo(alias, unit, cost, scope, meaning, bool(recorded))
             self._infos = infos
         return self._infos
 
-    def _alias(self, name: object) -> bytes | None:
-        """The name as bytes if the library knows it as an alias, else None."""
-        if not isinstance(name, str) or not name:
-            return None
-        return name.encode() if any(name == info.alias for info in self._described().values()) else None
+    def _aliased(self) -> dict[str, str]:
+        """{alias: name} of values: those of the library and, of a single pattern, the command line's names."""
+        if self._aliases is None:
+            found = {info.alias: name for name, info in self._described().items() if info.alias}
+            if len(self._patterns) == 1:
+                found.update((kind, f"{kind}:{self._patterns[0]}") for kind in ("load", "reaction"))
+            self._aliases = {alias: name for alias, name in found.items() if alias not in self._keys}
+        return self._aliases
 
     @property
     def _pattern_count(self) -> int:
@@ -304,11 +332,16 @@ class Solver(Object):
               progress: bool = False) -> Iterator[dict[str, float]]:
         """Advances and commits, time after time; yields a dict of values after each step.
 
-        values: names, None for all but the costly ones. progress: a bar (tqdm's if it is installed, also in notebooks)
-        on standard error. A step that raises is rolled back. With option backtracking a step may replace earlier ones:
-        value revised_from is the first of those, look() reads them; history() does so by itself."""
+        times: each after the one before; if the first is the committed time, the present state is yielded without a
+        step, so that linspace(0, 1, 11) makes 10 steps. values: names, None for all but the costly ones. progress: a
+        bar (tqdm's if it is installed, also in notebooks) on standard error. A step that raises is rolled back. With
+        option backtracking a step may replace earlier ones: value revised_from is the first of those, look() reads
+        them; history() does so by itself."""
         names = self._names(values)
-        for time in steps_of(times, progress):
+        for i, time in enumerate(steps_of(times, progress)):
+            if i == 0 and not self.pending and number("time", time) == self.time:
+                yield {name: self.values[name] for name in names}
+                continue
             try:
                 self.advance(time)
                 self.commit()
@@ -320,21 +353,38 @@ class Solver(Object):
 
     def history(self, times: Iterable[float], values: Iterable[str] | None = None,
                 progress: bool = False) -> History:
-        """Runs the analysis and returns the History of all steps, with the present state as its first row."""
+        """Runs the analysis and returns the History of all steps, with the present state as its first row.
+
+        times, values, progress: as of march; with one pattern, values may be "load" and "reaction".
+
+        Whatever ends it early (Ctrl-C, Cancelled, LimitReached, an error) carries the rows so far:
+
+            try:
+                history = solver.history(times)
+            except KeyboardInterrupt as stop:
+                history = stop.history
+
+        In a notebook or at a prompt, sys.last_value.history has them. The solver stands at the last of these rows."""
         history = History(self, values)
-        for _ in self.march(times, (), progress):
-            history.record()
+        try:
+            for _ in self.march(times, (), progress):
+                history.record()
+        except BaseException as error:
+            # The stop may have come between a commit and its row.
+            with contextlib.suppress(DelamError):
+                history.record()
+            setattr(error, "history", history)
+            error.add_note(f"The {len(history)} rows up to time {history._column('time')[-1]:g} are kept: attribute "
+                           f"history of this exception.")
+            raise
         return history
 
     def record(self, *names: str) -> None:
         """Records these values for the committed state and, with each later commit, for every further step, including
         steps that returns replace; save() saves them. Any values but the costly ones and the counts over the solver's
         life."""
-        for name in names:
-            if name not in self.values:
-                raise unknown(name, self._keys, "value")
-        for name in names:
-            self._call(library.delam_solver_record, text("name", name))
+        for name in map(self._checked, names):
+            self._call(library.delam_solver_record, text("name", self._aliased().get(name, name)))
 
     @property
     def recorded_steps(self) -> range:
@@ -347,18 +397,23 @@ class Solver(Object):
         """[recorded_steps]: a recorded value for each step; NaN for steps before record(). ArgumentError: it is not
         recorded."""
         out = np.empty(len(self.recorded_steps))
-        self._call(library.delam_solver_recorded, text("name", name), out.size, pointer(out))
+        key = self._aliased().get(name, name) if isinstance(name, str) else name
+        self._call(library.delam_solver_recorded, text("name", key), out.size, pointer(out))
         return out
 
     def _names(self, values: Iterable[str] | None) -> tuple[str, ...]:
         if values is None:
             # A history has what recovers the displacements only when it is asked for.
             return tuple(name for name, info in self._described().items() if info.cost != "recovers")
-        names = tuple(values)
-        for name in names:
-            if name not in self.values:
-                raise unknown(name, tuple(self.values), "value")
-        return names
+        if isinstance(values, str):
+            raise ArgumentError(f"values = {values!r} is a str, expected names in a list: [{values!r}]")
+        return tuple(self._checked(name) for name in values)
+
+    def _checked(self, name: str) -> str:
+        """The name of a value, or an alias."""
+        if name not in self.values:
+            raise unknown(name, (*self._keys, *self._aliased()), "value")
+        return name
 
     @property
     def time(self) -> float:
@@ -422,20 +477,29 @@ class Solver(Object):
     def field(self, name: str, interface: int | Interface | None = None) -> FloatArray:
         """A field of the state described (Values): [rows][columns], or [rows] if there is one column.
 
-        Over nodes: displacement [nodes][dimension], lengths. Over cells: stress [cells][6] (xx, yy, zz, xy, yz, zx),
-        rotation. Over pairs of an interface, None for all one after another: jump and traction [pairs][dimension]
-        (normal, tangents; lengths and stresses), adhesion, mixity and contact [pairs]. Over constraints: reaction.
-        ArgumentError: there is no such field."""
+        Over nodes: displacement [nodes][dimension], lengths. Over cells: stress [cells][6] (xx, yy, zz, xy, yz, zx; in
+        2D [cells][4], the first four), rotation. Over pairs of an interface, None for all one after another: jump and
+        traction [pairs][dimension] (normal, tangents; lengths and stresses), adhesion, mixity and contact [pairs]. Over
+        constraints: reaction. ArgumentError: there is no such field, or it is none of an interface."""
+        over = FIELDS.get(name) if isinstance(name, str) else None
+        if over is None:
+            near = f" (did you mean {_SYNONYMS[name]}?)" if name in _SYNONYMS else meant(name, FIELDS)
+            raise ArgumentError(f"field {name!r} is not known{near}; known are {', '.join(FIELDS)}")
+        if interface is not None and over != "pairs":
+            of_pairs = ", ".join(field for field, where in FIELDS.items() if where == "pairs")
+            raise ArgumentError(f"field {name!r} is one over all {over} and takes no interface, but {interface!r} was "
+                                f"given; those of an interface are {of_pairs}")
         part = -1 if interface is None else interface_index(interface, self.problem.mesh)
         rows, columns = self._shape(name, part)
         out = np.empty((rows, columns) if columns > 1 else rows)
         self._call(library.delam_solver_field, text("name", name), part, out.size, pointer(out), long=True)
         return out
 
-    def average(self, body: int | None = None) -> Average:
+    def average(self, body: Body | None = None) -> Average:
         """Volume, average strain and average stress of a body; None: of all. It recovers the displacements."""
         volume, strain, stress = ctypes.c_double(), np.empty(6), np.empty(6)
-        self._call(library.delam_solver_average, body_label(body), volume, pointer(strain), pointer(stress), long=True)
+        self._call(library.delam_solver_average, self.problem.mesh._chosen(body), volume, pointer(strain),
+                   pointer(stress), long=True)
         return Average(volume.value, strain, stress)
 
     def fronts(self, interface: int | Interface = 0) -> Fronts:
@@ -529,10 +593,14 @@ class Solver(Object):
     @property
     def jumps(self) -> list[Jump]:
         """Jumps of the state, in the order of time."""
+        return self._jumps(0)
+
+    def _jumps(self, first: int) -> list[Jump]:
+        """From one of them on."""
         count = ctypes.c_int64()
         self._call(library.delam_solver_jump_count, count)
         jumps = []
-        for i in range(count.value):
+        for i in range(first, count.value):
             out: list[Any] = [ctypes.c_int64(), *(ctypes.c_double() for _ in range(6)),
                               *(ctypes.c_int64() for _ in range(3))]
             self._call(library.delam_solver_jump, i, *out)
