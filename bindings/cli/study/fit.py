@@ -85,6 +85,13 @@ def estimates(fit, found, level):
     freedom = points - count
     if freedom < 0:
         raise Trouble(f"{points} points for {count} parameters: as many are expected, and more for intervals", NUMERICAL)
+    idle = [p.path for p, slope in zip(fit.model.parameters, found.jac.T) if not slope.any()]
+    if idle:
+        data = fit.model.data[0]
+        raise Trouble(f"{'the curve does' if len(fit.model.data) == 1 else 'the curves do'} not depend on {', '.join(idle)}"
+                      + (f" for {fit.model.x_name} from {data.x[0]:g} to {data.x[-1]:g}" if len(fit.model.data) == 1 else "")
+                      + ": numbers of laws act where the interface damages or the crack grows; are the data in the units of the "
+                        "scene, and do they reach so far?", NUMERICAL)
     left, singular, vectors = np.linalg.svd(found.jac, full_matrices=False)
     if singular[-1] <= 1e-10 * singular[0]:
         weak = np.abs(vectors[-1]) > 0.1
@@ -158,11 +165,11 @@ def main():
     if len({p.path for p in parameters}) < len(parameters):
         raise Trouble("--parameters: a key is given twice")
     data = [CurveData(path, given.columns, given.scale) for path in given.data]
-    held = hold(given.out)  # until the end
-    make_folder(os.path.join(given.out, "work"))
     signal.signal(signal.SIGTERM, interrupt)
     model = Model(given.scenes, data, parameters, given)
     fit = Fit(model, given.weights)
+    held = hold(given.out)  # until the end
+    make_folder(os.path.join(given.out, "work"))
     found = fit.run()
     try:
         report(model, fit, found, given.confidence, given.out)
