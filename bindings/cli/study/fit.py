@@ -10,11 +10,16 @@ import json
 import os
 import signal
 
-import numpy as np
+from packages import require
 
-from curve_data import CurveData
-from fit_model import Infeasible, Model, Parameter
-from marches import DONE, NUMERICAL, Trouble, given_words, hold, make_folder, read_about, refuse_set, run_study, write_file
+require("delam: fit", "numpy", "scipy", "matplotlib")
+
+import numpy as np  # noqa: E402
+
+from curve_data import CurveData  # noqa: E402
+from fit_model import Infeasible, Model, Parameter  # noqa: E402
+from marches import (DONE, NUMERICAL, Trouble, given_words, hold, make_folder, read_about, refuse_set,  # noqa: E402
+                     run_study, write_file)
 
 WORSE = 10.0  # what a step into an infeasible region costs, in residuals: the trust region then shrinks
 

@@ -12,8 +12,8 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
-from marches import (DONE, INTERRUPTED, NOT_CONVERGED, NUMERICAL, WRONG, Check, Trouble, finish, last_words, path_of, read_history, setting, start,
-                     value_at)
+from marches import (DONE, INTERRUPTED, NOT_CONVERGED, NUMERICAL, WRONG, Check, Trouble, finish, last_words, path_of,
+                     read_history, setting, start, value_at)
 
 SMALL_PART = 0.05  # of the range of a scene: less is covered by curves in metres, centimetres, inches for millimetres
 DIFFERENCE = 1e-3  # of a parameter without derivatives; far above what an unconverged digit moves

@@ -18,11 +18,16 @@ import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
 
-import numpy as np
+from packages import require
 
-from marches import (DONE, INTERRUPTED, NOT_CONVERGED, WRONG, Check, Trouble, end_all, finish, given_words, hold, last_words,
-                     read_about, read_history, refuse_set, run_study, setting, start, write_file)
-from variations import Variation, grid, latin
+require("delam: sweep", "numpy", "matplotlib")
+
+import numpy as np  # noqa: E402
+
+from marches import (DONE, INTERRUPTED, NOT_CONVERGED, WRONG, Check, Trouble, end_all, finish,  # noqa: E402
+                     given_words, hold, last_words, read_about, read_history, refuse_set, run_study, setting, start,
+                     write_file)
+from variations import Variation, grid, latin  # noqa: E402
 
 RESULTS = ["exit_code", "steps", "peak_reaction", "load_at_peak", "last_reaction", "dissipated", "released", "jumps",
            "not_converged", "message"]

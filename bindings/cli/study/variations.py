@@ -6,6 +6,7 @@ import tomllib
 import numpy as np
 
 from marches import Trouble, path_of
+from packages import require
 
 
 class Variation:
@@ -82,6 +83,7 @@ def grid(variations):
 
 def latin(variations, count, seed):
     """Latin hypercube: of `count` equal parts of each range, each holds one point."""
+    require("delam: sweep", "scipy")
     from scipy.stats import qmc  # here alone, for it takes half a second to load
     if count < 1:
         raise Trouble(f"--latin {count}: at least 1 is expected")

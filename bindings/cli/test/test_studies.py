@@ -265,6 +265,16 @@ def fits():
            f"one parameter, and data in other units: {error}")
 
 
+def without_packages():
+    study = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "study")
+    for name, needed in (("sweep", "numpy, matplotlib"), ("fit", "numpy, scipy, matplotlib")):
+        done = subprocess.run(["/usr/bin/python3", "-S", os.path.join(study, name + ".py"), "{}"], capture_output=True, text=True,
+                              check=False)
+        expect(done.returncode == 2 and done.stderr.startswith(f"delam: {name}: /usr/bin/python3 has no {needed};") and
+               "python3-" + needed.replace(", ", ", python3-") in done.stderr and done.stderr.count("\n") == 1,
+               f"without packages: {done.stderr}")
+
+
 def alike():
     """Parameters that move the curve in the same way are named, and no other."""
     import fit  # pylint: disable=import-outside-toplevel
@@ -346,6 +356,6 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."
 if sys.argv[1:] == ["whole"]:
     long_fits()
 else:
-    for part in (sweeps, interrupted_sweep, changed_mesh, wrong_words, fits, alike):
+    for part in (sweeps, interrupted_sweep, changed_mesh, wrong_words, fits, alike, without_packages):
         part()
 finish()
