@@ -11,7 +11,12 @@ import sys
 
 HERE = os.path.dirname(os.path.realpath(__file__))
 # What draws is beside this script where that is installed, and in the Python package among the sources.
-sys.path[:0] = [HERE, os.path.join(HERE, "..", "..", "python", "src", "delam")]
+sys.path[:0] = [HERE, os.path.join(HERE, "..", "..", "python", "src", "delam"), os.path.join(HERE, "study"),
+                os.path.join(HERE, "..", "study")]
+
+from packages import require  # noqa: E402
+
+require("plot.py", "numpy", "matplotlib", "h5py")
 
 from _pictures.curves import averages_figure, energies_figure, load_figure  # noqa: E402
 from _pictures.cut import cut_figure, plane_of  # noqa: E402

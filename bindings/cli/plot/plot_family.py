@@ -10,11 +10,16 @@ import argparse
 import os
 import sys
 
-import numpy as np
-
 HERE = os.path.dirname(os.path.realpath(__file__))
 # What draws is beside this script where that is installed, and in the Python package among the sources.
-sys.path[:0] = [HERE, os.path.join(HERE, "..", "..", "python", "src", "delam")]
+sys.path[:0] = [HERE, os.path.join(HERE, "..", "..", "python", "src", "delam"), os.path.join(HERE, "study"),
+                os.path.join(HERE, "..", "study")]
+
+from packages import require  # noqa: E402
+
+require("plot_family.py", "numpy", "matplotlib")
+
+import numpy as np  # noqa: E402
 
 from _pictures.result import GREY, Result, axis, early_end, for_files, plt, save, zoom  # noqa: E402
 

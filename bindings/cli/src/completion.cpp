@@ -119,7 +119,8 @@ std::string bash(const ProgramText& program) {
 
 std::string zsh_values(const OptionText& option) {
     if (!option.choices.empty()) return "(" + words(option.choices) + ")";
-    if (option.value == setting_value) return "($settings)";
+    // Behind the sign of KEY= a value follows at once.
+    if (option.value == setting_value) return "{compadd -S \"\" -a open; compadd -a whole}";
     if (option.value != folder_value && !is_file(option)) return " ";
     if (option.value == folder_value) return "_files -/";
     if (option.value == scene_value) return "_files -g \"*.(toml|inp)\"";
@@ -162,6 +163,7 @@ std::string zsh(const ProgramText& program) {
         "_{0}() {{\n"
         "    local -a commands=(\n{1}    )\n"
         "    local -a settings=({2})\n"
+        "    local -a open=(${{(M)settings:#*=}}) whole=(${{settings:#*=}})\n"
         "    if ((CURRENT == 2)); then _describe command commands; return; fi\n"
         "    local command=$words[2]\n"
         "    shift words\n"

@@ -22,8 +22,9 @@ std::string template_path() {
     const DataFile file = data_file("view.html");
     if (file.found) return file.path;
     throw Failure(exit_scene,
-                  fmt::format("{}: there is no template of the page. It is built where npm is found (Debian: nodejs, "
-                              "npm) and its registry answers; see README.md of bindings/cli/view",
+                  fmt::format("{}: there is no template of the page. `cmake --build build/release --target delam_view` "
+                              "builds it, with npm (Debian: nodejs, npm) and DELAM_VIEWER = AUTO or ON; or give "
+                              "--template FILE. See README.md of bindings/cli/view",
                               file.path));
 }
 

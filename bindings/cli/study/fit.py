@@ -10,11 +10,16 @@ import json
 import os
 import signal
 
-import numpy as np
+from packages import require
 
-from curve_data import CurveData
-from fit_model import Infeasible, Model, Parameter
-from marches import DONE, NUMERICAL, Trouble, given_words, hold, make_folder, read_about, refuse_set, run_study, write_file
+require("delam: fit", "numpy", "scipy", "matplotlib")
+
+import numpy as np  # noqa: E402
+
+from curve_data import CurveData  # noqa: E402
+from fit_model import Infeasible, Model, Parameter  # noqa: E402
+from marches import (DONE, NUMERICAL, Trouble, given_words, hold, make_folder, read_about, refuse_set,  # noqa: E402
+                     run_study, write_file)
 
 WORSE = 10.0  # what a step into an infeasible region costs, in residuals: the trust region then shrinks
 
@@ -85,6 +90,13 @@ def estimates(fit, found, level):
     freedom = points - count
     if freedom < 0:
         raise Trouble(f"{points} points for {count} parameters: as many are expected, and more for intervals", NUMERICAL)
+    idle = [p.path for p, slope in zip(fit.model.parameters, found.jac.T) if not slope.any()]
+    if idle:
+        data = fit.model.data[0]
+        raise Trouble(f"{'the curve does' if len(fit.model.data) == 1 else 'the curves do'} not depend on {', '.join(idle)}"
+                      + (f" for {fit.model.x_name} from {data.x[0]:g} to {data.x[-1]:g}" if len(fit.model.data) == 1 else "")
+                      + ": numbers of laws act where the interface damages or the crack grows; are the data in the units of the "
+                        "scene, and do they reach so far?", NUMERICAL)
     left, singular, vectors = np.linalg.svd(found.jac, full_matrices=False)
     if singular[-1] <= 1e-10 * singular[0]:
         weak = np.abs(vectors[-1]) > 0.1
@@ -158,11 +170,11 @@ def main():
     if len({p.path for p in parameters}) < len(parameters):
         raise Trouble("--parameters: a key is given twice")
     data = [CurveData(path, given.columns, given.scale) for path in given.data]
-    held = hold(given.out)  # until the end
-    make_folder(os.path.join(given.out, "work"))
     signal.signal(signal.SIGTERM, interrupt)
     model = Model(given.scenes, data, parameters, given)
     fit = Fit(model, given.weights)
+    held = hold(given.out)  # until the end
+    make_folder(os.path.join(given.out, "work"))
     found = fit.run()
     try:
         report(model, fit, found, given.confidence, given.out)

@@ -6,14 +6,16 @@ differences of two more marches.
 """
 import os
 import re
+import sys
 import tomllib
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
-from marches import (DONE, INTERRUPTED, NOT_CONVERGED, NUMERICAL, WRONG, Trouble, finish, last_words, path_of, read_history, setting, start,
-                     value_at)
+from marches import (DONE, INTERRUPTED, NOT_CONVERGED, NUMERICAL, WRONG, Check, Trouble, finish, last_words, path_of,
+                     read_history, setting, start, value_at)
 
+SMALL_PART = 0.05  # of the range of a scene: less is covered by curves in metres, centimetres, inches for millimetres
 DIFFERENCE = 1e-3  # of a parameter without derivatives; far above what an unconverged digit moves
 
 
@@ -38,10 +40,12 @@ class Parameter:
     def of_law(self):
         return self.path.startswith("laws[")
 
-    def begin(self, scenes):
+    def begin(self, files, scenes, common):
         """The value of the scenes, unless a start is given; inside of the bounds."""
         known = {value_at(scene, self.path) for scene in scenes} - {None}
         if self.start is None:
+            if not known:
+                self._require_key(files[0], common)
             if len(known) != 1:
                 raise Trouble(f"{self.path}: the scenes give " + (f"different values, {sorted(known)}" if known
                                                                   else "no number") + ": add @START")
@@ -50,6 +54,30 @@ class Parameter:
             raise Trouble(f"{self.path} starts at {self.start:g}: > 0 is expected")
         if not self.lower < self.start < self.upper:
             raise Trouble(f"{self.path} starts at {self.start:g}, which is not between {self.lower:g} and {self.upper:g}")
+
+
+    def _require_key(self, file, common):
+        """What `delam check` says of two values alike is of the key: it is unknown, or its list has no such entry."""
+        said = {answer.words for answer in (Check(file, common + [f"{self.path}={value}"]) for value in (1.0, 2.0))
+                if answer.errors and answer.errors[0]["key"] == self.path}
+        if len(said) == 1:
+            raise Trouble(f"--parameters {said.pop().removeprefix('--set: ')}")
+
+
+def range_of(x_name, scene, times):
+    """From where to where a column of the history grows at least, as far as the scene tells; None: it does not."""
+    begin, end = times["from"], times["to"]
+    if x_name == "time":
+        return begin, end
+    patterns = scene.get("patterns", [])
+    names = ["load"] if len(patterns) == 1 else [f"load_{pattern['name']}" for pattern in patterns]
+    if x_name not in names:
+        return None
+    pattern = patterns[names.index(x_name)]
+    at = np.array([begin, *(t for t in pattern["times"] if begin < t < end), end])
+    values = np.interp(at, pattern["times"], pattern["values"])
+    falls = np.flatnonzero(np.diff(values) <= 0)
+    return values[0], values[falls[0] if falls.size else -1]
 
 
 class Infeasible(Exception):
@@ -78,7 +106,36 @@ class Model:
             except (OSError, tomllib.TOMLDecodeError) as error:
                 raise Trouble(f"{path}: {error}") from error
         for parameter in parameters:
-            parameter.begin(parsed)
+            parameter.begin(scenes, parsed, self.common)
+        starts = self._settings([p.start for p in parameters])
+        for which, path in enumerate(scenes):
+            answer = Check(path, starts)
+            if answer.errors:
+                raise Trouble(answer.words)
+            # Settings may change patterns.
+            if "time" in answer.found and not any(word.startswith("patterns") for word in starts):
+                self._compare_ranges(which, range_of(self.x_name, parsed[which], answer.found["time"]))
+
+    def _settings(self, values):
+        return self.common + [setting(p.path, float(v)) for p, v in zip(self.parameters, values)]
+
+    def _compare_ranges(self, which, known):
+        """Before a march: data in other units are noticed by their x."""
+        if known is None:
+            return
+        data = self.data[which].x
+        self._require_within(which, *known)
+        if data[-1] - known[0] < SMALL_PART * (known[1] - known[0]):
+            print(f"delam: fit: warning: {self.data[which].path}: {self.x_name} ends at {data[-1]:g}, that of {self.files[which]} at "
+                  f"{known[1]:g}: other units?", file=sys.stderr)
+
+    def _require_within(self, which, low, high):
+        data = self.data[which].x
+        slack = 1e-9 * (high - low)
+        if data[0] < low - slack or data[-1] > high + slack:
+            raise Trouble(f"{self.data[which].path}: {self.x_name} goes from {data[0]:g} to {data[-1]:g}, that of "
+                          f"{self.files[which]} from {low:g} to {high:g}: other units? Else give the scene a longer time, or "
+                          "less data")
 
     def _march(self, which, name, settings):
         out = os.path.join(self.work, f"{which + 1}-{name}")
@@ -104,18 +161,13 @@ class Model:
         x = self._column(history, self.x_name, which)
         rising = np.flatnonzero(np.diff(x) <= 0)
         x, y = (x[:rising[0] + 1], y[:rising[0] + 1]) if rising.size else (x, y)
-        data = self.data[which].x
-        slack = 1e-9 * (x[-1] - x[0])
-        if data[0] < x[0] - slack or data[-1] > x[-1] + slack:
-            raise Trouble(f"{self.data[which].path}: {self.x_name} goes from {data[0]:g} to {data[-1]:g}, that of "
-                          f"{self.files[which]} from {x[0]:g} to {x[-1]:g}: give the scene a longer time, or less data "
-                          "(units?)")
-        return np.interp(data, x, y)
+        self._require_within(which, x[0], x[-1])
+        return np.interp(self.data[which].x, x, y)
 
     def _curve(self, job):
         """The model and its derivatives at the data of one scene."""
         which, values = job
-        settings = self.common + [setting(p.path, float(v)) for p, v in zip(self.parameters, values)]
+        settings = self._settings(values)
         followed = [p.path for p in self.parameters if p.of_law]
         asked = [f"output.sensitivities={followed}"] if followed and self.y_name.startswith("reaction") else []
         history = self._march(which, "at", settings + asked)
@@ -131,9 +183,8 @@ class Model:
             step = DIFFERENCE * values[k]
             ends = []
             for sign in (1, -1):
-                moved = self.common + [setting(p.path, float(v + (sign * step if p is parameter else 0.0)))
-                                       for p, v in zip(self.parameters, values)]
-                there = self._march(which, "near", moved)
+                moved = [v + (sign * step if p is parameter else 0.0) for p, v in zip(self.parameters, values)]
+                there = self._march(which, "near", self._settings(moved))
                 ends.append(self._at_data(which, there, self._column(there, self.y_name, which)))
             slopes.append((ends[0] - ends[1]) / (2 * step))
         return y, np.array(slopes).T

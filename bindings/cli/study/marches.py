@@ -126,6 +126,27 @@ def start(scene, out, settings, resume=False, one_thread=True):
             return running[-1]
 
 
+class Check:
+    """What `delam check` says of a scene with settings: `errors`, and what it found; nothing if it does not get that far."""
+
+    def __init__(self, scene, settings):
+        words = [word for one in settings for word in ("--set", one)]
+        done = subprocess.run([program(), "check", scene, "--json", *words], stdout=subprocess.PIPE,
+                              stderr=subprocess.DEVNULL, check=False)
+        try:
+            self.found = json.loads(done.stdout)
+        except ValueError:
+            self.found = {}
+        self.errors = self.found.get("errors", [])
+
+    @property
+    def words(self):
+        """The first error, as `delam check` prints it."""
+        error = self.errors[0]
+        line = f"{error['file']}:{error['line']}" if error["line"] else error["file"]
+        return ": ".join(text for text in (line, error["key"], error["message"]) if text)
+
+
 def last_words(out):
     """The last message of a march."""
     with open(out + ".log", encoding="utf-8", errors="replace") as log:

@@ -18,14 +18,21 @@ import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
 
-import numpy as np
+from packages import require
 
-from marches import (DONE, INTERRUPTED, NOT_CONVERGED, WRONG, Trouble, end_all, finish, given_words, hold, last_words,
-                     read_about, read_history, refuse_set, run_study, setting, start, write_file)
-from variations import Variation, grid, latin
+require("delam: sweep", "numpy", "matplotlib")
+
+import numpy as np  # noqa: E402
+
+from marches import (DONE, INTERRUPTED, NOT_CONVERGED, WRONG, Check, Trouble, end_all, finish,  # noqa: E402
+                     given_words, hold, last_words, read_about, read_history, refuse_set, run_study, setting, start,
+                     write_file)
+from variations import Variation, grid, latin  # noqa: E402
 
 RESULTS = ["exit_code", "steps", "peak_reaction", "load_at_peak", "last_reaction", "dissipated", "released", "jumps",
            "not_converged", "message"]
+OF_A_SWEEP = {"scene": "another text of the scene file", "set": "other --set", "vary": "other keys",
+              "points": "other values", "scene_hash": "another mesh"}  # members of sweep.json
 
 
 class Sweep:
@@ -46,29 +53,51 @@ class Sweep:
         self.lock = threading.Lock()
         self.began = time.monotonic()
 
-    def define(self, replace):
-        """Notes what the sweep is, and refuses the folder of another one."""
+    def read(self):
         try:
             with open(self.scene, "rb") as file:
                 self.text = file.read().decode("utf-8", "replace")
         except OSError as error:
             raise Trouble(f"{self.scene}: cannot be read: {error.strerror}") from error
-        definition = {"scene": self.text, "set": self.common, "vary": [v.path for v in self.variations],
-                      "points": [list(point) for point in self.points]}
-        path = os.path.join(self.out, "sweep.json")
-        if os.path.exists(path):
-            try:
-                with open(path, encoding="utf-8") as file:
-                    same = json.load(file) == json.loads(json.dumps(definition))
-            except ValueError:
-                same = False
-            if not same and not replace:
-                raise Trouble(f"{self.out} holds another sweep: --replace discards it")
-            if replace:
-                self.discard()
-        elif os.path.exists(os.path.join(self.out, "table.csv")):
-            raise Trouble(f"{self.out} holds a table.csv that is of no sweep: choose another folder")
-        write_file(path, json.dumps(definition, indent=1))
+        self.definition = {"scene": self.text, "set": self.common, "vary": [v.path for v in self.variations],
+                           "points": [list(point) for point in self.points]}
+        self.place = os.path.join(self.out, "sweep.json")
+
+    def refuse_other(self, replace):
+        """Refuses the folder of another sweep."""
+        if not os.path.exists(self.place):
+            if os.path.exists(os.path.join(self.out, "table.csv")):
+                raise Trouble(f"{self.out} holds a table.csv that is of no sweep: choose another folder")
+            return
+        try:
+            with open(self.place, encoding="utf-8") as file:
+                known = json.load(file)
+            now = json.loads(json.dumps(self.definition))
+            other = [what for key, what in OF_A_SWEEP.items()
+                     if known.get(key) != now.get(key) and not (key == "scene_hash" and None in (known.get(key), now.get(key)))]
+        except (ValueError, AttributeError):
+            other = ["a sweep.json that cannot be read"]
+        if other and not replace:
+            raise Trouble(f"{self.out} holds another sweep, with {' and '.join(other)}: --replace discards it")
+
+    def require_scene(self):
+        """Refuses a sweep of which no run is a scene, before anything is written; as a rule the first one is."""
+        first = None
+        for point in self.points:
+            answer = Check(self.scene, self.settings(point))
+            if not answer.errors:
+                # The mesh's file is no part of the text.
+                self.definition["scene_hash"] = answer.found.get("scene_hash")
+                return
+            first = first or answer.words
+        raise Trouble(f"no run is a scene, e.g. {first}")
+
+    def define(self, replace):
+        """Notes what the sweep is."""
+        self.refuse_other(replace)
+        if replace:
+            self.discard()
+        write_file(self.place, json.dumps(self.definition, indent=1))
 
     def discard(self):
         """The results of another sweep, and nothing else that lies in the folder."""
@@ -158,6 +187,9 @@ class Sweep:
 def main():
     given = given_words()
     sweep = Sweep(given)
+    sweep.read()
+    sweep.refuse_other(given.replace)
+    sweep.require_scene()
     held = hold(given.out)  # until the end
     sweep.define(given.replace)
     if not sweep.run(given.jobs):

@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What a sweep varies: `KEY=200:400:5`, `KEY=1:1000:4:log`, `KEY=100,250,400`, `KEY=local,energetic`."""
 import itertools
+import tomllib
 
 import numpy as np
 
 from marches import Trouble, path_of
+from packages import require
 
 
 class Variation:
@@ -33,7 +35,15 @@ class Variation:
         try:
             return float(word) if any(c in word for c in ".eE") else int(word)
         except ValueError:
-            return word
+            pass
+        # As --set reads it: a word that is no TOML value and begins with a letter is a text.
+        try:
+            tomllib.loads(f"value = {word}")
+        except tomllib.TOMLDecodeError as error:
+            if not word[0].isalpha():
+                raise Trouble(f"--vary {self.text}: \"{word}\" is no value: a grid is written FROM:TO:NUMBER, like 0.3:0.7:5, "
+                              "and a list A,B,C, like 0.3,0.5,0.7") from error
+        return word
 
     def _range(self, parts):
         try:
@@ -73,6 +83,7 @@ def grid(variations):
 
 def latin(variations, count, seed):
     """Latin hypercube: of `count` equal parts of each range, each holds one point."""
+    require("delam: sweep", "scipy")
     from scipy.stats import qmc  # here alone, for it takes half a second to load
     if count < 1:
         raise Trouble(f"--latin {count}: at least 1 is expected")

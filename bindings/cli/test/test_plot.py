@@ -48,6 +48,12 @@ def draws(scene, what, plot=draw):
     return out
 
 
+# An interpreter without packages (-S: not those of Debian).
+for name in ("plot", "plot_family"):
+    done = subprocess.run(["/usr/bin/python3", "-S", path_of(name), folder()], capture_output=True, text=True, check=False)
+    expect(done.returncode == 2 and done.stderr.count("\n") == 1 and "/usr/bin/python3 has no numpy, matplotlib" in done.stderr and
+           "python3-numpy, python3-matplotlib" in done.stderr, f"{name}.py without packages says what is missing: {done.stderr}")
+
 coarse = changed("h = 0.0015", "h = 0.003")
 draws(coarse, "2D", script)
 triangles = changed("dimension = 2", 'dimension = 2\ncell = "tri3"', coarse)

@@ -285,6 +285,17 @@ def test_completion():
             done = subprocess.run([shell] if shell == "fish" else [shell, "-n"], input=delam("completion", shell)[1], capture_output=True,
                                   text=True, check=False)
             check(f"{shell} reads its script: {done.stderr}", done.returncode == 0 and not done.stderr)
+    if shutil.which("zsh"):
+        # _arguments and compadd work while a line is completed only; here they show what they are given.
+        stubs = """
+            compadd() { if [[ $1 == -S ]]; then print -l -- "$2"${^${(P)4}}; else print -l -- ${^${(P)2}}" "; fi }
+            _arguments() { local spec=${(M)@:#\\*--set\\[*}; eval "${spec##*:}" }
+            CURRENT=4 words=(delam run a.toml --set)
+        """
+        done = subprocess.run(["zsh", "-f"], input=stubs + delam("completion", "zsh")[1], capture_output=True, text=True, check=False)
+        offered = done.stdout.splitlines()
+        check(f"zsh puts a blank behind a value, and none behind KEY= {done.stderr}", "solver.contact=always " in offered and
+              "geometry.length=" in offered and "geometry.length= " not in offered)
 
 
 for test in [value for name, value in list(globals().items()) if name.startswith("test_")]:

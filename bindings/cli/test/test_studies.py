@@ -4,6 +4,7 @@ import csv
 import json
 import os
 import random
+import re
 import shutil
 import signal
 import subprocess
@@ -54,6 +55,12 @@ def curve(path, rows, noise=0.0, seed=1, scale=1.0, every=2):
     return path
 
 
+def write_lines(path, *lines):
+    with open(path, "w", encoding="utf-8") as file:
+        file.write("\n".join(lines) + "\n")
+    return path
+
+
 def sweeps():
     scene = write(changed("steps = 20", "steps = 5"))
     out = os.path.join(folder(), "sweep")
@@ -80,7 +87,7 @@ def sweeps():
            f"the same command computes what is missing alone: {error}")
     expect(table(os.path.join(out, "table.csv")) == rows, "and the table is the same")
     other = [word.replace("200:400:3", "200:400:2") for word in words]
-    expect_error(start(*other), 2, "holds another sweep")
+    expect_error(start(*other), 2, "holds another sweep, with other values: --replace")
     with open(os.path.join(out, "notes.txt"), "w", encoding="utf-8") as file:
         file.write("mine")
     code, _, error = start(*other, "--replace")
@@ -113,18 +120,81 @@ def interrupted_sweep():
     expect(not os.path.exists(os.path.join(out, "0002")), "no further run begins")
 
 
+# Two squares, one above the other, each with its own nodes at the interface.
+SQUARES = """*NODE
+1, 0, 0
+2, 1, 0
+3, 1, 1
+4, 0, 1
+5, 0, 1
+6, 1, 1
+7, 1, 2
+8, 0, {top}
+*ELEMENT, TYPE=CPE4, ELSET=LOWER
+1, 1, 2, 3, 4
+*ELEMENT, TYPE=CPE4, ELSET=UPPER
+2, 5, 6, 7, 8
+*NSET, NSET=BOTTOM
+1, 2
+*NSET, NSET=TOP
+7, 8
+"""
+
+
+def changed_mesh():
+    """The mesh is a file of its own, and the scene's text stays the same."""
+    here = folder()
+    mesh, scene, out = (os.path.join(here, name) for name in ("squares.inp", "scene.toml", "sweep"))
+
+    def write_mesh(top):
+        with open(mesh, "w", encoding="utf-8") as file:
+            file.write(SQUARES.format(top=top))
+
+    law = "\n".join(f"{mode}_{key}" for mode in ("normal", "tangential")
+                    for key in ("stiffness = 100.0", "onset = 1.0", "toughness = 2.0"))
+    with open(scene, "w", encoding="utf-8") as file:
+        file.write(f"""schema = 1
+mesh = {{ file = "squares.inp" }}
+materials = [{{ name = "m", young = 8.0, poisson = 0.0 }}]
+bodies = [{{ name = "*", material = "m" }}]
+interfaces = [{{ all = true, law = "law" }}]
+supports = [{{ set = "BOTTOM", fix = ["x", "y"] }}]
+patterns = [{{ name = "p", times = [0, 1], values = [0, 0.001] }}]
+loads = [{{ set = "TOP", component = ["y"], pattern = "p" }}]
+time = {{ end = 1.0, steps = 1 }}
+[[laws]]
+name = "law"
+{law}
+""")
+    words = ["sweep", scene, "--vary", "laws.0.normal_toughness=2,3", "--out", out]
+    write_mesh(2)
+    code, _, error = start(*words)
+    expect(code == 0, f"a sweep over a mesh of a file: {error}")
+    rows = table(os.path.join(out, "table.csv"))
+    write_mesh(2.5)
+    expect_error(start(*words), 2, "holds another sweep, with another mesh: --replace")
+    expect(table(os.path.join(out, "table.csv")) == rows, "its table stays")
+    code, _, error = start(*words, "--replace")
+    expect(code == 0 and table(os.path.join(out, "table.csv")) != rows, f"--replace computes it with the new mesh: {error}")
+
+
 def wrong_words():
     scene = write(SCENE)
     out = os.path.join(folder(), "out")
 
     def refused(pattern, *words):
         expect_error(start(*words, "--out", out), 2, pattern)
+        expect(not os.path.exists(out), "and nothing is written")
 
     refused("no key of a scene", "sweep", scene, "--vary", "laws[0=1:2:3")
     refused("FROM:TO:NUMBER", "sweep", scene, "--vary", "laws.0.normal_onset=1:2")
     refused("must be less", "sweep", scene, "--vary", "laws.0.normal_onset=2:1:3")
     refused("more than 0 for log", "sweep", scene, "--vary", "laws.0.normal_onset=0:1:3:log")
     refused("at least 2 values", "sweep", scene, "--vary", "laws.0.normal_onset=1:2:1")
+    refused(r"\"0.3-0.7\" is no value: .* 0.3:0.7:5, .* 0.3,0.5,0.7", "sweep", scene, "--vary", "laws.0.normal_toughness=0.3-0.7")
+    refused("no run is a scene, e.g. .*unknown key.*'normal_toughness'", "sweep", scene, "--vary", "laws.0.normal_tougness=250,300")
+    refused("no run is a scene, e.g. .*normal_toughness 50 < normal_onset 100", "sweep", scene, "--vary",
+            "laws.0.normal_toughness=50:90:3")
     refused("given twice", "sweep", scene, "--vary", "time.end=1,2", "--vary", "time.end=3,4")
     refused("cannot be read", "sweep", "/nowhere/a.toml", "--vary", "time.end=1,2")
     data = os.path.join(folder(), "data.csv")
@@ -140,13 +210,20 @@ def wrong_words():
     with_data("load,force\n0.002,1\n0.001,2\n", "load must increase")
     with_data("load,force\n0.001,1\n0.002,x\n", "row 2 of the numbers")
     with_data("load,force\n0.001,1\n0.002,inf\n", "not finite")
-    with_data("load,force\n1.0,1\n2.0,2\n", r"goes from 1 to 2, .* \(units\?\)")
+    with_data("load,force\n1.0,1\n2.0,2\n", "goes from 1 to 2, .* from 0 to 0.006: other units")
+    with_data("time,force\n1.0,1\n20,2\n", "time goes from 1 to 20, .* from 0 to 2: other units", "laws.0.normal_toughness", "--x", "time")
     with_data(good, "no column \"strain\"", "laws.0.normal_toughness", "--columns", "strain", "force")
     with_data(good, "must be less than the upper", "laws.0.normal_toughness=2:1")
     with_data(good, "not between 300 and 400", "laws.0.normal_toughness=300:400")
-    with_data(good, "no number", "laws.0.plateau")
-    with_data(good, "no column \"reactoin\"", "laws.0.normal_toughness", "--y", "reactoin")
+    with_data(good, "no number", "solver.damage_tolerance")
+    with_data(good, r"laws\[0\].plateau: is for kind trapezoidal", "laws.0.plateau")
+    with_data(good, r"laws\[0\].toughness: unknown key .*'normal_toughness'", "laws.0.toughness")
+    with_data(good, r"laws\[0\].toughness: unknown key .*'normal_toughness'", "laws.0.toughness@200")
+    with_data(good, "laws has 1 entry, counted from 0", "laws.3.normal_toughness")
     refused("2 curves for 1 scenes", "fit", scene, "--data", data, data, "--parameters", "laws.0.normal_toughness")
+    # Names of columns are known when a march has ended.
+    expect_error(start("fit", scene, "--data", data, "--parameters", "laws.0.normal_toughness", "--y", "reactoin", "--out", out), 2,
+                 "no column \"reactoin\"")
 
 
 def fits():
@@ -178,13 +255,43 @@ def fits():
     expect(code == 0 and abs(young - 70e9) < 1e-3 * 70e9, f"a modulus: {young} {error}")
     code, shown, error = start("fit", scene, *words, "--parameters", "laws.0.normal_toughness",
                                "output.displacement_scale@5", "--out", fit)
-    expect(code == 4 and "do not tell" in error and "displacement_scale" in error and "toughness" not in error,
+    expect(code == 4 and "does not depend on output.displacement_scale for load from" in error and "toughness" not in error,
            f"a parameter that changes nothing is named: {error}")
+    # Metres for kilometres: all of the data lie where nothing is damaged.
+    short = write_lines(data + "2", "load,force", "1e-7,1", "2e-7,2", "4e-7,4")
+    code, shown, error = start("fit", scene, "--data", short, "--parameters", "laws.0.normal_toughness", "--out", fit)
+    expect(code == 4 and re.search("warning: .* load ends at 4e-07, that of .* at 0.0004: other units", error) and
+           "does not depend on laws[0].normal_toughness for load from 1e-07 to 4e-07: " in error and "apart" not in error,
+           f"one parameter, and data in other units: {error}")
+
+
+def without_packages():
+    study = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "study")
+    for name, needed in (("sweep", "numpy, matplotlib"), ("fit", "numpy, scipy, matplotlib")):
+        done = subprocess.run(["/usr/bin/python3", "-S", os.path.join(study, name + ".py"), "{}"], capture_output=True, text=True,
+                              check=False)
+        expect(done.returncode == 2 and done.stderr.startswith(f"delam: {name}: /usr/bin/python3 has no {needed};") and
+               "python3-" + needed.replace(", ", ", python3-") in done.stderr and done.stderr.count("\n") == 1,
+               f"without packages: {done.stderr}")
+
+
+def alike():
+    """Parameters that move the curve in the same way are named, and no other."""
+    import fit  # pylint: disable=import-outside-toplevel
+    from marches import Trouble  # pylint: disable=import-outside-toplevel
+    from types import SimpleNamespace  # pylint: disable=import-outside-toplevel
+    slopes = np.array([[1.0, 1.0, 2.0], [2.0, 0.0, 4.0], [3.0, 1.0, 6.0], [4.0, 1.0, 8.0]])
+    model = SimpleNamespace(parameters=[SimpleNamespace(path=name) for name in ("one", "other", "twice")])
+    try:
+        fit.estimates(SimpleNamespace(model=model, start=np.ones(3)), SimpleNamespace(jac=slopes, x=np.ones(3), fun=np.ones(4)), 0.95)
+        said = ""
+    except Trouble as trouble:
+        said = str(trouble)
+    expect("do not tell these parameters apart: one, twice; give fewer" in said, f"parameters that do the same: {said}")
 
 
 def long_fits():
     """Three mixed-mode bending tests with 2 % of noise; and whether the intervals cover the truth as often as they say."""
-    sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "study"))
     covered, trials = coverage()
     for key, count in covered.items():
         expect(count >= 90, f"{key}: the 95 % intervals of {trials} fits cover the truth {count} times")
@@ -245,9 +352,10 @@ def coverage(trials=100):
     return covered, trials
 
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "study"))
 if sys.argv[1:] == ["whole"]:
     long_fits()
 else:
-    for part in (sweeps, interrupted_sweep, wrong_words, fits):
+    for part in (sweeps, interrupted_sweep, changed_mesh, wrong_words, fits, alike, without_packages):
         part()
 finish()

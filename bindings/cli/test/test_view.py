@@ -9,12 +9,13 @@ import re
 import resource
 import shutil
 import stat
+import subprocess
 import zlib
 
 import h5py
 import numpy as np
 
-from support import changed, delam, expect, expect_error, finish, folder, read, start, write
+from support import DELAM, changed, delam, expect, expect_error, finish, folder, read, start, write
 
 TEMPLATE = "<title><!--delam:title--></title><!--delam:data--><p>the rest of the template</p>"
 
@@ -204,6 +205,10 @@ expect_error(delam("view", other), 2, "page.html: it is no folder")
 expect_error(delam("view", folder()), 2, "result.json: there is no such file, so this folder holds no result")
 expect_error(delam(*words[:2], "--template", other), 2, "page.html: this is no template of the page")
 expect_error(delam(*words[:2], "--template", out), 2, "cannot be read: it is a folder")
+# The program looks for its template from its own folder.
+alone = shutil.copy(DELAM, folder())
+done = subprocess.run([alone, "view", out], capture_output=True, text=True, check=False)
+expect_error((done.returncode, done.stdout, done.stderr), 2, "view.html: there is no template .*--target delam_view.*DELAM_VIEWER")
 code, _, error = delam("view", out, "--every", "0", "--template", template())
 expect(code == 2 and "--every" in error, f"--every 0: {error.strip()[:80]}")
 
