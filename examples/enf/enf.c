@@ -36,8 +36,7 @@ typedef struct {
         }                                                                                                    \
     } while (0)
 
-/* What the library warns of (level 1) reaches the log alone: what it doubts in the scene and in a step. Errors (level 0)
-   are told by TRY. */
+/* What the library warns of (level 1), reaches the log alone. TRY tells errors. */
 static void tell(int32_t level, const char *text, void *user) {
     (void)user;
     if (level == 1) fprintf(stderr, "enf: %s\n", text);
