@@ -36,7 +36,7 @@ typedef struct {
         }                                                                                                    \
     } while (0)
 
-/* What the library warns of (level 1), reaches the log alone. TRY tells errors. */
+/* What the library warns of (level 1) reaches the log alone. TRY tells errors. */
 static void tell(int32_t level, const char *text, void *user) {
     (void)user;
     if (level == 1) fprintf(stderr, "enf: %s\n", text);
