@@ -10,8 +10,8 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 # shellcheck source=verify/packages.sh
 source verify/packages.sh
 
-quick=(enf 4enf mmb enf-3d dcb-3d dcb-alfano dcb-double fibre laminate-thermal enf-ductile-h1.0 enf-brittle-local-h1.0
-    enf-brittle-energetic-h1.0 mmf-ductile-h1.0 mmf-brittle-energetic-h1.0)
+quick=(enf 4enf mmb enf-3d dcb-3d dcb-abaqus dcb-alfano dcb-double fibre laminate-thermal enf-ductile-h1.0
+    enf-brittle-local-h1.0 enf-brittle-energetic-h1.0 mmf-ductile-h1.0 mmf-brittle-energetic-h1.0)
 
 # all: every scene once; of a family the size that run.sh lists first.
 all() {

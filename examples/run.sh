@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # bash examples/run.sh [--list | --dry-run] [NAME [OPTION ...] ...]: installs, builds, and runs scenes into out/NAME/,
 # with pictures.
-#   NAME        examples/NAME/NAME.toml as it is (default: enf),
+#   NAME        examples/NAME/NAME.toml (or NAME.inp, a deck of Abaqus) as it is (default: enf),
 #   FAMILY-hH   examples/FAMILY/FAMILY.toml with cells of H mm,
 #   FAMILY      all of its cell sizes, and pictures that compare them in out/FAMILY/
 #   --list      the names, nothing is run
@@ -31,12 +31,23 @@ declare -A sizes=(
     [mmf-brittle-energetic]=$meshes
 )
 
+# file_of NAME: its scene, or its deck; nothing where the folder has neither.
+file_of() {
+    local file
+    for file in "examples/$1/$1.toml" "examples/$1/$1.inp"; do
+        if [[ -f $file ]]; then
+            printf '%s\n' "$file"
+            return
+        fi
+    done
+}
+
 # names: all that can be asked for, one a line.
 names() {
     local scene family h
     for scene in examples/*/; do
         family=$(basename "$scene")
-        if [[ ! -f $scene$family.toml ]]; then
+        if [[ -z $(file_of "$family") ]]; then
             continue
         fi
         printf '%s\n' "$family"
@@ -55,7 +66,7 @@ listing() {
             printf '    %s, %s-h{%s}\n' "$family" "$family" "${sizes[$family]// /,}"
         elif [[ -n ${sizes[$family]:-} ]]; then
             printf '    %s, %s-h%s\n' "$family" "$family" "${sizes[$family]}"
-        elif [[ -f $scene$family.toml ]]; then
+        elif [[ -n $(file_of "$family") ]]; then
             printf '    %s\n' "$family"
         fi
     done
@@ -87,7 +98,7 @@ scene() {
     local name=$1 family=$2 folder=$3
     shift 3
     printf '\n== %s\n' "$name"
-    step build/release/bin/delam run "examples/$family/$family.toml" --out "$folder" "$@"
+    step build/release/bin/delam run "$(file_of "$family")" --out "$folder" "$@"
     step /usr/bin/python3 bindings/cli/plot/plot.py "$folder"
     printf 'results: %s\n' "$folder"
 }
@@ -206,8 +217,17 @@ done
 if [[ $dry == no ]]; then
     delam_install "${DELAM_PACKAGES[@]}"
     delam_blas
-    cmake --preset release
+    # A first build takes half of the time with many files compiled as one; a folder that is there keeps its settings.
+    if [[ -f build/release/CMakeCache.txt ]]; then
+        cmake --preset release
+    else
+        cmake --preset release -DDELAM_UNITY=ON
+    fi
     cmake --build --preset release --target delam_cli
+    # The page of `delam view` takes npm and its registry; nothing else here does.
+    if command -v npm >/dev/null && ! cmake --build --preset release --target delam_view; then
+        printf 'the page of "delam view" was not built (bindings/cli/view); all else is there\n' >&2
+    fi
 fi
 for i in "${!wanted[@]}"; do
     run "${wanted[i]}" "${folders_of[i]}" "${options[@]:first[i]:first[i + 1] - first[i]}"

@@ -48,18 +48,13 @@ def doxygen(out):
 
 
 def tidied(path):
-    """A struct and the typedef of its name are one thing in C, which Sphinx would declare twice; and a line of dashes
-    that divides the header describes nothing."""
+    """A struct and the typedef of its name are one thing in C, which Sphinx would declare twice."""
     tree = ElementTree.parse(path)
     structs = {node.text for node in tree.iter("innerclass")}
     for section in tree.iter("sectiondef"):
         for member in section.findall("memberdef[@kind='typedef']"):
             if member.findtext("name") in structs:
                 section.remove(member)
-            for description in member.findall("detaileddescription"):
-                for paragraph in description.findall("para"):
-                    if "-----" in "".join(paragraph.itertext()):
-                        description.remove(paragraph)
     tree.write(path, encoding="utf-8", xml_declaration=True)
 
 

@@ -37,6 +37,8 @@ breathe_show_include = False
 
 autodoc_member_order = "bysource"
 autodoc_typehints = "signature"
+# Names of types that say more than what they stand for.
+autodoc_type_aliases = {name: name for name in ("ArrayLike", "FloatArray", "IntArray", "Drive")}
 autodoc_default_options = {"members": True, "undoc-members": False}
 
 

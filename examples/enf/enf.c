@@ -36,6 +36,12 @@ typedef struct {
         }                                                                                                    \
     } while (0)
 
+/* What the library warns of (level 1) reaches the log alone. TRY tells errors. */
+static void tell(int32_t level, const char *text, void *user) {
+    (void)user;
+    if (level == 1) fprintf(stderr, "enf: %s\n", text);
+}
+
 static int make_mesh(scene *s) {
     const double lengths[1] = {length};
     const int64_t divisions[1] = {240};
@@ -166,6 +172,7 @@ static int march(scene *s) {
 
 static int run(scene *s) {
     TRY(delam_context_create(&s->context));
+    TRY(delam_context_set_log(s->context, tell, NULL));
     if (make_mesh(s) != 0 || make_law(s) != 0 || make_problem(s) != 0) return 1;
     return march(s);
 }

@@ -11,6 +11,7 @@
 #include <exception>
 #include <memory>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -89,7 +90,11 @@ void write_row(delam::Solver& solver, std::FILE* file) {
 }
 
 void run(std::FILE* file) {
-    const delam::Context context;
+    delam::Context context;
+    // What the library warns of (level 1) reaches the log alone; errors are exceptions.
+    context.on_log([](std::int32_t level, std::string_view text) {
+        if (level == 1) std::fprintf(stderr, "enf: %.*s\n", static_cast<int>(text.size()), text.data());
+    });
     auto mesh = delam::Mesh::layers(context, {length}, {240}, {height, height}, {6, 6}, DELAM_QUAD4);
     mesh.add_interface(0, 1);
     delam::Problem problem(context, mesh);

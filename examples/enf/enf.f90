@@ -5,9 +5,32 @@
 !     enf_fortran [history.csv]     without an argument the history goes to standard output
 !
 ! The scene of enf.c. No call asks for a status here, so any failure ends the program with the library's message.
+module enf_log
+  use, intrinsic :: iso_fortran_env, only: error_unit
+  use delam
+  implicit none
+
+  ! What the library warns of (level 1) reaches the log alone.
+  type, extends(delam_observer) :: teller
+    integer :: unit = error_unit
+  contains
+    procedure :: log => tell
+  end type teller
+
+contains
+
+  subroutine tell(self, level, text)
+    class(teller), intent(inout) :: self
+    integer, intent(in) :: level
+    character(*), intent(in) :: text
+    if (level == 1) write (self%unit, '(2a)') 'enf: ', text
+  end subroutine tell
+end module enf_log
+
 program enf
   use, intrinsic :: iso_fortran_env, only: output_unit
   use delam
+  use enf_log
   implicit none
   integer, parameter :: dp = delam_real
   real(dp), parameter :: length = 120e-3_dp   ! span, m
@@ -29,6 +52,7 @@ program enf
   type(delam_law) :: law
   type(delam_problem) :: problem
   type(delam_solver) :: solver
+  type(teller), target :: warnings
   integer :: unit, step, i
   character(4096) :: path
 
@@ -39,6 +63,7 @@ program enf
   end if
 
   call context%create()
+  call context%observe(warnings)
   call mesh%create_layers(context, [length], [240_delam_index], [height, height], [6_delam_index, 6_delam_index], &
                           DELAM_QUAD4)
   call mesh%add_interface(0, 1)

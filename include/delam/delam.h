@@ -8,7 +8,8 @@
  *
  * Rules for every function
  *   status     0: done. > 0: an outcome; the object stays valid and usable. < 0: an error; the object is unchanged.
- *              delam_context_message(), called with the object's context, explains the last status other than 0.
+ *              delam_context_message(), called with the object's context, explains the last status other than 0 of a
+ *              call with a valid handle. A call without one (DELAM_ERROR_HANDLE) knows no context and leaves no text.
  *   units      Any consistent set of units will do; the examples use SI (m, N, Pa, J). In 2D, forces and energies are
  *              per unit thickness. Dimensions are products of L (length) and F (force): stress F/L2, interface
  *              stiffness F/L3, toughness F/L (J/m2).
@@ -89,7 +90,7 @@ extern "C" {
 
 /* ---- statuses ---------------------------------------------------------------------------------------------------- */
 
-#define DELAM_OK 0
+#define DELAM_OK 0               /* done */
 #define DELAM_NOT_CONVERGED 1    /* iteration limit reached or forces unbalanced; the best state found can be read */
 #define DELAM_CANCELLED 2        /* stopped on request; the state before the call is restored */
 #define DELAM_LIMIT 3            /* no equilibrium: a dead load acts on a part that nothing holds any more */
@@ -151,8 +152,9 @@ DELAM_API int32_t delam_context_create(delam_context **out);
 /* Destroys a context; the objects made with it remain usable.
  * [null context, *context; owns context destroyed; status -; since 0.1] */
 DELAM_API void delam_context_destroy(delam_context **context);
-/* Returns the text of the last status other than DELAM_OK: what is wrong, where, the value and the allowed range.
- * Returns "" if there has been none; never NULL.
+/* Returns the text of the last call with this context, or with a valid object of it, that ended with a status other
+ * than DELAM_OK: what is wrong, where, the value and the allowed range. Returns "" if there has been none; never NULL.
+ * Calls with a handle that is NULL, destroyed or of another kind leave no text: delam_status_name names their status.
  * [owns result until the next call with this context or its objects; status -; since 0.1] */
 DELAM_API const char *delam_context_message(const delam_context *context);
 /* Sets the callback that receives log lines; NULL turns the log off. Errors and outcomes go to the log too;
@@ -624,11 +626,11 @@ DELAM_API int32_t delam_problem_set_contact(delam_problem *problem, int64_t inte
 DELAM_API int32_t delam_problem_set_adhesion(delam_problem *problem, int64_t interface_index, int64_t count,
                                              const int64_t *pairs, const double *adhesion, int32_t index_base);
 /* Sets the initial adhesion of the pairs inside the closed box from lower [dimension] to upper [dimension], e.g. of a
- * notch: the box may be flat or higher than the interface. *count receives the number of these pairs; with NULL, it is
- * an error if there is none. Where the interface goes on beyond a side of the box, that side is the tip of a crack, and
- * the pairs exactly on it keep their adhesion (tolerance: 1e-6 of the shortest edge of the two bodies); where the
- * interface ends, the pairs on the side belong to the box. If a side lies between two pairs, the log (level 1) names
- * the next pair, which is the tip then. The place of a pair is that of its node_b.
+ * notch: the box may be flat or higher than the interface. *count receives the number of these pairs, which may be
+ * 0; if count is NULL, a box without any pair is an error. Where the interface goes on beyond a side of the box, that
+ * side is the tip of a crack, and the pairs exactly on it keep their adhesion (tolerance: 1e-6 of the shortest edge of
+ * the two bodies); where the interface ends, the pairs on the side belong to the box. If a side lies between two pairs,
+ * the log (level 1) names the next pair, which is the tip then. The place of a pair is that of its node_b.
  * [unit lower L finite, upper L >= lower, adhesion 1 in [0, 1]; null count; status argument; since 0.2] */
 DELAM_API int32_t delam_problem_set_adhesion_box(delam_problem *problem, int64_t interface_index, const double *lower,
                                                  const double *upper, double adhesion, int64_t *count);
@@ -914,20 +916,20 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  *                          f = g - Gc (1 - zeta), belongs to the stored energy, and a step dissipates the sum of w
  *                          Gc(B) (zeta_old - zeta). `increment` is the sum of what the step adds to stored energy,
  *                          `load_potential` and dissipated energy. `lower` and `upper` are bounds of it, the two-sided
- *                          estimate (PANM 15, eq. (3)): what the change of the loads adds to the energy at constant
- *                          damage, for `upper` that before the step, for `lower` that after it. A step to a state of
- *                          least energy has lower <= increment <= upper, up to `backtracking_tolerance` times the
- *                          larger of |stored energy + load_potential| and |work|. Backtracking tests the lower bound
- *                          only. Let E be stored energy + load_potential without the gradient term. If the factors of
- *                          all patterns before the step are a > 0 times those after it, lower = (1 - a^2) E(after) and
- *                          upper = (1/a^2 - 1) E(before). In a step that damages nothing, all three are equal.
- *                          Otherwise, and always with `mixity_rule = variational`, the bounds follow from a
- *                          displacement field that carries the change of the loads, and are wider. `increment_lower`
- *                          is the increment at the mixities of the step before; with `converged` it equals
- *                          `increment`. With `variational`, both use the _linear split. `work` is the work of the
- *                          reactions: each step adds the mean of the reactions before and after it, times the changes
- *                          of the factors. Two kinds of step add something else: a jump that bisection has located
- *                          adds `upper`; a step that was followed in parts (`mixity_rule = converged`, loads in
+ *                          estimate (PANM 15, eq. (3)). Both are what the same change of the loads would add to the
+ *                          energy if the damage did not change: `upper` with the damage before the step, `lower` with
+ *                          the damage after it. A step to a state of least energy has lower <= increment <= upper, up
+ *                          to `backtracking_tolerance` times the larger of |stored energy + load_potential| and |work|.
+ *                          Backtracking tests the lower bound only. Let E be stored energy + load_potential without the
+ *                          gradient term. If the factors of all patterns before the step are a > 0 times those after
+ *                          it, lower = (1 - a^2) E(after) and upper = (1/a^2 - 1) E(before). In a step that damages
+ *                          nothing, all three are equal. Otherwise, and always with `mixity_rule = variational`, the
+ *                          bounds follow from a displacement field that carries the change of the loads, and are wider.
+ *                          `increment_lower` is the increment at the mixities of the step before; with `converged` it
+ *                          equals `increment`. With `variational`, both use the _linear split. `work` is the work of
+ *                          the reactions: each step adds the mean of the reactions before and after it, times the
+ *                          changes of the factors. Two kinds of step add something else: a jump that bisection has
+ *                          located adds `upper`; a step that was followed in parts (`mixity_rule = converged`, loads in
  *                          proportion) adds the work along these parts, each of which happens at the load within the
  *                          step that first drives it
  *   defect, defect_linear  F L: error of the energy balance since the start: stored energies + load_potential +
@@ -1003,8 +1005,10 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  * of the fronts of all interfaces with a law or, with :I appended (crack_length:0), of interface I:
  *   crack_length           L or L2: the initially open part (2D: up to the pair at the tip; 3D: the faces that touch a
  *                          pair without initial adhesion) plus the sum of w (1 - zeta) over the pairs with initial
- *                          adhesion > 0, at most the size of the interface
- *   energy_release_rate    F/L: G at the point of the fronts with the largest G; 0 if there is no front
+ *                          adhesion > 0, at most the size of the interface. In 3D it is an area
+ *   energy_release_rate    F/L: G at the point of the fronts with the largest G; 0 if there is no front. In 3D it is a
+ *                          maximum over points whose values scatter on coarse meshes. What growth dissipates per area,
+ *                          the change of `dissipated` over that of `crack_length`, is the better check there
  *   front_mixity           (G_II + G_III)/G at that point
  *   process_zone_length    L: at that point
  *   process_zone_pairs     at that point (see delam_solver_front for all of these)
@@ -1013,9 +1017,11 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  *   front_mixity_mean      (G_II + G_III)/G of that mean
  * and per pattern
  *   load:NAME              factor of the pattern
- *   reaction:NAME          F L: conjugate of the factor, positive when the testing machine does work; for a force
- *                          pattern, minus the conjugate displacement; for an eigenstrain, minus the integral of stress
- *                          times strain
+ *   reaction:NAME          F L: derivative of the energy by the factor: the force that the testing machine exerts along
+ *                          each displacement that the pattern prescribes, times its coefficient, summed over all of
+ *                          them. Positive when it acts in the direction of a growing factor, also while the factor
+ *                          falls. For a force pattern, minus the displacement along its forces, each times its force,
+ *                          summed; for an eigenstrain, minus the integral of stress times strain
  * delam_solver_value_count counts all of them. Some keys have a second name (delam_solver_value_info):
  * staggered_iterations for am_iterations, unstable_debonds for debond_moves, state_jumps for jumps, and the names in
  * _linear for the older ones in _slides. Both names work for ever.

@@ -59,6 +59,8 @@ def main():
             comment = comment.replace("SPDX-License-Identifier: BSD-3-Clause", "").strip()
             out.append(documentation(comment) + "\n*/")
             first = False
+        elif comment.startswith("----"):  # a line that divides the header
+            out.append(code)
         elif line_before.startswith(("#define", "typedef struct")):
             out.append(code + f"/**< {quiet(comment)} */")
         elif DECLARATION.match(text, at):

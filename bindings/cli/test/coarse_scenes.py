@@ -68,6 +68,16 @@ def softens(name, run):
            f"{name}: peak {reaction[peak]:.4g} in step {peak}, {reaction[-1]:.4g} at the end")
 
 
+def pays_its_toughness(name, run):
+    """A crack that grows steadily in mode I: at the front the toughness is released, and growth dissipates it."""
+    h = run.history
+    growing = h["crack_length"] > 1.1 * h["crack_length"][0]
+    rates, toughness = h["energy_release_rate"][growing], 0.25
+    spent = np.ptp(h["dissipated"][growing]) / np.ptp(h["crack_length"][growing])
+    expect(growing.sum() > 20 and np.abs(rates / toughness - 1).max() < 0.05 and abs(spent / toughness - 1) < 0.01,
+           f"{name}: rates {rates.min():.4g} to {rates.max():.4g}, dissipated {spent:.4g} per area, toughness {toughness}")
+
+
 def mirrored(name, run):
     """Equal arms pulled apart: displacements are mirrored about the interface."""
     with run.fields() as file:
@@ -245,10 +255,17 @@ def shortened(length, divisions):
             f"supports[0].box.upper=[{length}, 0.003]"]
 
 
+def scene_file(examples, name):
+    """The scene of a folder of examples/, or its deck of Abaqus."""
+    scene = os.path.join(examples, name, name)
+    return scene + (".toml" if os.path.exists(scene + ".toml") else ".inp")
+
+
 # Scene: settings of its coarse size, and what must hold of its result besides `sound`.
 COARSE = {
     "dcb-alfano": ([*shortened(0.075, 750), "time.steps=50"], [grows, softens, mirrored, resolved, as_alfano_and_crisfield]),
     "dcb-krueger": ([*shortened(0.050, 1000), "time.steps=35"], [grows, softens, mirrored, resolved, as_krueger]),
+    "dcb-abaqus": ([], [grows, softens, mirrored, pays_its_toughness]),
     "dcb-double": (["geometry.divisions=120"], [grows, softens, both_open]),
     "dcb-3d": (["geometry.divisions=[40, 6]", "time.steps=28"], [grows, softens, mirrored, ahead_in_the_middle]),
     "enf-3d": (["geometry.divisions=[68, 6]", "time.steps=20"], [grows, nearly_straight]),

@@ -6,7 +6,7 @@ import shlex
 import subprocess
 import sys
 
-from coarse_scenes import COARSE, STIFF, coarse_run, sound
+from coarse_scenes import COARSE, STIFF, coarse_run, scene_file, sound
 from support import delam, draw, expect, finish
 
 EXAMPLES = os.environ["DELAM_EXAMPLES"]
@@ -20,7 +20,7 @@ PICTURES = {"fibre": ["stress-strain.png"], "laminate-thermal": ["stresses.png"]
             "weave": ["stress-strain.png", "fronts.png", "cut.png"]}
 WHOLE = sys.argv[1:] == ["whole"]
 # What takes a second each; the others are checked. test_plot draws fronts.
-SHORT = {"dcb-3d", "enf-3d", "mmb", "fibre", "laminate-thermal"}
+SHORT = {"dcb-3d", "dcb-abaqus", "enf-3d", "mmb", "fibre", "laminate-thermal"}
 SHORT_PICTURES = {"fibre"}
 SHORT_MESH = {"weave": ["mesh.h=0.9e-3", "mesh.gap=0.1e-3"]}
 
@@ -75,6 +75,13 @@ for words in (["--set", "a=1"], ["enf", "--set"], ["enf", "--set", "a"], ["enf",
     code, out, error = script("--dry-run", *words)
     expect(code == 2 and out == "" and error, f"{words} is refused")
 
+code, out, _ = script("--dry-run", "dcb-abaqus")
+expect(code == 0 and "run examples/dcb-abaqus/dcb-abaqus.inp --out out/dcb-abaqus\n" in out, "a deck of Abaqus is run as it is")
+made = subprocess.run([sys.executable, os.path.join(EXAMPLES, "dcb-abaqus", "make_deck.py")], capture_output=True, text=True,
+                      check=True).stdout
+with open(scene_file(EXAMPLES, "dcb-abaqus"), encoding="utf-8") as file:
+    expect(made == file.read(), "make_deck.py writes the deck of dcb-abaqus")
+
 for family in (*FAMILIES, "enf-modified", "enf"):
     path = os.path.join(EXAMPLES, family, family + ".toml")
     for h in SIZES[:1] if family == "enf" or not WHOLE else SIZES[:3]:
@@ -89,7 +96,7 @@ for family in (*FAMILIES, "enf-modified", "enf"):
 stiff, settings, checks = STIFF
 for name, settings, checks in (*((name, *row) for name, row in COARSE.items()),
                                (stiff, [*settings, "layers[0].divisions=2", "layers[1].divisions=2"], checks)):
-    scene = os.path.join(EXAMPLES, name, name + ".toml")
+    scene = scene_file(EXAMPLES, name)
     if not WHOLE and name not in SHORT and checks is COARSE[name][1]:
         settings = [*settings, *SHORT_MESH.get(name, [])]
         code, _, error = delam("check", scene, *(word for setting in settings for word in ("--set", setting)))

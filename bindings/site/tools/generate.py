@@ -34,7 +34,8 @@ def described(row):
 def options(said):
     rows = [described(row) for row in said["options"]]
     return (f"# Options of the solver\n\nWhat `delam options --json` of version {said['version']} says. "
-            "A scene sets them in `[solver]`, a program by `delam_problem_set_option` and its like.\n\n"
+            "A scene sets them in `[solver]`, a program by `delam_problem_set_number` or `delam_problem_set_text`, "
+            "before it creates the solver.\n\n"
             + table(["key", "type", "range and default", "meaning"], rows))
 
 
