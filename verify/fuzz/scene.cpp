@@ -61,7 +61,6 @@ void check(const std::string& file) {
     (void)history.row(solver.get());
     (void)cli::process_zones(model);
     (void)cli::notes_of(scene);
-    (void)cli::resolution_warnings(model);
     (void)cli::warnings_of(model, scene);
     expect(*delam_solver_plan(solver.get()) != '\0', "a plan", "delam_solver_plan");
 }
