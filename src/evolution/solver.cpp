@@ -64,7 +64,8 @@ Solver::Solver(const Problem& problem, Monitor& monitor, double time)
       scene_hash_(hash(problem)),
       monitor_(monitor),
       stepper_(problem_, monitor),
-      graph_(problem_.mesh->interfaces()) {
+      graph_(problem_.mesh->interfaces()),
+      step_warnings_(problem_) {
     Stepper::Result first = stepper_.initial(time);
     committed_ = std::move(first.state);
     if (!first.converged) initial_outcome_ = unconverged_displacement(committed_);
@@ -139,7 +140,7 @@ Outcome Solver::advance(double time) {
     for (const State& revised : pending.revised) require_sound(problem_, revised, result.converged);
     warned_of_mixity_ = warned_of_mixity_ || stepper_.warn(pending.state);
     warn_of_unresolved_front(committed_, pending.state);
-    step_warnings_.judge(chain.at(committed_.step), pending.state, options, monitor_);
+    step_warnings_.judge(pending.state, options, monitor_);
     Outcome outcome;
     if (!result.converged)
         outcome = {DELAM_NOT_CONVERGED, text("step ", pending.state.step, " at time ", time,

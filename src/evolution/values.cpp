@@ -309,7 +309,8 @@ constexpr Row table[] = {
               }),
     pattern_row("load", "-", "factor of the load pattern",
                 [](const Reading& r, std::int64_t p) { return r.state().theta[index(p)]; }),
-    pattern_row("reaction", "F L", "conjugate of the load pattern, positive when it does work on the structure",
+    pattern_row("reaction", "F L",
+                "conjugate of the load pattern, positive where it acts in the direction of a growing factor",
                 [](const Reading& r, std::int64_t p) { return r.state().response.conjugate[index(p)]; }),
 };
 
