@@ -302,7 +302,9 @@ def plan_beforehand(host, see):
     see.that("memory is the item of the plan, in bytes", 100.0 < memory == items["memory"][3] < 1e6)
     see.that("the longest factorisation is part of the set-up, and the set-up of the analysis",
              0 < items["longest uninterruptible factorisation"][3] <= setup < items["condensed operator"][3] / 20e9)
-    see.equal("values", host("problem_value_count", bar.problem, Out()), host("solver_value_count", bar.solver, Out()))
+    # Their number grows with every new key.
+    see.that("as many values as the solver has",
+             host("problem_value_count", bar.problem, Out()) == host("solver_value_count", bar.solver, Out()) > 0)
 
 
 @row("looking back", says=["solver_look: step -1 selects"])
