@@ -340,7 +340,7 @@ def wrong_scene(ranks):
         host = delam.Problem(mesh)
         host.set_elastic(1e9, 0.3, 3)
     refused(delam.ProblemError, lambda: ranks.take_scene(mesh, host), "take_scene: a body without cells", "body 8",
-            "delam_petsc_set_part")
+            "Ranks.set_part")
 
 
 def wrong():
