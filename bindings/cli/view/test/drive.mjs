@@ -50,6 +50,8 @@ const picture = async (tab, name) => {
 };
 const choose = async (tab, id, value) => {
   await tab.select(id, value);
+  // The range of all steps follows.
+  await tab.waitForFunction(() => !document.getElementById('legend').innerText.includes('this step'), { timeout: most });
   await settled(tab);
 };
 
@@ -124,10 +126,31 @@ async function walk(browser, width) {
   await picture(tab, `true-${width}.png`);
   found.trueScale = (await state(tab)).scale;
   found.colours = await tab.evaluate(() => [...document.getElementById('colour').options].map(({ value }) => value));
+  found.jumps = await tab.evaluate(() => document.querySelectorAll('.chart .jump-end').length / 2);
   found.legends = {};
+  found.heights = [];
   for (const colour of found.colours) {
     await choose(tab, '#colour', colour);
     found.legends[colour] = (await state(tab)).legend;
+    // How far the legend reaches down, and where the body begins, in the parts of the picture's height.
+    found.heights.push(
+      await tab.evaluate(() => {
+        const { scene } = window.delam;
+        const height = scene.container.clientHeight;
+        const points = scene.points.getData();
+        const camera = scene.renderer.getActiveCamera();
+        const up = camera.getViewUp();
+        const focus = camera.getFocalPoint();
+        let top = -Infinity;
+        for (let i = 0; i < points.length; i += 3)
+          top = Math.max(top, up.reduce((sum, value, c) => sum + value * (points[i + c] - focus[c]), 0));
+        const legend = document.getElementById('legend');
+        return [
+          (legend.offsetTop + legend.offsetHeight) / height,
+          0.5 - top / (2 * camera.getParallelScale()),
+        ];
+      }),
+    );
     await picture(tab, `${colour}-${width}.png`);
   }
   await tab.evaluate(() => document.getElementById('scene').scrollIntoView());
