@@ -55,6 +55,37 @@ const choose = async (tab, id, value) => {
   await settled(tab);
 };
 
+// How far the legend reaches down, and where the body begins, in parts of the height of the picture: of a body that fills
+// it, with and without a field.
+async function heights(tab) {
+  await tab.evaluate(() => {
+    const apart = document.getElementById('apart');
+    apart.value = 1;
+    apart.dispatchEvent(new Event('input'));
+    [...document.querySelectorAll('#views button')].find(({ textContent }) => /^(fit|along x)$/.test(textContent)).click();
+  });
+  const out = [];
+  for (const colour of ['body', 'mises']) {
+    await choose(tab, '#colour', colour);
+    out.push(
+      await tab.evaluate(() => {
+        const { scene } = window.delam;
+        const camera = scene.renderer.getActiveCamera();
+        const [up, focus, points] = [camera.getViewUp(), camera.getFocalPoint(), scene.points.getData()];
+        let top = -Infinity;
+        for (let i = 0; i < points.length; i += 3)
+          top = Math.max(top, up.reduce((sum, value, c) => sum + value * (points[i + c] - focus[c]), 0));
+        const { offsetTop, offsetHeight } = document.getElementById('legend');
+        return [
+          (offsetTop + offsetHeight) / scene.container.clientHeight,
+          0.5 - top / (2 * camera.getParallelScale()),
+        ];
+      }),
+    );
+  }
+  return out;
+}
+
 async function open(browser, width, { old = false, dark = false } = {}) {
   const tab = await browser.newPage();
   const found = { width, errors: [], requests: [] };
@@ -128,29 +159,9 @@ async function walk(browser, width) {
   found.colours = await tab.evaluate(() => [...document.getElementById('colour').options].map(({ value }) => value));
   found.jumps = await tab.evaluate(() => document.querySelectorAll('.chart .jump-end').length / 2);
   found.legends = {};
-  found.heights = [];
   for (const colour of found.colours) {
     await choose(tab, '#colour', colour);
     found.legends[colour] = (await state(tab)).legend;
-    // How far the legend reaches down, and where the body begins, in the parts of the picture's height.
-    found.heights.push(
-      await tab.evaluate(() => {
-        const { scene } = window.delam;
-        const height = scene.container.clientHeight;
-        const points = scene.points.getData();
-        const camera = scene.renderer.getActiveCamera();
-        const up = camera.getViewUp();
-        const focus = camera.getFocalPoint();
-        let top = -Infinity;
-        for (let i = 0; i < points.length; i += 3)
-          top = Math.max(top, up.reduce((sum, value, c) => sum + value * (points[i + c] - focus[c]), 0));
-        const legend = document.getElementById('legend');
-        return [
-          (legend.offsetTop + legend.offsetHeight) / height,
-          0.5 - top / (2 * camera.getParallelScale()),
-        ];
-      }),
-    );
     await picture(tab, `${colour}-${width}.png`);
   }
   await tab.evaluate(() => document.getElementById('scene').scrollIntoView());
@@ -166,6 +177,7 @@ async function walk(browser, width) {
     cameras.push(await camera());
   }
   found.cameras = cameras;
+  found.heights = await heights(tab);
   await tab.evaluate(() => window.delam.show(0));
   await shown(tab, 0);
   await tab.click('#play');
