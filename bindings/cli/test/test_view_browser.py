@@ -87,7 +87,12 @@ class Exact:
     def __init__(self, out):
         with open(os.path.join(out, "history.csv"), newline="", encoding="utf-8") as file:
             rows = {int(row["step"]): row for row in csv.DictReader(file)}
-        self.steps = []
+        self.steps, self.jumps = [], 0
+        path = os.path.join(out, "jumps.csv")
+        if os.path.exists(path):
+            with open(path, newline="", encoding="utf-8") as file:
+                debonded = [float(row["debonded"]) for row in csv.DictReader(file)]
+            self.jumps = sum(length > 0.2 * max(debonded) for length in debonded)
         with h5py.File(os.path.join(out, "fields.h5"), "r") as file:
             for name in sorted(file["steps"]):
                 of = file["steps"][name]
@@ -155,6 +160,13 @@ def judge(out, answer, pictures, what, red):
             expect(images[one].shape != images[other].shape or np.mean(np.abs(images[one] - images[other])) > 1e-4,
                    f"{at}: pictures {one} and {other} differ")
         expect({"body", "u", "ux", "uy", "mises", "xx", "zz", "xy"} <= set(found["colours"]), f"{at}: colours {found['colours']}")
+        expect(all(low <= top for low, top in found["heights"]), f"{at}: the legend ends above the body {found['heights']}")
+        expect(found["jumps"] == exact.jumps, f"{at}: {found['jumps']} jumps are marked in the load curve, of {exact.jumps}")
+        # One range for all steps: the largest displacement is that of the last step, and a middle one is shown.
+        largest = max(step["displacement"] for step in exact.steps)
+        said = found["legends"]["u"].splitlines()
+        expect("displacement, all steps" in said and close(number(said[-1]), largest, 6e-3) and
+               exact.steps[found["clicked"]["target"]]["displacement"] < 0.9 * largest, f"{at}: range {said}")
         expect("0 debonded" in found["legends"]["body"] and "upper" in found["legends"]["body"] and
                "MPa" in found["legends"]["mises"], f"{at}: legends {found['legends']['mises']!r}")
     quiet(answer["old"], f"{what}, dark, without DecompressionStream")

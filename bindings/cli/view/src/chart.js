@@ -149,6 +149,12 @@ export class Chart {
           .attr('y2', height - margin.bottom);
       } else {
         mark.attr('x1', this.x(x0)).attr('x2', this.x(x1)).attr('y1', this.y(y0)).attr('y2', this.y(y1));
+        // A jump under a held displacement may hardly change the load.
+        for (const [x2, y2] of [
+          [x0, y0],
+          [x1, y1],
+        ])
+          svg.append('circle').attr('class', 'jump-end').attr('r', 2.5).attr('cx', this.x(x2)).attr('cy', this.y(y2));
       }
     }
   }

@@ -98,16 +98,21 @@ export class Result {
     };
   }
 
+  // Of a step what colours bodies; unpacked anew each time, where all steps are gone through.
+  async ofBodies(i) {
+    const { displacement, stress } = this.steps[i];
+    const u = await this.array(displacement);
+    return { displacement: u && interleaved(u), stress: await this.array(stress) };
+  }
+
   // The fields of a step; null where the scene did not ask for one. Stresses are by component, one value for each face.
   async step(i) {
     if (!this.unpacked.has(i)) {
       const of = this.steps[i];
-      const displacement = await this.array(of.displacement);
       const one = {
         step: of.step,
         time: of.time,
-        displacement: displacement && interleaved(displacement),
-        stress: await this.array(of.stress),
+        ...(await this.ofBodies(i)),
         adhesion: await Promise.all(of.adhesion.map((zeta) => this.array(zeta))),
       };
       one.bytes = [one.displacement, one.stress, ...one.adhesion].reduce((sum, a) => sum + (a ? a.byteLength : 0), 0);
@@ -122,6 +127,17 @@ export class Result {
     return this.unpacked.get(i);
   }
 }
+
+// Widens a range {low, high} by values.
+export function widen(range, values) {
+  for (const value of values) {
+    if (value < range.low) range.low = value;
+    if (value > range.high) range.high = value;
+  }
+  return range;
+}
+
+export const nothing = () => ({ low: Infinity, high: -Infinity });
 
 // What a step comes to: the largest displacement, and of each interface the mean and the least adhesion.
 export function summary(step) {

@@ -2,7 +2,7 @@
 // The page: what is chosen, and what follows from it in the scene, the charts and the numbers.
 import { makeCharts } from './charts.js';
 import { painter } from './colours.js';
-import { Result, summary } from './data.js';
+import { nothing, Result, summary, widen } from './data.js';
 import { box } from './geometry.js';
 import { frameOf, Scene, views } from './scene.js';
 import { element, sayColours, sayResult, sayStep } from './texts.js';
@@ -217,11 +217,26 @@ class Page {
     this.redraw();
   }
 
+  // Goes through all steps when the first field is chosen; a step at a time, so that the page can be used meanwhile.
+  async findRanges() {
+    if (this.finding) return;
+    this.finding = true;
+    const keys = Scene.fields(this.step, this.scene.mesh.flat).map(([key]) => key);
+    const ranges = new Map(keys.filter((key) => key !== 'body').map((key) => [key, nothing()]));
+    for (let i = 0; i < this.result.steps.length; i += 1) {
+      const step = await this.result.ofBodies(i);
+      for (const [key, range] of ranges) widen(range, this.scene.fieldOf(step, key));
+    }
+    this.ranges = ranges;
+    this.redraw();
+  }
+
   redraw() {
     const { scene, step, chosen } = this;
     if (!scene || !step) return;
     scene.move(step, chosen.scale, chosen.apart);
-    const range = scene.paint(step, chosen.colour, this.colours);
+    if (chosen.colour !== 'body') this.findRanges();
+    const range = scene.paint(step, chosen.colour, this.colours, this.ranges?.get(chosen.colour));
     scene.look({ opacity: chosen.opacity, mesh: chosen.mesh, background: styled('--scene'), edge: styled('--edge') });
     const stress = !chosen.colour.startsWith('u');
     const factor = stress ? this.units.stressFactor : 1;
@@ -230,12 +245,15 @@ class Page {
       colours: this.colours,
       adhesion: byId('interfaces').value !== 'none' && step.adhesion.some((zeta) => zeta),
       field: range && {
-        title: byId('colour').selectedOptions[0].textContent,
+        title: `${byId('colour').selectedOptions[0].textContent}, ${this.ranges ? 'all steps' : 'this step'}`,
         unit: stress ? this.units.stress : this.units.length,
         range: { low: range.low / factor, high: range.high / factor },
       },
     });
-    if (scene.drawn) scene.draw();
+    if (!scene.drawn) return;
+    // A longer legend would lie on the body, a shorter one leaves room.
+    if (scene.isFitted() && scene.legendHeight() !== scene.fittedBelow) scene.fit();
+    scene.draw();
   }
 }
 

@@ -19,6 +19,7 @@ import vtkZoom from '@kitware/vtk.js/Interaction/Manipulators/MouseCameraTrackba
 import { ColorMode, ScalarMode } from '@kitware/vtk.js/Rendering/Core/Mapper/Constants';
 
 import { bytesOfTone, painted } from './colours.js';
+import { nothing, widen } from './data.js';
 import { bodyOfNodes, box, cellArray, outline } from './geometry.js';
 
 const components = ['xx', 'yy', 'zz', 'xy', 'yz', 'zx'];
@@ -222,9 +223,9 @@ export class Scene {
     return step.stress.slice(c * this.faces, (c + 1) * this.faces);
   }
 
-  // Returns the range of the colours, null for those of the bodies.
-  paint(step, key, colours) {
-    const range = this.paintBodies(step, key, colours);
+  // Returns the range of the colours, null for those of the bodies; without a wish it is that of the step.
+  paint(step, key, colours, wished) {
+    const range = this.paintBodies(step, key, colours, wished);
     const values = [];
     for (const { sides, index } of this.shownInterfaces) {
       // Without the field, as if intact.
@@ -241,7 +242,7 @@ export class Scene {
     return range;
   }
 
-  paintBodies(step, key, colours) {
+  paintBodies(step, key, colours, wished) {
     if (key === 'body') {
       const bytes = new Uint8Array(3 * this.faces);
       for (let i = 0; i < this.faces; i += 1) bytes.set(bytesOfTone(this.mesh.body[i]), 3 * i);
@@ -249,12 +250,7 @@ export class Scene {
       return null;
     }
     const values = this.fieldOf(step, key);
-    let low = Infinity;
-    let high = -Infinity;
-    for (const value of values) {
-      if (value < low) low = value;
-      if (value > high) high = value;
-    }
+    const { low, high } = wished ?? widen(nothing(), values);
     paint(this.body, this.bodyData, painted(values, low, high, colours.field), !key.startsWith('u'));
     return { low, high };
   }
@@ -279,9 +275,20 @@ export class Scene {
     if (view) camera.setViewUp(...view.up);
     camera.setFocalPoint(...middle);
     camera.setPosition(...middle.map((value, c) => value + (distance * from[c]) / length));
-    camera.setParallelScale(this.scaleThatFits(camera, low, high, middle));
+    this.fittedBelow = this.legendHeight();
+    this.fittedScale = this.scaleThatFits(camera, low, high, middle);
+    camera.setParallelScale(this.fittedScale);
     this.renderer.resetCameraClippingRange();
     this.onCamera(camera);
+  }
+
+  // Nobody has zoomed since.
+  isFitted() {
+    return this.renderer.getActiveCamera().getParallelScale() === this.fittedScale;
+  }
+
+  legendHeight() {
+    return this.container.querySelector('#legend')?.offsetHeight ?? 0;
   }
 
   scaleThatFits(camera, low, high, middle) {
@@ -295,8 +302,7 @@ export class Scene {
     }
     const { clientWidth, clientHeight } = this.container;
     // Below the legend, and as far from the lower edge.
-    const legend = this.container.querySelector('#legend')?.offsetHeight ?? 0;
-    const free = Math.max(0.4 * clientHeight, clientHeight - 2 * (legend + 12));
+    const free = Math.max(0.4 * clientHeight, clientHeight - 2 * (this.legendHeight() + 12));
     return (
       1.05 *
       Math.max((tall * clientHeight) / Math.max(1, free), (wide * clientHeight) / Math.max(1, clientWidth), 1e-12)

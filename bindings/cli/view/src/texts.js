@@ -128,7 +128,7 @@ export function sayColours({ result, colours, field, adhesion }) {
   if (field) {
     const { low, high } = field.range;
     parts.push(
-      bar(`${field.title}, this step`, colours.field, [
+      bar(field.title, colours.field, [
         number(low, 3),
         number(0.5 * (low + high), 3),
         `${number(high, 3)}${field.unit ? ` ${field.unit}` : ''}`,

@@ -50,8 +50,41 @@ const picture = async (tab, name) => {
 };
 const choose = async (tab, id, value) => {
   await tab.select(id, value);
+  // The range of all steps follows.
+  await tab.waitForFunction(() => !document.getElementById('legend').innerText.includes('this step'), { timeout: most });
   await settled(tab);
 };
+
+// How far the legend reaches down, and where the body begins, in parts of the height of the picture: of a body that fills
+// it, with and without a field.
+async function heights(tab) {
+  await tab.evaluate(() => {
+    const apart = document.getElementById('apart');
+    apart.value = 1;
+    apart.dispatchEvent(new Event('input'));
+    [...document.querySelectorAll('#views button')].find(({ textContent }) => /^(fit|along x)$/.test(textContent)).click();
+  });
+  const out = [];
+  for (const colour of ['body', 'mises']) {
+    await choose(tab, '#colour', colour);
+    out.push(
+      await tab.evaluate(() => {
+        const { scene } = window.delam;
+        const camera = scene.renderer.getActiveCamera();
+        const [up, focus, points] = [camera.getViewUp(), camera.getFocalPoint(), scene.points.getData()];
+        let top = -Infinity;
+        for (let i = 0; i < points.length; i += 3)
+          top = Math.max(top, up.reduce((sum, value, c) => sum + value * (points[i + c] - focus[c]), 0));
+        const { offsetTop, offsetHeight } = document.getElementById('legend');
+        return [
+          (offsetTop + offsetHeight) / scene.container.clientHeight,
+          0.5 - top / (2 * camera.getParallelScale()),
+        ];
+      }),
+    );
+  }
+  return out;
+}
 
 async function open(browser, width, { old = false, dark = false } = {}) {
   const tab = await browser.newPage();
@@ -124,6 +157,7 @@ async function walk(browser, width) {
   await picture(tab, `true-${width}.png`);
   found.trueScale = (await state(tab)).scale;
   found.colours = await tab.evaluate(() => [...document.getElementById('colour').options].map(({ value }) => value));
+  found.jumps = await tab.evaluate(() => document.querySelectorAll('.chart .jump-end').length / 2);
   found.legends = {};
   for (const colour of found.colours) {
     await choose(tab, '#colour', colour);
@@ -143,6 +177,7 @@ async function walk(browser, width) {
     cameras.push(await camera());
   }
   found.cameras = cameras;
+  found.heights = await heights(tab);
   await tab.evaluate(() => window.delam.show(0));
   await shown(tab, 0);
   await tab.click('#play');
