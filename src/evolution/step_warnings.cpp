@@ -46,8 +46,9 @@ void StepWarnings::judge(const State& after, const Options& options, const Monit
     // Each mixity rule closes the ledger in one of the two splits of the interfaces' energy.
     const double open = std::min(std::abs(ledger.defect()), std::abs(ledger.defect_linear()));
     if (!told_of_ledger_ && open > std::max(noticeable * scale, least_)) {
-        monitor.log(1, text(where, "stored, dissipated and released energy differ from the work of the loads by ",
-                            open / scale, " of the energy: take shorter steps", once));
+        monitor.log(
+            1, text(where, "stored, dissipated and released energy differ from the work of the loads by ", open / scale,
+                    " of the energy: take shorter steps, or locate the jump (jump_tolerance)", once));
         told_of_ledger_ = true;
     }
 }

@@ -87,11 +87,17 @@ std::pair<double, double> least_excess(const Law& law) {
 
 void require_admissible(const Law& law) {
     const Modes onset = law.onset_modes(), total = law.total_modes();
+    const auto of_strength = [](double strength) {
+        return strength > 0.0
+                   ? text(" = s^2/(2 k) of its strength ", strength, ": give more stiffness or less strength")
+                   : std::string();
+    };
     if (total.normal < onset.normal * (1.0 - rounding))
-        fail(DELAM_ERROR_PROBLEM, "law: normal_toughness ", total.normal, " < normal_onset ", onset.normal);
+        fail(DELAM_ERROR_PROBLEM, "law: normal_toughness ", total.normal, " < normal_onset ", onset.normal,
+             of_strength(law.normal_strength));
     if (total.tangential < onset.tangential * (1.0 - rounding))
         fail(DELAM_ERROR_PROBLEM, "law: tangential_toughness ", total.tangential, " < tangential_onset ",
-             onset.tangential);
+             onset.tangential, of_strength(law.tangential_strength));
 
     // G(B) grows with G_n and G_t, so with the same criterion and exponents on both sides the pure modes decide. With
     // different ones Gc may dip below Go in between.

@@ -54,10 +54,8 @@ void judge_zone(const Problem& problem, std::int64_t i, Warnings& warnings) {
              " would do, or a lower strength (delam_problem_propose), or solution = energetic"));
 }
 
-void judge_adhesion(const Problem& problem, std::int64_t i, Warnings& warnings) {
-    const std::vector<double>& adhesion = problem.interfaces[index(i)].adhesion;
-    if (std::none_of(adhesion.begin(), adhesion.end(), [](double zeta) { return zeta > 0.0; }))
-        add(warnings, i, "no pair adheres at the start, so that contact alone acts");
+bool adheres(const InterfaceProperties& properties) {
+    return std::any_of(properties.adhesion.begin(), properties.adhesion.end(), [](double zeta) { return zeta > 0.0; });
 }
 
 void judge_law(const Problem& problem, std::int64_t i, Warnings& warnings) {
@@ -92,7 +90,10 @@ void warn_of_scene(const Problem& problem, const Monitor& monitor) {
     for (std::int64_t i = 0; i < static_cast<std::int64_t>(problem.interfaces.size()); ++i) {
         const InterfaceProperties& properties = problem.interfaces[index(i)];
         if (properties.bonded || !properties.law || !properties.law->softens()) continue;
-        judge_adhesion(problem, i, warnings);
+        if (!adheres(properties)) {
+            add(warnings, i, "no pair adheres at the start, so that contact alone acts");
+            continue;
+        }
         judge_zone(problem, i, warnings);
         judge_law(problem, i, warnings);
     }

@@ -276,6 +276,7 @@ private:
         card.only(key == "NSET" ? std::vector<std::string>{key, "GENERATE", "INSTANCE", "INTERNAL", "UNSORTED", "ELSET"}
                                 : std::vector<std::string>{key, "GENERATE", "INSTANCE", "INTERNAL", "UNSORTED"});
         Set& set = set_named(sets, card.required(key), card.place);
+        set.unsorted = set.unsorted || card.has("UNSORTED");
         const Part* scope = card.has("INSTANCE") ? model_.instance_named(card.required("INSTANCE"), card.place) : open_;
         if (key == "NSET" && card.has("ELSET")) set.element_sets.push_back({scope, card.required("ELSET"), card.place});
         for (const InpLine& line : card.lines) {

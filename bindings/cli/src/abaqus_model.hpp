@@ -48,6 +48,7 @@ struct Set {
     std::string name;  // in its first spelling
     std::vector<Entry> entries;
     std::vector<Entry> element_sets;  // of node sets: all nodes of their elements
+    bool unsorted = false;            // UNSORTED: the order of its nodes matters to the deck
     Place place;
 };
 

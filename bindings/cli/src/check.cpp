@@ -188,7 +188,6 @@ std::vector<std::string> lines_of(const std::string& text) {
 
 // An error ends the call, whose caller says it.
 struct Said {
-    const Scene& scene;
     const Model& model;
     std::vector<std::string> warnings;
 };
@@ -196,7 +195,7 @@ struct Said {
 extern "C" void on_check_log(std::int32_t level, const char* text, void* user) {
     Said& said = *static_cast<Said*>(user);
     if (level != 1) return;
-    std::string warning = named(text, said.scene, said.model);
+    std::string warning = said_of_scene(text, said.model);
     if (std::find(said.warnings.begin(), said.warnings.end(), warning) == said.warnings.end())
         said.warnings.push_back(std::move(warning));
 }
@@ -208,7 +207,7 @@ Found examined(const std::string& scene_file, const std::vector<std::string>& se
     Context context = new_context();
     const Interrupt interrupt(context.get());
     const Model model = build(std::move(context), scene);
-    Said said{scene, model, {}};
+    Said said{model, {}};
     delam_context_set_log(model.context.get(), on_check_log, &said);
     const History history(model, scene);
     Planned planned;
@@ -219,7 +218,7 @@ Found examined(const std::string& scene_file, const std::vector<std::string>& se
     (void)(caller.around ? caller.around(model, make_plan) : make_plan());
     Found found = find(scene_file, scene, model);
     found["imported"] = imported;
-    found["plan"] = lines_of(planned.text);
+    found["plan"] = lines_of(said_of_scene(planned.text, model));
     std::vector<std::string>& warnings = said.warnings;
     const std::vector<std::string> more = warnings_of(model, scene);
     warnings.insert(warnings.end(), more.begin(), more.end());

@@ -89,10 +89,13 @@ void ConstraintReader::take_equation(const InpCard& card) {
         if (last % 3 != 0)
             throw SceneFailure(line.place,
                                "triples of a node or set, a degree of freedom and a coefficient are expected");
-        for (std::size_t i = 0; i < last; i += 3)
-            terms.push_back({{&root_, line.fields[i], line.place},
-                             degree_of_freedom(line.fields[i + 1], 6, line.place),
-                             inp_number(line.fields[i + 2], line.place)});
+        for (std::size_t i = 0; i < last; i += 3) {
+            EquationEntry term;
+            term.where = {&root_, line.fields[i], line.place};
+            term.dof = degree_of_freedom(line.fields[i + 1], 6, line.place);
+            term.coefficient = inp_number(line.fields[i + 2], line.place);
+            terms.push_back(std::move(term));
+        }
         if (static_cast<std::int64_t>(terms.size()) > wanted)
             throw SceneFailure(line.place, fmt::format("{} terms: {} are expected", terms.size(), wanted));
         if (static_cast<std::int64_t>(terms.size()) == wanted) {

@@ -94,13 +94,13 @@ public:
             } else if (history.peak() != 0) {
                 const auto [pattern, coefficient] = pattern_of(history);
                 ++moved[pattern];
-                for (const auto& [place, axis] : prescribed(history.line.where, key.dof))
+                for (const auto& [place, axis, control] : prescribed(history.line.where, key.dof))
                     loads += fmt::format(
                         "[[loads]]\n{}component = [\"{}\"]\npattern = {}\n{}\n", place, axis_names[axis],
                         toml_text(pattern),
                         coefficient == 1 ? "" : fmt::format("coefficient = {}\n", toml_number(coefficient)));
             } else {
-                for (const auto& [place, axis] : prescribed(history.line.where, key.dof)) {
+                for (const auto& [place, axis, control] : prescribed(history.line.where, key.dof)) {
                     if (!held.contains(place)) order.push_back(place);
                     held[place].push_back(axis);
                 }
@@ -135,11 +135,15 @@ private:
 
     // Null: the mesh has no such degree of freedom.
     History* at_one(const LoadLine& line, bool force, int dof) {
-        if (dof > mesh_.dimension && line.distributed.empty() && !moves(line.where, dof)) {
+        const std::vector<std::int64_t> references =
+            line.distributed.empty() ? references_.of(line.where) : std::vector<std::int64_t>{};
+        if (!references.empty()) {
+            if (!moves(line, force, dof, references)) return nullptr;
+        } else if (dof > mesh_.dimension && line.distributed.empty()) {
             if (force && dof > 3)
                 throw SceneFailure(line.where.place,
                                    fmt::format("a moment on \"{}\", which does not rotate", line.where.text));
-            if (line.named && dof > 3) return nullptr;
+            if (line.named) return nullptr;
             const std::string text = dof > 3 ? "degrees of freedom 4 to 6: nodes of solids do not rotate"
                                              : "degree of freedom 3: a plane mesh has none";
             say_once(deck_.left_out, text);
@@ -159,12 +163,18 @@ private:
         return &found->second;
     }
 
-    // Whether all nodes of an entry are reference nodes that have this degree of freedom.
-    [[nodiscard]] bool moves(const Entry& where, int dof) const {
-        const std::vector<std::int64_t> nodes = references_.of(where);
-        return !nodes.empty() && std::all_of(nodes.begin(), nodes.end(), [&](std::int64_t node) {
+    // Whether something moves with this degree of freedom of reference nodes. Where it does not, a support has no
+    // effect, and all else is a mistake.
+    [[nodiscard]] bool moves(const LoadLine& line, bool force, int dof, const std::vector<std::int64_t>& nodes) const {
+        const auto moved = std::count_if(nodes.begin(), nodes.end(), [&](std::int64_t node) {
             return references_.component(node, dof).has_value();
         });
+        const bool acts = force || line.magnitude != 0 || !line.amplitude.empty();
+        if (acts && moved < static_cast<std::ptrdiff_t>(nodes.size()))
+            throw SceneFailure(line.where.place,
+                               fmt::format("degree of freedom {} of \"{}\": nothing moves with it{}", dof,
+                                           line.where.text, moved > 0 ? " at some of the nodes" : ""));
+        return moved > 0;
     }
 
     void march(const Step& step) {
@@ -327,9 +337,9 @@ private:
                 if (const auto at = references_.component(node, dof)) out.push_back(*at);
         } else if (const std::optional<std::int64_t> node = node_of(raw)) {
             for (const std::int32_t body : bodies_at(mesh_, *node))
-                out.push_back({point_text(mesh_, *node, body), axis});
+                out.push_back({point_text(mesh_, *node, body), axis, 0});
         } else {
-            out.push_back({fmt::format("set = {}\n", toml_text(set_name(raw))), axis});
+            out.push_back({fmt::format("set = {}\n", toml_text(set_name(raw))), axis, 0});
         }
         return out;
     }
@@ -377,7 +387,7 @@ private:
         const double width = mesh_.dimension == 2 && deck_.width > 0 ? deck_.width : 1.0;
         // *CLOAD gives each node of a set the whole force.
         std::string out;
-        for (const auto& [place, axis] : pushed(where, dof)) {
+        for (const auto& [place, axis, control] : pushed(where, dof)) {
             std::fill(force.begin(), force.end(), 0.0);
             force[axis] = peak / width;
             out += fmt::format("[[forces]]\n{}{}force = {}\n\n", place, pattern, toml_list(force));
@@ -390,7 +400,13 @@ private:
         std::vector<SceneComponent> out;
         if (!references_.of(raw).empty()) {
             out = components(raw, dof);
-            for (const SceneComponent& component : out) references_.push(component, raw.place);
+            for (const SceneComponent& component : out) {
+                if (!pushed_.insert({component.place, component.axis}).second)
+                    throw SceneFailure(raw.place, fmt::format("\"{}\" has a force from another line by another name: "
+                                                              "give it one",
+                                                              raw.text));
+                references_.push(component, raw.place);
+            }
             return out;
         }
         const std::optional<std::int64_t> one = node_of(raw);
@@ -405,7 +421,8 @@ private:
                 throw SceneFailure(raw.place, fmt::format("a node of \"{}\" has a force from another line by another "
                                                           "name: give each node one",
                                                           raw.text));
-            out.push_back({point_text(mesh_, node, bodies_at(mesh_, node).front()), static_cast<std::size_t>(dof - 1)});
+            out.push_back(
+                {point_text(mesh_, node, bodies_at(mesh_, node).front()), static_cast<std::size_t>(dof - 1), 0});
         }
         return out;
     }
@@ -415,8 +432,9 @@ private:
     const MeshData& mesh_;
     References& references_;
     std::map<Key, History> histories_;
-    std::vector<Key> keys_;                          // in the order of the deck
-    std::set<std::pair<std::int64_t, int>> loaded_;  // nodes and degrees of freedom with a force of their own
+    std::vector<Key> keys_;                                 // in the order of the deck
+    std::set<std::pair<std::string, std::size_t>> pushed_;  // components of control nodes with a force
+    std::set<std::pair<std::int64_t, int>> loaded_;         // nodes and degrees of freedom with a force of their own
     std::vector<Pattern> made_;
     std::string patterns_;
     std::vector<double> instants_, sizes_;

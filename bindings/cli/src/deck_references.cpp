@@ -81,7 +81,7 @@ std::string point_text(const MeshData& mesh, std::int64_t node, std::int32_t bod
 }
 
 References::References(const Deck& deck, const Model& model, const MeshData& mesh)
-    : deck_(deck), model_(model), mesh_(mesh), dimension_(static_cast<std::size_t>(mesh.dimension)) {
+    : model_(model), mesh_(mesh), dimension_(static_cast<std::size_t>(mesh.dimension)) {
     in_cell_.resize(mesh.nodes.size() / dimension_);
     for (const CellBlock& block : mesh.blocks)
         for (const std::int64_t node : block.connectivity) in_cell_[static_cast<std::size_t>(node)] = true;
@@ -112,16 +112,36 @@ std::vector<double> References::position(std::int64_t node) const {
     return {first, first + mesh_.dimension};
 }
 
-// That of a set which consists of it, or its number.
-std::string References::name_of(std::int64_t node) const {
-    for (const auto& [name, nodes] : mesh_.node_sets)
-        if (nodes.size() == 1 && nodes.front() == node) return name;
+// Its part or instance, and its number there.
+std::pair<const Part*, std::int64_t> References::owner_of(std::int64_t node) const {
     for (const Part* scope : model_.scopes()) {
         const std::int64_t at = node - scope->first_node;
         if (at >= 0 && at < static_cast<std::int64_t>(scope->nodes.size()))
-            return "node-" + full_name(*scope, std::to_string(scope->nodes[static_cast<std::size_t>(at)].id));
+            return {scope, scope->nodes[static_cast<std::size_t>(at)].id};
     }
-    return "node";
+    return {&model_.root, node};
+}
+std::pair<std::size_t, std::int64_t> References::label_of(std::int64_t node) const {
+    const auto [scope, id] = owner_of(node);
+    return {scope->order, id};
+}
+
+// That of a set which consists of it, or its number; no other control node has it.
+std::string References::new_name(std::int64_t node, const std::string& ending) const {
+    const auto [scope, id] = owner_of(node);
+    std::string name = "node-" + full_name(*scope, std::to_string(id));
+    for (const auto& [set, nodes] : mesh_.node_sets)
+        if (nodes.size() == 1 && nodes.front() == node) {
+            name = set;
+            break;
+        }
+    name += ending;
+    const auto taken = [&](const std::string& text) {
+        return std::any_of(controls_.begin(), controls_.end(), [&](const Control& c) { return c.name == text; });
+    };
+    std::string out = name;
+    for (int k = 2; taken(out); ++k) out = fmt::format("{}-{}", name, k);
+    return out;
 }
 
 std::string References::place_of(const Control& control) {
@@ -130,41 +150,43 @@ std::string References::place_of(const Control& control) {
 
 std::size_t References::control_of(std::int64_t node) {
     const auto [at, fresh] = translations_.emplace(node, controls_.size());
-    if (fresh) controls_.push_back({name_of(node), position(node), {}, {}});
+    if (fresh) controls_.push_back({new_name(node, ""), position(node), {}, {}});
     return at->second;
 }
 
 std::size_t References::rotation_of(std::int64_t node) {
     const auto [at, fresh] = rotations_.emplace(node, controls_.size());
-    if (fresh) controls_.push_back({name_of(node) + "-rotation", position(node), {}, {}});
+    if (fresh) controls_.push_back({new_name(node, "-rotation"), position(node), {}, {}});
     return at->second;
 }
 
-References::Control& References::owner(const SceneComponent& component) {
-    return *std::find_if(controls_.begin(), controls_.end(),
-                         [&](const Control& control) { return place_of(control) == component.place; });
+SceneComponent References::of_control(std::size_t control, std::size_t axis) const {
+    return {place_of(controls_[control]), axis, control};
 }
 
-std::optional<SceneComponent> References::component(std::int64_t node, int dof) {
+std::optional<SceneComponent> References::component(std::int64_t node, int dof) const {
     if (const auto turned = rotation_nodes_.find(node); turned != rotation_nodes_.end()) {
         if (dof > 3) return std::nullopt;
         return component(turned->second, dof + 3);
     }
-    if (dof <= mesh_.dimension)
-        return SceneComponent{place_of(controls_[control_of(node)]), static_cast<std::size_t>(dof - 1)};
+    if (dof <= mesh_.dimension) {
+        const auto control = translations_.find(node);
+        if (control == translations_.end()) return std::nullopt;
+        return of_control(control->second, static_cast<std::size_t>(dof - 1));
+    }
     const bool plane = mesh_.dimension == 2;
-    if (dof <= 3 || !rotations_.contains(node) || (plane && dof != 6)) return std::nullopt;
+    const auto control = rotations_.find(node);
+    if (dof <= 3 || control == rotations_.end() || (plane && dof != 6)) return std::nullopt;
     // In the plane the rotation about z is the first component.
-    const Control& control = controls_[rotations_.at(node)];
-    return SceneComponent{place_of(control), plane ? 0 : static_cast<std::size_t>(dof - 4)};
+    return of_control(control->second, plane ? 0 : static_cast<std::size_t>(dof - 4));
 }
 
 void References::prescribe(const SceneComponent& component) {
-    owner(component).determined.push_back(axis_row(component.axis));
+    controls_.at(component.control).determined.push_back(axis_row(component.axis));
 }
 
 void References::push(const SceneComponent& component, const Place& place) {
-    owner(component).pushed.emplace(component.axis, place);
+    controls_.at(component.control).pushed.emplace(component.axis, place);
 }
 
 void References::couple(const Coupling& coupling) {
@@ -173,13 +195,21 @@ void References::couple(const Coupling& coupling) {
         throw SceneFailure(coupling.place, fmt::format("REF NODE={}: one node that belongs to no body is expected",
                                                        coupling.reference.text));
     const std::int64_t reference = found.front();
+    if (rotation_nodes_.contains(reference))
+        throw SceneFailure(coupling.place,
+                           fmt::format("REF NODE={} is the ROT NODE of another card", coupling.reference.text));
     if (coupling.rotation_node) {
         const std::vector<std::int64_t> turned = of(*coupling.rotation_node);
         if (turned.size() != 1 || turned.front() == reference)
             throw SceneFailure(coupling.place, fmt::format("ROT NODE={}: one further node that belongs to no body is "
                                                            "expected",
                                                            coupling.rotation_node->text));
-        rotation_nodes_[turned.front()] = reference;
+        const bool fresh = rotation_nodes_.emplace(turned.front(), reference).second;
+        if (!fresh || translations_.contains(turned.front()))
+            throw SceneFailure(coupling.place,
+                               fmt::format("ROT NODE={}: another card uses this node too: each rotation "
+                                           "has a node of its own",
+                                           coupling.rotation_node->text));
     }
     std::string set = surface_name(model_, coupling.where);
     if (set.empty()) set = node_set_name(model_, coupling.where);
@@ -216,7 +246,7 @@ void References::couple(const Coupling& coupling) {
     }
     constraints_ += fmt::format("[[couplings]]\nset = {}\ncomponent = {}\n{}", toml_text(set), toml_list(names), place);
     // A rotation that moves none of the nodes is left out.
-    std::erase_if(levers, [&](const Row& row) { return !(std::sqrt(dot(row, row)) > 1e-9 * longest); });
+    std::erase_if(levers, [&](const Row& row) { return !(std::sqrt(dot(row, row)) > 1e-6 * longest); });
     if (!levers.empty()) {
         Control& rotation = controls_[rotation_of(reference)];
         for (const Row& row : levers) rotation.determined.push_back(dimension_ == 2 ? Row{row[2], 0, 0} : row);
@@ -228,6 +258,7 @@ void References::couple(const Coupling& coupling) {
 std::string References::term_text(const EquationEntry& term, std::int64_t node) {
     SceneComponent at;
     if (of_no_body(node)) {
+        if (!rotation_nodes_.contains(node)) control_of(node);
         const auto found = component(node, term.dof);
         if (!found)
             throw SceneFailure(term.where.place, fmt::format("degree of freedom {} of \"{}\": nothing moves with it",
@@ -239,7 +270,7 @@ std::string References::term_text(const EquationEntry& term, std::int64_t node) 
             throw SceneFailure(term.where.place,
                                fmt::format("degree of freedom {} of \"{}\": a node of a body has 1 to {}", term.dof,
                                            term.where.text, mesh_.dimension));
-        at = {point_text(mesh_, node, bodies_at(mesh_, node).front()), static_cast<std::size_t>(term.dof - 1)};
+        at = {point_text(mesh_, node, bodies_at(mesh_, node).front()), static_cast<std::size_t>(term.dof - 1), 0};
     }
     std::string keys = at.place;
     while (!keys.empty() && keys.back() == '\n') keys.pop_back();
@@ -248,13 +279,25 @@ std::string References::term_text(const EquationEntry& term, std::int64_t node) 
                        toml_number(term.coefficient));
 }
 
-// An equation between sets is one for each of their nodes, in ascending order.
+bool References::unsorted(const Entry& where) const {
+    const Entry entry = model_.resolved_scope(where);
+    const auto set = entry.scope->node_sets.find(upper(entry.text));
+    return set != entry.scope->node_sets.end() && set->second.unsorted;
+}
+
+// An equation between sets is one for each of their nodes, in the order of their numbers.
 void References::equate(const std::vector<EquationEntry>& terms) {
     std::vector<std::vector<std::int64_t>> nodes;
     std::size_t count = 1;
     for (const EquationEntry& term : terms) {
         nodes.push_back(nodes_of(term.where));
+        std::sort(nodes.back().begin(), nodes.back().end(),
+                  [&](std::int64_t a, std::int64_t b) { return label_of(a) < label_of(b); });
         count = std::max(count, nodes.back().size());
+        if (nodes.back().size() > 1 && unsorted(term.where))
+            throw SceneFailure(term.where.place, fmt::format("\"{}\" is UNSORTED: equations between sets are imported "
+                                                             "in the order of their nodes' numbers",
+                                                             term.where.text));
     }
     for (std::size_t k = 0; k < terms.size(); ++k)
         if (nodes[k].size() != count && nodes[k].size() != 1)

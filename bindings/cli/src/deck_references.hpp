@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "deck.hpp"
@@ -19,6 +20,7 @@ namespace cli::abaqus {
 struct SceneComponent {
     std::string place;
     std::size_t axis = 0;
+    std::size_t control = 0;  // of a control node: its index
 };
 
 // A node of a body: its place in the scene.
@@ -32,7 +34,7 @@ public:
     // The nodes of an entry if all of them belong to no body; empty: they are nodes of bodies.
     [[nodiscard]] std::vector<std::int64_t> of(const Entry& where) const;
     // Of a node that of() has given. nullopt: nothing moves with this degree of freedom.
-    std::optional<SceneComponent> component(std::int64_t node, int dof);
+    [[nodiscard]] std::optional<SceneComponent> component(std::int64_t node, int dof) const;
     // A load prescribes what component() has given.
     void prescribe(const SceneComponent& component);
     // A force acts there: something else must determine it.
@@ -53,17 +55,19 @@ private:
     [[nodiscard]] bool of_no_body(std::int64_t node) const { return !in_cell_[static_cast<std::size_t>(node)]; }
     [[nodiscard]] std::vector<std::int64_t> nodes_of(const Entry& where) const;
     [[nodiscard]] std::vector<double> position(std::int64_t node) const;
-    [[nodiscard]] std::string name_of(std::int64_t node) const;
+    [[nodiscard]] std::pair<const Part*, std::int64_t> owner_of(std::int64_t node) const;
+    [[nodiscard]] std::pair<std::size_t, std::int64_t> label_of(std::int64_t node) const;
+    [[nodiscard]] std::string new_name(std::int64_t node, const std::string& ending) const;
+    [[nodiscard]] SceneComponent of_control(std::size_t control, std::size_t axis) const;
+    [[nodiscard]] bool unsorted(const Entry& where) const;
     [[nodiscard]] static std::string place_of(const Control& control);
     std::size_t control_of(std::int64_t node);
     std::size_t rotation_of(std::int64_t node);
-    Control& owner(const SceneComponent& component);
     void couple(const Coupling& coupling);
     void equate(const std::vector<EquationEntry>& terms);
     std::string term_text(const EquationEntry& term, std::int64_t node);
     std::string held_text(const Control& control) const;
 
-    const Deck& deck_;
     const Model& model_;
     const MeshData& mesh_;
     std::size_t dimension_;

@@ -148,6 +148,8 @@ void StepReader::take_forces(const InpCard& card) {
     for (const InpLine& line : card.lines) {
         if (line.fields.size() < 3)
             throw SceneFailure(line.place, "a node or set, a degree of freedom and a force are expected");
+        if (std::any_of(line.fields.begin() + 3, line.fields.end(), [](const std::string& f) { return !f.empty(); }))
+            throw SceneFailure(line.place, "3 values are expected: a line for each degree of freedom");
         LoadLine load;
         load.where = {&root_, line.fields[0], line.place};
         load.amplitude = card.parameter("AMPLITUDE");

@@ -27,6 +27,23 @@ std::string replaced(const std::string& text, const std::regex& pattern, With wi
 
 }  // namespace
 
+std::string said_of_scene(const std::string& message, const Model& model) {
+    const auto interface = [&](const std::string& number) {
+        const std::size_t index = std::stoul(number);
+        return index < model.interfaces.size() ? fmt::format("\"{}\"", model.interfaces[index].name) : number;
+    };
+    // "interface 0", "interfaces 0, 1 and 2"; but not within a name given by the user.
+    std::string out = replaced(
+        message, std::regex(R"((^|[^"\w-])(interfaces?) (\d{1,9}(?:(?:, | and )\d{1,9}){0,30})\b(?!["-]))"),
+        [&](const std::smatch& m) {
+            return m[1].str() + m[2].str() + " " +
+                   replaced(m[3].str(), std::regex(R"(\d+)"), [&](const std::smatch& n) { return interface(n.str()); });
+        });
+    out = replaced(out, std::regex(R"( \(delam_problem_propose\))"), [](const std::smatch&) { return std::string(); });
+    return replaced(out, std::regex(R"((solution|backtracking) = (energetic|on)\b)"),
+                    [](const std::smatch& m) { return fmt::format("{} = \"{}\"", m[1].str(), m[2].str()); });
+}
+
 std::string named(const std::string& message, const Scene& scene, const Model& model) {
     const auto body = [&](const std::string& number) {
         const std::size_t index = std::stoul(number);
@@ -41,16 +58,7 @@ std::string named(const std::string& message, const Scene& scene, const Model& m
         });
     out = replaced(out, std::regex(R"((^|[^"\w-])body (\d{1,9})\b(?!["-]))"),
                    [&](const std::smatch& m) { return m[1].str() + noun + " " + body(m[2].str()); });
-    // "interface 0", "interfaces 0, 1 and 2"
-    const auto interface = [&](const std::string& number) {
-        const std::size_t index = std::stoul(number);
-        return index < model.interfaces.size() ? fmt::format("\"{}\"", model.interfaces[index].name) : number;
-    };
-    out = replaced(
-        out, std::regex(R"(\b(interfaces?) (\d{1,9}(?:(?:, | and )\d{1,9}){0,30}))"), [&](const std::smatch& m) {
-            return m[1].str() + " " +
-                   replaced(m[2].str(), std::regex(R"(\d+)"), [&](const std::smatch& n) { return interface(n.str()); });
-        });
+    out = said_of_scene(out, model);
     out = replaced(out, std::regex(R"(\bcontrol node (\d{1,9}))"), [&](const std::smatch& m) {
         if (scene.controls.empty() || model.mesh == nullptr) return m.str();
         const std::int64_t first = control_node(model.context.get(), model.mesh.get(), scene, 0, scene.geometry.place);

@@ -12,4 +12,7 @@ namespace cli {
 // places.
 std::string named(const std::string& message, const Scene& scene, const Model& model);
 
+// A line of the log: with the names of interfaces, and words as a scene has them. Asks the library nothing.
+std::string said_of_scene(const std::string& message, const Model& model);
+
 }  // namespace cli

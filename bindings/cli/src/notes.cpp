@@ -98,6 +98,8 @@ std::vector<std::string> notes_of(const Scene& scene) {
     std::vector<std::string> out;
     const Geometry& geometry = scene.geometry;
     if (scene.mesh) out = scene.mesh->notes;
+    // Not of a deck whose materials, constraints and steps are in the scene.
+    if (scene.imported) std::erase_if(out, [](const std::string& note) { return note.starts_with("ignored: "); });
     const CellShape* cell = scene.mesh ? nullptr : &shape_of(geometry.cell_type);
     for (const Layer& layer : scene.layers) {
         const Material& material = scene.materials[layer.material];

@@ -39,7 +39,6 @@ extern "C" std::int32_t on_progress(const char* stage, std::int64_t done, std::i
 
 struct Log {
     Progress& progress;
-    const Scene& scene;
     const Model& model;
 };
 
@@ -48,7 +47,7 @@ extern "C" void on_log(std::int32_t level, const char* text, void* user) {
     if (Interrupt::requested() && std::string_view(text).starts_with("cancelled by the host")) return;
     const Log& log = *static_cast<Log*>(user);
     if (level <= 1)
-        log.progress.note(fmt::format("{}: {}", level == 0 ? "error" : "warning", named(text, log.scene, log.model)));
+        log.progress.note(fmt::format("{}: {}", level == 0 ? "error" : "warning", said_of_scene(text, log.model)));
 }
 
 // Reads results, whatever it takes: a request to stop that arrives meanwhile ends the call that reads, and is obeyed
@@ -373,7 +372,7 @@ int run(const std::string& scene_file, const std::vector<std::string>& settings,
                                   scene.file));
     const std::int64_t first = state ? state->state.step : 0;
     progress.begin_after(first);
-    Log log{progress, scene, model};
+    Log log{progress, model};
     delam_context_set_log(model.context.get(), on_log, &log);
     say("delam {} ({}): {}{}\n", delam_version(), delam_commit(), scene_file,
         scene.title.empty() ? "" : ", " + scene.title);

@@ -434,8 +434,28 @@ def check_rotations():
         expect('control = "Grip-rotation"\npattern = "force"\nforce = ' +
                ("[0.25, 0.0]" if plane else "[0.0, 0.25, 0.0]") in scene, "a moment")
         expect_error(delam("import", saved(card + f"*Cload\nEnds, {6 if plane else 5}, 0.25\n" + after)), 2, "a moment on")
+        # A second node of no body, with which nothing moves: supports of both keep those of the first, loads are refused.
+        both = card.replace("*Nset, nset=Grip\n9001\n", "*Nset, nset=Grip\n9001\n*Nset, nset=Both\n9001, 9003\n"
+                            "*Node\n9003, 0.1, 0.1\n")
+        scene, _ = imported(both.replace("Clamp, ENCASTRE\n", "Clamp, ENCASTRE\nBoth, ENCASTRE\n") + after)
+        expect(scene.count('control = "Grip-rotation"\nfix = [' + ('"x"]' if plane else '"x", "y", "z"]')) == 1 and
+               "9003" not in scene, "a set of reference nodes is held")
+        for line in ("Both, 6, 6, 0.02", "9003, 1, 1, 0.1"):
+            expect_error(delam("import", saved(both + f"*Boundary\n{line}\n" + after)), 2, "nothing moves with it")
+        twice = card + "*Cload\nGrip, 2, 5.\n9001, 2, 5.\n" + after
+        expect_error(delam("import", saved(twice)), 2, "another line by another name")
+        other = grip + kinds["rigid body"] + kinds["rigid body"].replace("node=9001", "node=9003").replace(
+            "nset=Ends", "nset=Clamp") + "*Node\n9003, 0.1, 0.1\n"
+        expect_error(delam("import", saved(before.replace("*Boundary\nClamp", other + "*Boundary\nClamp") + after)), 2,
+                     "another card uses this node too")
+        for term in ("9001, 7, 1.", "9001, 1, abc", "9001, , 1.", "9001, 1, 1e400"):
+            expect_error(delam("import", saved(card.replace("*Kinematic\n", f"*Kinematic\n*Equation\n1\n{term}\n") +
+                                               after)), 2, r"deck\.inp:\d+: \*EQUATION")
+        pairs = "*Nset, nset=Two, unsorted\n" + ", ".join(map(str, ends[1::-1])) + "\n*Equation\n2\nTwo, 1, 1., Grip, 1, -1.\n"
+        expect_error(delam("import", saved(card.replace("*Kinematic\n", "*Kinematic\n" + pairs) + after)), 2, "UNSORTED")
         one = card.replace("*Kinematic\n", "*Kinematic\n2, 2\n")
         expect_error(delam("import", saved(one + "*Cload\nGrip, 1, 0.25\n" + after)), 2, "with which nothing moves")
+        expect_error(delam("import", saved(card + "*Cload\nGrip, 1, 0.25, 3.\n" + after)), 2, "3 values are expected")
         upright = one.replace("Clamp, ENCASTRE\n", "Clamp, ENCASTRE\nGrip, 4, 6\n") + "*Cload\nGrip, 2, 0.25\n" + after
         expect(delam("check", saved(upright))[0] == 0, "and one with which nodes move")
         for old, new, pattern in (("*Kinematic\n", "*Distributing\n", "distribute a force are not imported"),
