@@ -23,6 +23,9 @@ from marches import (DONE, NUMERICAL, Trouble, given_words, hold, make_folder, r
 
 WORSE = 10.0  # what a step into an infeasible region costs, in residuals: the trust region then shrinks
 
+BEGINNINGS = 6  # of a fit whose solution turns out to have neighbours with less misfit
+TRUSTED = 4.0  # by which factor the misfit at the ends of an interval may differ from that which the derivatives predict
+
 ENOUGH = 0.01  # the sum of squares over their variance changes by 1 within a standard error: so much is no news
 
 
@@ -74,12 +77,62 @@ class Fit:
     def jacobian(self, scaled):
         return self._at(scaled)[1]
 
-    def run(self):
+    def bounds(self):
+        return (np.array([p.lower for p in self.model.parameters]) / self.start,
+                np.array([p.upper for p in self.model.parameters]) / self.start)
+
+    def best(self, level):
+        """The solution, and the parameters whose intervals the curves do not bear out (probe). Where a probe finds less
+        misfit than the solution, the fit begins anew there: curves that depend on a parameter in steps, as cracks do
+        that advance from pair to pair, have a minimum in each."""
+        begin, doubted = np.ones(len(self.start)), []
+        for _ in range(BEGINNINGS):
+            found = self.run(begin)
+            better, doubted = probe(self, found, level)
+            if better is None:
+                break
+            begin = better
+        return found, doubted
+
+    def run(self, begin):
         from scipy.optimize import least_squares  # here, for it loads for a second, and words may be wrong
-        lower = np.array([p.lower for p in self.model.parameters]) / self.start
-        upper = np.array([p.upper for p in self.model.parameters]) / self.start
-        return least_squares(self.residual, np.ones(len(self.start)), jac=self.jacobian, bounds=(lower, upper),
+        lower, upper = self.bounds()
+        return least_squares(self.residual, begin, jac=self.jacobian, bounds=(lower, upper),
                              x_scale="jac", ftol=ENOUGH / len(self.y), xtol=1e-5, gtol=1e-10, max_nfev=60)
+
+
+def probe(fit, found, level):
+    """Compares the misfit at both ends of each interval with that which the derivatives predict there, the other
+    parameters following. Returns where it is lowest, if that is below the solution's, and the keys of the parameters
+    for which one of them differs by more than a factor of `TRUSTED`. For these it also looks farther away."""
+    try:
+        _, _, intervals, correlation = estimates(fit, found, level)
+    except Trouble:
+        return None, []  # report() says so
+    if not np.isfinite(intervals).all() or not np.isfinite(correlation).all():
+        return None, []
+    least = np.sum(found.fun ** 2)
+    lower, upper = fit.bounds()
+    normal = found.jac.T @ found.jac
+    inverse = np.linalg.inv(normal)
+    better, lowest, doubted = None, least * (1 - ENOUGH / len(fit.y)), []
+    for k, parameter in enumerate(fit.model.parameters):
+        ends = intervals[k] / fit.start[k]
+        farther = [found.x[k] * (1 + share) for share in (-0.1, 0.1, -0.25, 0.25)]
+        for which, end in enumerate([*ends, *farther]):
+            if which >= len(ends) and parameter.path not in doubted:
+                break
+            at = np.clip(found.x + (end - found.x[k]) * inverse[:, k] / inverse[k, k], lower, upper)
+            step = at - found.x
+            predicted = step @ normal @ step
+            if not predicted > 1e-6 * least or not np.isfinite(predicted):
+                continue
+            misfit = np.sum(fit.residual(at) ** 2)
+            if misfit < lowest:
+                better, lowest = at, misfit
+            if which < len(ends) and not predicted / TRUSTED < misfit - least < predicted * TRUSTED:
+                doubted = [*doubted, parameter.path] if parameter.path not in doubted else doubted
+    return better, doubted
 
 
 def estimates(fit, found, level):
@@ -116,7 +169,7 @@ def estimates(fit, found, level):
     return values, errors * fit.start, np.array([values - half, values + half]).T, correlation
 
 
-def report(model, fit, found, level, out):
+def report(model, fit, found, doubted, level, out):
     from fit_pictures import draw_fit
     values, errors, intervals, correlation = estimates(fit, found, level)
     jumps = [sorted(set(map(float, at))) for at in model.jumps]
@@ -129,7 +182,7 @@ def report(model, fit, found, level, out):
     about = {"parameters": rows, "confidence": level, "correlation": correlation.tolist(), "rms": rms,
              "points": len(fit.y), "marches": model.marches, "converged": bool(found.success),
              "message": found.message, "scenes": model.files, "data": [d.path for d in model.data],
-             "jumps": jumps, "unknown_pairs": model.unknown}
+             "jumps": jumps, "unknown_pairs": model.unknown, "doubted": doubted}
     # JSON has no NaN: there are no intervals.
     known = json.loads(json.dumps(about), parse_constant=lambda _: None)
     write_file(os.path.join(out, "fit.json"), json.dumps(known, indent=1, allow_nan=False))
@@ -142,6 +195,10 @@ def report(model, fit, found, level, out):
         print(f"{row['key']} = {row['value']:.6g}, {100 * level:g} % interval {row['interval'][0]:.6g} to "
               f"{row['interval'][1]:.6g}" + (" (at its bound)" if row["at_bound"] else ""))
     print(f"root mean square of the residuals {rms:.4g}, {len(fit.y)} points, {model.marches} marches")
+    if doubted:
+        print(f"warning: the interval{'s' if len(doubted) > 1 else ''} of {', '.join(doubted)} cannot be trusted: at "
+              "their ends the misfit is not what the derivatives say; the curve may depend on them in steps, from pair to "
+              "pair: refine the mesh, and begin from other values")
     for path, count in zip(model.files, model.unknown):
         if count:
             print(f"warning: {path}: the adhesion of {count:.0f} pairs came to rest within a step and is taken as constant; "
@@ -175,9 +232,9 @@ def main():
     fit = Fit(model, given.weights)
     held = hold(given.out)  # until the end
     make_folder(os.path.join(given.out, "work"))
-    found = fit.run()
+    found, doubted = fit.best(given.confidence)
     try:
-        report(model, fit, found, given.confidence, given.out)
+        report(model, fit, found, doubted, given.confidence, given.out)
     except Infeasible as error:
         raise Trouble(f"the scene does not run at the end: {error}", error.code) from error
     held.close()

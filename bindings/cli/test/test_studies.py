@@ -275,6 +275,33 @@ def without_packages():
                f"without packages: {done.stderr}")
 
 
+def rugged():
+    """A curve that depends on its parameter in ripples: its interval is doubted, and less misfit beside it is taken."""
+    import fit  # pylint: disable=import-outside-toplevel
+    from types import SimpleNamespace  # pylint: disable=import-outside-toplevel
+
+    class Made(fit.Fit):
+        """Lines of several slopes through p + ripple sin(25 p), and noise. The truth is 1.6."""
+
+        def __init__(self, ripple):  # pylint: disable=super-init-not-called
+            parameter = SimpleNamespace(path="p", start=1.0, lower=0.2, upper=5.0)
+            self.model = SimpleNamespace(parameters=[parameter], data=[None])
+            self.start, self.y, self.slopes = np.ones(1), np.zeros(40), np.linspace(0.2, 1, 40)
+            self.noise, self.ripple = 0.05 * np.random.default_rng(3).standard_normal(40), ripple
+
+        def _at(self, scaled):
+            p = scaled[0]
+            moved = p - 1.6 + self.ripple * (np.sin(25 * p) - np.sin(25 * 1.6))
+            return moved * self.slopes + self.noise, (self.slopes * (1 + 25 * self.ripple * np.cos(25 * p)))[:, None]
+
+    for ripple, doubted in ((0.0, []), (0.02, []), (0.05, ["p"])):
+        found, said = Made(ripple).best(0.95)
+        expect(said == doubted and abs(found.x[0] - 1.6) < 0.02, f"ripples of {ripple}: {said}, p = {found.x[0]}")
+    fitted = Made(0.1)
+    once, best = fitted.run(np.ones(1)), fitted.best(0.95)[0]
+    expect(np.sum(best.fun ** 2) < 0.9 * np.sum(once.fun ** 2), f"less misfit beside it: {once.cost}, {best.cost}")
+
+
 def alike():
     """Parameters that move the curve in the same way are named, and no other."""
     import fit  # pylint: disable=import-outside-toplevel
@@ -344,7 +371,7 @@ def coverage(trials=100):
             before, sys.stdout = sys.stdout, silent
             try:
                 one = fit.Fit(Model([scene], data, parameters, given), "curve")
-                values = fit.estimates(one, one.run(), 0.95)
+                values = fit.estimates(one, one.run(np.ones(len(one.start))), 0.95)
             finally:
                 sys.stdout = before
         for key, (low, high) in zip(TRUTH, values[2]):
@@ -356,6 +383,6 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."
 if sys.argv[1:] == ["whole"]:
     long_fits()
 else:
-    for part in (sweeps, interrupted_sweep, changed_mesh, wrong_words, fits, alike, without_packages):
+    for part in (sweeps, interrupted_sweep, changed_mesh, wrong_words, fits, rugged, alike, without_packages):
         part()
 finish()
