@@ -12,9 +12,8 @@ namespace delam {
 
 namespace {
 
-constexpr double noticeable = 0.01;  // of the energy: what a ledger may leave open
-
-constexpr double of_debonding = 0.02;
+constexpr double noticeable = 0.01;    // of the energy: what a ledger may leave open
+constexpr double of_debonding = 0.02;  // of the energy that debonds all interfaces: from here on an energy counts
 
 }  // namespace
 

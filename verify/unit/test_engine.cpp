@@ -319,7 +319,7 @@ std::pair<Problem, SparseMatrix> skeleton_of(const Problem& whole) {
         for (const std::int64_t dof : c.dof) needed[index(dof / dim)] = 1;
     std::vector<std::int64_t> place(needed.size()), bodies;
     std::int64_t count = 0;
-    for (const std::uint8_t wanted : {1, 0})
+    for (const int wanted : {1, 0})
         for (std::size_t node = 0; node < needed.size(); ++node)
             if (needed[node] == wanted) place[node] = count++;
     const std::int64_t kept = std::count(needed.begin(), needed.end(), 1);

@@ -117,6 +117,17 @@ def warned(text, *parts):
 expect(delam("check", write(SCENE))[2] == "", "no warning where nothing is odd")
 
 
+# What the library doubts before anything is solved; the names are those of the scene.
+warned(changed("normal_toughness = 250.0", "normal_toughness = 150.0"),
+       'warning: interface "lower-upper": the normal onset is 0.667 of the toughness', "hardly softens")
+warned(changed("normal_toughness = 250.0", "normal_toughness = 250e3"),
+       'interface "lower-upper": it debonds at a normal jump of about 2 G/s = 0.1,', "units that fit together?")
+warned(changed("to = 0.030", "to = 30"), 'interface "lower-upper": no pair adheres at the start')
+for share in (0.49, 0.51):  # of the toughness; the bound is half of it
+    told = delam("check", write(changed("normal_toughness = 250.0", f"normal_toughness = {100 / share}")))[2]
+    expect(("hardly softens" in told) == (share > 0.5), f"an onset of {share} of the toughness: {told}")
+
+
 def proposals(text):
     """By `check`: those of the JSON object, and the warnings."""
     code, out, _ = delam("check", write(text), "--json")
