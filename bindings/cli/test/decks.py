@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Input files in the dialects of Abaqus, CalculiX and PrePoMax: a beam of two arms, in the plane or in space."""
+"""Input files in the dialects of Abaqus, CalculiX and PrePoMax: a beam of two arms, in the plane or in space. And the same
+beam as a scene."""
+import json
 
 E1, E2, NU12, NU23, G12 = 126e9, 10e9, 0.3, 0.4, 5e9
 STIFFNESS, NORMAL, SHEAR, G_I, G_II, ETA = 1e14, 12e6, 20e6, 280.0, 790.0, 2.3
@@ -191,3 +193,69 @@ def surfaces(beam, displacement=0.001, steps=20, initial=False):
     if initial:
         text += ("*Nset, nset=Bonded\n" + lines(bonded) + "*Initial conditions, type=CONTACT\nAbove, Below, Bonded\n")
     return text + opened(displacement, steps, beam.plane, "*Boundary, op=New\nClamp, 1, 3, 0\n")
+
+
+HAND = f"""
+schema = 1
+[geometry]
+dimension = DIMENSION
+length = 0.06
+SIZE
+[[materials]]
+name = "Ply"
+E1 = {E1}
+E2 = {E2}
+nu12 = {NU12}
+nu23 = {NU23}
+G12 = {G12}
+formulation = "incompatible"
+[[layers]]
+name = "lower"
+thickness = 0.0015
+divisions = 2
+material = "Ply"
+[[layers]]
+name = "upper"
+thickness = 0.0015
+divisions = 2
+material = "Ply"
+[[laws]]
+name = "Resin"
+normal_stiffness = {STIFFNESS}
+tangential_stiffness = {STIFFNESS}
+normal_onset = {NORMAL ** 2 / 2 / STIFFNESS}
+tangential_onset = {SHEAR ** 2 / 2 / STIFFNESS}
+normal_toughness = {G_I}
+tangential_toughness = {G_II}
+criterion = "benzeggagh-kenane"
+toughness_exponent = {ETA}
+onset_criterion = "power"
+onset_exponent = 1.0
+[[interfaces]]
+lower = "lower"
+upper = "upper"
+law = "Resin"
+notch = [{{ from = 0.0, to = 0.03 }}]
+[[patterns]]
+name = "open"
+times = [0, 1]
+values = [0, 0.001]
+[time]
+end = 1.0
+steps = 20
+"""
+
+
+def hand(plane):
+    """The beam of abaqus(), written as a scene."""
+    size = "divisions = 40" if plane else "width = 0.006\ndivisions = [40, 2]"
+    text = HAND.replace("DIMENSION", "2" if plane else "3").replace("SIZE", size)
+    width = [] if plane else [0.006]
+    origin = [0.0] * len(width)
+    axes = ["x", "y"] if plane else ["x", "y", "z"]
+    text += (f"[[supports]]\nbox = {{ lower = {[0.06, *origin, 0.0]}, upper = {[0.06, *width, 0.003]} }}\n"
+             f"fix = {json.dumps(axes)}\n")
+    for height, sign in ((0.003, 1.0), (0.0, -1.0)):
+        text += (f"[[loads]]\nbox = {{ lower = {[0.0, *origin, height]}, upper = {[0.0, *width, height]} }}\n"
+                 f"direction = {[0.0, *origin, sign]}\npattern = \"open\"\n")
+    return text

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Input files of Abaqus with cohesive elements or surfaces: what they become, and what is refused."""
 import csv
-import json
 import math
 import os
 import re
@@ -9,71 +8,6 @@ import re
 import decks
 from decks import Beam
 from support import delam, expect, expect_error, finish, folder, read
-
-HAND = f"""
-schema = 1
-[geometry]
-dimension = DIMENSION
-length = 0.06
-SIZE
-[[materials]]
-name = "Ply"
-E1 = {decks.E1}
-E2 = {decks.E2}
-nu12 = {decks.NU12}
-nu23 = {decks.NU23}
-G12 = {decks.G12}
-formulation = "incompatible"
-[[layers]]
-name = "lower"
-thickness = 0.0015
-divisions = 2
-material = "Ply"
-[[layers]]
-name = "upper"
-thickness = 0.0015
-divisions = 2
-material = "Ply"
-[[laws]]
-name = "Resin"
-normal_stiffness = {decks.STIFFNESS}
-tangential_stiffness = {decks.STIFFNESS}
-normal_onset = {decks.NORMAL ** 2 / 2 / decks.STIFFNESS}
-tangential_onset = {decks.SHEAR ** 2 / 2 / decks.STIFFNESS}
-normal_toughness = {decks.G_I}
-tangential_toughness = {decks.G_II}
-criterion = "benzeggagh-kenane"
-toughness_exponent = {decks.ETA}
-onset_criterion = "power"
-onset_exponent = 1.0
-[[interfaces]]
-lower = "lower"
-upper = "upper"
-law = "Resin"
-notch = [{{ from = 0.0, to = 0.03 }}]
-[[patterns]]
-name = "open"
-times = [0, 1]
-values = [0, 0.001]
-[time]
-end = 1.0
-steps = 20
-"""
-
-
-def hand(plane):
-    """The beam of decks.abaqus, written as a scene: its text."""
-    size = "divisions = 40" if plane else "width = 0.006\ndivisions = [40, 2]"
-    text = HAND.replace("DIMENSION", "2" if plane else "3").replace("SIZE", size)
-    width = [] if plane else [0.006]
-    origin = [0.0] * len(width)
-    axes = ["x", "y"] if plane else ["x", "y", "z"]
-    text += (f"[[supports]]\nbox = {{ lower = {[0.06, *origin, 0.0]}, upper = {[0.06, *width, 0.003]} }}\n"
-             f"fix = {json.dumps(axes)}\n")
-    for height, sign in ((0.003, 1.0), (0.0, -1.0)):
-        text += (f"[[loads]]\nbox = {{ lower = {[0.0, *origin, height]}, upper = {[0.0, *width, height]} }}\n"
-                 f"direction = {[0.0, *origin, sign]}\npattern = \"open\"\n")
-    return text
 
 
 def saved(text, name="deck.inp", place=None):
@@ -117,7 +51,7 @@ def imported(text, code=0):
 def check_dialects():
     for plane in (True, False):
         beam = Beam(nx=40, ny=0 if plane else 2, nz=2)
-        reference = history(saved(hand(plane), "scene.toml"))
+        reference = history(saved(decks.hand(plane), "scene.toml"))
         expect(reference is not None and reference[-1]["dissipated"] > 0, "the crack of the reference grows")
         name = "plane" if plane else "space"
         same(f"{name}, flat", saved(decks.abaqus(beam)), reference)
