@@ -57,10 +57,8 @@ if ((${#names[@]} == 0)); then
 fi
 
 if [[ $run == yes ]]; then
-    delam_install "${DELAM_PACKAGES[@]}" "${DELAM_PARSER_PACKAGES[@]}"
     # Exit code 1: steps did not converge, which the page says.
     bash examples/run.sh "${names[@]}" || (($? == 1))
-    cmake --build --preset release --target delam_view
 fi
 folders=()
 for name in "${names[@]}"; do

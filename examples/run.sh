@@ -42,6 +42,13 @@ file_of() {
     done
 }
 
+# needs_gmsh NAME: true if its scene reads a mesh of Gmsh or has it make a cell.
+needs_gmsh() {
+    local file
+    file=$(file_of "$1")
+    grep -qE '^generator *=|^file *=.*\.msh"' "${file:-$(file_of "${1%-h*}")}"
+}
+
 # names: all that can be asked for, one a line.
 names() {
     local scene family h
@@ -215,19 +222,23 @@ for name in "${wanted[@]}"; do
 done
 
 if [[ $dry == no ]]; then
-    delam_install "${DELAM_PACKAGES[@]}"
+    packages=("${DELAM_PACKAGES[@]}")
+    for name in "${wanted[@]}"; do
+        if needs_gmsh "$name"; then
+            packages+=("${DELAM_GMSH_PACKAGES[@]}")
+            break
+        fi
+    done
+    delam_install "${packages[@]}"
     delam_blas
-    # A first build takes half of the time with many files compiled as one; a folder that is there keeps its settings.
-    if [[ -f build/release/CMakeCache.txt ]]; then
+    # A first build leaves out the tests, which take packages of their own; a folder that was configured keeps its
+    # settings.
+    if grep -qs '^DELAM_BUILD_TESTS:' build/release/CMakeCache.txt; then
         cmake --preset release
     else
-        cmake --preset release -DDELAM_UNITY=ON
+        cmake --preset release -DDELAM_BUILD_TESTS=OFF
     fi
     cmake --build --preset release --target delam_cli
-    # The page of `delam view` takes npm and its registry; nothing else here does.
-    if command -v npm >/dev/null && ! cmake --build --preset release --target delam_view; then
-        printf 'the page of "delam view" was not built (bindings/cli/view); all else is there\n' >&2
-    fi
 fi
 for i in "${!wanted[@]}"; do
     run "${wanted[i]}" "${folders_of[i]}" "${options[@]:first[i]:first[i + 1] - first[i]}"

@@ -2,30 +2,35 @@
 # shellcheck shell=bash disable=SC2034
 # To be sourced: what a bare Debian 12 needs, and how the scripts set it up.
 
-# The library, the command line, the plots and the quick tier of the tests.
+# examples/run.sh: the program with its pictures, its page and its studies.
 DELAM_PACKAGES=(
-    g++ gcc gfortran make cmake ninja-build pkg-config git ca-certificates
-    libsuitesparse-dev libmetis-dev libopenblas-dev liblapack-dev
-    libcli11-dev libtomlplusplus-dev libfmt-dev libhdf5-dev zlib1g-dev nlohmann-json3-dev libgmsh-dev
-    libgsl-dev check abigail-tools binutils locales clang clang-format doxygen
-    python3 python3-numpy python3-scipy python3-matplotlib python3-h5py python3-venv python3-pip python3-meshio python3-tqdm
-    python3-jinja2 python3-jsonschema groff-base fonts-dejavu-core mypy python3-pandas patchelf
+    g++ cmake ninja-build pkg-config
+    libsuitesparse-dev libmetis-dev libopenblas-dev
+    libcli11-dev libtomlplusplus-dev libfmt-dev libhdf5-dev zlib1g-dev nlohmann-json3-dev
+    python3 python3-numpy python3-scipy python3-matplotlib python3-h5py
+)
+# Scenes with a mesh of Gmsh or a generated cell: examples/run.sh installs it for them (a third of a gigabyte more).
+DELAM_GMSH_PACKAGES=(libgmsh-dev)
+# verify/run.sh: the bindings, libdelam-petsc (real numbers, with MUMPS and PTScotch) with its hosts in Python, and the
+# quick tier of the tests.
+DELAM_TEST_PACKAGES=(
+    "${DELAM_GMSH_PACKAGES[@]}" gcc gfortran make git ca-certificates
+    libgsl-dev check abigail-tools binutils locales clang clang-format doxygen patchelf groff-base
+    python3-venv python3-pip python3-meshio python3-tqdm python3-jinja2 python3-jsonschema python3-pandas mypy
+    libpetsc-real-dev libopenmpi-dev openmpi-bin python3-mpi4py
 )
 # VTK for Python, which ParaView's Python brings along and conflicts with.
 if [[ $(dpkg-query -W -f='${Status}' python3-paraview 2>/dev/null) != "install ok installed" ]]; then
-    DELAM_PACKAGES+=(python3-vtk9)
+    DELAM_TEST_PACKAGES+=(python3-vtk9)
 fi
-# libdelam-petsc, delam-mpi and their tests: PETSc (real numbers, with MUMPS and PTScotch), mpicc, mpirun, hosts in Python.
-DELAM_MPI_PACKAGES=(libpetsc-real-dev libopenmpi-dev openmpi-bin python3-mpi4py)
-# The parser of the Julia files, for the quick tier, and the page of `delam view`. A node from elsewhere has its own npm, which Debian's conflicts with.
-DELAM_PARSER_PACKAGES=()
+# The parser of the Julia files, and the check of the page of `delam view`. A node from elsewhere has its own npm, which
+# Debian's conflicts with.
 if ! command -v npm >/dev/null; then
-    DELAM_PARSER_PACKAGES=(nodejs npm)
+    DELAM_TEST_PACKAGES+=(nodejs npm)
 fi
-# The long tier of the tests.
+# The long tier of the tests, which ParaView's python3-vtk9 is installed for as well.
 DELAM_LONG_PACKAGES=(libclang-rt-dev dpkg-dev valgrind paraview python3-paraview python3-getfem
     python3-nbclient python3-ipykernel chromium)
-
 # The site (bindings/site), which the long tier builds as well.
 DELAM_SITE_PACKAGES=(python3-sphinx python3-myst-parser python3-breathe furo libjs-mathjax doxygen gmsh
     python3-nbclient python3-ipykernel python3-matplotlib-inline)
@@ -41,6 +46,11 @@ delam_install() {
     if ((${#missing[@]} == 0)); then
         return 0
     fi
+    if ! command -v apt-get >/dev/null; then
+        printf 'This script installs packages of Debian 12, and apt-get is not here. Missing, by their names there: %s\n' \
+            "${missing[*]}" >&2
+        return 1
+    fi
     local as_root=()
     if ((EUID != 0)); then
         as_root=(sudo)
@@ -50,8 +60,13 @@ delam_install() {
         fi
     fi
     printf 'installing %s\n' "${missing[*]}"
+    # What an interruption has left half configured comes first: apt-get refuses to go on without.
+    if [[ -n $(dpkg --audit) ]]; then
+        "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive dpkg --configure -a
+    fi
     "${as_root[@]}" apt-get update -q
-    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -qy --no-install-recommends "${missing[@]}"
+    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -qy --no-install-recommends \
+        -o DPkg::Lock::Timeout=600 "${missing[@]}"
 }
 
 # OpenBLAS 0.3.21 takes recent Intel processors for a Prescott and runs at a third of the speed; name the kernels instead.

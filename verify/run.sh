@@ -89,7 +89,7 @@ threads_checked() {
     OMP_THREAD_LIMIT=1 CK_FORK=no CK_DEFAULT_TIMEOUT=0 TSAN_OPTIONS="suppressions=$PWD/verify/faults/tsan.supp" "$@"
 }
 
-delam_install "${DELAM_PACKAGES[@]}" "${DELAM_MPI_PACKAGES[@]}" "${DELAM_PARSER_PACKAGES[@]}"
+delam_install "${DELAM_PACKAGES[@]}" "${DELAM_TEST_PACKAGES[@]}"
 if [[ $all == yes ]]; then
     delam_install "${DELAM_LONG_PACKAGES[@]}" "${DELAM_SITE_PACKAGES[@]}"
 fi

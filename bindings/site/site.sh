@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 # shellcheck source=verify/packages.sh
 source verify/packages.sh
-delam_install "${DELAM_PACKAGES[@]}" "${DELAM_PARSER_PACKAGES[@]}" "${DELAM_SITE_PACKAGES[@]}"
+delam_install "${DELAM_PACKAGES[@]}" "${DELAM_TEST_PACKAGES[@]}" "${DELAM_SITE_PACKAGES[@]}"
 delam_blas
-cmake --preset release
+cmake --preset release -DDELAM_BUILD_TESTS=ON
 cmake --build --preset release --target site

@@ -30,12 +30,17 @@ contains
     text = trim(adjustl(buffer))
   end function number
 
-  subroutine set_up(a, rule, limit)
+  ! tolerance: of the damage, `exact` without it; the host leaves residuals a hundred times as large.
+  subroutine set_up(a, rule, limit, tolerance)
     type(analysis), intent(out) :: a
     integer, intent(in) :: rule, limit
-    call make_structure(a%s, rule, limit, exact)
+    real(dp), intent(in), optional :: tolerance
+    real(dp) :: damage
+    damage = exact
+    if (present(tolerance)) damage = tolerance
+    call make_structure(a%s, rule, limit, damage)
     a%travel = travel
-    a%tolerance = 1e-10_dp
+    a%tolerance = 100*damage
   end subroutine set_up
 
   ! Equal increments, from the first one after the present up to number `last` of `count`.

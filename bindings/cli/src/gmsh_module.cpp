@@ -15,7 +15,8 @@ const GmshModule& gmsh_module(const Place& place) {
                             "this needs Gmsh, and the program's module " DELAM_GMSH_MODULE " cannot be used: " + why);
     };
     void* library = dlopen(DELAM_GMSH_MODULE, RTLD_NOW | RTLD_LOCAL);
-    if (library == nullptr) throw failure(dlerror());
+    if (library == nullptr)
+        throw failure(dlerror() + std::string("; a build has it where Gmsh's library is (Debian: libgmsh-dev)"));
     void* symbol = dlsym(library, "delam_gmsh_module");
     if (symbol == nullptr) throw failure(dlerror());
     const auto* module = static_cast<const GmshModule*>(symbol);

@@ -22,9 +22,8 @@ std::string template_path() {
     const DataFile file = data_file("view.html");
     if (file.found) return file.path;
     throw Failure(exit_scene,
-                  fmt::format("{}: there is no template of the page. `cmake --build build/release --target delam_view` "
-                              "builds it, with npm (Debian: nodejs, npm) and DELAM_VIEWER = AUTO or ON; or give "
-                              "--template FILE. See README.md of bindings/cli/view",
+                  fmt::format("{}: there is no template of the page. A build and an installation put it there, from "
+                              "bindings/cli/view/view.html of the sources; --template FILE names another",
                               file.path));
 }
 

@@ -208,7 +208,7 @@ expect_error(delam(*words[:2], "--template", out), 2, "cannot be read: it is a f
 # The program looks for its template from its own folder.
 alone = shutil.copy(DELAM, folder())
 done = subprocess.run([alone, "view", out], capture_output=True, text=True, check=False)
-expect_error((done.returncode, done.stdout, done.stderr), 2, "view.html: there is no template .*--target delam_view.*DELAM_VIEWER")
+expect_error((done.returncode, done.stdout, done.stderr), 2, "view.html: there is no template .*bindings/cli/view/view.html.*--template FILE")
 code, _, error = delam("view", out, "--every", "0", "--template", template())
 expect(code == 2 and "--every" in error, f"--every 0: {error.strip()[:80]}")
 

@@ -93,16 +93,6 @@ class Blocks(unittest.TestCase):
         self.assertEqual(code, 1)
         self.assertIn("1 blocks are skipped; 0 are expected", printed)
 
-    def test_block_that_needs_a_viewer(self):
-        page = {"page.md": "```bash needs=view\nfalse\n```\n```text output\nx\n```\n"}
-        with tempfile.TemporaryDirectory() as build:
-            code, printed = run(page, build=pathlib.Path(build))
-            self.assertEqual(code, 0, printed)
-            self.assertIn("not run here: page.md:2", printed)
-            (pathlib.Path(build) / "share/delam").mkdir(parents=True)
-            (pathlib.Path(build) / "share/delam/view.html").touch()
-            self.assertEqual(run(page, build=pathlib.Path(build))[0], 1)
-
     def test_julia(self):
         code, printed = run({"page.md": "```julia\nusing Delam\nmesh = Mash(lengths=0.1)\n```\n"})
         if "not run here" in printed:

@@ -7,7 +7,6 @@ The words after the language say what a block is:
     ```text output              what the block before prints; a line `...` stands for any lines, `...` within one
                                 for any text
     ```bash exit=2              ends with this code
-    ```bash needs=view          is not run where the build has no page of `delam view`, which takes npm
     ```text skip="reason"       is not run
 """
 import re
@@ -16,7 +15,7 @@ from dataclasses import dataclass, field
 
 FENCE = re.compile(r"^(`{3,})\s*(.*)$")
 LANGUAGES = {"bash", "toml", "text", "c", "cpp", "fortran", "python", "julia"}
-KEYS = {"file", "add", "exit", "skip", "output", "needs"}
+KEYS = {"file", "add", "exit", "skip", "output"}
 
 
 @dataclass
