@@ -1,0 +1,182 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# cleanroom.sh [OPTION ...] CHECKOUT COMMAND...: runs a command in a copy of a checkout on a bare Debian of this machine's
+# release, as a newcomer would, where nothing is installed that the command does not install. To be called as root.
+#   --as-user       as an ordinary user without sudo, not as root
+#   --room FOLDER   uses this room, and keeps it: what one command installs, the next one finds. Without: a fresh room,
+#                   which is removed afterwards.
+#   --archive       the copy is the source archive of HEAD, without .git; else a clone, with what is not committed
+#   --folder NAME   of the copy, in the home of the room's user (default: checkout)
+#   --offline       without a network
+#   COMMAND...      one word: a line for bash; several: a program with its arguments
+# Prints what the command prints, also into a log, then its exit code, which is also that of this script. The room is
+# mounted in a namespace of its own: nothing stays mounted, and no process of it stays. The command sees the network's
+# settings, DELAM_* and OPENBLAS_CORETYPE of the environment, and nothing else of it. DELAM_KEPT is a folder in the room
+# that outlives it.
+# The bare system is made once (debootstrap, variant minbase), with the mirror, keys, certificates and proxies of this
+# machine's own apt, and stays in $CLEANROOM (default /var/tmp/cleanroom), with the packages that rooms have downloaded.
+set -euo pipefail
+
+store=${CLEANROOM:-/var/tmp/cleanroom}
+user=root
+room=
+archive=no
+folder=checkout
+namespaces=(--mount --pid --fork --kill-child)
+while [[ ${1:-} == --* ]]; do
+    case $1 in
+        --as-user) user=newcomer ;;
+        --room)
+            room=$(realpath -m "${2:?--room needs a folder}")
+            shift
+            ;;
+        --archive) archive=yes ;;
+        --folder)
+            folder=${2:?--folder needs a name}
+            shift
+            ;;
+        --offline) namespaces+=(--net) ;;
+        *)
+            printf 'unknown option %s\n' "$1" >&2
+            exit 2
+            ;;
+    esac
+    shift
+done
+if (($# < 2)); then
+    sed -n '3,/^set -/s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" >&2
+    exit 2
+fi
+checkout=$(realpath "$1")
+shift
+if ((EUID != 0)); then
+    printf 'cleanroom.sh: as root only (debootstrap, chroot)\n' >&2
+    exit 2
+fi
+# A room with all packages, a build and its tests takes 9 GB.
+mkdir -p "$store/kept"
+chmod 1777 "$store/kept"
+if (($(df --output=avail -k "$store" | tail -n 1) < 12000000)); then
+    printf 'cleanroom.sh: %s has less than 12 GB free (CLEANROOM names another folder)\n' "$store" >&2
+    exit 2
+fi
+# Rooms that a killed run has left.
+find "$store" -maxdepth 1 -name 'room.*' -mmin +720 -exec rm -rf --one-file-system {} +
+command -v debootstrap >/dev/null || DEBIAN_FRONTEND=noninteractive apt-get install -qy debootstrap >/dev/null
+
+release=$(. /etc/os-release && printf '%s' "$VERSION_CODENAME")
+bare=$store/$release
+archives=$store/archives
+
+# sources: "ADDRESS SUITE COMPONENT" of Debian in this machine's own sources, one a line.
+sources() {
+    apt-get indextargets --format '$(ORIGIN)|$(REPO_URI) $(CODENAME) $(COMPONENT)' 'Created-By: Packages' |
+        sed -n 's/^Debian|//p' | sort -u
+}
+
+# settle ROOT: networks and keys as on this machine.
+settle() {
+    local root=$1 file
+    sources | sed 's/^/deb /' >"$root/etc/apt/sources.list"
+    apt-config dump | grep -E '^Acquire::(http|https|ftp|Check|Retries|ForceIP)' >"$root/etc/apt/apt.conf.d/00machine" || true
+    for file in trusted.gpg trusted.gpg.d keyrings; do
+        if [[ -e /etc/apt/$file ]]; then
+            cp -rL --preserve=mode "/etc/apt/$file" "$root/etc/apt/"
+        fi
+    done
+    mkdir -p "$root/usr/local/share/ca-certificates" "$root/etc/ssl/certs"
+    cp -rL /usr/local/share/ca-certificates/. "$root/usr/local/share/ca-certificates/"
+    if [[ -f /etc/ssl/certs/ca-certificates.crt ]]; then
+        cp -L /etc/ssl/certs/ca-certificates.crt "$root/etc/ssl/certs/"
+    fi
+}
+
+if [[ ! -d $bare ]]; then
+    mirror=$(sources | awk -v suite="$release" '$2 == suite { print $1; exit }')
+    if [[ -z $mirror ]]; then
+        apt-get update -q >/dev/null
+        mirror=$(sources | awk -v suite="$release" '$2 == suite { print $1; exit }')
+    fi
+    printf 'cleanroom.sh: makes the bare system %s, once\n' "$bare"
+    mkdir -p "$store" "$archives/partial"
+    rm -rf --one-file-system "$bare.part"
+    debootstrap --variant=minbase "$release" "$bare.part" "$mirror" >"$store/debootstrap.log" ||
+        { tail "$store/debootstrap.log"; exit 1; }
+    settle "$bare.part"
+    # A room is thrown away: dpkg need not wait for the disk at each file.
+    echo force-unsafe-io >"$bare.part/etc/dpkg/dpkg.cfg.d/cleanroom"
+    chroot "$bare.part" useradd --create-home --shell /bin/bash newcomer
+    rm -f "$bare.part"/var/cache/apt/archives/*.deb
+    mv "$bare.part" "$bare"
+fi
+mkdir -p "$archives/partial"
+
+fresh=no
+if [[ -z $room ]]; then
+    fresh=yes
+    room=$(mktemp -d "$store/room.XXXXXX")
+    log=$(mktemp "$store/log.XXXXXX")
+else
+    log=$(mktemp "$room.log.XXXXXX")
+fi
+leave() {
+    if [[ $fresh == yes ]]; then
+        rm -rf --one-file-system "$room"
+    fi
+}
+trap leave EXIT
+if [[ ! -d $room/etc ]]; then
+    mkdir -p "$room"
+    cp -a "$bare/." "$room/"
+fi
+cp -L /etc/resolv.conf /etc/hosts "$room/etc/"
+
+# The checkout as it stands, with what is not committed yet; a room that has one already keeps it.
+home=/root
+if [[ $user != root ]]; then
+    home=/home/$user
+fi
+copy=$room$home/$folder
+if [[ ! -d $copy ]]; then
+    if [[ $archive == yes ]]; then
+        mkdir -p "$copy"
+        git -C "$checkout" archive HEAD | tar -x -C "$copy"
+    else
+        git clone --quiet --no-hardlinks "$checkout" "$copy"
+        git -C "$checkout" diff --binary HEAD | git -C "$copy" apply --allow-empty
+        (cd "$checkout" && git ls-files -z --others --exclude-standard | tar --null --files-from=- -c) |
+            tar -x -C "$copy"
+    fi
+    owner=$(chroot "$room" id -u "$user")
+    chown -R "$owner:$owner" "$copy"
+fi
+
+environment=(HOME="$home" USER="$user" LANG=C.UTF-8 TERM=dumb DELAM_KEPT=/var/tmp/kept PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin)
+while IFS= read -r name; do
+    environment+=("$name=${!name}")
+done < <(compgen -e | grep -iE '^(https?|ftp|all|no)_proxy$|^(NODE_EXTRA_CA_CERTS|SSL_CERT_FILE|SSL_CERT_DIR|PIP_CERT|GIT_SSL_CAINFO)$|^OPENBLAS_CORETYPE$|^DELAM_[A-Z]*$' |
+    grep -vx DELAM_KEPT)
+if (($# > 1)); then
+    line=$(printf '%q ' "$@")
+else
+    line=$1
+fi
+
+start=$SECONDS
+status=0
+mkdir -p "$room/var/tmp/kept"
+unshare "${namespaces[@]}" bash -c '
+    room=$1 archives=$2 kept=$3 user=$4 folder=$5 line=$6
+    shift 6
+    # Ranks of one machine speak over its loopback, also offline.
+    ip link set lo up 2>/dev/null || true
+    mount -t proc proc "$room/proc"
+    mount --rbind /dev "$room/dev"
+    mount --rbind -o ro /sys "$room/sys"
+    mount --bind "$archives" "$room/var/cache/apt/archives"
+    mount --bind "$kept" "$room/var/tmp/kept"
+    exec chroot --userspec="$user" "$room" env -i "$@" \
+        bash -c "cd ~/$(printf %q "$folder") && $line"
+' cleanroom "$room" "$archives" "$store/kept" "$user" "$folder" "$line" "${environment[@]}" </dev/null 2>&1 | tee "$log" || status=${PIPESTATUS[0]}
+printf 'cleanroom.sh: exit code %d after %d s; log %s\n' "$status" "$((SECONDS - start))" "$log"
+exit "$status"

@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# shellcheck shell=bash disable=SC2034
+# To be sourced by verify/run.sh: the long tier, cut into slices of at most ten minutes on two idle cores, of which each
+# run of .ci/run takes one.
+
+slices=12
+# Tests of ctest, as a regular expression; each test with the label `long` is in one slice (the test style/slices).
+declare -A slice_tests=(
+)
+# Stages of verify/stages.sh, with their arguments, separated by semicolons.
+declare -A slice_stages=(
+)
+# Packages beside those of the quick tier.
+declare -A slice_packages=(
+)
+
+# The slice that .ci/run takes is left out past this time, s, since its beginning: the slowest slice takes 10 minutes of
+# two idle cores and twice that of busy ones, and the host ends a run after 90 minutes.
+latest_slice=3000
+
+list_slices() {
+    local k
+    for ((k = 1; k <= slices; ++k)); do
+        printf '%d: %s%s%s\n' "$k" "${slice_stages[$k]:-}" "${slice_stages[$k]:+ ${slice_tests[$k]:+ and }}" \
+            "${slice_tests[$k]:+tests ${slice_tests[$k]}}"
+    done
+}
+
+# run_slice K: installs, and runs stages and tests of a slice; notes the outcome in the record.
+run_slice() {
+    local k=$1 before=$failed start=$SECONDS stage words
+    printf '\n== slice %d of %d of the long tier\n' "$k" "$slices"
+    read -ra words <<<"${slice_packages[$k]:-}"
+    delam_install "${words[@]}"
+    while IFS= read -r -d ';' stage; do
+        read -ra words <<<"$stage"
+        if ((${#words[@]} > 0)); then
+            "${words[@]}"
+        fi
+    done <<<"${slice_stages[$k]:-};"
+    if [[ -n ${slice_tests[$k]:-} ]]; then
+        tests build/release -j2 --label-regex '^long$' --tests-regex "${slice_tests[$k]}"
+    fi
+    note_slice "$k" "$( ((failed == before)) && printf passed || printf failed)"
+    printf 'slice %d took %d s\n' "$k" $((SECONDS - start))
+}
+
+# run_next_slice BEGAN: the slice whose turn it is, unless it is late: then the run says so, and fails if the run before
+# it has left its slice out, too. BEGAN: seconds since 1970 at the beginning of the run.
+run_next_slice() {
+    local k late=$(($(date +%s) - $1))
+    k=$(next_slice)
+    if ((late <= latest_slice)); then
+        run_slice "$k"
+        return
+    fi
+    printf '\nslice %d of the long tier is left out: %d s have passed, of at most %d\n' "$k" "$late" "$latest_slice"
+    if left_out_last_time; then
+        check "a slice of the long tier, which the run before left out as well" false
+    fi
+    note_slice "$k" left-out
+}
+
+# slice_record: the file in which runs note when each slice passed; nothing where nobody keeps one (DELAM_KEPT).
+slice_record() {
+    if [[ -n ${DELAM_KEPT:-} && -d $DELAM_KEPT && -w $DELAM_KEPT ]]; then
+        printf '%s/slices\n' "$DELAM_KEPT"
+    fi
+}
+
+# next_slice: the slice whose last pass is oldest; without a record by the number of commits, so that each comes by.
+next_slice() {
+    local record k
+    record=$(slice_record)
+    if [[ -z $record ]]; then
+        printf '%d\n' $(($(git rev-list --count HEAD 2>/dev/null || date +%-j) % slices + 1))
+        return
+    fi
+    touch "$record"
+    for ((k = 1; k <= slices; ++k)); do
+        printf '%d %d\n' "$(awk -v k="$k" '$1 == k && $2 == "passed" { last = $3 } END { print last + 0 }' "$record")" "$k"
+    done | sort -n | sed -n '1s/.* //p'
+}
+
+# note_slice K OUTCOME: passed, failed or left-out, with the time and the commit, in the record.
+note_slice() {
+    local record
+    record=$(slice_record)
+    if [[ -n $record ]]; then
+        printf '%d %s %d %s\n' "$1" "$2" "$(date +%s)" "$(git rev-parse --short=12 HEAD 2>/dev/null || printf unknown)" \
+            >>"$record"
+    fi
+}
+
+# left_out_last_time: true if the last line of the record says so.
+left_out_last_time() {
+    local record
+    record=$(slice_record)
+    [[ -n $record && -f $record && $(tail -n 1 "$record") == *" left-out "* ]]
+}
