@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # bash make.sh BUILD FOLDER: makes the data of FOLDER with the program, the library and the header of a build folder,
-# from FOLDER/scenes and FOLDER/hosts/*.c. Everything runs inside FOLDER, so that no path of this machine is in the data.
+# from FOLDER/scenes and FOLDER/hosts/*.c. Everything runs inside FOLDER, so that the data have no path of this machine.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 build=$(cd "$1" && pwd)

@@ -39,7 +39,7 @@ class Hosts(support.Kept):
             data = f"hosts/{source.stem}/state"
             code, said, error = self.output(program, "load", source.with_suffix(".state"))
             if self.may_be_refused(made, data):
-                self.assertTrue(code == 1 and "DELAM_ERROR_SNAPSHOT" in error and "version" in error, error)
+                self.assertTrue(code == 1 and "DELAM_ERROR_SNAPSHOT" in error, error)
                 continue
             self.assertEqual(code, 0, error)
             titles, *rows = read(source.with_suffix(".csv")).splitlines()

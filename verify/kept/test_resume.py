@@ -26,7 +26,7 @@ class Resume(support.Kept):
             out = pathlib.Path(folder) / "result"
             code, said, error = self.resumed(made, name, out)
             if self.may_be_refused(made, data):
-                self.assertEqual((code, "of another version" in error), (2, True), f"exit code {code}: {error}")
+                self.assertEqual((code, "run again without --resume" in error), (2, True), f"exit code {code}: {error}")
                 return
             self.assertEqual(code, 0, error)
             self.assertIn(f"resumed after step {len(begun) - 2}\n", said)

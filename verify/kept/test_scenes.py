@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Kept scenes give today what they gave: every column of history.csv and jumps.csv, and what result.json says was
-computed. With each kind of kernels of OpenBLAS that this processor has, the same: no scene stands at a tie that rounding
-decides."""
+computed. With each kind of kernels of OpenBLAS that this processor has, the same: no scene stands at a tie that
+rounding decides."""
 import json
 import os
 import pathlib
