@@ -31,7 +31,7 @@ def kernels_here():
 class Scenes(support.Kept):
     def expect_as_kept(self, made, scene, environment):
         kept = made / "results" / scene.stem
-        with tempfile.TemporaryDirectory() as name:
+        with tempfile.TemporaryDirectory(dir=support.MEMORY) as name:
             out = pathlib.Path(name)
             code, _, error = support.run([DELAM, "run", scene, "--out", out], environment=environment)
             self.assertEqual(code, 0, error)
