@@ -39,7 +39,8 @@ class Results(support.Kept):
     def test_complete(self):
         for made in MADE:
             for scene in scenes(made):
-                with self.subTest(made=made.name, scene=scene.stem), tempfile.TemporaryDirectory(dir=support.MEMORY) as name:
+                with (self.subTest(made=made.name, scene=scene.stem),
+                      tempfile.TemporaryDirectory(dir=support.MEMORY) as name):
                     out = pathlib.Path(name) / "result"
                     shutil.copytree(made / "results" / scene.stem, out)
                     code, said, error = support.run([DELAM, "run", scene, "--out", out, "--resume"])
