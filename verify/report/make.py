@@ -29,6 +29,7 @@ sys.path.insert(0, str(HERE))
 import case as case_module  # noqa: E402
 import judge  # noqa: E402
 import schema  # noqa: E402
+from whole import write_json  # noqa: E402
 
 
 DATE = "%Y-%m-%d %H:%M UTC"
@@ -148,14 +149,6 @@ def run_here(case: case_module.Case, context: case_module.Context, past: pathlib
     except Exception as error:
         return failed(f"the result cannot be judged: {type(error).__name__}: {error}")
     return data
-
-
-def write_json(path: pathlib.Path, data) -> None:
-    """Whole or not at all."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    unfinished = path.with_name(path.name + ".unfinished")
-    unfinished.write_text(json.dumps(data, indent=1, allow_nan=False) + "\n", encoding="utf-8")
-    os.replace(unfinished, path)
 
 
 def publish(new: pathlib.Path, out: pathlib.Path, everything: bool) -> None:
