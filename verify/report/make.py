@@ -27,6 +27,7 @@ ROOT = HERE.parent.parent
 sys.path.insert(0, str(HERE))
 
 import case as case_module  # noqa: E402
+import child  # noqa: E402
 import judge  # noqa: E402
 import schema  # noqa: E402
 from whole import write_json  # noqa: E402
@@ -174,13 +175,11 @@ def publish(new: pathlib.Path, out: pathlib.Path, everything: bool) -> None:
 
 def render(folder: pathlib.Path) -> int:
     """Draws the pages in a process group of its own, which ends with this one."""
-    child = subprocess.Popen([sys.executable, str(HERE / "render.py"), str(folder)], start_new_session=True)
+    drawing = child.start([sys.executable, str(HERE / "render.py"), str(folder)])
     try:
-        return child.wait()
-    except BaseException:
-        os.killpg(child.pid, signal.SIGKILL)
-        child.wait()
-        raise
+        return drawing.wait()
+    finally:
+        child.end(drawing)
 
 
 def read_case(path: pathlib.Path, case: case_module.Case, library: dict, command: str, quick: bool) -> dict:
@@ -217,16 +216,16 @@ class Runner:
         log = a.out / "log" / f"{case.id}.txt"
         log.parent.mkdir(parents=True, exist_ok=True)
         with open(log, "w", encoding="utf-8") as output:
-            child = subprocess.Popen(command, stdout=output, stderr=subprocess.STDOUT, cwd=ROOT, start_new_session=True,
-                                     env=case_module.environment(a.build / "lib", case.timing))
+            process = child.start(command, stdout=output, stderr=subprocess.STDOUT, cwd=ROOT,
+                                  env=case_module.environment(a.build / "lib", case.timing))
             with self.lock:
-                self.running[child.pid] = child
+                self.running[process.pid] = process
             try:
-                status = child.wait(timeout=case.seconds)
+                status = process.wait(timeout=case.seconds)
             except subprocess.TimeoutExpired:
                 status = None
             finally:
-                self.end(child)
+                self.end(process)
         seconds = time.monotonic() - start
         if status is None:
             data = ended(case, self.library, again, "failed", f"stopped: it took more than its limit of {case.seconds:g} s", seconds)
@@ -239,23 +238,15 @@ class Runner:
         write_json(path, data)
         return data
 
-    def end(self, child: subprocess.Popen) -> None:
-        """The child and whatever it started."""
+    def end(self, process: subprocess.Popen) -> None:
         with self.lock:
-            self.running.pop(child.pid, None)
-        try:
-            os.killpg(child.pid, signal.SIGKILL)
-        except (ProcessLookupError, PermissionError):
-            pass
-        child.wait()
+            self.running.pop(process.pid, None)
+        child.end(process)
 
     def end_all(self) -> None:
         """The waiting threads see their children end and go."""
         for pid in list(self.running):
-            try:
-                os.killpg(pid, signal.SIGKILL)
-            except (ProcessLookupError, PermissionError):
-                pass
+            child.kill(pid)
 
 
 def chosen(case: case_module.Case, only: list[str]) -> bool:
@@ -285,6 +276,7 @@ def main(argv: list[str]) -> int:
         return 0
     library = library_of(a.build)
     if a.child:
+        child.follow()
         case = next(c for c in cases if c.id == a.child)
         context = case_module.Context(ROOT, a.build, a.out, a.quick, case.seconds)
         write_json(a.out / "new" / "json" / f"{case.id}.json", run_here(case, context, a.past, library))
