@@ -5,8 +5,9 @@
 # (out/report-quick, without pages).
 #   --all   also the long tier, every check of UBSan, the whole report, the thread sanitizer, clang 14 without
 #           warnings, valgrind on the unit tests and two cases
-# bash verify/run.sh --report [--quick] [--only ID|CHAPTER ...] [--accept] [--jobs N]: builds and writes the verification report into
-# out/report (report/README.md) instead; exit code 1 if a case failed.
+# bash verify/run.sh --report [--quick] [--only ID|CHAPTER ...] [--resume] [--accept] [--jobs N]: builds and writes the verification report
+# into out/report (report/README.md) instead; exit code 1 if a case failed. --resume goes on with a report that was interrupted; exit code 2
+# if that was another report.
 # Ends with the line "N passed, N failed", after a line for each test that was skipped; exit code 0 only without failures.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -23,7 +24,7 @@ case "${1:-}" in
         shift
         ;;
     *)
-        printf 'usage: bash verify/run.sh [--all | --report [--quick] [--only ID|CHAPTER ...] [--accept] [--jobs N]]\n' >&2
+        printf 'usage: bash verify/run.sh [--all | --report [--quick] [--only ID|CHAPTER ...] [--resume] [--accept] [--jobs N]]\n' >&2
         exit 2
         ;;
 esac

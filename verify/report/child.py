@@ -11,14 +11,14 @@ FOLLOWS = "DELAM_REPORT_FOLLOWS"
 
 
 def start(command: list[str], env: dict | None = None, **more) -> subprocess.Popen:
-    """Starts a program that calls follow(), in a process group of its own. Nobody writes into its input: the pipe closes when this process
-    ends, also by a signal that cannot be caught."""
+    """Starts a program that calls follow(), in a process group of its own. Nobody writes into its input: the pipe
+    closes when this process ends, also by a signal that cannot be caught."""
     env = {**(os.environ if env is None else env), FOLLOWS: "1"}
     return subprocess.Popen(command, env=env, stdin=subprocess.PIPE, start_new_session=True, **more)
 
 
 def follow() -> None:
-    """Ends this process and its group when the one that started it has gone. Programs that it runs find an empty input."""
+    """Ends this process and its group when the one that started it has gone. Programs that it runs find no input."""
     if os.environ.pop(FOLLOWS, None) is None:
         return
     parent = os.dup(0)
