@@ -6,8 +6,9 @@
 #   --with-slice   also one slice of the long tier: the one whose last pass is oldest (verify/slices.sh)
 #   --all          also all slices
 # bash verify/run.sh --slice K: builds and runs slice K of the long tier alone; --slices lists them.
-# bash verify/run.sh --report [--quick] [--resume] [--only ID|CHAPTER ...] [--accept] [--jobs N]: builds and writes the
-# verification report into out/report (report/README.md) instead; exit code 1 if a case failed.
+# bash verify/run.sh --report [--quick] [--only ID|CHAPTER ...] [--resume] [--accept] [--jobs N]: builds and writes the
+# verification report into out/report (report/README.md) instead; exit code 1 if a case failed. --resume goes on with a
+# report that was interrupted; exit code 2 if that was another report.
 # Ends with a line for each reason for which tests were left out, a line for each failure, and "N passed, N failed"; exit
 # code 0 only without failures. What this script installs and a test still misses is a failure.
 set -euo pipefail
@@ -22,7 +23,7 @@ source verify/stages.sh
 source verify/slices.sh
 
 usage() {
-    sed -n '3,/^set -/s/^# \{0,1\}//p' verify/run.sh | sed '$d' >&2
+    sed -n '3,/^set -/s/^# \{0,1\}//p' verify/run.sh >&2
     exit 2
 }
 

@@ -14,6 +14,8 @@ import shlex
 import subprocess
 import sys
 
+import whole
+
 CHAPTERS = {
     "a": "FETI and condensed against the direct solve",
     "b": "Energy inequalities and convergence",
@@ -109,7 +111,7 @@ class Context:
                 data = json.loads(path.read_text(encoding="utf-8"))
             else:
                 data = self.command("delam_harness", "--json", *arguments, table)
-                path.write_text(json.dumps(data), encoding="utf-8")
+                whole.write_text(path, json.dumps(data))
         return Rows(data)
 
     def python(self):

@@ -27,8 +27,11 @@ ROOT = HERE.parent.parent
 sys.path.insert(0, str(HERE))
 
 import case as case_module  # noqa: E402
+import child  # noqa: E402
 import judge  # noqa: E402
+import resume  # noqa: E402
 import schema  # noqa: E402
+from whole import write_json  # noqa: E402
 
 
 DATE = "%Y-%m-%d %H:%M UTC"
@@ -150,14 +153,6 @@ def run_here(case: case_module.Case, context: case_module.Context, past: pathlib
     return data
 
 
-def write_json(path: pathlib.Path, data) -> None:
-    """Whole or not at all."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    unfinished = path.with_name(path.name + ".unfinished")
-    unfinished.write_text(json.dumps(data, indent=1, allow_nan=False) + "\n", encoding="utf-8")
-    os.replace(unfinished, path)
-
-
 def publish(new: pathlib.Path, out: pathlib.Path, everything: bool) -> None:
     """The finished report in the place of the one before; what is no longer part of it goes. JSON of other cases stays unless everything was
     run. Ctrl-C waits for the end."""
@@ -170,7 +165,7 @@ def publish(new: pathlib.Path, out: pathlib.Path, everything: bool) -> None:
                 for path in (out / part).iterdir():
                     if path.name not in kept:
                         path.unlink()
-        for path in sorted(p for p in new.rglob("*") if p.is_file()):
+        for path in sorted(p for p in new.rglob("*") if p.is_file() and p != new / resume.RECORD):
             (out / path.relative_to(new)).parent.mkdir(parents=True, exist_ok=True)
             os.replace(path, out / path.relative_to(new))
         shutil.rmtree(new, ignore_errors=True)
@@ -181,13 +176,11 @@ def publish(new: pathlib.Path, out: pathlib.Path, everything: bool) -> None:
 
 def render(folder: pathlib.Path) -> int:
     """Draws the pages in a process group of its own, which ends with this one."""
-    child = subprocess.Popen([sys.executable, str(HERE / "render.py"), str(folder)], start_new_session=True)
+    drawing = child.start([sys.executable, str(HERE / "render.py"), str(folder)])
     try:
-        return child.wait()
-    except BaseException:
-        os.killpg(child.pid, signal.SIGKILL)
-        child.wait()
-        raise
+        return drawing.wait()
+    finally:
+        child.end(drawing)
 
 
 def read_case(path: pathlib.Path, case: case_module.Case, library: dict, command: str, quick: bool) -> dict:
@@ -208,8 +201,8 @@ def read_case(path: pathlib.Path, case: case_module.Case, library: dict, command
 class Runner:
     """Starts cases as child processes and keeps what became of them."""
 
-    def __init__(self, arguments, library: dict, say):
-        self.arguments, self.library, self.say = arguments, library, say
+    def __init__(self, arguments, library: dict):
+        self.arguments, self.library = arguments, library
         self.running: dict[int, subprocess.Popen] = {}
         self.lock = threading.Lock()
 
@@ -224,16 +217,16 @@ class Runner:
         log = a.out / "log" / f"{case.id}.txt"
         log.parent.mkdir(parents=True, exist_ok=True)
         with open(log, "w", encoding="utf-8") as output:
-            child = subprocess.Popen(command, stdout=output, stderr=subprocess.STDOUT, cwd=ROOT, start_new_session=True,
-                                     env=case_module.environment(a.build / "lib", case.timing))
+            process = child.start(command, stdout=output, stderr=subprocess.STDOUT, cwd=ROOT,
+                                  env=case_module.environment(a.build / "lib", case.timing))
             with self.lock:
-                self.running[child.pid] = child
+                self.running[process.pid] = process
             try:
-                status = child.wait(timeout=case.seconds)
+                status = process.wait(timeout=case.seconds)
             except subprocess.TimeoutExpired:
                 status = None
             finally:
-                self.end(child)
+                self.end(process)
         seconds = time.monotonic() - start
         if status is None:
             data = ended(case, self.library, again, "failed", f"stopped: it took more than its limit of {case.seconds:g} s", seconds)
@@ -246,23 +239,15 @@ class Runner:
         write_json(path, data)
         return data
 
-    def end(self, child: subprocess.Popen) -> None:
-        """The child and whatever it started."""
+    def end(self, process: subprocess.Popen) -> None:
         with self.lock:
-            self.running.pop(child.pid, None)
-        try:
-            os.killpg(child.pid, signal.SIGKILL)
-        except (ProcessLookupError, PermissionError):
-            pass
-        child.wait()
+            self.running.pop(process.pid, None)
+        child.end(process)
 
     def end_all(self) -> None:
         """The waiting threads see their children end and go."""
         for pid in list(self.running):
-            try:
-                os.killpg(pid, signal.SIGKILL)
-            except (ProcessLookupError, PermissionError):
-                pass
+            child.kill(pid)
 
 
 def chosen(case: case_module.Case, only: list[str]) -> bool:
@@ -275,6 +260,7 @@ def main(argv: list[str]) -> int:
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build" / "release")
     parser.add_argument("--quick", action="store_true", help="the part that takes one to two minutes")
     parser.add_argument("--only", nargs="+", default=[], metavar="ID|CHAPTER", help="run these; the others stay as they are")
+    parser.add_argument("--resume", action="store_true", help="goes on with an interrupted report: what it judged is kept")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="cases at once, without --quick of those that do not measure time")
     parser.add_argument("--accept", action="store_true", help="the numbers of what passed its reference are the new past")
     parser.add_argument("--no-pages", action="store_true", help="judge only: report.json and json/, no pages (their pictures take three minutes)")
@@ -292,6 +278,7 @@ def main(argv: list[str]) -> int:
         return 0
     library = library_of(a.build)
     if a.child:
+        child.follow()
         case = next(c for c in cases if c.id == a.child)
         context = case_module.Context(ROOT, a.build, a.out, a.quick, case.seconds)
         write_json(a.out / "new" / "json" / f"{case.id}.json", run_here(case, context, a.past, library))
@@ -299,58 +286,95 @@ def main(argv: list[str]) -> int:
     unknown = [o for o in a.only if o not in case_module.CHAPTERS and o not in [c.id for c in cases]]
     if unknown:
         raise SystemExit(f"make.py: neither a case nor a chapter: {', '.join(unknown)} (--list names them)")
-    return report(a, cases, library)
+    try:
+        with resume.alone(a.out):
+            return report(a, cases, library)
+    except resume.Refused as why:
+        say(f"make.py: {why}")
+        return 2
+    except KeyboardInterrupt:
+        say("make.py: interrupted; no report was written, the one before stays as it was; --resume goes on")
+        return 1
+
+
+def say(text: str) -> None:
+    print(text, file=sys.stderr, flush=True)
+
+
+def take_up(a, wanted: list[case_module.Case], library: dict, run: dict) -> dict:
+    """The results that an interrupted report has left for this one, by their cases. Without --resume it is given up."""
+    new = a.out / "new"
+    before = resume.record(new)
+    if not a.resume or before is None:
+        if a.resume:
+            say(f"--resume: {new} has no interrupted report; this one starts anew")
+        elif before:
+            say(resume.farewell(new, before, run["of"]))
+        resume.begin(a.out, run)
+        return {}
+    resume.same(before, run["of"])
+    kept = {}
+    for c in wanted:
+        data = read_case(new / "json" / f"{c.id}.json", c, library, run["command"], a.quick)
+        if resume.judged(data):
+            kept[c.id] = data
+    ends = sorted(data["date"] for data in kept.values())
+    say(f"resumed: the report of {before['begun']} was interrupted; {len(kept)} of its {len(wanted)} cases are kept"
+        + (f", which ended from {ends[0]} to {ends[-1]}" if kept else ""))
+    again = {"resumed": run["begun"], "kept": len(kept)}
+    run.update(begun=before["begun"], interruptions=[*before["interruptions"], again])
+    resume.go_on(a.out, run, list(kept))
+    return kept
+
+
+def run_all(a, wanted: list[case_module.Case], library: dict, results: dict) -> None:
+    """Runs the cases that have no result yet."""
+    done = len(results)
+
+    def tell(data: dict) -> None:
+        nonlocal done
+        done += 1
+        results[data["id"]] = data
+        why = f": {data['reason']}" if data["reason"] else ""
+        say(f"[{done}/{len(wanted)}] {data['status']:<8} {data['id']} ({data['seconds']:.1f} s){why}")
+
+    runner = Runner(a, library)
+    # The long ones first: the last one to end decides.
+    # The quick report judges no time: nothing in it needs the machine for itself.
+    rest = [c for c in wanted if c.id not in results]
+    alone = [c for c in rest if c.timing and not a.quick]
+    free = sorted((c for c in rest if c not in alone), key=lambda c: -c.expected)
+    with concurrent.futures.ThreadPoolExecutor(max(1, a.jobs)) as pool:
+        try:
+            for future in concurrent.futures.as_completed([pool.submit(runner, c) for c in free]):
+                tell(future.result())
+        except KeyboardInterrupt:
+            # What waits is not begun, what runs is ended: else the pool would wait for all of them.
+            pool.shutdown(wait=False, cancel_futures=True)
+            runner.end_all()
+            raise
+    for c in alone:
+        tell(runner(c))
 
 
 def report(a, cases: list[case_module.Case], library: dict) -> int:
     started, start = datetime.datetime.now(datetime.timezone.utc), time.monotonic()
     source = source_commit()  # before an accepted past is written beside it
     command = shlex.join(["bash", "verify/run.sh", "--report", *(["--quick"] if a.quick else []), *(["--only", *a.only] if a.only else []), *(["--accept"] if a.accept else [])])
-    # Cached tables are of one report only. The new report grows in a folder of its own; until it is whole, the one before stays.
-    new = a.out / "new"
-    for folder in (a.out / "raw", new):
-        shutil.rmtree(folder, ignore_errors=True)
+    new = a.out / "new"  # the new report grows in a folder of its own; until it is whole, the one before stays
     wanted = [c for c in cases if chosen(c, a.only) and (c.quick or not a.quick)]
-    done = 0
-
-    def say(text: str) -> None:
-        print(text, file=sys.stderr, flush=True)
-
-    def tell(data: dict) -> None:
-        nonlocal done
-        done += 1
-        why = f": {data['reason']}" if data["reason"] else ""
-        say(f"[{done}/{len(wanted)}] {data['status']:<8} {data['id']} ({data['seconds']:.1f} s){why}")
+    here = machine()
+    sources = f"{source}, sha256 {resume.changes(ROOT, a.cases)}"
+    run = {"begun": started.strftime(DATE), "command": command, "interruptions": [],
+           "of": resume.identity(library, sources, here, a.quick, a.only)}
 
     def stop(*_):
         raise KeyboardInterrupt
 
     signal.signal(signal.SIGTERM, stop)
-    runner, results = Runner(a, library, say), {}
     say(f"report: {len(wanted)} of {len(cases)} cases, {a.jobs} at once, library {library['name']}")
-    try:
-        # The long ones first: the last one to end decides.
-        # The quick report judges no time: nothing in it needs the machine for itself.
-        alone = [c for c in wanted if c.timing and not a.quick]
-        free = sorted((c for c in wanted if c not in alone), key=lambda c: -c.expected)
-        with concurrent.futures.ThreadPoolExecutor(max(1, a.jobs)) as pool:
-            try:
-                for future in concurrent.futures.as_completed([pool.submit(runner, c) for c in free]):
-                    data = future.result()
-                    results[data["id"]] = data
-                    tell(data)
-            except KeyboardInterrupt:
-                # What waits is not begun, what runs is ended: else the pool would wait for all of them.
-                pool.shutdown(wait=False, cancel_futures=True)
-                runner.end_all()
-                raise
-        for c in alone:
-            results[c.id] = runner(c)
-            tell(results[c.id])
-    except KeyboardInterrupt:
-        runner.end_all()
-        shutil.rmtree(new, ignore_errors=True)
-        raise SystemExit("make.py: interrupted; no report was written, the one before stays as it was")
+    results = take_up(a, wanted, library, run)
+    run_all(a, wanted, library, results)
     everything = []
     for c in cases:
         path = a.out / "json" / f"{c.id}.json"
@@ -378,18 +402,14 @@ def report(a, cases: list[case_module.Case], library: dict) -> int:
     if not source.startswith(library["commit"]):
         warnings.append(f"The library is of commit {library['commit']}, the sources beside it are {source}.")
     write_json(new / "report.json", {
-        "title": "libdelam: verification report", "date": started.strftime(DATE), "command": command,
-        "quick": a.quick, "commit": library["commit"], "source": source, "library": library, "machine": machine(),
+        "title": "libdelam: verification report", "date": run["begun"], "interruptions": run["interruptions"],
+        "command": command, "quick": a.quick, "commit": library["commit"], "source": source, "library": library, "machine": here,
         "seconds": round(time.monotonic() - start, 1), "chapters": case_module.CHAPTERS, "claims": claims.CLAIMS,
         "warnings": warnings, "cases": everything})
     drawn = 0
     if not a.no_pages:
         say("drawing the pages")
-        try:
-            drawn = render(new)
-        except KeyboardInterrupt:
-            shutil.rmtree(new, ignore_errors=True)
-            raise SystemExit("make.py: interrupted; no report was written, the one before stays as it was")
+        drawn = render(new)
     publish(new, a.out, not a.only)
     if a.no_pages:  # pages of an earlier report would contradict this one
         shutil.rmtree(a.out / "cases", ignore_errors=True)

@@ -14,6 +14,7 @@ sys.path.insert(0, str(HERE))
 
 import jinja2  # noqa: E402
 
+import child  # noqa: E402
 import schema  # noqa: E402
 from words import NO_LEDGER, bound, expected, show  # noqa: E402
 
@@ -133,6 +134,7 @@ def main(argv: list[str]) -> int:
     if len(argv) != 1:
         print("usage: render.py OUT", file=sys.stderr)
         return 2
+    child.follow()
     out = pathlib.Path(argv[0])
     report = json.loads((out / "report.json").read_text(encoding="utf-8"))
     made = pages(report)

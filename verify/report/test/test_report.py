@@ -217,7 +217,7 @@ class Report(unittest.TestCase):
         shutil.copytree(self.out, out)
 
         def kept():
-            return {p.relative_to(out): p.read_bytes() for p in out.rglob("*") if p.is_file() and p.relative_to(out).parts[0] not in ("log", "raw")}
+            return {p.relative_to(out): p.read_bytes() for p in out.rglob("*") if p.is_file() and p.relative_to(out).parts[0] not in ("log", "raw", "new")}
 
         before = kept()
         # What runs the tests in the background may have told them to ignore Ctrl-C.
