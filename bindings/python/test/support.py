@@ -3,6 +3,7 @@
 import logging
 import os
 import pathlib
+import signal
 import sys
 import unittest
 
@@ -16,6 +17,8 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 if not os.environ.get("DELAM_TEST_INSTALLED"):
     sys.path.insert(0, str(SOURCES))
 
+# A shell starts what runs in the background with this signal ignored, and Python then raises no KeyboardInterrupt.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 # What the library notes about coarse scenes belongs to no test but the one that asks.
 logging.getLogger("delam").addHandler(logging.NullHandler())
