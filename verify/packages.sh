@@ -28,12 +28,18 @@ fi
 if ! command -v npm >/dev/null; then
     DELAM_TEST_PACKAGES+=(nodejs npm)
 fi
-# The long tier of the tests, which ParaView's python3-vtk9 is installed for as well.
-DELAM_LONG_PACKAGES=(libclang-rt-dev dpkg-dev valgrind paraview python3-paraview python3-getfem
-    python3-nbclient python3-ipykernel chromium)
-# The site (bindings/site), which the long tier builds as well.
+# The site (bindings/site).
 DELAM_SITE_PACKAGES=(python3-sphinx python3-myst-parser python3-breathe furo libjs-mathjax doxygen gmsh
     python3-nbclient python3-ipykernel python3-matplotlib-inline)
+# What slices of the long tier need beside the quick tier (verify/slices.sh), by their number.
+declare -A DELAM_SLICE_PACKAGES=(
+    [2]="valgrind chromium paraview python3-paraview"
+    [3]="${DELAM_SITE_PACKAGES[*]} python3-getfem chromium"
+    [6]="valgrind dpkg-dev"
+    [9]="libclang-rt-dev"
+    [10]="valgrind"
+    [12]="valgrind"
+)
 
 # delam_install PACKAGE...: installs what is missing, as root or through sudo; else prints the command and fails.
 delam_install() {

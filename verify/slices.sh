@@ -6,14 +6,23 @@
 slices=12
 # Tests of ctest, as a regular expression; each test with the label `long` is in one slice (the test style/slices).
 declare -A slice_tests=(
+    [1]='^cli_long_studies$'
+    [2]='^(cli_(long_(view_browser|coupons|examples|generators)|paraview)|fortran/memory.*|cpp/.*)$'
+    [3]='^(site/long_.*|python/long_.*|julia/long_check|report/long_.*)$'
+    [4]='^(unit/test_long_.*|case/test_long_.*)$'
+    [5]='^case/whole_.*$'
+    [6]='^(ranks/long_faults.*|example/host_abaqus_memory|packaging/.*)$'
+    [7]='^ranks/long_(scenes|loose).*$'
+    [8]='^(abi/long_.*)$'
+    [9]='^fuzz/.*$'
+    [10]='^fault/.*$'
 )
 # Stages of verify/stages.sh, with their arguments, separated by semicolons.
 declare -A slice_stages=(
+    [8]='thread_sanitizer; each_file_alone'
+    [11]='sanitized_whole'
+    [12]='clang; valgrind_part 1 1'
 )
-# Packages beside those of the quick tier.
-declare -A slice_packages=(
-)
-
 # The slice that .ci/run takes is left out past this time, s, since its beginning: the slowest slice takes 10 minutes of
 # two idle cores and twice that of busy ones, and the host ends a run after 90 minutes.
 latest_slice=3000
@@ -30,7 +39,7 @@ list_slices() {
 run_slice() {
     local k=$1 before=$failed start=$SECONDS stage words
     printf '\n== slice %d of %d of the long tier\n' "$k" "$slices"
-    read -ra words <<<"${slice_packages[$k]:-}"
+    read -ra words <<<"${DELAM_SLICE_PACKAGES[$k]:-}"
     delam_install "${words[@]}"
     while IFS= read -r -d ';' stage; do
         read -ra words <<<"$stage"
