@@ -62,7 +62,10 @@ if (($(df --output=avail -k "$store" | tail -n 1) < 12000000)); then
 fi
 # Rooms that a killed run has left.
 find "$store" -maxdepth 1 -name 'room.*' -mmin +720 -exec rm -rf --one-file-system {} +
-command -v debootstrap >/dev/null || DEBIAN_FRONTEND=noninteractive apt-get install -qy debootstrap >/dev/null
+if ! command -v debootstrap >/dev/null; then
+    apt-get update -q >/dev/null
+    DEBIAN_FRONTEND=noninteractive apt-get install -qy --no-install-recommends debootstrap >/dev/null
+fi
 
 release=$(. /etc/os-release && printf '%s' "$VERSION_CODENAME")
 bare=$store/$release
