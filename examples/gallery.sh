@@ -7,8 +7,6 @@
 #   --no-run   the results that are in out/ already, of these scenes or of any
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-# shellcheck source=verify/packages.sh
-source verify/packages.sh
 
 quick=(enf 4enf mmb enf-3d dcb-3d dcb-abaqus dcb-alfano dcb-double fibre laminate-thermal enf-ductile-h1.0
     enf-brittle-local-h1.0 enf-brittle-energetic-h1.0 mmf-ductile-h1.0 mmf-brittle-energetic-h1.0)

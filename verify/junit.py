@@ -14,7 +14,7 @@ def reason(case):
     if said:
         return said[-1].removeprefix("skipped: ")
     skipped = case.find("skipped")
-    return skipped.get("message", "") if skipped is not None else "it gave no reason"
+    return (skipped.get("message") if skipped is not None else "") or "it gave no reason"
 
 
 def main():

@@ -9,7 +9,7 @@ DELAM_PACKAGES=(
     libcli11-dev libtomlplusplus-dev libfmt-dev libhdf5-dev zlib1g-dev nlohmann-json3-dev
     python3 python3-numpy python3-scipy python3-matplotlib python3-h5py
 )
-# Scenes with a mesh of Gmsh or a generated cell: examples/run.sh installs it for them (a third of a gigabyte more).
+# Gmsh's library, which examples/run.sh installs for scenes that read a mesh of Gmsh or generate a cell (0.35 GB more).
 DELAM_GMSH_PACKAGES=(libgmsh-dev)
 # verify/run.sh: the bindings, libdelam-petsc (real numbers, with MUMPS and PTScotch) with its hosts in Python, and the
 # quick tier of the tests.
@@ -23,7 +23,7 @@ DELAM_TEST_PACKAGES=(
 if [[ $(dpkg-query -W -f='${Status}' python3-paraview 2>/dev/null) != "install ok installed" ]]; then
     DELAM_TEST_PACKAGES+=(python3-vtk9)
 fi
-# The parser of the Julia files, and the check of the page of `delam view`. A node from elsewhere has its own npm, which
+# Node parses the Julia files and checks the page of `delam view`. A node from elsewhere has its own npm, which
 # Debian's conflicts with.
 if ! command -v npm >/dev/null; then
     DELAM_TEST_PACKAGES+=(nodejs npm)

@@ -61,12 +61,13 @@ if [[ ${1:-} == --report ]]; then
 fi
 
 check "build release" build_release
-if ((failed == 0)) && [[ $quick == yes ]]; then
+built=$( ((failed == 0)) && printf yes || printf no)
+if [[ $built == yes && $quick == yes ]]; then
     tests build/release -j2 --label-exclude long
     sanitized
     quick_report
 fi
-if ((failed == 0)) || [[ $quick == no ]]; then
+if [[ $built == yes ]]; then
     for k in "${chosen[@]}"; do
         if [[ $k == next ]]; then
             run_next_slice "$began"

@@ -21,10 +21,11 @@ declare -A slice_tests=(
 declare -A slice_stages=(
     [8]='thread_sanitizer; each_file_alone'
     [11]='sanitized_whole'
-    [12]='clang; valgrind_part 1 1'
+    [12]='clang; valgrind_unit'
 )
-# The slice that .ci/run takes is left out past this time, s, since its beginning: the slowest slice takes 10 minutes of
-# two idle cores and twice that of busy ones, and the host ends a run after 90 minutes.
+# A run of .ci/run that has taken so long, in s, leaves its slice out: a slice takes up to ten minutes on two idle cores
+# and twenty on busy ones, and hosts end a run after 90 minutes. Half of it would leave slices out wherever the quick tier
+# meets another program; with twice of it no slice could end.
 latest_slice=3000
 
 list_slices() {
@@ -37,16 +38,18 @@ list_slices() {
 
 # run_slice K: installs, and runs stages and tests of a slice; notes the outcome in the record.
 run_slice() {
-    local k=$1 before=$failed start=$SECONDS stage words
+    local k=$1 before=$failed start=$SECONDS stage stages words
     printf '\n== slice %d of %d of the long tier\n' "$k" "$slices"
     read -ra words <<<"${DELAM_SLICE_PACKAGES[$k]:-}"
-    delam_install "${words[@]}"
-    while IFS= read -r -d ';' stage; do
+    if ! delam_install "${words[@]}"; then
+        fail "slice $k: packages are missing"
+        return
+    fi
+    IFS=';' read -ra stages <<<"${slice_stages[$k]:-}"
+    for stage in "${stages[@]}"; do
         read -ra words <<<"$stage"
-        if ((${#words[@]} > 0)); then
-            "${words[@]}"
-        fi
-    done <<<"${slice_stages[$k]:-};"
+        "${words[@]}"
+    done
     if [[ -n ${slice_tests[$k]:-} ]]; then
         tests build/release -j2 --label-regex '^long$' --tests-regex "${slice_tests[$k]}"
     fi
@@ -54,8 +57,8 @@ run_slice() {
     printf 'slice %d took %d s\n' "$k" $((SECONDS - start))
 }
 
-# run_next_slice BEGAN: the slice whose turn it is, unless it is late: then the run says so, and fails if the run before
-# it has left its slice out, too. BEGAN: seconds since 1970 at the beginning of the run.
+# run_next_slice BEGAN: runs the slice whose turn it is, unless it is late: then the run says so, and fails if the run
+# before it has left its slice out, too. BEGAN: seconds since 1970 at the beginning of the run.
 run_next_slice() {
     local k late=$(($(date +%s) - $1))
     k=$(next_slice)
@@ -63,32 +66,44 @@ run_next_slice() {
         run_slice "$k"
         return
     fi
-    printf '\nslice %d of the long tier is left out: %d s have passed, of at most %d\n' "$k" "$late" "$latest_slice"
+    leave_out "slice $k" "no time was left for a slice of the long tier: $late s had passed, of at most $latest_slice"
     if left_out_last_time; then
-        check "a slice of the long tier, which the run before left out as well" false
+        fail "slice $k: the run before has left out a slice of the long tier as well"
+    elif [[ -z $(slice_record) ]]; then
+        printf 'nobody keeps a record of slices here: a second time in a row would not be noticed\n'
     fi
     note_slice "$k" left-out
 }
 
-# slice_record: the file in which runs note when each slice passed; nothing where nobody keeps one (DELAM_KEPT).
+# slice_record: prints the file in which runs note when each slice passed; nothing where nobody keeps one (DELAM_KEPT).
 slice_record() {
-    if [[ -n ${DELAM_KEPT:-} && -d $DELAM_KEPT && -w $DELAM_KEPT ]]; then
-        printf '%s/slices\n' "$DELAM_KEPT"
+    local record=${DELAM_KEPT:-}/slices
+    if [[ -n ${DELAM_KEPT:-} && (-w $record || (! -e $record && -w $DELAM_KEPT)) ]]; then
+        printf '%s\n' "$record"
     fi
 }
 
-# next_slice: the slice whose last pass is oldest; without a record by the number of commits, so that each comes by.
+# commits: the number of commits; where the history is not whole, the day of the year.
+commits() {
+    if [[ $(git rev-parse --is-shallow-repository 2>/dev/null) == false ]]; then
+        git rev-list --count HEAD
+    else
+        date +%-j
+    fi
+}
+
+# next_slice: prints the slice whose last pass is oldest; with an empty record, or none, one by the number of commits, so
+# that each comes by.
 next_slice() {
     local record k
     record=$(slice_record)
-    if [[ -z $record ]]; then
-        printf '%d\n' $(($(git rev-list --count HEAD 2>/dev/null || date +%-j) % slices + 1))
+    if [[ ! -s $record ]]; then
+        printf '%d\n' $(($(commits) % slices + 1))
         return
     fi
-    touch "$record"
     for ((k = 1; k <= slices; ++k)); do
         printf '%d %d\n' "$(awk -v k="$k" '$1 == k && $2 == "passed" { last = $3 } END { print last + 0 }' "$record")" "$k"
-    done | sort -n | sed -n '1s/.* //p'
+    done | sort -k1n -k2n | sed -n '1s/.* //p'
 }
 
 # note_slice K OUTCOME: passed, failed or left-out, with the time and the commit, in the record.

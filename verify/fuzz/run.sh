@@ -48,7 +48,7 @@ cmake -S "$root" -B "$folder" -G Ninja -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMP
     -DCMAKE_C_FLAGS="-O1 -g" -DCMAKE_CXX_FLAGS="$flags" -DDELAM_SANITIZE=fuzzer-no-link,$sanitizers \
     -DDELAM_FUZZ=ON -DDELAM_BUILD_EXAMPLES=OFF >/dev/null
 cmake --build "$folder" --target "${targets[@]/#/fuzz_}" -- -k 0
-python3 "$here/scene_dictionary.py" "$root/bindings/cli/SCENE.md" >"$folder/scene.dictionary"
+/usr/bin/python3 "$here/scene_dictionary.py" "$root/bindings/cli/SCENE.md" >"$folder/scene.dictionary"
 
 # Allocations that are asked for and refused are a status, not the end.
 export ASAN_OPTIONS=allocator_may_return_null=1:max_allocation_size_mb=1024:detect_leaks=1
@@ -102,7 +102,7 @@ for target in "${targets[@]}"; do
         mkdir -p "$merged"
         "$program" -merge=1 -merge_control_file="$control" -timeout=60 -rss_limit_mb=3000 "$merged" "$grown" \
             "${committed[@]}" >"$folder/$target.merge" 2>&1
-        python3 "$here/choose.py" "$control" "$kept" >"$folder/$target.chosen"
+        /usr/bin/python3 "$here/choose.py" "$control" "$kept" >"$folder/$target.chosen"
         rm -rf "$merged"
         mkdir -p "$merged"
         xargs -d '\n' cp -t "$merged" <"$folder/$target.chosen"

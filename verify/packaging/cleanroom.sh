@@ -60,8 +60,16 @@ if (($(df --output=avail -k "$store" | tail -n 1) < 12000000)); then
     printf 'cleanroom.sh: %s has less than 12 GB free (CLEANROOM names another folder)\n' "$store" >&2
     exit 2
 fi
-# Rooms that a killed run has left.
-find "$store" -maxdepth 1 -name 'room.*' -mmin +720 -exec rm -rf --one-file-system {} +
+# One run at a time makes the bare system and its room.
+exec 8>"$store/lock"
+flock 8
+# A killed run leaves its room; whoever comes next removes it. A room in use is locked.
+for left in "$store"/room.*; do
+    if [[ -d $left ]] && flock --nonblock "$left" true; then
+        rm -rf --one-file-system "$left"
+    fi
+done
+find "$store" -maxdepth 1 -name 'log.*' -mtime +30 -delete
 if ! command -v debootstrap >/dev/null; then
     apt-get update -q >/dev/null
     DEBIAN_FRONTEND=noninteractive apt-get install -qy --no-install-recommends debootstrap >/dev/null
@@ -77,7 +85,7 @@ sources() {
         sed -n 's/^Debian|//p' | sort -u
 }
 
-# settle ROOT: networks and keys as on this machine.
+# settle ROOT: gives it this machine's package sources, proxies, keys and certificates.
 settle() {
     local root=$1 file
     sources | sed 's/^/deb /' >"$root/etc/apt/sources.list"
@@ -88,7 +96,9 @@ settle() {
         fi
     done
     mkdir -p "$root/usr/local/share/ca-certificates" "$root/etc/ssl/certs"
-    cp -rL /usr/local/share/ca-certificates/. "$root/usr/local/share/ca-certificates/"
+    if [[ -d /usr/local/share/ca-certificates ]]; then
+        cp -rL /usr/local/share/ca-certificates/. "$root/usr/local/share/ca-certificates/"
+    fi
     if [[ -f /etc/ssl/certs/ca-certificates.crt ]]; then
         cp -L /etc/ssl/certs/ca-certificates.crt "$root/etc/ssl/certs/"
     fi
@@ -100,8 +110,12 @@ if [[ ! -d $bare ]]; then
         apt-get update -q >/dev/null
         mirror=$(sources | awk -v suite="$release" '$2 == suite { print $1; exit }')
     fi
+    if [[ -z $mirror ]]; then
+        printf 'cleanroom.sh: the package sources of this machine name no archive of Debian for "%s"\n' "$release" >&2
+        exit 2
+    fi
     printf 'cleanroom.sh: makes the bare system %s, once\n' "$bare"
-    mkdir -p "$store" "$archives/partial"
+    mkdir -p "$store"
     rm -rf --one-file-system "$bare.part"
     debootstrap --variant=minbase "$release" "$bare.part" "$mirror" >"$store/debootstrap.log" ||
         { tail "$store/debootstrap.log"; exit 1; }
@@ -112,7 +126,7 @@ if [[ ! -d $bare ]]; then
     rm -f "$bare.part"/var/cache/apt/archives/*.deb
     mv "$bare.part" "$bare"
 fi
-mkdir -p "$archives/partial"
+mkdir -p "$archives"
 
 fresh=no
 if [[ -z $room ]]; then
@@ -122,19 +136,32 @@ if [[ -z $room ]]; then
 else
     log=$(mktemp "$room.log.XXXXXX")
 fi
+# leave: removes the room, if it is not to be kept.
 leave() {
     if [[ $fresh == yes ]]; then
         rm -rf --one-file-system "$room"
     fi
 }
 trap leave EXIT
-if [[ ! -d $room/etc ]]; then
-    mkdir -p "$room"
-    cp -a "$bare/." "$room/"
+mkdir -p "$room"
+exec 9<"$room"
+if ! flock --nonblock 9; then
+    printf 'cleanroom.sh: another run is in the room %s\n' "$room" >&2
+    exit 2
 fi
+if [[ ! -f $room/.whole ]]; then
+    cp -a "$bare/." "$room/"
+    touch "$room/.whole"
+fi
+flock --unlock 8
+# Each room has its own folder of packages: apt-get locks it.
+mkdir -p "$room/var/cache/apt/archives/partial"
+cp -aln "$archives"/*.deb "$room/var/cache/apt/archives/" 2>/dev/null || true
 cp -L /etc/resolv.conf /etc/hosts "$room/etc/"
 
-# The checkout as it stands, with what is not committed yet; a room that has one already keeps it.
+# The checkout may belong to somebody else.
+export GIT_CONFIG_COUNT=1 GIT_CONFIG_KEY_0=safe.directory GIT_CONFIG_VALUE_0='*'
+# The room gets the checkout as it stands, with what is not committed yet; one that has it already keeps it.
 home=/root
 if [[ $user != root ]]; then
     home=/home/$user
@@ -144,6 +171,8 @@ if [[ ! -d $copy ]]; then
     if [[ $archive == yes ]]; then
         mkdir -p "$copy"
         git -C "$checkout" archive HEAD | tar -x -C "$copy"
+    elif [[ ! -e $checkout/.git ]]; then
+        tar -c -C "$checkout" --exclude=./build --exclude=./out . | tar -x -C "$copy"
     else
         git clone --quiet --no-hardlinks "$checkout" "$copy"
         git -C "$checkout" diff --binary HEAD | git -C "$copy" apply --allow-empty
@@ -157,7 +186,7 @@ fi
 environment=(HOME="$home" USER="$user" LANG=C.UTF-8 TERM=dumb DELAM_KEPT=/var/tmp/kept PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin)
 while IFS= read -r name; do
     environment+=("$name=${!name}")
-done < <(compgen -e | grep -iE '^(https?|ftp|all|no)_proxy$|^(NODE_EXTRA_CA_CERTS|SSL_CERT_FILE|SSL_CERT_DIR|PIP_CERT|GIT_SSL_CAINFO)$|^OPENBLAS_CORETYPE$|^DELAM_[A-Z]*$' |
+done < <(compgen -e | grep -iE '^(https?|ftp|all|no)_proxy$|^(NODE_EXTRA_CA_CERTS|SSL_CERT_FILE|SSL_CERT_DIR|PIP_CERT|GIT_SSL_CAINFO)$|^OPENBLAS_CORETYPE$|^DELAM_[A-Z0-9_]*$' |
     grep -vx DELAM_KEPT)
 if (($# > 1)); then
     line=$(printf '%q ' "$@")
@@ -168,18 +197,19 @@ fi
 start=$SECONDS
 status=0
 mkdir -p "$room/var/tmp/kept"
-unshare "${namespaces[@]}" bash -c '
-    room=$1 archives=$2 kept=$3 user=$4 folder=$5 line=$6
-    shift 6
+unshare "${namespaces[@]}" bash -euc '
+    room=$1 kept=$2 user=$3 folder=$4 line=$5
+    shift 5
     # Ranks of one machine speak over its loopback, also offline.
     ip link set lo up 2>/dev/null || true
     mount -t proc proc "$room/proc"
     mount --rbind /dev "$room/dev"
     mount --rbind -o ro /sys "$room/sys"
-    mount --bind "$archives" "$room/var/cache/apt/archives"
     mount --bind "$kept" "$room/var/tmp/kept"
     exec chroot --userspec="$user" "$room" env -i "$@" \
-        bash -c "cd ~/$(printf %q "$folder") && $line"
-' cleanroom "$room" "$archives" "$store/kept" "$user" "$folder" "$line" "${environment[@]}" </dev/null 2>&1 | tee "$log" || status=${PIPESTATUS[0]}
+        bash -c "cd ~/$(printf %q "$folder") || exit; $line"
+' cleanroom "$room" "$store/kept" "$user" "$folder" "$line" "${environment[@]}" </dev/null 2>&1 | tee "$log" || status=${PIPESTATUS[0]}
+# What was downloaded is there for the next room.
+cp -aln "$room"/var/cache/apt/archives/*.deb "$archives/" 2>/dev/null || true
 printf 'cleanroom.sh: exit code %d after %d s; log %s\n' "$status" "$((SECONDS - start))" "$log"
 exit "$status"

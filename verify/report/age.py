@@ -43,11 +43,11 @@ def shallow(root: pathlib.Path) -> bool:
     top = git(root, "rev-parse", "--show-toplevel")
     if top.returncode != 0:
         why = top.stderr.strip().splitlines()
-        raise Skipped(f"these sources have no history of git{': ' + why[0] if why else ''}")
+        raise Skipped(f"no history of git{': ' + why[0] if why else ''}")
     if pathlib.Path(top.stdout.strip()).resolve() != root.resolve():
-        raise Skipped(f"these sources lie in a repository of something else ({top.stdout.strip()})")
+        raise Skipped(f"no history of git: these sources lie in a repository of something else ({top.stdout.strip()})")
     if git(root, "rev-parse", "--verify", "--quiet", "HEAD^{commit}").returncode != 0:
-        raise Skipped("the repository has no commit")
+        raise Skipped("no history of git: the repository has no commit")
     return git(root, "rev-parse", "--is-shallow-repository").stdout.strip() == "true"
 
 
@@ -55,7 +55,7 @@ def commits_since(root: pathlib.Path, commit: str, cut_off: bool) -> int:
     """Commits of HEAD that the commit does not have."""
     known = git(root, "rev-parse", "--verify", "--quiet", commit + "^{commit}").returncode == 0
     if cut_off and not (known and git(root, "merge-base", "--is-ancestor", commit, "HEAD").returncode == 0):
-        raise Skipped(f"this clone is shallow and its history does not reach back to commit {commit}")
+        raise Skipped(f"no history of git that is whole: this clone is shallow and its history does not reach back to commit {commit}")
     if not known:
         raise Old(f"RESULTS.md quotes commit {commit}, which this repository does not have; {RENEW}")
     return int(git(root, "rev-list", "--count", f"{commit}..HEAD").stdout)

@@ -177,4 +177,7 @@ class Staging(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    outcome = unittest.main(exit=False).result
+    for _, why in outcome.skipped:
+        print(f"skipped: {why}")
+    sys.exit(1 if not outcome.wasSuccessful() else 77 if outcome.skipped else 0)
