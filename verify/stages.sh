@@ -11,7 +11,7 @@ build() {
 
 # build_release: builds everything; what verify/run.sh has installed packages for must be found.
 build_release() {
-    build release -DDELAM_BUILD_TESTS=ON -DDELAM_STATIC=ON -DDELAM_PETSC=ON -DDELAM_GMSH=ON
+    build release -DDELAM_BUILD_TESTS=ON -DDELAM_STATIC=ON -DDELAM_PETSC=ON -DDELAM_GMSH=ON -DDELAM_BUILD_FORTRAN=ON
 }
 
 # What builds with sanitizers have in common.
