@@ -60,7 +60,8 @@ if(NOT DELAM_SANITIZE)
         add_test(NAME ${test} COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/verify/cases/host_petsc.py ${ranks}
                                       ${program})
       else()
-        add_test(NAME ${test} COMMAND sh -c "echo 'skipped: the host in ${language} on MPI is not built'; exit 77")
+        add_test(NAME ${test}
+          COMMAND sh -c "echo 'skipped: the host in ${language} on MPI is not built: ${DELAM_PETSC_MISSING}'; exit 77")
       endif()
       set_tests_properties(${test} PROPERTIES LABELS "quick;example" TIMEOUT ${DELAM_LIMIT} SKIP_RETURN_CODE 77
         PROCESSORS ${ranks}
