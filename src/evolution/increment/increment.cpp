@@ -84,6 +84,24 @@ double Increment::change(std::span<const double> from, std::span<const double> t
     return largest;
 }
 
+// Each jump becomes longer by its error.
+double Increment::blur(const State& state, std::span<const double> damage) {
+    const double open = state.response.error.jump;
+    blur_ = 0.0;
+    if (!(open > 0.0)) return blur_;
+    std::vector<double> jump = state.response.jump;
+    const std::size_t dim = dimension();
+    for (std::size_t p = 0; p < state.adhesion.size(); ++p) {
+        const std::span<double> own = std::span(jump).subspan(p * dim, dim);
+        double square = 0.0;
+        for (const double j : own) square += j * j;
+        if (!(square > 0.0)) continue;
+        for (double& j : own) j *= 1.0 + open / std::sqrt(square);
+    }
+    blur_ = change(damage, damage_step(state.adhesion, jump), state.response.jump);
+    return blur_;
+}
+
 bool Increment::observe(std::span<const double> adhesion, std::span<const double> jump) {
     largest_ = largest_driving(pairs_, jump);
     begin_observation();
