@@ -29,6 +29,20 @@ PetscErrorCode apply_shell(PC shell, Vec r, Vec z) {
 
 }  // namespace
 
+bool within(const Communicator& comm, Vec r, Vec largest) {
+    PetscInt count = 0;
+    const PetscScalar *own = nullptr, *most = nullptr;
+    check(VecGetLocalSize(r, &count));
+    check(VecGetArrayRead(r, &own));
+    check(VecGetArrayRead(largest, &most));
+    double beyond = 0.0;
+    for (PetscInt i = 0; i < count; ++i)
+        if (!(std::abs(own[i]) <= most[i])) beyond = 1.0;
+    check(VecRestoreArrayRead(r, &own));
+    check(VecRestoreArrayRead(largest, &most));
+    return comm.sum(beyond) == 0.0;
+}
+
 Iterations::Iterations(const Bodies& bodies, const Operator& matrix, const Preconditioner& preconditioner)
     : bodies_(bodies),
       operator_(matrix),
@@ -66,6 +80,10 @@ PetscErrorCode Iterations::test(KSP, PetscInt iteration, PetscReal norm, KSPConv
     return 0;
 }
 
+bool Iterations::exhausted(PetscInt iteration, double norm) const {
+    return iteration >= limits_.iterations || idle_ > most_idle || !std::isfinite(norm);
+}
+
 KSPConvergedReason Iterations::decide(PetscInt iteration, double norm) {
     // KSPCG only sees changes of sign.
     if (iteration == 1 && operator_.last_curvature() <= 0.0) return KSP_DIVERGED_INDEFINITE_MAT;
@@ -77,12 +95,18 @@ KSPConvergedReason Iterations::decide(PetscInt iteration, double norm) {
     if (bodies_.comm().root()) {
         if (norm <= limits_.target)
             decision = KSP_CONVERGED_ATOL;
-        else if (iteration >= limits_.iterations || idle_ > most_idle || !std::isfinite(norm))
+        else if (exhausted(iteration, norm))
             decision = KSP_CONVERGED_ITS;
         else if (limits_.poll != nullptr && limits_.poll(limits_.user) != 0)
             decision = KSP_DIVERGED_BREAKDOWN;
     }
     bodies_.comm().broadcast(decision);
+    if (decision == KSP_CONVERGED_ATOL && limits_.largest != nullptr &&
+        !within(bodies_.comm(), preconditioner_.last_residual(), limits_.largest)) {
+        if (bodies_.comm().root())
+            decision = exhausted(iteration, norm) ? KSP_CONVERGED_ITS : KSP_CONVERGED_ITERATING;
+        bodies_.comm().broadcast(decision);
+    }
     outcome_.reached = decision == KSP_CONVERGED_ATOL;
     if (outcome_.reached) {
         check(VecCopy(preconditioner_.last_residual(), residual_));
