@@ -55,6 +55,7 @@ private:
     double lowest_ = 0.0;
     OwnedVec residual_, z_;
     int idle_ = 0;
+    PetscInt met_ = -1;  // the iteration that met the target, but not `largest`; -1: none
 };
 
 }  // namespace delam::petsc

@@ -6,7 +6,7 @@ from launch import EXAMPLES, folder
 
 
 def example(name, *settings):
-    return os.path.join(EXAMPLES, name, name + ".toml"), [*settings, "output.every=1000"]
+    return os.path.join(EXAMPLES, name, name + ".toml"), [*settings, "output.every=1"]
 
 
 def own(text, *settings, **files):
@@ -15,7 +15,7 @@ def own(text, *settings, **files):
     for name, content in {"scene.toml": text, **{name + ".msh": content for name, content in files.items()}}.items():
         with open(os.path.join(place, name), "w", encoding="utf-8") as file:
             file.write(content)
-    return os.path.join(place, "scene.toml"), [*settings, "output.every=1000"]
+    return os.path.join(place, "scene.toml"), [*settings, "output.every=1"]
 
 
 MATERIALS = """
