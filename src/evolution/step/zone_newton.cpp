@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/numbers.hpp"
 #include "evolution/increment/extrapolation.hpp"
@@ -19,6 +20,8 @@ constexpr double energy_rounding = 1e-11;
 constexpr std::int64_t longest_wait = 8;           // plain steps between two attempts of a failed method
 constexpr std::int64_t newton_contact_steps = 30;  // of the active set in one Newton step; beyond them it is rejected
 constexpr std::int64_t halvings = 7;               // of a line search, including the full step
+// A solve that leaves more than this of its residual has met rounding, and steps that no longer halve their change have.
+constexpr double met_rounding = 0.5;
 // A part of the bodies is brought to its end this much more finely than the whole has changed.
 constexpr double part_of_change = 1e-3;
 constexpr std::int64_t steps_in_part = 50;
@@ -413,10 +416,11 @@ double Descent::run(std::int64_t limit, double tolerance) {
         // Newton's method squares the error, but for what its solve has left: the next change would be far below the
         // tolerance.
         if (n == 0) first_change_ = change;
-        last_change_ = change;
+        const bool stalls = change > 0.5 * std::exchange(last_change_, change);
         newton_step_ = move.newton && !halved_;
         ended_ = move.newton && !renewed ? change * std::max(100.0 * change, system_.left()) <= tolerance
                                          : change <= tolerance;
+        ended_ = ended_ || (newton_step_ && stalls && system_.left() > met_rounding);
     }
     hand_over(at);
     state_.effort.linear_iterations += system_.iterations();
