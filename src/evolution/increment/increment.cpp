@@ -8,6 +8,13 @@
 
 namespace delam {
 
+namespace {
+
+// SolveError is ten times what a further step of an iteration would change (body_solver.hpp).
+constexpr double further_step = 0.1;
+
+}  // namespace
+
 Increment::Increment(const PairLaws& pairs, const State& before, std::span<const double> mixity, StepLimits limits,
                      const Increment* like)
     : pairs_(pairs), before_(before), limits_(limits) {
@@ -84,9 +91,9 @@ double Increment::change(std::span<const double> from, std::span<const double> t
     return largest;
 }
 
-// Each jump becomes longer by its error.
+// Each jump becomes longer by what a further step of the solve would change.
 double Increment::blur(const State& state, std::span<const double> damage) {
-    const double open = state.response.error.jump;
+    const double open = further_step * state.response.error.jump;
     blur_ = 0.0;
     if (!(open > 0.0)) return blur_;
     std::vector<double> jump = state.response.jump;
