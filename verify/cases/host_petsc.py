@@ -19,6 +19,9 @@ import sys
 import tempfile
 import time
 
+sys.path.append(str(pathlib.Path(__file__).parent.parent / "petsc"))
+from environment import ENVIRONMENT
+
 TOLERANCE = 1e-7
 SKIPPED = 77
 LIMIT = 30.0  # s, in which all ranks have started and ended, beside other programs
@@ -89,10 +92,7 @@ def cut_mesh(ranks, geometry, folder):
 
 
 def on_ranks(ranks, host, *arguments, limit=None):
-    told = subprocess.run(["mpirun", "--version"], capture_output=True, text=True, check=False).stdout
-    options = ["--allow-run-as-root", "--oversubscribe"] if "Open MPI" in told or "OpenRTE" in told else []
-    environment = dict(os.environ, OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1")
-    return subprocess.run(["mpirun", *options, "-n", str(ranks), *host, *arguments], env=environment,
+    return subprocess.run(["mpirun", "-n", str(ranks), *host, *arguments], env=ENVIRONMENT,
                           capture_output=True, text=True, check=False, timeout=limit)
 
 

@@ -10,10 +10,10 @@ for tool in mpicc mpirun; do
 done
 project=$SOURCE/verify/packaging/consumer_petsc
 ranks=(mpirun -n 2)
-if mpirun --version | grep -q 'Open MPI'; then
-    ranks=(mpirun --allow-run-as-root --oversubscribe -n 2)
-fi
-export OPENBLAS_NUM_THREADS=1
+set -a
+# shellcheck source=verify/petsc/environment.txt
+source "$SOURCE/verify/petsc/environment.txt"
+set +a
 
 # installed PROGRAM: both libraries are those in $STAGE.
 installed() {

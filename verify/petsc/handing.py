@@ -15,6 +15,8 @@ import shutil
 import subprocess
 import sys
 
+from environment import ENVIRONMENT
+
 SKIPPED = 77
 LIMIT = 900.0  # s, beside other programs
 BDDC = "bddc" in os.environ.get("PETSC_OPTIONS", "")
@@ -26,12 +28,9 @@ def start(count):
     if shutil.which("mpirun") is None or importlib.util.find_spec("mpi4py") is None:
         print("mpirun or mpi4py is not there")
         return SKIPPED
-    environment = dict(os.environ, OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1", OMPI_ALLOW_RUN_AS_ROOT="1",
-                       OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMPI_MCA_rmaps_base_oversubscribe="1",
-                       OMPI_MCA_mpi_yield_when_idle="1")
     try:
         return subprocess.run(["mpirun", "-n", count, sys.executable, "-m", "mpi4py", __file__, "work"],
-                              env=environment, timeout=LIMIT, check=False).returncode
+                              env=ENVIRONMENT, timeout=LIMIT, check=False).returncode
     except subprocess.TimeoutExpired:
         print(f"still at work after {LIMIT:g} s")
         return 1

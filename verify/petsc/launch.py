@@ -12,6 +12,8 @@ import sys
 import tempfile
 import time
 
+from environment import ENVIRONMENT
+
 DELAM = os.environ["DELAM"]
 DELAM_MPI = os.environ["DELAM_MPI"]
 EXAMPLES = os.environ["DELAM_EXAMPLES"]
@@ -21,12 +23,6 @@ failures = []
 if shutil.which("mpirun") is None:
     print("mpirun is not there")
     sys.exit(SKIPPED)
-
-# For Open MPI, which others ignore: more ranks than processors, and as root. A rank that waits yields its processor,
-# and none is bound to one: else a run beside other programs takes ten times as long.
-ENVIRONMENT = dict(os.environ, OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1", OMPI_ALLOW_RUN_AS_ROOT="1",
-                   OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMPI_MCA_rmaps_base_oversubscribe="1",
-                   OMPI_MCA_mpi_yield_when_idle="1", OMPI_MCA_hwloc_base_binding_policy="none")
 
 # Writes its process number for the test, then becomes the program. WRAP, if there is one, is done first.
 WRAPPER = """#!/bin/sh

@@ -12,13 +12,14 @@ one that is timed, on as many ranks as there are idle cores). Each row is one an
 """
 import argparse
 import contextlib
-import os
 import pathlib
 import re
 import subprocess
 import sys
 import tempfile
 import time
+
+from environment import ENVIRONMENT
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SOLVERS = {"mumps": "", "bddc": "-delam_pc_type bddc"}
@@ -56,13 +57,12 @@ def started(program, text, ranks, options, of_mpirun=()):
     with tempfile.TemporaryDirectory() as folder:
         scene = pathlib.Path(folder) / "scene.toml"
         scene.write_text(text, encoding="utf-8")
-        command = ["mpirun", "--allow-run-as-root", "--oversubscribe", *of_mpirun, "-n", str(ranks), program]
+        command = ["mpirun", *of_mpirun, "-n", str(ranks), program]
         if options:
             command += ["--petsc", options]
         command += ["--counts", "run", str(scene), "--out", str(pathlib.Path(folder) / "out")]
-        environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1", "OMPI_MCA_mpi_yield_when_idle": "1"}
         with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                              env=environment) as process:
+                              env=ENVIRONMENT) as process:
             yield process
             process.terminate()
 

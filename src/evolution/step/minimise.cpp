@@ -45,13 +45,16 @@ class AtRest {
 public:
     explicit AtRest(double tolerance) : tolerance_(tolerance) {}
     bool operator()(double change, double blur) {
-        const bool stalls = change > 0.5 * std::exchange(before_, change);
-        return change <= tolerance_ || (stalls && change <= blur);
+        idle_ = change < 0.5 * least_ ? 0 : idle_ + 1;
+        least_ = std::min(least_, change);
+        return change <= tolerance_ || (idle_ >= most_idle && change <= blur);
     }
 
 private:
+    static constexpr std::int64_t most_idle = 2;  // rounds that do not halve the least change
     double tolerance_;
-    double before_ = INFINITY;
+    double least_ = INFINITY;
+    std::int64_t idle_ = 0;
 };
 
 }  // namespace
