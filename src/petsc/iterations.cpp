@@ -108,8 +108,7 @@ KSPConvergedReason Iterations::decide(PetscInt iteration, double norm) {
     if (decision == KSP_CONVERGED_ATOL && limits_.largest != nullptr &&
         !within(bodies_.comm(), preconditioner_.last_residual(), limits_.largest)) {
         if (met_ < 0) met_ = iteration;
-        if (bodies_.comm().root())
-            decision = exhausted(iteration, norm) ? KSP_CONVERGED_ITS : KSP_CONVERGED_ITERATING;
+        if (bodies_.comm().root()) decision = exhausted(iteration, norm) ? KSP_CONVERGED_ITS : KSP_CONVERGED_ITERATING;
         bodies_.comm().broadcast(decision);
     }
     outcome_.reached = decision == KSP_CONVERGED_ATOL;

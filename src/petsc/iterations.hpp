@@ -19,8 +19,8 @@ public:
     Iterations(const Iterations&) = delete;
     Iterations& operator=(const Iterations&) = delete;
 
-    struct Limits {           // on rank 0
-        double target = 0.0;  // of sqrt(r.M r)
+    struct Limits {             // on rank 0
+        double target = 0.0;    // of sqrt(r.M r)
         Vec largest = nullptr;  // on all ranks: that each component may keep as well; nullptr: any
         std::int64_t iterations = 0;
         std::int32_t (*poll)(void* user) = nullptr;

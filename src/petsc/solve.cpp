@@ -34,7 +34,8 @@ Solve::Solve(const Bodies& bodies, const Visible& visible, const Constraints& co
       operator_(matrix),
       preconditioner_(preconditioner),
       iterations_(bodies, matrix, preconditioner) {
-    for (OwnedVec* vector : {&recursion_, &right_, &rest_, &v_, &av_, &cv_, &r_, &z_, &x_, &work_, &best_, &best_z_, &largest_})
+    for (OwnedVec* vector :
+         {&recursion_, &right_, &rest_, &v_, &av_, &cv_, &r_, &z_, &x_, &work_, &best_, &best_z_, &largest_})
         *vector = bodies.vector();
 }
 
@@ -147,8 +148,8 @@ bool Solve::confirms(const Question& question, Vec recursion) {
 // size of the state; where the recursion has reached the target and its residual is the true one, its M r is taken
 // over.
 bool Solve::iterate(const Question& question, double tolerance, double norm, double& size, Result& result) {
-    Iterations::Limits limits{recursion_goal * std::max(tolerance, rounded_) * std::max(size, norm),
-                              nullptr, question.limit - result.iterations, question.poll, question.user};
+    Iterations::Limits limits{recursion_goal * std::max(tolerance, rounded_) * std::max(size, norm), nullptr,
+                              question.limit - result.iterations, question.poll, question.user};
     if (asks_for_all(tolerance) && largest_rounding(question)) limits.largest = largest_;
     check(VecCopy(r_, recursion_));
     const Iterations::Outcome outcome = iterations_.run(recursion_, z_, x_, limits);

@@ -1,13 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""scenes.py [--brief] [--ranks 1,2,4] [--whole] [--loose] [NAME ...]
+"""scenes.py [--brief] [--ranks 1,2,4] [--part I/N] [--loose] [NAME ...]
 
 Scenes on several numbers of ranks, each compared with the program of one process and with the first of these numbers:
-reactions, energies, debonded length, contact and the fields of all steps (comparison.py). Without NAME: all of
-small_scenes.py.
+reactions, energies, debonded length, contact and the fields of all steps (comparison.py). Without NAME: those of
+small_scenes.quick().
 
 --brief   fewer scenes, each on 1 and 2 ranks, or on 1 and 4
---whole   larger scenes as well, on these ranks
+--part    each N-th of the scenes, from the I-th on
 --loose   with the scenes' own damage_tolerance instead of a small one
 """
 import argparse
@@ -49,18 +49,18 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--ranks", default="1,2,4")
     parser.add_argument("--brief", action="store_true")
-    parser.add_argument("--whole", action="store_true")
+    parser.add_argument("--part", default="1/1")
     parser.add_argument("--loose", action="store_true")
     parser.add_argument("name", nargs="*")
     options = parser.parse_args()
     scenes = small_scenes.quick()
-    if options.whole:
-        scenes.update(small_scenes.whole())
     if options.brief:
         scenes = {name: scene for name, scene in scenes.items() if name not in small_scenes.NOT_BRIEF}
     kind = "loose" if options.loose else "tight"
-    for name in options.name or scenes:
-        scene, settings = scenes[name]
+    part, parts = map(int, options.part.split("/"))
+    known = {**small_scenes.quick(), **small_scenes.whole()}
+    for name in options.name or list(scenes)[part - 1::parts]:
+        scene, settings = known[name]
         if kind == "tight":
             settings = [*settings, f"solver.damage_tolerance={TIGHT}"]
         words = [word for setting in [*settings, FIELDS] for word in ("--set", setting)]

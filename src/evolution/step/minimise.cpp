@@ -39,8 +39,8 @@ private:
 };
 
 // Whether the change of a round says that the damage is at rest: the tolerance, or, where rounds do not come nearer any
-// more, what the solves have left open. (An operator that iterates begins from the last answer, and its next one differs
-// by rounding. With a tolerance below that, the scheme would end by chance.)
+// more, what the solves have left open. (An operator that iterates begins from the last answer, and its next one
+// differs by rounding. With a tolerance below that, the scheme would end by chance.)
 class AtRest {
 public:
     explicit AtRest(double tolerance) : tolerance_(tolerance) {}
