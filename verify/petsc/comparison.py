@@ -26,7 +26,8 @@ ROUNDED = {"incompressible": 1e-7}
 # serial program differs by 3.2e-8 and 6.4e-8, in the former also by 2.3e-8 between kernels of the BLAS.
 SLENDER = ("whole-mixed-converged", "whole-two-interfaces")
 # Stresses and rotations are differences of displacements over a cell: rounding weighs more in them, by the displacement
-# of a slender body over the elongation of its cells. Seen up to 3.1e-8. Tractions are stresses, and compared in their size.
+# of a slender body over the elongation of its cells. Seen up to 3.1e-8. Tractions are stresses, of the size of which a
+# difference counts.
 DERIVED = {"stress": 1e-7, "rotation": 1e-7, "traction": 1e-7}
 FIELDS = 'output.fields=["displacement", "stress", "rotation", "zeta", "jump", "traction", "contact"]'
 # What follows from the state and its history. With the variational mixity rule, what is called dissipated depends on
@@ -97,8 +98,8 @@ class Result:
         return found, self.sides(other)
 
     def of_the_jumps(self, other):
-        """What the adhesion may differ by because the jumps do: [steps][pairs]. Only steps that damage a pair count, and
-        they count from then on."""
+        """What the adhesion may differ by because the jumps do: [steps][pairs]. Only steps that damage a pair count,
+        from then on."""
         size = np.linalg.norm(other.fields["jump"], axis=2)
         moved = np.linalg.norm(self.fields["jump"] - other.fields["jump"], axis=2)
         relative = np.divide(moved, size, out=np.zeros_like(moved), where=size > 0.0)

@@ -7,7 +7,8 @@ their own (set_cells), cells of rank 0's mesh by the host's own partition (take_
 library alone, in the plane and in space, and each rank its displacements (recover); with -delam_pc_type bddc in
 PETSC_OPTIONS rows are refused. Wrong input, also on one rank alone, ends on all ranks with one status and message.
 
-Without DIMENSION: 2 and 3. The ranks run this file, too, with the word `work`. Exits with 77 where mpirun or mpi4py is missing.
+Without DIMENSION: 2 and 3. The ranks run this file, too, with the word `work`. Exits with 77 where mpirun or mpi4py is
+missing.
 """
 import importlib.util
 import os
