@@ -14,6 +14,9 @@ namespace {
 constexpr double flat = 1e-13;
 constexpr PetscInt longest_run = 10000;  // KSP keeps some numbers of each iteration
 constexpr int most_idle = 20;            // iterations without gain: rounding
+// Beyond the target, for the components that it hides: at least, and of those before.
+constexpr PetscInt most_beyond = 5;
+constexpr PetscInt beyond_of = 2;
 
 PetscErrorCode apply_shell(PC shell, Vec r, Vec z) {
     void* context = nullptr;
@@ -28,6 +31,20 @@ PetscErrorCode apply_shell(PC shell, Vec r, Vec z) {
 }
 
 }  // namespace
+
+bool within(const Communicator& comm, Vec r, Vec largest) {
+    PetscInt count = 0;
+    const PetscScalar *own = nullptr, *most = nullptr;
+    check(VecGetLocalSize(r, &count));
+    check(VecGetArrayRead(r, &own));
+    check(VecGetArrayRead(largest, &most));
+    double beyond = 0.0;
+    for (PetscInt i = 0; i < count; ++i)
+        if (!(std::abs(own[i]) <= most[i])) beyond = 1.0;
+    check(VecRestoreArrayRead(r, &own));
+    check(VecRestoreArrayRead(largest, &most));
+    return comm.sum(beyond) == 0.0;
+}
 
 Iterations::Iterations(const Bodies& bodies, const Operator& matrix, const Preconditioner& preconditioner)
     : bodies_(bodies),
@@ -66,9 +83,14 @@ PetscErrorCode Iterations::test(KSP, PetscInt iteration, PetscReal norm, KSPConv
     return 0;
 }
 
+bool Iterations::exhausted(PetscInt iteration, double norm) const {
+    const bool long_beyond = met_ >= 0 && iteration - met_ >= std::max(most_beyond, met_ / beyond_of);
+    return iteration >= limits_.iterations || idle_ > most_idle || long_beyond || !std::isfinite(norm);
+}
+
 KSPConvergedReason Iterations::decide(PetscInt iteration, double norm) {
     // KSPCG only sees changes of sign.
-    if (iteration == 1 && operator_.last_curvature() <= 0.0) return KSP_DIVERGED_INDEFINITE_MAT;
+    if (iteration == 1 && met_ < 0 && operator_.last_curvature() <= 0.0) return KSP_DIVERGED_INDEFINITE_MAT;
     idle_ = iteration == 0 || norm < 0.9 * lowest_ ? 0 : idle_ + 1;
     lowest_ = iteration == 0 ? norm : std::min(lowest_, norm);
     outcome_.norm = norm;
@@ -77,12 +99,18 @@ KSPConvergedReason Iterations::decide(PetscInt iteration, double norm) {
     if (bodies_.comm().root()) {
         if (norm <= limits_.target)
             decision = KSP_CONVERGED_ATOL;
-        else if (iteration >= limits_.iterations || idle_ > most_idle || !std::isfinite(norm))
+        else if (exhausted(iteration, norm))
             decision = KSP_CONVERGED_ITS;
         else if (limits_.poll != nullptr && limits_.poll(limits_.user) != 0)
             decision = KSP_DIVERGED_BREAKDOWN;
     }
     bodies_.comm().broadcast(decision);
+    if (decision == KSP_CONVERGED_ATOL && limits_.largest != nullptr &&
+        !within(bodies_.comm(), preconditioner_.last_residual(), limits_.largest)) {
+        if (met_ < 0) met_ = iteration;
+        if (bodies_.comm().root()) decision = exhausted(iteration, norm) ? KSP_CONVERGED_ITS : KSP_CONVERGED_ITERATING;
+        bodies_.comm().broadcast(decision);
+    }
     outcome_.reached = decision == KSP_CONVERGED_ATOL;
     if (outcome_.reached) {
         check(VecCopy(preconditioner_.last_residual(), residual_));
@@ -109,6 +137,7 @@ Iterations::Outcome Iterations::run(Vec r, Vec z, Vec x, const Limits& limits) {
     outcome_ = {};
     lowest_ = 0.0;
     idle_ = 0;
+    met_ = -1;
     preconditioner_.expect(z);
     iterate(r, x);
     KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
@@ -116,8 +145,9 @@ Iterations::Outcome Iterations::run(Vec r, Vec z, Vec x, const Limits& limits) {
     PetscInt count = 0;
     check(KSPGetIterationNumber(ksp_, &count));
     outcome_.iterations = count;
-    // The preconditioner is definite: if r.M r is not positive, that is rounding, and the run is over.
-    if (reason == KSP_DIVERGED_INDEFINITE_MAT)
+    // The preconditioner is definite: if r.M r is not positive, that is rounding, and the run is over. Beyond the
+    // target, a curvature is rounding, too.
+    if (reason == KSP_DIVERGED_INDEFINITE_MAT && met_ < 0)
         outcome_.definite = !(operator_.last_curvature() <= -flat * outcome_.norm * outcome_.norm);
     if (reason == KSP_DIVERGED_PC_FAILED) fail(DELAM_ERROR_NUMERICAL, "the preconditioner has failed");
     PetscReal greatest = 0.0, least = 0.0;

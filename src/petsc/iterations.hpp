@@ -10,14 +10,18 @@ namespace delam::petsc {
 
 // Conjugate gradients by PETSc's KSP: corrections of a state, one run after the other. Rank 0 decides in each iteration
 // whether to go on, and tells the others, so that the ranks can never part.
+// Whether no component of r is larger than that of `largest`, on any rank.
+bool within(const Communicator& comm, Vec r, Vec largest);
+
 class Iterations {
 public:
     Iterations(const Bodies& bodies, const Operator& matrix, const Preconditioner& preconditioner);
     Iterations(const Iterations&) = delete;
     Iterations& operator=(const Iterations&) = delete;
 
-    struct Limits {           // on rank 0
-        double target = 0.0;  // of sqrt(r.M r)
+    struct Limits {             // on rank 0
+        double target = 0.0;    // of sqrt(r.M r)
+        Vec largest = nullptr;  // on all ranks: that each component may keep as well; nullptr: any
         std::int64_t iterations = 0;
         std::int32_t (*poll)(void* user) = nullptr;
         void* user = nullptr;
@@ -39,6 +43,7 @@ private:
     void iterate(Vec r, Vec x);
     static PetscErrorCode test(KSP ksp, PetscInt iteration, PetscReal norm, KSPConvergedReason* reason, void* self);
     KSPConvergedReason decide(PetscInt iteration, double norm);
+    bool exhausted(PetscInt iteration, double norm) const;
 
     const Bodies& bodies_;
     const Operator& operator_;
@@ -50,6 +55,7 @@ private:
     double lowest_ = 0.0;
     OwnedVec residual_, z_;
     int idle_ = 0;
+    PetscInt met_ = -1;  // the iteration that met the target, but not `largest`; -1: none
 };
 
 }  // namespace delam::petsc

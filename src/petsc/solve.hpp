@@ -53,9 +53,13 @@ private:
     double rounding(const Question& question);
     // The sizes of the terms of the residual, in work_.
     void residual_sizes(const Question& question);
+    // The same, times what rounding may make of each, in largest_. False: they are not known.
+    bool largest_rounding(const Question& question);
     bool confirms(const Question& question, Vec recursion);
     Result rounds(const Question& question);
     bool iterate(const Question& question, double tolerance, double norm, double& size, Result& result);
+    // Of a tolerance that asks for all that rounding leaves.
+    bool asks_for_all(double tolerance) const;
 
     const Bodies& bodies_;
     const Visible& visible_;
@@ -64,7 +68,7 @@ private:
     const Preconditioner& preconditioner_;
     Iterations iterations_;
     double rounded_ = 0.0;  // of the residual over the size, once it has been estimated
-    OwnedVec recursion_, right_, rest_, v_, av_, cv_, r_, z_, x_, work_, best_, best_z_;
+    OwnedVec recursion_, right_, rest_, v_, av_, cv_, r_, z_, x_, work_, best_, best_z_, largest_;
 };
 
 }  // namespace delam::petsc

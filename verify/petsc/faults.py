@@ -18,8 +18,8 @@ import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
 
+from comparison import FIELDS, Result
 from launch import DELAM_MPI, ENVIRONMENT, EXAMPLES, Ranks, alone, expect, finish, folder, last_lines, on_ranks
-from scenes import FIELDS, Result
 
 PROMPT = 10.0  # s, in which all has ended
 START = 60.0  # s, where the ranks start first, perhaps beside other programs

@@ -1,13 +1,14 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""handing.py RANKS
+"""handing.py RANKS [DIMENSION ...]
 
 What the ranks of a host may hand over to libdelam-petsc: rows of the assembled stiffness (set_rows), cells of a mesh of
 their own (set_cells), cells of rank 0's mesh by the host's own partition (take_cells). Each way gives the curve of the
 library alone, in the plane and in space, and each rank its displacements (recover); with -delam_pc_type bddc in
 PETSC_OPTIONS rows are refused. Wrong input, also on one rank alone, ends on all ranks with one status and message.
 
-The ranks run this file, too, with the word `work`. Exits with 77 where mpirun or mpi4py is missing.
+Without DIMENSION: 2 and 3. The ranks run this file, too, with the word `work`. Exits with 77 where mpirun or mpi4py is
+missing.
 """
 import importlib.util
 import os
@@ -24,20 +25,20 @@ TIMES = [0.4, 0.7, 1.0]
 ALLOWED = 1e-7  # of a curve, relative; damage_tolerance is 1e-10
 
 
-def start(count):
+def start(count, dimensions):
     if shutil.which("mpirun") is None or importlib.util.find_spec("mpi4py") is None:
         print("mpirun or mpi4py is not there")
         return SKIPPED
     try:
-        return subprocess.run(["mpirun", "-n", count, sys.executable, "-m", "mpi4py", __file__, "work"],
+        return subprocess.run(["mpirun", "-n", count, sys.executable, "-m", "mpi4py", __file__, "work", *dimensions],
                               env=ENVIRONMENT, timeout=LIMIT, check=False).returncode
     except subprocess.TimeoutExpired:
         print(f"still at work after {LIMIT:g} s")
         return 1
 
 
-if __name__ == "__main__" and sys.argv[1:] != ["work"]:
-    sys.exit(start(sys.argv[1]))
+if __name__ == "__main__" and sys.argv[1] != "work":
+    sys.exit(start(sys.argv[1], sys.argv[2:]))
 
 import numpy as np
 from mpi4py import MPI
@@ -357,7 +358,7 @@ def after_errors(ranks):
 
 
 def main():
-    for dimension in (2, 3):
+    for dimension in map(int, sys.argv[2:] or (2, 3)):
         ways(dimension)
     if not BDDC:
         wrong()

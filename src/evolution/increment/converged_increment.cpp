@@ -48,7 +48,7 @@ bool ConvergedIncrement::observe(std::size_t pair, const Driving& y) {
     const double onset = from.onset > 0.0 ? to.onset / from.onset - 1.0 : 0.0, total = to.total / from.total - 1.0;
     const double change = std::abs(onset) > std::abs(total) ? onset : total;
     Swing& swing = swing_[pair];
-    if (change * swing.last < 0.0 && std::abs(change) > limits_.tolerance) {
+    if (change * swing.last < 0.0 && std::abs(change) > tolerance()) {
         ++swing.turns;
         if (std::abs(change) > 0.5 * std::abs(swing.last)) {
             swing.share *= 0.5;
@@ -86,17 +86,17 @@ bool ConvergedIncrement::settled(const State& state) {
         if (swing_[p].share > 0.0) open = std::max(open, swing_[p].open);
     }
     const std::vector<double> next = damage_step(state.adhesion, state.response.jump);
-    if (change(state.adhesion, next, state.response.jump) <= limits_.tolerance) {
+    if (change(state.adhesion, next, state.response.jump) <= tolerance()) {
         begin_observation();
         return true;
     }
     restore(before);
-    return open <= limits_.tolerance;
+    return open <= tolerance();
 }
 
 std::int64_t ConvergedIncrement::held() const {
     return std::count_if(swing_.begin(), swing_.end(),
-                         [&](const Swing& s) { return s.share <= 0.0 && s.open > limits_.tolerance; });
+                         [&](const Swing& s) { return s.share <= 0.0 && s.open > tolerance(); });
 }
 
 double ConvergedIncrement::least(std::size_t pair) const {

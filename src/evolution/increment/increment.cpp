@@ -8,6 +8,13 @@
 
 namespace delam {
 
+namespace {
+
+// SolveError is ten times what a further step of an iteration would change (body_solver.hpp).
+constexpr double further_step = 0.1;
+
+}  // namespace
+
 Increment::Increment(const PairLaws& pairs, const State& before, std::span<const double> mixity, StepLimits limits,
                      const Increment* like)
     : pairs_(pairs), before_(before), limits_(limits) {
@@ -82,6 +89,24 @@ double Increment::change(std::span<const double> from, std::span<const double> t
         if (from[p] != to[p])
             largest = std::max(largest, change(p, from[p], to[p], driving_energy(pairs_, p, jump).total()));
     return largest;
+}
+
+// Each jump becomes longer by what a further step of the solve would change.
+double Increment::blur(const State& state, std::span<const double> damage) {
+    const double open = further_step * state.response.error.jump;
+    blur_ = 0.0;
+    if (!(open > 0.0)) return blur_;
+    std::vector<double> jump = state.response.jump;
+    const std::size_t dim = dimension();
+    for (std::size_t p = 0; p < state.adhesion.size(); ++p) {
+        const std::span<double> own = std::span(jump).subspan(p * dim, dim);
+        double square = 0.0;
+        for (const double j : own) square += j * j;
+        if (!(square > 0.0)) continue;
+        for (double& j : own) j *= 1.0 + open / std::sqrt(square);
+    }
+    blur_ = change(damage, damage_step(state.adhesion, jump), state.response.jump);
+    return blur_;
 }
 
 bool Increment::observe(std::span<const double> adhesion, std::span<const double> jump) {

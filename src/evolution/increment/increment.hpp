@@ -78,6 +78,9 @@ public:
     virtual std::vector<double> damage_step(std::span<const double> adhesion, std::span<const double> jump) const = 0;
     // The largest change of a pair (below) between two damages at these displacements.
     double change(std::span<const double> from, std::span<const double> to, std::span<const double> jump) const;
+    // The change of the damage step that what the solve has left open of the jumps explains. From now on a change of
+    // this size says nothing about mixities either.
+    double blur(const State& state, std::span<const double> damage);
     // argmin of I over the displacements at the adhesion of the state; its closed pairs and response are the start.
     virtual bool displace(const DisplacementSolve& solve, State& state) const = 0;
 
@@ -169,7 +172,10 @@ protected:
         return adhesion < before_.adhesion[pair] ? std::max(adhesion, least(pair)) : adhesion;
     }
 
+    double tolerance() const { return std::max(limits_.tolerance, blur_); }
+
     StepLimits limits_;
+    double blur_ = 0.0;
     double largest_ = 0.0;  // driving energy of the last iterate
     Memory now_;
 };

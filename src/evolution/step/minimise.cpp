@@ -38,6 +38,25 @@ private:
     bool spent_ = false;
 };
 
+// Whether the change of a round says that the damage is at rest: the tolerance, or, where rounds do not come nearer any
+// more, what the solves have left open. (An operator that iterates begins from the last answer, and its next one
+// differs by rounding. With a tolerance below that, the scheme would end by chance.)
+class AtRest {
+public:
+    explicit AtRest(double tolerance) : tolerance_(tolerance) {}
+    bool operator()(double change, double blur) {
+        idle_ = change < 0.5 * least_ ? 0 : idle_ + 1;
+        least_ = std::min(least_, change);
+        return change <= tolerance_ || (idle_ >= most_idle && change <= blur);
+    }
+
+private:
+    static constexpr std::int64_t most_idle = 2;  // rounds that do not halve the least change
+    double tolerance_;
+    double least_ = INFINITY;
+    std::int64_t idle_ = 0;
+};
+
 }  // namespace
 
 bool Minimiser::displace(State& state, const Increment& increment, bool cold) const {
@@ -64,6 +83,7 @@ bool Minimiser::end(State& state, const Increment& increment, bool converged) co
 
 bool Minimiser::alternate(State& state, Increment& increment, bool displaced) const {
     const std::int64_t last = state.effort.am_iterations + limit;
+    AtRest at_rest(tolerance);
     while (true) {
         monitor.progress("minimise", state.effort.am_iterations, 0);
         const bool converged = std::exchange(displaced, false) || displace(state, increment);
@@ -71,7 +91,7 @@ bool Minimiser::alternate(State& state, Increment& increment, bool displaced) co
         std::vector<double> next = increment.damage_step(state.adhesion, state.response.jump);
         state.outcome.damage_change = increment.change(state.adhesion, next, state.response.jump);
         ++state.effort.am_iterations;
-        if (state.outcome.damage_change <= tolerance && increment.settled(state))
+        if (at_rest(state.outcome.damage_change, increment.blur(state, next)) && increment.settled(state))
             return end(state, increment, converged);
         state.adhesion = std::move(next);
         if (state.effort.am_iterations < last) continue;
@@ -109,6 +129,7 @@ bool Minimiser::accelerate(State& state, Increment& increment, bool displaced) c
     const bool by_newton = increment.pairs().gradient.empty() && op.offers_zone();
     const ZoneNewton newton{op, contact, monitor, tolerance, std::min(newton_steps, limit)};
     ZoneProgress progress(op.zone_rounding());
+    AtRest at_rest(tolerance);
     bool ahead = false;
     std::optional<State> before;
     std::optional<Increment::Memory> mixity_before;
@@ -134,7 +155,7 @@ bool Minimiser::accelerate(State& state, Increment& increment, bool displaced) c
         plain = increment.damage_step(state.adhesion, state.response.jump);
         state.outcome.damage_change = increment.change(state.adhesion, plain, state.response.jump);
         ++state.effort.am_iterations;
-        if (state.outcome.damage_change <= tolerance && increment.settled(state))
+        if (at_rest(state.outcome.damage_change, increment.blur(state, plain)) && increment.settled(state))
             return end(state, increment, converged);
         if (state.effort.am_iterations >= last) {
             state.adhesion = plain;

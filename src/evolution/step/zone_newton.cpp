@@ -19,6 +19,10 @@ constexpr double energy_rounding = 1e-11;
 constexpr std::int64_t longest_wait = 8;           // plain steps between two attempts of a failed method
 constexpr std::int64_t newton_contact_steps = 30;  // of the active set in one Newton step; beyond them it is rejected
 constexpr std::int64_t halvings = 7;               // of a line search, including the full step
+// A solve that leaves more than this of its residual has met rounding; so have that many steps that do not halve the
+// least change.
+constexpr double met_rounding = 0.5;
+constexpr std::int64_t most_idle = 5;
 // A part of the bodies is brought to its end this much more finely than the whole has changed.
 constexpr double part_of_change = 1e-3;
 constexpr std::int64_t steps_in_part = 50;
@@ -398,6 +402,8 @@ double Descent::run(std::int64_t limit, double tolerance) {
     if (ended_) return 0.0;
     Point at = start();
     used_ = at.adhesion;
+    double least = infinite;
+    std::int64_t idle = 0;
     for (std::int64_t n = 0; n < limit && !ended_; ++n) {
         Move move = step(at);
         ended_ = !move.taken;
@@ -414,9 +420,12 @@ double Descent::run(std::int64_t limit, double tolerance) {
         // tolerance.
         if (n == 0) first_change_ = change;
         last_change_ = change;
+        idle = change < 0.5 * least ? 0 : idle + 1;
+        least = std::min(least, change);
         newton_step_ = move.newton && !halved_;
         ended_ = move.newton && !renewed ? change * std::max(100.0 * change, system_.left()) <= tolerance
                                          : change <= tolerance;
+        ended_ = ended_ || (newton_step_ && idle >= most_idle && system_.left() > met_rounding);
     }
     hand_over(at);
     state_.effort.linear_iterations += system_.iterations();
