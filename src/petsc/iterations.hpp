@@ -8,11 +8,11 @@
 
 namespace delam::petsc {
 
-// Conjugate gradients by PETSc's KSP: corrections of a state, one run after the other. Rank 0 decides in each iteration
-// whether to go on, and tells the others, so that the ranks can never part.
-// Whether no component of r is larger than that of `largest`, on any rank.
+// True if no component of r is larger than that of `largest`, on any rank.
 bool within(const Communicator& comm, Vec r, Vec largest);
 
+// Conjugate gradients by PETSc's KSP: corrections of a state, one run after the other. Rank 0 decides in each iteration
+// whether to go on, and tells the others, so that the ranks can never part.
 class Iterations {
 public:
     Iterations(const Bodies& bodies, const Operator& matrix, const Preconditioner& preconditioner);

@@ -38,9 +38,9 @@ private:
     bool spent_ = false;
 };
 
-// Whether the change of a round says that the damage is at rest: the tolerance, or, where rounds do not come nearer any
-// more, what the solves have left open. (An operator that iterates begins from the last answer, and its next one
-// differs by rounding. With a tolerance below that, the scheme would end by chance.)
+// Tells whether the damage is at rest: the change of a round is within the tolerance, or rounds no longer come nearer
+// and the change is within what the solves have left open. (An operator that iterates begins from the last answer, and
+// its next one differs by rounding. With a tolerance below that, the scheme would end by chance.)
 class AtRest {
 public:
     explicit AtRest(double tolerance) : tolerance_(tolerance) {}
