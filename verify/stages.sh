@@ -15,13 +15,13 @@ build_release() {
 }
 
 # What builds with sanitizers have in common.
-sanitized_build=(-DDELAM_BUILD_TESTS=ON -DDELAM_BUILD_CLI=OFF -DDELAM_BUILD_EXAMPLES=OFF -DDELAM_PETSC=OFF)
+sanitized_build=(-DDELAM_BUILD_TESTS=ON -DDELAM_BUILD_CLI=OFF -DDELAM_BUILD_EXAMPLES=OFF -DDELAM_PETSC=OFF -DDELAM_UNITY=ON)
 
 # sanitized: runs the unit tests, the light cases and the fuzzer's corpus with sanitizers, in the programs of the release
 # build, linked with the instrumented library. Five checks of UBSan, which more than double the time of the build, belong
 # to sanitized_whole; AddressSanitizer reports what three of them would find when the access happens.
 sanitized() {
-    check "build with sanitizers" build asan "${sanitized_build[@]}" -DDELAM_UNITY=ON \
+    check "build with sanitizers" build asan "${sanitized_build[@]}" \
         -DDELAM_SANITIZE_LESS=alignment,null,object-size,vptr,pointer-overflow "-DDELAM_TEST_OBJECTS=$PWD/build/release"
     CK_FORK=no tests build/asan -j2 --label-regex '^sanitized$'
 }
@@ -33,7 +33,7 @@ sanitized_whole() {
 }
 
 build_sanitized_whole() {
-    cmake --preset asan -B build/ubsan "${sanitized_build[@]}" -DDELAM_UNITY=ON -DDELAM_SANITIZE_LESS= -DDELAM_TEST_OBJECTS= &&
+    cmake --preset asan -B build/ubsan "${sanitized_build[@]}" -DDELAM_SANITIZE_LESS= -DDELAM_TEST_OBJECTS= &&
         cmake --build build/ubsan --target delam_sanitized
 }
 

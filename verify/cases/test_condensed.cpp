@@ -257,12 +257,16 @@ CASE_TEST(marches_with_constraints) {
     const auto entry =
         std::find_if(std::begin(entries), std::end(entries), [&](const Entry& e) { return name == e.name; });
     cases::expect(entry != std::end(entries), name + " is no scene");
+    // In space softening is slower: with 1, pairs jump in "obstacles 3D", and in "unmatched, periodic 3D" one of
+    // several equivalent pairs comes off; where a jump ends, and which pair it is, the two operators decide by
+    // rounding. With 3 and 10 they agree.
+    const double spread = d == 2 ? 1.0 : 10.0;
     const auto make = [&](const char* reduction) {
         Scene scene = entry->make();
         for (std::size_t i = 0; i < scene.stiffness().size(); ++i)
             if (!scene.stiffness()[i].bonded && scene.stiffness()[i].normal > 0.0)
                 scene.law(static_cast<std::int64_t>(i),
-                          {2e12, 1e12, own.onset, 1.3 * own.onset, 2.0 * own.onset, 3.0 * own.onset});
+                          {2e12, 1e12, own.onset, 1.3 * own.onset, 2.0 * spread * own.onset, 3.0 * spread * own.onset});
         scene.text("reduction", reduction);
         scene.number("damage_tolerance", 1e-9);
         return scene;
