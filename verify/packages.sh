@@ -31,7 +31,7 @@ fi
 # The site (bindings/site).
 DELAM_SITE_PACKAGES=(python3-sphinx python3-myst-parser python3-breathe furo libjs-mathjax doxygen gmsh
     python3-nbclient python3-ipykernel python3-matplotlib-inline)
-# What slices of the long tier need beside the quick tier (verify/slices.sh), by their number.
+# Slices of the long tier need these beside the quick tier (verify/slices.sh); by their number.
 declare -A DELAM_SLICE_PACKAGES=(
     [2]="valgrind chromium paraview python3-paraview"
     [3]="${DELAM_SITE_PACKAGES[*]} python3-getfem chromium"
@@ -66,7 +66,7 @@ delam_install() {
         fi
     fi
     printf 'installing %s\n' "${missing[*]}"
-    # What an interruption has left half configured comes first: apt-get refuses to go on without.
+    # Packages that an interruption has left half configured come first: apt-get refuses to go on without.
     if [[ -n $(dpkg --audit) ]]; then
         "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive dpkg --configure -a
     fi

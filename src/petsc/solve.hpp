@@ -58,7 +58,7 @@ private:
     bool confirms(const Question& question, Vec recursion);
     Result rounds(const Question& question);
     bool iterate(const Question& question, double tolerance, double norm, double& size, Result& result);
-    // Of a tolerance that asks for all that rounding leaves.
+    // True if a tolerance asks for all that rounding leaves.
     bool asks_for_all(double tolerance) const;
 
     const Bodies& bodies_;

@@ -209,7 +209,7 @@ unshare "${namespaces[@]}" bash -euc '
     exec chroot --userspec="$user" "$room" env -i "$@" \
         bash -c "cd ~/$(printf %q "$folder") || exit; $line"
 ' cleanroom "$room" "$store/kept" "$user" "$folder" "$line" "${environment[@]}" </dev/null 2>&1 | tee "$log" || status=${PIPESTATUS[0]}
-# What was downloaded is there for the next room.
+# The next room finds the packages that this one has downloaded.
 cp -aln "$room"/var/cache/apt/archives/*.deb "$archives/" 2>/dev/null || true
 printf 'cleanroom.sh: exit code %d after %d s; log %s\n' "$status" "$((SECONDS - start))" "$log"
 exit "$status"

@@ -18,7 +18,7 @@ import numpy as np
 
 from launch import expect
 
-# What a comparison may differ by, of the largest value of its kind; by the size of damage_tolerance.
+# A comparison may differ by so much, of the largest value of its kind; by the size of damage_tolerance.
 ALLOWED = {"tight": 1e-8, "loose": 2e-3}
 # A nearly incompressible body amplifies rounding. Scene: allowed of the tight comparison with the serial program.
 ROUNDED = {"incompressible": 1e-7}
@@ -30,7 +30,7 @@ SLENDER = ("whole-mixed-converged", "whole-two-interfaces")
 # difference counts.
 DERIVED = {"stress": 1e-7, "rotation": 1e-7, "traction": 1e-7}
 FIELDS = 'output.fields=["displacement", "stress", "rotation", "zeta", "jump", "traction", "contact"]'
-# What follows from the state and its history. With the variational mixity rule, what is called dissipated depends on
+# These follow from the state and its history. With the variational mixity rule, what is called dissipated depends on
 # the way of the minimisation within a step, and only the split of the _slides does not.
 ENERGIES = ("stored_bulk", "stored_interface", "work")
 DISSIPATED = {"variational": ("stored_interface_slides", "dissipated_slides")}
