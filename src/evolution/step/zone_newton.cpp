@@ -423,9 +423,11 @@ double Descent::run(std::int64_t limit, double tolerance) {
         idle = change < 0.5 * least ? 0 : idle + 1;
         least = std::min(least, change);
         newton_step_ = move.newton && !halved_;
-        ended_ = move.newton && !renewed ? change * std::max(100.0 * change, system_.left()) <= tolerance
-                                         : change <= tolerance;
-        ended_ = ended_ || (newton_step_ && idle >= most_idle && system_.left() > met_rounding);
+        const bool squared = move.newton && !renewed;
+        ended_ = squared ? change * std::max(100.0 * change, system_.left()) <= tolerance : change <= tolerance;
+        // Nothing is left but the rounding of the solves.
+        ended_ = ended_ || (squared && 100.0 * change * change <= tolerance && idle >= most_idle &&
+                            system_.left() > met_rounding);
     }
     hand_over(at);
     state_.effort.linear_iterations += system_.iterations();
