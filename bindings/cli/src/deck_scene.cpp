@@ -24,6 +24,9 @@ namespace cli::abaqus {
 
 namespace {
 
+// The first line of a scene: what stands before and behind the name of its deck.
+constexpr std::string_view begin_of_origin = "# From ", end_of_origin = " by delam import.";
+
 using Vector = std::array<double, 3>;
 
 Vector cross(const Vector& a, const Vector& b) {
@@ -216,7 +219,7 @@ private:
 };
 
 std::string header(const ImportedScene& scene, const std::string& deck) {
-    std::string out = fmt::format("# From {} by delam import.\n", deck);
+    std::string out = fmt::format("{}{}{}\n", begin_of_origin, deck, end_of_origin);
     const auto list = [&](const char* title, const std::vector<std::string>& texts) {
         if (texts.empty()) return;
         out += fmt::format("# {}:\n", title);
@@ -232,6 +235,11 @@ std::string header(const ImportedScene& scene, const std::string& deck) {
 }  // namespace cli::abaqus
 
 namespace cli {
+
+bool is_imported(std::string_view text) {
+    const std::string_view line = text.substr(0, text.find('\n'));
+    return line.starts_with(abaqus::begin_of_origin) && line.ends_with(abaqus::end_of_origin);
+}
 
 std::vector<std::string> import_lines(const ImportedScene& scene) {
     std::vector<std::string> lines;

@@ -6,6 +6,7 @@
 #include <exception>
 #include <map>
 #include <new>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -46,13 +47,14 @@ std::string joined(int count, char** words) {
 struct Arguments {
     std::string scene, deck, folder, page, shell, progress = "text";
     std::vector<std::string> settings;
-    bool resume = false, replace = false, json = false;
+    std::vector<std::string> names;  // of `own`
+    bool resume = false, replace = false, json = false, known = false;
     ViewWishes view;
     Study study;
 };
 
 struct Commands {
-    CLI::App *run, *check, *import, *view, *sweep, *fit, *options, *schema, *man, *completion;
+    CLI::App *run, *check, *import, *view, *sweep, *fit, *own, *options, *schema, *man, *completion;
     std::map<std::string, std::vector<std::string>> choices;  // by option
 };
 
@@ -195,6 +197,14 @@ void add_fit(CLI::App& app, Arguments& into, Commands& of) {
     of.fit->footer(footer);
 }
 
+// Hidden from people: the studies call it.
+void add_own(CLI::App& app, Arguments& into, Commands& of) {
+    of.own = app.add_subcommand("own", "which files are the program's own (study/README.md)")->group("");
+    of.own->add_option("action", into.page)->required()->check(CLI::IsMember({"claim", "discard"}));
+    of.own->add_option("names", into.names)->required();
+    of.own->add_flag("--known", into.known);
+}
+
 void add_studies(CLI::App& app, Arguments& into, Commands& of) {
     add_sweep(app, into, of);
     add_fit(app, into, of);
@@ -243,7 +253,7 @@ std::vector<OptionText> options_of(const CLI::App& app, const Commands& commands
 ProgramText text_of(const CLI::App& app, const Commands& commands, const std::string& name) {
     ProgramText out{
         name, "delamination of layered structures by energy minimisation", footer, options_of(app, commands), {}};
-    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App* one) { return !one->get_group().empty(); }))
         out.commands.push_back({command->get_name(), command->get_description(), options_of(*command, commands)});
     return out;
 }
@@ -258,11 +268,16 @@ int guarded(int argc, char** argv, const Caller& caller) {
     Commands of = add_work(app, given);
     add_view(app, given, of);
     add_studies(app, given, of);
+    add_own(app, given, of);
     add_help(app, given, of);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
-        return app.exit(e) == 0 ? exit_done : exit_scene;
+        std::ostringstream shown, wrong;
+        const int code = app.exit(e, shown, wrong);
+        say_text(shown.str());
+        complain("{}", wrong.str());
+        return code == 0 ? exit_done : exit_scene;
     }
     if (of.options->parsed()) return options(given.json);
     if (of.import->parsed()) return import(given.deck, given.folder, given.replace);
@@ -273,6 +288,11 @@ int guarded(int argc, char** argv, const Caller& caller) {
         given.study.folder = given.folder;
         given.study.replace = given.replace;
         return study(given.study);
+    }
+    if (of.own->parsed()) {
+        const std::vector<std::string>& names = given.names;
+        return given.page == "discard" ? discard(names)
+                                       : claim(names.front(), {names.begin() + 1, names.end()}, given.known);
     }
     if (of.check->parsed()) return check(given.scene, given.settings, given.json, caller);
     if (of.run->parsed()) {

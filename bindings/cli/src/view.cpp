@@ -130,12 +130,14 @@ private:
     ViewArrays arrays_;
 };
 
+constexpr const char* begin_of_data = "<script type=\"application/json\" id=\"delam-data\">";
+
 // Within an element of a page nothing may look like its end.
 std::string json_element(const json& value) {
     std::string text = value.dump(-1, ' ', false, json::error_handler_t::replace);
     for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at))
         text.replace(at, 1, "\\u003c");
-    return "<script type=\"application/json\" id=\"delam-data\">" + text + "</script>\n";
+    return begin_of_data + text + "</script>\n";
 }
 
 std::string title_text(const json& about) {
@@ -149,7 +151,8 @@ std::string title_text(const json& about) {
 int view(const std::string& folder, const ViewWishes& wishes) {
     const std::string to = wishes.page.empty() ? folder + "/view.html" : wishes.page;
     std::signal(SIGXFSZ, SIG_IGN);  // a limit of the size of files gives a reason, like a full disk
-    require_replaceable(to, wishes.page.empty() || wishes.replace);
+    require_replaceable(to, wishes.page.empty() || wishes.replace, "a page of delam view",
+                        [](const std::string& bytes) { return bytes.find(begin_of_data) != std::string::npos; });
     json data{{"format", 1}, {"about", view_about(folder)}};
     std::string page = view_template(wishes.page_template);
     data["history"] = view_history(folder);

@@ -19,7 +19,8 @@ import numpy as np  # noqa: E402
 from curve_data import CurveData  # noqa: E402
 from fit_model import Infeasible, Model, Parameter  # noqa: E402
 from marches import (DONE, NUMERICAL, Trouble, given_words, hold, make_folder, read_about, refuse_set,  # noqa: E402
-                     run_study, write_file)
+                     run_study)
+from own_files import claim, write_file  # noqa: E402
 
 WORSE = 10.0  # what a step into an infeasible region costs, in residuals: the trust region then shrinks
 
@@ -209,6 +210,19 @@ def report(model, fit, found, doubted, level, out):
                   "derivative there, and the intervals do not know of it")
 
 
+def claim_folder(out, curves):
+    """A fit that is there is replaced, and nothing else."""
+    names = ["fit.json", "fit.csv", "fit.png", "work", *(f"fit-{k + 1}.png" for k in range(curves))]
+    known = False
+    try:
+        with open(os.path.join(out, "fit.json"), encoding="utf-8") as file:
+            before = json.load(file)
+        known = isinstance(before, dict) and {"parameters", "rms", "marches"} <= set(before)
+    except (FileNotFoundError, ValueError):
+        pass
+    claim(out, names, known)
+
+
 def interrupt(*_):
     raise KeyboardInterrupt
 
@@ -231,6 +245,7 @@ def main():
     model = Model(given.scenes, data, parameters, given)
     fit = Fit(model, given.weights)
     held = hold(given.out)  # until the end
+    claim_folder(given.out, len(data))
     make_folder(os.path.join(given.out, "work"))
     found, doubted = fit.best(given.confidence)
     try:

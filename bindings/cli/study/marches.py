@@ -5,6 +5,7 @@ import fcntl
 import json
 import os
 import re
+import shlex
 import signal
 import subprocess
 import sys
@@ -100,7 +101,12 @@ def run_study(name, main):
 def hold(folder):
     """Keeps other studies out of a folder, as long as the file that it returns is open."""
     make_folder(folder)
-    file = open(os.path.join(folder, "study.lock"), "a", encoding="utf-8")  # pylint: disable=consider-using-with
+    path = os.path.join(folder, "study.lock")
+    try:
+        number = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_NOFOLLOW | os.O_CLOEXEC | os.O_NONBLOCK, 0o666)
+    except OSError as error:
+        raise Trouble(f"cannot write {path}: {error.strerror}", OUTPUT) from error
+    file = os.fdopen(number, "a", encoding="utf-8")
     try:
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except OSError as error:
@@ -115,11 +121,31 @@ def refuse_set(paths, settings, option):
             raise Trouble(f"--set {word}: {option} has the same key")
 
 
+LOG_BEGINS = "delam "  # also of those that older versions have written
+
+
+def refuse_foreign_log(path):
+    """Refuses what is no log of a march, where one is written or removed."""
+    if not os.path.lexists(path):
+        return
+    if os.path.islink(path) or not os.path.isfile(path):
+        raise Trouble(f"cannot write {path}: it is a link, or no regular file: move it away", OUTPUT)
+    if path.endswith(".log"):
+        with open(path, encoding="utf-8", errors="replace") as log:
+            begins = log.read(len(LOG_BEGINS))
+        if begins not in (LOG_BEGINS, ""):
+            raise Trouble(f"cannot write {path}: it is no log of delam run: move it away", OUTPUT)
+
+
 def start(scene, out, settings, resume=False, one_thread=True):
     """A running `delam run`; its words go to OUT.log beside the folder of the result."""
     command = [program(), "run", scene, "--out", out] + [word for one in settings for word in ("--set", one)]
     environment = dict(os.environ, **({"OPENBLAS_NUM_THREADS": "1"} if one_thread else {}))
-    with open(out + ".log", "w", encoding="utf-8") as log:
+    refuse_foreign_log(out + ".log")
+    flags = os.O_WRONLY | os.O_CREAT | os.O_TRUNC | os.O_NOFOLLOW | os.O_CLOEXEC
+    with os.fdopen(os.open(out + ".log", flags, 0o666), "w", encoding="utf-8") as log:
+        log.write(LOG_BEGINS + shlex.join(command[1:]) + "\n")
+        log.flush()
         with lock:
             running.append(subprocess.Popen(command + (["--resume"] if resume else []), stdout=log,
                                             stderr=subprocess.STDOUT, env=environment))
@@ -170,16 +196,6 @@ def read_history(out):
 def read_about(out):
     with open(os.path.join(out, "result.json"), encoding="utf-8") as file:
         return json.load(file)
-
-
-def write_file(path, text):
-    """Beside and renamed: whole or not at all."""
-    try:
-        with open(path + ".new", "w", encoding="utf-8") as file:
-            file.write(text)
-        os.replace(path + ".new", path)
-    except OSError as error:
-        raise Trouble(f"cannot write {path}: {error.strerror}", OUTPUT) from error
 
 
 def make_folder(path):

@@ -10,8 +10,6 @@ import csv
 import io
 import json
 import os
-import re
-import shutil
 import signal
 import sys
 import threading
@@ -25,12 +23,14 @@ require("delam: sweep", "numpy", "matplotlib")
 import numpy as np  # noqa: E402
 
 from marches import (DONE, INTERRUPTED, NOT_CONVERGED, WRONG, Check, Trouble, end_all, finish,  # noqa: E402
-                     given_words, hold, last_words, read_about, read_history, refuse_set, run_study, setting, start,
-                     write_file)
+                     given_words, hold, last_words, read_about, read_history, refuse_foreign_log,  # noqa: E402
+                     refuse_set, run_study, setting, start)
+from own_files import claim, discard, write_file  # noqa: E402
 from variations import Variation, grid, latin  # noqa: E402
 
 RESULTS = ["exit_code", "steps", "peak_reaction", "load_at_peak", "last_reaction", "dissipated", "released", "jumps",
            "not_converged", "message"]
+FILES = ["sweep.json", "table.csv", "curves.png", "response.png"]
 OF_A_SWEEP = {"scene": "another text of the scene file", "set": "other --set", "vary": "other keys",
               "points": "other values", "scene_hash": "another mesh"}  # members of sweep.json
 
@@ -48,6 +48,7 @@ class Sweep:
         if len(set(paths)) < len(paths):
             raise Trouble("--vary: a key is given twice")
         self.points = grid(self.variations) if given.latin == 0 else latin(self.variations, given.latin, given.seed)
+        self.known = None  # what sweep.json says of the sweep before in this folder
         self.ended = threading.Event()
         self.rows = {}
         self.lock = threading.Lock()
@@ -65,18 +66,19 @@ class Sweep:
 
     def refuse_other(self, replace):
         """Refuses the folder of another sweep."""
-        if not os.path.exists(self.place):
-            if os.path.exists(os.path.join(self.out, "table.csv")):
-                raise Trouble(f"{self.out} holds a table.csv that is of no sweep: choose another folder")
+        if not os.path.lexists(self.place):
             return
         try:
             with open(self.place, encoding="utf-8") as file:
                 known = json.load(file)
-            now = json.loads(json.dumps(self.definition))
-            other = [what for key, what in OF_A_SWEEP.items()
-                     if known.get(key) != now.get(key) and not (key == "scene_hash" and None in (known.get(key), now.get(key)))]
-        except (ValueError, AttributeError):
-            other = ["a sweep.json that cannot be read"]
+        except ValueError:
+            known = None
+        if not isinstance(known, dict) or not all(isinstance(known.get(key), list) for key in ("set", "vary", "points")):
+            raise Trouble(f"{self.place} is of no sweep: move it away, or choose another folder")
+        self.known = known
+        now = json.loads(json.dumps(self.definition))
+        other = [what for key, what in OF_A_SWEEP.items()
+                 if known.get(key) != now.get(key) and not (key == "scene_hash" and None in (known.get(key), now.get(key)))]
         if other and not replace:
             raise Trouble(f"{self.out} holds another sweep, with {' and '.join(other)}: --replace discards it")
 
@@ -95,17 +97,25 @@ class Sweep:
     def define(self, replace):
         """Notes what the sweep is."""
         self.refuse_other(replace)
-        if replace:
+        claim(self.out, FILES + self.runs(len(self.points)), self.known is not None)
+        if replace and self.known:
             self.discard()
         write_file(self.place, json.dumps(self.definition, indent=1))
 
+    def runs(self, count):
+        """Names of folders and logs of the first `count` runs that are there."""
+        there = set(os.listdir(self.out))
+        return [name for k in range(count) for name in (self.name(k), self.name(k) + ".log") if name in there]
+
     def discard(self):
-        """The results of another sweep, and nothing else that lies in the folder."""
-        for name in os.listdir(self.out):
+        """The results of the sweep before, and nothing else that lies in the folder."""
+        runs = self.runs(len(self.known["points"]))
+        claim(self.out, runs, True)  # no link, no folder in the place of a log
+        discard([os.path.join(self.out, name) for name in runs if not name.endswith(".log")])
+        for name in [name for name in runs if name.endswith(".log")] + FILES[1:]:
             path = os.path.join(self.out, name)
-            if re.fullmatch(r"\d{4,}", name):
-                shutil.rmtree(path)
-            elif re.fullmatch(r"\d{4,}\.log|table\.csv|curves\.png|response\.png", name):
+            if os.path.lexists(path):
+                refuse_foreign_log(path)
                 os.remove(path)
 
     def can_resume(self, out):
@@ -119,8 +129,12 @@ class Sweep:
     def settings(self, point):
         return self.common + [setting(v.path, value) for v, value in zip(self.variations, point)]
 
+    @staticmethod
+    def name(number):
+        return f"{number + 1:04d}"
+
     def folder(self, number):
-        return os.path.join(self.out, f"{number + 1:04d}")
+        return os.path.join(self.out, self.name(number))
 
     def run_one(self, number):
         """The exit code of a run; a result that is complete already is taken as it is."""

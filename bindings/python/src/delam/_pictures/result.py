@@ -2,8 +2,10 @@
 """What the pictures share: a result of `delam run` as it lies in its folder, and how pictures look."""
 import contextlib
 import csv
+import errno
 import json
 import os
+import stat
 
 import matplotlib
 import matplotlib.pyplot as plt
@@ -48,10 +50,31 @@ def axis(label, unit):
 
 
 def save(figure, path):
-    """Beside and renamed, like every other file of a result."""
-    figure.savefig(path + ".new", format="png")
-    os.replace(path + ".new", path)
+    """Beside and renamed, like every other file of a result. FileExistsError: something has the name that is no picture
+    which this module has drawn."""
+    if os.path.lexists(path) and not _is_drawn(path):
+        raise FileExistsError(errno.EEXIST, "this is no picture that delam has drawn; move it away", path)
+    beside = f"{path}.new-{os.getpid()}"
+    new = os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW | os.O_CLOEXEC
+    with os.fdopen(os.open(beside, new, 0o666), "wb") as file:
+        try:
+            figure.savefig(file, format="png")
+            file.flush()
+            os.replace(beside, path)
+        except BaseException:
+            os.unlink(beside)
+            raise
     plt.close(figure)
+
+
+def _is_drawn(path):
+    """True for a regular file, with one name, that Matplotlib has written: it says so near the beginning of a PNG."""
+    about = os.lstat(path)
+    if not stat.S_ISREG(about.st_mode) or about.st_nlink > 1:
+        return False
+    with open(path, "rb") as file:
+        head = file.read(1024)
+    return head.startswith(b"\x89PNG\r\n") and b"Software\0Matplotlib" in head
 
 
 def early_end(result):
