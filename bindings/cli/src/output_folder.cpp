@@ -49,7 +49,8 @@ void refuse_strange_files(const std::string& folder, const std::string& running)
         throw OutputFailure(running, "there is " + running + "/" + names.front() +
                                          ", and neither a marker nor a state says that a run has written it: "
                                          "move it away, or choose another folder");
-    const bool own = marked || is_marked(folder) || is_of_program(result_json(folder));
+    // While a result is moved in, `running` is there and marked.
+    const bool own = marked || is_of_program(result_json(folder));
     for (const std::string& name : result_names()) {
         const std::string file = folder + "/" + name;
         require_plain(file);
@@ -119,7 +120,6 @@ void OutputFolder::publish() {
         const std::string from = running_ + "/" + name;
         write_atomic(running_ + "/published_" + name, read_bytes(from));
     }
-    mark(path_);
     remove_file(path_ + "/result.json");
     for (const char* name : {"history.csv", "state.bin"})
         rename_file(running_ + "/published_" + name, path_ + "/" + name);

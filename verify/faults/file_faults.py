@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""torture.py [--every N] [--jobs N] [SCENARIO ...]
+"""file_faults.py [--every N] [--jobs N] [SCENARIO ...]
 
-Each operation on a file fails once (torture.c), in every way of using the program that reads or writes: run, over an
+Each operation on a file fails once (file_faults.c), in every way of using the program that reads or writes: run, over an
 earlier result, resume, sweep, import, view, check. After each: an exit code that is documented; where it is not 0, a
 message in one line or a few; nothing of anybody else is touched; an earlier result is whole or the new one is; and the
 same command, undisturbed, comes to the end that it would have come to.
@@ -26,7 +26,7 @@ sys.path.insert(0, os.path.join(HERE, "..", "..", "bindings", "cli", "test"))
 
 from support import DELAM, SCENE, changed  # noqa: E402
 
-SHIM = os.environ["DELAM_TORTURE"]
+SHIM = os.environ["DELAM_FILE_FAULTS"]
 CODES = [errno.EIO, errno.ENOSPC, errno.EACCES, errno.EMFILE]  # in turn
 DOCUMENTED = (0, 1, 2, 3, 4)
 NOTES = "a file of somebody else\n"
@@ -115,7 +115,7 @@ def published(folder):
 
 
 class Scenario:
-    """One way of using the program. prepare() fills a folder; `words` is the command that is tortured, `again` the one
+    """One way of using the program. prepare() fills a folder; `words` is the command in which operations fail, `again` the one
     that goes on; results are the files that count in the end."""
 
     def __init__(self, name, words, again, results):
@@ -186,7 +186,7 @@ SCENARIOS = {one.name: one for one in (
 )}
 
 
-class Torture:
+class Faults:
     def __init__(self, scenario, base):
         self.scenario = scenario
         self.template = os.path.join(base, scenario.name)
@@ -195,7 +195,7 @@ class Torture:
         whole = os.path.join(base, scenario.name + "-whole")
         shutil.copytree(self.template, whole, symlinks=True)
         count = os.path.join(base, scenario.name + "-count")
-        code, said, error = self.call(whole, scenario.words, TORTURE_COUNT=count)
+        code, said, error = self.call(whole, scenario.words, FAULTS_COUNT=count)
         if code != 0:
             raise SystemExit(f"{scenario.name}: undisturbed: exit {code}: {said}{error}")
         self.operations = read(count).decode(errors="replace").splitlines()
@@ -205,7 +205,7 @@ class Torture:
 
     @staticmethod
     def call(folder, words, **more):
-        return call(words, folder, LD_PRELOAD=SHIM, TORTURE_FOLDER=folder, **more)
+        return call(words, folder, LD_PRELOAD=SHIM, FAULTS_FOLDER=folder, **more)
 
     def at(self, number):
         """What is wrong after the operation of this number has failed; "": nothing."""
@@ -215,7 +215,7 @@ class Torture:
         what = f"{self.scenario.name} {number}: {self.operations[number - 1].replace(folder, '')}: " \
                f"{errno.errorcode[code]}"
         try:
-            status, said, error = self.call(folder, self.scenario.words, TORTURE_AT=str(number), TORTURE_CODE=str(code))
+            status, said, error = self.call(folder, self.scenario.words, FAULTS_AT=str(number), FAULTS_CODE=str(code))
             wrong = self.judge(folder, status, said, error)
         except (AssertionError, OSError, ValueError, KeyError, subprocess.TimeoutExpired) as trouble:
             wrong = str(trouble) or repr(trouble)
@@ -261,15 +261,15 @@ def main():
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("scenario", nargs="*", choices=[[], *SCENARIOS])
     options = parser.parse_args()
-    base = os.path.realpath(tempfile.mkdtemp(prefix="delam_torture_"))
+    base = os.path.realpath(tempfile.mkdtemp(prefix="delam_faults_"))
     wrong, points = [], 0
     try:
         for name in options.scenario or SCENARIOS:
-            torture = Torture(SCENARIOS[name], base)
-            last = len(torture.operations)
+            faults = Faults(SCENARIOS[name], base)
+            last = len(faults.operations)
             numbers = sorted({*range(1, last + 1, options.every), last} if last else set())
             with ThreadPoolExecutor(options.jobs) as pool:
-                found = [text for text in pool.map(torture.at, numbers) if text]
+                found = [text for text in pool.map(faults.at, numbers) if text]
             for text in found:
                 print(f"FAIL  {text}", flush=True)
             print(f"{name}: {len(numbers)} of {last} operations failed in turn, {len(found)} not survived", flush=True)

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Preloaded: the N-th operation on a file below a folder fails. Counted are the calls of the C library that are listed
    at the end, those with a path if the path lies below the folder, those with a descriptor if it was opened there.
-     TORTURE_FOLDER  the folder, without links in its name
-     TORTURE_AT      N, from 1 on; 0 or unset: none fails
-     TORTURE_CODE    errno of the operation that fails
-     TORTURE_COUNT   a file elsewhere to which each process appends one line for each operation: its name and path
+     FAULTS_FOLDER  the folder, without links in its name
+     FAULTS_AT      N, from 1 on; 0 or unset: none fails
+     FAULTS_CODE    errno of the operation that fails
+     FAULTS_COUNT   a file elsewhere to which each process appends one line for each operation: its name and path
    The operations of all processes that inherit these variables are counted one by one. */
 #define _GNU_SOURCE
 #include <dirent.h>
@@ -34,13 +34,13 @@ static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static void prepare(void) {
     if (ready) return;
     ready = 1;
-    const char *text = getenv("TORTURE_FOLDER");
+    const char *text = getenv("FAULTS_FOLDER");
     if (text != NULL) snprintf(folder, sizeof folder, "%s", text);
-    text = getenv("TORTURE_COUNT");
+    text = getenv("FAULTS_COUNT");
     if (text != NULL) snprintf(count_path, sizeof count_path, "%s", text);
-    text = getenv("TORTURE_AT");
+    text = getenv("FAULTS_AT");
     fail_at = text != NULL ? strtol(text, NULL, 10) : 0;
-    text = getenv("TORTURE_CODE");
+    text = getenv("FAULTS_CODE");
     fail_code = text != NULL ? (int)strtol(text, NULL, 10) : EIO;
 }
 
