@@ -209,11 +209,13 @@ def memory():
             goes_on(out, what, 2)
     # Little memory from the beginning: PETSc, the scene or the first solve fails.
     for rank in (0, 1):
-        for limit in (250, 400):
-            what = f"{limit} MB for rank {rank} of 2"
+        for megabytes in (2, 20, 60, 110):
+            what = f"{megabytes} MB besides MPI's for rank {rank} of 2"
             out = os.path.join(folder(), "out")
-            with Ranks(2, *command(out), wrap=f'[ "$DELAM_RANK" = {rank} ] && ulimit -v {limit}000') as ranks:
-                ended(ranks, what, "delam: .*memory", codes=(4,), limit=START)
+            wrap = (f'[ "$DELAM_RANK" = {rank} ] && export DELAM_SCARCE_GROWTH={megabytes}000000 || '
+                    'unset DELAM_SCARCE_GROWTH')
+            with Ranks(2, *command(out), wrap=wrap, preload=SCARCE) as ranks:
+                ended(ranks, what, "delam: .*(memory|MUMPS)", codes=(4,), limit=START)
 
 
 def disk():
