@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The program replaces and removes what it has written itself, and says by name what else is in its way: in the folder of
-a run, of a sweep, of a fit, and where a page or a scene is to be written. Nothing of anybody else changes."""
+"""The program replaces and removes what it has written itself, and says by name what else is in its way: in the folder
+of a run, of a sweep, of a fit, and where a page or a scene is to be written. Nothing of anybody else changes."""
 import json
 import os
 import shutil
@@ -57,8 +57,8 @@ put(os.path.join(out, "2025", "thesis.txt"))
 expect(delam("run", scene, "--out", out)[0] == 0, "files that are not in the way may be there")
 expect(read(os.path.join(out, "notes.txt")) == read(os.path.join(out, "2025", "thesis.txt")), "and stay")
 expect(delam("run", scene, "--out", out)[0] == 0, "a result of one's own is replaced")
-expect(sorted(set(os.listdir(out)) - {"jumps.csv"}) == ["2025", "fields.h5", "fields.xdmf", "history.csv", "notes.txt", "result.json",
-                                   "state.bin"], "there is no other file")
+expect(sorted(set(os.listdir(out)) - {"jumps.csv"}) == ["2025", "fields.h5", "fields.xdmf", "history.csv", "notes.txt",
+                                                        "result.json", "state.bin"], "there is no other file")
 
 # Links and second names: a folder elsewhere, files elsewhere.
 for name in ("running", "running/state.bin", "running/.delam", "history.csv", "fields.h5", "result.json"):
@@ -163,7 +163,8 @@ for name in ("fit.json", "fit.csv", "fit.png", "work/notes.txt"):
 # Pages and scenes.
 page = put(os.path.join(folder(), "page.html"))
 expect_error(delam("view", whole, "--out", page), 2, r"page\.html is there already")
-expect_error(delam("view", whole, "--out", page, "--replace"), 2, r"page\.html: this is not replaced.*a page of delam view")
+expect_error(delam("view", whole, "--out", page, "--replace"), 2,
+             r"page\.html: this is not replaced.*a page of delam view")
 expect(read(page) == b"of somebody else\n", "the page of somebody else stays")
 os.remove(page)
 expect(delam("view", whole, "--out", page)[0] == 0 and delam("view", whole, "--out", page, "--replace")[0] == 0,
@@ -179,13 +180,12 @@ expect(delam("view", whole, "--out", page, "--replace")[0] == 0 and read(page + 
 
 # What a resume reads: every byte of the first line, the seal, and the files beside the state.
 out = folder()
-with subprocess.Popen([DELAM, "run", scene, "--out", out, "--set", "time.steps=200", "--set", "output.every=1"], stdout=subprocess.PIPE,
-                      text=True) as process:
+MANY = ["run", scene, "--set", "time.steps=200", "--set", "output.every=1", "--out"]
+with subprocess.Popen([DELAM, *MANY, out], stdout=subprocess.PIPE, text=True) as process:
     for line in process.stdout:
         if line.startswith("step 5/"):
             process.send_signal(signal.SIGINT)
-anew = ["run", scene, "--set", "time.steps=200", "--set", "output.every=1", "--out"]
-words = ["run", "--resume", *anew[1:]]
+words = ["run", "--resume", *MANY[1:]]
 running = os.path.join(out, "running")
 state = read(os.path.join(running, "state.bin"))
 head = json.loads(state.split(b"\n")[0])
@@ -203,7 +203,7 @@ def damaged(what, damage, says=r"run again without --resume"):
     damage(os.path.join(one, "running"))
     answer = delam(*words, one)
     expect_error(answer, 2, says)
-    expect(delam(*anew, one)[0] == 0 and read(os.path.join(one, "history.csv")) == end, f"{what}: then anew")
+    expect(delam(*MANY, one)[0] == 0 and read(os.path.join(one, "history.csv")) == end, f"{what}: then anew")
 
 
 def changing(name, old, new):
