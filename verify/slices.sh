@@ -6,13 +6,13 @@
 slices=12
 # Tests of ctest, as a regular expression; each test with the label `long` is in one slice (the test style/slices).
 declare -A slice_tests=(
-    [1]='^cli_long_studies$'
-    [2]='^(cli_(long_(view_browser|coupons|examples|generators)|paraview)|fortran/memory.*|cpp/.*)$'
-    [3]='^(site/long_.*|python/long_.*|julia/long_check|report/long_.*)$'
-    [4]='^(unit/test_long_.*|case/test_long_.*)$'
-    [5]='^case/whole_.*$'
-    [6]='^(ranks/long_faults.*|petsc/.*|example/host_abaqus_memory|packaging/.*)$'
-    [7]='^ranks/long_(scenes|loose).*$'
+    [1]='^(cli_long_studies|(unit|case)/test_long_.*|case/whole_.*)$'
+    [2]='^(cli_(long_[^s].*|paraview)|(fortran|cpp|site|python|julia|report)/.*)$'
+    [3]='^(ranks/long_faults.*|petsc/.*|example/host_abaqus_memory|packaging/.*)$'
+    [4]='^ranks/long_scenes_[1-3]$'
+    [5]='^ranks/long_scenes_[4-6]$'
+    [6]='^ranks/long_loose.*$'
+    [7]='^ranks/long_scenes_whole.*$'
     [8]='^(abi/long_.*)$'
     [9]='^fuzz/.*$'
     [10]='^fault/.*$'

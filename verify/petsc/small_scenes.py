@@ -284,7 +284,7 @@ def whole():
         "whole-brittle-local": example("enf-brittle-local"),
         # The first steps, in which the interface begins to break: 40 of its length take 12,000 solves.
         "whole-mixed-converged": example("mmf-ductile-converged", "time.end=0.6", "time.steps=12"),
-        "whole-two-interfaces": example("dcb-double", "geometry.divisions=120", "time.steps=60"),
+        "whole-two-interfaces": example("dcb-double", "geometry.divisions=120", "time.end=0.35", "time.steps=21"),
         "whole-dcb-3d": example("dcb-3d", "geometry.divisions=[40, 6]", "time.steps=28"),
         "whole-plies-3d": example("laminate-8", "geometry.divisions=[10, 6]", "time.steps=20"),
         "whole-fibres": example("fibres-30", "mesh.fibres=6", "mesh.cells_around=16", "time.steps=12",
