@@ -155,8 +155,7 @@ int32_t delam_experimental_solver_eigenstrains(delam_solver* solver, int64_t cap
 int32_t delam_experimental_solver_follow(delam_solver* solver, int64_t interface_count, const int64_t* interfaces,
                                          const char* key, int64_t* parameter) {
     return guard_solve(solver, listed::experimental_solver_follow, [&] {
-        const std::vector<std::int64_t> list =
-            require_interfaces(solver->core->problem(), interface_count, interfaces);
+        const std::vector<std::int64_t> list = require_interfaces(solver->core->problem(), interface_count, interfaces);
         require_pointer(key, "key");
         const std::int64_t index = solver->core->follow(list, key);
         if (parameter != nullptr) *parameter = index;

@@ -70,7 +70,8 @@ int32_t delam_solver_create(const delam_problem* problem, double time, delam_sol
 void delam_solver_destroy(delam_solver** solver) { destroy(solver); }
 
 int32_t delam_solver_advance(delam_solver* solver, double time) {
-    return guard_step(solver, listed::solver_advance, [&] { return report(*solver->context, solver->core->advance(time)); });
+    return guard_step(solver, listed::solver_advance,
+                      [&] { return report(*solver->context, solver->core->advance(time)); });
 }
 
 int32_t delam_solver_commit(delam_solver* solver) {

@@ -147,15 +147,19 @@ int32_t delam_petsc_set_part(delam_petsc* petsc, int32_t dimension, int64_t node
 }
 
 int32_t delam_petsc_take_scene(delam_petsc* petsc, const delam_mesh* mesh, const delam_problem* problem) {
-    return call(petsc, {DELAM_CANCELLED, DELAM_ERROR_ARGUMENT, DELAM_ERROR_PROBLEM, DELAM_ERROR_NUMERICAL, DELAM_ERROR_STATE}, [&](Session& session) { session.take_scene(mesh, problem); });
+    return call(petsc,
+                {DELAM_CANCELLED, DELAM_ERROR_ARGUMENT, DELAM_ERROR_PROBLEM, DELAM_ERROR_NUMERICAL, DELAM_ERROR_STATE},
+                [&](Session& session) { session.take_scene(mesh, problem); });
 }
 
 int32_t delam_petsc_take_cells(delam_petsc* petsc, const delam_mesh* mesh, const delam_problem* problem,
                                int64_t cell_count, const int32_t* ranks) {
-    return call(petsc, {DELAM_CANCELLED, DELAM_ERROR_ARGUMENT, DELAM_ERROR_PROBLEM, DELAM_ERROR_NUMERICAL, DELAM_ERROR_STATE}, [&](Session& session) {
-        const delam::petsc::GivenRanks given{cell_count, ranks};
-        session.take_scene(mesh, problem, &given);
-    });
+    return call(petsc,
+                {DELAM_CANCELLED, DELAM_ERROR_ARGUMENT, DELAM_ERROR_PROBLEM, DELAM_ERROR_NUMERICAL, DELAM_ERROR_STATE},
+                [&](Session& session) {
+                    const delam::petsc::GivenRanks given{cell_count, ranks};
+                    session.take_scene(mesh, problem, &given);
+                });
 }
 
 int32_t delam_petsc_set_rows(delam_petsc* petsc, int32_t dimension, int64_t node_count, const int64_t* nodes,
@@ -169,9 +173,10 @@ int32_t delam_petsc_set_rows(delam_petsc* petsc, int32_t dimension, int64_t node
 
 int32_t delam_petsc_set_cells(delam_petsc* petsc, const delam_mesh* mesh, const delam_problem* problem,
                               int64_t node_count, const int64_t* nodes) {
-    return call(petsc, {DELAM_CANCELLED, DELAM_ERROR_ARGUMENT, DELAM_ERROR_PROBLEM, DELAM_ERROR_STATE}, [&](Session& session) {
-        session.set_part(delam::petsc::make_own_cells(session.comm(), mesh, problem, node_count, nodes));
-    });
+    return call(petsc, {DELAM_CANCELLED, DELAM_ERROR_ARGUMENT, DELAM_ERROR_PROBLEM, DELAM_ERROR_STATE},
+                [&](Session& session) {
+                    session.set_part(delam::petsc::make_own_cells(session.comm(), mesh, problem, node_count, nodes));
+                });
 }
 
 int32_t delam_petsc_attach(delam_petsc* petsc, delam_problem* problem) {
@@ -195,7 +200,8 @@ int32_t delam_petsc_run(delam_petsc* petsc, int32_t (*work)(void* user), void* u
 
 int32_t delam_petsc_set_task(delam_petsc* petsc, int32_t (*task)(int64_t size, const uint8_t* bytes, void* user),
                              void* user) {
-    return call(petsc, {DELAM_ERROR_ARGUMENT, DELAM_ERROR_STATE}, [&](Session& session) { session.set_task(task, user); });
+    return call(petsc, {DELAM_ERROR_ARGUMENT, DELAM_ERROR_STATE},
+                [&](Session& session) { session.set_task(task, user); });
 }
 
 int32_t delam_petsc_everywhere(delam_petsc* petsc, int64_t size, const uint8_t* bytes) {
@@ -215,7 +221,8 @@ int32_t delam_petsc_explain(delam_petsc* petsc, const char* text) {
 }
 
 int32_t delam_petsc_recover(delam_petsc* petsc, delam_solver* solver) {
-    return here(petsc, {DELAM_CANCELLED, DELAM_ERROR_NUMERICAL, DELAM_ERROR_STATE}, [&](Session& session) { return session.recover_parts(solver); });
+    return here(petsc, {DELAM_CANCELLED, DELAM_ERROR_NUMERICAL, DELAM_ERROR_STATE},
+                [&](Session& session) { return session.recover_parts(solver); });
 }
 
 int32_t delam_petsc_part_nodes(delam_petsc* petsc, int64_t capacity, int64_t* nodes, int32_t* owned, int64_t* count) {
