@@ -21,6 +21,7 @@
 #include "contract.hpp"
 #include "delam/experimental.h"
 #include "dense_engine.hpp"
+#include "host_law.hpp"
 #include "input.hpp"
 #include "small_scene.hpp"
 
@@ -31,37 +32,6 @@ using namespace fuzz;
 constexpr std::size_t slots = 3;  // of each kind
 constexpr int calls_at_most = 40;
 constexpr std::int64_t nodes_at_most = 400;
-
-// A host law, computed by callbacks: the bilinear law, until it is made to fail.
-struct HostLaw {
-    int fail_in = -1;  // calls until one fails
-    bool nonsense = false;
-    bool fails() { return fail_in >= 0 && fail_in-- == 0; }
-};
-constexpr double host_onset = 0.01, host_toughness = 0.05;
-std::int32_t host_adhesion(double, double driving, double* adhesion, double* slope, void* user) {
-    HostLaw& law = *static_cast<HostLaw*>(user);
-    if (law.fails()) return 1;
-    // zeta* of zeta Y + g with -g'(zeta) = 1/(zeta/sqrt(Go) + (1 - zeta)/sqrt(Ge))^2, sqrt(Go Ge) = Gc
-    const double first = std::sqrt(host_onset), last = host_toughness / first, root = std::sqrt(driving);
-    const double softening = (1.0 / root - 1.0 / last) / (1.0 / first - 1.0 / last);
-    *adhesion = driving <= host_onset ? 1.0 : root >= last ? 0.0 : softening;
-    *slope = *adhesion <= 0.0 || *adhesion >= 1.0 ? 0.0 : -0.5 / (root * driving) / (1.0 / first - 1.0 / last);
-    if (law.nonsense) *adhesion = std::nan(""), *slope = 1.0;
-    return 0;
-}
-std::int32_t host_dissipation(double, double adhesion, double* dissipated, double* slope, double* mixity_slope,
-                              void* user) {
-    HostLaw& law = *static_cast<HostLaw*>(user);
-    if (law.fails()) return 1;
-    const double a = 1.0 / std::sqrt(host_onset), b = std::sqrt(host_onset) / host_toughness;
-    const double root = adhesion * a + (1.0 - adhesion) * b;
-    *dissipated = (1.0 / root - 1.0 / a) / (a - b);
-    *slope = -1.0 / (root * root);
-    *mixity_slope = 0.0;
-    if (law.nonsense) *dissipated = -*dissipated;
-    return 0;
-}
 
 template <class T>
 void destroy_handle(T** handle);
@@ -622,7 +592,10 @@ std::int32_t watched(World& world, Input& in, Call&& call) {
         world.heard->cancel_in = in.below(64);
         world.heard->cancel_by_call = in.flag();
     }
-    if (in.seldom()) world.host_law.fail_in = in.byte();
+    if (in.seldom()) {
+        world.host_law.fail_in = in.byte();
+        if (in.flag()) world.host_law.fail_with = in.raw<std::int32_t>();
+    }
     const std::int32_t status = call();
     world.heard->cancel_in = -1;
     world.host_law.fail_in = -1;

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "delam/experimental.h"
@@ -35,6 +36,9 @@ public:
     explicit DenseEngine(Dense stiffness) : k_(std::move(stiffness)) {}
     DenseEngine(const DenseEngine&) = delete;
     DenseEngine& operator=(const DenseEngine&) = delete;
+
+    // In the place of the stiffness that it has, before any problem took the engine.
+    void take(Dense stiffness) { k_ = std::move(stiffness); }
 
     // Calls this object, which has to outlive the engine's release.
     delam_experimental_engine functions();
