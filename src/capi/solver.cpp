@@ -396,6 +396,7 @@ int32_t delam_solver_load(delam_solver* solver, int64_t size, const uint8_t* byt
     return guard_step(solver, listed::solver_load, [&] {
         require_count(size, "size");
         require_array(bytes, size, "bytes");
+        poll_cancel_now("load");  // a small state would be read before the first poll
         load(*solver->core, {bytes, static_cast<std::size_t>(size)});
     });
 }
@@ -410,6 +411,7 @@ int32_t delam_solver_save_file(const delam_solver* solver, const char* path) {
 int32_t delam_solver_load_file(delam_solver* solver, const char* path) {
     return guard_step(solver, listed::solver_load_file, [&] {
         require_pointer(path, "path");
+        poll_cancel_now("load");
         load_file(*solver->core, path);
     });
 }
