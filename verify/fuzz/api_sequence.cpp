@@ -738,11 +738,12 @@ std::int32_t condensed(Input& in, delam_solver* solver) {
 // Gives the problem a dense engine of its own, or one in which something is missing or wrong. mesh: where the stiffness
 // comes from; it may be that of another problem.
 std::int32_t set_engine(World& world, Input& in, const delam_mesh* mesh, delam_problem* problem, bool sound) {
-    constexpr std::int64_t largest = 240;  // DOFs: dense products only take long
+    constexpr std::int64_t largest = 120;  // DOFs: dense products only take long
     if ((!sound && in.seldom()) || sizes_of(problem).dofs > largest)
         return delam_experimental_problem_set_engine(problem, nullptr);
     auto own = std::make_unique<Engaged>(stiffness_of(mesh, problem));
     own->engine.awake = false;
+    own->engine.calls_at_most = 600;
     delam_experimental_engine functions = own->engine.functions();
     if (!sound && in.seldom()) functions.size = in.hostile_whole();
     if (!sound && in.seldom()) functions.kept = in.hostile_whole();

@@ -123,7 +123,10 @@ Dense stiffness_of(const delam_mesh* mesh, const delam_problem* problem) {
 bool DenseEngine::spoils(Nonsense what) { return awake && nonsense == what; }
 
 bool DenseEngine::fails() {
-    ++calls;
+    if (++calls > calls_at_most && awake) {
+        fail_with = DELAM_ERROR_NUMERICAL;
+        return failed = true;
+    }
     if (!awake || fail_in < 0 || fail_in-- > 0) return false;
     failed = failed || fail_with != DELAM_OK;
     return fail_with != DELAM_OK;

@@ -59,6 +59,8 @@ public:
     // The engine fails in the call after `fail_in` others (-1: never) and returns fail_with.
     std::int64_t fail_in = -1;
     std::int32_t fail_with = DELAM_ERROR_NUMERICAL;
+    // No input may run for ever: then every call fails.
+    std::int64_t calls_at_most = 1000000;
     // Whether faults occur at all: a host that only looks at an object leaves them out.
     bool awake = true;
     bool failed = false;  // since it was reset
