@@ -204,3 +204,177 @@ def cancel_before(host, see):
         see.equal(f"{call[0]} again", host.status(*call), OK)
         if call[0] == "solver_equilibrate":
             host("solver_rollback", bar.solver)
+
+
+def bytes_of(host, solver):
+    size = host("solver_save", solver, 0, None, Out())[1]
+    return host("solver_save", solver, size, Out(size), Out())[0]
+
+
+@row("what a rollback restores")
+def rollback(host, see):
+    """Every byte of the state, and the state described."""
+    law = scenes.bilinear(host, (10.0, 10.0), (0.05, 0.05), (0.6, 0.6))
+    bar = scenes.Bar(host, law, bulk=10.0, options=[("backtracking", "on")])
+    bar.step(0.3)
+    bar.step(0.5)
+    before = bytes_of(host, bar.solver)
+    for step in ("solver_advance", "solver_equilibrate"):
+        host(step, bar.solver, 0.7, *([None] if step == "solver_equilibrate" else []))
+        host("solver_look", bar.solver, 1)
+        host("solver_rollback", bar.solver)
+        see.that(f"the bytes after {step} and rollback", bytes_of(host, bar.solver) == before)
+        see.near(f"time after {step} and rollback", bar.value("time"), 0.5, "t")
+    bar.step(0.9, commit=False)
+    see.that("a pending step is not saved", bytes_of(host, bar.solver) == before)
+
+
+@row("what loading replaces")
+def loading(host, see):
+    """A loaded state brings its history and its record, and ends a pending step and a look back."""
+    law = scenes.strong(host, 10.0, 1.0)
+    one, other = (scenes.Bar(host, law, bulk=10.0, options=[("backtracking", "on")]) for _ in range(2))
+    host("solver_record", one.solver, "time")
+    one.step(0.1)
+    host("solver_set_history", one.solver, 0, 2, [0.2, 0.4], [0.5, 0.3])
+    state = bytes_of(host, one.solver)
+    host("solver_record", other.solver, "work")
+    for time in (0.3, 0.6):
+        other.step(time)
+    host("solver_look", other.solver, 1)
+    other.step(0.8, commit=False)
+    host("solver_load", other.solver, len(state), state)
+    see.equal("pending", host("solver_pending", other.solver, Out()), 0)
+    see.near("time", other.value("time"), 0.1, "t")
+    see.equal("first and steps of the record", host("solver_recorded_size", other.solver, Out(), Out()), [0, 2])
+    see.near("record", host("solver_recorded", other.solver, "time", 2, Out(2)), [0.0, 0.1], "t")
+    see.equal("status of a key of the replaced record",
+              host.status("solver_recorded", other.solver, "work", 2, Out(2)), ARGUMENT)
+    factors = []
+    for time in (0.15, 0.2, 0.3, 0.5):
+        other.step(time)
+        factors.append(other.value("load:pull"))
+    see.near("factor", factors, [0.3, 0.5, 0.4, 0.3])
+
+
+@row("a record of steps that are set")
+def recorded_again(host, see):
+    """A displacement step keeps the number of the committed step, whose entry it replaces; a key is recorded once."""
+    bar = scenes.Bar(host, scenes.strong(host, 10.0, 1.0), bulk=10.0)
+    host("solver_record", bar.solver, "time")
+    host("solver_record", bar.solver, "time")
+    bar.step(0.2)
+    bar.step(0.4)
+    host("solver_equilibrate", bar.solver, 0.3, None)
+    see.near("step", bar.value("step"), 2)
+    host("solver_commit", bar.solver)
+    bar.step(0.7)
+    see.near("step after it", bar.value("step"), 3)
+    see.equal("first and steps", host("solver_recorded_size", bar.solver, Out(), Out()), [0, 4])
+    see.near("time", host("solver_recorded", bar.solver, "time", 4, Out(4)), [0.0, 0.2, 0.3, 0.7], "t")
+    kept = scenes.Bar(host, scenes.strong(host, 10.0, 1.0), bulk=10.0, options=[("backtracking", "on")])
+    kept.step(0.2)
+    see.equal("an earlier step is kept", host.status("solver_look", kept.solver, 0), OK)
+    host("solver_equilibrate", kept.solver, 0.3, None)
+    host("solver_commit", kept.solver)
+    see.equal("and not after a state was set", host.status("solver_look", kept.solver, 0), ARGUMENT)
+
+
+@row("jumps of a pending step")
+def pending_jumps(host, see):
+    """A soft bar on a brittle bond: its only jump breaks both pairs at once (rows_values.py)."""
+    bar = scenes.Bar(host, scenes.bilinear(host, (100.0, 100.0), (0.02, 0.02), (0.1, 0.1)), bulk=8.0)
+    counts = [host("solver_jump_count", bar.solver, Out())]
+    for time in (0.26, 0.3):
+        host("solver_advance", bar.solver, time)
+        counts.append(host("solver_jump_count", bar.solver, Out()))
+        if time == 0.3:
+            host("solver_rollback", bar.solver)
+            counts.append(host("solver_jump_count", bar.solver, Out()))
+            host("solver_advance", bar.solver, time)
+        host("solver_commit", bar.solver)
+    counts.append(host("solver_jump_count", bar.solver, Out()))
+    see.equal("jumps before, pending, rolled back and committed", counts, [0, 0, 1, 0, 1])
+
+
+@row("what the last call replaces")
+def last_call(host, see):
+    """Materials, plane assumptions and stiffnesses are replaced; forces and eigenstrains add up."""
+    def block(*calls):
+        mesh = host("mesh_create_layers", host.context, 2, [1.0], [1], 1, [1.0], [1], TYPES["quad4"], Out())
+        problem = host("problem_create", host.context, mesh, Out())
+        host("problem_set_elastic", problem, -1, 1.0, 0.25)
+        for call in calls:
+            host(call[0], problem, *call[1:])
+        scenes.hold(host, problem, [0, 1, 2, 3], [[1.0, 0.0]])
+        scenes.hold(host, problem, [0, 1], [[0.0, 1.0]])
+        return problem
+
+    def pulled(*calls):
+        problem = block(*calls)
+        scenes.drive(host, problem, [2, 3], [0.0, 1.0], scenes.ramp(host, problem), [1.0, 1.0])
+        solver = host("solver_create", problem, 1.0, Out())
+        return value(host, solver, "reaction:load")
+
+    strain, stress = 0.75 / (1.25 * 0.5), 1.0 / (1.0 - 0.0625)
+    see.near("plane strain by default", pulled(), strain, "F L")
+    see.near("plane stress", pulled(("problem_set_plane", "plane-stress")), stress, "F L")
+    see.near("plane strain again", pulled(("problem_set_plane", "plane-stress"), ("problem_set_plane", "plane-strain")),
+             strain, "F L")
+    see.near("the second material", pulled(("problem_set_elastic", 0, 2.0, 0.25)), 2 * strain, "F L")
+    plain = block()
+    starts, columns, values = host("problem_body_matrix", plain, 0, None, None, Out(9), Out(64), Out(64))[2:]
+    twice = [[factor * k for k in values] for factor in (5.0, 3.0)]
+    see.near("the second stiffness", pulled(*[("problem_set_stiffness", 4, [0, 1, 2, 3], None, starts, columns, own, -1,
+                                               None, 0) for own in twice]), 3 * strain, "F L")
+    problem = block()
+    push, warm = scenes.ramp(host, problem, "push"), scenes.ramp(host, problem, "warm")
+    for force in (0.5, 1.0):
+        host("problem_add_forces", problem, push, 2, [2, 3], [0.0, force, 0.0, force], 0)
+    for yy in (0.1, 0.3):
+        host("problem_add_eigenstrain", problem, warm, 0, [0.0, yy, 0.0, 0.0, 0.0, 0.0])
+    see.near("forces", host("problem_forces", problem, push, 8, Out(8))[5::2], [1.5, 1.5], "F")
+    # With the sides held, eps_yy is free: that of the eigenstrain, and of the force 3 over C_yyyy.
+    solver = host("solver_create", problem, 1.0, Out())
+    see.near("displacement", [u[1] for u in field(host, solver, "displacement")[2:]], [0.4 + 3.0 / strain] * 2, "L")
+    for key, whole in (("threads", 1.5), ("path_step", 0.25)):
+        see.equal(f"status of {key} = {whole}", host.status("problem_set_number", plain, key, whole),
+                  ARGUMENT if key == "threads" else OK)
+
+
+@row("adhesion never heals", tells=["law_respond adhesion", "law_respond traction"])
+def no_healing(host, see):
+    """A jump that has damaged nothing new keeps the old adhesion, and the traction is that of what is left. A criterion
+    that changes takes its exponents back to 2, and of onset and strength the last one counts."""
+    def law():
+        return scenes.bilinear(host, (10.0, 10.0), (0.05, 0.1), (0.6, 1.2))
+
+    own = law()
+    adhesion, traction = host("law_respond", own, 2, 2, [0.01, 0.0, 0.05, 0.0], [0.0, 0.0], [0.5, 0.25], Out(2), Out(4))
+    see.near("adhesion", adhesion, [0.5, 0.25])
+    see.near("traction", traction, [0.05, 0.0, 0.125, 0.0], "F/L2")
+    host("law_set_text", own, "criterion", "power")
+    quadratic = host("law_toughness", own, 1, [0.5], Out(1), Out(1))
+    host("law_set", own, "toughness_exponent", 1.0)
+    host("law_set", own, "onset_exponent", 1.0)
+    linear = host("law_toughness", own, 1, [0.5], Out(1), Out(1))
+    host("law_set_text", own, "criterion", "benzeggagh-kenane")
+    host("law_set_text", own, "criterion", "power")
+    see.near("exponents after a change of the criterion", host("law_toughness", own, 1, [0.5], Out(1), Out(1)), quadratic,
+             "F/L")
+    see.differ("exponents 1 and 2", linear, quadratic)
+    host("law_set", own, "normal_strength", 2.0)
+    see.near("onset of a strength", host("law_toughness", own, 1, [0.0], Out(1), None)[0], 0.2, "F/L")
+    host("law_set", own, "normal_onset", 0.07)
+    see.near("onset that was set last", host("law_toughness", own, 1, [0.0], Out(1), None)[0], 0.07, "F/L")
+
+
+@row("interfaces that are there already", tells=["mesh_node_bodies bodies", "mesh_find_nodes nodes"])
+def there_already(host, see):
+    """Labels of bodies that are no indices; a closed box has its corners; no two bodies are joined twice."""
+    nodes = [0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0, 1.0, 2.0, 0.0, 2.0]
+    mesh = host("mesh_create", host.context, 2, 6, nodes, Out())
+    host("mesh_add_conforming_cells", mesh, TYPES["quad4"], 2, [0, 1, 2, 3, 3, 2, 4, 5], [7, 3], 0)
+    see.equal("labels", host("mesh_node_bodies", mesh, 8, Out(8)), [7, 7, 7, 7, 3, 3, 3, 3])
+    see.equal("nodes at a corner", host("mesh_find_nodes", mesh, 7, [1.0, 1.0], [5.0, 5.0], 1, Out(1), Out())[0], [2])
+    see.equal("interfaces", [host("mesh_add_all_interfaces", mesh, 0.0, Out()) for _ in range(2)], [1, 0])
