@@ -8,14 +8,19 @@ DIR/fit.csv (data and model); the last lines say the parameters with their confi
 """
 import json
 import os
-import signal
 
-from packages import require
+import command
 
-require("delam: fit", "numpy", "scipy", "matplotlib")
+if __name__ == "__main__":
+    command.begin("delam: fit")
+
+from packages import require  # noqa: E402
+
+require("numpy", "scipy", "matplotlib")
 
 import numpy as np  # noqa: E402
 
+from command import loading, say  # noqa: E402
 from curve_data import CurveData  # noqa: E402
 from fit_model import Infeasible, Model, Parameter  # noqa: E402
 from marches import (DONE, NUMERICAL, Trouble, given_words, hold, make_folder, read_about, refuse_set,  # noqa: E402
@@ -67,8 +72,7 @@ class Fit:
                 jacobian, note = np.zeros((len(self.y), len(values))), f"  not feasible: {error}"
             self.known[key] = residual, jacobian
             shown = "  ".join(f"{p.path} {v:.6g}" for p, v in zip(self.model.parameters, values))
-            print(f"march {self.model.marches}: root mean square {np.sqrt(np.mean(residual ** 2)):.4g}  {shown}{note}",
-                  flush=True)
+            say(f"march {self.model.marches}: root mean square {np.sqrt(np.mean(residual ** 2)):.4g}  {shown}{note}")
         return self.known[key]
 
     def residual(self, scaled):
@@ -95,7 +99,8 @@ class Fit:
         return found, doubted
 
     def run(self, begin):
-        from scipy.optimize import least_squares  # here, for it loads for a second, and words may be wrong
+        with loading():
+            from scipy.optimize import least_squares  # here, for it loads for a second, and words may be wrong
         lower, upper = self.bounds()
         return least_squares(self.residual, begin, jac=self.jacobian, bounds=(lower, upper),
                              x_scale="jac", ftol=ENOUGH / len(self.y), xtol=1e-5, gtol=1e-10, max_nfev=60)
@@ -137,7 +142,8 @@ def probe(fit, found, level):
 
 def estimates(fit, found, level):
     """Values, standard errors and intervals; the errors of the data are taken as independent."""
-    from scipy.stats import t as student
+    with loading():
+        from scipy.stats import t as student
     points, count = found.jac.shape
     values = fit.start * found.x
     freedom = points - count
@@ -170,7 +176,8 @@ def estimates(fit, found, level):
 
 
 def report(model, fit, found, doubted, level, out):
-    from fit_pictures import draw_fit
+    with loading():
+        from fit_pictures import draw_fit
     values, errors, intervals, correlation = estimates(fit, found, level)
     jumps = [sorted(set(map(float, at))) for at in model.jumps]
     rows = []
@@ -192,33 +199,27 @@ def report(model, fit, found, doubted, level, out):
         draw_fit(out, which, len(model.data), model, curve, read_about(os.path.join(model.work, f"{which + 1}-at")))
     write_file(os.path.join(out, "fit.csv"), "\n".join(lines) + "\n")
     for row in rows:
-        print(f"{row['key']} = {row['value']:.6g}, {100 * level:g} % interval {row['interval'][0]:.6g} to "
+        say(f"{row['key']} = {row['value']:.6g}, {100 * level:g} % interval {row['interval'][0]:.6g} to "
               f"{row['interval'][1]:.6g}" + (" (at its bound)" if row["at_bound"] else ""))
-    print(f"root mean square of the residuals {rms:.4g}, {len(fit.y)} points, {model.marches} marches")
+    say(f"root mean square of the residuals {rms:.4g}, {len(fit.y)} points, {model.marches} marches")
     if doubted:
-        print(f"warning: the interval{'s' if len(doubted) > 1 else ''} of {', '.join(doubted)} cannot be trusted: at "
+        say(f"warning: the interval{'s' if len(doubted) > 1 else ''} of {', '.join(doubted)} cannot be trusted: at "
               "their ends the misfit is not what the derivatives say; the curve may depend on them in steps, from pair to "
               "pair: refine the mesh, and begin from other values")
     for path, count in zip(model.files, model.unknown):
         if count:
-            print(f"warning: {path}: the adhesion of {count:.0f} pairs came to rest within a step and is taken as constant; "
+            say(f"warning: {path}: the adhesion of {count:.0f} pairs came to rest within a step and is taken as constant; "
                   "the derivatives, and with them the intervals, are not exact")
     for path, at in zip(model.files, jumps):
         if at:
-            print(f"warning: {path} jumps at {model.x_name} {', '.join(f'{x:.6g}' for x in at[:5])}: the march has no "
+            say(f"warning: {path} jumps at {model.x_name} {', '.join(f'{x:.6g}' for x in at[:5])}: the march has no "
                   "derivative there, and the intervals do not know of it")
-
-
-def interrupt(*_):
-    raise KeyboardInterrupt
 
 
 def main():
     given = given_words()
     if len(given.data) != len(given.scenes):
         raise Trouble(f"--data: {len(given.data)} curves for {len(given.scenes)} scenes: one for each is expected")
-    if not 0 < given.confidence < 1:
-        raise Trouble(f"--confidence {given.confidence:g}: between 0 and 1")
     parameters = [Parameter(text) for text in given.parameters]
     refuse_set([p.path for p in parameters], given.set, "--parameters")
     for path in given.scenes:
@@ -227,7 +228,6 @@ def main():
     if len({p.path for p in parameters}) < len(parameters):
         raise Trouble("--parameters: a key is given twice")
     data = [CurveData(path, given.columns, given.scale) for path in given.data]
-    signal.signal(signal.SIGTERM, interrupt)
     model = Model(given.scenes, data, parameters, given)
     fit = Fit(model, given.weights)
     held = hold(given.out)  # until the end
@@ -238,10 +238,10 @@ def main():
     except Infeasible as error:
         raise Trouble(f"the scene does not run at the end: {error}", error.code) from error
     held.close()
-    print(f"wrote {given.out}: fit.json, fit.csv, fit.png" if len(data) == 1 else
+    say(f"wrote {given.out}: fit.json, fit.csv, fit.png" if len(data) == 1 else
           f"wrote {given.out}: fit.json, fit.csv, fit-1.png to fit-{len(data)}.png")
     return DONE if found.success else NUMERICAL
 
 
 if __name__ == "__main__":
-    run_study("fit", main)
+    run_study(main)
