@@ -6,7 +6,7 @@
 slices=12
 # Tests of ctest, as a regular expression; each test with the label `long` is in one slice (the test style/slices).
 declare -A slice_tests=(
-    [1]='^cli_long_studies$'
+    [1]='^cli_long_(studies|many)$'
     [2]='^(cli_(long_(view_browser|coupons|examples|generators)|paraview)|fortran/memory.*|cpp/.*)$'
     [3]='^(site/long_.*|python/long_.*|julia/long_check|report/long_.*)$'
     [4]='^(unit/test_long_.*|case/test_long_.*)$'
