@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """file_faults.py [--every N] [--jobs N] [SCENARIO ...]
 
-Each operation on a file fails once (file_faults.c), in every way of using the program that reads or writes: run, over an
-earlier result, resume, sweep, import, view, check. After each: an exit code that is documented; where it is not 0, a
+Each operation on a file fails once (file_faults.c), in every way of using the program that reads or writes: run, over
+an earlier result, resume, sweep, import, view, check. After each: an exit code that is documented; where it is not 0, a
 message in one line or a few; nothing of anybody else is touched; an earlier result is whole or the new one is; and the
 same command, undisturbed, comes to the end that it would have come to.
 
@@ -115,8 +115,8 @@ def published(folder):
 
 
 class Scenario:
-    """One way of using the program. prepare() fills a folder; `words` is the command in which operations fail, `again` the one
-    that goes on; results are the files that count in the end."""
+    """One way of using the program. prepare() fills a folder; `words` is the command in which operations fail, `again`
+    the one that goes on; results are the files that count in the end."""
 
     def __init__(self, name, words, again, results):
         self.name, self.words, self.again, self.results = name, words, again, results
@@ -236,7 +236,8 @@ class Faults:
         self.scenario.right(folder)
         code, more, trouble = call(self.scenario.again, folder)
         if code != 0:
-            return f"exit {status} ({error.strip()[-120:]}), then it does not go on: exit {code}: {(more + trouble)[-300:]}"
+            return (f"exit {status} ({error.strip()[-120:]}), then it does not go on: exit {code}: "
+                    f"{(more + trouble)[-300:]}")
         self.compare(folder, "gone on with")
         self.scenario.right(folder)
         left = listing(folder) - self.names

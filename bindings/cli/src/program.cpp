@@ -37,6 +37,8 @@ constexpr const char* footer =
     "  4    numerical failure, out of memory or limit load; finished steps are kept\n"
     "  130  interrupted (Ctrl-C, SIGTERM); finished steps are kept, go on with --resume\n";
 
+constexpr double largest_factor = 1e150;  // its square is a number
+
 std::string joined(int count, char** words) {
     std::string out;
     for (int i = 0; i < count; ++i) out += (i > 0 ? " " : "") + std::string(words[i]);
@@ -124,6 +126,17 @@ void add_view(CLI::App& app, Arguments& into, Commands& of) {
     of.view->footer(footer);
 }
 
+// A number from `low` to `high`. CLI::Range takes what is no number, and infinities where they are a bound.
+CLI::Validator number_within(double low, double high, const std::string& allowed) {
+    return {[=](const std::string& text) {
+                double value = 0;
+                if (CLI::detail::lexical_cast(text, value) && value >= low && value <= high && value != 0)
+                    return std::string();
+                return fmt::format("{:.40}: {} is expected", text, allowed);
+            },
+            ""};
+}
+
 // A value of an option that takes several, each time one of them.
 template <class Value>
 CLI::Option* add_several(CLI::App& command, const char* names, std::vector<Value>& into, const char* meaning) {
@@ -180,7 +193,8 @@ void add_fit(CLI::App& app, Arguments& into, Commands& of) {
     of.fit
         ->add_option("--scale", study.scale,
                      "factor on the y of the data, e.g. 1/width where a plane scene has forces per width")
-        ->type_name("NUMBER");
+        ->type_name("NUMBER")
+        ->check(number_within(-largest_factor, largest_factor, "a finite number other than 0, of at most 1e150"));
     of.fit
         ->add_option(
             "--weights", study.weights,
@@ -190,7 +204,7 @@ void add_fit(CLI::App& app, Arguments& into, Commands& of) {
         ->check(CLI::IsMember(of.choices["weights"] = {"curve", "equal", "relative"}));
     of.fit->add_option("--confidence", study.confidence, "of the intervals (default 0.95)")
         ->type_name("LEVEL")
-        ->check(CLI::Range(0.01, 0.9999));
+        ->check(number_within(0.01, 0.9999, "a number from 0.01 to 0.9999"));
     of.fit->add_option("--out,-o", into.folder, "folder for fit.json, fit.csv and pictures")
         ->type_name(folder_value)
         ->required();

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the studies share: marches of `delam run` with settings of their own, and how parameters are written."""
-import csv
 import fcntl
 import json
 import os
@@ -14,15 +13,16 @@ import types
 
 import numpy as np
 
-DONE, NOT_CONVERGED, WRONG, OUTPUT, NUMERICAL, INTERRUPTED = 0, 1, 2, 3, 4, 130
+import command
+from _pictures.input_file import LAST_WORDS, MOST_RESULT, Unreadable, quoted, read_columns, read_end, read_json
+from command import DONE, INTERRUPTED, NOT_CONVERGED, NUMERICAL, OUTPUT, WRONG, Trouble
 
+__all__ = ["DONE", "INTERRUPTED", "NOT_CONVERGED", "NUMERICAL", "OUTPUT", "WRONG", "Check", "Trouble", "end_all", "finish",
+           "given_words", "hold", "last_words", "make_folder", "number_in", "path_of", "read_about", "read_history",
+           "refuse_set", "run_study", "setting", "start", "value_at", "write_file"]
 
-class Trouble(Exception):
-    """A message for people, and the exit code of the program."""
-
-    def __init__(self, text, code=WRONG):
-        super().__init__(text)
-        self.code = code
+# Numbers whose squares, and sums and quotients of those, are still numbers with all digits.
+LEAST, MOST = 1e-150, 1e150
 
 
 def given_words():
@@ -45,12 +45,23 @@ def path_of(key):
     """laws.0.normal_toughness as the program writes it, laws[0].normal_toughness."""
     path = re.sub(r"\.(\d+)(?=\.|$)", r"[\1]", key)
     if not re.fullmatch(r"[A-Za-z_][\w-]*(\[\d+\])*(\.[A-Za-z_][\w-]*(\[\d+\])*)*", path):
-        raise Trouble(f"\"{key}\" is no key of a scene: laws.0.normal_toughness, for example")
+        raise Trouble(f"{quoted(key)} is no key of a scene: laws.0.normal_toughness, for example")
     return path
 
 
 def setting(path, value):
     return f"{path}={value!r}" if isinstance(value, float) else f"{path}={value}"
+
+
+def number_in(text, where):
+    """A finite number that is written out; `where` begins the message if it is none."""
+    try:
+        value = float(text)
+    except ValueError:
+        raise Trouble(f"{where}: {quoted(text)} is no number") from None
+    if not np.isfinite(value) or (value != 0 and not LEAST <= abs(value) <= MOST):
+        raise Trouble(f"{where}: {quoted(text)}: 0, or a number from {LEAST:g} to {MOST:g}, is expected")
+    return value
 
 
 def value_at(scene, path):
@@ -61,7 +72,9 @@ def value_at(scene, path):
             at = at[int(key)] if isinstance(at, list) else at[key]
         except (KeyError, IndexError, ValueError, TypeError):
             return None
-    return float(at) if isinstance(at, (int, float)) and not isinstance(at, bool) else None
+    if isinstance(at, bool) or not isinstance(at, (int, float)):
+        return None
+    return number_in(repr(at), path)
 
 
 running = []  # marches that a signal must end
@@ -83,19 +96,9 @@ def finish(child):
     return code
 
 
-def run_study(name, main):
+def run_study(main):
     """Ends the program with the exit code of main(), or with one line for what went wrong."""
-    try:
-        sys.exit(main())
-    except Trouble as trouble:
-        text, code = trouble, trouble.code
-    except OSError as error:
-        text, code = error, OUTPUT
-    except KeyboardInterrupt:
-        end_all()
-        text, code = "interrupted", INTERRUPTED
-    print(f"delam: {name}: {text}", file=sys.stderr)
-    sys.exit(code)
+    command.run(main, end_all)
 
 
 def hold(folder):
@@ -175,27 +178,22 @@ class Check:
 
 def last_words(out):
     """The last message of a march."""
-    with open(out + ".log", encoding="utf-8", errors="replace") as log:
-        lines = [line for line in log.read().splitlines() if line.startswith("delam: ")]
+    lines = read_end(out + ".log", LAST_WORDS).decode("utf-8", "surrogateescape").split("\n")
+    lines = [line for line in lines if line.startswith("delam: ")]
     return lines[-1] if lines else "no message"
 
 
 def read_history(out):
     """Columns of a result by name; words are left out."""
-    with open(os.path.join(out, "history.csv"), newline="", encoding="utf-8") as file:
-        rows = list(csv.reader(file))
-    columns = {}
-    for i, name in enumerate(rows[0]):
-        try:
-            columns[name] = np.array([float(row[i]) for row in rows[1:]])
-        except ValueError:
-            continue
+    path = os.path.join(out, "history.csv")
+    columns = {name: np.array(column) for name, column in read_columns(path).items() if not isinstance(column, list)}
+    if not columns or not next(iter(columns.values())).size:
+        raise Unreadable(f"{path}: there are no rows of numbers")
     return columns
 
 
 def read_about(out):
-    with open(os.path.join(out, "result.json"), encoding="utf-8") as file:
-        return json.load(file)
+    return read_json(os.path.join(out, "result.json"), MOST_RESULT)
 
 
 def make_folder(path):

@@ -11,17 +11,23 @@ import io
 import json
 import os
 import signal
-import sys
 import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
 
-from packages import require
+import command
 
-require("delam: sweep", "numpy", "matplotlib")
+if __name__ == "__main__":
+    command.begin("delam: sweep")
+
+from packages import require  # noqa: E402
+
+require("numpy", "matplotlib")
 
 import numpy as np  # noqa: E402
 
+from _pictures.input_file import MOST_MESH, MOST_SCENE, MOST_SWEEP, Unreadable, read_bytes, read_json  # noqa: E402
+from command import complain, loading, say  # noqa: E402
 from marches import (DONE, INTERRUPTED, NOT_CONVERGED, WRONG, Check, Trouble, end_all, finish,  # noqa: E402
                      given_words, hold, last_words, read_about, read_history, refuse_foreign_log,  # noqa: E402
                      refuse_set, run_study, setting, start)
@@ -56,9 +62,9 @@ class Sweep:
 
     def read(self):
         try:
-            with open(self.scene, "rb") as file:
-                self.text = file.read().decode("utf-8", "replace")
-        except OSError as error:
+            self.text = read_bytes(self.scene, MOST_MESH if self.scene.lower().endswith(".inp") else MOST_SCENE
+                                   ).decode("utf-8", "replace")
+        except FileNotFoundError as error:
             raise Trouble(f"{self.scene}: cannot be read: {error.strerror}") from error
         self.definition = {"scene": self.text, "set": self.common, "vary": [v.path for v in self.variations],
                            "points": [list(point) for point in self.points]}
@@ -69,9 +75,8 @@ class Sweep:
         if not os.path.lexists(self.place):
             return
         try:
-            with open(self.place, encoding="utf-8") as file:
-                known = json.load(file)
-        except ValueError:
+            known = read_json(self.place, MOST_SWEEP)
+        except Unreadable:
             known = None
         if not isinstance(known, dict) or not all(isinstance(known.get(key), list) for key in ("set", "vary", "points")):
             raise Trouble(f"{self.place} is of no sweep: move it away, or choose another folder")
@@ -122,7 +127,7 @@ class Sweep:
         """Sensitivities are followed from the initial state on: only a complete result is kept then."""
         try:
             complete = read_about(out)["status"] == "complete"
-        except (OSError, ValueError, KeyError):
+        except (OSError, Unreadable, KeyError):
             complete = False
         return complete or not any("sensitivities" in text for text in (self.text, *self.common))
 
@@ -151,7 +156,7 @@ class Sweep:
             left = (time.monotonic() - self.began) / done * (all_of_them - done)
             values = ", ".join(f"{v.path} {value:.6g}" if isinstance(value, float) else f"{v.path} {value}"
                                for v, value in zip(self.variations, self.points[number]))
-            print(f"run {done}/{all_of_them}  {values}  {self.words(number)}  left {left:.0f} s", flush=True)
+            say(f"run {done}/{all_of_them}  {values}  {self.words(number)}  left {left:.0f} s")
 
     def words(self, number):
         row = self.rows[number]
@@ -207,14 +212,14 @@ def main():
     held = hold(given.out)  # until the end
     sweep.define(given.replace)
     if not sweep.run(given.jobs):
-        print(f"interrupted after {len(sweep.rows)} of {len(sweep.points)} runs; the same command goes on",
-              file=sys.stderr)
+        complain(f"interrupted after {len(sweep.rows)} of {len(sweep.points)} runs; the same command goes on")
         return INTERRUPTED
     good = {number: read_history(sweep.folder(number)) for number, row in sweep.rows.items()
             if row["exit_code"] in (DONE, NOT_CONVERGED)}
     written = ["table.csv"]
     if good:
-        from sweep_pictures import draw_curves, draw_response  # Matplotlib loads for a second
+        with loading():
+            from sweep_pictures import draw_curves, draw_response  # Matplotlib loads for a second
         about = read_about(sweep.folder(min(good)))
         draw_curves(sweep, good, about)
         draw_response(sweep, about)
@@ -223,9 +228,9 @@ def main():
     failed = len(sweep.points) - len(good)
     if not good and all(row["exit_code"] == WRONG for row in sweep.rows.values()):
         raise Trouble(f"no run is a scene, e.g. {sweep.rows[0]['message'].removeprefix('delam: ')}")
-    print(f"wrote {sweep.out}: {', '.join(written)}" + (f"; {failed} runs failed" if failed else ""))
+    say(f"wrote {sweep.out}: {', '.join(written)}" + (f"; {failed} runs failed" if failed else ""))
     return DONE if not failed and all(row["exit_code"] == DONE for row in sweep.rows.values()) else NOT_CONVERGED
 
 
 if __name__ == "__main__":
-    run_study("sweep", main)
+    run_study(main)
