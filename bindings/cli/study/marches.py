@@ -19,7 +19,7 @@ from command import DONE, INTERRUPTED, NOT_CONVERGED, NUMERICAL, OUTPUT, WRONG, 
 
 __all__ = ["DONE", "INTERRUPTED", "NOT_CONVERGED", "NUMERICAL", "OUTPUT", "WRONG", "Check", "Trouble", "end_all", "finish",
            "given_words", "hold", "last_words", "make_folder", "number_in", "path_of", "read_about", "read_history",
-           "refuse_set", "run_study", "setting", "start", "value_at", "write_file"]
+           "refuse_set", "run_study", "setting", "start", "value_at"]
 
 # Numbers whose squares, and sums and quotients of those, are still numbers with all digits.
 LEAST, MOST = 1e-150, 1e150
