@@ -89,7 +89,7 @@ def files():
         out = folder()
         os.symlink(path, os.path.join(out, "sweep.json"))
         expect_line(start(*SWEEP, "--vary", "laws.0.normal_toughness=250:260:2", "--out", out), 2, "delam: sweep",
-                    "sweep.json that cannot be read")
+                    "sweep.json is of no sweep")
 
 
 def results():
