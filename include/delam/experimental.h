@@ -178,8 +178,8 @@ DELAM_API int32_t delam_experimental_part_matrix(delam_context *context, int64_t
                                                  int64_t *columns, double *values);
 /* Computes fields at the centres of a part's cells: stress [cell_count][4 or 6] and rotation [cell_count][1 or 3], as
  * the fields `stress` and `rotation` of delam_solver_field have them. bytes: [size]. displacement: [node_count]
- * [dimension], at the part's nodes. bodies [body_count]: labels >= 0, each once, with the eigenstrains [body_count][6] of
- * these bodies; others have none. node_count and cell_count have to be those of the part.
+ * [dimension], at the part's nodes. bodies [body_count]: labels >= 0, each once, with the eigenstrains [body_count][6]
+ * of these bodies; others have none. node_count and cell_count have to be those of the part.
  * [unit displacement L finite, eigenstrains 1 finite, stress F/L2, rotation rad; null stress, rotation; status
  * cancelled, argument, snapshot; source T. Hughes, The Finite Element Method (1987), chapters 3 and 4; since 0.1] */
 DELAM_API int32_t delam_experimental_part_fields(delam_context *context, int64_t size, const uint8_t *bytes,
@@ -203,9 +203,10 @@ DELAM_API int32_t delam_experimental_solver_eigenstrains(delam_solver *solver, i
 
 /* Follows the derivative of the analysis with respect to a number of the laws: key, as of delam_law_set, e.g.
  * normal_toughness, in all of the interfaces [interface_count] together, at least one and each once, which must have
- * the same value, not 0. *parameter: its index, 0 for the first. Call it before the first step. It costs one displacement solve per parameter
- * in each step, and one per damaging pair. DELAM_ERROR_ARGUMENT: no such interface, law or number; `gradient`.
- * DELAM_ERROR_STATE: there are steps already; a law has a gradient term; `mixity_rule = variational`.
+ * the same value, not 0. *parameter: its index, 0 for the first. Call it before the first step. It costs one
+ * displacement solve per parameter in each step, and one per damaging pair. DELAM_ERROR_ARGUMENT: no such interface,
+ * law or number; `gradient`. DELAM_ERROR_STATE: there are steps already; a law has a gradient term; `mixity_rule =
+ * variational`.
  * [null parameter; status cancelled, argument, state, numerical; source none; since 0.2] */
 DELAM_API int32_t delam_experimental_solver_follow(delam_solver *solver, int64_t interface_count,
                                                    const int64_t *interfaces, const char *key, int64_t *parameter);

@@ -100,6 +100,7 @@ CHECKS = [("meanings.py", "meanings.py {header} {library}"),
 
 
 def plant(source, work):
+    shutil.rmtree(os.path.join(work, "src"), ignore_errors=True)
     for folder in ("include", "src", "bindings", "CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md"):
         whole, copy = os.path.join(source, folder), os.path.join(work, folder)
         if os.path.isdir(whole):
