@@ -262,7 +262,9 @@ def recorded_again(host, see):
     """A displacement step keeps the number of the committed step, whose entry it replaces; a key is recorded once."""
     bar = scenes.Bar(host, scenes.strong(host, 10.0, 1.0), bulk=10.0)
     host("solver_record", bar.solver, "time")
+    once = bytes_of(host, bar.solver)
     host("solver_record", bar.solver, "time")
+    see.that("a second request has no effect", bytes_of(host, bar.solver) == once)
     bar.step(0.2)
     bar.step(0.4)
     host("solver_equilibrate", bar.solver, 0.3, None)
