@@ -11,6 +11,7 @@
 #include <hdf5.h>
 
 #include "error.hpp"
+#include "reason.hpp"
 
 namespace cli::h5 {
 
@@ -18,7 +19,7 @@ template <herr_t (*Close)(hid_t)>
 class Id {
 public:
     Id(hid_t id, const std::string& what) : id_(id) {
-        if (id < 0) throw OutputFailure(what, "HDF5 refused (disk full or file damaged)");
+        if (id < 0) throw OutputFailure(what, reason_or("HDF5 refused (disk full or file damaged)"));
     }
     ~Id() {
         if (id_ >= 0) Close(id_);
@@ -30,7 +31,7 @@ public:
     void close(const std::string& what) {
         const hid_t id = id_;
         id_ = -1;
-        if (Close(id) < 0) throw OutputFailure(what, "HDF5 refused to close it (disk full?)");
+        if (Close(id) < 0) throw OutputFailure(what, reason_or("HDF5 refused to close it (disk full?)"));
     }
 
 private:
@@ -63,7 +64,7 @@ inline hid_t open(const std::string& path) {
 }
 
 inline void require(herr_t status, const std::string& what) {
-    if (status < 0) throw OutputFailure(what, "HDF5 could not write (disk full?)");
+    if (status < 0) throw OutputFailure(what, reason_or("HDF5 could not write (disk full?)"));
 }
 
 template <class T>
