@@ -14,15 +14,14 @@
 
 #include "error.hpp"
 #include "input_file.hpp"
+#include "reason.hpp"
 
 namespace cli {
 
 namespace {
 
-std::string system_text(int code) { return std::strerror(code); }
-
 // Why a file was not opened, with O_NOFOLLOW.
-std::string open_text(int code) { return code == ELOOP ? "it is a symbolic link" : system_text(code); }
+std::string open_text(int code) { return code == ELOOP ? "it is a symbolic link" : reason_of(code); }
 
 constexpr std::string_view beside_suffixes[] = {".new", ".room", revised_suffix};
 
@@ -40,7 +39,7 @@ public:
             const std::string name = path + std::string(suffix) + (k > 0 ? "-" + std::to_string(k) : "");
             const int value = ::open(name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
             if (value >= 0) return Descriptor(name, value, {});
-            if (errno != EEXIST || k == most) throw OutputFailure(name, system_text(errno));
+            if (errno != EEXIST || k == most) throw OutputFailure(name, reason_of(errno));
         }
     }
     ~Descriptor() {
@@ -53,7 +52,7 @@ public:
     void close() {
         const int status = ::close(value_);
         value_ = -1;
-        if (status != 0) throw OutputFailure(path_, system_text(errno));
+        if (status != 0) throw OutputFailure(path_, reason_of(errno));
     }
     [[nodiscard]] int get() const { return value_; }
     [[nodiscard]] const std::string& path() const { return path_; }
@@ -71,7 +70,7 @@ void write_all(int descriptor, const std::string& path, std::string_view bytes) 
         const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
         if (written < 0) {
             if (errno == EINTR) continue;
-            throw OutputFailure(path, system_text(errno));
+            throw OutputFailure(path, reason_of(errno));
         }
         bytes.remove_prefix(static_cast<std::size_t>(written));
     }
@@ -84,7 +83,7 @@ void write_atomic(const std::string& path, std::string_view bytes) {
     const std::string beside = file.path();
     try {
         write_all(file.get(), beside, bytes);
-        if (::fsync(file.get()) != 0) throw OutputFailure(beside, system_text(errno));
+        if (::fsync(file.get()) != 0) throw OutputFailure(beside, reason_of(errno));
         file.close();
         rename_file(beside, path);
     } catch (...) {
@@ -135,11 +134,11 @@ void require_replaceable(const std::string& path, bool replace, const std::strin
 }
 
 void rename_file(const std::string& from, const std::string& to) {
-    if (::rename(from.c_str(), to.c_str()) != 0) throw OutputFailure(to, system_text(errno));
+    if (::rename(from.c_str(), to.c_str()) != 0) throw OutputFailure(to, reason_of(errno));
 }
 
 void remove_file(const std::string& path) {
-    if (::unlink(path.c_str()) != 0 && errno != ENOENT) throw OutputFailure(path, system_text(errno));
+    if (::unlink(path.c_str()) != 0 && errno != ENOENT) throw OutputFailure(path, reason_of(errno));
 }
 
 void require_room(const std::string& path, std::int64_t bytes) {
@@ -147,31 +146,31 @@ void require_room(const std::string& path, std::int64_t bytes) {
     const int code = ::posix_fallocate(file.get(), 0, static_cast<off_t>(bytes));
     ::unlink(file.path().c_str());
     if (code == ENOSPC || code == EFBIG || code == EDQUOT)
-        throw OutputFailure(path, system_text(code) + " (" + std::to_string(bytes) + " bytes are needed)");
+        throw OutputFailure(path, reason_of(code) + " (" + std::to_string(bytes) + " bytes are needed)");
 }
 
 void fill_holes(const std::string& path) {
     Descriptor file(path, O_RDWR);
     struct stat about = {};
-    if (::fstat(file.get(), &about) != 0) throw OutputFailure(path, system_text(errno));
+    if (::fstat(file.get(), &about) != 0) throw OutputFailure(path, reason_of(errno));
     int code = 0;
     // A signal whose handler does not restart calls may interrupt it.
     do {
         code = about.st_size > 0 && ::fallocate(file.get(), 0, 0, about.st_size) != 0 ? errno : 0;
     } while (code == EINTR);
     if (code != 0 && code != EOPNOTSUPP && code != ENOSYS)
-        throw OutputFailure(path, system_text(code) + " (" + std::to_string(about.st_size) + " bytes are needed)");
+        throw OutputFailure(path, reason_of(code) + " (" + std::to_string(about.st_size) + " bytes are needed)");
     file.close();
 }
 
 void synchronise(const std::string& path) {
     const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (descriptor < 0) throw OutputFailure(path, system_text(errno));
+    if (descriptor < 0) throw OutputFailure(path, reason_of(errno));
     const int status = ::fsync(descriptor);
     const int code = errno;
     ::close(descriptor);
     // Some file systems cannot synchronise folders; that is no error of the data.
-    if (status != 0 && code != EINVAL) throw OutputFailure(path, system_text(code));
+    if (status != 0 && code != EINVAL) throw OutputFailure(path, reason_of(code));
 }
 
 Appender::Appender(std::string path, std::int64_t length)
@@ -183,7 +182,7 @@ Appender::Appender(std::string path, std::int64_t length)
         ::lseek(descriptor_, static_cast<off_t>(length), SEEK_SET) < 0) {
         const int code = errno;
         ::close(descriptor_);
-        throw OutputFailure(path_, system_text(code));
+        throw OutputFailure(path_, reason_of(code));
     }
 }
 

@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <new>
 #include <string>
 #include <vector>
@@ -13,13 +12,14 @@
 
 #include "error.hpp"
 #include "h5_driver.hpp"
+#include "reason.hpp"
 
 namespace cli::h5 {
 
 // Throws what went wrong with a file, by its own name and the system's reason where there is one: HDF5 gives none.
 [[noreturn]] inline void refuse(const std::string& what, const char* otherwise) {
     const FileTrouble trouble = take_trouble();
-    if (trouble.code != 0) throw OutputFailure(trouble.path, std::strerror(trouble.code));
+    if (trouble.code != 0) throw OutputFailure(trouble.path, reason_of(trouble.code));
     throw OutputFailure(what, otherwise);
 }
 
@@ -41,7 +41,7 @@ public:
         id_ = -1;
         const bool closed = Close(id) >= 0;
         if (const FileTrouble trouble = take_trouble(); trouble.code != 0)
-            throw OutputFailure(trouble.path, std::strerror(trouble.code));
+            throw OutputFailure(trouble.path, reason_of(trouble.code));
         if (!closed) throw OutputFailure(what, "HDF5 refused to close it");
     }
 

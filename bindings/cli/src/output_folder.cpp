@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
 
 #include <fcntl.h>
@@ -16,6 +15,7 @@
 #include "file.hpp"
 #include "input_file.hpp"
 #include "own_files.hpp"
+#include "reason.hpp"
 #include "state.hpp"
 
 namespace cli {
@@ -68,7 +68,7 @@ OutputFolder::OutputFolder(const std::string& path) : path_(path), running_(path
     fs::create_directories(path_, code);
     if (code) throw OutputFailure(path_, code.message());
     lock_ = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (lock_ < 0) throw OutputFailure(path_, std::strerror(errno));
+    if (lock_ < 0) throw OutputFailure(path_, reason_of(errno));
     if (::flock(lock_, LOCK_EX | LOCK_NB) != 0) {
         const bool busy = errno == EWOULDBLOCK;
         ::close(lock_);
@@ -136,9 +136,9 @@ void OutputFolder::publish() {
 
 void OutputFolder::end() { begin(); }
 
-Published OutputFolder::published() const {
+Published published_in(const std::string& folder) {
     Published out;
-    const nlohmann::json json = result_json(path_);
+    const nlohmann::json json = result_json(folder);
     if (!is_of_program(json)) return out;
     try {
         out.status = json.value("status", "");
@@ -149,17 +149,17 @@ Published OutputFolder::published() const {
             for (const auto& [name, file] : files->items())
                 out.files.push_back({name, {file.at("bytes"), file.at("hash")}});
     } catch (const nlohmann::json::exception&) {
-        throw Failure(exit_scene, path_ + "/result.json: damaged; run again without --resume");
+        throw Failure(exit_scene, folder + "/result.json: damaged; run the scene again, without --resume");
     }
     return out;
 }
 
-void OutputFolder::require_unchanged(const Published& published) const {
+void require_unchanged(const std::string& folder, const Published& published) {
     for (const auto& [name, content] : published.files) {
-        const std::string file = path_ + "/" + name;
+        const std::string file = folder + "/" + name;
         if (std::find(result_names().begin(), result_names().end(), name) == result_names().end() || !is_there(file) ||
             content_of_file(file) != content)
-            throw Failure(exit_scene, file + ": missing, or not as the run has written it; run again without --resume");
+            throw Failure(exit_scene, file + ": missing, or not as the run has written it; run the scene again, without --resume");
     }
 }
 

@@ -42,16 +42,17 @@ public:
     void publish();
     // Removes the files in `running`.
     void end();
-    // What result.json says; its status is "" if DIR holds no result.
-    [[nodiscard]] Published published() const;
-    // Throws Failure(exit_scene) if a file of the result is not as result.json says.
-    void require_unchanged(const Published& published) const;
 
 private:
     std::string path_;
     std::string running_;
     int lock_ = -1;
 };
+
+// What result.json of a folder says; its status is "" if there is no result.
+Published published_in(const std::string& folder);
+// Throws Failure(exit_scene) if a file of the result is missing, or not as result.json says.
+void require_unchanged(const std::string& folder, const Published& published);
 
 // The files of a result, and of a run that is not finished, in a folder that holds nothing else. Throws OutputFailure
 // where it does, or where nothing says that a run has written them.

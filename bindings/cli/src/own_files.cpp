@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
 
 #include <sys/stat.h>
@@ -14,6 +13,7 @@
 #include "error.hpp"
 #include "file.hpp"
 #include "input_file.hpp"
+#include "reason.hpp"
 
 namespace cli {
 
@@ -95,7 +95,7 @@ std::vector<std::string> names_in(const std::string& folder) {
 bool is_there(const std::string& path) {
     struct stat about {};
     if (::lstat(path.c_str(), &about) == 0) return true;
-    if (errno != ENOENT && errno != ENOTDIR) throw OutputFailure(path, std::strerror(errno));
+    if (errno != ENOENT && errno != ENOTDIR) throw OutputFailure(path, reason_of(errno));
     return false;
 }
 
@@ -103,7 +103,7 @@ void require_plain(const std::string& path) {
     struct stat about {};
     if (::lstat(path.c_str(), &about) != 0) {
         if (errno == ENOENT) return;
-        throw OutputFailure(path, std::strerror(errno));
+        throw OutputFailure(path, reason_of(errno));
     }
     if (S_ISLNK(about.st_mode))
         throw OutputFailure(path, "it is a symbolic link, which a run neither follows nor replaces");

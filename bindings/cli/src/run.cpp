@@ -295,13 +295,13 @@ void say_lines(const std::vector<std::string>& lines) {
 
 int already_complete(OutputFolder& folder, const Scene& scene) {
     if (is_there(folder.running() + "/state.bin")) return -1;
-    const Published published = folder.published();
+    const Published published = published_in(folder.path());
     if (published.status != "complete") return -1;
     if (published.content_hash != scene.content_hash)
         throw Failure(exit_scene, fmt::format("{}: the scene, with its --set, is not the one of the result in {}; "
                                               "run again without --resume",
                                               scene.file, folder.path()));
-    folder.require_unchanged(published);
+    require_unchanged(folder.path(), published);
     folder.end();  // which may have been interrupted
     say("{}: complete already\n", folder.path());
     say_lines(published.closing);
