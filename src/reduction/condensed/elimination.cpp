@@ -54,6 +54,8 @@ Elimination::Elimination(const Superelements& bodies, DenseMatrix load, Last las
 }
 
 void Elimination::update(std::span<const double> state, const Poll& poll) {
+    if (interrupted_) std::fill(at_.begin(), at_.end(), -1);  // places of the front at which it was
+    interrupted_ = true;
     ++updates_;
     for (std::size_t p = 0; p < state_.size(); ++p) {
         const double now = state[p], before = state_[p];
@@ -76,6 +78,7 @@ void Elimination::update(std::span<const double> state, const Poll& poll) {
     if (outside != nullptr) add(last_, *outside);
     eliminate(last_, poll);
     mirror_lower(last_.energy.stiffness);
+    interrupted_ = false;
 }
 
 // Down from the root as long as all of the zone lies below one child.
@@ -120,6 +123,7 @@ void Elimination::refresh_below(std::int64_t number, const Poll& poll) {
     bool stale = older(front, node.jumps, {number}, {});
     for (const std::int64_t child : node.children) stale = stale || below_[index(child)].made > front.made;
     if (!stale) return;
+    front.made = -1;  // until it is made anew
     divide_node(front, node, nullptr);
     open(front, node.leaf);
     if (node.leaf >= 0) add_leaf(front, node.leaf);
@@ -141,6 +145,7 @@ void Elimination::refresh_outside(std::int64_t number, const Poll& poll) {
     Front& front = outside_[index(number)];
     const Front &beside = below_[index(sibling)], &beyond = outside_[index(parent)];
     if (!older(front, above.jumps, {number, sibling, parent}, {&beside, top ? &beside : &beyond})) return;
+    front.made = -1;  // until it is made anew
     divide_outside(front, number);
     open(front, -1);
     add(front, beside);
@@ -207,7 +212,6 @@ void Elimination::open(Front& front, std::int64_t leaf) {
     resize(front.factor, e, e);
     resize(front.coupling, e, r);
     resize(front.energy.stiffness, r, r);
-    // From here on nothing fails.
     for (std::int64_t i = 0; i < e; ++i) at_[index(front.out[index(i)])] = i;
     for (std::int64_t i = 0; i < r; ++i) at_[index(front.left[index(i)])] = e + i;
     std::int64_t set = 0;

@@ -80,6 +80,7 @@ private:
     DenseMatrix load_;
     std::vector<double> state_;
     std::vector<std::int64_t> at_;  // scratch: place in a front
+    bool interrupted_ = false;      // an update was, by an exception
 };
 
 }  // namespace delam

@@ -52,6 +52,7 @@ bool UpdatedFactor::renew(DenseMatrix& a, const std::vector<Triplet>& springs, s
     ++renewals_;
     definite_ = factor_definite(a, poll);
     if (!definite_) return false;
+    valid_ = false;  // unless all of this comes to its end
     std::swap(factor_, a);
     unknowns_.assign(free.begin(), free.end());
     place_.assign(index(all), -1);
@@ -255,6 +256,7 @@ bool UpdatedFactor::update(const DenseMatrix& stiffness, const std::vector<Tripl
     const auto n = static_cast<double>(unknowns.free.size() + unknowns.bound.size());
     const double more = cost(change);
     if (spent_ + more + handling > n * n * n / 3.0 || hides(stiffness, change)) return false;
+    valid_ = false;  // unless all of this comes to its end
     spent_ += more;
     add_columns(stiffness, change, poll);
     free_.assign(unknowns.free.begin(), unknowns.free.end());
@@ -262,7 +264,9 @@ bool UpdatedFactor::update(const DenseMatrix& stiffness, const std::vector<Tripl
     k_.insert(k_.end(), change.held.begin(), change.held.end());
     b_ = change.fresh;
     touched_ = static_cast<std::int64_t>(change.touched.size());
-    return condense(stiffness, change, unknowns);
+    const bool has_digits = condense(stiffness, change, unknowns);
+    valid_ = true;
+    return has_digits;
 }
 
 void UpdatedFactor::solve_small(std::vector<double>& small) const {
@@ -296,9 +300,14 @@ void UpdatedFactor::solve(std::span<double> x, bool again) {
     if (again && w == load_) {
         w = loaded_;
     } else {
-        if (again) load_ = w;
+        std::vector<double> load;
+        if (again) load = w;
         solve_lower(factor_, w);
-        if (again) loaded_ = w;
+        if (again) {
+            load_.clear();
+            loaded_ = w;
+            load_ = std::move(load);
+        }
     }
     std::vector<double> on(index(columns_.columns)), along(on.size(), 0.0);
     if (k + b > 0) {
