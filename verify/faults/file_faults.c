@@ -107,32 +107,32 @@ static mode_t mode_of(int flags, va_list list) {
     return (flags & (O_CREAT | O_TMPFILE)) != 0 ? (mode_t)va_arg(list, int) : 0;
 }
 
-#define OPEN(name)                                                     \
-    int name(const char *path, int flags, ...) {                       \
-        va_list list;                                                  \
-        va_start(list, flags);                                         \
-        const mode_t mode = mode_of(flags, list);                      \
-        va_end(list);                                                  \
-        const int below = is_below(AT_FDCWD, path);                    \
-        if (below && fails(#name, path)) return -1;                    \
-        const int descriptor = REAL(name)(path, flags, mode);          \
-        watch(descriptor, below);                                      \
-        return descriptor;                                             \
+#define OPEN(name)                                            \
+    int name(const char *path, int flags, ...) {              \
+        va_list list;                                         \
+        va_start(list, flags);                                \
+        const mode_t mode = mode_of(flags, list);             \
+        va_end(list);                                         \
+        const int below = is_below(AT_FDCWD, path);           \
+        if (below && fails(#name, path)) return -1;           \
+        const int descriptor = REAL(name)(path, flags, mode); \
+        watch(descriptor, below);                             \
+        return descriptor;                                    \
     }
 OPEN(open)
 OPEN(open64)
 
-#define OPENAT(name)                                                   \
-    int name(int at, const char *path, int flags, ...) {               \
-        va_list list;                                                  \
-        va_start(list, flags);                                         \
-        const mode_t mode = mode_of(flags, list);                      \
-        va_end(list);                                                  \
-        const int below = is_below(at, path);                          \
-        if (below && fails(#name, path)) return -1;                    \
-        const int descriptor = REAL(name)(at, path, flags, mode);      \
-        watch(descriptor, below);                                      \
-        return descriptor;                                             \
+#define OPENAT(name)                                              \
+    int name(int at, const char *path, int flags, ...) {          \
+        va_list list;                                             \
+        va_start(list, flags);                                    \
+        const mode_t mode = mode_of(flags, list);                 \
+        va_end(list);                                             \
+        const int below = is_below(at, path);                     \
+        if (below && fails(#name, path)) return -1;               \
+        const int descriptor = REAL(name)(at, path, flags, mode); \
+        watch(descriptor, below);                                 \
+        return descriptor;                                        \
     }
 OPENAT(openat)
 OPENAT(openat64)
@@ -152,19 +152,19 @@ STAT(stat64, stat64)
 STAT(lstat, stat)
 STAT(lstat64, stat64)
 
-#define FSTAT(name, type)                                              \
-    int name(int descriptor, struct type *about) {                     \
-        if (is_watched(descriptor) && fails(#name, NULL)) return -1;   \
-        return REAL(name)(descriptor, about);                          \
+#define FSTAT(name, type)                                            \
+    int name(int descriptor, struct type *about) {                   \
+        if (is_watched(descriptor) && fails(#name, NULL)) return -1; \
+        return REAL(name)(descriptor, about);                        \
     }
 FSTAT(fstat, stat)
 FSTAT(fstat64, stat64)
 
-#define FSTATAT(name, type)                                                         \
-    int name(int at, const char *path, struct type *about, int flags) {             \
-        const int below = path[0] != '\0' ? is_below(at, path) : is_watched(at);    \
-        if (below && fails(#name, path)) return -1;                                 \
-        return REAL(name)(at, path, about, flags);                                  \
+#define FSTATAT(name, type)                                                      \
+    int name(int at, const char *path, struct type *about, int flags) {          \
+        const int below = path[0] != '\0' ? is_below(at, path) : is_watched(at); \
+        if (below && fails(#name, path)) return -1;                              \
+        return REAL(name)(at, path, about, flags);                               \
     }
 FSTATAT(fstatat, stat)
 FSTATAT(fstatat64, stat64)
@@ -185,42 +185,42 @@ ssize_t write(int descriptor, const void *bytes, size_t count) {
     return REAL(write)(descriptor, bytes, count);
 }
 
-#define PREAD(name, offset_type)                                                    \
-    ssize_t name(int descriptor, void *bytes, size_t count, offset_type offset) {   \
-        if (is_watched(descriptor) && fails(#name, NULL)) return -1;                \
-        return REAL(name)(descriptor, bytes, count, offset);                        \
+#define PREAD(name, offset_type)                                                  \
+    ssize_t name(int descriptor, void *bytes, size_t count, offset_type offset) { \
+        if (is_watched(descriptor) && fails(#name, NULL)) return -1;              \
+        return REAL(name)(descriptor, bytes, count, offset);                      \
     }
 PREAD(pread, off_t)
 PREAD(pread64, off64_t)
 
-#define PWRITE(name, offset_type)                                                        \
-    ssize_t name(int descriptor, const void *bytes, size_t count, offset_type offset) {  \
-        if (is_watched(descriptor) && fails(#name, NULL)) return -1;                     \
-        return REAL(name)(descriptor, bytes, count, offset);                             \
+#define PWRITE(name, offset_type)                                                       \
+    ssize_t name(int descriptor, const void *bytes, size_t count, offset_type offset) { \
+        if (is_watched(descriptor) && fails(#name, NULL)) return -1;                    \
+        return REAL(name)(descriptor, bytes, count, offset);                            \
     }
 PWRITE(pwrite, off_t)
 PWRITE(pwrite64, off64_t)
 
-#define FTRUNCATE(name, offset_type)                                   \
-    int name(int descriptor, offset_type length) {                     \
-        if (is_watched(descriptor) && fails(#name, NULL)) return -1;   \
-        return REAL(name)(descriptor, length);                         \
+#define FTRUNCATE(name, offset_type)                                 \
+    int name(int descriptor, offset_type length) {                   \
+        if (is_watched(descriptor) && fails(#name, NULL)) return -1; \
+        return REAL(name)(descriptor, length);                       \
     }
 FTRUNCATE(ftruncate, off_t)
 FTRUNCATE(ftruncate64, off64_t)
 
-#define FALLOCATE(name, offset_type)                                            \
-    int name(int descriptor, int mode, offset_type from, offset_type length) {  \
-        if (is_watched(descriptor) && fails(#name, NULL)) return -1;            \
-        return REAL(name)(descriptor, mode, from, length);                      \
+#define FALLOCATE(name, offset_type)                                           \
+    int name(int descriptor, int mode, offset_type from, offset_type length) { \
+        if (is_watched(descriptor) && fails(#name, NULL)) return -1;           \
+        return REAL(name)(descriptor, mode, from, length);                     \
     }
 FALLOCATE(fallocate, off_t)
 FALLOCATE(fallocate64, off64_t)
 
-#define POSIX_FALLOCATE(name, offset_type)                                      \
-    int name(int descriptor, offset_type from, offset_type length) {            \
-        if (is_watched(descriptor) && fails(#name, NULL)) return fail_code;     \
-        return REAL(name)(descriptor, from, length);                            \
+#define POSIX_FALLOCATE(name, offset_type)                                  \
+    int name(int descriptor, offset_type from, offset_type length) {        \
+        if (is_watched(descriptor) && fails(#name, NULL)) return fail_code; \
+        return REAL(name)(descriptor, from, length);                        \
     }
 POSIX_FALLOCATE(posix_fallocate, off_t)
 POSIX_FALLOCATE(posix_fallocate64, off64_t)

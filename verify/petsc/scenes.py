@@ -26,8 +26,8 @@ REPEATED = 1e-6
 # On several ranks only marches of so many solves: a solve takes 15 ms on 2 and 4 ranks, 0.1 s on 8 and 0.7 to 1 s on 16
 # where there are two cores, so that a march ends within a minute.
 MOST_SOLVES = {2: 5000, 4: 5000, 8: 300, 16: 60}
-# In s. Beside other programs a rank that waits for a message gets its processor back milliseconds later, and marches have
-# taken six times as long.
+# In s. Beside other programs a rank that waits for a message gets its processor back milliseconds later, and marches
+# have taken six times as long.
 LIMIT = 600
 
 

@@ -75,7 +75,7 @@ inline hid_t open(const std::string& path) {
     return H5Fopen(path.c_str(), H5F_ACC_RDONLY, driver_access());
 }
 
-// A file whose bytes are in memory, to be read: HDF5 1.10 crashes where it copies an object and the file cannot be read.
+// A file whose bytes are in memory, to be read: HDF5 1.10 crashes where it copies an object and cannot read the file.
 inline hid_t open_bytes(const std::string& bytes) {
     require_memory();
     const Properties access(H5Pcreate(H5P_FILE_ACCESS), "fields.h5");

@@ -16,7 +16,7 @@ namespace cli::h5 {
 namespace {
 
 thread_local FileTrouble trouble;
-// Not opening is none where another way of opening the file works: before it makes a file, HDF5 tries whether it is there.
+// Not opening is none where another way of opening the file works: HDF5 tries whether a file is there, then makes it.
 thread_local FileTrouble not_opened;
 
 void note(const std::string& path, int code) {

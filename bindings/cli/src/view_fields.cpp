@@ -28,8 +28,9 @@ namespace {
 hid_t identified(hid_t id, const std::string& path, const std::string& item) {
     if (id >= 0) return id;
     const h5::FileTrouble trouble = h5::take_trouble();
-    wrong_fields(path, item + " cannot be read: " +
-                           (trouble.code != 0 ? reason_of(trouble.code) : "the file is damaged, or no fields.h5 of delam"));
+    wrong_fields(path,
+                 item + " cannot be read: " +
+                     (trouble.code != 0 ? reason_of(trouble.code) : "the file is damaged, or no fields.h5 of delam"));
 }
 
 hid_t opened_fields(const std::string& path) {
