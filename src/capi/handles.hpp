@@ -115,10 +115,14 @@ bool alive(const H* handle) noexcept {
 inline std::int32_t report(Context& context, std::int32_t status, const char* what) noexcept {
     try {
         context.message = what;
-        context.monitor.log(status < 0 ? 0 : 1, what);
-        context.message = what;  // again, because a call made by the log callback may have replaced it
     } catch (...) {
         context.message.clear();
+        return status;
+    }
+    try {
+        context.monitor.log(status < 0 ? 0 : 1, what);
+        context.message = what;  // again, because a call made by the log callback may have replaced it
+    } catch (...) {              // what the log lacks, the message says
     }
     return status;
 }

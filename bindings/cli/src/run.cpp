@@ -46,8 +46,12 @@ extern "C" void on_log(std::int32_t level, const char* text, void* user) {
     // The program says itself that it was interrupted.
     if (Interrupt::requested() && std::string_view(text).starts_with("cancelled by the host")) return;
     const Log& log = *static_cast<Log*>(user);
-    if (level <= 1)
+    if (level > 1) return;
+    try {
         log.progress.note(fmt::format("{}: {}", level == 0 ? "error" : "warning", said_of_scene(text, log.model)));
+    } catch (const std::exception&) {
+        // There is no memory for the words; what ends the run says so.
+    }
 }
 
 // Reads results, whatever it takes: a request to stop that arrives meanwhile ends the call that reads, and is obeyed
