@@ -112,8 +112,12 @@ typedef struct delam_experimental_answer {
 } delam_experimental_answer;
 
 /* An engine. size: sizeof(delam_experimental_engine); kept: number of answers that it keeps: 8. The functions
- * are called in the thread of the running call of the library, return 0 or a status of delam.h, and must not call the
- * library with objects of the same context.
+ * are called in the thread of the running call of the library, return 0 or a status, and must not call the library with
+ * objects of the same context. Of the statuses of delam.h they may have DELAM_CANCELLED and those of the errors
+ * argument, problem, state, memory and numerical; the library takes any other number for DELAM_ERROR_NUMERICAL. The
+ * running call returns that status if its line in brackets lists it, else DELAM_ERROR_NUMERICAL; where the line does
+ * not list that either, DELAM_ERROR_PROBLEM (delam_solver_value), or DELAM_ERROR_INTERNAL (delam_solver_field,
+ * delam_solver_average). Of a number that is not passed on, the message tells which it was.
  *   prepare   the variables from now on, valid until it returns; all places are empty. Fills diagonal [visible_count],
  *             of T^T K T, and load_sizes [pattern_count], the largest component of |T^T (f_p - K U_p)|.
  *   set       what acts from now on: the entries of C; variables that are zero (places in `visible`); and expressed
@@ -156,7 +160,7 @@ DELAM_API int32_t delam_experimental_problem_set_engine(delam_problem *problem,
 /* Writes some of the problem's cells, with all that their stiffness follows from, as bytes that another process can
  * turn into a matrix (delam_experimental_part_matrix). cells: [count] from 0 on, ascending, at least one, of bodies
  * with a material; the host's own stiffness has no parts. *size receives the number of bytes; call it with bytes NULL
- * to get it, and again with bytes [capacity].
+ * and capacity 0 to get it, and again with bytes [capacity].
  * [null bytes, size; status cancelled, argument, problem; source none; since 0.1] */
 DELAM_API int32_t delam_experimental_problem_part(const delam_problem *problem, int64_t count, const int64_t *cells,
                                                   int64_t capacity, uint8_t *bytes, int64_t *size);
@@ -174,8 +178,8 @@ DELAM_API int32_t delam_experimental_part_matrix(delam_context *context, int64_t
                                                  int64_t *columns, double *values);
 /* Computes fields at the centres of a part's cells: stress [cell_count][4 or 6] and rotation [cell_count][1 or 3], as
  * the fields `stress` and `rotation` of delam_solver_field have them. bytes: [size]. displacement: [node_count]
- * [dimension], at the part's nodes. bodies [body_count]: labels, each once, with the eigenstrains [body_count][6] of
- * these bodies; others have none. node_count and cell_count have to be those of the part.
+ * [dimension], at the part's nodes. bodies [body_count]: labels >= 0, each once, with the eigenstrains [body_count][6]
+ * of these bodies; others have none. node_count and cell_count have to be those of the part.
  * [unit displacement L finite, eigenstrains 1 finite, stress F/L2, rotation rad; null stress, rotation; status
  * cancelled, argument, snapshot; source T. Hughes, The Finite Element Method (1987), chapters 3 and 4; since 0.1] */
 DELAM_API int32_t delam_experimental_part_fields(delam_context *context, int64_t size, const uint8_t *bytes,
@@ -198,10 +202,11 @@ DELAM_API int32_t delam_experimental_solver_eigenstrains(delam_solver *solver, i
 /* ---- sensitivities ---------------------------------------------------------------------------------------------- */
 
 /* Follows the derivative of the analysis with respect to a number of the laws: key, as of delam_law_set, e.g.
- * normal_toughness, in all of the interfaces [interface_count] together, which must have the same value, not 0.
- * *parameter: its index, 0 for the first. Call it before the first step. It costs one displacement solve per parameter
- * in each step, and one per damaging pair. DELAM_ERROR_ARGUMENT: no such interface, law or number; `gradient`.
- * DELAM_ERROR_STATE: there are steps already; a law has a gradient term; `mixity_rule = variational`.
+ * normal_toughness, in all of the interfaces [interface_count] together, at least one and each once, which must have
+ * the same value, not 0. *parameter: its index, 0 for the first. Call it before the first step. It costs one
+ * displacement solve per parameter in each step, and one per damaging pair. DELAM_ERROR_ARGUMENT: no such interface,
+ * law or number; `gradient`. DELAM_ERROR_STATE: there are steps already; a law has a gradient term; `mixity_rule =
+ * variational`.
  * [null parameter; status cancelled, argument, state, numerical; source none; since 0.2] */
 DELAM_API int32_t delam_experimental_solver_follow(delam_solver *solver, int64_t interface_count,
                                                    const int64_t *interfaces, const char *key, int64_t *parameter);

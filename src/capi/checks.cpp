@@ -18,6 +18,11 @@ void require_count(std::int64_t count, const char* name, std::int64_t smallest) 
     }
 }
 
+void require_count_up_to(std::int64_t count, const char* name, std::int64_t smallest, std::int64_t largest) {
+    if (count < smallest || count > largest)
+        fail(DELAM_ERROR_ARGUMENT, name, " = ", count, " is outside ", smallest, " .. ", largest);
+}
+
 void require_array(const void* pointer, std::int64_t count, const char* name) {
     if (pointer == nullptr && count > 0) fail(DELAM_ERROR_ARGUMENT, name, " is NULL, expected ", count, " entries");
 }
@@ -38,6 +43,11 @@ void require_apart(const double* a, const char* name_a, std::int64_t count_a, co
 
 void require_capacity(std::int64_t capacity, std::int64_t needed, const char* name) {
     if (capacity < needed) fail(DELAM_ERROR_ARGUMENT, name, ": capacity ", capacity, " < ", needed, " entries");
+}
+
+void require_capacity_if(bool wanted, std::int64_t capacity, std::int64_t needed, const char* name) {
+    if (capacity < 0) fail(DELAM_ERROR_ARGUMENT, name, ": capacity = ", capacity, ", must be >= 0");
+    if (wanted) require_capacity(capacity, needed, name);
 }
 
 void require_base(std::int32_t index_base) {

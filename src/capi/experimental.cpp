@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <unordered_set>
 #include <utility>
 
 #include "capi/handles.hpp"
@@ -12,6 +13,33 @@
 #include "scene/part.hpp"
 
 using namespace delam;
+
+namespace {
+
+// Labels of bodies, each once.
+void require_labels(const std::int32_t* bodies, std::int64_t count) {
+    std::unordered_set<std::int32_t> seen;
+    for (std::int64_t b = 0; b < count; ++b) {
+        if (bodies[b] < 0) fail(DELAM_ERROR_ARGUMENT, "bodies[", b, "] = ", bodies[b], " must be >= 0");
+        if (!seen.insert(bodies[b]).second)
+            fail(DELAM_ERROR_ARGUMENT, "bodies[", b, "] = ", bodies[b], " occurs twice");
+    }
+}
+
+// Indices of interfaces, at least one, each once.
+std::vector<std::int64_t> require_interfaces(const Problem& problem, std::int64_t count,
+                                             const std::int64_t* interfaces) {
+    const auto there = static_cast<std::int64_t>(problem.interfaces.size());
+    require_count_up_to(count, "interface_count", 1, there);
+    std::vector<std::int64_t> list = require_indices(interfaces, count, there, 0, "interfaces");
+    for (std::size_t i = 0; i < list.size(); ++i)
+        if (std::find(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(i), list[i]) !=
+            list.begin() + static_cast<std::ptrdiff_t>(i))
+            fail(DELAM_ERROR_ARGUMENT, "interfaces[", i, "] = ", list[i], " occurs twice");
+    return list;
+}
+
+}  // namespace
 
 int32_t delam_experimental_problem_set_engine(delam_problem* problem, const delam_experimental_engine* engine) {
     return guard(problem, [&] {
@@ -25,7 +53,7 @@ int32_t delam_experimental_problem_part(const delam_problem* problem, int64_t co
                                         int64_t capacity, uint8_t* bytes, int64_t* size) {
     return guard_read(problem, [&] {
         const Problem& core = *problem->core;
-        require_count(count, "count", 1);
+        require_count_up_to(count, "count", 1, core.mesh->cell_count());
         const std::vector<std::int64_t> list = require_indices(cells, count, core.mesh->cell_count(), 0, "cells");
         for (std::size_t i = 1; i < list.size(); ++i)
             if (list[i] <= list[i - 1])
@@ -33,10 +61,8 @@ int32_t delam_experimental_problem_part(const delam_problem* problem, int64_t co
                      "] = ", list[i - 1]);
         const std::vector<std::uint8_t> part = save(part_of(core, list));
         const auto needed = static_cast<std::int64_t>(part.size());
-        if (bytes != nullptr) {
-            require_capacity(capacity, needed, "bytes");
-            std::copy(part.begin(), part.end(), bytes);
-        }
+        require_capacity_if(bytes != nullptr, capacity, needed, "bytes");
+        if (bytes != nullptr) std::copy(part.begin(), part.end(), bytes);
         if (size != nullptr) *size = needed;
     });
 }
@@ -90,10 +116,9 @@ int32_t delam_experimental_part_fields(delam_context* context, int64_t size, con
             fail(DELAM_ERROR_ARGUMENT, "cell_count = ", cell_count, ", but the part has ", mesh.cell_count(), " cells");
         require_finite(displacement, node_count * mesh.dimension(), "displacement");
         const std::span u(displacement, static_cast<std::size_t>(node_count * mesh.dimension()));
+        require_labels(bodies, body_count);
         std::vector<Strain> strains(body_count > 0 ? part.labels.size() : 0);
         for (std::int64_t b = 0; b < body_count; ++b) {
-            if (std::find(bodies, bodies + b, bodies[b]) != bodies + b)
-                fail(DELAM_ERROR_ARGUMENT, "bodies[", b, "] = ", bodies[b], " occurs twice");
             const auto at = std::lower_bound(part.labels.begin(), part.labels.end(), bodies[b]);
             if (at == part.labels.end() || *at != bodies[b]) continue;
             std::copy_n(eigenstrains + 6 * b, 6, strains[static_cast<std::size_t>(at - part.labels.begin())].begin());
@@ -106,7 +131,7 @@ int32_t delam_experimental_part_fields(delam_context* context, int64_t size, con
 }
 
 int32_t delam_experimental_solver_recover(delam_solver* solver) {
-    return guard_read(solver, [&] {
+    return guard_read(solver, listed::experimental_solver_recover, [&] {
         if (!solver->core->recover_in_engine())
             fail(DELAM_ERROR_STATE, "solver: its problem has no engine (delam_experimental_problem_set_engine)");
     });
@@ -114,10 +139,10 @@ int32_t delam_experimental_solver_recover(delam_solver* solver) {
 
 int32_t delam_experimental_solver_eigenstrains(delam_solver* solver, int64_t capacity, int32_t* bodies,
                                                double* eigenstrains, int64_t* count) {
-    return guard_read(solver, [&] {
+    return guard_read(solver, listed::experimental_solver_eigenstrains, [&] {
         const std::vector<Strain> strains = solver->core->eigenstrains();
         const auto needed = static_cast<std::int64_t>(strains.size());
-        if (bodies != nullptr || eigenstrains != nullptr) require_capacity(capacity, needed, "bodies, eigenstrains");
+        require_capacity_if(bodies != nullptr || eigenstrains != nullptr, capacity, needed, "bodies, eigenstrains");
         for (std::int64_t b = 0; b < needed; ++b) {
             if (bodies != nullptr) bodies[b] = solver->core->problem().mesh->body_label(static_cast<std::int32_t>(b));
             if (eigenstrains != nullptr)
@@ -129,18 +154,17 @@ int32_t delam_experimental_solver_eigenstrains(delam_solver* solver, int64_t cap
 
 int32_t delam_experimental_solver_follow(delam_solver* solver, int64_t interface_count, const int64_t* interfaces,
                                          const char* key, int64_t* parameter) {
-    return guard_solve(solver, [&] {
-        require_array(interfaces, interface_count, "interfaces");
+    return guard_solve(solver, listed::experimental_solver_follow, [&] {
+        const std::vector<std::int64_t> list = require_interfaces(solver->core->problem(), interface_count, interfaces);
         require_pointer(key, "key");
-        const std::int64_t index =
-            solver->core->follow(std::span(interfaces, static_cast<std::size_t>(interface_count)), key);
+        const std::int64_t index = solver->core->follow(list, key);
         if (parameter != nullptr) *parameter = index;
     });
 }
 
 int32_t delam_experimental_solver_sensitivity(const delam_solver* solver, int64_t capacity, double* matrix,
                                               int64_t* unknown) {
-    return guard_read(solver, [&] {
+    return guard_read(solver, listed::experimental_solver_sensitivity, [&] {
         const std::vector<double> values = solver->core->sensitivities();
         require_array(matrix, static_cast<std::int64_t>(values.size()), "matrix");
         require_capacity(capacity, static_cast<std::int64_t>(values.size()), "matrix");

@@ -20,6 +20,7 @@
 #include "base/float_environment.hpp"
 #include "base/monitor.hpp"
 #include "body/model.hpp"
+#include "capi/listed.hpp"
 #include "delam/delam.h"
 #include "evolution/plan.hpp"
 #include "linalg/sparse.hpp"
@@ -114,10 +115,14 @@ bool alive(const H* handle) noexcept {
 inline std::int32_t report(Context& context, std::int32_t status, const char* what) noexcept {
     try {
         context.message = what;
-        context.monitor.log(status < 0 ? 0 : 1, what);
-        context.message = what;  // again, because a call made by the log callback may have replaced it
     } catch (...) {
         context.message.clear();
+        return status;
+    }
+    try {
+        context.monitor.log(status < 0 ? 0 : 1, what);
+        context.message = what;  // again, because a call made by the log callback may have replaced it
+    } catch (...) {              // what the log lacks, the message says
     }
     return status;
 }
@@ -136,9 +141,9 @@ inline std::int32_t refuse_callback(Context& context) noexcept {
 }
 
 // Runs body and turns its exceptions into a status; the message goes into the context of `self`. body returns void or a
-// status.
+// status. Of the statuses that callbacks of the host bring about, only those `listed` are returned.
 template <class H, class Body>
-std::int32_t guard(const H* self, Body&& body) noexcept {
+std::int32_t guard(const H* self, Listed listed, Body&& body) noexcept {
     if (!alive(self)) return DELAM_ERROR_HANDLE;
     const std::shared_ptr<Context> context = self->context;  // outlives a handle that a callback destroys
     if (context->busy) return refuse_callback(*context);
@@ -153,7 +158,7 @@ std::int32_t guard(const H* self, Body&& body) noexcept {
             return body();
         }
     } catch (const Error& e) {
-        return report(*context, e.status(), e.what());
+        return report(*context, listed.in_place_of(e.status()), e.what());
     } catch (const std::bad_alloc&) {
         return report(*context, DELAM_ERROR_MEMORY, "out of memory");
     } catch (const std::length_error&) {
@@ -165,25 +170,42 @@ std::int32_t guard(const H* self, Body&& body) noexcept {
     }
 }
 
+template <class H, class Body>
+std::int32_t guard(const H* self, Body&& body) noexcept {
+    return guard(self, Listed::everything(), body);
+}
+
 // As guard(), for calls whose contract lists `cancelled`. CancelScope::Call says what may stop each of the three.
 template <class H, class Body>
-std::int32_t guard_cancellable(const H* self, CancelScope::Call call, Body&& body) noexcept {
-    return guard(self, [&] {
+std::int32_t guard_cancellable(const H* self, Listed listed, CancelScope::Call call, Body&& body) noexcept {
+    return guard(self, listed, [&] {
         const CancelScope scope(self->context->monitor, call);
         return body();
     });
 }
 template <class H, class Body>
+std::int32_t guard_solve(const H* self, Listed listed, Body&& body) noexcept {
+    return guard_cancellable(self, listed, CancelScope::Call::solves, body);
+}
+template <class H, class Body>
 std::int32_t guard_solve(const H* self, Body&& body) noexcept {
-    return guard_cancellable(self, CancelScope::Call::solves, body);
+    return guard_solve(self, Listed::everything(), body);
+}
+template <class H, class Body>
+std::int32_t guard_build(const H* self, Listed listed, Body&& body) noexcept {
+    return guard_cancellable(self, listed, CancelScope::Call::builds, body);
 }
 template <class H, class Body>
 std::int32_t guard_build(const H* self, Body&& body) noexcept {
-    return guard_cancellable(self, CancelScope::Call::builds, body);
+    return guard_build(self, Listed::everything(), body);
+}
+template <class H, class Body>
+std::int32_t guard_read(const H* self, Listed listed, Body&& body) noexcept {
+    return guard_cancellable(self, listed, CancelScope::Call::reads, body);
 }
 template <class H, class Body>
 std::int32_t guard_read(const H* self, Body&& body) noexcept {
-    return guard_cancellable(self, CancelScope::Call::reads, body);
+    return guard_read(self, Listed::everything(), body);
 }
 
 template <class H>
@@ -207,12 +229,16 @@ void destroy(H** handle) noexcept {
 // Argument checks; each throws Error(DELAM_ERROR_ARGUMENT) naming the argument, its value and its range.
 void require_pointer(const void* pointer, const char* name);
 void require_count(std::int64_t count, const char* name, std::int64_t smallest = 0);
+// Of entries that are each one of `largest` things, each once.
+void require_count_up_to(std::int64_t count, const char* name, std::int64_t smallest, std::int64_t largest);
 void require_array(const void* pointer, std::int64_t count, const char* name);
 void require_finite(const double* values, std::int64_t count, const char* name);
 // Refuses outputs of one call that share entries.
 void require_apart(const double* a, const char* name_a, std::int64_t count_a, const double* b, const char* name_b,
                    std::int64_t count_b);
 void require_capacity(std::int64_t capacity, std::int64_t needed, const char* name);
+// The same where the caller may leave out the arrays; a negative capacity is refused all the same.
+void require_capacity_if(bool wanted, std::int64_t capacity, std::int64_t needed, const char* name);
 void require_base(std::int32_t index_base);
 // The corners of a box, [dimension] each.
 void require_box(int dimension, const double* lower, const double* upper);

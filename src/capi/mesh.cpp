@@ -321,7 +321,7 @@ int32_t delam_mesh_cells(const delam_mesh* mesh, int32_t* types, int32_t* bodies
         const Mesh& core = *mesh->core;
         std::int64_t entries = 0;
         for (std::int64_t c = 0; c < core.cell_count(); ++c) entries += static_cast<std::int64_t>(core.cell(c).size());
-        if (connectivity != nullptr) require_capacity(capacity, entries, "connectivity");
+        require_capacity_if(connectivity != nullptr, capacity, entries, "connectivity");
         if (needed != nullptr) *needed = entries;
         std::int64_t offset = 0;
         for (std::int64_t c = 0; c < core.cell_count(); ++c) {

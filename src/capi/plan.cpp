@@ -38,7 +38,7 @@ int32_t delam_problem_value_info(const delam_problem* problem, int64_t index, co
 }
 
 int32_t delam_problem_plan(delam_problem* problem, const char** plan, double* setup, double* memory) {
-    return guard_build(problem, [&] {
+    return guard_build(problem, listed::problem_plan, [&] {
         const Forecast found = forecast(*problem->core, problem->context->monitor);
         problem->plan_words = plan_in_words(found.plan);
         if (plan != nullptr) *plan = problem->plan_words.c_str();

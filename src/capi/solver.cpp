@@ -39,8 +39,8 @@ const std::vector<CrackFront>& fronts_of(const delam_solver& solver, std::int64_
 
 // As guard_solve(), with the library's threads that the options of the scene ask for.
 template <class Body>
-std::int32_t guard_step(delam_solver* solver, Body&& body) noexcept {
-    return guard_solve(solver, [&] {
+std::int32_t guard_step(delam_solver* solver, Listed listed, Body&& body) noexcept {
+    return guard_solve(solver, listed, [&] {
         const TeamScope team(useful_threads(solver->core->problem().options.threads));
         return body();
     });
@@ -52,7 +52,7 @@ extern "C" {
 
 int32_t delam_solver_create(const delam_problem* problem, double time, delam_solver** out) {
     if (out != nullptr) *out = nullptr;
-    return guard_solve(problem, [&] {
+    return guard_solve(problem, listed::solver_create, [&] {
         require_pointer(out, "out");
         require_finite(&time, 1, "time");
         const TeamScope team(useful_threads(problem->core->options.threads));
@@ -70,11 +70,12 @@ int32_t delam_solver_create(const delam_problem* problem, double time, delam_sol
 void delam_solver_destroy(delam_solver** solver) { destroy(solver); }
 
 int32_t delam_solver_advance(delam_solver* solver, double time) {
-    return guard_step(solver, [&] { return report(*solver->context, solver->core->advance(time)); });
+    return guard_step(solver, listed::solver_advance,
+                      [&] { return report(*solver->context, solver->core->advance(time)); });
 }
 
 int32_t delam_solver_commit(delam_solver* solver) {
-    return guard(solver, [&] { solver->core->commit(); });
+    return guard(solver, listed::solver_commit, [&] { solver->core->commit(); });
 }
 
 int32_t delam_solver_rollback(delam_solver* solver) {
@@ -100,7 +101,7 @@ int32_t delam_solver_set_history(delam_solver* solver, int64_t pattern, int64_t 
 }
 
 int32_t delam_solver_equilibrate(delam_solver* solver, double time, const double* adhesion) {
-    return guard_step(solver, [&] {
+    return guard_step(solver, listed::solver_equilibrate, [&] {
         std::span<const double> held;
         if (adhesion != nullptr) held = {adhesion, solver->core->committed().adhesion.size()};
         return report(*solver->context, solver->core->equilibrate(time, held));
@@ -108,7 +109,7 @@ int32_t delam_solver_equilibrate(delam_solver* solver, double time, const double
 }
 
 int32_t delam_solver_value(delam_solver* solver, const char* key, double* out) {
-    return guard_read(solver, [&] {
+    return guard_read(solver, listed::solver_value, [&] {
         require_pointer(key, "key");
         require_pointer(out, "value");
         *out = value(*solver->core, key);
@@ -150,7 +151,7 @@ int32_t delam_solver_value_info(const delam_solver* solver, int64_t index, const
 }
 
 int32_t delam_solver_record(delam_solver* solver, const char* key) {
-    return guard(solver, [&] {
+    return guard(solver, listed::solver_record, [&] {
         require_pointer(key, "key");
         solver->core->record(key);
     });
@@ -190,7 +191,7 @@ int32_t delam_solver_field_shape(const delam_solver* solver, const char* key, in
 }
 
 int32_t delam_solver_field(delam_solver* solver, const char* key, int64_t part, int64_t capacity, double* values) {
-    return guard_read(solver, [&] {
+    return guard_read(solver, listed::solver_field, [&] {
         require_pointer(key, "key");
         const FieldShape shape = field_shape(*solver->core, key, part);
         require_capacity(capacity, shape.rows * shape.columns, "values");
@@ -200,7 +201,7 @@ int32_t delam_solver_field(delam_solver* solver, const char* key, int64_t part, 
 
 int32_t delam_solver_front_count(const delam_solver* solver, int64_t interface_index, int64_t* fronts,
                                  int64_t* points) {
-    return guard(solver, [&] {
+    return guard(solver, listed::solver_front_count, [&] {
         const std::vector<CrackFront>& found = fronts_of(*solver, interface_index);
         if (fronts != nullptr) *fronts = static_cast<int64_t>(found.size());
         if (points == nullptr) return;
@@ -212,7 +213,7 @@ int32_t delam_solver_front_count(const delam_solver* solver, int64_t interface_i
 int32_t delam_solver_front(const delam_solver* solver, int64_t interface_index, int64_t front_capacity,
                            int64_t point_capacity, int64_t* starts, int32_t* closed, double* places, double* directions,
                            double* lengths, double* rates, double* zone_lengths, double* zone_pairs) {
-    return guard(solver, [&] {
+    return guard(solver, listed::solver_front, [&] {
         const std::vector<CrackFront>& found = fronts_of(*solver, interface_index);
         const auto dim = static_cast<std::size_t>(solver->core->problem().mesh->dimension());
         std::size_t points = 0;
@@ -238,7 +239,7 @@ int32_t delam_solver_front(const delam_solver* solver, int64_t interface_index, 
 }
 
 int32_t delam_solver_average(const delam_solver* solver, int32_t body, double* volume, double* strain, double* stress) {
-    return guard_read(solver, [&] {
+    return guard_read(solver, listed::solver_average, [&] {
         const Mesh& mesh = *solver->core->problem().mesh;
         const std::int32_t index = body < 0 ? -1 : mesh.body_of_label(body);
         if (body != -1 && index < 0) fail(DELAM_ERROR_ARGUMENT, "body ", body, ": no body has this label");
@@ -252,7 +253,7 @@ int32_t delam_solver_average(const delam_solver* solver, int32_t body, double* v
 }
 
 int32_t delam_solver_tangent(delam_solver* solver, int64_t capacity, double* matrix) {
-    return guard_step(solver, [&] {
+    return guard_step(solver, listed::solver_tangent, [&] {
         const auto patterns = static_cast<int64_t>(solver->core->problem().patterns.size());
         require_capacity(capacity, patterns * patterns, "matrix");
         copy_out(solver->core->tangent(), capacity, matrix, "matrix");
@@ -260,7 +261,7 @@ int32_t delam_solver_tangent(delam_solver* solver, int64_t capacity, double* mat
 }
 
 int32_t delam_solver_step_tangent(delam_solver* solver, int64_t capacity, double* matrix) {
-    return guard_step(solver, [&] {
+    return guard_step(solver, listed::solver_step_tangent, [&] {
         const auto patterns = static_cast<int64_t>(solver->core->problem().patterns.size());
         require_capacity(capacity, patterns * patterns, "matrix");
         copy_out(solver->core->step_tangent(), capacity, matrix, "matrix");
@@ -268,7 +269,7 @@ int32_t delam_solver_step_tangent(delam_solver* solver, int64_t capacity, double
 }
 
 int32_t delam_solver_condensed_size(const delam_solver* solver, int64_t* unknowns, int64_t* entries) {
-    return guard(solver, [&] {
+    return guard(solver, listed::solver_condensed_size, [&] {
         const CondensedSize size = condensed_size(*solver->core);
         if (unknowns != nullptr) *unknowns = size.unknowns;
         if (entries != nullptr) *entries = size.entries;
@@ -278,9 +279,9 @@ int32_t delam_solver_condensed_size(const delam_solver* solver, int64_t* unknown
 int32_t delam_solver_condensed(const delam_solver* solver, int64_t capacity, double* stiffness, double* load,
                                double* constant, int64_t* row_starts, int64_t* columns, double* values,
                                double* offset) {
-    return guard_read(solver, [&] {
+    return guard_read(solver, listed::solver_condensed, [&] {
         const CondensedSize size = condensed_size(*solver->core);
-        if (stiffness != nullptr) require_capacity(capacity, size.unknowns * size.unknowns, "stiffness");
+        require_capacity_if(stiffness != nullptr, capacity, size.unknowns * size.unknowns, "stiffness");
         copy_condensed(*solver->core, {stiffness, load, constant, row_starts, columns, values, offset});
     });
 }
@@ -370,8 +371,8 @@ int32_t delam_solver_jump_reactions(const delam_solver* solver, int64_t index, i
         const auto at =
             static_cast<std::size_t>(require_index(index, static_cast<std::int64_t>(jumps.size()), 0, "index"));
         const std::size_t patterns = solver->core->problem().patterns.size();
-        if (before != nullptr || after != nullptr)
-            require_capacity(capacity, static_cast<std::int64_t>(patterns), before != nullptr ? "before" : "after");
+        require_capacity_if(before != nullptr || after != nullptr, capacity, static_cast<std::int64_t>(patterns),
+                            before != nullptr ? "before" : "after");
         const auto give = [&](double* out, std::vector<double> reactions) {
             if (out == nullptr) return;
             reactions.resize(patterns, std::numeric_limits<double>::quiet_NaN());
@@ -392,9 +393,10 @@ int32_t delam_solver_save(const delam_solver* solver, int64_t capacity, uint8_t*
 }
 
 int32_t delam_solver_load(delam_solver* solver, int64_t size, const uint8_t* bytes) {
-    return guard_step(solver, [&] {
+    return guard_step(solver, listed::solver_load, [&] {
         require_count(size, "size");
         require_array(bytes, size, "bytes");
+        poll_cancel_now("load");  // a small state would be read before the first poll
         load(*solver->core, {bytes, static_cast<std::size_t>(size)});
     });
 }
@@ -407,8 +409,9 @@ int32_t delam_solver_save_file(const delam_solver* solver, const char* path) {
 }
 
 int32_t delam_solver_load_file(delam_solver* solver, const char* path) {
-    return guard_step(solver, [&] {
+    return guard_step(solver, listed::solver_load_file, [&] {
         require_pointer(path, "path");
+        poll_cancel_now("load");
         load_file(*solver->core, path);
     });
 }

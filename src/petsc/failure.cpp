@@ -56,6 +56,8 @@ Failure current_failure() {
         return failure;
     } catch (const std::bad_alloc&) {
         return Failure(DELAM_ERROR_MEMORY, "not enough memory");
+    } catch (const std::length_error&) {
+        return Failure(DELAM_ERROR_MEMORY, "not enough memory: more entries than an array can have");
     } catch (const std::exception& error) {
         return Failure(DELAM_ERROR_INTERNAL, error.what());
     } catch (...) {

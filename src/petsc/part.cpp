@@ -14,6 +14,10 @@ void check_nodes(const std::vector<std::int64_t>& nodes) {
     std::vector<std::int64_t> sorted(nodes);
     std::sort(sorted.begin(), sorted.end());
     if (!sorted.empty() && sorted.front() < 0) fail(DELAM_ERROR_ARGUMENT, "nodes: ", sorted.front(), " is negative");
+    // DOFs are dimension*node + component: far beyond any memory, and three times it fits 64 bits.
+    constexpr std::int64_t largest = std::int64_t{1} << 48;
+    if (!sorted.empty() && sorted.back() > largest)
+        fail(DELAM_ERROR_ARGUMENT, "nodes: ", sorted.back(), " is outside 0 .. ", largest);
     const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
     if (twice != sorted.end()) fail(DELAM_ERROR_ARGUMENT, "nodes: node ", *twice, " occurs twice");
 }
@@ -41,12 +45,16 @@ LocalMatrix copy_rows(std::int64_t rows, const std::int64_t* row_starts, const s
 
 void check_rows(std::int64_t rows, const std::int64_t* row_starts, const std::int64_t* columns, const double* values) {
     if (rows == 0) return;
-    if (row_starts == nullptr || row_starts[0] != 0)
-        fail(DELAM_ERROR_ARGUMENT, "row_starts: NULL or does not begin with 0");
+    if (row_starts == nullptr) fail(DELAM_ERROR_ARGUMENT, "row_starts: NULL with ", rows, " rows");
+    if (row_starts[0] != 0) fail(DELAM_ERROR_ARGUMENT, "row_starts[0] = ", row_starts[0], ": has to be 0");
     for (std::int64_t r = 0; r < rows; ++r)
-        if (row_starts[r + 1] < row_starts[r]) fail(DELAM_ERROR_ARGUMENT, "row_starts: decreases after row ", r);
+        if (row_starts[r + 1] < row_starts[r])
+            fail(DELAM_ERROR_ARGUMENT, "row_starts[", r + 1, "] = ", row_starts[r + 1], ": has to be at least ",
+                 row_starts[r]);
     const std::int64_t entries = row_starts[rows];
-    petsc_int(entries);
+    if (entries > static_cast<std::int64_t>(PETSC_MAX_INT))
+        fail(DELAM_ERROR_ARGUMENT, "row_starts[", rows, "] = ", entries, ", allowed: 0 to ", PETSC_MAX_INT,
+             " (entries, in PETSc's integers)");
     if (entries > 0 && (columns == nullptr || values == nullptr))
         fail(DELAM_ERROR_ARGUMENT, "columns or values: NULL with ", entries, " entries");
     for (std::int64_t e = 0; e < entries; ++e)
@@ -57,6 +65,9 @@ Part make_nodes(std::int32_t dimension, std::int64_t node_count, const std::int6
     if (dimension != 2 && dimension != 3) fail(DELAM_ERROR_ARGUMENT, "dimension = ", dimension, ": has to be 2 or 3");
     if (node_count < 0) fail(DELAM_ERROR_ARGUMENT, "node_count = ", node_count, ": has to be at least 0");
     if (node_count > 0 && nodes == nullptr) fail(DELAM_ERROR_ARGUMENT, "nodes: NULL with ", node_count, " nodes");
+    if (node_count > static_cast<std::int64_t>(PETSC_MAX_INT) / dimension)
+        fail(DELAM_ERROR_ARGUMENT, "node_count = ", node_count, ", allowed: 0 to ",
+             static_cast<std::int64_t>(PETSC_MAX_INT) / dimension, " (the DOFs have to fit into PETSc's integers)");
     Part part;
     part.dimension = dimension;
     part.nodes.assign(nodes, nodes + node_count);

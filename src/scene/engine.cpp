@@ -5,11 +5,20 @@
 
 namespace delam {
 
-Engine::Engine(const delam_experimental_engine& functions) : functions_(functions) {
+namespace {
+
+// Of a host that was compiled with another header, nothing but the size is there for certain.
+delam_experimental_engine copied(const delam_experimental_engine& functions) {
     const auto size = static_cast<std::int64_t>(sizeof(delam_experimental_engine));
     if (functions.size != size)
         fail(DELAM_ERROR_ARGUMENT, "engine: size = ", functions.size, ", allowed: ", size,
              " (sizeof(delam_experimental_engine) of this library)");
+    return functions;
+}
+
+}  // namespace
+
+Engine::Engine(const delam_experimental_engine& functions) : functions_(copied(functions)) {
     if (functions.kept != kept) fail(DELAM_ERROR_ARGUMENT, "engine: kept = ", functions.kept, ", allowed: ", kept);
     const struct {
         bool there;
@@ -28,9 +37,12 @@ Engine::~Engine() {
 void Engine::require(std::int32_t status, const char* what) const {
     if (status == DELAM_OK) return;
     const char* said = functions_.message(functions_.user);
-    const bool known = status == DELAM_CANCELLED || (status < 0 && status >= DELAM_ERROR_FILE);
-    fail(known ? status : DELAM_ERROR_NUMERICAL, "engine: ", what, ": ",
-         said != nullptr && *said != '\0' ? said : text("status ", status).c_str());
+    const std::string text_of = said != nullptr && *said != '\0' ? said : text("status ", status);
+    for (const std::int32_t own : {DELAM_CANCELLED, DELAM_ERROR_ARGUMENT, DELAM_ERROR_PROBLEM, DELAM_ERROR_STATE,
+                                   DELAM_ERROR_MEMORY, DELAM_ERROR_NUMERICAL})
+        if (status == own) fail(status, "engine: ", what, ": ", text_of);
+    fail(DELAM_ERROR_NUMERICAL, "engine: ", what, ": ", text_of, " (it returned ", status,
+         "; allowed: 0 and the statuses cancelled, argument, problem, state, memory, numerical)");
 }
 
 }  // namespace delam

@@ -19,7 +19,8 @@ public:
     const delam_experimental_engine& functions() const { return functions_; }
     // Answers that it keeps.
     static constexpr std::int64_t kept = 8;
-    // Throws what a function of it has returned, with its message. what: the function.
+    // Throws unless a function of it has returned DELAM_OK, with its message: a status that an engine may have, or
+    // DELAM_ERROR_NUMERICAL in the place of any other number. what: the function.
     void require(std::int32_t status, const char* what) const;
 
     // Whose variables it has at the moment. It has room for those of one operator.

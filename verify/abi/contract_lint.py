@@ -98,6 +98,37 @@ def own_statuses(folder):
     return found
 
 
+def passed_statuses(folder):
+    """function -> statuses that it lets pass: those of listed.hpp (src/capi), or a list in its own lines (src/petsc)."""
+    found = {}
+    path = os.path.join(folder, "listed.hpp")
+    if os.path.exists(path):
+        with open(path, encoding="utf-8") as file:
+            rows = re.findall(r"Listed (\w+) =\s*Listed::of\(([^)]*)\)", file.read())
+        found = {"delam_" + name: words_of(text) for name, text in rows}
+    for path in sorted(glob.glob(os.path.join(folder, "*.cpp"))):
+        with open(path, encoding="utf-8") as file:
+            text = file.read()
+        for match in re.finditer(r"^int32_t (delam_\w+)\([^{]*\{\n\s*return (?:call|here)\(\w+,\s*\{([^}]*)\}", text, re.M):
+            found[match.group(1)] = words_of(match.group(2))
+    return found
+
+
+def words_of(text):
+    return {w.lower() for w in re.findall(r"DELAM_(?:ERROR_)?(\w+)", text)}
+
+
+def unused_passed(folder):
+    """Rows of listed.hpp that no function takes."""
+    text = "".join(open(path, encoding="utf-8").read() for path in sorted(glob.glob(os.path.join(folder, "*.cpp"))))
+    for name in passed_statuses(folder):
+        short = name[len("delam_"):]
+        body = re.search(rf"^int32_t {name}\([^{{]*\{{(?:[^\n]*\}}$|.*?^\}})", text, re.S | re.M)
+        if os.path.exists(os.path.join(folder, "listed.hpp")) and (body is None or
+                                                                    f"listed::{short}," not in body.group()):
+            yield name
+
+
 def fuzzed_statuses(path):
     """function -> statuses that its row in the table of the fuzz target (verify/fuzz/api_sequence.cpp) lets pass."""
     rows = re.findall(r'\{"(delam_\w+)", Subject::\w+,\s*(may::[^,]*),', open(path).read())
@@ -113,7 +144,7 @@ def has_shape(name, prose):
     return re.search(rf"(?<!\w){re.escape(name)}(?:,?\s+(?:and )?\*?\w+(?=[\s,:\[]))*:?\s*\[", prose) is not None
 
 
-def check(function, header, listed, implemented, fuzzed=None):
+def check(function, header, listed, implemented, fuzzed=None, passed=None):
     gaps = []
     callback = function.callback
     fields, prose = fields_of(function.comment)
@@ -202,6 +233,9 @@ def check(function, header, listed, implemented, fuzzed=None):
         if fuzzed is not None and not callback and function.name in fuzzed and fuzzed[function.name] != own:
             gaps.append(f"status: {', '.join(sorted(own)) or 'usual'} here, "
                         f"{', '.join(sorted(fuzzed[function.name])) or 'usual'} in the fuzz target")
+        if passed is not None and not callback and function.name in passed and passed[function.name] != own:
+            gaps.append(f"status: {', '.join(sorted(own)) or 'usual'} here, "
+                        f"{', '.join(sorted(passed[function.name])) or 'usual'} in the sources' table")
         if implemented is not None:
             for word in sorted(implemented.get(function.name, set()) - complete):
                 gaps.append(f"status: its lines in src/capi give {word}, which is not listed")
@@ -266,10 +300,18 @@ def main():
     listed = gate.read_list(options.symbols) if options.symbols else None
     implemented = own_statuses(options.sources) if options.sources else None
     fuzzed = fuzzed_statuses(options.fuzzed) if options.fuzzed else None
+    passed = passed_statuses(options.sources) if options.sources else None
     gaps = 0
+    for name in unused_passed(options.sources) if options.sources else ():
+        print(f"{options.sources}/listed.hpp: {name}: the function does not take its row")
+        gaps += 1
     for function in [*header.functions.values(), *own_callbacks.values()]:
-        for gap in check(function, header, listed, implemented, fuzzed):
+        for gap in check(function, header, listed, implemented, fuzzed, passed):
             print(f"{options.header}:{function.line}: {function.name}: {gap}")
+            gaps += 1
+    if fuzzed is not None and options.promised:
+        for name in sorted(set(header.functions) - set(fuzzed)):
+            print(f"{options.header}:{header.functions[name].line}: {name}: no row in the fuzz target")
             gaps += 1
     for struct in header.structs.values():
         for gap in struct_gaps(struct, header):

@@ -36,7 +36,7 @@ import keys  # noqa: E402
 import table  # noqa: E402
 from host import Host, Missing, Refused, Twist  # noqa: E402
 
-for module in ("mesh", "law", "problem", "solver", "values", "options", "operators"):
+for module in ("mesh", "law", "problem", "solver", "values", "options", "operators", "calls"):
     importlib.import_module(f"rows_{module}")
 
 BASELINE = os.path.join(HERE, "baseline", "meanings.txt")

@@ -483,6 +483,18 @@ printf 'int32_t delam_law_respond(const delam_law* law) {\n    if (law == 0) fai
 refused 'delam_law_respond: status: its lines in src/capi give state, which is not listed' \
     "$python" "$here/contract_lint.py" "$work/contract/delam/delam.h" --sources "$work/contract/capi"
 
+# A row of the table of statuses that lets more pass, and one that no function takes.
+printf 'inline constexpr Listed law_respond =\n    Listed::of(DELAM_ERROR_ARGUMENT, DELAM_ERROR_SNAPSHOT);\n' \
+    >"$work/contract/capi/listed.hpp"
+printf 'int32_t delam_law_respond(const delam_law* law) {\n    return guard(law, listed::law_respond, [] {});\n}\n' \
+    >"$work/contract/capi/law.cpp"
+refused "delam_law_respond: status: argument.* here, argument, snapshot in the sources' table" \
+    "$python" "$here/contract_lint.py" "$work/contract/delam/delam.h" --sources "$work/contract/capi"
+printf 'int32_t delam_law_respond(const delam_law* law) {\n    return guard(law, [] {});\n}\n' \
+    >"$work/contract/capi/law.cpp"
+refused 'delam_law_respond: the function does not take its row' \
+    "$python" "$here/contract_lint.py" "$work/contract/delam/delam.h" --sources "$work/contract/capi"
+
 # A row of the fuzz target that lets less pass.
 printf '    {"delam_law_respond", Subject::law, may::state,\n' >"$work/contract/table.cpp"
 refused 'delam_law_respond: status: argument' \

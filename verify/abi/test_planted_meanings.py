@@ -118,6 +118,14 @@ BREAKS = {
     "reaction of the body": "values of a bar",
     "levels of the log upside down": "callbacks of a context",
     "progress that stops nothing": "callbacks of a context",
+    "commit without a step": "commit and rollback without a step",
+    "a step into the past out of order": "time of a step",
+    "contact that stays without adhesion": "adhesion after contact and bonds",
+    "a box that only lowers": "adhesion in a box again",
+    "step tangent by columns": "rows of the step tangent",
+    "lists of a state in another order": "states of earlier versions",
+    "old formats refused": "states of earlier versions",
+    "a cancel that is forgotten": "a cancel before a call",
 }
 # Another default of each option, and the row that must see it.
 OPTIONS = {

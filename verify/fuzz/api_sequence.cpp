@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -18,6 +19,9 @@
 #include <unistd.h>
 
 #include "contract.hpp"
+#include "delam/experimental.h"
+#include "dense_engine.hpp"
+#include "host_law.hpp"
 #include "input.hpp"
 #include "small_scene.hpp"
 
@@ -28,37 +32,6 @@ using namespace fuzz;
 constexpr std::size_t slots = 3;  // of each kind
 constexpr int calls_at_most = 40;
 constexpr std::int64_t nodes_at_most = 400;
-
-// A host law, computed by callbacks: the bilinear law, until it is made to fail.
-struct HostLaw {
-    int fail_in = -1;  // calls until one fails
-    bool nonsense = false;
-    bool fails() { return fail_in >= 0 && fail_in-- == 0; }
-};
-constexpr double host_onset = 0.01, host_toughness = 0.05;
-std::int32_t host_adhesion(double, double driving, double* adhesion, double* slope, void* user) {
-    HostLaw& law = *static_cast<HostLaw*>(user);
-    if (law.fails()) return 1;
-    // zeta* of zeta Y + g with -g'(zeta) = 1/(zeta/sqrt(Go) + (1 - zeta)/sqrt(Ge))^2, sqrt(Go Ge) = Gc
-    const double first = std::sqrt(host_onset), last = host_toughness / first, root = std::sqrt(driving);
-    const double softening = (1.0 / root - 1.0 / last) / (1.0 / first - 1.0 / last);
-    *adhesion = driving <= host_onset ? 1.0 : root >= last ? 0.0 : softening;
-    *slope = *adhesion <= 0.0 || *adhesion >= 1.0 ? 0.0 : -0.5 / (root * driving) / (1.0 / first - 1.0 / last);
-    if (law.nonsense) *adhesion = std::nan(""), *slope = 1.0;
-    return 0;
-}
-std::int32_t host_dissipation(double, double adhesion, double* dissipated, double* slope, double* mixity_slope,
-                              void* user) {
-    HostLaw& law = *static_cast<HostLaw*>(user);
-    if (law.fails()) return 1;
-    const double a = 1.0 / std::sqrt(host_onset), b = std::sqrt(host_onset) / host_toughness;
-    const double root = adhesion * a + (1.0 - adhesion) * b;
-    *dissipated = (1.0 / root - 1.0 / a) / (a - b);
-    *slope = -1.0 / (root * root);
-    *mixity_slope = 0.0;
-    if (law.nonsense) *dissipated = -*dissipated;
-    return 0;
-}
 
 template <class T>
 void destroy_handle(T** handle);
@@ -94,8 +67,17 @@ struct Shelf {
     T* pick(Input& in) const { return handle[static_cast<std::size_t>(in.below(slots))]; }
 };
 
+// An engine that problems of the library may have taken.
+struct Engaged {
+    explicit Engaged(Dense stiffness) : engine(std::move(stiffness)) {}
+    DenseEngine engine;
+    std::int64_t taken = 0;
+};
+
 // Two contexts, the objects made with them, and the data of the callbacks.
 struct World {
+    std::vector<std::unique_ptr<Engaged>> engines;
+    std::vector<std::uint8_t> part;  // what delam_experimental_problem_part wrote last
     std::unique_ptr<Host> host[2] = {std::make_unique<Host>(), std::make_unique<Host>()};
     HostLaw host_law;
     Shelf<delam_mesh> mesh;
@@ -116,6 +98,15 @@ struct World {
             delam_mesh_destroy(&mesh.handle[i]);
             expect(solver.handle[i] == nullptr && mesh.handle[i] == nullptr, "destroyed handles are NULL", "destroy");
         }
+        for (const auto& each : engines)
+            expect(each->engine.released == each->taken, "each engine that was taken is released once", "release");
+    }
+    // Engines fail and answer nonsense only while the call runs that is asked, not while objects are looked at.
+    void wake(bool awake) {
+        for (const auto& each : engines) each->engine.awake = awake, each->engine.failed &= !awake;
+    }
+    bool engine_failed() const {
+        return std::any_of(engines.begin(), engines.end(), [](const auto& each) { return each->engine.failed; });
     }
     Host& any_host(Input& in) { return *host[in.below(2)]; }
 
@@ -601,7 +592,10 @@ std::int32_t watched(World& world, Input& in, Call&& call) {
         world.heard->cancel_in = in.below(64);
         world.heard->cancel_by_call = in.flag();
     }
-    if (in.seldom()) world.host_law.fail_in = in.byte();
+    if (in.seldom()) {
+        world.host_law.fail_in = in.byte();
+        if (in.flag()) world.host_law.fail_with = in.raw<std::int32_t>();
+    }
     const std::int32_t status = call();
     world.heard->cancel_in = -1;
     world.host_law.fail_in = -1;
@@ -739,6 +733,224 @@ std::int32_t condensed(Input& in, delam_solver* solver) {
         .status;
 }
 
+// ---- experimental functions -----------------------------------------------------------------------------------------
+
+// Gives the problem a dense engine of its own, or one in which something is missing or wrong. mesh: where the stiffness
+// comes from; it may be that of another problem.
+std::int32_t set_engine(World& world, Input& in, const delam_mesh* mesh, delam_problem* problem, bool sound) {
+    constexpr std::int64_t largest = 120;  // DOFs: dense products only take long
+    if ((!sound && in.seldom()) || sizes_of(problem).dofs > largest)
+        return delam_experimental_problem_set_engine(problem, nullptr);
+    auto own = std::make_unique<Engaged>(stiffness_of(mesh, problem));
+    own->engine.awake = false;
+    own->engine.calls_at_most = 600;
+    delam_experimental_engine functions = own->engine.functions();
+    if (!sound && in.seldom()) functions.size = in.hostile_whole();
+    if (!sound && in.seldom()) functions.kept = in.hostile_whole();
+    if (!sound && in.seldom()) {
+        switch (in.below(7)) {
+            case 0:
+                functions.prepare = nullptr;
+                break;
+            case 1:
+                functions.set = nullptr;
+                break;
+            case 2:
+                functions.renew = nullptr;
+                break;
+            case 3:
+                functions.solve = nullptr;
+                break;
+            case 4:
+                functions.recover = nullptr;
+                break;
+            case 5:
+                functions.message = nullptr;
+                break;
+            default:
+                break;
+        }
+    }
+    // On the heap and no longer than it says: what reads beyond `size` is seen.
+    std::vector<std::uint8_t> bytes(sizeof functions);
+    std::memcpy(bytes.data(), &functions, sizeof functions);
+    if (functions.size >= 8 && functions.size < static_cast<std::int64_t>(sizeof functions)) {
+        bytes.resize(static_cast<std::size_t>(functions.size));
+        bytes.shrink_to_fit();
+    }
+    const std::int32_t status = delam_experimental_problem_set_engine(
+        problem, reinterpret_cast<const delam_experimental_engine*>(bytes.data()));
+    own->taken = status == DELAM_OK ? 1 : 0;
+    world.engines.push_back(std::move(own));
+    return status;
+}
+
+// What the engines do from now on, in calls that are asked.
+void turn_engines(World& world, Input& in) {
+    static constexpr std::int32_t statuses[] = {DELAM_CANCELLED,
+                                                DELAM_ERROR_ARGUMENT,
+                                                DELAM_ERROR_HANDLE,
+                                                DELAM_ERROR_MESH,
+                                                DELAM_ERROR_PROBLEM,
+                                                DELAM_ERROR_STATE,
+                                                DELAM_ERROR_MEMORY,
+                                                DELAM_ERROR_NUMERICAL,
+                                                DELAM_ERROR_SNAPSHOT,
+                                                DELAM_ERROR_INTERNAL,
+                                                DELAM_ERROR_FILE,
+                                                DELAM_NOT_CONVERGED,
+                                                DELAM_LIMIT,
+                                                4,
+                                                -11,
+                                                1000000,
+                                                std::numeric_limits<std::int32_t>::min(),
+                                                std::numeric_limits<std::int32_t>::max()};
+    const auto nonsense = static_cast<DenseEngine::Nonsense>(
+        in.flag() ? 0 : in.below(static_cast<std::int64_t>(DenseEngine::Nonsense::count)));
+    const std::int64_t after = in.flag() ? -1 : in.below(40);
+    const std::uint8_t which = in.byte();
+    const std::int32_t status = which < 240 ? statuses[which % std::size(statuses)] : in.raw<std::int32_t>();
+    for (const auto& each : world.engines) {
+        each->engine.nonsense = nonsense;
+        each->engine.fail_in = after;
+        each->engine.fail_with = status;
+    }
+}
+
+std::int32_t problem_part(World& world, Input& in, const delam_problem* problem) {
+    std::vector<std::int64_t> cells;
+    for (std::int64_t next = in.below(3), left = in.below(8); left > 0; --left, next += 1 + in.below(2))
+        cells.push_back(next);
+    if (in.seldom()) cells = in.indices(few(in), 8);
+    const std::int64_t count = in.seldom() ? in.hostile_whole() : static_cast<std::int64_t>(cells.size());
+    // A host that says more cells than it has reads outside itself; here beyond any mesh, which is refused before.
+    const std::int64_t said = count > static_cast<std::int64_t>(cells.size()) && count < 1000
+                                  ? static_cast<std::int64_t>(cells.size())
+                                  : count;
+    std::int64_t size = 0;
+    const std::int32_t status = in_order{delam_experimental_problem_part,
+                                         problem,
+                                         said,
+                                         maybe(in, cells),
+                                         in.seldom() ? in.hostile_whole() : 0,
+                                         nullptr,
+                                         in.seldom() ? nullptr : &size}
+                                    .status;
+    if (status != DELAM_OK) return status;
+    Room<std::uint8_t> room(in, size);
+    const std::int32_t written =
+        in_order{delam_experimental_problem_part, problem, said, cells.data(), room.capacity, room.data(), &size}
+            .status;
+    if (written == DELAM_OK && room.capacity == size) world.part = room.entries;
+    return written;
+}
+
+// The part written last, or one that was damaged, with or without its checksum corrected.
+std::vector<std::uint8_t> some_part(const World& world, Input& in) {
+    std::vector<std::uint8_t> bytes = world.part;
+    if (in.flag() || bytes.empty()) return bytes;
+    for (std::int64_t left = 1 + in.below(3); left > 0; --left) {
+        const std::size_t place = in.raw<std::uint16_t>() % bytes.size();
+        if (in.flag()) {
+            bytes[place] ^= in.byte();
+        } else {
+            const std::int64_t whole = in.hostile_whole();
+            std::memcpy(bytes.data() + place, &whole, std::min<std::size_t>(8, bytes.size() - place));
+        }
+    }
+    if (in.seldom()) bytes.resize(bytes.size() - std::min<std::size_t>(bytes.size(), in.byte()));
+    return in.seldom() ? bytes : with_checksum(std::move(bytes));
+}
+
+std::int64_t some_size(Input& in, const std::vector<std::uint8_t>& bytes) {
+    if (!in.seldom()) return static_cast<std::int64_t>(bytes.size());
+    const std::int64_t said = in.hostile_whole();
+    return said > static_cast<std::int64_t>(bytes.size()) && said <= (std::int64_t{1} << 48) ? -said : said;
+}
+
+std::int32_t part_matrix(World& world, Input& in, delam_context* context) {
+    std::vector<std::uint8_t> bytes = some_part(world, in);
+    const std::int64_t said = some_size(in, bytes);
+    std::int64_t dimension = 0, nodes = 0, entries = 0;
+    const std::uint8_t* given = maybe(in, bytes);
+    const std::int32_t status = delam_experimental_part_matrix(context, said, given, &dimension, &nodes, &entries,
+                                                               nullptr, nullptr, nullptr, nullptr, nullptr);
+    if (status != DELAM_OK) return status;
+    const auto rows = static_cast<std::size_t>(dimension * nodes);
+    std::vector<std::int64_t> node(static_cast<std::size_t>(nodes)), starts(rows + 1),
+        columns(static_cast<std::size_t>(entries));
+    std::vector<double> places(rows), values(columns.size());
+    return in_order{delam_experimental_part_matrix,
+                    context,
+                    said,
+                    given,
+                    nullptr,
+                    nullptr,
+                    nullptr,
+                    maybe(in, node),
+                    maybe(in, places),
+                    maybe(in, starts),
+                    maybe(in, columns),
+                    maybe(in, values)}
+        .status;
+}
+
+std::int32_t part_fields(World& world, Input& in, delam_context* context) {
+    std::vector<std::uint8_t> bytes = some_part(world, in);
+    const std::int64_t said = some_size(in, bytes);
+    std::int64_t dimension = 2, nodes = 0;
+    delam_experimental_part_matrix(context, said, bytes.data(), &dimension, &nodes, nullptr, nullptr, nullptr, nullptr,
+                                   nullptr, nullptr);
+    const std::size_t labels = few(in), cells = in.seldom() ? few(in) : 64;
+    std::vector<std::int32_t> bodies(labels);
+    for (std::int32_t& label : bodies) label = in.small_label(4);
+    std::vector<double> u = in.reals(static_cast<std::size_t>(dimension * nodes)), strains = in.reals(6 * labels);
+    // The part does not tell its number of cells: all that are possible are asked for.
+    std::vector<double> stress(6 * cells), rotation(3 * cells);
+    std::int32_t status = DELAM_ERROR_ARGUMENT;
+    const std::int64_t hostile = in.seldom() ? in.hostile_whole() : -1;
+    const double* displacement = maybe(in, u);
+    double *stresses = maybe(in, stress), *rotations = maybe(in, rotation);
+    for (std::int64_t count = 0; count <= static_cast<std::int64_t>(cells) && status == DELAM_ERROR_ARGUMENT; ++count)
+        status = delam_experimental_part_fields(context, said, bytes.data(), nodes, displacement,
+                                                static_cast<std::int64_t>(labels), bodies.data(), strains.data(), count,
+                                                stresses, rotations);
+    if (hostile < 0 || hostile > 1000)
+        status = delam_experimental_part_fields(context, said, bytes.data(), hostile, displacement, 0, nullptr, nullptr,
+                                                hostile, nullptr, nullptr);
+    return status;
+}
+
+std::int32_t eigenstrains(Input& in, delam_solver* solver) {
+    std::int64_t count = 0;
+    const std::int32_t status = delam_experimental_solver_eigenstrains(
+        solver, in.seldom() ? in.hostile_whole() : 0, nullptr, nullptr, in.seldom() ? nullptr : &count);
+    if (status != DELAM_OK) return status;
+    Room<std::int32_t> bodies(in, count);
+    std::vector<double> strains(6 * bodies.entries.size());
+    return in_order{
+        delam_experimental_solver_eigenstrains, solver, bodies.capacity, bodies.data(), maybe(in, strains), &count}
+        .status;
+}
+
+std::int32_t follow(Input& in, delam_solver* solver) {
+    std::vector<std::int64_t> interfaces = in.indices(1 + few(in) / 2, 2);
+    std::int64_t count = in.seldom() ? in.hostile_whole() : static_cast<std::int64_t>(interfaces.size());
+    if (count > static_cast<std::int64_t>(interfaces.size()) && count < 1000) count = 0;
+    std::int64_t parameter = -1;
+    return in_order{delam_experimental_solver_follow,  solver, count, maybe(in, interfaces), in.word(law_keys),
+                    in.seldom() ? nullptr : &parameter}
+        .status;
+}
+
+std::int32_t sensitivity(Input& in, delam_solver* solver) {
+    Room<double> room(in, patterns_of(solver) * in.below(4));
+    std::int64_t unknown = 0;
+    return in_order{delam_experimental_solver_sensitivity, solver, room.capacity, room.data(),
+                    in.seldom() ? nullptr : &unknown}
+        .status;
+}
+
 // A file in memory, owned by this process.
 std::string file_name() { return "/dev/shm/delam-fuzz-" + std::to_string(::getpid()) + ".state"; }
 const char* some_path(Input& in) {
@@ -861,6 +1073,31 @@ const Call calls[] = {
          a.world.problem.put(slot, scene.problem, &a.host);
          return DELAM_OK;
      }},
+    {"a whole scene with an engine", Subject::host, may::usual,
+     [](const Asked& a) {
+         SmallScene scene = small_scene(a.host, a.in);
+         delam_problem_set_text(scene.problem, "reduction", "auto");
+         delam_problem_set_number(scene.problem, "subdomains", 0.0);
+         const std::int32_t status = set_engine(a.world, a.in, scene.mesh, scene.problem, true);
+         expect(status == DELAM_OK, "a sound engine is taken", "delam_experimental_problem_set_engine");
+         delam_solver* solver = nullptr;
+         delam_solver_create(scene.problem, 0.0, &solver);
+         const auto slot = static_cast<std::size_t>(a.in.below(slots));
+         a.world.mesh.put(slot, scene.mesh, &a.host);
+         a.world.law.put(slot, scene.law, &a.host);
+         a.world.problem.put(slot, scene.problem, &a.host);
+         a.world.solver.put(slot, solver, &a.host);
+         return DELAM_OK;
+     }},
+    {"the engines turn", Subject::host, may::usual,
+     [](const Asked& a) {
+         turn_engines(a.world, a.in);
+         return DELAM_OK;
+     }},
+    {"delam_experimental_part_matrix", Subject::host, may::cancelled | may::argument | may::snapshot,
+     [](const Asked& a) { return part_matrix(a.world, a.in, a.host.context); }},
+    {"delam_experimental_part_fields", Subject::host, may::cancelled | may::argument | may::snapshot,
+     [](const Asked& a) { return part_fields(a.world, a.in, a.host.context); }},
     {"the next call is interrupted", Subject::host, may::usual,
      [](const Asked& a) {
          a.world.interrupt_in = a.in.below(16);
@@ -1054,6 +1291,13 @@ const Call calls[] = {
                     "delam_problem_factors");
          return status;
      }},
+    {"delam_experimental_problem_set_engine", Subject::problem, may::argument,
+     [](const Asked& a) {
+         const delam_mesh* mesh = a.world.mesh.pick(a.in);
+         return set_engine(a.world, a.in, mesh, a.problem, false);
+     }},
+    {"delam_experimental_problem_part", Subject::problem, may::cancelled | may::argument | may::problem,
+     [](const Asked& a) { return problem_part(a.world, a.in, a.problem); }},
     {"delam_problem_destroy", Subject::problem, may::usual,
      [](const Asked& a) {
          a.world.problem.put(static_cast<std::size_t>(a.in.below(slots)), nullptr, nullptr);
@@ -1156,6 +1400,15 @@ const Call calls[] = {
      }},
     {"delam_solver_load", Subject::solver, may::cancelled | may::argument | may::numerical | may::snapshot,
      [](const Asked& a) { return watched(a.world, a.in, [&] { return save_and_load(a.world, a.in, a.solver); }); }},
+    {"delam_experimental_solver_recover", Subject::solver, may::cancelled | may::numerical | may::state,
+     [](const Asked& a) { return delam_experimental_solver_recover(a.solver); }},
+    {"delam_experimental_solver_eigenstrains", Subject::solver, may::argument,
+     [](const Asked& a) { return eigenstrains(a.in, a.solver); }},
+    {"delam_experimental_solver_follow", Subject::solver,
+     may::cancelled | may::argument | may::state | may::numerical,
+     [](const Asked& a) { return watched(a.world, a.in, [&] { return follow(a.in, a.solver); }); }},
+    {"delam_experimental_solver_sensitivity", Subject::solver, may::argument | may::state,
+     [](const Asked& a) { return sensitivity(a.in, a.solver); }},
     {"delam_solver_destroy", Subject::solver, may::usual,
      [](const Asked& a) {
          a.world.solver.put(static_cast<std::size_t>(a.in.below(slots)), nullptr, nullptr);
@@ -1194,9 +1447,13 @@ std::int32_t run(World& world, const Call& call, const Asked& asked) {
         host.cancel_in = std::exchange(world.interrupt_in, -1);
         host.cancel_by_call = world.interrupt_by_call;
     }
+    world.wake(true);
     const std::int32_t status = call.make(asked);
     host.cancel_in = -1;
-    host.settle(call.name, status, call.documented);
+    // Functions whose lists have no status for it say so (experimental.h, "An engine").
+    const bool has_one = (call.documented & (may::numerical | may::problem)) != 0;
+    host.settle(call.name, status, call.documented | (world.engine_failed() && !has_one ? may::internal : Statuses{0}));
+    world.wake(false);
     return status;
 }
 

@@ -171,6 +171,15 @@ std::vector<std::uint8_t> saved(const delam_solver* solver) {
     return bytes;
 }
 
+// The last 8 bytes: FNV-1a of all before them.
+std::vector<std::uint8_t> with_checksum(std::vector<std::uint8_t> bytes) {
+    if (bytes.size() < 8) return bytes;
+    std::uint64_t sum = 14695981039346656037ULL;
+    for (std::size_t i = 0; i + 8 < bytes.size(); ++i) sum = (sum ^ bytes[i]) * 1099511628211ULL;
+    std::memcpy(bytes.data() + bytes.size() - 8, &sum, 8);
+    return bytes;
+}
+
 std::string print_of(delam_solver* solver) {
     Print print;
     print.add(saved(solver));

@@ -27,6 +27,7 @@ constexpr Statuses problem = bit(DELAM_ERROR_PROBLEM);
 constexpr Statuses state = bit(DELAM_ERROR_STATE);
 constexpr Statuses numerical = bit(DELAM_ERROR_NUMERICAL);
 constexpr Statuses snapshot = bit(DELAM_ERROR_SNAPSHOT);
+constexpr Statuses internal = bit(DELAM_ERROR_INTERNAL);
 constexpr Statuses file = bit(DELAM_ERROR_FILE);
 constexpr Statuses not_converged = bit(DELAM_NOT_CONVERGED);
 constexpr Statuses cancelled = bit(DELAM_CANCELLED);
@@ -67,5 +68,7 @@ std::string print_of(const delam_problem* problem);
 std::string print_of(delam_solver* solver);
 
 std::vector<std::uint8_t> saved(const delam_solver* solver);
+// Saved states and parts end with the checksum of what is before it.
+std::vector<std::uint8_t> with_checksum(std::vector<std::uint8_t> bytes);
 
 }  // namespace fuzz

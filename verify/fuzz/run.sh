@@ -33,6 +33,9 @@ shift $(($# < 2 ? $# : 2))
 targets=("$@")
 if ((${#targets[@]} == 0)); then
     targets=(api_sequence scene mesh_inp saved_state mesh_arrays)
+    if pkg-config --exists PETSc && command -v mpicxx >/dev/null; then
+        targets+=(petsc_calls)
+    fi
 fi
 
 probe='extern "C" int LLVMFuzzerTestOneInput(const char*, unsigned long) { return 0; }'
@@ -51,9 +54,10 @@ cmake --build "$folder" --target "${targets[@]/#/fuzz_}" -- -k 0
 /usr/bin/python3 "$here/scene_dictionary.py" "$root/bindings/cli/SCENE.md" >"$folder/scene.dictionary"
 
 # Allocations that are asked for and refused are a status, not the end.
-export ASAN_OPTIONS=allocator_may_return_null=1:max_allocation_size_mb=1024:detect_leaks=1
 export UBSAN_OPTIONS=print_stacktrace=1
 export OPENBLAS_NUM_THREADS=1
+# Open MPI as root, alone (verify/petsc/environment.txt).
+export OMP_NUM_THREADS=1 OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 # What a machine that is shared gave: seconds on the clock, and of the processor.
 TIMEFORMAT='%R s, of the processor %U s and %S s for the system'
 if [[ $sanitizers == undefined ]]; then
@@ -74,6 +78,11 @@ for target in "${targets[@]}"; do
     elif [[ $target == saved_state ]]; then
         kept=20
     fi
+    leaks=1
+    if [[ $target == petsc_calls ]]; then
+        leaks=0 # MPI and PETSc keep what they have until they end
+    fi
+    export ASAN_OPTIONS=allocator_may_return_null=1:max_allocation_size_mb=1024:detect_leaks=$leaks
     found=$folder/found/$target
     grown=$folder/corpus/$target
     committed=()

@@ -20,15 +20,6 @@ namespace {
 using namespace fuzz;
 using Bytes = std::vector<std::uint8_t>;
 
-// The last 8 bytes: FNV-1a of all before them.
-Bytes with_checksum(Bytes bytes) {
-    if (bytes.size() < 8) return bytes;
-    std::uint64_t sum = 14695981039346656037ULL;
-    for (std::size_t i = 0; i + 8 < bytes.size(); ++i) sum = (sum ^ bytes[i]) * 1099511628211ULL;
-    std::memcpy(bytes.data() + bytes.size() - 8, &sum, 8);
-    return bytes;
-}
-
 // A scene with the states that its analysis saved, and the results that follow each state.
 class March {
 public:

@@ -348,7 +348,7 @@ def wrong():
         wrong_rows(ranks)
         wrong_cells(ranks)
         wrong_scene(ranks)
-        refused(delam.StateError, lambda: after_errors(ranks), "an engine without parts", "no parts")
+        refused(delam.NumericalError, lambda: after_errors(ranks), "an engine without parts", "no parts")
 
 
 def after_errors(ranks):

@@ -14,16 +14,23 @@ HERE = os.path.dirname(os.path.realpath(__file__))
 sys.path[:0] = [HERE, os.path.join(HERE, "..", "..", "python", "src", "delam"), os.path.join(HERE, "study"),
                 os.path.join(HERE, "..", "study")]
 
+import command  # noqa: E402
+
+if __name__ == "__main__":
+    command.begin("plot.py")
+
 from packages import require  # noqa: E402
 
-require("plot.py", "numpy", "matplotlib", "h5py")
+require("numpy", "matplotlib", "h5py")
 
 from _pictures.curves import averages_figure, energies_figure, load_figure  # noqa: E402
 from _pictures.cut import cut_figure, plane_of  # noqa: E402
 from _pictures.fronts import fronts_figure  # noqa: E402
+from _pictures.input_file import Unreadable  # noqa: E402
 from _pictures.result import Nothing, Result, for_files  # noqa: E402
 from _pictures.snapshots import snapshots_figure  # noqa: E402
 from _pictures.stresses import stresses_figure  # noqa: E402
+from command import complain  # noqa: E402
 
 for_files()
 PICTURES = {"load-displacement.png": load_figure, "stress-strain.png": averages_figure, "energies.png": energies_figure,
@@ -35,26 +42,30 @@ def write(result, name, draw, *arguments):
         figure = draw(result, *arguments)
     except Nothing as reason:
         if not reason.expected:
-            print(f"plot.py: {reason}, so no {name}", file=sys.stderr)
+            complain(f"{reason}, so no {name}")
         return
+    except Unreadable:
+        raise
+    except (KeyError, IndexError, ValueError, TypeError) as error:
+        raise Unreadable(f"{result.folder}: the result lacks what {name} shows, or is damaged: {error}") from error
     result.save(figure, name)
 
 
 def main():
     words = sys.argv[1:]
     if len(words) not in (1, 3) or words[0].startswith("-") or words[1:2] not in ([], ["--cut"]):
-        print("usage: plot.py DIR [--cut x=PLACE | --cut y=PLACE | --cut z=PLACE]", file=sys.stderr)
+        complain("usage: plot.py DIR [--cut x=PLACE | --cut y=PLACE | --cut z=PLACE]")
         return 2
     folder = words[0]
     try:
         plane = plane_of(words[2]) if len(words) == 3 else None
     except ValueError:
-        print(f"plot.py: --cut {words[2]}: it takes x, y or z, =, and a number, like y=0.01", file=sys.stderr)
+        complain(f"--cut {words[2]}: it takes x, y or z, =, and a number, like y=0.01")
         return 2
     try:
         result = Result(folder)
     except FileNotFoundError as error:
-        print(f"plot.py: {folder} holds no result: {error.filename} is missing", file=sys.stderr)
+        complain(f"{folder} holds no result: {error.filename} is missing")
         return 2
     for name, draw in PICTURES.items():
         write(result, name, draw)
@@ -63,4 +74,4 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    command.run(main)

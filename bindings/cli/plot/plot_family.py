@@ -15,13 +15,19 @@ HERE = os.path.dirname(os.path.realpath(__file__))
 sys.path[:0] = [HERE, os.path.join(HERE, "..", "..", "python", "src", "delam"), os.path.join(HERE, "study"),
                 os.path.join(HERE, "..", "study")]
 
+import command  # noqa: E402
+
+if __name__ == "__main__":
+    command.begin("plot_family.py")
+
 from packages import require  # noqa: E402
 
-require("plot_family.py", "numpy", "matplotlib")
+require("numpy", "matplotlib")
 
 import numpy as np  # noqa: E402
 
 from _pictures.result import GREY, Result, axis, early_end, for_files, plt, save, zoom  # noqa: E402
+from command import complain  # noqa: E402
 
 for_files()
 
@@ -154,12 +160,11 @@ def main():
         try:
             results.append(Result(os.path.normpath(folder)))
         except FileNotFoundError as error:
-            print(f"plot_family.py: {folder} holds no result: {error.filename} is missing", file=sys.stderr)
+            complain(f"{folder} holds no result: {error.filename} is missing")
             return 2
     units = {(result.length, result.force, result.time, result.patterns()[0][1]) for result in results}
     if len(units) > 1:
-        print("plot_family.py: the results have different units or kinds of loads, so they share no axes",
-              file=sys.stderr)
+        complain("the results have different units or kinds of loads, so they share no axes")
         return 2
     out = words.out or os.path.commonpath([os.path.dirname(os.path.abspath(folder)) for folder in words.folders])
     os.makedirs(out, exist_ok=True)
@@ -170,4 +175,4 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    command.run(main)

@@ -166,12 +166,13 @@ private:
         if (from == model_.parts.end())
             throw SceneFailure(card.place, "part \"" + card.required("PART") + "\" is not there");
         const std::string name = card.required("NAME");
-        for (const auto& other : model_.instances)
-            if (upper(other->name) == upper(name))
-                throw SceneFailure(card.place, "there is another instance \"" + name + "\"");
+        if (model_.instance_of.contains(upper(name)))
+            throw SceneFailure(card.place, "there is another instance \"" + name + "\"");
+        count_copies(*from->second, card.place);
         model_.instances.push_back(std::make_unique<Part>(*from->second));
         Part& instance = *model_.instances.back();
         const Part* part = from->second.get();
+        model_.instance_of.emplace(upper(name), &instance);
         instance.name = name;
         instance.order = model_.instances.size();
         // What the part defines now belongs to the instance.
@@ -204,6 +205,19 @@ private:
             for (Node& node : instance.nodes) node.at = rotated(node.at, a, b, turn[6] * std::numbers::pi / 180);
         }
         open_ = &instance;
+    }
+
+    // Before they are made: a line stands for a part of any size.
+    void count_copies(const Part& part, const Place& place) {
+        std::size_t count = 1 + part.nodes.size() + part.elements.size() + part.sections.size();
+        for (const auto* sets : {&part.node_sets, &part.element_sets})
+            for (const auto& [key, set] : *sets) count += 1 + set.entries.size() + set.element_sets.size();
+        for (const auto& [key, surface] : part.surfaces) count += 1 + surface.sides.size() + surface.nodes.size();
+        copies_ += static_cast<std::int64_t>(count);
+        if (copies_ > most_copies)
+            throw SceneFailure(place, fmt::format("with it the instances have {} nodes, elements and members of sets: "
+                                                  "at most {} are allowed",
+                                                  copies_, most_copies));
     }
 
     static std::vector<double> numbers(const InpLine& line, std::size_t count) {
@@ -338,6 +352,7 @@ private:
     Model& model_;
     Part* open_;
     bool in_step_ = false;
+    std::int64_t copies_ = 0;
     std::set<std::string> passed_;
 };
 

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <map>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -69,14 +70,22 @@ private:
         }
     }
 
+    // Whether an entry of this name has not been met yet; it may be given by many cards.
+    using Met = std::set<std::tuple<std::string, const Part*, std::string>>;
+    static bool is_new(Met& met, const Model& model, const std::string& name, const Entry& raw) {
+        const Entry entry = model.resolved_scope(raw);
+        return met.emplace(name, entry.scope, upper(entry.text)).second;
+    }
+
     void assign_body(const std::string& name, const Entry& elements) {
+        if (!is_new(assigned_, model_, name, elements)) return;
         std::set<ElementAt> members;
         model_.collect_elements(elements, members);
         std::erase_if(members, [](const ElementAt& at) { return at.type().cohesive(); });
         if (members.empty()) throw SceneFailure(elements.place, "\"" + elements.text + "\": there is no element in it");
-        const auto at = std::find(mesh_.body_names.begin(), mesh_.body_names.end(), name);
-        const auto label = static_cast<std::int32_t>(at - mesh_.body_names.begin());
-        if (at == mesh_.body_names.end()) mesh_.body_names.push_back(name);
+        const auto [at, first] = label_of_.emplace(name, static_cast<std::int32_t>(mesh_.body_names.size()));
+        const std::int32_t label = at->second;
+        if (first) mesh_.body_names.push_back(name);
         for (const ElementAt& member : members) {
             const auto [entry, fresh] = body_of_.emplace(member, label);
             if (!fresh && entry->second != label)
@@ -165,8 +174,10 @@ private:
         for (const CellBlock& block : mesh_.blocks)
             for (const std::int64_t node : block.connectivity) in_cell[static_cast<std::size_t>(node)] = true;
         std::map<ElementAt, std::string> set_of;
+        Met met;
         for (const Part* scope : model_.scopes()) {
             for (const Entry& section : scope->cohesive_sections) {
+                if (!is_new(met, model_, body_name(section), section)) continue;
                 std::set<ElementAt> members;
                 model_.collect_elements(section, members);
                 for (const ElementAt& at : members) {
@@ -204,9 +215,9 @@ private:
 
     void add_cohesive_element(const Part& scope, const Element& element, const std::string& name,
                               const std::vector<bool>& in_cell) {
-        auto set = std::find_if(mesh_.cohesive.begin(), mesh_.cohesive.end(),
-                                [&](const CohesiveSet& other) { return other.name == name; });
-        if (set == mesh_.cohesive.end()) set = mesh_.cohesive.insert(set, CohesiveSet{name, "", {}, {}});
+        const auto [known, first] = cohesive_of_.emplace(name, mesh_.cohesive.size());
+        if (first) mesh_.cohesive.push_back(CohesiveSet{name, "", {}, {}});
+        CohesiveSet& set = mesh_.cohesive[known->second];
         std::array<std::array<std::int64_t, 9>, 2> faces{};
         for (std::size_t k = 0; k < element.nodes.size(); ++k) {
             const std::size_t half = element.type->face_nodes;
@@ -221,8 +232,8 @@ private:
                                 full_name(scope, std::to_string(element.nodes[k])), element.id));
             faces[k / half][k % half] = node;
         }
-        set->lower.push_back(faces[0]);
-        set->upper.push_back(faces[1]);
+        set.lower.push_back(faces[0]);
+        set.upper.push_back(faces[1]);
     }
 
     void add_sides(const Side& side, std::vector<std::array<std::int64_t, 9>>& faces,
@@ -253,6 +264,9 @@ private:
 
     Model& model_;
     std::map<ElementAt, std::int32_t> body_of_;
+    std::map<std::string, std::int32_t> label_of_;  // of bodies, by name
+    Met assigned_;
+    std::map<std::string, std::size_t> cohesive_of_;  // by name
     MeshData mesh_;
 };
 

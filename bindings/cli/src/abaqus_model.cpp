@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "abaqus_model.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 #include <fmt/format.h>
 
 #include "inp_cards.hpp"
@@ -25,9 +28,22 @@ std::vector<const Part*> Model::scopes() const {
 }
 
 const Part* Model::instance_named(const std::string& name, const Place& place) const {
-    for (const auto& instance : instances)
-        if (upper(instance->name) == upper(name)) return instance.get();
-    throw SceneFailure(place, "instance \"" + name + "\" is not there");
+    const auto found = instance_of.find(upper(name));
+    if (found == instance_of.end()) throw SceneFailure(place, "instance \"" + name + "\" is not there");
+    return found->second;
+}
+
+const Part& Model::owner_of(std::int64_t node) const {
+    // They follow each other; one without nodes begins where the next one does.
+    const auto after = std::upper_bound(instances.begin(), instances.end(), node,
+                                        [](std::int64_t n, const auto& part) { return n < part->first_node; });
+    return after == instances.begin() ? root : **std::prev(after);
+}
+
+void Model::count_member(const Place& place) const {
+    if (++members_ > most_members)
+        throw SceneFailure(
+            place, fmt::format("with this the sets and surfaces of the mesh have more than {} members", most_members));
 }
 
 Entry Model::resolved_scope(const Entry& entry) const {
@@ -74,6 +90,7 @@ void Model::collect_elements(const Entry& raw, std::set<ElementAt>& out, Trail& 
             const auto at = entry.scope->element_of.find(id);
             if (at == entry.scope->element_of.end())
                 throw SceneFailure(entry.place, fmt::format("element {} is not there", id));
+            count_member(entry.place);
             out.insert({entry.scope, at->second});
         });
         return;
@@ -89,8 +106,10 @@ void Model::collect_elements(const Entry& raw, std::set<ElementAt>& out, Trail& 
 void Model::collect_nodes(const Entry& raw, std::set<std::int64_t>& out, Trail& trail) const {
     const Entry entry = resolved_scope(raw);
     if (const auto first = inp_whole(entry.text)) {
-        for_each_number(entry, *first,
-                        [&](std::int64_t id) { out.insert(node_number(*entry.scope, id, entry.place)); });
+        for_each_number(entry, *first, [&](std::int64_t id) {
+            count_member(entry.place);
+            out.insert(node_number(*entry.scope, id, entry.place));
+        });
         return;
     }
     const auto set = entry.scope->node_sets.find(upper(entry.text));

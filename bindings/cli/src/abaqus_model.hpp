@@ -110,10 +110,13 @@ struct Model {
     Part root;
     std::map<std::string, std::unique_ptr<Part>> parts;  // by upper case
     std::vector<std::unique_ptr<Part>> instances;
+    std::unordered_map<std::string, const Part*> instance_of;  // by upper case
     std::vector<std::string> notes;
 
     // The parts and instances that make up the mesh.
     [[nodiscard]] std::vector<const Part*> scopes() const;
+    // That which has a node, by its number in the mesh; requires Part::first_node.
+    [[nodiscard]] const Part& owner_of(std::int64_t node) const;
     [[nodiscard]] const Part* instance_named(const std::string& name, const Place& place) const;
     // Splits off the instance of "instance.rest".
     [[nodiscard]] Entry resolved_scope(const Entry& entry) const;
@@ -124,10 +127,19 @@ struct Model {
     void collect_set(const Set& set, std::set<std::int64_t>& out) const;
 
 private:
+    // A line may name a set of any size, so that what sets have in all may exceed the file by any factor.
+    void count_member(const Place& place) const;
+    mutable std::int64_t members_ = 0;
+
     void collect_elements(const Entry& raw, std::set<ElementAt>& out, Trail& trail) const;
     void collect_nodes(const Entry& raw, std::set<std::int64_t>& out, Trail& trail) const;
     void collect_set(const Set& set, std::set<std::int64_t>& out, Trail& trail) const;
 };
+
+// Of all sets and surfaces that are collected: 8 bytes each.
+constexpr std::int64_t most_members = 100000000;
+// Nodes, elements and members of sets of all instances: some 100 bytes each.
+constexpr std::int64_t most_copies = 20000000;
 
 std::int64_t node_number(const Part& scope, std::int64_t id, const Place& place);
 // The name in the scene of an object of a part or an instance.

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "cell_shape.hpp"
+#include "wildcard.hpp"
 
 namespace cli {
 
@@ -61,10 +62,11 @@ std::vector<std::size_t> split_into_pieces(MeshData& mesh) {
     std::vector<std::string> names;
     std::vector<std::string> formulations;
     std::vector<std::size_t> counts;
+    std::vector<std::string> sorted = mesh.body_names;
+    std::sort(sorted.begin(), sorted.end());
     for (std::size_t body = 0; body < found.size(); ++body) {
         const std::string& name = mesh.body_names[body];
-        const bool taken = std::any_of(mesh.body_names.begin(), mesh.body_names.end(),
-                                       [&](const std::string& other) { return other.starts_with(name + "-"); });
+        const bool taken = number_beginning_with(sorted, name + "-") > 0;
         const auto piece = [&](std::size_t i) { return fmt::format("{}-{}{}", name, taken ? "piece-" : "", i + 1); };
         for (std::size_t i = 0; i < found[body].size(); ++i) {
             label_of[found[body][i]] = static_cast<std::int32_t>(names.size());

@@ -2,7 +2,10 @@
 #include "build_mesh.hpp"
 
 #include <algorithm>
+#include <map>
 #include <set>
+#include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -106,11 +109,6 @@ void build_layers(Model& model, const Scene& scene) {
     model.interfaces = scene.interfaces;
 }
 
-std::size_t body_named(const Scene& scene, const std::string& name) {
-    const auto& names = scene.mesh->body_names;
-    return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
-}
-
 void push_interface(Model& model, const Scene& scene, InterfaceData data, std::size_t a, std::size_t b) {
     data.lower = a;
     data.upper = b;
@@ -120,13 +118,15 @@ void push_interface(Model& model, const Scene& scene, InterfaceData data, std::s
 
 // Interfaces between two bodies given by name.
 void add_named_interfaces(Model& model, const Scene& scene) {
+    std::map<std::string, std::size_t> body_named;
+    for (std::size_t i = 0; i < scene.mesh->body_names.size(); ++i) body_named.emplace(scene.mesh->body_names[i], i);
+    std::set<std::pair<std::size_t, std::size_t>> held;
     for (const InterfaceData& data : scene.interfaces) {
         if (data.a.empty() || is_pattern(data.a) || is_pattern(data.b)) continue;
-        const std::size_t a = body_named(scene, data.a);
-        const std::size_t b = body_named(scene, data.b);
-        for (const InterfaceData& other : model.interfaces)
-            if (std::minmax(other.lower, other.upper) == std::minmax(a, b))
-                throw SceneFailure(data.place, "there is another interface between these bodies");
+        const std::size_t a = body_named.at(data.a);
+        const std::size_t b = body_named.at(data.b);
+        if (!held.insert(std::minmax(a, b)).second)
+            throw SceneFailure(data.place, "there is another interface between these bodies");
         std::int64_t index = 0;
         const auto label_a = static_cast<std::int32_t>(a);
         const auto label_b = static_cast<std::int32_t>(b);

@@ -52,6 +52,11 @@ struct Study {
     double scale = 1.0, confidence = 0.95;
 };
 int study(const Study& study);
+// For the studies: marks a folder as theirs (own_files.hpp), unless one of the names is there and is not. known: an
+// older study, which wrote no marker, is recognised.
+int claim(const std::string& folder, const std::vector<std::string>& names, bool known);
+// For the studies: removes folders of results; none of them if one holds anything else.
+int discard(const std::vector<std::string>& folders);
 // Lists the options of [solver] and the parameters of the laws.
 int options(bool json);
 // json: one object instead of lines, also for a wrong scene.

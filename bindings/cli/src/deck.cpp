@@ -14,19 +14,24 @@ int degree_of_freedom(const std::string& field, int most, const Place& place) {
     return static_cast<int>(value);
 }
 
-SectionOf section_named(const Deck& deck, const Model& model, std::vector<Entry> Part::*sections,
-                        const std::string& name) {
+SectionIndex::SectionIndex(const Deck& deck, const Model& model, std::vector<Entry> Part::*sections) {
+    std::map<std::pair<std::string, int>, const Section*> at;  // by file and line of the card
+    for (const Section& section : deck.sections)
+        at.emplace(std::pair(section.place.file, section.place.line), &section);
     for (const Part* scope : model.scopes())
         for (const Entry& entry : scope->*sections) {
+            const auto section = at.find({entry.place.file, entry.place.line});
+            if (section == at.end()) continue;
             const Entry resolved = model.resolved_scope(entry);
             const auto set = resolved.scope->element_sets.find(upper(resolved.text));
             const std::string& own = set == resolved.scope->element_sets.end() ? resolved.text : set->second.name;
-            if (full_name(*resolved.scope, own) != name) continue;
-            for (const Section& section : deck.sections)
-                if (section.place.file == entry.place.file && section.place.line == entry.place.line)
-                    return {&section, resolved.scope};
+            of_.emplace(full_name(*resolved.scope, own), SectionOf{section->second, resolved.scope});
         }
-    return {};
+}
+
+SectionOf SectionIndex::of(const std::string& name) const {
+    const auto found = of_.find(name);
+    return found == of_.end() ? SectionOf{} : found->second;
 }
 
 std::string node_set_name(const Model& model, const Entry& raw) {

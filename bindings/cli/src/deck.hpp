@@ -4,8 +4,10 @@
 #pragma once
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -17,6 +19,28 @@
 namespace cli::abaqus {
 
 using Numbers = std::vector<double>;
+
+// Objects with names, in the order of the deck; found whatever the case of their name is, the first of several.
+template <class T>
+class Catalogue {
+public:
+    void push_back(T object) {
+        at_.emplace(upper(object.name), all_.size());
+        all_.push_back(std::move(object));
+    }
+    [[nodiscard]] const T* find(const std::string& name) const {
+        const auto found = at_.find(upper(name));
+        return found == at_.end() ? nullptr : &all_[found->second];
+    }
+    [[nodiscard]] bool empty() const { return all_.empty(); }
+    [[nodiscard]] T& back() { return all_.back(); }
+    [[nodiscard]] auto begin() const { return all_.begin(); }
+    [[nodiscard]] auto end() const { return all_.end(); }
+
+private:
+    std::vector<T> all_;
+    std::unordered_map<std::string, std::size_t> at_;
+};
 
 inline constexpr const char* axis_names[] = {"x", "y", "z"};
 
@@ -126,12 +150,12 @@ struct Step {
 
 struct Deck {
     std::string title;
-    std::vector<MaterialCards> materials;
+    Catalogue<MaterialCards> materials;
     std::vector<Section> sections;
-    std::vector<Orientation> orientations;
-    std::vector<InteractionCards> interactions;
+    std::map<std::pair<std::string, std::string>, Orientation> orientations;  // by part and name in upper case
+    Catalogue<InteractionCards> interactions;
     std::vector<ContactPair> pairs;
-    std::vector<Amplitude> amplitudes;
+    Catalogue<Amplitude> amplitudes;
     std::vector<std::vector<EquationEntry>> equations;
     std::vector<Coupling> couplings;
     std::vector<LoadLine> held;  // *BOUNDARY before the first step
@@ -147,9 +171,16 @@ struct SectionOf {
     const Section* section = nullptr;
     const Part* scope = nullptr;
 };
-// name: that of the set in the scene. sections: Part::sections or Part::cohesive_sections.
-SectionOf section_named(const Deck& deck, const Model& model, std::vector<Entry> Part::*sections,
-                        const std::string& name);
+// The sections of all sets, found by the names that the sets have in the scene.
+class SectionIndex {
+public:
+    // sections: Part::sections or Part::cohesive_sections.
+    SectionIndex(const Deck& deck, const Model& model, std::vector<Entry> Part::*sections);
+    [[nodiscard]] SectionOf of(const std::string& name) const;
+
+private:
+    std::unordered_map<std::string, SectionOf> of_;
+};
 
 // The names that sets of nodes and surfaces have in the scene; "": there is none.
 std::string node_set_name(const Model& model, const Entry& raw);
@@ -165,12 +196,10 @@ inline void say_once(std::vector<std::string>& texts, const std::string& text) {
 
 // The object of this name, whatever its case. Throws SceneFailure at `place`.
 template <class T>
-const T& named(const std::vector<T>& all, const std::string& name, const char* what, const Place& place) {
+const T& named(const Catalogue<T>& all, const std::string& name, const char* what, const Place& place) {
+    if (const T* found = all.find(name)) return *found;
     std::vector<std::string> known;
-    for (const T& each : all) {
-        if (upper(each.name) == upper(name)) return each;
-        known.push_back(each.name);
-    }
+    for (const T& each : all) known.push_back(each.name);
     throw SceneFailure(place, std::string(what) + " \"" + name + "\" is not there" + suggestion(name, known));
 }
 

@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <unordered_map>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "cell_shape.hpp"
 
@@ -21,10 +22,14 @@ FaceKey key_of(const Face& face, std::int32_t dimension) {
     return key;
 }
 
-void add_once(std::vector<std::int32_t>& to, std::int32_t body) {
-    const auto at = std::lower_bound(to.begin(), to.end(), body);
-    if (at == to.end() || *at != body) to.insert(at, body);
+constexpr std::size_t most_pairs = 1000000;
+
+void sort_once(std::vector<std::int32_t>& bodies) {
+    std::sort(bodies.begin(), bodies.end());
+    bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
 }
+
+}  // namespace
 
 // Of nodes that coincide, the first.
 class Coincidence {
@@ -73,8 +78,6 @@ private:
     std::unordered_map<std::int64_t, std::int64_t> first_;
 };
 
-}  // namespace
-
 FaceBodies::FaceBodies(const MeshData& mesh) : dimension_(mesh.dimension) {
     for (const CellBlock& block : mesh.blocks) {
         const CellShape& shape = shape_of(block.type);
@@ -85,9 +88,10 @@ FaceBodies::FaceBodies(const MeshData& mesh) : dimension_(mesh.dimension) {
                     key.push_back(block.connectivity[c * shape.nodes + side[i]]);
                 std::sort(key.begin(), key.end());
                 const auto [at, fresh] = bodies_.emplace(std::move(key), std::vector{block.bodies[c]});
-                if (!fresh) add_once(at->second, block.bodies[c]);
+                if (!fresh) at->second.push_back(block.bodies[c]);
             }
     }
+    for (auto& [key, bodies] : bodies_) sort_once(bodies);
 }
 
 std::vector<std::int32_t> FaceBodies::of(const Face& face) const {
@@ -95,21 +99,29 @@ std::vector<std::int32_t> FaceBodies::of(const Face& face) const {
     return found == bodies_.end() ? std::vector<std::int32_t>{} : found->second;
 }
 
-std::vector<BodyPair> pairs_of_bodies(const MeshData& mesh, const FaceBodies& faces, double shortest_edge) {
+std::vector<BodyPair> pairs_of_bodies(const MeshData& mesh, const FaceBodies& faces, double shortest_edge,
+                                      const Place& place) {
     std::map<std::pair<std::int32_t, std::int32_t>, BodyPair> out;
     const auto pair = [&](std::int32_t a, std::int32_t b) -> BodyPair& {
-        BodyPair& found = out[std::minmax(a, b)];
-        std::tie(found.a, found.b) = std::minmax(a, b);
-        return found;
+        const auto [at, fresh] = out.emplace(std::minmax(a, b), BodyPair{});
+        if (fresh) std::tie(at->second.a, at->second.b) = std::minmax(a, b);
+        // Each has an interface of its own. Where bodies lie in one place, all pairs of them touch.
+        if (out.size() > most_pairs)
+            throw SceneFailure(place,
+                               fmt::format("\"{}\" and \"{}\" touch, and {} pairs of bodies before: at most {} "
+                                           "are imported; do bodies lie in one place?",
+                                           mesh.body_names[static_cast<std::size_t>(a)],
+                                           mesh.body_names[static_cast<std::size_t>(b)], most_pairs, most_pairs));
+        return at->second;
     };
     Coincidence coincidence(mesh, 1e-6 * shortest_edge);
     std::map<FaceKey, std::vector<std::int32_t>> places;  // by nodes of which each stands for all that coincide
     for (const auto& [key, bodies] : faces.all()) {
         for (std::size_t i = 1; i < bodies.size(); ++i) ++pair(bodies[0], bodies[i]).shared;
-        FaceKey place;
-        for (const std::int64_t node : key) place.push_back(coincidence.first(node));
-        std::sort(place.begin(), place.end());
-        std::vector<std::int32_t>& there = places[std::move(place)];
+        FaceKey where;
+        for (const std::int64_t node : key) where.push_back(coincidence.first(node));
+        std::sort(where.begin(), where.end());
+        std::vector<std::int32_t>& there = places[std::move(where)];
         for (const std::int32_t body : bodies) {
             for (const std::int32_t other : there)
                 if (other != body) ++pair(other, body).doubled;
@@ -121,31 +133,52 @@ std::vector<BodyPair> pairs_of_bodies(const MeshData& mesh, const FaceBodies& fa
     return list;
 }
 
-std::int64_t coinciding_faces(const MeshData& mesh, const std::vector<Face>& faces, const std::vector<Face>& others,
-                              double shortest_edge) {
-    Coincidence coincidence(mesh, 1e-6 * shortest_edge);
-    const auto place_of = [&](const Face& face) {
-        FaceKey place = key_of(face, mesh.dimension);
-        for (std::int64_t& node : place) node = coincidence.first(node);
-        std::sort(place.begin(), place.end());
-        return place;
-    };
-    std::set<FaceKey> known;
-    for (const Face& face : others) known.insert(place_of(face));
-    return std::count_if(faces.begin(), faces.end(), [&](const Face& face) { return known.contains(place_of(face)); });
+struct FacePlaces::Known {
+    explicit Known(const MeshData& of, double shortest_edge) : mesh(of), coincidence(of, 1e-6 * shortest_edge) {}
+
+    const MeshData& mesh;
+    Coincidence coincidence;
+    std::map<std::string, std::map<FaceKey, std::int64_t>> places;  // by set: how many faces are there
+    std::map<std::pair<std::string, std::string>, std::int64_t> coinciding;
+
+    const std::map<FaceKey, std::int64_t>& of(const std::string& set) {
+        const auto [at, fresh] = places.try_emplace(set);
+        if (!fresh) return at->second;
+        for (const Face& face : mesh.face_sets.at(set)) {
+            FaceKey place = key_of(face, mesh.dimension);
+            for (std::int64_t& node : place) node = coincidence.first(node);
+            std::sort(place.begin(), place.end());
+            ++at->second[std::move(place)];
+        }
+        return at->second;
+    }
+};
+
+FacePlaces::FacePlaces(const MeshData& mesh, double shortest_edge)
+    : known_(std::make_unique<Known>(mesh, shortest_edge)) {}
+FacePlaces::~FacePlaces() = default;
+
+std::int64_t FacePlaces::coinciding(const std::string& set, const std::string& other) {
+    const auto [at, fresh] = known_->coinciding.try_emplace({set, other}, 0);
+    if (!fresh) return at->second;
+    const auto &faces = known_->of(set), &others = known_->of(other);
+    // As many look-ups as the smaller one has places: the other may be that of many pairs.
+    const bool turned = others.size() < faces.size();
+    for (const auto& [place, count] : turned ? others : faces) {
+        const auto found = (turned ? faces : others).find(place);
+        if (found != (turned ? faces : others).end()) at->second += turned ? found->second : count;
+    }
+    return at->second;
 }
 
-std::vector<std::int32_t> bodies_at(const MeshData& mesh, std::int64_t node) {
-    std::vector<std::int32_t> out;
+NodeBodies::NodeBodies(const MeshData& mesh) : of_(mesh.nodes.size() / static_cast<std::size_t>(mesh.dimension)) {
     for (const CellBlock& block : mesh.blocks) {
         const std::size_t nodes = shape_of(block.type).nodes;
         for (std::size_t c = 0; c < block.bodies.size(); ++c)
-            if (const auto begin = block.connectivity.begin() + static_cast<std::ptrdiff_t>(c * nodes);
-                std::find(begin, begin + static_cast<std::ptrdiff_t>(nodes), node) !=
-                begin + static_cast<std::ptrdiff_t>(nodes))
-                add_once(out, block.bodies[c]);
+            for (std::size_t k = 0; k < nodes; ++k)
+                of_[static_cast<std::size_t>(block.connectivity[c * nodes + k])].push_back(block.bodies[c]);
     }
-    return out;
+    for (std::vector<std::int32_t>& bodies : of_) sort_once(bodies);
 }
 
 }  // namespace cli::abaqus

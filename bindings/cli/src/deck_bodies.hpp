@@ -5,8 +5,11 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
+#include <string>
 #include <vector>
 
+#include "error.hpp"
 #include "mesh_data.hpp"
 
 namespace cli::abaqus {
@@ -32,14 +35,35 @@ struct BodyPair {
     std::int64_t shared = 0;    // sides whose nodes belong to both
     std::int64_t doubled = 0;   // sides that coincide, with nodes of their own
 };
-// Nodes coincide within 1e-6 of the shortest edge.
-std::vector<BodyPair> pairs_of_bodies(const MeshData& mesh, const FaceBodies& faces, double shortest_edge);
+// Nodes coincide within 1e-6 of the shortest edge. Throws SceneFailure at `place` where there are too many pairs.
+std::vector<BodyPair> pairs_of_bodies(const MeshData& mesh, const FaceBodies& faces, double shortest_edge,
+                                      const Place& place);
 
-// How many of the faces coincide with one of the others.
-std::int64_t coinciding_faces(const MeshData& mesh, const std::vector<Face>& faces, const std::vector<Face>& others,
-                              double shortest_edge);
+// Where the faces of sets lie.
+class FacePlaces {
+public:
+    FacePlaces(const MeshData& mesh, double shortest_edge);
+    ~FacePlaces();
+    FacePlaces(const FacePlaces&) = delete;
+    FacePlaces& operator=(const FacePlaces&) = delete;
+    // How many faces of a set coincide with one of the other set.
+    [[nodiscard]] std::int64_t coinciding(const std::string& set, const std::string& other);
 
-// Nodes in cells of each body, ascending labels.
-std::vector<std::int32_t> bodies_at(const MeshData& mesh, std::int64_t node);
+private:
+    struct Known;
+    std::unique_ptr<Known> known_;
+};
+
+// The bodies that have a node in their cells, ascending.
+class NodeBodies {
+public:
+    explicit NodeBodies(const MeshData& mesh);
+    [[nodiscard]] const std::vector<std::int32_t>& of(std::int64_t node) const {
+        return of_[static_cast<std::size_t>(node)];
+    }
+
+private:
+    std::vector<std::vector<std::int32_t>> of_;
+};
 
 }  // namespace cli::abaqus

@@ -2,6 +2,7 @@
 #include "deck_cards.hpp"
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include <fmt/format.h>
@@ -309,9 +310,9 @@ private:
         orientation.name = card.required("NAME");
         orientation.part = part_;
         orientation.place = card.place;
-        for (const Orientation& other : deck_.orientations)
-            if (upper(other.name) == upper(orientation.name) && other.part == part_)
-                throw SceneFailure(card.place, "there is another orientation \"" + other.name + "\"");
+        const std::pair key(part_, upper(orientation.name));
+        if (const auto other = deck_.orientations.find(key); other != deck_.orientations.end())
+            throw SceneFailure(card.place, "there is another orientation \"" + other->second.name + "\"");
         orientation.points = card.first_line().numbers();
         if (orientation.points.size() != 6 && orientation.points.size() != 9)
             throw SceneFailure(card.lines[0].place, "6 or 9 coordinates are expected");
@@ -323,16 +324,18 @@ private:
             orientation.about = static_cast<int>(turn[0]);
             if (turn.size() == 2) orientation.angle = turn[1];
         }
-        deck_.orientations.push_back(std::move(orientation));
+        deck_.orientations.emplace(key, std::move(orientation));
     }
 
     void take_pair(const InpCard& card) {
         if (!card.has("INTERACTION")) throw SceneFailure(card.place, "INTERACTION= is missing");
         if (card.has("TIED"))
             throw SceneFailure(card.place, "TIED is not imported: bodies that share nodes are bonded");
+        const std::string interaction = card.required("INTERACTION");
         for (const InpLine& line : card.lines) {
             if (line.fields.size() < 2) throw SceneFailure(line.place, "a slave and a master surface are expected");
-            deck_.pairs.push_back({card.required("INTERACTION"),
+            pair_of_.emplace(std::pair(upper(line.fields[0]), upper(line.fields[1])), deck_.pairs.size());
+            deck_.pairs.push_back({interaction,
                                    {&root_, line.fields[0], line.place},
                                    {&root_, line.fields[1], line.place},
                                    "",
@@ -366,12 +369,9 @@ private:
         for (const InpLine& line : card.lines) {
             if (line.fields.size() != 3)
                 throw SceneFailure(line.place, "slave, master and a set of nodes are expected");
-            const auto pair = std::find_if(deck_.pairs.begin(), deck_.pairs.end(), [&](const ContactPair& p) {
-                return upper(p.slave.text) == upper(line.fields[0]) && upper(p.master.text) == upper(line.fields[1]);
-            });
-            if (pair == deck_.pairs.end())
-                throw SceneFailure(line.place, "there is no *CONTACT PAIR of these surfaces");
-            pair->bonded = line.fields[2];
+            const auto pair = pair_of_.find({upper(line.fields[0]), upper(line.fields[1])});
+            if (pair == pair_of_.end()) throw SceneFailure(line.place, "there is no *CONTACT PAIR of these surfaces");
+            deck_.pairs[pair->second].bonded = line.fields[2];
         }
     }
 
@@ -381,7 +381,8 @@ private:
     DamageCards& (DeckReader::*damage_of_)() = nullptr;
     StepReader steps_;
     ConstraintReader constraints_;
-    std::string part_;  // that is open
+    std::string part_;                                                    // that is open
+    std::map<std::pair<std::string, std::string>, std::size_t> pair_of_;  // by slave and master in upper case
     std::set<std::string> left_;
 };
 

@@ -34,8 +34,20 @@ struct Held {
 class Interfaces {
 public:
     Interfaces(Deck& deck, const Model& model, const MeshData& mesh)
-        : deck_(deck), model_(model), mesh_(mesh), faces_(mesh), edge_(shortest_edge(mesh)) {
-        for (const BodyPair& pair : pairs_of_bodies(mesh, faces_, edge_)) touching_[{pair.a, pair.b}] = pair;
+        : deck_(deck),
+          model_(model),
+          mesh_(mesh),
+          faces_(mesh),
+          edge_(shortest_edge(mesh)),
+          places_(mesh, edge_),
+          cohesive_sections_(deck, model, &Part::cohesive_sections),
+          neighbours_(mesh.body_names.size()) {
+        for (const BodyPair& pair : pairs_of_bodies(mesh, faces_, edge_, model.file)) {
+            touching_[{pair.a, pair.b}] = pair;
+            neighbours_[static_cast<std::size_t>(pair.a)].push_back(pair.b);
+            neighbours_[static_cast<std::size_t>(pair.b)].push_back(pair.a);
+        }
+        for (std::vector<std::int32_t>& bodies : neighbours_) std::sort(bodies.begin(), bodies.end());
     }
 
     std::string text() {
@@ -62,9 +74,8 @@ private:
     }
 
     Held* find(std::int32_t a, std::int32_t b) {
-        for (Held& held : held_)
-            if (std::minmax(held.a, held.b) == std::minmax(a, b)) return &held;
-        return nullptr;
+        const auto found = held_by_.find(std::minmax(a, b));
+        return found == held_by_.end() ? nullptr : &held_[found->second];
     }
 
     // Bodies that share some nodes and have doubled ones elsewhere would be bonded and free at once.
@@ -82,6 +93,7 @@ private:
         // Contact acts in every interface: a pair that asks for it alone adds nothing to a law.
         Held* other = find(held.a, held.b);
         if (other == nullptr) {
+            held_by_.emplace(std::minmax(held.a, held.b), held_.size());
             held_.push_back(held);
         } else if (held.law.empty()) {
             return;
@@ -125,7 +137,7 @@ private:
     }
 
     void add_cohesive(const CohesiveSet& set) {
-        const Section* found = section_named(deck_, model_, &Part::cohesive_sections, set.name).section;
+        const Section* found = cohesive_sections_.of(set.name).section;
         if (found == nullptr)
             throw SceneFailure(model_.file,
                                fmt::format("the cohesive elements \"{}\" have no *COHESIVE SECTION", set.name));
@@ -184,8 +196,7 @@ private:
                         const DamageCards& damage, const Place& place) {
         const auto [known, fresh] = law_names_.emplace(std::pair(of + " " + name, thickness), name);
         if (!fresh) return known->second;
-        std::size_t alike = 0;
-        for (const auto& [key, other] : law_names_) alike += key.first.ends_with(" " + name) ? 1 : 0;
+        const std::size_t alike = ++laws_of_name_[name];
         if (alike > 1) known->second = fmt::format("{} ({})", name, alike);
         laws_ += law_text(known->second, stiffness, thickness, damage, mesh_.dimension, place, deck_.changed) + "\n";
         return known->second;
@@ -198,11 +209,12 @@ private:
         return name;
     }
 
-    [[nodiscard]] std::set<std::int32_t> bodies_of(const std::string& surface) const {
-        std::set<std::int32_t> out;
+    const std::set<std::int32_t>& bodies_of(const std::string& surface) {
+        const auto [at, fresh] = bodies_of_.try_emplace(surface);
+        if (!fresh) return at->second;
         for (const Face& face : mesh_.face_sets.at(surface))
-            for (const std::int32_t each : faces_.of(face)) out.insert(each);
-        return out;
+            for (const std::int32_t each : faces_.of(face)) at->second.insert(each);
+        return at->second;
     }
 
     // b is the slave's body, whose nodes make the pairs.
@@ -217,17 +229,21 @@ private:
                           interaction.place);
             require_extent(pair, interaction, slave, master);
         }
-        const std::set<std::int32_t> slaves = bodies_of(slave), masters = bodies_of(master);
+        const std::set<std::int32_t>&slaves = bodies_of(slave), &masters = bodies_of(master);
+        std::string set = law.empty() ? "" : slave;
+        if (!law.empty() && !pair.bonded.empty()) set = bonded_set(pair);
         std::size_t added = 0;
-        for (const std::int32_t b : slaves)
-            for (const std::int32_t a : masters) {
-                if (a == b) continue;
-                const auto touching = touching_.find(std::minmax(a, b));
-                // Surfaces of several bodies hold those together that touch; those of two need not match.
-                if (touching == touching_.end() && slaves.size() * masters.size() > 1) continue;
-                std::string set = law.empty() ? "" : slave;
-                if (!law.empty() && !pair.bonded.empty()) set = bonded_set(pair);
-                add({a, b, law, set, 0.0, touching != touching_.end(), pair.place});
+        // Surfaces of several bodies hold those together that touch; those of two need not match.
+        const bool two = slaves.size() == 1 && masters.size() == 1;
+        if (two && *slaves.begin() != *masters.begin()) {
+            const std::int32_t a = *masters.begin(), b = *slaves.begin();
+            add({a, b, law, set, 0.0, touching_.contains(std::minmax(a, b)), pair.place});
+            ++added;
+        }
+        for (auto b = slaves.begin(); b != slaves.end() && !two; ++b)
+            for (const std::int32_t a : neighbours_[static_cast<std::size_t>(*b)]) {
+                if (!masters.contains(a)) continue;
+                add({a, *b, law, set, 0.0, true, pair.place});
                 ++added;
             }
         if (added == 0)
@@ -247,7 +263,7 @@ private:
             throw SceneFailure(interaction.place, "ELIGIBILITY=" + interaction.eligibility +
                                                       " is not imported: CURRENT and SPECIFIED CONTACTS are");
         const auto& faces = mesh_.face_sets.at(slave);
-        const auto opposite = coinciding_faces(mesh_, faces, mesh_.face_sets.at(master), edge_);
+        const auto opposite = places_.coinciding(slave, master);
         if (opposite == 0)
             deck_.changed.push_back(
                 fmt::format("\"{}\" and \"{}\" do not match: the slave adheres wherever it meets "
@@ -280,8 +296,14 @@ private:
     const MeshData& mesh_;
     FaceBodies faces_;
     double edge_;
+    FacePlaces places_;
+    SectionIndex cohesive_sections_;
     std::map<std::pair<std::int32_t, std::int32_t>, BodyPair> touching_;
+    std::vector<std::vector<std::int32_t>> neighbours_;  // by body: those that touch it, ascending
     std::vector<Held> held_;
+    std::map<std::pair<std::int32_t, std::int32_t>, std::size_t> held_by_;  // by bodies
+    std::map<std::string, std::set<std::int32_t>> bodies_of_;               // by surface
+    std::map<std::string, std::size_t> laws_of_name_;
     std::map<std::pair<std::string, double>, std::string> law_names_;
     std::string laws_;
 };

@@ -2,7 +2,9 @@
 #include "deck_loads.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -21,16 +23,20 @@ using Points = std::vector<std::pair<double, double>>;  // instants and values
 
 constexpr std::int64_t most_single_nodes = 200;
 constexpr double most_increments = 100000;
+constexpr std::size_t most_points = 10000000;  // of all histories: each line may follow a long amplitude
+
+// The first point at x or behind.
+Points::const_iterator first_from(const Points& points, double x) {
+    return std::partition_point(points.begin(), points.end(), [&](const auto& point) { return point.first < x; });
+}
 
 double between(const Points& points, double x) {
-    if (x <= points.front().first) return points.front().second;
-    for (std::size_t i = 1; i < points.size(); ++i)
-        if (x <= points[i].first) {
-            const auto& [a, fa] = points[i - 1];
-            const auto& [b, fb] = points[i];
-            return fa + (fb - fa) * (x - a) / (b - a);
-        }
-    return points.back().second;
+    const auto at = first_from(points, x);
+    if (at == points.begin()) return points.front().second;
+    if (at == points.end()) return points.back().second;
+    const auto& [a, fa] = *std::prev(at);
+    const auto& [b, fb] = *at;
+    return fa + (fb - fa) * (x - a) / (b - a);
 }
 
 // The values of an amplitude as straight lines; a SMOOTH STEP, whose parts are polynomials of fifth order, in 16 each.
@@ -47,14 +53,20 @@ Points lines_of(const Amplitude& amplitude) {
     return out;
 }
 
-// What one line of the deck prescribes, over all steps.
+// What one line of the deck prescribes, over all steps. Behind its last point it is constant.
 struct History {
     LoadLine line;  // the first of its kind
+    int dof = 0;
     bool force = false;
+    std::size_t number = 0;  // in the order of the deck
     Points points{{0.0, 0.0}};
     const LoadLine* follows = nullptr;  // the last line that prescribed it
-    bool active = true;                 // this step, or an earlier one that still holds, prescribes it
     std::size_t before = 1;             // points of the steps before this one
+    std::size_t given = 0;              // the last step that has a line for it
+
+    void hold_until(double time) {
+        if (points.back().first < time) points.emplace_back(time, points.back().second);
+    }
 
     [[nodiscard]] double peak() const {
         double out = 0;
@@ -67,8 +79,6 @@ struct History {
 // Made of points whose largest is 1, which the factor multiplies by `peak`.
 struct Pattern {
     std::string name;
-    Points points;
-    bool force;
     double peak;
 };
 
@@ -81,6 +91,7 @@ public:
         for (const LoadLine& line : deck_.held)
             for (int dof = line.first; dof <= line.last; ++dof) at_one(line, false, dof);
         for (const Step& step : deck_.steps) march(step);
+        for (auto& [key, history] : histories_) history.hold_until(time_);
         say_width();
         std::string out = time_text();
         std::string loads;
@@ -133,10 +144,15 @@ private:
         }
     };
 
+    // Displacements, forces, and distributed forces: what OP=NEW ends.
+    static std::size_t kind_of(const History& history) {
+        return !history.force ? 0 : history.line.distributed.empty() ? 1 : 2;
+    }
+
     // Null: the mesh has no such degree of freedom.
     History* at_one(const LoadLine& line, bool force, int dof) {
-        const std::vector<std::int64_t> references =
-            line.distributed.empty() ? references_.of(line.where) : std::vector<std::int64_t>{};
+        static const std::vector<std::int64_t> none;
+        const std::vector<std::int64_t>& references = line.distributed.empty() ? references_.of(line.where) : none;
         if (!references.empty()) {
             if (!moves(line, force, dof, references)) return nullptr;
         } else if (dof > mesh_.dimension && line.distributed.empty()) {
@@ -150,16 +166,14 @@ private:
             return nullptr;
         }
         const Key key{(force ? "force " : "") + upper(line.where.text), dof, line.distributed};
-        const auto [found, fresh] = histories_.emplace(key, History{line, force});
+        const auto [found, fresh] = histories_.emplace(key, History{line, dof, force, histories_.size()});
         if (fresh) {
             keys_.push_back(key);
             if (time_ > 0 && !force)
                 throw SceneFailure(line.where.place,
                                    "is prescribed from a later step on, and was free before: this is not imported");
-            if (time_ > 0) found->second.points.emplace_back(time_, 0.0);
-            found->second.before = found->second.points.size();
         }
-        found->second.active = true;
+        acting_[kind_of(found->second)].emplace(found->second.number, &found->second);
         return &found->second;
     }
 
@@ -179,14 +193,12 @@ private:
 
     void march(const Step& step) {
         const double end = time_ + step.period;
-        for (auto& [key, history] : histories_) {
-            history.before = history.points.size();
-            const bool ends = !history.force            ? step.new_boundaries
-                              : key.distributed.empty() ? step.new_forces
-                                                        : step.new_distributed;
-            if (ends) history.active = false;
-        }
-        std::set<const History*> given;
+        ++step_;
+        // What ends unless this step gives it again.
+        std::map<std::size_t, History*> ending;
+        const bool renewed[] = {step.new_boundaries, step.new_forces, step.new_distributed};
+        for (std::size_t kind = 0; kind < std::size(renewed); ++kind)
+            if (renewed[kind]) ending.merge(std::exchange(acting_[kind], {}));
         for (const bool force : {false, true})
             for (const LoadLine& line : force ? step.forces : step.boundaries)
                 for (int dof = line.first; dof <= line.last; ++dof) {
@@ -198,25 +210,37 @@ private:
                                            "give the surface another name");
                     history->follows = &line;
                     // Of several lines of a step for the same place, the last one counts.
-                    if (!given.insert(history).second) history->points.resize(history->before);
+                    if (history->given == step_) {
+                        history->points.resize(history->before);
+                    } else {
+                        history->given = step_;
+                        history->hold_until(time_);
+                        history->before = history->points.size();
+                    }
                     extend(*history, step, line, end);
+                    if (in_total_time(line))
+                        in_total_time_.emplace(history->number, history);
+                    else
+                        in_total_time_.erase(history->number);
                 }
-        for (auto& [key, history] : histories_) {
-            if (given.contains(&history)) continue;
-            if (!history.active && !history.force)
+        for (const auto& [number, history] : ending) {
+            if (history->given == step_) continue;
+            if (!history->force)
                 throw SceneFailure(step.place, fmt::format("OP=NEW frees \"{}\", degree of freedom {}, in this step: "
                                                            "supports that end are not imported",
-                                                           history.line.where.text, key.dof));
-            LoadLine ended = history.line;
+                                                           history->line.where.text, history->dof));
+            LoadLine ended = history->line;
             ended.magnitude = 0;
             ended.amplitude.clear();
-            if (!history.active)
-                extend(history, step, ended, end);
-            else if (history.follows != nullptr && in_total_time(*history.follows))
-                extend(history, step, *history.follows, end);
-            else
-                history.points.emplace_back(end, history.points.back().second);
+            in_total_time_.erase(number);
+            history->hold_until(time_);
+            extend(*history, step, ended, end);
         }
+        for (const auto& [number, history] : in_total_time_)
+            if (history->given != step_) {
+                history->hold_until(time_);
+                extend(*history, step, *history->follows, end);
+            }
         const double wanted = std::ceil(step.period / step.first_increment * (1 - 1e-9));
         if (!(wanted + static_cast<double>(instants_.size()) <= most_increments))
             throw SceneFailure(step.place, fmt::format("{:.6g} increments of {}: at most {} in all steps", wanted,
@@ -248,10 +272,14 @@ private:
         } else {
             const double origin = amplitude->total_time ? 0.0 : time_;
             const double factor = amplitude->absolute ? 1.0 : line.magnitude;
-            const Points lines = lines_of(*amplitude);
+            const auto [known, fresh] = lines_.try_emplace(amplitude);
+            if (fresh) known->second = lines_of(*amplitude);
+            const Points& lines = known->second;
             next.emplace_back(time_, factor * between(lines, time_ - origin));
-            for (const auto& [x, value] : lines)
-                if (x + origin > time_ && x + origin < end) next.emplace_back(x + origin, factor * value);
+            const auto within = [&](const auto& point) { return point.first + origin <= time_; };
+            for (auto at = std::partition_point(lines.begin(), lines.end(), within);
+                 at != lines.end() && at->first + origin < end; ++at)
+                next.emplace_back(at->first + origin, factor * at->second);
             next.emplace_back(end, factor * between(lines, end - origin));
         }
         if (next.front().second != last) {
@@ -266,6 +294,11 @@ private:
         } else {
             next.erase(next.begin());
         }
+        points_ += next.size();
+        if (points_ > most_points)
+            throw SceneFailure(line.where.place, fmt::format("with this the amplitudes of all lines have more than {} "
+                                                             "points in all steps",
+                                                             most_points));
         history.points.insert(history.points.end(), next.begin(), next.end());
     }
 
@@ -289,10 +322,11 @@ private:
     // A pattern, and what its factor is multiplied by to give these values. The first of several that are in proportion
     // gives the factor the size of its values, so that the reaction is the force there; the factor of forces goes to 1.
     std::pair<std::string, double> pattern_of(const History& history) {
+        const double peak = history.peak();
         Points points;
         std::vector<double> values;
         for (const auto& [time, value] : history.points) {
-            const double share = value / history.peak() + 0.0;  // no negative zero
+            const double share = value / peak + 0.0;  // no negative zero
             if (points.size() > 1) {
                 const auto& [a, fa] = points[points.size() - 2];
                 const double straight = fa + (share - fa) * (points.back().first - a) / (time - a);
@@ -302,22 +336,21 @@ private:
                 }
             }
             points.emplace_back(time, share);
-            values.push_back(history.force ? share : share * std::abs(history.peak()));
+            values.push_back(history.force ? share : share * std::abs(peak));
         }
-        std::size_t alike = 1;
-        for (const Pattern& known : made_) {
-            if (known.force != history.force) continue;
-            if (known.points == points) return {known.name, history.peak() / known.peak};
-            ++alike;
-        }
+        std::map<Points, Pattern>& made = made_[history.force ? 1 : 0];
+        if (const auto known = made.find(points); known != made.end())
+            return {known->second.name, peak / known->second.peak};
+        const std::size_t alike = made.size() + 1;
         const std::string base = history.force ? "force" : "displacement";
-        const double unit = history.force ? 1.0 : std::abs(history.peak());
-        made_.push_back({alike == 1 ? base : fmt::format("{}-{}", base, alike), points, history.force, unit});
+        const double unit = history.force ? 1.0 : std::abs(peak);
+        const Pattern pattern{alike == 1 ? base : fmt::format("{}-{}", base, alike), unit};
         std::vector<double> times;
         for (const auto& [time, share] : points) times.push_back(time);
-        patterns_ += fmt::format("[[patterns]]\nname = {}\ntimes = {}\nvalues = {}\n\n", toml_text(made_.back().name),
+        patterns_ += fmt::format("[[patterns]]\nname = {}\ntimes = {}\nvalues = {}\n\n", toml_text(pattern.name),
                                  toml_list(times), toml_list(values));
-        return {made_.back().name, history.peak() / unit};
+        made.emplace(std::move(points), pattern);
+        return {pattern.name, peak / unit};
     }
 
     // Of an entry that is a number.
@@ -332,11 +365,11 @@ private:
     [[nodiscard]] std::vector<SceneComponent> components(const Entry& raw, int dof) const {
         std::vector<SceneComponent> out;
         const auto axis = static_cast<std::size_t>(dof - 1);
-        if (const std::vector<std::int64_t> nodes = references_.of(raw); !nodes.empty()) {
+        if (const std::vector<std::int64_t>& nodes = references_.of(raw); !nodes.empty()) {
             for (const std::int64_t node : nodes)
                 if (const auto at = references_.component(node, dof)) out.push_back(*at);
         } else if (const std::optional<std::int64_t> node = node_of(raw)) {
-            for (const std::int32_t body : bodies_at(mesh_, *node))
+            for (const std::int32_t body : references_.bodies_at(*node))
                 out.push_back({point_text(mesh_, *node, body), axis, 0});
         } else {
             out.push_back({fmt::format("set = {}\n", toml_text(set_name(raw))), axis, 0});
@@ -410,7 +443,8 @@ private:
             return out;
         }
         const std::optional<std::int64_t> one = node_of(raw);
-        const std::vector<std::int64_t> numbers = one ? std::vector{*one} : mesh_.node_sets.at(set_name(raw));
+        const std::vector<std::int64_t> alone = one ? std::vector{*one} : std::vector<std::int64_t>{};
+        const std::vector<std::int64_t>& numbers = one ? alone : mesh_.node_sets.at(set_name(raw));
         if (static_cast<std::int64_t>(numbers.size()) > most_single_nodes)
             throw SceneFailure(raw.place, fmt::format("forces at {} nodes: at most {} are imported; give a surface a "
                                                       "traction (*DSLOAD)",
@@ -422,7 +456,7 @@ private:
                                                           "name: give each node one",
                                                           raw.text));
             out.push_back(
-                {point_text(mesh_, node, bodies_at(mesh_, node).front()), static_cast<std::size_t>(dof - 1), 0});
+                {point_text(mesh_, node, references_.bodies_at(node).front()), static_cast<std::size_t>(dof - 1), 0});
         }
         return out;
     }
@@ -435,7 +469,12 @@ private:
     std::vector<Key> keys_;                                 // in the order of the deck
     std::set<std::pair<std::string, std::size_t>> pushed_;  // components of control nodes with a force
     std::set<std::pair<std::int64_t, int>> loaded_;         // nodes and degrees of freedom with a force of their own
-    std::vector<Pattern> made_;
+    std::map<Points, Pattern> made_[2];                     // of displacements, of forces
+    std::map<const Amplitude*, Points> lines_;
+    // By their numbers: those that steps prescribe, by kind_of(), and those of them that go on by themselves.
+    std::array<std::map<std::size_t, History*>, 3> acting_;
+    std::map<std::size_t, History*> in_total_time_;
+    std::size_t step_ = 0, points_ = 0;
     std::string patterns_;
     std::vector<double> instants_, sizes_;
     double time_ = 0;

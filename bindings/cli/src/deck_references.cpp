@@ -46,10 +46,8 @@ void extend(std::vector<Row>& basis, const Row& row) {
     basis.push_back(rest);
 }
 
-// Orthonormal directions across all rows; axes where these are such.
-std::vector<Row> complement(const std::vector<Row>& rows, std::size_t dimension) {
-    std::vector<Row> basis;
-    for (const Row& row : rows) extend(basis, row);
+// Orthonormal directions across a basis; axes where these are such.
+std::vector<Row> complement(std::vector<Row> basis, std::size_t dimension) {
     const std::size_t given = basis.size();
     while (basis.size() < dimension) {
         std::size_t best = 0;
@@ -81,10 +79,9 @@ std::string point_text(const MeshData& mesh, std::int64_t node, std::int32_t bod
 }
 
 References::References(const Deck& deck, const Model& model, const MeshData& mesh)
-    : model_(model), mesh_(mesh), dimension_(static_cast<std::size_t>(mesh.dimension)) {
-    in_cell_.resize(mesh.nodes.size() / dimension_);
-    for (const CellBlock& block : mesh.blocks)
-        for (const std::int64_t node : block.connectivity) in_cell_[static_cast<std::size_t>(node)] = true;
+    : model_(model), mesh_(mesh), dimension_(static_cast<std::size_t>(mesh.dimension)), bodies_(mesh) {
+    for (const auto& [set, nodes] : mesh.node_sets)
+        if (nodes.size() == 1) set_of_.emplace(nodes.front(), set);
     for (const Coupling& coupling : deck.couplings) couple(coupling);
     for (const auto& terms : deck.equations) equate(terms);
 }
@@ -95,16 +92,19 @@ std::vector<std::int64_t> References::nodes_of(const Entry& where) const {
     return {nodes.begin(), nodes.end()};
 }
 
-std::vector<std::int64_t> References::of(const Entry& where) const {
-    const std::vector<std::int64_t> nodes = nodes_of(where);
+const std::vector<std::int64_t>& References::of(const Entry& where) const {
+    // Entries of loads and constraints stand outside of parts: their text says all.
+    const auto [at, fresh] = of_.try_emplace(where.text);
+    if (!fresh) return at->second;
+    std::vector<std::int64_t> nodes = nodes_of(where);
     const auto loose = std::count_if(nodes.begin(), nodes.end(), [&](std::int64_t node) { return of_no_body(node); });
-    if (loose == 0) return {};
+    if (loose == 0) return at->second;
     if (loose < static_cast<std::ptrdiff_t>(nodes.size()))
         throw SceneFailure(where.place,
                            fmt::format("{} of the {} nodes of \"{}\" belong to no body: give them, and the "
                                        "others, sets of their own",
                                        loose, nodes.size(), where.text));
-    return nodes;
+    return at->second = std::move(nodes);
 }
 
 std::vector<double> References::position(std::int64_t node) const {
@@ -112,14 +112,9 @@ std::vector<double> References::position(std::int64_t node) const {
     return {first, first + mesh_.dimension};
 }
 
-// Its part or instance, and its number there.
 std::pair<const Part*, std::int64_t> References::owner_of(std::int64_t node) const {
-    for (const Part* scope : model_.scopes()) {
-        const std::int64_t at = node - scope->first_node;
-        if (at >= 0 && at < static_cast<std::int64_t>(scope->nodes.size()))
-            return {scope, scope->nodes[static_cast<std::size_t>(at)].id};
-    }
-    return {&model_.root, node};
+    const Part& owner = model_.owner_of(node);
+    return {&owner, owner.nodes.at(static_cast<std::size_t>(node - owner.first_node)).id};
 }
 std::pair<std::size_t, std::int64_t> References::label_of(std::int64_t node) const {
     const auto [scope, id] = owner_of(node);
@@ -127,20 +122,13 @@ std::pair<std::size_t, std::int64_t> References::label_of(std::int64_t node) con
 }
 
 // That of a set which consists of it, or its number; no other control node has it.
-std::string References::new_name(std::int64_t node, const std::string& ending) const {
+std::string References::new_name(std::int64_t node, const std::string& ending) {
     const auto [scope, id] = owner_of(node);
-    std::string name = "node-" + full_name(*scope, std::to_string(id));
-    for (const auto& [set, nodes] : mesh_.node_sets)
-        if (nodes.size() == 1 && nodes.front() == node) {
-            name = set;
-            break;
-        }
-    name += ending;
-    const auto taken = [&](const std::string& text) {
-        return std::any_of(controls_.begin(), controls_.end(), [&](const Control& c) { return c.name == text; });
-    };
+    const auto set = set_of_.find(node);
+    const std::string name =
+        (set != set_of_.end() ? set->second : "node-" + full_name(*scope, std::to_string(id))) + ending;
     std::string out = name;
-    for (int k = 2; taken(out); ++k) out = fmt::format("{}-{}", name, k);
+    while (!names_.emplace(out, 2).second) out = fmt::format("{}-{}", name, names_[name]++);
     return out;
 }
 
@@ -182,7 +170,7 @@ std::optional<SceneComponent> References::component(std::int64_t node, int dof) 
 }
 
 void References::prescribe(const SceneComponent& component) {
-    controls_.at(component.control).determined.push_back(axis_row(component.axis));
+    extend(controls_.at(component.control).determined, axis_row(component.axis));
 }
 
 void References::push(const SceneComponent& component, const Place& place) {
@@ -190,7 +178,7 @@ void References::push(const SceneComponent& component, const Place& place) {
 }
 
 void References::couple(const Coupling& coupling) {
-    const std::vector<std::int64_t> found = of(coupling.reference);
+    const std::vector<std::int64_t>& found = of(coupling.reference);
     if (found.size() != 1)
         throw SceneFailure(coupling.place, fmt::format("REF NODE={}: one node that belongs to no body is expected",
                                                        coupling.reference.text));
@@ -199,7 +187,7 @@ void References::couple(const Coupling& coupling) {
         throw SceneFailure(coupling.place,
                            fmt::format("REF NODE={} is the ROT NODE of another card", coupling.reference.text));
     if (coupling.rotation_node) {
-        const std::vector<std::int64_t> turned = of(*coupling.rotation_node);
+        const std::vector<std::int64_t>& turned = of(*coupling.rotation_node);
         if (turned.size() != 1 || turned.front() == reference)
             throw SceneFailure(coupling.place, fmt::format("ROT NODE={}: one further node that belongs to no body is "
                                                            "expected",
@@ -217,6 +205,10 @@ void References::couple(const Coupling& coupling) {
         throw SceneFailure(coupling.place,
                            fmt::format("\"{}\": no surface or node set of this name has nodes", coupling.where.text));
     const std::vector<std::int64_t>& nodes = mesh_.node_sets.at(set);
+    // Several couplings may name one large set.
+    coupled_ += nodes.size();
+    if (coupled_ > static_cast<std::size_t>(most_members))
+        throw SceneFailure(coupling.place, fmt::format("with this more than {} nodes are coupled", most_members));
     if (std::any_of(nodes.begin(), nodes.end(), [&](std::int64_t node) { return of_no_body(node); }))
         throw SceneFailure(coupling.place, fmt::format("\"{}\" has nodes that belong to no body", coupling.where.text));
     std::vector<std::size_t> axes;
@@ -241,7 +233,7 @@ void References::couple(const Coupling& coupling) {
     }
     std::vector<std::string> names;
     for (const std::size_t a : axes) {
-        control.determined.push_back(axis_row(a));
+        extend(control.determined, axis_row(a));
         names.emplace_back(axis_names[a]);
     }
     constraints_ += fmt::format("[[couplings]]\nset = {}\ncomponent = {}\n{}", toml_text(set), toml_list(names), place);
@@ -249,7 +241,7 @@ void References::couple(const Coupling& coupling) {
     std::erase_if(levers, [&](const Row& row) { return !(std::sqrt(dot(row, row)) > 1e-6 * longest); });
     if (!levers.empty()) {
         Control& rotation = controls_[rotation_of(reference)];
-        for (const Row& row : levers) rotation.determined.push_back(dimension_ == 2 ? Row{row[2], 0, 0} : row);
+        for (const Row& row : levers) extend(rotation.determined, dimension_ == 2 ? Row{row[2], 0, 0} : row);
         constraints_ += fmt::format("rotation = {}\n", toml_text(rotation.name));
     }
     constraints_ += "\n";
@@ -270,7 +262,7 @@ std::string References::term_text(const EquationEntry& term, std::int64_t node) 
             throw SceneFailure(term.where.place,
                                fmt::format("degree of freedom {} of \"{}\": a node of a body has 1 to {}", term.dof,
                                            term.where.text, mesh_.dimension));
-        at = {point_text(mesh_, node, bodies_at(mesh_, node).front()), static_cast<std::size_t>(term.dof - 1), 0};
+        at = {point_text(mesh_, node, bodies_at(node).front()), static_cast<std::size_t>(term.dof - 1), 0};
     }
     std::string keys = at.place;
     while (!keys.empty() && keys.back() == '\n') keys.pop_back();

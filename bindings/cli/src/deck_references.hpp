@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "deck.hpp"
+#include "deck_bodies.hpp"
 #include "mesh_data.hpp"
 
 namespace cli::abaqus {
@@ -32,7 +33,9 @@ public:
     References(const Deck& deck, const Model& model, const MeshData& mesh);
 
     // The nodes of an entry if all of them belong to no body; empty: they are nodes of bodies.
-    [[nodiscard]] std::vector<std::int64_t> of(const Entry& where) const;
+    [[nodiscard]] const std::vector<std::int64_t>& of(const Entry& where) const;
+    // The bodies that a node belongs to.
+    [[nodiscard]] const std::vector<std::int32_t>& bodies_at(std::int64_t node) const { return bodies_.of(node); }
     // Of a node that of() has given. nullopt: nothing moves with this degree of freedom.
     [[nodiscard]] std::optional<SceneComponent> component(std::int64_t node, int dof) const;
     // A load prescribes what component() has given.
@@ -48,16 +51,17 @@ private:
     struct Control {
         std::string name;
         std::vector<double> at;
-        std::vector<Row> determined;  // directions that constraints and loads determine
+        std::vector<Row> determined;  // what constraints and loads determine: an orthonormal basis
         std::map<std::size_t, Place> pushed;
     };
 
-    [[nodiscard]] bool of_no_body(std::int64_t node) const { return !in_cell_[static_cast<std::size_t>(node)]; }
+    [[nodiscard]] bool of_no_body(std::int64_t node) const { return bodies_.of(node).empty(); }
     [[nodiscard]] std::vector<std::int64_t> nodes_of(const Entry& where) const;
     [[nodiscard]] std::vector<double> position(std::int64_t node) const;
+    // Its part or instance, and its number there.
     [[nodiscard]] std::pair<const Part*, std::int64_t> owner_of(std::int64_t node) const;
     [[nodiscard]] std::pair<std::size_t, std::int64_t> label_of(std::int64_t node) const;
-    [[nodiscard]] std::string new_name(std::int64_t node, const std::string& ending) const;
+    [[nodiscard]] std::string new_name(std::int64_t node, const std::string& ending);
     [[nodiscard]] SceneComponent of_control(std::size_t control, std::size_t axis) const;
     [[nodiscard]] bool unsorted(const Entry& where) const;
     [[nodiscard]] static std::string place_of(const Control& control);
@@ -71,11 +75,15 @@ private:
     const Model& model_;
     const MeshData& mesh_;
     std::size_t dimension_;
-    std::vector<bool> in_cell_;                            // by node
-    std::vector<Control> controls_;                        // in the order of their first use
-    std::map<std::int64_t, std::size_t> translations_;     // controls by node
-    std::map<std::int64_t, std::size_t> rotations_;        // the same
-    std::map<std::int64_t, std::int64_t> rotation_nodes_;  // reference nodes by their rotation nodes
+    NodeBodies bodies_;
+    mutable std::map<std::string, std::vector<std::int64_t>> of_;  // by the text of the entry
+    std::map<std::int64_t, std::string> set_of_;                   // by node: the first set that consists of it
+    std::vector<Control> controls_;                                // in the order of their first use
+    std::map<std::string, int> names_;                             // of controls: the next number to try
+    std::size_t coupled_ = 0;                                      // nodes of all couplings
+    std::map<std::int64_t, std::size_t> translations_;             // controls by node
+    std::map<std::int64_t, std::size_t> rotations_;                // the same
+    std::map<std::int64_t, std::int64_t> rotation_nodes_;          // reference nodes by their rotation nodes
     std::string constraints_;
 };
 

@@ -24,6 +24,9 @@ namespace cli::abaqus {
 
 namespace {
 
+// The first line of a scene: what stands before and behind the name of its deck.
+constexpr std::string_view begin_of_origin = "# From ", end_of_origin = " by delam import.";
+
 using Vector = std::array<double, 3>;
 
 Vector cross(const Vector& a, const Vector& b) {
@@ -94,10 +97,13 @@ private:
         // In a plane mesh, cohesive elements have a width too.
         for (const Section& section : deck_.sections)
             if (!section.thickness.empty()) require_width(section);
+        const SectionIndex sections(deck_, model_, &Part::sections);
+        std::vector<std::string> sorted = mesh_.body_names;
+        std::sort(sorted.begin(), sorted.end());
         std::size_t begin = 0;  // of its pieces
         for (std::size_t i = 0; i < plain_names_.size(); ++i) {
             const std::string& plain = plain_names_[i];
-            const SectionOf found = section_named(deck_, model_, &Part::sections, plain);
+            const SectionOf found = sections.of(plain);
             if (found.section == nullptr)
                 throw SceneFailure(model_.file, fmt::format("\"{}\" has no *SOLID SECTION", plain));
             const Section& section = *found.section;
@@ -106,7 +112,7 @@ private:
             used.insert(material.name);
             const std::string rest =
                 fmt::format("material = {}\n{}\n", toml_text(material.name), axes_text(section, found.scope->rotated));
-            for (const std::string& name : entries_for(plain, begin, begin + pieces_[i]))
+            for (const std::string& name : entries_for(plain, begin, begin + pieces_[i], sorted))
                 bodies += fmt::format("[[bodies]]\nname = {}\n{}", toml_text(name), rest);
             begin += pieces_[i];
         }
@@ -117,22 +123,20 @@ private:
     }
 
     // One entry for all pieces of a body, if its name fits no other.
-    [[nodiscard]] std::vector<std::string> entries_for(const std::string& plain, std::size_t begin,
-                                                       std::size_t end) const {
+    [[nodiscard]] std::vector<std::string> entries_for(const std::string& plain, std::size_t begin, std::size_t end,
+                                                       const std::vector<std::string>& sorted) const {
         const auto& names = mesh_.body_names;
-        const std::string all = plain + "-*";
-        bool alone = end - begin > 1;
-        for (std::size_t i = 0; i < names.size(); ++i)
-            if (fits(all, names[i]) != (i >= begin && i < end)) alone = false;
-        if (alone) return {all};
+        if (end - begin > 1 && !is_pattern(plain) && number_beginning_with(sorted, plain + "-") == end - begin)
+            return {plain + "-*"};
         return {names.begin() + static_cast<std::ptrdiff_t>(begin), names.begin() + static_cast<std::ptrdiff_t>(end)};
     }
 
     const Orientation& orientation_of(const Section& section) const {
         for (const std::string& part : {section.part, std::string()})
-            for (const Orientation& each : deck_.orientations)
-                if (each.part == part && upper(each.name) == upper(section.orientation)) return each;
-        return named(std::vector<Orientation>(), section.orientation, "orientation", section.place);
+            if (const auto found = deck_.orientations.find({part, upper(section.orientation)});
+                found != deck_.orientations.end())
+                return found->second;
+        return named(Catalogue<Orientation>(), section.orientation, "orientation", section.place);
     }
 
     // The angle of a ply, and an orientation of a shell, are about the normal of the plies, which must be axis 3 here.
@@ -216,7 +220,7 @@ private:
 };
 
 std::string header(const ImportedScene& scene, const std::string& deck) {
-    std::string out = fmt::format("# From {} by delam import.\n", deck);
+    std::string out = fmt::format("{}{}{}\n", begin_of_origin, deck, end_of_origin);
     const auto list = [&](const char* title, const std::vector<std::string>& texts) {
         if (texts.empty()) return;
         out += fmt::format("# {}:\n", title);
@@ -232,6 +236,11 @@ std::string header(const ImportedScene& scene, const std::string& deck) {
 }  // namespace cli::abaqus
 
 namespace cli {
+
+bool is_imported(std::string_view text) {
+    const std::string_view line = text.substr(0, text.find('\n'));
+    return line.starts_with(abaqus::begin_of_origin) && line.ends_with(abaqus::end_of_origin);
+}
 
 std::vector<std::string> import_lines(const ImportedScene& scene) {
     std::vector<std::string> lines;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "error.hpp"
@@ -20,6 +21,9 @@ struct ImportedScene {
 // mesh_name: by which the scene names the deck, relative to its own folder. Throws SceneFailure with file, line and
 // keyword where the deck says something that the scene could only guess.
 ImportedScene import_deck(const std::string& deck, const std::string& mesh_name);
+
+// True if a text is a scene that delam import has written, whatever was changed in it since.
+bool is_imported(std::string_view text);
 
 // What was taken, changed and left out, for people.
 std::vector<std::string> import_lines(const ImportedScene& scene);

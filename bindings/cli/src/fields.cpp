@@ -12,6 +12,9 @@
 #include "cell_format.hpp"
 #include "file.hpp"
 #include "h5.hpp"
+#include "hash.hpp"
+#include "input_file.hpp"
+#include "own_files.hpp"
 #include "step_file.hpp"
 #include "xdmf.hpp"
 
@@ -134,28 +137,69 @@ Fields::Fields(std::string folder, const Scene& scene, Bulk* bulk) : folder_(std
     }
 }
 
-std::string Fields::step_path(std::size_t step) const { return fmt::format("{}/step_{:08d}.h5", folder_, step); }
+std::string Fields::step_path(std::size_t step) const { return folder_ + "/" + step_name(step); }
+
+std::string Fields::revised_path(std::size_t step) const { return step_path(step) + std::string(revised_suffix); }
 
 void Fields::write_step(const Model& model, delam_solver* solver, const Scene& scene, std::size_t step) {
-    const std::string path = step_path(step);
+    const bool again = is_there(step_path(step));
+    const std::string path = again ? revised_path(step) : step_path(step);
+    if (again) {
+        remove_file(path);
+        revised_.insert(step);
+    }
     if (bulk_ != nullptr) {
         write_step_file(path, model, solver, scene, static_cast<std::int64_t>(step), scene.times[step], *bulk_);
-        unsynchronised_.push_back(path);  // its name is new in the folder
-        return;
+        hashes_.erase(step);
+    } else {
+        const std::string bytes = step_bytes(model, solver, scene, static_cast<std::int64_t>(step), scene.times[step]);
+        Appender(path, 0).append(bytes);
+        hashes_[step] = hash_text(bytes);
     }
-    const std::string bytes = step_bytes(model, solver, scene, static_cast<std::int64_t>(step), scene.times[step]);
-    if (std::filesystem::exists(path)) {
-        // A saved state may count on the file that is there.
-        write_atomic(path, bytes);
-        return;
-    }
-    Appender(path, 0).append(bytes);
     unsynchronised_.push_back(path);
+}
+
+void Fields::settle() {
+    for (const std::size_t step : revised_) rename_file(revised_path(step), step_path(step));
+    revised_.clear();
 }
 
 void Fields::synchronise_steps() {
     for (const std::string& path : unsynchronised_) synchronise(path);
     unsynchronised_.clear();
+}
+
+std::vector<std::string> Fields::hashes(std::size_t last) {
+    std::vector<std::string> out;
+    for (const std::size_t step : chosen_) {
+        if (step > last) break;
+        auto at = hashes_.find(step);
+        if (at == hashes_.end()) {
+            const std::string path = revised_.contains(step) ? revised_path(step) : step_path(step);
+            at = hashes_.emplace(step, content_of_file(path).hash).first;
+        }
+        out.push_back(at->second);
+    }
+    return out;
+}
+
+void Fields::resume(std::size_t last, const std::optional<std::vector<std::string>>& saved) {
+    std::size_t k = 0;
+    for (const std::size_t step : chosen_) {
+        const std::string path = step_path(step);
+        const std::string expected = saved && k < saved->size() ? (*saved)[k] : "";
+        take_revised(path,
+                     [&expected](const std::string& revised) { return content_of_file(revised).hash == expected; });
+        ++k;
+        if (step > last) {
+            remove_file(path);  // it is computed again
+            continue;
+        }
+        if (!is_there(path)) throw Failure(exit_scene, path + ": missing; run again without --resume");
+        hashes_[step] = content_of_file(path).hash;
+        if (saved ? hashes_[step] != expected : !is_step_file(path, step))
+            throw Failure(exit_scene, path + ": not as it was when the state was saved; run again without --resume");
+    }
 }
 
 double Fields::assemble(const Model& model, const Scene& scene, std::size_t last, const std::string& problem_hash,
@@ -184,7 +228,8 @@ double Fields::assemble(const Model& model, const Scene& scene, std::size_t last
         for (const std::size_t step : chosen_) {
             if (step > last) break;
             const std::string name = fmt::format("{:08d}", step);
-            const h5::File from(h5::open(step_path(step)), step_path(step));
+            const std::string bytes = bulk_ == nullptr ? read_bytes(step_path(step)) : "";
+            const h5::File from(bulk_ == nullptr ? h5::open_bytes(bytes) : h5::open(step_path(step)), step_path(step));
             if (bulk_ != nullptr) {
                 const std::vector<FileRange> of_step = copy_step(from.get(), step_path(step), group.get(), name, scene);
                 ranges.insert(ranges.end(), of_step.begin(), of_step.end());

@@ -3,6 +3,8 @@
 // When the result is published they are combined once, so the cost stays linear in the number of steps.
 #pragma once
 
+#include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -23,6 +25,13 @@ public:
     void write_step(const Model& model, delam_solver* solver, const Scene& scene, std::size_t step);
     // Flushes the step files to disk, before a state that relies on them is written.
     void synchronise_steps();
+    // What the steps that were written again held before is needed no more.
+    void settle();
+    // The hashes of the files of the chosen steps up to `last`, in their order.
+    std::vector<std::string> hashes(std::size_t last);
+    // Goes on with the files of the chosen steps up to `last`. Throws Failure(exit_scene) if one is missing, or not
+    // what its hash says; where no hashes were saved, if it is not of its step.
+    void resume(std::size_t last, const std::optional<std::vector<std::string>>& saved);
     // Combines steps 0 .. last into folder/fields.h5 and folder/fields.xdmf.
     // Largest rotation of a cell in these steps, rad (0 if no step has displacements).
     double assemble(const Model& model, const Scene& scene, std::size_t last, const std::string& problem_hash,
@@ -31,11 +40,14 @@ public:
 
 private:
     [[nodiscard]] std::string step_path(std::size_t step) const;
+    [[nodiscard]] std::string revised_path(std::size_t step) const;
 
     std::string folder_;
     Bulk* bulk_;
     std::set<std::size_t> chosen_;
     std::vector<std::string> unsynchronised_;
+    std::set<std::size_t> revised_;              // steps whose files wait for settle()
+    std::map<std::size_t, std::string> hashes_;  // by step; without those that many processes have written since
 };
 
 }  // namespace cli

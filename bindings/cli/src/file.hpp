@@ -3,17 +3,31 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 
 namespace cli {
 
-// Writes PATH.new, synchronises and renames it: PATH has either the old or the new content.
+// Writes a file beside PATH that was not there, synchronises it and gives it the name PATH, which has either the old or
+// the new content. Neither a link nor a file of anybody else is opened.
 void write_atomic(const std::string& path, std::string_view bytes);
+// True for the names of files that are written beside the file `of`, and which a process that was killed leaves there.
+bool is_beside(std::string_view name, std::string_view of);
 
-// Throws Failure where a file that a person named is there already and `replace` is not set, or where it is no regular
-// file: renaming would put an ordinary file in the place of a device or a pipe.
-void require_replaceable(const std::string& path, bool replace);
+// Behind the name of a file of a run whose content a step has revised, until the state is saved that counts on it: the
+// state saved before counts on what the file held.
+inline constexpr std::string_view revised_suffix = ".revised";
+
+// After a run was ended: a revised file beside PATH takes its place if `counts` says of it that the saved state counts
+// on it, else it goes.
+void take_revised(const std::string& path, const std::function<bool(const std::string& revised)>& counts);
+
+// Throws Failure where a file that a person named is there already, unless `replace` is set and `own` says of its bytes
+// that this program has written them; always where it is a link or no regular file: renaming would put an ordinary file
+// in its place. what: "a page of delam view", for the message.
+void require_replaceable(const std::string& path, bool replace, const std::string& what,
+                         const std::function<bool(const std::string& bytes)>& own);
 
 void rename_file(const std::string& from, const std::string& to);
 // A missing file is no error.
@@ -29,7 +43,7 @@ void synchronise(const std::string& path);
 // An append-only file.
 class Appender {
 public:
-    // Keeps the first `length` bytes of the existing file (0: starts anew).
+    // Keeps the first `length` bytes of the existing file (0: starts anew). A link is not followed.
     Appender(std::string path, std::int64_t length);
     ~Appender();
     Appender(const Appender&) = delete;

@@ -11,14 +11,23 @@
 #include <hdf5.h>
 
 #include "error.hpp"
+#include "h5_driver.hpp"
+#include "reason.hpp"
 
 namespace cli::h5 {
+
+// Throws what went wrong with a file, by its own name and the system's reason where there is one: HDF5 gives none.
+[[noreturn]] inline void refuse(const std::string& what, const char* otherwise) {
+    const FileTrouble trouble = take_trouble();
+    if (trouble.code != 0) throw OutputFailure(trouble.path, reason_of(trouble.code));
+    throw OutputFailure(what, otherwise);
+}
 
 template <herr_t (*Close)(hid_t)>
 class Id {
 public:
     Id(hid_t id, const std::string& what) : id_(id) {
-        if (id < 0) throw OutputFailure(what, "HDF5 refused (disk full or file damaged)");
+        if (id < 0) refuse(what, "HDF5 refused (file damaged?)");
     }
     ~Id() {
         if (id_ >= 0) Close(id_);
@@ -30,7 +39,10 @@ public:
     void close(const std::string& what) {
         const hid_t id = id_;
         id_ = -1;
-        if (Close(id) < 0) throw OutputFailure(what, "HDF5 refused to close it (disk full?)");
+        const bool closed = Close(id) >= 0;
+        if (const FileTrouble trouble = take_trouble(); trouble.code != 0)
+            throw OutputFailure(trouble.path, reason_of(trouble.code));
+        if (!closed) throw OutputFailure(what, "HDF5 refused to close it");
     }
 
 private:
@@ -53,17 +65,30 @@ inline void require_memory() {
 }
 
 // In a folder or, with access, in memory; an earlier file is replaced.
-inline hid_t create(const std::string& path, hid_t access = H5P_DEFAULT) {
+inline hid_t create(const std::string& path, hid_t access = driver_access()) {
     require_memory();
+    (void)take_trouble();
     return H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
 }
 inline hid_t open(const std::string& path) {
     require_memory();
-    return H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+    return H5Fopen(path.c_str(), H5F_ACC_RDONLY, driver_access());
+}
+
+// A file whose bytes are in memory, to be read: HDF5 1.10 crashes where it copies an object and cannot read the file.
+inline hid_t open_bytes(const std::string& bytes) {
+    require_memory();
+    const Properties access(H5Pcreate(H5P_FILE_ACCESS), "fields.h5");
+    constexpr std::size_t increment = std::size_t{1} << 16;  // of a file that grows; this one does not
+    // HDF5 takes the bytes as they may change, and copies them.
+    if (H5Pset_fapl_core(access.get(), increment, false) < 0 ||
+        H5Pset_file_image(access.get(), const_cast<char*>(bytes.data()), bytes.size()) < 0)
+        return H5I_INVALID_HID;
+    return H5Fopen("step", H5F_ACC_RDONLY, access.get());
 }
 
 inline void require(herr_t status, const std::string& what) {
-    if (status < 0) throw OutputFailure(what, "HDF5 could not write (disk full?)");
+    if (status < 0) refuse(what, "HDF5 could not write");
 }
 
 template <class T>

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <set>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -26,6 +27,11 @@ std::string trimmed(std::string_view text) {
     while (!text.empty() && blank(text.front())) text.remove_prefix(1);
     while (!text.empty() && blank(text.back())) text.remove_suffix(1);
     return std::string(text);
+}
+
+// In place, so that a line that goes on in many others is not copied for each.
+void trim_end(std::string& text) {
+    while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back())) != 0) text.pop_back();
 }
 
 std::string unquoted(const std::string& text) {
@@ -60,10 +66,13 @@ void parse_keyword_line(const std::string& line, InpCard& card) {
             keyword += ' ';
     card.keyword = upper(trimmed(keyword));
     if (card.keyword.empty()) throw SceneFailure(card.place, "a keyword is expected after *");
+    std::set<std::string> known;
     for (std::size_t i = 1; i < fields.size(); ++i) {
         if (fields[i].empty()) continue;
         const std::size_t equals = fields[i].find('=');
         const std::string name = upper(trimmed(fields[i].substr(0, equals)));
+        if (equals != std::string::npos && !known.insert(name).second)
+            throw SceneFailure(card.place, fmt::format("the parameter {:.40} is given twice", name));
         card.parameters.emplace_back(
             name, equals == std::string::npos ? "" : unquoted(trimmed(fields[i].substr(equals + 1))));
     }
@@ -87,11 +96,12 @@ public:
             line = trimmed(line);
             if (line.empty() || line.rfind("**", 0) == 0) continue;
             if (line.front() == '*') {
-                while (trimmed(line).back() == ',') {
-                    std::string next;
+                std::string next;
+                while (line.back() == ',') {
                     if (!std::getline(lines, next)) throw SceneFailure(place, "the keyword line goes on in no line");
                     ++number;
-                    line = trimmed(line) + next;
+                    line += next;
+                    trim_end(line);
                 }
                 InpCard card;
                 card.place = place;

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "error.hpp"
+#include "reason.hpp"
 
 namespace cli {
 
@@ -34,13 +35,13 @@ void require_regular(const std::string& path, mode_t mode) {
 
 InputFile::InputFile(std::string path) : path_(std::move(path)) {
     struct stat about {};
-    if (::stat(path_.c_str(), &about) != 0) unreadable(path_, std::strerror(errno));
+    if (::stat(path_.c_str(), &about) != 0) unreadable(path_, reason_of(errno));
     require_regular(path_, about.st_mode);
     // Something else may have taken its place: a pipe must not wait here.
     descriptor_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (descriptor_ < 0) unreadable(path_, std::strerror(errno));
+    if (descriptor_ < 0) unreadable(path_, reason_of(errno));
     try {
-        if (::fstat(descriptor_, &about) != 0) unreadable(path_, std::strerror(errno));
+        if (::fstat(descriptor_, &about) != 0) unreadable(path_, reason_of(errno));
         require_regular(path_, about.st_mode);
     } catch (...) {
         ::close(descriptor_);
@@ -57,7 +58,7 @@ std::string InputFile::read(std::int64_t count) {
     while (got < out.size()) {
         const ssize_t now = ::read(descriptor_, out.data() + got, out.size() - got);
         if (now < 0 && errno == EINTR) continue;
-        if (now < 0) unreadable(path_, std::strerror(errno));
+        if (now < 0) unreadable(path_, reason_of(errno));
         if (now == 0) break;
         got += static_cast<std::size_t>(now);
     }

@@ -16,6 +16,7 @@
 
 #include "build.hpp"
 #include "delam/petsc.h"
+#include "descriptors.hpp"
 #include "error.hpp"
 #include "program.hpp"
 #include "rank_fields.hpp"
@@ -220,6 +221,7 @@ int on_all_ranks(const Processes& processes, int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    cli::open_standard_descriptors();
     one_blas_thread();
     const Processes processes(argc, argv);
     return on_all_ranks(processes, argc, argv);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "output_folder.hpp"
 
+#include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
 
 #include <fcntl.h>
@@ -14,17 +14,61 @@
 #include "error.hpp"
 #include "file.hpp"
 #include "input_file.hpp"
+#include "own_files.hpp"
+#include "reason.hpp"
+#include "state.hpp"
 
 namespace cli {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+nlohmann::json result_json(const std::string& folder) {
+    const std::string file = folder + "/result.json";
+    if (!is_there(file)) return nullptr;
+    return nlohmann::json::parse(read_bytes(file), nullptr, false);
+}
+
+bool is_of_program(const nlohmann::json& result) {
+    const auto program = result.is_object() ? result.find("program") : result.end();
+    return program != result.end() && *program == "delam";
+}
+
+// Throws OutputFailure where a run would replace or remove what is not its own.
+void refuse_strange_files(const std::string& folder, const std::string& running) {
+    const std::vector<std::string> names = names_in(running);
+    for (const std::string& name : names) {
+        const std::string file = running + "/" + name;
+        if (!is_running_name(name))
+            throw OutputFailure(running, "there is " + file + ", which no run has written: move it away");
+        require_plain(file);
+    }
+    const bool marked = is_marked(running) || is_state(running + "/state.bin");
+    if (!names.empty() && !marked)
+        throw OutputFailure(running, "there is " + running + "/" + names.front() +
+                                         ", and neither a marker nor a state says that a run has written it: "
+                                         "move it away, or choose another folder");
+    // While a result is moved in, `running` is there and marked.
+    const bool own = marked || is_of_program(result_json(folder));
+    for (const std::string& name : result_names()) {
+        const std::string file = folder + "/" + name;
+        require_plain(file);
+        if (!own && is_there(file))
+            throw OutputFailure(folder, "there is " + file +
+                                            ", which would be replaced, and no result.json of delam beside it: "
+                                            "move it away, or choose another folder");
+    }
+}
+
+}  // namespace
 
 OutputFolder::OutputFolder(const std::string& path) : path_(path), running_(path + "/running") {
     std::error_code code;
     fs::create_directories(path_, code);
     if (code) throw OutputFailure(path_, code.message());
     lock_ = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (lock_ < 0) throw OutputFailure(path_, std::strerror(errno));
+    if (lock_ < 0) throw OutputFailure(path_, reason_of(errno));
     if (::flock(lock_, LOCK_EX | LOCK_NB) != 0) {
         const bool busy = errno == EWOULDBLOCK;
         ::close(lock_);
@@ -32,11 +76,10 @@ OutputFolder::OutputFolder(const std::string& path) : path_(path), running_(path
         lock_ = -1;  // the file system has no locks
     }
     try {
-        fs::create_directories(running_, code);
+        refuse_strange_files(path_, running_);
+        fs::create_directory(running_, code);
         if (code) throw OutputFailure(running_, code.message());
-        // Fails now rather than after an hour of work.
-        Appender(running_ + "/probe.new", 0).append("writable?\n");
-        remove_file(running_ + "/probe.new");
+        mark(running_);  // fails now, where nothing can be written, rather than after an hour of work
     } catch (...) {
         if (lock_ >= 0) ::close(lock_);
         throw;
@@ -44,15 +87,30 @@ OutputFolder::OutputFolder(const std::string& path) : path_(path), running_(path
 }
 
 OutputFolder::~OutputFolder() {
+    // Goes with the run that has left nothing in it.
     std::error_code code;
+    try {
+        const std::vector<std::string> names = names_in(running_);
+        if (names.size() == 1 && names.front() == marker_name) remove_file(running_ + "/" + names.front());
+    } catch (const Failure&) {
+    }
     fs::remove(running_, code);  // only if it is empty
     if (lock_ >= 0) ::close(lock_);
 }
 
 void OutputFolder::begin() {
-    std::error_code code;
-    for (const fs::directory_entry& entry : fs::directory_iterator(running_, code)) remove_file(entry.path().string());
-    if (code) throw OutputFailure(running_, code.message());
+    // The state first: nothing goes on from what is left if this is interrupted.
+    remove_file(running_ + "/state.bin");
+    for (const std::string& name : names_in(running_))
+        if (name != marker_name && is_running_name(name)) remove_file(running_ + "/" + name);
+}
+
+std::vector<NamedContent> OutputFolder::contents() const {
+    std::vector<NamedContent> out;
+    for (const std::string& name : result_names())
+        if (const std::string file = running_ + "/" + name; name != "result.json" && is_there(file))
+            out.push_back({name, content_of_file(file)});
+    return out;
 }
 
 void OutputFolder::publish() {
@@ -67,7 +125,7 @@ void OutputFolder::publish() {
         rename_file(running_ + "/published_" + name, path_ + "/" + name);
     for (const char* name : {"fields.h5", "fields.xdmf"}) rename_file(running_ + "/" + name, path_ + "/" + name);
     // Not every result has one, and that of an earlier result must not stay.
-    if (fs::exists(running_ + "/jumps.csv"))
+    if (is_there(running_ + "/jumps.csv"))
         rename_file(running_ + "/jumps.csv", path_ + "/jumps.csv");
     else
         remove_file(path_ + "/jumps.csv");
@@ -78,19 +136,56 @@ void OutputFolder::publish() {
 
 void OutputFolder::end() { begin(); }
 
-Published OutputFolder::published() const {
+Published published_in(const std::string& folder) {
     Published out;
-    const std::string file = path_ + "/result.json";
-    if (!fs::exists(file)) return out;
-    const auto json = nlohmann::json::parse(read_bytes(file), nullptr, false);
-    if (!json.is_object()) return out;
-    out.status = json.value("status", "");
-    out.content_hash = json.value("scene_content_hash", "");
-    out.converged = !json.contains("not_converged") || json["not_converged"].empty();
-    if (const auto lines = json.find("closing"); lines != json.end() && lines->is_array())
-        for (const auto& line : *lines)
-            if (line.is_string()) out.closing.push_back(line);
+    const nlohmann::json json = result_json(folder);
+    if (!is_of_program(json)) return out;
+    try {
+        out.status = json.value("status", "");
+        out.content_hash = json.value("scene_content_hash", "");
+        out.converged = !json.contains("not_converged") || json["not_converged"].empty();
+        if (const auto lines = json.find("closing"); lines != json.end()) out.closing = *lines;
+        if (const auto files = json.find("files"); files != json.end())
+            for (const auto& [name, file] : files->items())
+                out.files.push_back({name, {file.at("bytes"), file.at("hash")}});
+    } catch (const nlohmann::json::exception&) {
+        throw Failure(exit_scene, folder + "/result.json: damaged; run the scene again, without --resume");
+    }
     return out;
+}
+
+void require_unchanged(const std::string& folder, const Published& published) {
+    for (const auto& [name, content] : published.files) {
+        const std::string file = folder + "/" + name;
+        if (std::find(result_names().begin(), result_names().end(), name) == result_names().end() || !is_there(file) ||
+            content_of_file(file) != content)
+            throw Failure(exit_scene,
+                          file + ": missing, or not as the run has written it; run the scene again, without --resume");
+    }
+}
+
+std::vector<std::string> discarded_files(const std::string& folder) {
+    const std::string running = folder + "/running";
+    refuse_strange_files(folder, running);
+    std::vector<std::string> files;
+    for (const std::string& name : names_in(folder)) {
+        const auto& known = result_names();
+        if (name != "running" && name != marker_name && std::find(known.begin(), known.end(), name) == known.end())
+            throw OutputFailure(folder, "there is " + folder + "/" + name + ", which no run has written: move it away");
+        if (name != "running") files.push_back(folder + "/" + name);
+    }
+    for (const std::string& name : names_in(running)) files.push_back(running + "/" + name);
+    // The markers last: until then they say whose the others are.
+    std::stable_partition(files.begin(), files.end(),
+                          [](const std::string& file) { return !file.ends_with("/" + std::string(marker_name)); });
+    return files;
+}
+
+void discard_result(const std::string& folder) {
+    for (const std::string& file : discarded_files(folder)) remove_file(file);
+    std::error_code code;
+    for (const std::string& emptied : {folder + "/running", folder})
+        if (!fs::remove(emptied, code) && code) throw OutputFailure(emptied, code.message());
 }
 
 }  // namespace cli

@@ -6,6 +6,7 @@
 #include <exception>
 #include <map>
 #include <new>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,8 @@ constexpr const char* footer =
     "  4    numerical failure, out of memory or limit load; finished steps are kept\n"
     "  130  interrupted (Ctrl-C, SIGTERM); finished steps are kept, go on with --resume\n";
 
+constexpr double largest_factor = 1e150;  // its square is a number
+
 std::string joined(int count, char** words) {
     std::string out;
     for (int i = 0; i < count; ++i) out += (i > 0 ? " " : "") + std::string(words[i]);
@@ -46,13 +49,14 @@ std::string joined(int count, char** words) {
 struct Arguments {
     std::string scene, deck, folder, page, shell, progress = "text";
     std::vector<std::string> settings;
-    bool resume = false, replace = false, json = false;
+    std::vector<std::string> names;  // of `own`
+    bool resume = false, replace = false, json = false, known = false;
     ViewWishes view;
     Study study;
 };
 
 struct Commands {
-    CLI::App *run, *check, *import, *view, *sweep, *fit, *options, *schema, *man, *completion;
+    CLI::App *run, *check, *import, *view, *sweep, *fit, *own, *options, *schema, *man, *completion;
     std::map<std::string, std::vector<std::string>> choices;  // by option
 };
 
@@ -122,6 +126,17 @@ void add_view(CLI::App& app, Arguments& into, Commands& of) {
     of.view->footer(footer);
 }
 
+// A number from `low` to `high`. CLI::Range takes what is no number, and infinities where they are a bound.
+CLI::Validator number_within(double low, double high, const std::string& allowed) {
+    return {[=](const std::string& text) {
+                double value = 0;
+                if (CLI::detail::lexical_cast(text, value) && value >= low && value <= high && value != 0)
+                    return std::string();
+                return fmt::format("{:.40}: {} is expected", text, allowed);
+            },
+            ""};
+}
+
 // A value of an option that takes several, each time one of them.
 template <class Value>
 CLI::Option* add_several(CLI::App& command, const char* names, std::vector<Value>& into, const char* meaning) {
@@ -178,7 +193,8 @@ void add_fit(CLI::App& app, Arguments& into, Commands& of) {
     of.fit
         ->add_option("--scale", study.scale,
                      "factor on the y of the data, e.g. 1/width where a plane scene has forces per width")
-        ->type_name("NUMBER");
+        ->type_name("NUMBER")
+        ->check(number_within(-largest_factor, largest_factor, "a finite number other than 0, of at most 1e150"));
     of.fit
         ->add_option(
             "--weights", study.weights,
@@ -188,11 +204,19 @@ void add_fit(CLI::App& app, Arguments& into, Commands& of) {
         ->check(CLI::IsMember(of.choices["weights"] = {"curve", "equal", "relative"}));
     of.fit->add_option("--confidence", study.confidence, "of the intervals (default 0.95)")
         ->type_name("LEVEL")
-        ->check(CLI::Range(0.01, 0.9999));
+        ->check(number_within(0.01, 0.9999, "a number from 0.01 to 0.9999"));
     of.fit->add_option("--out,-o", into.folder, "folder for fit.json, fit.csv and pictures")
         ->type_name(folder_value)
         ->required();
     of.fit->footer(footer);
+}
+
+// Hidden from people: the studies call it.
+void add_own(CLI::App& app, Arguments& into, Commands& of) {
+    of.own = app.add_subcommand("own", "which files are the program's own (study/README.md)")->group("");
+    of.own->add_option("action", into.page)->required()->check(CLI::IsMember({"claim", "discard"}));
+    of.own->add_option("names", into.names)->required();
+    of.own->add_flag("--known", into.known);
 }
 
 void add_studies(CLI::App& app, Arguments& into, Commands& of) {
@@ -243,7 +267,7 @@ std::vector<OptionText> options_of(const CLI::App& app, const Commands& commands
 ProgramText text_of(const CLI::App& app, const Commands& commands, const std::string& name) {
     ProgramText out{
         name, "delamination of layered structures by energy minimisation", footer, options_of(app, commands), {}};
-    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App* one) { return !one->get_group().empty(); }))
         out.commands.push_back({command->get_name(), command->get_description(), options_of(*command, commands)});
     return out;
 }
@@ -258,11 +282,16 @@ int guarded(int argc, char** argv, const Caller& caller) {
     Commands of = add_work(app, given);
     add_view(app, given, of);
     add_studies(app, given, of);
+    add_own(app, given, of);
     add_help(app, given, of);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
-        return app.exit(e) == 0 ? exit_done : exit_scene;
+        std::ostringstream shown, wrong;
+        const int code = app.exit(e, shown, wrong);
+        say_text(shown.str());
+        complain("{}", wrong.str());
+        return code == 0 ? exit_done : exit_scene;
     }
     if (of.options->parsed()) return options(given.json);
     if (of.import->parsed()) return import(given.deck, given.folder, given.replace);
@@ -273,6 +302,11 @@ int guarded(int argc, char** argv, const Caller& caller) {
         given.study.folder = given.folder;
         given.study.replace = given.replace;
         return study(given.study);
+    }
+    if (of.own->parsed()) {
+        const std::vector<std::string>& names = given.names;
+        return given.page == "discard" ? discard(names)
+                                       : claim(names.front(), {names.begin() + 1, names.end()}, given.known);
     }
     if (of.check->parsed()) return check(given.scene, given.settings, given.json, caller);
     if (of.run->parsed()) {

@@ -24,10 +24,13 @@ std::string duration_text(double seconds) {
 // JSON has no NaN: a factor without a load.
 std::string json_number(double value) { return std::isfinite(value) ? fmt::format("{}", value) : "null"; }
 
+constexpr std::string_view erase_line = "\r\033[K";
+
+// Columns of the terminal behind standard output; 0: there is none, or one of no width, which mpirun puts in front of
+// whatever its own output goes to.
 std::size_t terminal_width() {
     winsize size{};
-    if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col < 20) return 80;
-    return size.ws_col;
+    return isatty(STDOUT_FILENO) == 1 && ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 ? size.ws_col : 0;
 }
 
 }  // namespace
@@ -36,7 +39,7 @@ Progress::Progress(std::int64_t total)
     : total_(total),
       first_(0),
       step_(0),
-      terminal_(isatty(STDOUT_FILENO) == 1 && !says_json_lines()),
+      terminal_(terminal_width() > 0 && !says_json_lines()),
       start_(Clock::now()),
       redraw_(start_) {}
 
@@ -48,7 +51,7 @@ void Progress::begin_after(std::int64_t first) {
 }
 
 void Progress::clear() {
-    if (terminal_ && drawn_) say("\r\033[K");
+    if (terminal_ && drawn_) say_raw(erase_line);
     drawn_ = false;
 }
 
@@ -95,14 +98,15 @@ void Progress::draw(const std::string& stage) {
     std::string line =
         fmt::format("[{}{}] {}/{}  {}  left {}  {}", std::string(full, '#'),
                     std::string(static_cast<std::size_t>(width) - full, '.'), step_, total_, last_, left(), stage);
-    line.resize(std::min(line.size(), terminal_width() - 1));
-    say("\r\033[K{}", line);
+    line.resize(std::min(line.size(), std::max<std::size_t>(terminal_width(), 2) - 1));
+    say_raw(erase_line);
+    say("{}", line);
     std::fflush(stdout);
     drawn_ = true;
 }
 
 void Progress::note(const std::string& text) {
-    if (terminal_ && drawn_) say("\r\033[K");
+    if (terminal_ && drawn_) say_raw(erase_line);
     say("{}\n", text);
     std::fflush(stdout);
     if (terminal_ && drawn_) draw("");

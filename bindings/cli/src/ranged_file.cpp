@@ -26,7 +26,7 @@ int moved(std::int64_t count, Move&& move) {
 }  // namespace
 
 RangedFile::RangedFile(const std::string& path, Mode mode) {
-    descriptor_ = ::open(path.c_str(), (mode == Mode::read ? O_RDONLY : O_WRONLY) | O_CLOEXEC);
+    descriptor_ = ::open(path.c_str(), (mode == Mode::read ? O_RDONLY : O_WRONLY) | O_CLOEXEC | O_NOFOLLOW);
     if (descriptor_ < 0) code_ = errno;
 }
 

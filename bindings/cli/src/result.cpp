@@ -145,6 +145,8 @@ std::string result_text(const Model& model, delam_solver* solver, const Scene& s
                                        : force[i] ? "force"
                                                   : "displacement"}});
     }
+    Json files = Json::object();
+    for (const auto& [name, content] : outcome.files) files[name] = {{"bytes", content.bytes}, {"hash", content.hash}};
     Json layers = Json::array();
     for (const Layer& layer : scene.layers) layers.push_back(layer.name);
     Json named = Json::object();
@@ -196,6 +198,7 @@ std::string result_text(const Model& model, delam_solver* solver, const Scene& s
         {"resumed", outcome.resumed},
         {"plan", delam_solver_plan(solver)},
         {"searched", delam_solver_searched(solver)},
+        {"files", files},
     };
     return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

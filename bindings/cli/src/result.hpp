@@ -8,6 +8,7 @@
 
 #include "build.hpp"
 #include "closing.hpp"
+#include "hash.hpp"
 
 namespace cli {
 
@@ -23,6 +24,7 @@ struct Outcome {
     std::string started;
     std::string command;
     std::string problem_hash;
+    std::vector<NamedContent> files;  // of the result, besides result.json
 };
 
 // UTC, e.g. 2026-01-31T12:00:00Z.

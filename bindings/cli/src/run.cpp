@@ -3,7 +3,6 @@
 #include <cctype>
 #include <chrono>
 #include <cstdio>
-#include <filesystem>
 #include <optional>
 #include <string_view>
 
@@ -21,6 +20,7 @@
 #include "named.hpp"
 #include "notes.hpp"
 #include "output_folder.hpp"
+#include "own_files.hpp"
 #include "progress.hpp"
 #include "result.hpp"
 #include "revision.hpp"
@@ -46,8 +46,12 @@ extern "C" void on_log(std::int32_t level, const char* text, void* user) {
     // The program says itself that it was interrupted.
     if (Interrupt::requested() && std::string_view(text).starts_with("cancelled by the host")) return;
     const Log& log = *static_cast<Log*>(user);
-    if (level <= 1)
+    if (level > 1) return;
+    try {
         log.progress.note(fmt::format("{}: {}", level == 0 ? "error" : "warning", said_of_scene(text, log.model)));
+    } catch (const std::exception&) {
+        // There is no memory for the words; what ends the run says so.
+    }
 }
 
 // Reads results, whatever it takes: a request to stop that arrives meanwhile ends the call that reads, and is obeyed
@@ -94,14 +98,20 @@ public:
         const State& state = file.state;
         state_ = state;
         saved_step_ = state.step;
+        const bool sealed = file.format >= first_sealed_format;
+        const auto step = static_cast<std::size_t>(state.step);
         origin_ = file.origin ? *file.origin : read_origin(running_origin_);
         origin_.resumed += 1;
         call(model_.context.get(),
              delam_solver_load(solver_.get(), static_cast<std::int64_t>(state.bytes.size()),
                                reinterpret_cast<const std::uint8_t*>(state.bytes.data())),
              running_state_);
+        if (history_.value(solver_.get(), "step") != static_cast<double>(state.step))
+            throw Failure(exit_scene,
+                          running_state_ + ": it is of another step than it says; run again without --resume");
+        fields_.resume(step, sealed ? std::optional(state.companions.fields) : std::nullopt);
         // Rows of steps after the saved state are computed again, and with them the earlier ones that they revise.
-        rows_.emplace(running_history_, static_cast<std::size_t>(state.step) + 1);
+        rows_.emplace(running_history_, step + 1, sealed ? std::optional(state.companions.history) : std::nullopt);
         write_atomic(running_origin_, packed(origin_));
     }
 
@@ -153,6 +163,7 @@ public:
             write_atomic(jumps_file, jumps_text(outcome.closing.jumps, scene_));
         else
             remove_file(jumps_file);  // of an earlier attempt
+        outcome.files = folder_.contents();
         write_atomic(folder_.running() + "/result.json", result_text(model_, solver_.get(), scene_, outcome));
         folder_.publish();
         if (outcome.complete) folder_.end();
@@ -201,8 +212,11 @@ private:
              delam_solver_save(solver_.get(), size, reinterpret_cast<std::uint8_t*>(state_.bytes.data()), &size),
              running_state_);
         fields_.synchronise_steps();
-        synchronise(running_history_);
+        rows_->synchronise();
+        state_.companions = {rows_->content(), fields_.hashes(static_cast<std::size_t>(state_.step))};
         write_atomic(running_state_, pack(state_));
+        rows_->settle();
+        fields_.settle();
         saved_step_ = state_.step;
         saved_ = Clock::now();
         // Up to a twentieth of the time goes into saving, but for states so large that they are saved every second.
@@ -233,13 +247,21 @@ private:
 // The state from which to continue, if there is one; refuses that of another scene.
 std::optional<StateFile> find_state(const OutputFolder& folder, const Scene& scene, const Model& model) {
     const std::string path = folder.running() + "/state.bin";
-    if (!std::filesystem::exists(path)) return std::nullopt;
+    if (!is_there(path)) return std::nullopt;
     StateFile file = read_state(path);
     const State& state = file.state;
     if (state.content_hash != scene.content_hash || state.problem_hash != hash_of(model))
         throw Failure(exit_scene, fmt::format("{}: the scene, with its --set, is not the one that {} was started with; "
                                               "run again without --resume",
                                               scene.file, folder.path()));
+    if (state.step > static_cast<std::int64_t>(scene.step_count()))
+        throw Failure(exit_scene,
+                      fmt::format("{}: it says that step {} is done, and the scene has {}; run again without "
+                                  "--resume",
+                                  path, state.step, scene.step_count()));
+    if (file.format < first_sealed_format)
+        say("{}: of format {}, whose first line, history and fields no checksum covers; they are taken as they are\n",
+            path, file.format);
     return file;
 }
 
@@ -275,14 +297,16 @@ void say_lines(const std::vector<std::string>& lines) {
     for (const std::string& line : lines) say("{}\n", line);
 }
 
-int already_complete(const OutputFolder& folder, const Scene& scene) {
-    if (std::filesystem::exists(folder.running() + "/state.bin")) return -1;
-    const Published published = folder.published();
+int already_complete(OutputFolder& folder, const Scene& scene) {
+    if (is_there(folder.running() + "/state.bin")) return -1;
+    const Published published = published_in(folder.path());
     if (published.status != "complete") return -1;
     if (published.content_hash != scene.content_hash)
         throw Failure(exit_scene, fmt::format("{}: the scene, with its --set, is not the one of the result in {}; "
                                               "run again without --resume",
                                               scene.file, folder.path()));
+    require_unchanged(folder.path(), published);
+    folder.end();  // which may have been interrupted
     say("{}: complete already\n", folder.path());
     say_lines(published.closing);
     return published.converged ? exit_done : exit_not_converged;

@@ -30,7 +30,7 @@ void say_event(std::string_view event, const std::string& members) {
 }
 
 void say_text(std::string_view text) {
-    if (!json_lines) return say_raw(text);
+    if (!json_lines) return say_raw(printable(text));
     begun += text;
     for (std::size_t end = begun.find('\n'); end != std::string::npos; end = begun.find('\n')) {
         if (end > 0) say_event("line", "\"text\": " + json_text(begun.substr(0, end)));

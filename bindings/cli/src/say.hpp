@@ -10,6 +10,8 @@
 
 #include <fmt/format.h>
 
+#include "printable.hpp"
+
 namespace cli {
 
 // From now on each line of standard output is an object with an "event"; a line that is said as text is
@@ -17,8 +19,9 @@ namespace cli {
 void say_json_lines(bool yes);
 bool says_json_lines();
 
+// As printable() has it, for texts of files and of people are in it.
 void say_text(std::string_view text);
-// As it is: whole objects, files.
+// As it is: whole objects, files, commands to the terminal.
 void say_raw(std::string_view text);
 // An object of the event with members that are JSON already, e.g. "\"step\": 3"; nothing unless lines are JSON.
 void say_event(std::string_view event, const std::string& members);
@@ -32,7 +35,7 @@ void say(fmt::format_string<T...> format, T&&... values) {
 
 template <class... T>
 void complain(fmt::format_string<T...> format, T&&... values) {
-    const std::string text = fmt::format(format, std::forward<T>(values)...);
+    const std::string text = printable(fmt::format(format, std::forward<T>(values)...));
     std::fwrite(text.data(), 1, text.size(), stderr);
 }
 

@@ -2,6 +2,7 @@
 // [mesh], its [[bodies]] and their [[interfaces]].
 #include <algorithm>
 #include <filesystem>
+#include <unordered_map>
 
 #include <fmt/format.h>
 
@@ -17,8 +18,18 @@ namespace cli {
 
 namespace {
 
-void require_body(const Table& table, std::string_view key, const std::string& name, const Scene& scene) {
+// Bodies of the mesh by their names.
+using BodyIndex = std::unordered_map<std::string, std::size_t>;
+BodyIndex index_of(const std::vector<std::string>& names) {
+    BodyIndex out;
+    for (std::size_t i = 0; i < names.size(); ++i) out.emplace(names[i], i);
+    return out;
+}
+
+void require_body(const Table& table, std::string_view key, const std::string& name, const Scene& scene,
+                  const BodyIndex& index) {
     const auto& names = scene.mesh->body_names;
+    if (index.contains(name)) return;
     if (std::none_of(names.begin(), names.end(), [&](const std::string& n) { return fits(name, n); }))
         table.fail(key,
                    fmt::format("\"{}\": no body of the mesh {}{}; it has: {}", name,
@@ -59,14 +70,13 @@ MeshFile mesh_of_file(const Table& table, const Scene& scene) {
 std::string set_name(const Table& table, std::string_view key, const Scene& scene) {
     if (!scene.mesh) table.fail(key, "is for a scene with [mesh]");
     const std::string name = table.text(key);
+    if (scene.mesh->node_sets.contains(name) || scene.mesh->face_sets.contains(name)) return name;
     std::vector<std::string> known;
     for (const auto& [set, nodes] : scene.mesh->node_sets) known.push_back(set);
     for (const auto& [set, faces] : scene.mesh->face_sets)
         if (!scene.mesh->node_sets.contains(set)) known.push_back(set);
-    if (std::find(known.begin(), known.end(), name) == known.end())
-        table.fail(key, fmt::format("\"{}\": no such set in the mesh{}{}", name, suggestion(name, known),
-                                    known.empty() ? "; it has none" : "; it has: " + listing(known)));
-    return name;
+    table.fail(key, fmt::format("\"{}\": no such set in the mesh{}{}", name, suggestion(name, known),
+                                known.empty() ? "; it has none" : "; it has: " + listing(known)));
 }
 
 void read_mesh_table(const Table& root, Scene& scene) {
@@ -92,15 +102,17 @@ void read_bodies(const Table& root, Scene& scene) {
     const std::vector<Table> tables = root.tables("bodies");
     const std::vector<Table> materials = root.tables("materials");
     const auto& names = scene.mesh->body_names;
+    const BodyIndex index = index_of(names);
     std::vector<const Table*> chosen(names.size(), nullptr);
     // A full name has priority over one with *.
     for (const bool spelt : {true, false})
         for (const Table& table : tables) {
             const std::string name = table.text("name");
             if (is_pattern(name) == spelt) continue;
-            require_body(table, "name", name, scene);
-            for (std::size_t i = 0; i < names.size(); ++i) {
-                if (!fits(name, names[i])) continue;
+            require_body(table, "name", name, scene, index);
+            const std::size_t first = spelt ? index.at(name) : 0;
+            for (std::size_t i = first; i < (spelt ? first + 1 : names.size()); ++i) {
+                if (!spelt && !fits(name, names[i])) continue;
                 if (chosen[i] != nullptr && is_pattern(chosen[i]->text("name")) == is_pattern(name))
                     table.fail("name",
                                fmt::format("\"{}\" is described by {} already", names[i], chosen[i]->place().path));
@@ -126,6 +138,7 @@ void read_bodies(const Table& root, Scene& scene) {
 }
 
 void read_mesh_interfaces(const Table& root, Scene& scene) {
+    const BodyIndex index = index_of(scene.mesh->body_names);
     for (const Table& table : root.tables("interfaces")) {
         InterfaceData interface;
         interface.place = table.place();
@@ -133,8 +146,8 @@ void read_mesh_interfaces(const Table& root, Scene& scene) {
         if (!all) {
             interface.a = table.text("a");
             interface.b = table.text("b");
-            require_body(table, "a", interface.a, scene);
-            require_body(table, "b", interface.b, scene);
+            require_body(table, "a", interface.a, scene, index);
+            require_body(table, "b", interface.b, scene, index);
             if (interface.a == interface.b && !is_pattern(interface.a))
                 table.fail("b", fmt::format("\"{}\" is a too: two bodies are expected", interface.b));
         }

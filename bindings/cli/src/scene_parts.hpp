@@ -43,11 +43,10 @@ std::vector<Term> read_terms(const Table& table, const Scene& scene);
 template <class Entry>
 std::size_t find_named(const Table& table, std::string_view key, const std::string& name,
                        const std::vector<Entry>& entries, const std::string& what) {
-    std::vector<std::string> known;
-    for (std::size_t i = 0; i < entries.size(); ++i) {
+    for (std::size_t i = 0; i < entries.size(); ++i)
         if (entries[i].name == name) return i;
-        known.push_back(entries[i].name);
-    }
+    std::vector<std::string> known;
+    for (const Entry& entry : entries) known.push_back(entry.name);
     table.fail(key, "\"" + name + "\": no such " + what + suggestion(name, known) +
                         (known.empty() ? "; none is defined" : "; defined: " + listing(known)));
 }

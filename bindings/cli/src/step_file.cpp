@@ -209,6 +209,16 @@ void write_step_file(const std::string& path, const Model& model, delam_solver* 
     }
 }
 
+bool is_step_file(const std::string& path, std::size_t step) {
+    try {
+        const h5::File file(h5::open(path), path);
+        const h5::Group group(H5Gopen2(file.get(), "step", H5P_DEFAULT), path);
+        return h5::read_number(group.get(), "step") == static_cast<double>(step);
+    } catch (const OutputFailure&) {
+        return false;
+    }
+}
+
 std::vector<FileRange> copy_step(hid_t file, const std::string& path, hid_t parent, const std::string& name,
                                  const Scene& scene) {
     const h5::Group from(H5Gopen2(file, "step", H5P_DEFAULT), path);

@@ -19,6 +19,9 @@ std::string step_bytes(const Model& model, delam_solver* solver, const Scene& sc
 void write_step_file(const std::string& path, const Model& model, delam_solver* solver, const Scene& scene,
                      std::int64_t step, double time, Bulk& bulk);
 
+// True if the file holds the fields of this step.
+bool is_step_file(const std::string& path, std::size_t step);
+
 // Copies the step of an open file, which write_step_file has made at this path, to a new group of another file, with
 // room in the place of the values of nodes and cells. Returns what the processes have to copy.
 std::vector<FileRange> copy_step(hid_t file, const std::string& path, hid_t parent, const std::string& name,

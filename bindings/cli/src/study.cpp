@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `delam sweep` and `delam fit`: SciPy's methods and Matplotlib's pictures, so the rest is in Python.
 #include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 
@@ -40,6 +41,12 @@ int study(const Study& of) {
     } catch (const nlohmann::json::exception&) {
         throw Failure(exit_scene, "a name on the command line is not UTF-8, which studies need");
     }
+    // The interpreter would answer an interrupt with a traceback while it starts: the script lets it through as soon as
+    // it has an answer (command.py).
+    sigset_t held;
+    sigemptyset(&held);
+    for (const int signal : {SIGINT, SIGTERM}) sigaddset(&held, signal);
+    (void)sigprocmask(SIG_BLOCK, &held, nullptr);
     (void)setenv("DELAM", program_path().c_str(), 1);
     // Debian's modules belong to this interpreter; elsewhere the first one counts.
     for (const char* python : {"/usr/bin/python3", "python3"})

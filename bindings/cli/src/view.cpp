@@ -10,6 +10,8 @@
 #include "commands.hpp"
 #include "error.hpp"
 #include "file.hpp"
+#include "output_folder.hpp"
+#include "reason.hpp"
 #include "say.hpp"
 #include "view_arrays.hpp"
 #include "view_fields.hpp"
@@ -62,14 +64,16 @@ json polygons_json(const Polygons& polygons, ViewArrays& arrays) {
 
 class ViewPage {
 public:
-    ViewPage(const FieldsFile& file, const std::string& path) : file_(file), mesh_(file.mesh()) {
-        interfaces_ = file.interfaces();
+    ViewPage(const FieldsFile& file, const std::string& path, const ViewAbout& about, const std::vector<double>& times)
+        : file_(file), mesh_(file.mesh(about)), asked_(about.fields), times_(times) {
+        interfaces_ = file.interfaces(mesh_);
+        path_ = path;
         seen_ = seen_of(mesh_, interfaces_, path);
     }
 
     // n 0: as many steps as are affordable.
     void choose_steps(std::size_t n) {
-        const std::vector<ViewStep> all = file_.steps();
+        const std::vector<ViewStep> all = file_.steps(times_, interfaces_.size());
         every_ = n > 0 ? n : affordable(seen_, all.size());
         steps_ = every_nth(all, every_);
     }
@@ -102,15 +106,19 @@ public:
         json out = json::array();
         for (const ViewStep& step : steps_) {
             json one{{"step", step.step}, {"time", step.time}, {"adhesion", json::array()}};
-            const auto displacement = file_.field(step, "displacement", mesh_.nodes(), 3);
+            const auto displacement = field(step, "displacement", mesh_.nodes(), 3);
             if (!displacement.empty())
                 one["displacement"] = arrays_.add(by_component(displacement, seen_.nodes, 3), moved_bits);
-            const auto stress = file_.field(step, "stress", mesh_.cell_count(), stress_components);
+            const auto stress = field(step, "stress", mesh_.cell_count(), stress_components);
             if (!stress.empty())
                 one["stress"] = arrays_.add(by_component(stress, seen_.cells, stress_components), coloured_bits);
             for (std::size_t i = 0; i < interfaces_.size(); ++i) {
-                const auto zeta =
-                    file_.field(step, fmt::format("interface_{}/zeta", i), interfaces_[i].nodes_b.size(), 1);
+                const auto zeta = field(step, fmt::format("interface_{}/zeta", i), interfaces_[i].nodes_b.size(), 1);
+                for (const double value : zeta)
+                    if (!(value >= 0 && value <= 1))
+                        throw Failure(exit_scene, fmt::format("{}: {}/interface_{}/zeta has {}: adhesions from 0 to 1 "
+                                                              "are expected",
+                                                              path_, step.group, i, value));
                 one["adhesion"].push_back(zeta.empty() ? json() : arrays_.add(zeta, moved_bits));
             }
             out.push_back(std::move(one));
@@ -122,7 +130,18 @@ public:
 
 private:
     const FieldsFile& file_;
+    std::string path_;
+    // A field that the scene asked for is there in each step, others in none.
+    [[nodiscard]] std::vector<double> field(const ViewStep& step, const std::string& name, std::size_t rows,
+                                            std::size_t columns) const {
+        const std::string own = name.substr(name.rfind('/') + 1);
+        const bool asked = std::find(asked_.begin(), asked_.end(), own) != asked_.end();
+        return asked ? file_.field(step, name, rows, columns) : std::vector<double>();
+    }
+
     ViewMesh mesh_;
+    std::vector<std::string> asked_;
+    std::vector<double> times_;
     std::vector<ViewInterface> interfaces_;
     Seen seen_;
     std::vector<ViewStep> steps_;
@@ -130,12 +149,14 @@ private:
     ViewArrays arrays_;
 };
 
+constexpr const char* begin_of_data = "<script type=\"application/json\" id=\"delam-data\">";
+
 // Within an element of a page nothing may look like its end.
 std::string json_element(const json& value) {
     std::string text = value.dump(-1, ' ', false, json::error_handler_t::replace);
     for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at))
         text.replace(at, 1, "\\u003c");
-    return "<script type=\"application/json\" id=\"delam-data\">" + text + "</script>\n";
+    return begin_of_data + text + "</script>\n";
 }
 
 std::string title_text(const json& about) {
@@ -149,22 +170,29 @@ std::string title_text(const json& about) {
 int view(const std::string& folder, const ViewWishes& wishes) {
     const std::string to = wishes.page.empty() ? folder + "/view.html" : wishes.page;
     std::signal(SIGXFSZ, SIG_IGN);  // a limit of the size of files gives a reason, like a full disk
-    require_replaceable(to, wishes.page.empty() || wishes.replace);
-    json data{{"format", 1}, {"about", view_about(folder)}};
+    require_replaceable(to, wishes.page.empty() || wishes.replace, "a page of delam view",
+                        [](const std::string& bytes) { return bytes.find(begin_of_data) != std::string::npos; });
+    const ViewAbout about = view_about(folder);
+    json data{{"format", 1}, {"about", about.shown}};
+    require_unchanged(folder, published_in(folder));
     std::string page = view_template(wishes.page_template);
-    data["history"] = view_history(folder);
-    data["jumps"] = view_jumps(folder);
+    ViewHistory history = view_history(folder, about);
+    data["jumps"] = view_jumps(folder, about, history);
+    data["history"] = std::move(history.columns);
     const std::string path = folder + "/fields.h5";
     const FieldsFile file(path);
-    if (const std::string hash = file.text("scene_hash"); data["about"]["scene_hash"] != json(hash))
+    if (const std::string hash = file.text("scene_hash"); about.scene_hash != hash)
         throw Failure(exit_scene, fmt::format("{}: it belongs to the scene {}, and result.json to {}", path, hash,
-                                              data["about"]["scene_hash"].dump()));
-    ViewPage content(file, path);
+                                              about.scene_hash));
+    ViewPage content(file, path, about, history.times);
     content.choose_steps(wishes.every);
     if (content.steps().empty()) throw Failure(exit_scene, path + ": it has the fields of no step");
     data["mesh"] = content.mesh_json();
     data["steps"] = content.steps_json();
     data["every"] = content.stride();
+    // Where HDF5 cannot read, it may say that there is nothing.
+    if (const h5::FileTrouble trouble = h5::take_trouble(); trouble.code != 0)
+        throw Failure(exit_scene, fmt::format("{}: cannot be read: {}", trouble.path, reason_of(trouble.code)));
     page = filled_template(std::move(page), title_text(data["about"]), json_element(data) + content.elements());
     write_atomic(to, page);
     say("{}: {}, {} cells, {:.1f} MB\n", to, counted(static_cast<std::int64_t>(content.steps().size()), "step"),

@@ -37,18 +37,20 @@ struct ViewStep {
     double time = 0;
 };
 
+struct ViewAbout;
+
 class FieldsFile {
 public:
     explicit FieldsFile(const std::string& path);
 
     // A text that the file says of itself, "" if it does not.
     [[nodiscard]] std::string text(const std::string& name) const;
-    [[nodiscard]] ViewMesh mesh() const;
-    [[nodiscard]] std::vector<ViewInterface> interfaces() const;
-    // Those whose fields were written, ascending.
-    [[nodiscard]] std::vector<ViewStep> steps() const;
-    // A field of a step, [rows][columns]; empty if the scene did not ask for it. name: as in the file, with
-    // "interface_I/" before that of an interface.
+    // As result.json says: the dimension, the names of the bodies, the shortest edge.
+    [[nodiscard]] ViewMesh mesh(const ViewAbout& about) const;
+    [[nodiscard]] std::vector<ViewInterface> interfaces(const ViewMesh& mesh) const;
+    // Those whose fields were written, ascending. times: of the history, by step. interfaces: how many there are.
+    [[nodiscard]] std::vector<ViewStep> steps(const std::vector<double>& times, std::size_t interfaces) const;
+    // A field of a step, [rows][columns]. name: as in the file, with "interface_I/" before that of an interface.
     [[nodiscard]] std::vector<double> field(const ViewStep& step, const std::string& name, std::size_t rows,
                                             std::size_t columns) const;
 

@@ -1,19 +1,37 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the page says of a result beside its fields: result.json, history.csv and jumps.csv.
+// result.json and the tables of a result, as far as `delam view` shows them. Everything that reaches the page is
+// checked: every failure is a Failure(exit_scene) that names the file, the place in it and the value.
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
 namespace cli {
 
-// Each as JSON for the page; a Failure(exit_scene) names the file.
-// What result.json says; the paths and the command of whoever ran it are left out.
-nlohmann::json view_about(const std::string& folder);
-// [{"name", "values"}], the columns of numbers in the order of the file.
-nlohmann::json view_history(const std::string& folder);
-// A row for each jump, a column of jumps.csv by each key; empty where there is no such file.
-nlohmann::json view_jumps(const std::string& folder);
+// The largest number of a page, whose arrays are of 4 bytes.
+inline constexpr double largest_shown = 3.4e38;
+
+struct ViewAbout {
+    nlohmann::json shown;  // what the page says of the solution
+    std::int32_t dimension = 0;
+    double shortest_edge = 0;
+    std::string scene_hash;
+    std::vector<std::string> bodies;  // their names
+    std::vector<std::string> fields;  // those that the scene asked for
+    std::int64_t steps_done = 0;
+    std::vector<std::string> patterns;
+};
+ViewAbout view_about(const std::string& folder);
+
+struct ViewHistory {
+    nlohmann::json columns;
+    std::vector<double> times;  // by step
+};
+ViewHistory view_history(const std::string& folder, const ViewAbout& about);
+
+nlohmann::json view_jumps(const std::string& folder, const ViewAbout& about, const ViewHistory& history);
 
 }  // namespace cli

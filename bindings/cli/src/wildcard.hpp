@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace cli {
 
@@ -20,6 +23,14 @@ inline bool fits(std::string_view pattern, std::string_view name) {
         if (at == std::string_view::npos) return false;
         name.remove_prefix(at + star);
     }
+}
+
+// How many of the names, which are sorted, begin with a text.
+inline std::size_t number_beginning_with(const std::vector<std::string>& sorted, const std::string& text) {
+    const auto first = std::lower_bound(sorted.begin(), sorted.end(), text);
+    const auto last =
+        std::partition_point(first, sorted.end(), [&](const std::string& name) { return name.starts_with(text); });
+    return static_cast<std::size_t>(last - first);
 }
 
 inline bool is_pattern(std::string_view text) { return text.find('*') != std::string_view::npos; }

@@ -4,7 +4,8 @@ import csv
 
 import numpy as np
 
-from marches import Trouble
+from _pictures.input_file import MOST_CURVE, quoted, read_text
+from marches import LEAST, MOST, Trouble
 
 
 class CurveData:
@@ -19,32 +20,44 @@ class CurveData:
         known = header if header else [str(i) for i in range(len(rows[0]))]
         for name in names:
             if name not in known:
-                raise Trouble(f"{path}: there is no column \"{name}\"; it has: {', '.join(known)}")
+                raise Trouble(f"{path}: there is no column {quoted(name)}; it has: {', '.join(known)}")
         where = [known.index(name) for name in names]
         self.x, self.y = np.array([[row[i] for i in where] for row in rows]).T
-        self.y = self.y * scale
         if len(self.x) < 2:
             raise Trouble(f"{path}: at least 2 points are expected")
-        if not np.isfinite([self.x, self.y]).all():
-            raise Trouble(f"{path}: a number is not finite")
+        self._require_numbers(names[0], self.x, "")
+        self._require_numbers(names[1], self.y, "")
+        self.y = self.y * scale
+        self._require_numbers(names[1], self.y, f" times --scale {scale:g}")
         wrong = np.flatnonzero(np.diff(self.x) <= 0)
         if wrong.size:
             raise Trouble(f"{path}: {names[0]} must increase, but is {self.x[wrong[0]]:g} and then "
                           f"{self.x[wrong[0] + 1]:g}; of a curve with unloading, give the part before, or take the time as x")
 
+    def _require_numbers(self, name, column, times):
+        """Finite, and with squares that are numbers too: the fit adds them up."""
+        size = np.abs(column)
+        wrong = np.flatnonzero(~((size == 0) | (size >= LEAST) & (size <= MOST)))
+        if wrong.size:
+            k = int(wrong[0])
+            raise Trouble(f"{self.path}: row {k + 1} of the numbers: {quoted(name)}{times} is {column[k]:g}: 0, or a finite "
+                          f"number from {LEAST:g} to {MOST:g}, is expected")
+
     @staticmethod
     def _read(path):
         try:
-            with open(path, newline="", encoding="utf-8-sig") as file:
-                text = file.read()
-        except (OSError, UnicodeDecodeError) as error:
-            raise Trouble(f"{path}: cannot be read: {error}") from error
+            text = read_text(path, MOST_CURVE)
+        except FileNotFoundError as error:
+            raise Trouble(f"{path}: cannot be read: {error.strerror}") from error
         lines = [line for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
         if not lines:
             raise Trouble(f"{path}: there are no numbers")
         comma = ";" if ";" in lines[0] else "," if "," in lines[0] else "\t" if "\t" in lines[0] else " "
-        table = [[cell.strip() for cell in row if cell.strip() or comma != " "]
-                 for row in csv.reader(lines, delimiter=comma)]
+        try:
+            table = [[cell.strip() for cell in row if cell.strip() or comma != " "]
+                     for row in csv.reader(lines, delimiter=comma)]
+        except csv.Error as error:
+            raise Trouble(f"{path}: {error}") from error
         header = None
         try:
             [float(cell) for cell in table[0]]
@@ -55,7 +68,7 @@ class CurveData:
             try:
                 rows.append([float(cell) if cell else np.nan for cell in row])
             except ValueError as error:
-                raise Trouble(f"{path}: row {number + 1} of the numbers: {error}") from error
+                raise Trouble(f"{path}: row {number + 1} of the numbers: {str(error)[:100]}") from error
             if len(row) != len(header or table[0]):
                 raise Trouble(f"{path}: row {number + 1} of the numbers has {len(row)} columns, {len(header or table[0])} are expected")
         if not rows:

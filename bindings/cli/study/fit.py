@@ -6,20 +6,28 @@ Least squares between the reaction of the scene and the curve, by SciPy's trust 
 derivatives of the march. Several scenes, each with its data, share the parameters. Writes DIR/fit.json, DIR/fit.png and
 DIR/fit.csv (data and model); the last lines say the parameters with their confidence intervals.
 """
+import contextlib
 import json
 import os
-import signal
 
-from packages import require
+import command
 
-require("delam: fit", "numpy", "scipy", "matplotlib")
+if __name__ == "__main__":
+    command.begin("delam: fit")
+
+from packages import require  # noqa: E402
+
+require("numpy", "scipy", "matplotlib")
 
 import numpy as np  # noqa: E402
 
+from _pictures.input_file import MOST_RESULT, Unreadable, read_json  # noqa: E402
+from command import loading, say  # noqa: E402
 from curve_data import CurveData  # noqa: E402
 from fit_model import Infeasible, Model, Parameter  # noqa: E402
 from marches import (DONE, NUMERICAL, Trouble, given_words, hold, make_folder, read_about, refuse_set,  # noqa: E402
-                     run_study, write_file)
+                     run_study)
+from own_files import claim, write_file  # noqa: E402
 
 WORSE = 10.0  # what a step into an infeasible region costs, in residuals: the trust region then shrinks
 
@@ -67,8 +75,7 @@ class Fit:
                 jacobian, note = np.zeros((len(self.y), len(values))), f"  not feasible: {error}"
             self.known[key] = residual, jacobian
             shown = "  ".join(f"{p.path} {v:.6g}" for p, v in zip(self.model.parameters, values))
-            print(f"march {self.model.marches}: root mean square {np.sqrt(np.mean(residual ** 2)):.4g}  {shown}{note}",
-                  flush=True)
+            say(f"march {self.model.marches}: root mean square {np.sqrt(np.mean(residual ** 2)):.4g}  {shown}{note}")
         return self.known[key]
 
     def residual(self, scaled):
@@ -95,7 +102,8 @@ class Fit:
         return found, doubted
 
     def run(self, begin):
-        from scipy.optimize import least_squares  # here, for it loads for a second, and words may be wrong
+        with loading():
+            from scipy.optimize import least_squares  # here, for it loads for a second, and words may be wrong
         lower, upper = self.bounds()
         return least_squares(self.residual, begin, jac=self.jacobian, bounds=(lower, upper),
                              x_scale="jac", ftol=ENOUGH / len(self.y), xtol=1e-5, gtol=1e-10, max_nfev=60)
@@ -137,7 +145,8 @@ def probe(fit, found, level):
 
 def estimates(fit, found, level):
     """Values, standard errors and intervals; the errors of the data are taken as independent."""
-    from scipy.stats import t as student
+    with loading():
+        from scipy.stats import t as student
     points, count = found.jac.shape
     values = fit.start * found.x
     freedom = points - count
@@ -170,7 +179,8 @@ def estimates(fit, found, level):
 
 
 def report(model, fit, found, doubted, level, out):
-    from fit_pictures import draw_fit
+    with loading():
+        from fit_pictures import draw_fit
     values, errors, intervals, correlation = estimates(fit, found, level)
     jumps = [sorted(set(map(float, at))) for at in model.jumps]
     rows = []
@@ -192,33 +202,39 @@ def report(model, fit, found, doubted, level, out):
         draw_fit(out, which, len(model.data), model, curve, read_about(os.path.join(model.work, f"{which + 1}-at")))
     write_file(os.path.join(out, "fit.csv"), "\n".join(lines) + "\n")
     for row in rows:
-        print(f"{row['key']} = {row['value']:.6g}, {100 * level:g} % interval {row['interval'][0]:.6g} to "
+        say(f"{row['key']} = {row['value']:.6g}, {100 * level:g} % interval {row['interval'][0]:.6g} to "
               f"{row['interval'][1]:.6g}" + (" (at its bound)" if row["at_bound"] else ""))
-    print(f"root mean square of the residuals {rms:.4g}, {len(fit.y)} points, {model.marches} marches")
+    say(f"root mean square of the residuals {rms:.4g}, {len(fit.y)} points, {model.marches} marches")
     if doubted:
-        print(f"warning: the interval{'s' if len(doubted) > 1 else ''} of {', '.join(doubted)} cannot be trusted: at "
+        say(f"warning: the interval{'s' if len(doubted) > 1 else ''} of {', '.join(doubted)} cannot be trusted: at "
               "their ends the misfit is not what the derivatives say; the curve may depend on them in steps, from pair to "
               "pair: refine the mesh, and begin from other values")
     for path, count in zip(model.files, model.unknown):
         if count:
-            print(f"warning: {path}: the adhesion of {count:.0f} pairs came to rest within a step and is taken as constant; "
+            say(f"warning: {path}: the adhesion of {count:.0f} pairs came to rest within a step and is taken as constant; "
                   "the derivatives, and with them the intervals, are not exact")
     for path, at in zip(model.files, jumps):
         if at:
-            print(f"warning: {path} jumps at {model.x_name} {', '.join(f'{x:.6g}' for x in at[:5])}: the march has no "
+            say(f"warning: {path} jumps at {model.x_name} {', '.join(f'{x:.6g}' for x in at[:5])}: the march has no "
                   "derivative there, and the intervals do not know of it")
 
 
-def interrupt(*_):
-    raise KeyboardInterrupt
+def claim_folder(out, curves):
+    """A fit that is there is replaced, and nothing else."""
+    names = ["fit.json", "fit.csv", "fit.png", "work", *(f"fit-{k + 1}.png" for k in range(curves))]
+    before = os.path.join(out, "fit.json")
+    known = False
+    if os.path.lexists(before):
+        with contextlib.suppress(Unreadable):
+            about = read_json(before, MOST_RESULT)
+            known = isinstance(about, dict) and {"parameters", "rms", "marches"} <= set(about)
+    claim(out, names, known)
 
 
 def main():
     given = given_words()
     if len(given.data) != len(given.scenes):
         raise Trouble(f"--data: {len(given.data)} curves for {len(given.scenes)} scenes: one for each is expected")
-    if not 0 < given.confidence < 1:
-        raise Trouble(f"--confidence {given.confidence:g}: between 0 and 1")
     parameters = [Parameter(text) for text in given.parameters]
     refuse_set([p.path for p in parameters], given.set, "--parameters")
     for path in given.scenes:
@@ -227,10 +243,10 @@ def main():
     if len({p.path for p in parameters}) < len(parameters):
         raise Trouble("--parameters: a key is given twice")
     data = [CurveData(path, given.columns, given.scale) for path in given.data]
-    signal.signal(signal.SIGTERM, interrupt)
     model = Model(given.scenes, data, parameters, given)
     fit = Fit(model, given.weights)
     held = hold(given.out)  # until the end
+    claim_folder(given.out, len(data))
     make_folder(os.path.join(given.out, "work"))
     found, doubted = fit.best(given.confidence)
     try:
@@ -238,10 +254,10 @@ def main():
     except Infeasible as error:
         raise Trouble(f"the scene does not run at the end: {error}", error.code) from error
     held.close()
-    print(f"wrote {given.out}: fit.json, fit.csv, fit.png" if len(data) == 1 else
+    say(f"wrote {given.out}: fit.json, fit.csv, fit.png" if len(data) == 1 else
           f"wrote {given.out}: fit.json, fit.csv, fit-1.png to fit-{len(data)}.png")
     return DONE if found.success else NUMERICAL
 
 
 if __name__ == "__main__":
-    run_study("fit", main)
+    run_study(main)

@@ -6,14 +6,15 @@ differences of two more marches.
 """
 import os
 import re
-import sys
 import tomllib
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
-from marches import (DONE, INTERRUPTED, NOT_CONVERGED, NUMERICAL, WRONG, Check, Trouble, finish, last_words, path_of,
-                     read_history, setting, start, value_at)
+from _pictures.input_file import MOST_SCENE, quoted, read_text
+from command import complain
+from marches import (DONE, INTERRUPTED, NOT_CONVERGED, NUMERICAL, WRONG, Check, Trouble, finish, last_words, number_in,
+                     path_of, read_history, setting, start, value_at)
 
 SMALL_PART = 0.05  # of the range of a scene: less is covered by curves in metres, centimetres, inches for millimetres
 DIFFERENCE = 1e-3  # of a parameter without derivatives; far above what an unconverged digit moves
@@ -25,14 +26,12 @@ class Parameter:
     def __init__(self, text):
         match = re.fullmatch(r"([^=@]+)(?:=([^:@]*):([^@]*))?(?:@(.+))?", text)
         if match is None:
-            raise Trouble(f"--parameters {text}: KEY, KEY=LOWER:UPPER or KEY=LOWER:UPPER@START is expected")
+            raise Trouble(f"--parameters {quoted(text)}: KEY, KEY=LOWER:UPPER or KEY=LOWER:UPPER@START is expected")
         self.path = path_of(match.group(1))
-        try:
-            self.lower = float(match.group(2)) if match.group(2) else 0.0
-            self.upper = float(match.group(3)) if match.group(3) else np.inf
-            self.start = float(match.group(4)) if match.group(4) else None
-        except ValueError as error:
-            raise Trouble(f"--parameters {text}: {error}") from error
+        where = f"--parameters {self.path}"
+        self.lower = number_in(match.group(2), where) if match.group(2) else 0.0
+        self.upper = number_in(match.group(3), where) if match.group(3) else np.inf
+        self.start = number_in(match.group(4), where) if match.group(4) else None
         if not self.lower < self.upper:
             raise Trouble(f"--parameters {text}: the lower bound must be less than the upper one")
 
@@ -101,9 +100,12 @@ class Model:
         parsed = []
         for path in scenes:
             try:
-                with open(path, "rb") as file:
-                    parsed.append(tomllib.load(file))
-            except (OSError, tomllib.TOMLDecodeError) as error:
+                parsed.append(tomllib.loads(read_text(path, MOST_SCENE)))
+            except FileNotFoundError as error:
+                raise Trouble(f"{path}: cannot be read: {error.strerror}") from error
+            except RecursionError:
+                raise Trouble(f"{path}: tables and lists lie within each other too deeply") from None
+            except ValueError as error:  # of TOML, or a number of thousands of digits
                 raise Trouble(f"{path}: {error}") from error
         for parameter in parameters:
             parameter.begin(scenes, parsed, self.common)
@@ -126,8 +128,8 @@ class Model:
         data = self.data[which].x
         self._require_within(which, *known)
         if data[-1] - known[0] < SMALL_PART * (known[1] - known[0]):
-            print(f"delam: fit: warning: {self.data[which].path}: {self.x_name} ends at {data[-1]:g}, that of {self.files[which]} at "
-                  f"{known[1]:g}: other units?", file=sys.stderr)
+            complain(f"warning: {self.data[which].path}: {self.x_name} ends at {data[-1]:g}, that of {self.files[which]} at "
+                     f"{known[1]:g}: other units?")
 
     def _require_within(self, which, low, high):
         data = self.data[which].x

@@ -1,15 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """How the pictures of studies look: as those of results (_pictures)."""
-import os
-import sys
-
 import numpy as np
 
-HERE = os.path.dirname(os.path.realpath(__file__))
-# Where it is installed, and in the Python package among the sources.
-sys.path[:0] = [os.path.join(HERE, ".."), os.path.join(HERE, "..", "..", "python", "src", "delam")]
-
-from _pictures.result import BLUE, GREY, ORANGE, RED, axis, for_files, plt, save  # noqa: E402
+import command  # noqa: F401, finds _pictures
+from _pictures.result import BLUE, GREY, ORANGE, RED, axis, for_files, plt, save
 
 for_files()
 __all__ = ["BLUE", "GREY", "ORANGE", "RED", "axis", "colours_of", "plt", "save", "units_of"]

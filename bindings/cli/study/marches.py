@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the studies share: marches of `delam run` with settings of their own, and how parameters are written."""
-import csv
 import fcntl
 import json
 import os
 import re
+import shlex
 import signal
 import subprocess
 import sys
@@ -13,15 +13,16 @@ import types
 
 import numpy as np
 
-DONE, NOT_CONVERGED, WRONG, OUTPUT, NUMERICAL, INTERRUPTED = 0, 1, 2, 3, 4, 130
+import command
+from _pictures.input_file import LAST_WORDS, MOST_RESULT, Unreadable, quoted, read_columns, read_end, read_json
+from command import DONE, INTERRUPTED, NOT_CONVERGED, NUMERICAL, OUTPUT, WRONG, Trouble
 
+__all__ = ["DONE", "INTERRUPTED", "NOT_CONVERGED", "NUMERICAL", "OUTPUT", "WRONG", "Check", "Trouble", "end_all", "finish",
+           "given_words", "hold", "last_words", "make_folder", "number_in", "path_of", "read_about", "read_history",
+           "refuse_set", "run_study", "setting", "start", "value_at"]
 
-class Trouble(Exception):
-    """A message for people, and the exit code of the program."""
-
-    def __init__(self, text, code=WRONG):
-        super().__init__(text)
-        self.code = code
+# Numbers whose squares, and sums and quotients of those, are still numbers with all digits.
+LEAST, MOST = 1e-150, 1e150
 
 
 def given_words():
@@ -44,12 +45,23 @@ def path_of(key):
     """laws.0.normal_toughness as the program writes it, laws[0].normal_toughness."""
     path = re.sub(r"\.(\d+)(?=\.|$)", r"[\1]", key)
     if not re.fullmatch(r"[A-Za-z_][\w-]*(\[\d+\])*(\.[A-Za-z_][\w-]*(\[\d+\])*)*", path):
-        raise Trouble(f"\"{key}\" is no key of a scene: laws.0.normal_toughness, for example")
+        raise Trouble(f"{quoted(key)} is no key of a scene: laws.0.normal_toughness, for example")
     return path
 
 
 def setting(path, value):
     return f"{path}={value!r}" if isinstance(value, float) else f"{path}={value}"
+
+
+def number_in(text, where):
+    """A finite number that is written out; `where` begins the message if it is none."""
+    try:
+        value = float(text)
+    except ValueError:
+        raise Trouble(f"{where}: {quoted(text)} is no number") from None
+    if not np.isfinite(value) or (value != 0 and not LEAST <= abs(value) <= MOST):
+        raise Trouble(f"{where}: {quoted(text)}: 0, or a number from {LEAST:g} to {MOST:g}, is expected")
+    return value
 
 
 def value_at(scene, path):
@@ -60,7 +72,9 @@ def value_at(scene, path):
             at = at[int(key)] if isinstance(at, list) else at[key]
         except (KeyError, IndexError, ValueError, TypeError):
             return None
-    return float(at) if isinstance(at, (int, float)) and not isinstance(at, bool) else None
+    if isinstance(at, bool) or not isinstance(at, (int, float)):
+        return None
+    return number_in(repr(at), path)
 
 
 running = []  # marches that a signal must end
@@ -82,25 +96,20 @@ def finish(child):
     return code
 
 
-def run_study(name, main):
+def run_study(main):
     """Ends the program with the exit code of main(), or with one line for what went wrong."""
-    try:
-        sys.exit(main())
-    except Trouble as trouble:
-        text, code = trouble, trouble.code
-    except OSError as error:
-        text, code = error, OUTPUT
-    except KeyboardInterrupt:
-        end_all()
-        text, code = "interrupted", INTERRUPTED
-    print(f"delam: {name}: {text}", file=sys.stderr)
-    sys.exit(code)
+    command.run(main, end_all)
 
 
 def hold(folder):
     """Keeps other studies out of a folder, as long as the file that it returns is open."""
     make_folder(folder)
-    file = open(os.path.join(folder, "study.lock"), "a", encoding="utf-8")  # pylint: disable=consider-using-with
+    path = os.path.join(folder, "study.lock")
+    try:
+        number = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_NOFOLLOW | os.O_CLOEXEC | os.O_NONBLOCK, 0o666)
+    except OSError as error:
+        raise Trouble(f"cannot write {path}: {error.strerror}", OUTPUT) from error
+    file = os.fdopen(number, "a", encoding="utf-8")
     try:
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except OSError as error:
@@ -115,11 +124,31 @@ def refuse_set(paths, settings, option):
             raise Trouble(f"--set {word}: {option} has the same key")
 
 
+LOG_BEGINS = "delam "  # also of those that older versions have written
+
+
+def refuse_foreign_log(path):
+    """Refuses what is no log of a march, where one is written or removed."""
+    if not os.path.lexists(path):
+        return
+    if os.path.islink(path) or not os.path.isfile(path):
+        raise Trouble(f"cannot write {path}: it is a link, or no regular file: move it away", OUTPUT)
+    if path.endswith(".log"):
+        with open(path, encoding="utf-8", errors="replace") as log:
+            begins = log.read(len(LOG_BEGINS))
+        if begins not in (LOG_BEGINS, ""):
+            raise Trouble(f"cannot write {path}: it is no log of delam run: move it away", OUTPUT)
+
+
 def start(scene, out, settings, resume=False, one_thread=True):
     """A running `delam run`; its words go to OUT.log beside the folder of the result."""
     command = [program(), "run", scene, "--out", out] + [word for one in settings for word in ("--set", one)]
     environment = dict(os.environ, **({"OPENBLAS_NUM_THREADS": "1"} if one_thread else {}))
-    with open(out + ".log", "w", encoding="utf-8") as log:
+    refuse_foreign_log(out + ".log")
+    flags = os.O_WRONLY | os.O_CREAT | os.O_TRUNC | os.O_NOFOLLOW | os.O_CLOEXEC
+    with os.fdopen(os.open(out + ".log", flags, 0o666), "w", encoding="utf-8") as log:
+        log.write(LOG_BEGINS + shlex.join(command[1:]) + "\n")
+        log.flush()
         with lock:
             running.append(subprocess.Popen(command + (["--resume"] if resume else []), stdout=log,
                                             stderr=subprocess.STDOUT, env=environment))
@@ -149,37 +178,22 @@ class Check:
 
 def last_words(out):
     """The last message of a march."""
-    with open(out + ".log", encoding="utf-8", errors="replace") as log:
-        lines = [line for line in log.read().splitlines() if line.startswith("delam: ")]
+    lines = read_end(out + ".log", LAST_WORDS).decode("utf-8", "surrogateescape").split("\n")
+    lines = [line for line in lines if line.startswith("delam: ")]
     return lines[-1] if lines else "no message"
 
 
 def read_history(out):
     """Columns of a result by name; words are left out."""
-    with open(os.path.join(out, "history.csv"), newline="", encoding="utf-8") as file:
-        rows = list(csv.reader(file))
-    columns = {}
-    for i, name in enumerate(rows[0]):
-        try:
-            columns[name] = np.array([float(row[i]) for row in rows[1:]])
-        except ValueError:
-            continue
+    path = os.path.join(out, "history.csv")
+    columns = {name: np.array(column) for name, column in read_columns(path).items() if not isinstance(column, list)}
+    if not columns or not next(iter(columns.values())).size:
+        raise Unreadable(f"{path}: there are no rows of numbers")
     return columns
 
 
 def read_about(out):
-    with open(os.path.join(out, "result.json"), encoding="utf-8") as file:
-        return json.load(file)
-
-
-def write_file(path, text):
-    """Beside and renamed: whole or not at all."""
-    try:
-        with open(path + ".new", "w", encoding="utf-8") as file:
-            file.write(text)
-        os.replace(path + ".new", path)
-    except OSError as error:
-        raise Trouble(f"cannot write {path}: {error.strerror}", OUTPUT) from error
+    return read_json(os.path.join(out, "result.json"), MOST_RESULT)
 
 
 def make_folder(path):

@@ -3,13 +3,13 @@
 import importlib.util
 import sys
 
-WRONG = 2  # exit code, as that of a program that is not installed completely
+from command import WRONG, complain
 
 
-def require(who, *names):
+def require(*names):
     """Ends with one line if this interpreter lacks one of the packages."""
     missing = [name for name in names if importlib.util.find_spec(name) is None]
     if missing:
-        print(f"{who}: {sys.executable} has no {', '.join(missing)}; /usr/bin/python3 has what is needed with Debian's "
-              f"packages {', '.join('python3-' + name for name in names)}", file=sys.stderr)
-        sys.exit(WRONG)
+        complain(f"{sys.executable} has no {', '.join(missing)}; /usr/bin/python3 has what is needed with Debian's "
+                 f"packages {', '.join('python3-' + name for name in names)}")
+        sys.exit(WRONG)  # as of a program that is not installed completely

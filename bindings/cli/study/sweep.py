@@ -10,27 +10,33 @@ import csv
 import io
 import json
 import os
-import re
-import shutil
 import signal
-import sys
 import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
 
-from packages import require
+import command
 
-require("delam: sweep", "numpy", "matplotlib")
+if __name__ == "__main__":
+    command.begin("delam: sweep")
+
+from packages import require  # noqa: E402
+
+require("numpy", "matplotlib")
 
 import numpy as np  # noqa: E402
 
+from _pictures.input_file import MOST_MESH, MOST_SCENE, MOST_SWEEP, Unreadable, read_bytes, read_json  # noqa: E402
+from command import complain, loading, say  # noqa: E402
 from marches import (DONE, INTERRUPTED, NOT_CONVERGED, WRONG, Check, Trouble, end_all, finish,  # noqa: E402
-                     given_words, hold, last_words, read_about, read_history, refuse_set, run_study, setting, start,
-                     write_file)
+                     given_words, hold, last_words, read_about, read_history, refuse_foreign_log,  # noqa: E402
+                     refuse_set, run_study, setting, start)
+from own_files import claim, discard, write_file  # noqa: E402
 from variations import Variation, grid, latin  # noqa: E402
 
 RESULTS = ["exit_code", "steps", "peak_reaction", "load_at_peak", "last_reaction", "dissipated", "released", "jumps",
            "not_converged", "message"]
+FILES = ["sweep.json", "table.csv", "curves.png", "response.png"]
 OF_A_SWEEP = {"scene": "another text of the scene file", "set": "other --set", "vary": "other keys",
               "points": "other values", "scene_hash": "another mesh"}  # members of sweep.json
 
@@ -48,6 +54,7 @@ class Sweep:
         if len(set(paths)) < len(paths):
             raise Trouble("--vary: a key is given twice")
         self.points = grid(self.variations) if given.latin == 0 else latin(self.variations, given.latin, given.seed)
+        self.known = None  # what sweep.json says of the sweep before in this folder
         self.ended = threading.Event()
         self.rows = {}
         self.lock = threading.Lock()
@@ -55,9 +62,9 @@ class Sweep:
 
     def read(self):
         try:
-            with open(self.scene, "rb") as file:
-                self.text = file.read().decode("utf-8", "replace")
-        except OSError as error:
+            self.text = read_bytes(self.scene, MOST_MESH if self.scene.lower().endswith(".inp") else MOST_SCENE
+                                   ).decode("utf-8", "replace")
+        except FileNotFoundError as error:
             raise Trouble(f"{self.scene}: cannot be read: {error.strerror}") from error
         self.definition = {"scene": self.text, "set": self.common, "vary": [v.path for v in self.variations],
                            "points": [list(point) for point in self.points]}
@@ -65,18 +72,18 @@ class Sweep:
 
     def refuse_other(self, replace):
         """Refuses the folder of another sweep."""
-        if not os.path.exists(self.place):
-            if os.path.exists(os.path.join(self.out, "table.csv")):
-                raise Trouble(f"{self.out} holds a table.csv that is of no sweep: choose another folder")
+        if not os.path.lexists(self.place):
             return
         try:
-            with open(self.place, encoding="utf-8") as file:
-                known = json.load(file)
-            now = json.loads(json.dumps(self.definition))
-            other = [what for key, what in OF_A_SWEEP.items()
-                     if known.get(key) != now.get(key) and not (key == "scene_hash" and None in (known.get(key), now.get(key)))]
-        except (ValueError, AttributeError):
-            other = ["a sweep.json that cannot be read"]
+            known = read_json(self.place, MOST_SWEEP)
+        except Unreadable:
+            known = None
+        if not isinstance(known, dict) or not all(isinstance(known.get(key), list) for key in ("set", "vary", "points")):
+            raise Trouble(f"{self.place} is of no sweep: move it away, or choose another folder")
+        self.known = known
+        now = json.loads(json.dumps(self.definition))
+        other = [what for key, what in OF_A_SWEEP.items()
+                 if known.get(key) != now.get(key) and not (key == "scene_hash" and None in (known.get(key), now.get(key)))]
         if other and not replace:
             raise Trouble(f"{self.out} holds another sweep, with {' and '.join(other)}: --replace discards it")
 
@@ -95,32 +102,44 @@ class Sweep:
     def define(self, replace):
         """Notes what the sweep is."""
         self.refuse_other(replace)
-        if replace:
+        claim(self.out, FILES + self.runs(len(self.points)), self.known is not None)
+        if replace and self.known:
             self.discard()
         write_file(self.place, json.dumps(self.definition, indent=1))
 
+    def runs(self, count):
+        """Names of folders and logs of the first `count` runs that are there."""
+        there = set(os.listdir(self.out))
+        return [name for k in range(count) for name in (self.name(k), self.name(k) + ".log") if name in there]
+
     def discard(self):
-        """The results of another sweep, and nothing else that lies in the folder."""
-        for name in os.listdir(self.out):
+        """The results of the sweep before, and nothing else that lies in the folder."""
+        runs = self.runs(len(self.known["points"]))
+        claim(self.out, runs, True)  # no link, no folder in the place of a log
+        discard([os.path.join(self.out, name) for name in runs if not name.endswith(".log")])
+        for name in [name for name in runs if name.endswith(".log")] + FILES[1:]:
             path = os.path.join(self.out, name)
-            if re.fullmatch(r"\d{4,}", name):
-                shutil.rmtree(path)
-            elif re.fullmatch(r"\d{4,}\.log|table\.csv|curves\.png|response\.png", name):
+            if os.path.lexists(path):
+                refuse_foreign_log(path)
                 os.remove(path)
 
     def can_resume(self, out):
         """Sensitivities are followed from the initial state on: only a complete result is kept then."""
         try:
             complete = read_about(out)["status"] == "complete"
-        except (OSError, ValueError, KeyError):
+        except (OSError, Unreadable, KeyError):
             complete = False
         return complete or not any("sensitivities" in text for text in (self.text, *self.common))
 
     def settings(self, point):
         return self.common + [setting(v.path, value) for v, value in zip(self.variations, point)]
 
+    @staticmethod
+    def name(number):
+        return f"{number + 1:04d}"
+
     def folder(self, number):
-        return os.path.join(self.out, f"{number + 1:04d}")
+        return os.path.join(self.out, self.name(number))
 
     def run_one(self, number):
         """The exit code of a run; a result that is complete already is taken as it is."""
@@ -137,7 +156,7 @@ class Sweep:
             left = (time.monotonic() - self.began) / done * (all_of_them - done)
             values = ", ".join(f"{v.path} {value:.6g}" if isinstance(value, float) else f"{v.path} {value}"
                                for v, value in zip(self.variations, self.points[number]))
-            print(f"run {done}/{all_of_them}  {values}  {self.words(number)}  left {left:.0f} s", flush=True)
+            say(f"run {done}/{all_of_them}  {values}  {self.words(number)}  left {left:.0f} s")
 
     def words(self, number):
         row = self.rows[number]
@@ -193,14 +212,14 @@ def main():
     held = hold(given.out)  # until the end
     sweep.define(given.replace)
     if not sweep.run(given.jobs):
-        print(f"interrupted after {len(sweep.rows)} of {len(sweep.points)} runs; the same command goes on",
-              file=sys.stderr)
+        complain(f"interrupted after {len(sweep.rows)} of {len(sweep.points)} runs; the same command goes on")
         return INTERRUPTED
     good = {number: read_history(sweep.folder(number)) for number, row in sweep.rows.items()
             if row["exit_code"] in (DONE, NOT_CONVERGED)}
     written = ["table.csv"]
     if good:
-        from sweep_pictures import draw_curves, draw_response  # Matplotlib loads for a second
+        with loading():
+            from sweep_pictures import draw_curves, draw_response  # Matplotlib loads for a second
         about = read_about(sweep.folder(min(good)))
         draw_curves(sweep, good, about)
         draw_response(sweep, about)
@@ -209,9 +228,9 @@ def main():
     failed = len(sweep.points) - len(good)
     if not good and all(row["exit_code"] == WRONG for row in sweep.rows.values()):
         raise Trouble(f"no run is a scene, e.g. {sweep.rows[0]['message'].removeprefix('delam: ')}")
-    print(f"wrote {sweep.out}: {', '.join(written)}" + (f"; {failed} runs failed" if failed else ""))
+    say(f"wrote {sweep.out}: {', '.join(written)}" + (f"; {failed} runs failed" if failed else ""))
     return DONE if not failed and all(row["exit_code"] == DONE for row in sweep.rows.values()) else NOT_CONVERGED
 
 
 if __name__ == "__main__":
-    run_study("sweep", main)
+    run_study(main)

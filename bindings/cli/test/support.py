@@ -11,7 +11,6 @@ import shutil
 import subprocess
 import sys
 import tempfile
-import traceback
 
 DELAM = os.environ["DELAM"]
 SERVE = os.environ.get("DELAM_SERVE")  # keeps the program loaded (serve.c)
@@ -141,10 +140,7 @@ def draw(script, *words):
         with contextlib.redirect_stderr(error):
             module = importlib.import_module(script)
             importlib.import_module("matplotlib").rcParams["savefig.dpi"] = 60  # drawn and packed in half the time
-            code = module.main()
-    except Exception:  # as the interpreter would end
-        code = 1
-        error.write(traceback.format_exc())
+            code = importlib.import_module("command").reported(module.main)
     finally:
         sys.argv = before
     return code, error.getvalue()

@@ -95,21 +95,63 @@ expect(delam("run", comment, "--out", out, "--resume")[0] == 0, "a comment is no
 code, said, _ = delam("run", scene, "--out", out, "--resume")
 expect(code == 0 and "complete already" in said, "nothing is left to do")
 
-# A state of the format before, which kept the date and the number of resumes.
-out = folder()
-stop_after(5, signal.SIGINT, out)
-state = os.path.join(out, "running", "state.bin")
-line, _, rest = read(state).partition(b"\n")
-head = json.loads(line)
-expect(head.pop("kind") == "delam state 3", "the format of today")
-old = {"kind": "delam state 2", **head, "started": "2026-01-31T12:00:00Z", "resumed": 6}
-with open(state, "wb") as file:
-    file.write(json.dumps(old, separators=(",", ":")).encode() + b"\n" + rest)
-os.remove(os.path.join(out, "running", "origin.json"))
-expect(delam("run", scene, "--out", out, "--resume")[0] == 0, "resumed from a state of format 2")
-expect(read(os.path.join(out, "history.csv")) == history, "to the same end")
-about = json.loads(read(os.path.join(out, "result.json")))
-expect(about["started"] == "2026-01-31T12:00:00Z" and about["resumed"] == 7, "with its date")
+# States of earlier formats: 2 kept the date and the number of resumes, and no seal covered the first line.
+SEAL = 17  # a hash and the end of a line
+
+
+def fnv(bytes_):
+    value = 0xcbf29ce484222325
+    for byte in bytes_:
+        value = (value ^ byte) * 0x100000001b3 & 0xffffffffffffffff
+    return f"{value:016x}"
+
+
+def earlier(out, format_):
+    """Makes the state of a run that was interrupted one of an earlier format."""
+    path = os.path.join(out, "running", "state.bin")
+    line, _, rest = read(path).partition(b"\n")
+    head = json.loads(line)
+    expect(head.pop("kind") == "delam state 4", "the format of today")
+    expect(rest[-SEAL:-1].decode() == fnv(line + b"\n" + rest[:-SEAL]), "its seal covers all before it")
+    del head["history"], head["fields"]
+    old = {"kind": f"delam state {format_}", **head, "checksum": fnv(rest[:-SEAL])}
+    if format_ == 2:
+        old.update(started="2026-01-31T12:00:00Z", resumed=6)
+        os.remove(os.path.join(out, "running", "origin.json"))
+    os.remove(os.path.join(out, "running", ".delam"))
+    with open(path, "wb") as file:
+        file.write(json.dumps(old, separators=(",", ":")).encode() + b"\n" + rest[:-SEAL])
+
+
+for format_ in (2, 3):
+    out = folder()
+    stop_after(5, signal.SIGINT, out)
+    earlier(out, format_)
+    code, said, _ = delam("run", scene, "--out", out, "--resume")
+    expect(code == 0 and f"of format {format_}, whose first line, history and fields no checksum covers" in said,
+           f"resumed from a state of format {format_}, and said so")
+    expect(read(os.path.join(out, "history.csv")) == history, "to the same end")
+    about = json.loads(read(os.path.join(out, "result.json")))
+    expect(format_ == 3 or (about["started"] == "2026-01-31T12:00:00Z" and about["resumed"] == 7), "with its date")
+
+# Killed while steps are revised: the state that is saved counts on what they held before.
+for name in ("history.csv", "step_00000002.h5"):
+    out = folder()
+    stop_after(5, signal.SIGINT, out)
+    path = os.path.join(out, "running", name)
+    whole_file = read(path)
+    with open(path + ".revised", "wb") as file:
+        file.write(whole_file[:-30] + b"9" * 30)
+    expect(delam("run", scene, "--out", out, "--resume")[0] == 0, f"{name}: what was revised and not saved is dropped")
+    expect(read(os.path.join(out, "history.csv")) == history, "and the end is the same")
+    out = folder()
+    stop_after(5, signal.SIGINT, out)
+    path = os.path.join(out, "running", name)
+    os.rename(path, path + ".revised")
+    with open(path, "wb") as file:
+        file.write(whole_file[:-30] + b"9" * 30)
+    expect(delam("run", scene, "--out", out, "--resume")[0] == 0, f"{name}: what was revised and saved takes its place")
+    expect(read(os.path.join(out, "history.csv")) == history, "and the end is the same")
 
 # Ctrl-C within a step: a person reads that the run was interrupted, and no error of the library.
 slow = changed("h = 0.0015", "h = 0.0005", text)

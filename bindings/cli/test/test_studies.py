@@ -209,7 +209,7 @@ def wrong_words():
     with_data("load,force\n0.001,1\n", "at least 2 points")
     with_data("load,force\n0.002,1\n0.001,2\n", "load must increase")
     with_data("load,force\n0.001,1\n0.002,x\n", "row 2 of the numbers")
-    with_data("load,force\n0.001,1\n0.002,inf\n", "not finite")
+    with_data("load,force\n0.001,1\n0.002,inf\n", "is inf: 0, or a finite number")
     with_data("load,force\n1.0,1\n2.0,2\n", "goes from 1 to 2, .* from 0 to 0.006: other units")
     with_data("time,force\n1.0,1\n20,2\n", "time goes from 1 to 20, .* from 0 to 2: other units", "laws.0.normal_toughness", "--x", "time")
     with_data(good, "no column \"strain\"", "laws.0.normal_toughness", "--columns", "strain", "force")

@@ -2,6 +2,7 @@
 """`delam view` without a browser: the page holds the template and the result, its arrays are the numbers of fields.h5
 and history.csv, what cannot be shown is said with file and reason."""
 import base64
+import contextlib
 import csv
 import json
 import os
@@ -194,8 +195,18 @@ cut = os.path.join(folder(), "cut")
 shutil.copytree(out, cut)
 about = json.loads(read(os.path.join(cut, "result.json")))
 about.update(status="incomplete", reason="interrupted", steps_done=2)
+del about["files"]  # their hashes
+about["not_converged"] = [step for step in about["not_converged"] if step <= 2]
 with open(os.path.join(cut, "result.json"), "w", encoding="utf-8") as file:
     json.dump(about, file)
+lines = read(os.path.join(cut, "history.csv")).decode().splitlines(True)
+with open(os.path.join(cut, "history.csv"), "w", encoding="utf-8") as file:
+    file.writelines(lines[:4])
+with contextlib.suppress(FileNotFoundError):
+    os.remove(os.path.join(cut, "jumps.csv"))
+with h5py.File(os.path.join(cut, "fields.h5"), "r+") as file:
+    for name in [name for name in file["steps"] if int(name) > 2]:
+        del file["steps"][name]
 expect(delam("view", cut, "--template", template())[0] == 0 and
        Page(os.path.join(cut, "view.html")).data["about"]["status"] == "incomplete", "an interrupted run")
 
@@ -217,6 +228,10 @@ def broken(what, *patterns):
     """A copy of the result with which `what` does something."""
     path = os.path.join(folder(), "broken")
     shutil.copytree(out, path)
+    result = json.loads(read(os.path.join(path, "result.json")))
+    del result["files"]  # their hashes would show each of these
+    with open(os.path.join(path, "result.json"), "w", encoding="utf-8") as file:
+        json.dump(result, file)
     what(path)
     before = os.path.exists(os.path.join(path, "view.html"))
     expect_error(delam("view", path, "--template", template()), 2, *patterns)

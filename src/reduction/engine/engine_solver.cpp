@@ -423,7 +423,10 @@ void EngineSolver::require_numbers(const Raw& raw, std::span<const double> state
           std::span<const double>(scalars)})
         if (!std::all_of(list.begin(), list.end(), [](double v) { return std::isfinite(v); }))
             fail(DELAM_ERROR_NUMERICAL, "engine: solve: the answer is not finite");
-    if (a.iterations < 0) fail(DELAM_ERROR_NUMERICAL, "engine: solve: iterations = ", a.iterations, ", allowed: >= 0");
+    // 64 bits hold the sum of more solves than a march can make.
+    constexpr std::int64_t most = std::int64_t{1} << 32;
+    if (a.iterations < 0 || a.iterations > most)
+        fail(DELAM_ERROR_NUMERICAL, "engine: solve: iterations = ", a.iterations, ", allowed: 0 to ", most);
 }
 
 std::vector<double> EngineSolver::held_forces(std::span<const double>, std::span<const double> x,

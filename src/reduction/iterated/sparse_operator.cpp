@@ -85,6 +85,9 @@ void SparseOperator::solve(const Springs& springs, std::span<const double> theta
     response.multipliers = std::move(x);
     response.error = {};
     if (!response.balanced) return;
+    // An engine that finds the matrix indefinite leaves no state.
+    if (!answer.definite && response.multipliers.size() != index(solver_.state_size()))
+        fail(DELAM_ERROR_NUMERICAL, "the stiffness of the bodies is not positive definite");
     respond(springs, theta, response);
     response.error = {std::ldexp(answer.error.jump, power), std::ldexp(answer.error.force, power)};
 }

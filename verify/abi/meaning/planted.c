@@ -350,8 +350,31 @@ int32_t delam_problem_set_adhesion(delam_problem *problem, int64_t interface_ind
 int32_t delam_problem_set_adhesion_box(delam_problem *problem, int64_t interface_index, const double *lower,
                                        const double *upper, double adhesion, int64_t *count) {
     BEHIND(delam_problem_set_adhesion_box);
+    static const delam_problem *same = NULL;
+    static double lowest = 1.0;
+    lowest = problem == same && lowest < adhesion ? lowest : adhesion;
+    same = problem;
+    if (planted("a box that only lowers")) return behind(problem, interface_index, lower, upper, lowest, count);
     return behind(problem, interface_index, lower, upper,
                   planted("adhesion of a box as damage") ? 1.0 - adhesion : adhesion, count);
+}
+
+static const delam_problem *in_contact;
+
+int32_t delam_problem_set_contact(delam_problem *problem, int64_t interface_index) {
+    BEHIND(delam_problem_set_contact);
+    in_contact = problem;
+    return behind(problem, interface_index);
+}
+
+int32_t delam_problem_set_law(delam_problem *problem, int64_t interface_index, const delam_law *law) {
+    BEHIND(delam_problem_set_law);
+    const int32_t status = behind(problem, interface_index, law);
+    const double lower[] = {-9.0, -9.0, -9.0}, upper[] = {9.0, 9.0, 9.0};
+    int64_t count;
+    if (planted("contact that stays without adhesion") && in_contact == problem)
+        delam_problem_set_adhesion_box(problem, interface_index, lower, upper, 0.0, &count);
+    return status;
 }
 
 int32_t delam_problem_prescribe_nodes(delam_problem *problem, int64_t count, const int64_t *nodes,
@@ -566,6 +589,60 @@ int32_t delam_solver_step_tangent(delam_solver *solver, int64_t capacity, double
     BEHIND(delam_solver_step_tangent);
     const int32_t status = behind(solver, capacity, matrix);
     for (int64_t i = 0; planted("sign of the step tangent") && i < capacity; ++i) matrix[i] = -matrix[i];
+    const int64_t n = (int64_t)(sqrt((double)capacity) + 0.5);
+    if (planted("step tangent by columns")) transpose(matrix, n, n);
+    return status;
+}
+
+int32_t delam_solver_advance(delam_solver *solver, double time) {
+    BEHIND(delam_solver_advance);
+    const int32_t status = behind(solver, time);
+    return planted("a step into the past out of order") && status == DELAM_ERROR_ARGUMENT ? DELAM_ERROR_STATE : status;
+}
+
+int32_t delam_solver_commit(delam_solver *solver) {
+    BEHIND(delam_solver_commit);
+    const int32_t status = behind(solver);
+    return planted("commit without a step") && status == DELAM_ERROR_STATE ? DELAM_OK : status;
+}
+
+int32_t delam_context_cancel(delam_context *context) {
+    BEHIND(delam_context_cancel);
+    return planted("a cancel that is forgotten") ? DELAM_OK : behind(context);
+}
+
+/* The words of the middle half backwards, as in a format that has its lists in another order. */
+static void reorder(uint8_t *bytes, int64_t size) {
+    uint64_t sum = 14695981039346656037u;
+    const int64_t words = size / 16;
+    uint8_t *first = bytes + size / 4;
+    for (int64_t i = 0; i < words / 2; ++i) {
+        uint64_t one, other;
+        memcpy(&one, first + 8 * i, 8);
+        memcpy(&other, first + 8 * (words - 1 - i), 8);
+        memcpy(first + 8 * i, &other, 8);
+        memcpy(first + 8 * (words - 1 - i), &one, 8);
+    }
+    for (int64_t i = 0; i + 8 < size; ++i) sum = (sum ^ bytes[i]) * 1099511628211u;
+    memcpy(bytes + size - 8, &sum, 8);
+}
+
+int32_t delam_solver_save(const delam_solver *solver, int64_t capacity, uint8_t *bytes, int64_t *needed) {
+    BEHIND(delam_solver_save);
+    const int32_t status = behind(solver, capacity, bytes, needed);
+    if (planted("lists of a state in another order") && status == DELAM_OK && capacity > 0) reorder(bytes, *needed);
+    return status;
+}
+
+int32_t delam_solver_load(delam_solver *solver, int64_t size, const uint8_t *bytes) {
+    BEHIND(delam_solver_load);
+    if (planted("old formats refused") && size > 8 && bytes[8] < 11) return DELAM_ERROR_SNAPSHOT;
+    if (!planted("lists of a state in another order") || size < 40) return behind(solver, size, bytes);
+    uint8_t *own = malloc((size_t)size);
+    memcpy(own, bytes, (size_t)size);
+    reorder(own, size);
+    const int32_t status = behind(solver, size, own);
+    free(own);
     return status;
 }
 

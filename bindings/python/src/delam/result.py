@@ -2,9 +2,7 @@
 """Results that `delam run` has written into a folder."""
 from __future__ import annotations
 
-import csv
 import importlib
-import json
 import os
 import pathlib
 from collections.abc import Iterator, Mapping
@@ -14,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._arrays import FloatArray, IntArray
+from ._pictures.input_file import MOST_RESULT, fields_file, read_columns, read_json
 from .errors import ArgumentError
 
 if TYPE_CHECKING:
@@ -53,16 +52,10 @@ def picture(shown: Any, kind: str, kinds: Mapping[str, tuple[str, str]], *argume
 
 def _table(path: pathlib.Path) -> NDArray[np.void]:
     """A file of rows as a structured array: numbers are float64, columns with words are texts."""
-    with open(path, newline="", encoding="utf-8") as file:
-        titles, *rows = csv.reader(file)
-    columns: list[NDArray[Any]] = []
-    for values in zip(*rows) if rows else [()] * len(titles):
-        try:
-            columns.append(np.array([float(value) for value in values], np.float64))
-        except ValueError:
-            columns.append(np.array(values, np.str_))
-    table = np.empty(len(rows), [(title, column.dtype) for title, column in zip(titles, columns)])
-    for title, column in zip(titles, columns):
+    columns: dict[str, NDArray[Any]] = {title: np.array(column, np.str_ if isinstance(column, list) else np.float64)
+                                        for title, column in read_columns(path).items()}
+    table = np.empty(len(next(iter(columns.values()))), [(title, column.dtype) for title, column in columns.items()])
+    for title, column in columns.items():
         table[title] = column
     return table
 
@@ -110,12 +103,13 @@ class Result:
         result.fields()["interface_0"]["zeta"]         adhesion at the last step that has fields
 
     folder: its path; about: result.json as a dict (status, units, options, closing lines ...). FileNotFoundError: the
-    folder holds no result."""
+    folder holds no result. ValueError: a file of it is damaged, no regular one, or too large (bindings/cli/README.md,
+    Limits)."""
 
     def __init__(self, folder: str | os.PathLike[str]) -> None:
         self.folder = pathlib.Path(folder)
         try:
-            self.about: dict[str, Any] = json.loads((self.folder / "result.json").read_text(encoding="utf-8"))
+            self.about: dict[str, Any] = read_json(self.folder / "result.json", MOST_RESULT)
             self._history = _table(self.folder / "history.csv")
         except FileNotFoundError as error:
             raise FileNotFoundError(error.errno, f"{self.folder} holds no result: a file is missing", error.filename
@@ -154,10 +148,10 @@ class Result:
 
     def _file(self) -> Any:
         try:
-            import h5py
+            importlib.import_module("h5py")
         except ImportError:
             raise ImportError("fields need h5py (Debian: python3-h5py)") from None
-        return h5py.File(self.folder / "fields.h5", "r")
+        return fields_file(self.folder / "fields.h5")
 
     @property
     def steps(self) -> dict[int, float]:

@@ -2,11 +2,11 @@
 """Interfaces of a body in space, seen in plan."""
 import os
 
-import h5py
 import numpy as np
 from matplotlib.collections import LineCollection
 
 from .cells import ZETA, text_of
+from .input_file import fields_file
 from .result import Nothing, axis, plt
 from .section import PIECES
 
@@ -92,7 +92,7 @@ def fronts_figure(result):
     """Adhesion at the last step in plan, and over it the fronts of all stored steps, by time."""
     if result.about["scene"]["dimension"] == 2:
         raise Nothing("fronts are drawn of scenes in space")
-    with h5py.File(os.path.join(result.folder, "fields.h5"), "r") as file:
+    with fields_file(os.path.join(result.folder, "fields.h5")) as file:
         figure = draw_fronts(result, file)
     result.stamp(figure)
     return figure

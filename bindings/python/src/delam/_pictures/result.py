@@ -1,18 +1,21 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the pictures share: a result of `delam run` as it lies in its folder, and how pictures look."""
 import contextlib
-import csv
-import json
+import errno
 import os
+import stat
 
 import matplotlib
 import matplotlib.pyplot as plt
 import numpy as np
 
+from .input_file import MOST_RESULT, Unreadable, read_columns, read_json
+
 BLUE, RED, GREEN, ORANGE, GREY = "#1f5a99", "#b3312c", "#2f7d4f", "#d18b1f", "#7a7f87"
 STYLE = {
     "font.size": 10, "axes.titlesize": 11, "axes.spines.top": False, "axes.spines.right": False,
     "axes.grid": True, "grid.color": "#e4e6ea", "grid.linewidth": 0.8, "axes.axisbelow": True,
+    "text.parse_math": False,  # names of scenes are no formulas
     "axes.edgecolor": "#50555c", "lines.linewidth": 1.6, "legend.frameon": False, "figure.dpi": 110, "savefig.dpi": 150,
 }
 
@@ -48,10 +51,31 @@ def axis(label, unit):
 
 
 def save(figure, path):
-    """Beside and renamed, like every other file of a result."""
-    figure.savefig(path + ".new", format="png")
-    os.replace(path + ".new", path)
+    """Beside and renamed, like every other file of a result. FileExistsError: something has the name that is no picture
+    which this module has drawn."""
+    if os.path.lexists(path) and not _is_drawn(path):
+        raise FileExistsError(errno.EEXIST, "this is no picture that delam has drawn; move it away", path)
+    beside = f"{path}.new-{os.getpid()}"
+    new = os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW | os.O_CLOEXEC
+    with os.fdopen(os.open(beside, new, 0o666), "wb") as file:
+        try:
+            figure.savefig(file, format="png")
+            file.flush()
+            os.replace(beside, path)
+        except BaseException:
+            os.unlink(beside)
+            raise
     plt.close(figure)
+
+
+def _is_drawn(path):
+    """True for a regular file, with one name, that Matplotlib has written: it says so near the beginning of a PNG."""
+    about = os.lstat(path)
+    if not stat.S_ISREG(about.st_mode) or about.st_nlink > 1:
+        return False
+    with open(path, "rb") as file:
+        head = file.read(1024)
+    return head.startswith(b"\x89PNG\r\n") and b"Software\0Matplotlib" in head
 
 
 def early_end(result):
@@ -80,13 +104,13 @@ class Result:
 
     def __init__(self, folder):
         self.folder = folder
-        with open(os.path.join(folder, "result.json"), encoding="utf-8") as file:
-            self.about = json.load(file)
-        with open(os.path.join(folder, "history.csv"), newline="", encoding="utf-8") as file:
-            rows = list(csv.reader(file))
+        self.about = read_json(os.path.join(folder, "result.json"), MOST_RESULT)
+        path = os.path.join(folder, "history.csv")
         # The last columns are words: which solution the row belongs to.
-        self.history = {name: np.array([float(row[i]) for row in rows[1:]]) for i, name in enumerate(rows[0])
-                        if name not in ("solution", "mixity_rule")}
+        self.history = {name: np.array(column) for name, column in read_columns(path).items()
+                        if not isinstance(column, list)}
+        if not self.history or not next(iter(self.history.values())).size:
+            raise Unreadable(f"{path}: there are no rows of numbers")
         self.cell = self.about.get("cell")
         self.name_units()
 
@@ -106,8 +130,8 @@ class Result:
         path = os.path.join(self.folder, "jumps.csv")
         if not os.path.exists(path):
             return []
-        with open(path, newline="", encoding="utf-8") as file:
-            rows = [(float(row["time"]), float(row["debonded"])) for row in csv.DictReader(file)]
+        columns = read_columns(path)
+        rows = list(zip(columns["time"], columns["debonded"]))
         # On a coarse mesh every pair that breaks is one.
         largest = max((debonded for _, debonded in rows), default=0)
         return [time for time, debonded in rows if debonded > 0.2 * largest]

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How HDF5 reaches files: a driver of our own, which keeps the system's reason of the first operation that failed and
+// does not let HDF5 see that writing failed. HDF5 1.10 crashes in some of its own ways out of a failed read or
+// write, in others it forgets what is lost, and never it says why. Whoever closes a file asks the driver instead.
+//
+// File driver interface: "HDF5 Virtual File Layer", HDF5 1.10 documentation; H5FDpublic.h.
+#pragma once
+
+#include <string>
+
+#include <hdf5.h>
+
+namespace cli::h5 {
+
+struct FileTrouble {
+    std::string path;
+    int code = 0;  // errno; 0: none
+};
+
+// The first operation that failed on this thread since the trouble was last taken.
+FileTrouble take_trouble();
+// Properties of access with the driver. They live as long as the process.
+hid_t driver_access();
+
+}  // namespace cli::h5

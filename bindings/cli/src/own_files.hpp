@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which files of a folder are this program's own: it replaces and removes no others.
+//
+// A folder in which it works holds a marker. Files are its own if their names are those that it writes and the folder
+// is marked, or if an older version, which wrote no marker, can be recognised by them. Links, folders and files with a
+// second name are never its own: what they lead to is somebody else's.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace cli {
+
+inline constexpr std::string_view marker_name = ".delam";
+
+// Names of the files of a result.
+const std::vector<std::string>& result_names();
+// True for the files of a run that is not finished, in its folder `running`: those of its result, its steps and what it
+// needs to go on.
+bool is_running_name(std::string_view name);
+std::string step_name(std::size_t step);
+
+bool is_marked(const std::string& folder);
+// Writes the marker, if it is not there.
+void mark(const std::string& folder);
+
+// What lies in a folder, by name; empty if it is not there. Throws OutputFailure if it is no folder, or a link to one.
+std::vector<std::string> names_in(const std::string& folder);
+// True if something has this name, be it a link that leads nowhere.
+bool is_there(const std::string& path);
+// Throws OutputFailure if it is there and no regular file, or one that has another name, too.
+void require_plain(const std::string& path);
+
+}  // namespace cli

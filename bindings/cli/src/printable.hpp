@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Texts of files and of people, as a terminal and a log may get them.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace cli {
+
+// The text with each byte as \xNN of what could command a terminal or disguise a line: control characters other than
+// the end of a line and the tabulator, separators of lines and marks of direction, and bytes that are no UTF-8.
+std::string printable(std::string_view text);
+
+}  // namespace cli
