@@ -70,7 +70,7 @@ private:
         }
     }
 
-    // Whether an entry of this name has not been met yet; it may be given by many cards.
+    // True if an entry of this name has not been met yet; many cards may give it.
     using Met = std::set<std::tuple<std::string, const Part*, std::string>>;
     static bool is_new(Met& met, const Model& model, const std::string& name, const Entry& raw) {
         const Entry entry = model.resolved_scope(raw);

@@ -136,9 +136,9 @@ private:
     void collect_set(const Set& set, std::set<std::int64_t>& out, Trail& trail) const;
 };
 
-// Of all sets and surfaces that are collected: 8 bytes each.
+// Limits the members of all sets and surfaces that are collected: 8 bytes each.
 constexpr std::int64_t most_members = 100000000;
-// Nodes, elements and members of sets of all instances: some 100 bytes each.
+// Limits the nodes, elements and members of sets of all instances: some 100 bytes each.
 constexpr std::int64_t most_copies = 20000000;
 
 std::int64_t node_number(const Part& scope, std::int64_t id, const Place& place);

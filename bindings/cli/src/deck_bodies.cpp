@@ -162,7 +162,7 @@ std::int64_t FacePlaces::coinciding(const std::string& set, const std::string& o
     const auto [at, fresh] = known_->coinciding.try_emplace({set, other}, 0);
     if (!fresh) return at->second;
     const auto &faces = known_->of(set), &others = known_->of(other);
-    // As many look-ups as the smaller one has places: the other may be that of many pairs.
+    // Goes through the smaller one: the other may be that of many pairs.
     const bool turned = others.size() < faces.size();
     for (const auto& [place, count] : turned ? others : faces) {
         const auto found = (turned ? faces : others).find(place);

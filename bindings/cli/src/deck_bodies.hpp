@@ -39,14 +39,14 @@ struct BodyPair {
 std::vector<BodyPair> pairs_of_bodies(const MeshData& mesh, const FaceBodies& faces, double shortest_edge,
                                       const Place& place);
 
-// Where the faces of sets lie.
+// Knows where the faces of sets lie.
 class FacePlaces {
 public:
     FacePlaces(const MeshData& mesh, double shortest_edge);
     ~FacePlaces();
     FacePlaces(const FacePlaces&) = delete;
     FacePlaces& operator=(const FacePlaces&) = delete;
-    // How many faces of a set coincide with one of the other set.
+    // Returns how many faces of a set coincide with one of the other set.
     [[nodiscard]] std::int64_t coinciding(const std::string& set, const std::string& other);
 
 private:

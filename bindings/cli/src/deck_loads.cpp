@@ -53,7 +53,7 @@ Points lines_of(const Amplitude& amplitude) {
     return out;
 }
 
-// What one line of the deck prescribes, over all steps. Behind its last point it is constant.
+// Holds what one line of the deck prescribes, over all steps. Behind its last point it is constant.
 struct History {
     LoadLine line;  // the first of its kind
     int dof = 0;
@@ -194,7 +194,7 @@ private:
     void march(const Step& step) {
         const double end = time_ + step.period;
         ++step_;
-        // What ends unless this step gives it again.
+        // Each of these ends unless this step gives it again.
         std::map<std::size_t, History*> ending;
         const bool renewed[] = {step.new_boundaries, step.new_forces, step.new_distributed};
         for (std::size_t kind = 0; kind < std::size(renewed); ++kind)

@@ -25,7 +25,7 @@ public:
     void write_step(const Model& model, delam_solver* solver, const Scene& scene, std::size_t step);
     // Flushes the step files to disk, before a state that relies on them is written.
     void synchronise_steps();
-    // What the steps that were written again held before is needed no more.
+    // Replaces the files of steps that were written again: the saved state counts on the new ones.
     void settle();
     // The hashes of the files of the chosen steps up to `last`, in their order.
     std::vector<std::string> hashes(std::size_t last);

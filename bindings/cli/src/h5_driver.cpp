@@ -23,7 +23,7 @@ void note(const std::string& path, int code) {
     if (trouble.code == 0) trouble = {path, code};
 }
 
-// What HDF5 holds as a file; the first member is its own.
+// A file as HDF5 holds it; the first member is its own.
 struct DriverFile {
     H5FD_t base{};
     int descriptor = -1;

@@ -30,7 +30,7 @@ public:
     void replace_from(std::size_t first, const std::vector<std::string>& rows);
     // Flushes to disk.
     void synchronise() const;
-    // What was replaced is needed no more.
+    // Replaces the file: what it held before is needed no more.
     void settle();
     [[nodiscard]] std::size_t rows() const { return ends_.size() - 1; }
     // Header and rows.
