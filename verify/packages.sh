@@ -34,7 +34,7 @@ DELAM_SITE_PACKAGES=(python3-sphinx python3-myst-parser python3-breathe furo lib
 # Slices of the long tier need these beside the quick tier (verify/slices.sh); by their number.
 declare -A DELAM_SLICE_PACKAGES=(
     [2]="${DELAM_SITE_PACKAGES[*]} valgrind chromium paraview python3-paraview python3-getfem"
-    [3]="valgrind dpkg-dev"
+    [3]="valgrind dpkg-dev file"
     [9]="libclang-rt-dev"
     [10]="valgrind"
     [12]="valgrind"
