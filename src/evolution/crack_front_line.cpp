@@ -27,12 +27,13 @@ public:
     explicit Edges(const CrackedInterface& interface) : begin_(interface.adhesion.size() + 1, 0) {
         const std::vector<PairPiece> pieces = pair_pieces(interface.geometry, 2);
         for (const PairPiece& piece : pieces)
-            for (const std::size_t end : {0, 1}) ++begin_[index(piece.pair[end]) + 1];
+            for (const std::size_t end : {std::size_t{0}, std::size_t{1}}) ++begin_[index(piece.pair[end]) + 1];
         std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
         other_.resize(begin_.back());
         std::vector<std::size_t> at(begin_.begin(), begin_.end() - 1);
         for (const PairPiece& piece : pieces)
-            for (const std::size_t end : {0, 1}) other_[at[index(piece.pair[end])]++] = piece.pair[1 - end];
+            for (const std::size_t end : {std::size_t{0}, std::size_t{1}})
+                other_[at[index(piece.pair[end])]++] = piece.pair[1 - end];
     }
     std::size_t degree(std::size_t pair) const { return begin_[pair + 1] - begin_[pair]; }
     // Takes the first edge left at a pair and returns its other end; -1: none is left.

@@ -136,7 +136,6 @@ void add_reduction(std::vector<PlanItem>& items, const Basis& basis) {
 
 // Pairs of an interface whose normal jump is determined by the constraints alone.
 std::int64_t prescribed_pairs(const Basis& basis, std::int64_t first, std::int64_t pairs) {
-    const auto rows = basis.prescribed;
     const std::int64_t dim = basis.problem.mesh->dimension();
     std::int64_t found = 0;
     for (std::int64_t p = first; p < first + pairs; ++p)

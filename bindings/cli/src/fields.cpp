@@ -228,8 +228,8 @@ double Fields::assemble(const Model& model, const Scene& scene, std::size_t last
         for (const std::size_t step : chosen_) {
             if (step > last) break;
             const std::string name = fmt::format("{:08d}", step);
-            const std::string bytes = bulk_ == nullptr ? read_bytes(step_path(step)) : "";
-            const h5::File from(bulk_ == nullptr ? h5::open_bytes(bytes) : h5::open(step_path(step)), step_path(step));
+            const std::string image = bulk_ == nullptr ? read_bytes(step_path(step)) : "";
+            const h5::File from(bulk_ == nullptr ? h5::open_bytes(image) : h5::open(step_path(step)), step_path(step));
             if (bulk_ != nullptr) {
                 const std::vector<FileRange> of_step = copy_step(from.get(), step_path(step), group.get(), name, scene);
                 ranges.insert(ranges.end(), of_step.begin(), of_step.end());

@@ -90,7 +90,7 @@ int compare(const H5FD_t* a, const H5FD_t* b) {
     return key(a) < key(b) ? -1 : key(b) < key(a) ? 1 : 0;
 }
 
-// As HDF5's own driver of files, so that the same calls lay out the same file.
+// Returns what HDF5's own driver of files does, so that the same calls lay out the same file.
 herr_t features(const H5FD_t*, unsigned long* flags) {
     if (flags != nullptr)
         *flags = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_ACCUMULATE_METADATA | H5FD_FEAT_DATA_SIEVE |

@@ -15,7 +15,7 @@ std::uint64_t hash(std::string_view bytes, std::uint64_t before = hash_of_nothin
 std::string hash_text(std::uint64_t hash);
 std::string hash_text(std::string_view bytes);
 
-// What a file holds, for comparison.
+// Tells contents of files apart.
 struct Content {
     std::int64_t bytes = 0;
     std::string hash;

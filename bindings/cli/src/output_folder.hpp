@@ -49,7 +49,7 @@ private:
     int lock_ = -1;
 };
 
-// What result.json of a folder says; its status is "" if there is no result.
+// Returns what result.json of a folder says; its status is "" if there is no result.
 Published published_in(const std::string& folder);
 // Throws Failure(exit_scene) if a file of the result is missing, or not as result.json says.
 void require_unchanged(const std::string& folder, const Published& published);

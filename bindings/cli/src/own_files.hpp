@@ -25,7 +25,8 @@ bool is_marked(const std::string& folder);
 // Writes the marker, if it is not there.
 void mark(const std::string& folder);
 
-// What lies in a folder, by name; empty if it is not there. Throws OutputFailure if it is no folder, or a link to one.
+// Returns the names in a folder, ascending; none if it is not there. Throws OutputFailure if it is no folder, or a link
+// to one.
 std::vector<std::string> names_in(const std::string& folder);
 // True if something has this name, be it a link that leads nowhere.
 bool is_there(const std::string& path);

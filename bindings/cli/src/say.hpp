@@ -19,9 +19,9 @@ namespace cli {
 void say_json_lines(bool yes);
 bool says_json_lines();
 
-// As printable() has it, for texts of files and of people are in it.
+// Prints the text as printable() has it, because texts of files and of people are in it.
 void say_text(std::string_view text);
-// As it is: whole objects, files, commands to the terminal.
+// Prints the bytes as they are: whole objects, files, commands to the terminal.
 void say_raw(std::string_view text);
 // An object of the event with members that are JSON already, e.g. "\"step\": 3"; nothing unless lines are JSON.
 void say_event(std::string_view event, const std::string& members);
