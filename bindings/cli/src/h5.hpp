@@ -2,6 +2,7 @@
 // Owners of HDF5 identifiers and the few calls that the program needs. Every failure is an OutputFailure.
 #pragma once
 
+#include <cerrno>
 #include <cstddef>
 #include <cstdint>
 #include <new>
@@ -19,6 +20,7 @@ namespace cli::h5 {
 // Throws what went wrong with a file, by its own name and the system's reason where there is one: HDF5 gives none.
 [[noreturn]] inline void refuse(const std::string& what, const char* otherwise) {
     const FileTrouble trouble = take_trouble();
+    if (trouble.code == ENOMEM) throw std::bad_alloc();
     if (trouble.code != 0) throw OutputFailure(trouble.path, reason_of(trouble.code));
     throw OutputFailure(what, otherwise);
 }
@@ -57,27 +59,16 @@ using Attribute = Id<H5Aclose>;
 using Properties = Id<H5Pclose>;
 using Type = Id<H5Tclose>;
 
-// HDF5 1.10 ends by a signal where it gets no memory for what it keeps of a file. Throws std::bad_alloc before, if this
-// much is not there.
-inline void require_memory() {
-    constexpr std::size_t of_a_file = std::size_t{1} << 20;
-    ::operator delete(::operator new(of_a_file));
-}
-
 // In a folder or, with access, in memory; an earlier file is replaced.
 inline hid_t create(const std::string& path, hid_t access = driver_access()) {
-    require_memory();
     (void)take_trouble();
     return H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
 }
-inline hid_t open(const std::string& path) {
-    require_memory();
-    return H5Fopen(path.c_str(), H5F_ACC_RDONLY, driver_access());
-}
+inline hid_t open(const std::string& path) { return H5Fopen(path.c_str(), H5F_ACC_RDONLY, driver_access()); }
 
 // A file whose bytes are in memory, to be read: HDF5 1.10 crashes where it copies an object and cannot read the file.
 inline hid_t open_bytes(const std::string& bytes) {
-    require_memory();
+    if (!memory_for_a_file()) throw std::bad_alloc();
     const Properties access(H5Pcreate(H5P_FILE_ACCESS), "fields.h5");
     constexpr std::size_t increment = std::size_t{1} << 16;  // of a file that grows; this one does not
     // HDF5 takes the bytes as they may change, and copies them.

@@ -65,8 +65,10 @@ H5FD_t* open_file(const char* name, unsigned flags, hid_t, haddr_t) {
     file->path = name;
     struct stat about {};
     file->descriptor = ::open(name, mode | O_CLOEXEC, 0666);
-    if (file->descriptor < 0 || ::fstat(file->descriptor, &about) != 0) {
-        not_opened = {file->path, errno};
+    int code = file->descriptor < 0 || ::fstat(file->descriptor, &about) != 0 ? errno : 0;
+    if (code == 0 && !memory_for_a_file()) code = ENOMEM;
+    if (code != 0) {
+        not_opened = {file->path, code};
         if (file->descriptor >= 0) ::close(file->descriptor);
         delete file;
         return nullptr;
@@ -167,6 +169,13 @@ FileTrouble take_trouble() {
     const FileTrouble opening = std::exchange(not_opened, {});
     const FileTrouble later = std::exchange(trouble, {});
     return later.code != 0 ? later : opening;
+}
+
+bool memory_for_a_file() {
+    constexpr std::size_t of_a_file = std::size_t{1} << 20;  // twice what HDF5 1.10 takes at once
+    void* const block = ::operator new(of_a_file, std::nothrow);
+    ::operator delete(block);
+    return block != nullptr;
 }
 
 hid_t driver_access() {

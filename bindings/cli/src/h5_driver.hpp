@@ -19,6 +19,9 @@ struct FileTrouble {
 
 // The first operation that failed on this thread since the trouble was last taken.
 FileTrouble take_trouble();
+// True if there is memory for what HDF5 keeps of a file (half a megabyte): HDF5 1.10 ends by a signal where it gets
+// none. The driver asks when it has opened a file, and then fails to open it.
+bool memory_for_a_file();
 // Properties of access with the driver. They live as long as the process.
 hid_t driver_access();
 
