@@ -1,18 +1,41 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "host.hpp"
 
+#include <cstdio>
+#include <cstring>
+
 namespace faults {
 
 void Transcript::add(const std::string& name, const void* bytes, std::size_t size) {
     entries_.emplace_back(name, size > 0 ? std::string(static_cast<const char*>(bytes), size) : std::string());
 }
 
+namespace {
+
+// Returns the first numbers that differ, if both texts are as many doubles.
+std::string in_numbers(const std::string& a, const std::string& b) {
+    if (a.size() != b.size() || a.size() % sizeof(double) != 0) return "";
+    for (std::size_t at = 0; at < a.size(); at += sizeof(double)) {
+        double x = 0.0, y = 0.0;
+        std::memcpy(&x, a.data() + at, sizeof x);
+        std::memcpy(&y, b.data() + at, sizeof y);
+        if (std::memcmp(&x, &y, sizeof x) == 0) continue;
+        char text[100];
+        std::snprintf(text, sizeof text, ": %.17g or %.17g (number %zu)", x, y, at / sizeof x);
+        return text;
+    }
+    return "";
+}
+
+}  // namespace
+
 std::string Transcript::difference(const Transcript& other) const {
     for (std::size_t i = 0; i < entries_.size() && i < other.entries_.size(); ++i) {
         if (entries_[i].first != other.entries_[i].first)
             return "entry " + std::to_string(i) + " is " + entries_[i].first + " or " + other.entries_[i].first;
         if (entries_[i].second != other.entries_[i].second)
-            return "entry " + std::to_string(i) + ", " + entries_[i].first + ", differs";
+            return "entry " + std::to_string(i) + ", " + entries_[i].first + ", differs" +
+                   in_numbers(entries_[i].second, other.entries_[i].second);
     }
     return entries_.size() == other.entries_.size() ? "" : "other numbers of entries";
 }
