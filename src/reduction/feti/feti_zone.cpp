@@ -69,23 +69,23 @@ bool FetiZone::find_energy(std::vector<std::int64_t> rows) {
     rest_.reset();
     rows_.clear();
     if (!columns_.energy(rows, energy_)) return false;
-    rows_ = std::move(rows);
-    find_motions();
+    find_motions(rows);
+    rows_ = std::move(rows);  // last: an energy whose motions an exception has interrupted is not known
     return true;
 }
 
 // The motions that no row outside A holds do not strain anything: S Z = 0, exactly.
-void FetiZone::find_motions() {
+void FetiZone::find_motions(std::span<const std::int64_t> rows) {
     anchors_.clear();
     if (rigid_.columns == 0) return;
     std::vector<std::uint8_t> active(index(rigid_.rows), 1);
-    for (const std::int64_t r : rows_) active[index(r)] = 0;
+    for (const std::int64_t r : rows) active[index(r)] = 0;
     const DenseMatrix free = multiply(rigid_, split_motions(rigid_, active).free);
     if (free.columns == 0) return;
-    const auto n = static_cast<std::int64_t>(rows_.size());
+    const auto n = static_cast<std::int64_t>(rows.size());
     DenseMatrix z(n, free.columns), across(free.columns, n);
     for (std::int64_t c = 0; c < free.columns; ++c)
-        for (std::int64_t i = 0; i < n; ++i) z(i, c) = across(c, i) = free(rows_[index(i)], c);
+        for (std::int64_t i = 0; i < n; ++i) z(i, c) = across(c, i) = free(rows[index(i)], c);
     const PivotedColumns pivots = pivoted_columns(std::move(across), 1e-10);
     for (std::int64_t k = 0; k < pivots.rank; ++k) anchors_.push_back(pivots.order[index(k)]);
     z = orthonormalised(std::move(z));

@@ -35,7 +35,7 @@ private:
     std::vector<std::int64_t> changed(const Springs& springs, std::span<const std::uint8_t> wanted) const;
     bool allowed(std::span<const std::int64_t> rows) const;
     bool find_energy(std::vector<std::int64_t> rows);
-    void find_motions();
+    void find_motions(std::span<const std::int64_t> rows);
     Split split(const Springs& springs, std::span<const std::uint8_t> wanted) const;
     bool minimise_out(Split split);
     std::vector<double> driven(std::size_t row) const;
