@@ -42,8 +42,9 @@ void fail_petsc(PetscErrorCode code) {
     if (code == PETSC_ERR_FP || code == PETSC_ERR_MAT_LU_ZRPVT || code == PETSC_ERR_MAT_CH_ZRPVT ||
         code == PETSC_ERR_NOT_CONVERGED || code == PETSC_ERR_LIB)
         status = DELAM_ERROR_NUMERICAL;
+    // A number out of range, or none, is one of PETSc's options: the engine's own arguments are checked before.
     if (code == PETSC_ERR_ARG_UNKNOWN_TYPE || code == PETSC_ERR_MISSING_FACTOR || code == PETSC_ERR_SUP ||
-        code == PETSC_ERR_USER_INPUT)
+        code == PETSC_ERR_USER_INPUT || code == PETSC_ERR_ARG_OUTOFRANGE)
         status = DELAM_ERROR_ARGUMENT;
     // MUMPS' solve says it in words: -13 is an allocation that failed, -9 and -8 are work arrays that are too small.
     for (const char* memory : {"INFOG(1)=-13", "INFOG(1)=-9", "INFOG(1)=-8"})
