@@ -372,6 +372,8 @@ void read_problem(Host& host, const Block& b) {
     host.call("delam_problem_check", b.cells, print, [&] { return delam_problem_check(h.problem); });
     host.read("delam_problem_process_zone", b.cells, print,
               [&] { return delam_problem_process_zone(h.problem, 0, &length, nullptr); });
+    host.read("delam_problem_propose", b.cells, print,
+              [&] { return delam_problem_propose(h.problem, 0, 3.0, nullptr, nullptr, &length, nullptr); });
     host.read("delam_problem_body_matrix", b.cells / 2, print,
               [&] { return delam_problem_body_matrix(h.problem, 0, &rows, nullptr, nullptr, nullptr, nullptr); });
 }
