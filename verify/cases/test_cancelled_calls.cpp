@@ -441,6 +441,7 @@ CASE_TEST(waiting_request) {
     expect(delam_context_cancel(context) == DELAM_OK, "delam_context_cancel");
     make_problem(host, block, "condensed");
     host.require(delam_problem_check(host.h.problem), "delam_problem_check");
+    host.require(delam_problem_plan(host.h.problem, nullptr, nullptr, nullptr), "delam_problem_plan");
     expect(delam_solver_create(host.h.problem, 0.0, &host.h.solver) == DELAM_CANCELLED && host.h.solver == nullptr,
            "the request has waited for delam_solver_create");
     // Now the request is consumed.

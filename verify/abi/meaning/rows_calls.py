@@ -362,7 +362,8 @@ def one_of_two(host, see):
     both = (starts + [count + n for n in starts[1:]], columns[:count] + [8 + c for c in columns[:count]],
             [5.0 * k for k in values[:count]] * 2)
     host("problem_set_stiffness", problem, 8, list(range(8)), None, *both, -1, None, 0)
-    host("problem_set_stiffness", problem, 4, [4, 5, 6, 7], None, starts, columns, [3.0 * k for k in values], -1, None, 0)
+    host("problem_set_stiffness", problem, 4, [4, 5, 6, 7], None, starts, columns, [3.0 * k for k in values], -1, None,
+         0)
     loads = []
     for body, name in enumerate(("lower", "upper")):
         low, high = ([4 * body + n for n in pair] for pair in ((0, 1), (2, 3)))
@@ -374,6 +375,8 @@ def one_of_two(host, see):
     strain = 0.75 / (1.25 * 0.5)
     see.near("reactions", [value(host, solver, f"reaction:{name}") for name in ("lower", "upper")],
              [5 * strain, 3 * strain], "F L")
+    # Cells and material still give the stresses.
+    see.near("stress across the bodies", [s[1] for s in field(host, solver, "stress")], [strain] * 2, "F/L2")
 
 
 @row("adhesion never heals", tells=["law_respond adhesion", "law_respond traction"])

@@ -302,7 +302,7 @@ def mixity_rule(host, see):
             [tangential, forms.bilinear(forms.toughness(0.02, 0.05, tangential),
                                         forms.toughness(0.1, 0.6, tangential), driving)], "1", rel=1e-5)
     see.near("mixity_rule = frozen", run([("mixity_rule", "frozen")]), [0.0, forms.bilinear(0.02, 0.1, driving)])
-    # The first loaded step: that of the elastic solution, whose jumps those of the damaged state are not in proportion to.
+    # The first loaded step: that of the elastic solution, whose jumps are not in proportion to those of the damaged one.
     for rule in ("frozen", "converged"):
         solver, elastic = leaning(host, rule)
         mixities = [m[0] for m in field(host, solver, "mixity")]
