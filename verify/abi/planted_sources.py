@@ -106,7 +106,8 @@ BREAKS = [
      "dissipation(pairs_, next.mixity_before, before_",
      "dissipation(pairs_, P ? next.mixity : next.mixity_before, before_"),
     ("no mixity before the first load", "evolution/step/stepper.cpp",
-     "    if (before.loaded != 0) {\n        rule_->begin(", "    if (before.loaded != 0 || P) {\n        rule_->begin("),
+     "rule_->begin(pairs_, before, elastic.response, next)",
+     "rule_->begin(pairs_, before, P ? before.response : elastic.response, next)"),
 ]
 CHECKS = [("meanings.py", "meanings.py {header} {library}"),
           ("test_contract.py", "test_contract.py {library} {header}"),
