@@ -4,6 +4,7 @@
 // that all ranks share; with `late` the last rank's task fails while the others work long (faults.py).
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <stdexcept>
 #include <string>
