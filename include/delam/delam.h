@@ -1137,7 +1137,7 @@ DELAM_API int32_t delam_solver_front_count(const delam_solver *solver, int64_t i
  * with eigenstrains, and where materials change along the interface. In 3D each part of the integral is assigned to the
  * nearest point of a front; values at single points scatter more than averages along the front. On quadratic cells in
  * 3D, whose weights alternate, the averages along an unresolved front are good, but values at single points are
- * accurate only to about 10 %.
+ * accurate only to about 40 % (too small at corner nodes, too large between them).
  * [unit places L, directions 1, lengths L, rates F/L, zone_lengths L, zone_pairs 1; null starts, closed, places,
  * directions, lengths, rates, zone_lengths, zone_pairs; status argument, problem; source J. Rice, J. Appl. Mech. 35
  * (1968) 379-386; since 0.1] */

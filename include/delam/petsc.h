@@ -77,8 +77,7 @@ DELAM_API int32_t delam_petsc_take_scene(delam_petsc *petsc, const delam_mesh *m
  * 0's mesh its rank, in [0, number of ranks); ignored on the other ranks. Cells on the two sides of an interface may
  * have different ranks. Where a whole interface is a cut, solves with -delam_pc_type bddc may end without convergence,
  * which the solvers say.
- * [null mesh, problem and ranks but on rank 0; status cancelled, argument, problem, numerical, state;
- * source none; since 0.1] */
+ * [null mesh, problem and ranks but on rank 0; status cancelled, argument, problem, state; source none; since 0.1] */
 DELAM_API int32_t delam_petsc_take_cells(delam_petsc *petsc, const delam_mesh *mesh, const delam_problem *problem,
                                          int64_t cell_count, const int32_t *ranks);
 /* Sets rows of the assembled stiffness of the bodies, without supports, in the place of a part. nodes: [node_count],

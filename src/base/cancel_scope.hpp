@@ -38,7 +38,6 @@ private:
     static constexpr std::int64_t interval = 256, numbers_interval = 10'000'000;
     Monitor& monitor_;
     Call call_;
-    std::uint32_t before_;
     std::int64_t left_ = interval, numbers_left_ = numbers_interval;
 };
 

@@ -30,19 +30,22 @@ Poll Monitor::poll_at(const char* stage, std::int64_t done, std::int64_t total) 
 
 constinit thread_local CancelScope* cancel_scope = nullptr;
 
-CancelScope::CancelScope(Monitor& monitor, Call call)
-    : monitor_(monitor), call_(call), before_(monitor.requests_.load(std::memory_order_relaxed)) {
+CancelScope::CancelScope(Monitor& monitor, Call call) : monitor_(monitor), call_(call) {
+    if (call != Call::solves) monitor.let_wait();
     cancel_scope = this;
 }
 
-CancelScope::~CancelScope() { cancel_scope = nullptr; }
+CancelScope::~CancelScope() {
+    cancel_scope = nullptr;
+    monitor_.let_none_wait();
+}
 
 void CancelScope::poll(const char* stage) {
     left_ = interval;
     if (call_ == Call::solves) return monitor_.progress(stage, 0, 0);
     const bool refused =
         monitor_.progress_callback != nullptr && monitor_.progress_callback(stage, 0, 0, monitor_.progress_user) != 0;
-    const bool requested = monitor_.requests_.load(std::memory_order_relaxed) != before_ && monitor_.take_requests();
+    const bool requested = monitor_.take_requests();
     if ((refused && call_ == Call::builds) || requested) stop(stage);
 }
 

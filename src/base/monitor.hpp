@@ -37,13 +37,21 @@ public:
 private:
     friend class CancelScope;
     // Counting the requests distinguishes one made before a call from one made during it. The first check that finds
-    // open requests answers them all, in exactly one of the threads that find them.
+    // open requests answers them all, in exactly one of the threads that find them. Where the running call lets earlier
+    // ones wait (CancelScope), they are answered together with the first that comes during it.
     bool take_requests() {
         const std::uint32_t now = requests_.load(std::memory_order_relaxed);
+        if (lets_wait_.load(std::memory_order_relaxed) && now == waiting_.load(std::memory_order_relaxed)) return false;
         std::uint32_t answered = answered_.load(std::memory_order_relaxed);
         return answered != now && answered_.compare_exchange_strong(answered, now, std::memory_order_relaxed);
     }
-    std::atomic<std::uint32_t> requests_{0}, answered_{0};
+    void let_wait() {
+        waiting_.store(requests_.load(std::memory_order_relaxed), std::memory_order_relaxed);
+        lets_wait_.store(true, std::memory_order_relaxed);
+    }
+    void let_none_wait() { lets_wait_.store(false, std::memory_order_relaxed); }
+    std::atomic<std::uint32_t> requests_{0}, answered_{0}, waiting_{0};
+    std::atomic<bool> lets_wait_{false};
     static_assert(std::atomic<std::uint32_t>::is_always_lock_free, "cancel runs in signal handlers");
 };
 

@@ -154,8 +154,7 @@ int32_t delam_petsc_take_scene(delam_petsc* petsc, const delam_mesh* mesh, const
 
 int32_t delam_petsc_take_cells(delam_petsc* petsc, const delam_mesh* mesh, const delam_problem* problem,
                                int64_t cell_count, const int32_t* ranks) {
-    return call(petsc,
-                {DELAM_CANCELLED, DELAM_ERROR_ARGUMENT, DELAM_ERROR_PROBLEM, DELAM_ERROR_NUMERICAL, DELAM_ERROR_STATE},
+    return call(petsc, {DELAM_CANCELLED, DELAM_ERROR_ARGUMENT, DELAM_ERROR_PROBLEM, DELAM_ERROR_STATE},
                 [&](Session& session) {
                     const delam::petsc::GivenRanks given{cell_count, ranks};
                     session.take_scene(mesh, problem, &given);

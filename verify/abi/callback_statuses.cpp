@@ -193,8 +193,7 @@ std::int32_t create(Scene& s) {
 const Call calls[] = {
     {"delam_solver_create", create, true, true},
     {"delam_solver_advance", [](Scene& s) { return delam_solver_advance(s.solver, 0.8); }, true, true},
-    {"delam_solver_equilibrate", [](Scene& s) { return delam_solver_equilibrate(s.solver, 0.9, nullptr); }, true,
-     false},
+    {"delam_solver_equilibrate", [](Scene& s) { return delam_solver_equilibrate(s.solver, 0.9, nullptr); }, true, true},
     {"delam_solver_value", [](Scene& s) { return value(s, "kkt_equilibrium"); }, true, false},
     {"delam_solver_value", [](Scene& s) { return value(s, "rotation_max"); }, true, false},
     {"delam_solver_value", [](Scene& s) { return value(s, "energy_release_rate"); }, false, true, load},

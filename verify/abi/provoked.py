@@ -5,10 +5,12 @@
 A row of ROWS says how a function is brought to a status; it fails if another one comes back. DELAM_ERROR_ARGUMENT is
 provoked by the calls of test_contract.py. PLACES names other tests that provoke a status, where that takes an engine of
 the host or a scene of many cells; the test's file has to name the function. UNSEEN has the statuses that no scene is
-known for, each with what the status guards against.
+known for, each with what the status guards against. A request to cancel that came before a call stops it where the
+comment of delam_context_cancel says so, and else waits.
 """
 import ctypes
 import os
+import struct
 import sys
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -255,6 +257,42 @@ def unbalanced(time=None):
     return s
 
 
+SPRING = struct.pack("<d", 5e5)  # of a pair of `unsprung`: its stiffness times its weight
+
+
+def unsprung():
+    """The upper square is held by the interface alone; the iterated operator saves the springs of its factor."""
+    s = bare()
+    fine("problem_prescribe_nodes", s.problem, 2, whole(0, 1), real(1, 0), 0, None, None, 0)
+    fine("problem_prescribe_nodes", s.problem, 2, whole(0, 1), real(0, 1), 1, whole(0), real(0, 0), 0)
+    fine("problem_add_forces", s.problem, 1, 2, whole(6, 7), real(0, 1e3, 0, 1e3), 0)
+    fine("problem_add_eigenstrain", s.problem, 2, -1, real(1e-9, 0, 0, 0, 0, 0))
+    fine("problem_set_text", s.problem, words("reduction"), words("iterated"))
+    s.solver = made("solver_create", s.problem, 0.0)
+    fine("solver_advance", s.solver, 0.5)
+    fine("solver_commit", s.solver)
+    return s
+
+
+def no_springs(s):
+    """Bytes of the solver with springs of 0, which no analysis has, and the checksum (FNV-1a) of these bytes."""
+    data = bytes(s.saved())[:-8]
+    if SPRING not in data:
+        raise SystemExit("solver_load: the bytes of a saved state hold no springs")
+    data, total = data.replace(SPRING, bytes(8)), 14695981039346656037
+    for byte in data:
+        total = (total ^ byte) * 1099511628211 % 2 ** 64
+    data += struct.pack("<Q", total)
+    return [s.solver, len(data), (c_uint8 * len(data))(*data)]
+
+
+def no_springs_file(s):
+    path = contract.STATE_FILE + ".springs"
+    with open(path, "wb") as file:
+        file.write(bytes(no_springs(s)[2]))
+    return [s.solver, words(path)]
+
+
 # (function, status) -> (scene, arguments)
 ROWS = {
     ("mesh_create_layers", "mesh"): (loose, lambda s: [s.context, 2, real(1e-200), whole(1), 1, real(1e-200), whole(1),
@@ -306,6 +344,7 @@ ROWS = {
     ("solver_equilibrate", "not_converged"): (lambda: unbalanced(0.0), lambda s: [s.solver, 1.0, None]),
     ("solver_equilibrate", "cancelled"): (cancelled(full), usual("solver_equilibrate")),
     ("solver_equilibrate", "limit"): (lambda: loose_part(0.0), lambda s: [s.solver, 1.0, real(0, 0)]),
+    ("solver_equilibrate", "problem"): (failing, usual("solver_equilibrate")),
     ("solver_equilibrate", "state"): (lambda: full().marched(), usual("solver_equilibrate")),
     ("solver_value", "cancelled"): (stopping(many_solved), lambda s: number(s, "rotation_max")),
     ("solver_field", "cancelled"): (stopping(many_solved), lambda s: [s.solver, words("stress"), -1, 4800,
@@ -323,9 +362,11 @@ ROWS = {
                                          usual("solver_condensed_size")),
     ("solver_condensed", "state"): (lambda: with_options(("reduction", "feti"), time=0.0), usual("solver_condensed")),
     ("solver_load", "cancelled"): (cancelled(full), usual("solver_load")),
+    ("solver_load", "numerical"): (unsprung, no_springs),
     ("solver_load", "snapshot"): (full, garbage),
     ("solver_save_file", "file"): (full, lambda s: [s.solver, words("/nowhere/at/all")]),
     ("solver_load_file", "cancelled"): (cancelled(full), contract.saved_file),
+    ("solver_load_file", "numerical"): (unsprung, no_springs_file),
     ("solver_load_file", "snapshot"): (full, garbage_file),
     ("solver_load_file", "file"): (full, lambda s: [s.solver, words("/nowhere/at/all")]),
     **{(name, "problem"): (incomplete, arguments) for name, arguments in LAW_ROWS.items()},
@@ -340,7 +381,6 @@ def with_law(s):
 
 # Status -> test that provokes it for functions without a row.
 PLACES = {"cancelled": CELLS, "numerical": ENGINE, "problem": ENGINE}
-WRONG_STATE = "it guards against saved bytes with a correct checksum whose state is not one of equilibrium"
 UNSEEN = {
     ("mesh_add_pairs", "mesh"): "pairs that the host gives are wrong arguments; the list is older and may only shrink",
     ("problem_set_stiffness", "numerical"): "it guards against a factorisation that breaks down after the checks of the "
@@ -349,9 +389,32 @@ UNSEEN = {
                                 "sees beforehand is DELAM_ERROR_PROBLEM",
     ("solver_recorded_size", "argument"): "both outputs may be NULL; the list is older and may only shrink",
     ("solver_condensed_size", "argument"): "both outputs may be NULL; the list is older and may only shrink",
-    ("solver_load", "numerical"): WRONG_STATE,
-    ("solver_load_file", "numerical"): WRONG_STATE,
 }
+
+
+# A request to cancel that found nothing to stop waits for the next of these calls; all other calls let it wait.
+STOPPED = {"problem_set_stiffness", "solver_create", "solver_advance", "solver_equilibrate", "solver_tangent",
+           "solver_step_tangent", "solver_load", "solver_load_file"}
+
+
+def wrong_wait(name):
+    """What a call does with a request to cancel that came before it, or None."""
+    make, arguments = contract.CALLS[name]
+    scene = make()
+    right = arguments(scene)
+    fine("context_cancel", scene.context)
+    got = call(name, *right)
+    if name in STOPPED:
+        return None if got == CODES["DELAM_CANCELLED"] else f"delam_{name}: {got} after a request to cancel"
+    if got != contract.OK:
+        return f"delam_{name}: {got} after a request to cancel, which does not concern it"
+    scene.mesh = made("mesh_create_layers", scene.context, 2, real(1), whole(1), 1, real(1), whole(1), QUAD4)
+    scene.problem = made("problem_create", scene.context, scene.mesh)
+    fine("problem_set_elastic", scene.problem, -1, 1.0, 0.0)
+    for axis in (real(1, 0), real(0, 1)):
+        fine("problem_prescribe_nodes", scene.problem, 2, whole(0, 1), axis, 0, None, None, 0)
+    got = call("solver_create", scene.problem, 0.0, c_void_p())
+    return None if got == CODES["DELAM_CANCELLED"] else f"delam_{name} uses up a request to cancel that came before it"
 
 
 def provoke(name, status, row):
@@ -409,6 +472,9 @@ def main():
                                         "does not name the function")
             else:
                 failures.append(f"{function.name}: {status}: no row of provoked.py gives this status")
+        if name in contract.CALLS and name != "context_cancel":
+            wrong = wrong_wait(name)
+            failures += [wrong] if wrong else []
     for name, status in sorted((set(ROWS) | set(UNSEEN)) - listed_pairs):
         failures.append(f"delam_{name}: {status}: in the table, not listed in the header")
     for failure in failures + contract.failures:

@@ -692,6 +692,37 @@ if [[ $tier == all ]]; then
     accepted lying -DNONE
 fi
 
+# ---- sentences about order, and statuses that are listed ----
+# real FILE EXPRESSION: copies of the real headers, one of them changed.
+real() {
+    rm -rf "$work/real"
+    cp -r "$root/include" "$work/real"
+    edit real "delam/$1" "$2"
+}
+sentences() { "$python" "$here/sentences.py" "$@"; }
+real delam.h 's/^(\/\* Returns the product version), /\1 only once, /'
+refused "^delam_version: 'Returns the product version only once.*neither a row nor another test" \
+    sentences "$work/real/delam/delam.h"
+real delam.h 's/null none; status argument; since 0.1\] \*\/$/null none; status argument, file; since 0.1] *\//'
+refused '^delam_law_set: file: no row of provoked.py gives this status' \
+    "$python" "$here/provoked.py" "$library" "$work/real/delam/delam.h"
+if [[ $tier == all ]]; then
+    real delam.h 's/restores the number afterwards/sets the number afterwards/'
+    refused "^delam_blas_threads: 'restores the number afterwards': no such sentence" \
+        sentences "$work/real/delam/delam.h"
+    real petsc.h 's/^(\/\* Writes a number), /\1 until then, /'
+    refused '^delam_petsc_value: .*neither a row nor another test' \
+        sentences "$work/real/delam/petsc.h" --base "$work/real/delam/delam.h"
+    petsc_library=$(dirname "$library")/libdelam-petsc.so
+    if [[ -f $petsc_library ]] && "$python" -c 'import mpi4py' 2>/dev/null; then
+        real petsc.h 's/unit value of key; null none; status argument, state/&, file/'
+        refused '^delam_petsc_value: file: no row of provoked_petsc.py gives this status' "$python" \
+            "$here/provoked_petsc.py" "$library" "$work/real/delam/delam.h" "$petsc_library" "$work/real/delam/petsc.h"
+    else
+        left_out+=("that of the statuses of libdelam-petsc (Debian: python3-mpi4py)")
+    fi
+fi
+
 # ---- a library on top, with MPI ----
 mkdir -p "$work/top/delam"
 cp "$work/sound/delam/delam.h" "$work/top/delam"

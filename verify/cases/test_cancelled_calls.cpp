@@ -372,6 +372,8 @@ void read_problem(Host& host, const Block& b) {
     host.call("delam_problem_check", b.cells, print, [&] { return delam_problem_check(h.problem); });
     host.read("delam_problem_process_zone", b.cells, print,
               [&] { return delam_problem_process_zone(h.problem, 0, &length, nullptr); });
+    host.read("delam_problem_propose", b.cells, print,
+              [&] { return delam_problem_propose(h.problem, 0, 3.0, nullptr, nullptr, &length, nullptr); });
     host.read("delam_problem_body_matrix", b.cells / 2, print,
               [&] { return delam_problem_body_matrix(h.problem, 0, &rows, nullptr, nullptr, nullptr, nullptr); });
 }
@@ -439,6 +441,7 @@ CASE_TEST(waiting_request) {
     expect(delam_context_cancel(context) == DELAM_OK, "delam_context_cancel");
     make_problem(host, block, "condensed");
     host.require(delam_problem_check(host.h.problem), "delam_problem_check");
+    host.require(delam_problem_plan(host.h.problem, nullptr, nullptr, nullptr), "delam_problem_plan");
     expect(delam_solver_create(host.h.problem, 0.0, &host.h.solver) == DELAM_CANCELLED && host.h.solver == nullptr,
            "the request has waited for delam_solver_create");
     // Now the request is consumed.

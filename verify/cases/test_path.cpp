@@ -102,6 +102,8 @@ struct March {
     std::vector<double> load, error, balance;  // balance: stored, dissipated and released less the work
     double dissipated, released, work, jumps;
     std::vector<double> adhesion;
+    double before = 0.0, time = 0.0, carried = 0.0;  // of the last jump: its instants, and the load before it
+    std::size_t step = 0;
 };
 
 March march(const reference::Flexure& data, int steps, const char* reduction = "condensed",
@@ -130,6 +132,19 @@ March march(const reference::Flexure& data, int steps, const char* reduction = "
     std::int64_t jumps = 0;
     f.scene.require(delam_solver_jump_count(solver.get(), &jumps), "delam_solver_jump_count");
     m.jumps = static_cast<double>(jumps);
+    if (jumps > 0) {
+        std::int64_t step = 0;
+        double carried = 0.0;
+        f.scene.require(delam_solver_jump(solver.get(), jumps - 1, &step, &m.before, &m.time, nullptr, nullptr, nullptr,
+                                          nullptr, nullptr, nullptr, nullptr),
+                        "delam_solver_jump");
+        f.scene.require(delam_solver_jump_reactions(solver.get(), jumps - 1, 1, &carried, nullptr),
+                        "delam_solver_jump_reactions");
+        m.step = static_cast<std::size_t>(step);
+        m.carried = std::abs(carried);
+        std::printf("jump of step %d at %.9g to %.9g, load before it %.7g\n", static_cast<int>(step), m.before, m.time,
+                    m.carried);
+    }
     std::printf(
         "MMF, h %g mm, %d steps, %s, %s, path_step %g: dissipated %.7g, released %.4g, balance %.1e J/m, jumps %g\n",
         1e3 * data.h, steps, reduction, minimisation, path_step, m.dissipated, m.released, m.balance.back(), m.jumps);
@@ -164,9 +179,19 @@ CASE_TEST(one_path_by_all_methods) {
 // in a step it comes.
 CASE_TEST(ledger_of_a_jump) {
     const reference::Flexure data = jumping(loop == 0 ? 3e-3 : 1.5e-3, 1e13);
-    double fine = 0.0;
+    double fine = 0.0, carried = 0.0, instant = 0.0;
     for (const int steps : {80, 20}) {
         const March m = march(data, steps);
+        const auto time_of = [&](std::size_t step) { return data.end_time * static_cast<double>(step) / steps; };
+        cases::expect(m.before == m.time && m.time >= time_of(m.step - 1) && m.time <= time_of(m.step),
+                      "one instant, within its step");
+        const double largest = *std::max_element(m.load.begin(), m.load.begin() + static_cast<std::ptrdiff_t>(m.step));
+        std::printf("largest load of the steps up to it %.7g\n", largest);
+        cases::expect_below(largest, m.carried * (1.0 + 1e-3), "the load before the jump is what the beam carries");
+        if (steps == 80) carried = m.carried, instant = m.time;
+        // Steps four times as long: 3 % and 5 % on the coarse mesh, 0.1 % on the fine one.
+        cases::expect_near(m.carried, carried, loop == 0 ? 5e-2 : 1e-2, carried, "load before the jump");
+        cases::expect_near(m.time, instant, loop == 0 ? 8e-2 : 1e-2, instant, "instant of the jump");
         for (std::size_t k = 0; k < m.balance.size(); ++k)
             cases::expect_near(m.balance[k], 0.0, 1e-3, m.work, "ledger of step " + std::to_string(k + 1));
         cases::expect(m.jumps == 1.0, std::to_string(m.jumps) + " jumps of " + std::to_string(steps) + " steps");

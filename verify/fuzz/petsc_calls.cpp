@@ -20,7 +20,8 @@ using namespace fuzz;
 
 constexpr int calls_at_most = 24;
 constexpr Statuses parts = may::argument | may::state;
-constexpr Statuses scenes = may::cancelled | may::argument | may::problem | may::numerical | may::state;
+constexpr Statuses given_cells = may::cancelled | may::argument | may::problem | may::state;
+constexpr Statuses scenes = given_cells | may::numerical;
 // What work and tasks return passes; so they return nothing but statuses that are listed here.
 constexpr Statuses passed = may::argument | may::state | may::internal;
 
@@ -286,7 +287,7 @@ void one(World& world, Input& in) {
                    in_order{delam_petsc_take_cells, petsc, mesh, problem,
                             said == cells + 0 ? said : -std::abs(said / 2), maybe(in, ranks)}
                        .status,
-                   scenes);
+                   given_cells);
             return;
         }
         case 5: {
@@ -295,8 +296,7 @@ void one(World& world, Input& in) {
             if (in.seldom()) numbers = in.indices(static_cast<std::size_t>(nodes), nodes);
             const std::int64_t said = in.seldom() ? in.hostile_whole() : nodes;
             settle("delam_petsc_set_cells", petsc,
-                   in_order{delam_petsc_set_cells, petsc, mesh, problem, said, maybe(in, numbers)}.status,
-                   may::cancelled | may::argument | may::problem | may::state);
+                   in_order{delam_petsc_set_cells, petsc, mesh, problem, said, maybe(in, numbers)}.status, given_cells);
             return;
         }
         case 6:

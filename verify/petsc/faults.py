@@ -267,6 +267,7 @@ def wrong_input():
         (["--petsc", "-delam_pc_type nonsense", *command(folder())], (2, 4), "nonsense"),
         (["--petsc", "-delam_ksp_type nonsense", *command(folder())], (2, 4), "nonsense"),
         (["--petsc", "-delam_mat_partitioning_type nonsense", *command(folder())], (2, 4), "nonsense"),
+        (["--petsc", "-delam_mat_partitioning_ptscotch_imbalance nonsense", *command(folder())], 2, "nonsense"),
         (["--petsc", "-delam_pc_factor_mat_solver_type nonsense", *command(folder())], (2, 4), "nonsense"),
         (["--petsc"], 2, "delam-mpi:"))
 

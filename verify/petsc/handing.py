@@ -5,7 +5,8 @@
 What the ranks of a host may hand over to libdelam-petsc: rows of the assembled stiffness (set_rows), cells of a mesh of
 their own (set_cells), cells of rank 0's mesh by the host's own partition (take_cells). Each way gives the curve of the
 library alone, in the plane and in space, and each rank its displacements (recover); with -delam_pc_type bddc in
-PETSC_OPTIONS rows are refused. Wrong input, also on one rank alone, ends on all ranks with one status and message.
+PETSC_OPTIONS rows are refused. Wrong input, also on one rank alone, ends on all ranks with one status and message. What
+the ranks have recovered stays until they recover something else or get other parts.
 
 Without DIMENSION: 2 and 3. The ranks run this file, too, with the word `work`. Exits with 77 where mpirun or mpi4py is
 missing.
@@ -19,6 +20,7 @@ import sys
 from environment import ENVIRONMENT
 
 SKIPPED = 77
+NO_PARTITION = os.environ.get("DELAM_NO_PARTITION_LIBRARY", "")  # no_partition.c; nothing else here divides by Scotch
 LIMIT = 900.0  # s, beside other programs
 BDDC = "bddc" in os.environ.get("PETSC_OPTIONS", "")
 TIMES = [0.4, 0.7, 1.0]
@@ -29,9 +31,10 @@ def start(count, dimensions):
     if shutil.which("mpirun") is None or importlib.util.find_spec("mpi4py") is None:
         print("mpirun or mpi4py is not there")
         return SKIPPED
+    environment = dict(ENVIRONMENT, **({"LD_PRELOAD": NO_PARTITION} if NO_PARTITION else {}))
     try:
         return subprocess.run(["mpirun", "-n", count, sys.executable, "-m", "mpi4py", __file__, "work", *dimensions],
-                              env=ENVIRONMENT, timeout=LIMIT, check=False).returncode
+                              env=environment, timeout=LIMIT, check=False).returncode
     except subprocess.TimeoutExpired:
         print(f"still at work after {LIMIT:g} s")
         return 1
@@ -228,6 +231,30 @@ def ways(dimension):
                may_fail=BDDC and COMM.size > 1)
 
 
+def kept():
+    """What the ranks have recovered is of that state, until the next recovery or other parts."""
+    problem = scene(2) if COMM.rank == 0 else None
+    mesh = None if problem is None else problem.mesh
+    with delam.petsc.Ranks(COMM) as ranks:
+        def hand_over():
+            ranks.take_cells(mesh, problem, None if mesh is None else sections(mesh, ranks.size))
+
+        def march(time):
+            solver.advance(time)
+            solver.commit()
+        hand_over()
+        ranks.attach(problem)
+        solver = ranks.run(lambda: delam.Solver(problem))
+        ranks.run(lambda: (march(TIMES[0]), ranks.recover(solver)))
+        first = ranks.part_field("displacement")
+        ranks.run(lambda: march(TIMES[1]))
+        expect(np.array_equal(ranks.part_field("displacement"), first), "a step changes nothing that was recovered")
+        ranks.run(lambda: ranks.recover(solver))
+        expect(not np.array_equal(ranks.part_field("displacement"), first), "the next recovery is of the next state")
+        hand_over()
+        refused(delam.StateError, lambda: ranks.part_field("displacement"), "a field after other parts", "recovered")
+
+
 # ---- wrong input ----------------------------------------------------------------------------------------------------
 
 def refused(kind, call, what, *words):
@@ -331,6 +358,9 @@ def wrong_scene(ranks):
                                ("too few cells", np.zeros(cells - 1, int), (str(cells - 1), str(cells)))):
         refused(delam.ArgumentError, lambda given=given: ranks.take_cells(mesh, problem, given), f"take_cells: {what}",
                 *words)
+    if NO_PARTITION and COMM.size > 1:
+        refused(delam.NumericalError, lambda: ranks.take_scene(mesh, problem), "take_scene: a partitioner that fails",
+                "PETSc", "Scotch")
     # Rank 0's mesh has a body whose stiffness is the host's.
     host, mesh = None, None
     if COMM.rank == 0:
@@ -360,6 +390,7 @@ def after_errors(ranks):
 def main():
     for dimension in map(int, sys.argv[2:] or (2, 3)):
         ways(dimension)
+    kept()
     if not BDDC:
         wrong()
     failed = COMM.bcast(len(failures))

@@ -4,6 +4,7 @@
 // that all ranks share; with `late` the last rank's task fails while the others work long (faults.py).
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <stdexcept>
 #include <string>
@@ -17,6 +18,7 @@ namespace {
 using namespace verify;
 
 delam_experimental_engine given;  // what delam_petsc_attach passes on
+Values recovered;                 // the combination of kept answers that delam_petsc_recover is for
 int failures = 0;
 // The default preconditioner is exact when it is new; PETSC_OPTIONS chooses others.
 const bool direct = std::getenv("PETSC_OPTIONS") == nullptr;
@@ -141,6 +143,26 @@ void keep_on_ranks(const Case& c, const EngineClient& client, const Values& weig
     expect(delam_petsc_part_field(c.petsc, "rotation", 0, nullptr, &rows, &columns) == DELAM_OK, "rotation", 1.0, 0.0);
 }
 
+// Whatever the core's recovery ends with, and a recovery that fails leaves the ranks what they have.
+void recover_by_the_core(const Case& c, const Values& weights) {
+    const auto first = [&] {
+        std::int64_t rows = 0, columns = 0;
+        require(delam_petsc_part_field(c.petsc, "force", 0, nullptr, &rows, &columns), "shape");
+        std::vector<double> force(at(rows * columns));
+        require(delam_petsc_part_field(c.petsc, "force", rows * columns, force.data(), nullptr, nullptr), "force");
+        return force;
+    };
+    recovered = weights;
+    expect(delam_petsc_recover(c.petsc, nullptr) == DELAM_OK, "recover by the core", 0.0, 0.0);
+    const std::vector<double> before = first();
+    recovered[0] = std::nan("");
+    const std::int32_t status = delam_petsc_recover(c.petsc, nullptr);
+    expect(status == DELAM_ERROR_NUMERICAL, "a state that is not finite", status, DELAM_ERROR_NUMERICAL);
+    const std::string said = delam_petsc_message(c.petsc);
+    expect(said.find("cannot be recovered: DELAM_ERROR_NUMERICAL") != std::string::npos, said.c_str(), 0.0, 0.0);
+    expect(first() == before, "what the ranks have after it", 0.0, 0.0);
+}
+
 // A sequence as a march has it: stiffer and stiffer springs, debonding with an old preconditioner, contact,
 // constraints.
 void sequence(const Case& c, const Variables& v, const EngineClient& client, double k) {
@@ -205,6 +227,7 @@ void sequence(const Case& c, const Variables& v, const EngineClient& client, dou
     expect(client.recover(weights, u, f) == DELAM_OK, "recover", 0.0, 0.0);
 
     keep_on_ranks(c, client, weights, u);
+    recover_by_the_core(c, weights);
 
     // All visible ones are given: the state between them.
     Acting held;
@@ -248,10 +271,21 @@ std::int32_t work(void* user) {
         }
         sequence(c, v, client, k);
     }
+    expect(delam_petsc_everywhere(c.petsc, 0, nullptr) == DELAM_OK, "the later task", 1.0, 0.0);
     return DELAM_OK;
 }
 
 std::int32_t throws(void*) { throw std::runtime_error("thrown at work"); }
+
+std::int32_t throws_in_task(std::int64_t, const std::uint8_t*, void*) { throw std::runtime_error("thrown in a task"); }
+
+std::int32_t work_of_tasks(void* user) {
+    const Case& c = *static_cast<Case*>(user);
+    const std::int32_t status = delam_petsc_everywhere(c.petsc, 0, nullptr);
+    expect(status == DELAM_ERROR_INTERNAL, "a task that throws", status, DELAM_ERROR_INTERNAL);
+    expect(std::string(delam_petsc_message(c.petsc)) == "thrown in a task", "its message", 1.0, 0.0);
+    return DELAM_OK;
+}
 
 // A failure of one rank in the middle of a step of PETSc, where the others wait for it and cannot know.
 std::int32_t throws_in_step(void*) { throw std::runtime_error("thrown in a step"); }
@@ -328,7 +362,9 @@ void run_case(Layers layers, std::int64_t hidden, delam_petsc_work_callback job 
                               mine.row_starts.data(), mine.columns.data(), mine.values.data()));
     int problem = 0;  // a stand-in: this program's own function receives it
     good(delam_petsc_attach(c.petsc, rank == 0 ? reinterpret_cast<delam_problem*>(&problem) : nullptr));
-    good(delam_petsc_set_task(c.petsc, work_or_fail, &c));
+    good(delam_petsc_set_task(c.petsc, throws_in_task, &c));
+    good(delam_petsc_run(c.petsc, work_of_tasks, &c));
+    good(delam_petsc_set_task(c.petsc, work_or_fail, &c));  // in the place of the one that throws
     good(delam_petsc_run(c.petsc, job, &c));
     const std::int32_t thrown = delam_petsc_run(c.petsc, throws, nullptr);
     expect(thrown == DELAM_ERROR_INTERNAL && std::string(delam_petsc_message(c.petsc)) == "thrown at work", "thrown",
@@ -342,6 +378,11 @@ void run_case(Layers layers, std::int64_t hidden, delam_petsc_work_callback job 
     if (rank == 0) std::printf("\n");
     double none = 0.0;
     expect(delam_petsc_value(c.petsc, "nothing", &none) == DELAM_ERROR_ARGUMENT, "unknown key", none, 0.0);
+    const std::string agreed = delam_petsc_message(c.petsc);
+    expect(agreed.find("nothing") != std::string::npos, "the same text on all ranks", 1.0, 0.0);
+    if (wrong) expect(delam_petsc_explain(c.petsc, nullptr) == DELAM_ERROR_ARGUMENT, "explain nothing", 1.0, 0.0);
+    const bool own = agreed != delam_petsc_message(c.petsc);
+    expect(own == wrong, "the text of a call of one rank alone is on that rank only", own ? 1.0 : 0.0, 0.0);
     delam_petsc_destroy(&c.petsc);
     if (rank == 0) given.release(given.user);
 }
@@ -351,6 +392,16 @@ void run_case(Layers layers, std::int64_t hidden, delam_petsc_work_callback job 
 std::int32_t delam_experimental_problem_set_engine(delam_problem*, const delam_experimental_engine* engine) {
     given = *engine;
     return DELAM_OK;
+}
+
+std::int32_t delam_experimental_solver_eigenstrains(delam_solver*, std::int64_t, std::int32_t*, double*,
+                                                    std::int64_t* count) {
+    *count = 0;
+    return DELAM_OK;
+}
+
+std::int32_t delam_experimental_solver_recover(delam_solver*) {
+    return given.recover(recovered.data(), nullptr, nullptr, given.user);
 }
 
 int main(int argc, char** argv) {

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Calls of the BLAS have one thread, and the host's number is restored, whatever overlaps.
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <thread>
+
+#include <dlfcn.h>
 
 #include "base/blas_threads.hpp"
 #include "base/monitor.hpp"
 #include "evolution/solver.hpp"
 #include "flexure.hpp"
+#include "linalg/blas.hpp"
 #include "linalg/dense.hpp"
 
 #include <check.h>  // last: it has a macro named fail
@@ -21,6 +25,9 @@ using namespace delam;
 
 namespace {
 
+// Calls of dpotrf_ below, and the most threads that the BLAS has had in them.
+std::atomic<int> calls{0}, most{0};
+
 // False: another BLAS, or one without threads.
 bool host_wants(int threads) {
     if (openblas_get_num_threads == nullptr || openblas_set_num_threads == nullptr) return false;
@@ -29,6 +36,15 @@ bool host_wants(int threads) {
 }
 
 }  // namespace
+
+// In the place of LAPACK's, which does the work.
+void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info) {
+    using Potrf = void (*)(const char*, const int*, double*, const int*, int*);
+    static const auto next = reinterpret_cast<Potrf>(dlsym(RTLD_NEXT, "dpotrf_"));
+    ++calls;
+    if (openblas_get_num_threads != nullptr) most = std::max(most.load(), openblas_get_num_threads());
+    next(uplo, n, a, lda, info);
+}
 
 START_TEST(one_thread_meanwhile) {
     if (!host_wants(3)) return;
@@ -96,8 +112,11 @@ START_TEST(an_analysis_leaves_the_number) {
         }
         return solver.state().adhesion;
     };
+    calls = most = 0;
     const std::vector<double> two = march();
     ck_assert_int_eq(openblas_get_num_threads(), 2);
+    ck_assert_int_gt(calls, 0);
+    ck_assert_int_eq(most, 1);
     ck_assert(host_wants(1));
     ck_assert(march() == two);
 }

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Calls out of order, what a call replaces, states of earlier versions, cancellation."""
 import glob
+import math
 import os
 
 import scenes
@@ -342,6 +343,40 @@ def last_call(host, see):
     for key, whole in (("threads", 1.5), ("path_step", 0.25)):
         see.equal(f"status of {key} = {whole}", host.status("problem_set_number", plain, key, whole),
                   ARGUMENT if key == "threads" else OK)
+    for index in range(host("option_count")):
+        key, kind = host("option_info", index, Out(), Out(), None, None, None, None)[:2]
+        if kind == "integer":
+            lower, upper = host("option_bounds", index, Out(), Out(), None, None)[:2]
+            see.that(f"{key} is whole", host.status("problem_set_number", plain, key,
+                                                    lower + 0.5 if math.isfinite(lower) else upper - 0.5) == ARGUMENT)
+
+
+@row("stiffness of one of two bodies")
+def one_of_two(host, see):
+    """Two blocks, stiffened together by 5, and then the second alone by 3: the first keeps its 5."""
+    mesh = host("mesh_create_layers", host.context, 2, [1.0], [1], 2, [1.0, 1.0], [1, 1], TYPES["quad4"], Out())
+    problem = host("problem_create", host.context, mesh, Out())
+    host("problem_set_elastic", problem, -1, 1.0, 0.25)
+    starts, columns, values = host("problem_body_matrix", problem, 0, None, None, Out(9), Out(64), Out(64))[2:]
+    count = starts[8]
+    both = (starts + [count + n for n in starts[1:]], columns[:count] + [8 + c for c in columns[:count]],
+            [5.0 * k for k in values[:count]] * 2)
+    host("problem_set_stiffness", problem, 8, list(range(8)), None, *both, -1, None, 0)
+    host("problem_set_stiffness", problem, 4, [4, 5, 6, 7], None, starts, columns, [3.0 * k for k in values], -1, None,
+         0)
+    loads = []
+    for body, name in enumerate(("lower", "upper")):
+        low, high = ([4 * body + n for n in pair] for pair in ((0, 1), (2, 3)))
+        scenes.hold(host, problem, low + high, [[1.0, 0.0]])
+        scenes.hold(host, problem, low, [[0.0, 1.0]])
+        loads.append(scenes.ramp(host, problem, name))
+        scenes.drive(host, problem, high, [0.0, 1.0], loads[body], [1.0, 1.0])
+    solver = host("solver_create", problem, 1.0, Out())
+    strain = 0.75 / (1.25 * 0.5)
+    see.near("reactions", [value(host, solver, f"reaction:{name}") for name in ("lower", "upper")],
+             [5 * strain, 3 * strain], "F L")
+    # Cells and material still give the stresses.
+    see.near("stress across the bodies", [s[1] for s in field(host, solver, "stress")], [strain] * 2, "F/L2")
 
 
 @row("adhesion never heals", tells=["law_respond adhesion", "law_respond traction"])

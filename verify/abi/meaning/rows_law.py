@@ -124,6 +124,10 @@ def bounds(host, see):
     law = host("law_create", host.context, "trapezoidal", Out())
     see.equal("statuses at 0, 0.999, 1 and -0.001",
               [host.status("law_set", law, "plateau", p) for p in (0.0, 0.999, 1.0, -0.001)], [0, 0, -1, -1])
+    others = [host("law_create", host.context, kind, Out()) for kind in ("piecewise-linear", "exponential", "tabulated",
+                                                                         "griffith")]
+    see.equal("statuses of a plateau of the other kinds",
+              [host.status("law_set", own, "plateau", 0.5) for own in others], [-1] * 4)
     hosted = [host("law_kind_info", k, Out(), None, Out()) for k in range(host("law_kind_count"))]
     see.equal("kinds that take callbacks", [flag for *_, flag in hosted], [name == "host" for name, *_ in hosted])
 

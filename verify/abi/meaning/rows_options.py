@@ -302,6 +302,50 @@ def mixity_rule(host, see):
             [tangential, forms.bilinear(forms.toughness(0.02, 0.05, tangential),
                                         forms.toughness(0.1, 0.6, tangential), driving)], "1", rel=1e-5)
     see.near("mixity_rule = frozen", run([("mixity_rule", "frozen")]), [0.0, forms.bilinear(0.02, 0.1, driving)])
+    # The first loaded step: that of the elastic solution, whose jumps are not in proportion to those of the damaged one.
+    for rule in ("frozen", "converged"):
+        solver, elastic = leaning(host, rule)
+        mixities = [m[0] for m in field(host, solver, "mixity")]
+        if rule == "frozen":
+            see.near("mixity of the first step, frozen", mixities, elastic)
+        else:
+            see.that(f"it is another one with converged: {mixities}, {elastic}",
+                     all(abs(m - e) > 1e-3 for m, e in zip(mixities, elastic)))
+    # The increment at the mixities of the step before: what the damage of this step would have dissipated at those.
+    solver = turning(host, [("mixity_rule", "frozen")])[1]
+    shown = []
+    for time in (1.5, 2.0):
+        host("solver_advance", solver, time)
+        shown.append([field(host, solver, key)[0][0] for key in ("mixity", "adhesion")])
+        host("solver_commit", solver)
+    (before, old), (now, new) = shown
+    spent = [forms.bilinear_dissipated(forms.toughness(0.02, 0.05, b), forms.toughness(0.1, 0.6, b), zeta)
+             for b, zeta in ((now, new), (now, old), (before, new), (before, old))]
+    see.that(f"the mixity has changed: {before}, {now}", now - before > 0.5)
+    see.near("increment - increment_lower", value(host, solver, "increment") - value(host, solver, "increment_lower"),
+             spent[0] - spent[1] - spent[2] + spent[3], "F L", rel=1e-8)
+
+
+def leaning(host, rule):
+    """Two soft layers pulled up and aside at once: the solver at the end of its first step, and the mixities of its
+    elastic solution."""
+    springs = (100.0, 30.0)
+    mesh = host("mesh_create_layers", host.context, 2, [1.0], [1], 2, [1.0, 1.0], [1, 1], TYPES["quad4"], Out())
+    host("mesh_add_interface", mesh, 0, 1, 0.0, Out())
+    problem = host("problem_create", host.context, mesh, Out())
+    host("problem_set_elastic", problem, -1, 10.0, 0.0)
+    host("problem_set_law", problem, 0, scenes.bilinear(host, springs, (0.02, 0.03), (0.2, 0.6)))
+    scenes.give(host, problem, "mixity_rule", rule)
+    load = scenes.ramp(host, problem)
+    scenes.hold(host, problem, [0, 1], [[1.0, 0.0], [0.0, 1.0]])
+    for direction, amount in (([0.0, 1.0], 0.75), ([1.0, 0.0], 1.2)):
+        scenes.drive(host, problem, [6, 7], direction, load, [amount] * 2)
+    solver = host("solver_create", problem, 0.0, Out())
+    host("solver_equilibrate", solver, 1.0, [1.0, 1.0])
+    parts = [[k * u * u for k, u in zip(springs, jump)] for jump in field(host, solver, "jump")]
+    host("solver_rollback", solver)
+    host("solver_advance", solver, 1.0)
+    return solver, [tangential / (normal + tangential) for normal, tangential in parts]
 
 
 @row("path_step", options=["path_step"])
@@ -366,10 +410,10 @@ def mixity(host, see):
 
 
 # ---- energetic solutions ----
-def brittle_bar(host, bulk, stiffness, toughness, openings, options):
-    """The bar at these openings, with a law that breaks at once; the last step is pending."""
+def brittle_bar(host, bulk, stiffness, toughness, openings, options, longest=1.0):
+    """The bar at these openings, up to the longest, with a law that breaks at once; the last step is pending."""
     law = scenes.bilinear(host, (stiffness,) * 2, None, (toughness,) * 2, "griffith")
-    bar = Bar(host, law, bulk=bulk, options=options)
+    bar = Bar(host, law, bulk=bulk, options=options, times=(0.0, longest), values=(0.0, longest))
     for opening in openings[:-1]:
         bar.step(opening)
     bar.step(openings[-1], commit=False)
@@ -406,6 +450,48 @@ def solution(host, see):
         bar = brittle_bar(host, bulk, stiffness, toughness, [0.1, 0.2, 0.3], options)
         kept.append(host.status("solver_look", bar.solver, 0))
     see.equal("status of looking back, local, off, energetic, off", kept, [-1, -1, 0, -1])
+
+
+@row("steps that a return replaces")
+def replaced_steps(host, see):
+    """The same bar, with a return: what replaces the earlier step is selected while the last one is pending. It is not
+    divided, and its jump is not located, which the last step's is without a return."""
+    bulk = stiffness = 2.0
+    toughness, broken_from = 0.25, math.sqrt(0.5)
+    openings = [0.5, 0.9 * broken_from, 0.85, 1.01]
+    options = [("jump_tolerance", 1e-6), ("mixity_rule", "frozen")]
+    alone = brittle_bar(host, bulk, stiffness, toughness, openings, options, 2.0)
+    see.equal("without a return: first step that is replaced, jumps",
+              [alone.value("revised_from"), host("solver_jump_count", alone.solver, Out())], [4, 1])
+    see.that("the last step is divided", alone.value("substeps") > 1)
+    before, time = host("solver_jump", alone.solver, 0, None, *[Out() for _ in range(2)], *[None] * 7)[1:3]
+    see.near("the jump is located", [before, time], [1.0, 1.0], "t", rel=1e-6)
+    bar = brittle_bar(host, bulk, stiffness, toughness, openings, [("backtracking", "on"), *options], 2.0)
+    see.equal("first step that is replaced", bar.value("revised_from"), 3)
+    found = host("solver_jump", bar.solver, 0, *[Out() for _ in range(3)], *[None] * 7)[:3]
+    see.near("step and instants of the jump", found, [3, 0.9 * broken_from, 0.85])
+    seen = []
+    for step in (2, 3, 4, -1):
+        host("solver_look", bar.solver, step)
+        seen += [bar.value(key) for key in ("step", "dissipated", "revisions", "substeps", "jumps")]
+    see.near("step, dissipated, revisions, substeps and jumps of steps 2, 3, 4 and the pending one", seen,
+             [2, 0, 0, 1, 0, 3, toughness, 1, 1, 1, 4, toughness, 0, 1, 0, 4, toughness, 0, 1, 0])
+    host("solver_rollback", bar.solver)
+    host("solver_look", bar.solver, 3)
+    see.near("dissipated in step 3 after a rollback", bar.value("dissipated"), 0.0, "F L", scale=1.0)
+
+
+@row("instant of a jump")
+def instant(host, see):
+    """The same bar, whose steps are followed in parts: the jump has one instant, and its reactions are those of this
+    instant, however long the step is in which it lies."""
+    toughness, broken_from = 0.25, math.sqrt(0.5)  # the bar has the stiffness 1
+    for openings in ([0.5, 0.6, 0.9 * broken_from, 0.85, 1.01], [0.3, 0.95, 1.01], [0.5, 0.99, 1.05]):
+        bar = brittle_bar(host, 2.0, 2.0, toughness, openings, [("backtracking", "on")], 2.0)
+        see.equal("jumps", host("solver_jump_count", bar.solver, Out()), 1)
+        found = host("solver_jump", bar.solver, 0, *[Out() for _ in range(3)], *[None] * 7)[1:3]
+        see.near(f"before and time with openings {openings}", found, [broken_from] * 2, "t")
+        see.near("reactions", host("solver_jump_reactions", bar.solver, 0, 1, Out(1), Out(1)), [broken_from, 0.0], "F L")
 
 
 @row("backtracking_limit", options=["backtracking_limit"])

@@ -421,6 +421,40 @@ def prescribed(host, see):
              rel=1e-8)
 
 
+@row("constraints of tied nodes")
+def tied(host, see):
+    """A tied node at a quarter of the lower body's face: its displacements are those of the ends of the face."""
+    low, high = [0.0, 0.0, 4.0, 0.0, 4.0, 1.0, 0.0, 1.0], [0.0, 1.0, 1.0, 1.0, 4.0, 1.0, 0.0, 2.0, 1.0, 2.0, 4.0, 2.0]
+    mesh = host("mesh_create", host.context, 2, 11, low + high + [9.0, 9.0], Out())
+    host("mesh_add_cells", mesh, TYPES["quad4"], 3, [0, 1, 2, 3, 4, 5, 8, 7, 5, 6, 9, 8], [0, 1, 1], 0)
+    host("mesh_add_projected_interface", mesh, 0, 1, 0.0, Out())
+    middle = host("mesh_interface_pairs", mesh, 0, Out(3), None, None, None)[0][1]
+    see.equal("the tied node is behind the others", middle, 12)
+    problem = host("problem_create", host.context, mesh, Out())
+    load = scenes.ramp(host, problem)
+    host("problem_prescribe_nodes", problem, 1, [middle], [3.0, 4.0], 1, [load], [1e-3], 0)
+    host("problem_add_equation", problem, 3, [middle, 5, 10], [2.0, 0.0, -2.0, 0.0, 0.0, 1.0], 0, None, None, 0)
+    see_constraints(host, see, problem, [{4: 0.6 / 4, 5: 0.8 / 4, 6: 1.8 / 4, 7: 2.4 / 4},
+                                         {4: 0.5, 6: 1.5, 10: -2.0, 21: 1.0}], [[1e-3], [0.0]])
+
+
+@row("places of a host's nodes")
+def places_of_nodes(host, see):
+    """A body without cells on springs of its own has the displacements of a dense solve, wherever its nodes are."""
+    matrix = [[4.0, 1.0, -0.5, 0.2], [1.0, 5.0, 0.3, -0.7], [-0.5, 0.3, 6.0, 1.1], [0.2, -0.7, 1.1, 3.0]]
+    force = [0.3, -0.2, 0.7, 0.9]
+    for places in ([0.0, 0.0, 1.0, 0.0], [5.0, -3.0, -200.0, 7.0], [1.0, 1.0, 1.0, 1.0]):
+        mesh = host("mesh_create", host.context, 2, 2, places, Out())
+        host("mesh_add_host_body", mesh, 0, 2, [0, 1], 0)
+        problem = host("problem_create", host.context, mesh, Out())
+        host("problem_set_stiffness", problem, 2, [0, 1], None, [0, 4, 8, 12, 16], list(range(4)) * 4,
+             [k for line in matrix for k in line], -1, None, 0)
+        host("problem_add_forces", problem, scenes.ramp(host, problem), 2, [0, 1], force, 0)
+        see.near(f"displacement with nodes at {places}",
+                 field(host, host("solver_create", problem, 1.0, Out()), "displacement"),
+                 forms.solve([list(line) for line in matrix], list(force)), "L")
+
+
 @row("periodic cell", tells=["problem_add_periodic periods", "problem_add_periodic control_nodes"])
 def periodic(host, see):
     """A sheared cell: the displacements of the control nodes are the mean gradient along each period."""

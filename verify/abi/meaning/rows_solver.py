@@ -258,6 +258,7 @@ def saved(host, see):
     size = host("solver_save", one.solver, 0, None, Out())[1]
     data, needed = host("solver_save", one.solver, size, Out(size), Out())
     see.equal("needed", needed - size, 0)
+    see.equal("bytes that are written with capacity 0", host("solver_save", one.solver, 0, Out(8), Out())[0], [0] * 8)
     host("solver_load", other.solver, size, data)
     for bar in (one, other):
         bar.step(0.6)
