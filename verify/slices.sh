@@ -3,7 +3,7 @@
 # To be sourced by verify/run.sh: the long tier, cut into slices of at most ten minutes on two idle cores, of which each
 # run of .ci/run takes one.
 
-slices=12
+slices=13
 # Tests of ctest, as a regular expression; each test with the label `long` is in one slice (the test style/slices).
 declare -A slice_tests=(
     [1]='^(cli_long_(studies|many)|(unit|case)/test_long_.*|case/whole_.*)$'
@@ -15,7 +15,8 @@ declare -A slice_tests=(
     [7]='^ranks/long_scenes_whole.*$'
     [8]='^(abi/long_.*)$'
     [9]='^fuzz/.*$'
-    [10]='^fault/.*$'
+    [10]='^fault/(long|cancel|memory).*$'
+    [13]='^fault/files.*$'
 )
 # Stages of verify/stages.sh, with their arguments, separated by semicolons.
 declare -A slice_stages=(

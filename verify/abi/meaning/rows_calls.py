@@ -151,7 +151,7 @@ def golden_bar(host):
     return host("solver_create", problem, 0.0, Out())
 
 
-@row("states of earlier versions", tells=["solver_load bytes"])
+@row("states of earlier versions")
 def earlier_states(host, see):
     """Bytes that earlier libraries saved, of each version since 6, have the values that these libraries showed; the
     versions before the first and after the last that is read are refused."""

@@ -311,6 +311,8 @@ def mixity_rule(host, see):
         else:
             see.that(f"it is another one with converged: {mixities}, {elastic}",
                      all(abs(m - e) > 1e-3 for m, e in zip(mixities, elastic)))
+            see.that(f"the point with more of the second mode still has more: {mixities}, {elastic}",
+                     (mixities[0] > mixities[1]) == (elastic[0] > elastic[1]))
     # The increment at the mixities of the step before: what the damage of this step would have dissipated at those.
     solver = turning(host, [("mixity_rule", "frozen")])[1]
     shown = []
