@@ -3,20 +3,19 @@
 # To be sourced by verify/run.sh: the long tier, cut into slices of at most ten minutes on two idle cores, of which each
 # run of .ci/run takes one.
 
-slices=13
+slices=12
 # Tests of ctest, as a regular expression; each test with the label `long` is in one slice (the test style/slices).
 declare -A slice_tests=(
     [1]='^(cli_long_(studies|many)|(unit|case)/test_long_.*|case/whole_.*)$'
     [2]='^(cli_(long_(view_browser|coupons|examples|generators)|paraview)|(fortran|cpp|site|python|julia|report)/.*)$'
     [3]='^(ranks/long_faults.*|petsc/.*|example/host_abaqus_memory|packaging/.*)$'
-    [4]='^ranks/long_scenes_[1-3]$'
-    [5]='^ranks/long_scenes_[4-6]$'
+    [4]='^ranks/long_scenes_[1-6]$'
+    [5]='^fault/files.*$'
     [6]='^ranks/long_loose.*$'
     [7]='^ranks/long_scenes_whole.*$'
     [8]='^(abi/long_.*)$'
     [9]='^fuzz/.*$'
     [10]='^fault/(long|cancel|memory).*$'
-    [13]='^fault/files.*$'
 )
 # Stages of verify/stages.sh, with their arguments, separated by semicolons.
 declare -A slice_stages=(
