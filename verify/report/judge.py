@@ -145,6 +145,31 @@ def _excess(now: float, then: float, rule, largest: float) -> float:
     return abs(now - then) / allowed if allowed > 0 else math.inf
 
 
+def by_row(numbers: dict) -> dict:
+    """Numbers of a past by row: {table and keys: {column: number}}."""
+    rows: dict = {}
+    for name, number in numbers.items():
+        row, _, column = name.rpartition(" | ")
+        rows.setdefault(row, {})[column] = number
+    return rows
+
+
+def by_name(rows: dict) -> dict:
+    """The inverse of by_row()."""
+    return {f"{row} | {column}" if row else column: number for row, cells in rows.items() for column, number in cells.items()}
+
+
+def past_text(stored: dict) -> str:
+    """A past as JSON, with a line for each row of numbers, so that a difference shows what has changed."""
+    def lines(data: dict, indent: str) -> str:
+        below = (f"{indent} {json.dumps(name)}: " +
+                 (lines(value, indent + " ") if isinstance(value, dict) and name in ("quick", "full", "numbers")
+                  else json.dumps(value, sort_keys=True)) for name, value in sorted(data.items()))
+        return "{\n" + ",\n".join(below) + f"\n{indent}}}"
+
+    return lines(stored, "") + "\n"
+
+
 def past_path(folder: pathlib.Path, case_id: str) -> pathlib.Path:
     return folder / f"{case_id}.json"
 
@@ -155,7 +180,7 @@ def against_past(data: dict, folder: pathlib.Path, quick: bool) -> dict:
     stored = json.loads(path.read_text(encoding="utf-8")).get(tier) if path.is_file() else None
     if stored is None:
         return {"verdict": "new", "worst": None, "limit": 1.0, "why": f"no accepted run of the {tier} report yet"}
-    now, then = numbers(data), stored["numbers"]
+    now, then = numbers(data), by_name(stored["numbers"])
     if not then and not any(now.values()):
         return {"verdict": "none", "worst": None, "limit": 1.0, "why": "nothing of it has a past: timings, or tests that pass or fail"}
     lost = [name for name in then if name not in now]
@@ -185,9 +210,9 @@ def accept(data: dict, folder: pathlib.Path, quick: bool, date: str) -> None:
     path = past_path(folder, data["id"])
     stored = json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {"id": data["id"]}
     stored["quick" if quick else "full"] = {"date": date, "commit": data["commit"], "kernels": data.get("kernels", ""),
-                                            "numbers": {name: found[0] for name, found in numbers(data).items() if found}}
+                                            "numbers": by_row({name: found[0] for name, found in numbers(data).items() if found})}
     folder.mkdir(parents=True, exist_ok=True)
-    path.write_text(json.dumps(stored, indent=1, sort_keys=True) + "\n", encoding="utf-8")
+    path.write_text(past_text(stored), encoding="utf-8")
 
 
 def judge(data: dict, folder: pathlib.Path, quick: bool) -> dict:

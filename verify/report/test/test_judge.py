@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What is planted must be caught: by the reference, by the past, or by the schema."""
 import copy
+import json
 import math
 import pathlib
 import tempfile
@@ -40,6 +41,17 @@ class Judged(unittest.TestCase):
     # Against the reference: a bar whose end must move by 2; the error is formed as the cases do.
     def bar(self, moved):
         return planted.sound(checks=[c.check("displacement of the end", abs(moved / 2.0 - 1.0), 1e-9, "closed form")], orders=[])
+
+    def test_a_past_has_a_line_for_each_row(self):
+        data = planted.sound()
+        self.judge(data)
+        judge.accept(data, self.past, False, "2026-01-01")
+        text = judge.past_path(self.past, data["id"]).read_text(encoding="utf-8")
+        rows = json.loads(text)["full"]["numbers"]
+        self.assertEqual(judge.by_name(rows), {name: found[0] for name, found in judge.numbers(data).items() if found})
+        for row in rows:
+            self.assertEqual(sum(line.strip().startswith(json.dumps(row) + ":") for line in text.splitlines()), 1, row)
+        self.assertEqual(judge.by_name(judge.by_row({"alone": 1.0, "a | b | c": 2.0})), {"alone": 1.0, "a | b | c": 2.0})
 
     def test_wrong_sign(self):
         self.assertEqual(self.judge(self.bar(2.0))["status"], "passed")
