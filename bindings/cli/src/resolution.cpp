@@ -138,7 +138,7 @@ Advice advice_for(const Model& model, const LawData& law, const Needs& needs) {
     // Another stiffness would change the peaks of a law with given onsets.
     const bool onsets = number_of_law(law, "normal_onset") + number_of_law(law, "tangential_onset") > 0;
     if (!unresolved && !(apart && onsets)) return out;
-    for (const std::size_t mode : {0, 1}) {
+    for (const std::size_t mode : {std::size_t{0}, std::size_t{1}}) {
         const std::string name = mode == 0 ? "normal" : "tangential";
         const double peak = peak_of(law, name);
         if (!(peak > 0)) continue;
