@@ -78,7 +78,7 @@ START_TEST(strengths_lead_to_the_pairs) {
                 const Scene scene{type, {3e-3, 1.5e-3}, toughness, {}};
                 Problem problem = problem_of(scene, {isotropic(scene, 75e9), ply(scene)});
                 const Proposal found = proposal(problem, 0, pairs);
-                for (const std::size_t mode : {0, 1}) {
+                for (const std::size_t mode : {std::size_t{0}, std::size_t{1}}) {
                     Numbers strength(found.strength.begin(), found.strength.end());
                     strength[1 - mode] *= 0.7;
                     problem.interfaces[0].law = bilinear(scene, strength[0], strength[1]);
@@ -152,7 +152,7 @@ START_TEST(units_do_not_matter) {
         const double stress = other.units.stress();
         ck_assert_double_eq_tol(b.stiffness / a.stiffness, stress / 1e3, 1e-12 * stress / 1e3);
         ck_assert_double_eq_tol(b.share, a.share, 1e-12);
-        for (const std::size_t mode : {0, 1})
+        for (const std::size_t mode : {std::size_t{0}, std::size_t{1}})
             ck_assert_double_eq_tol(b.strength[mode] / a.strength[mode], stress, 1e-12 * stress);
     }
 }
