@@ -435,20 +435,20 @@ CASE_TEST(strengths_and_onset_criterion) {
             scene.require(delam_law_set_text(raw, key, value), key);
         };
         const auto set = [&](const char* key, double value) { scene.require(delam_law_set(raw, key, value), key); };
-        const auto onset = [&] {
+        const auto set_onset = [&] {
             text("onset_criterion", "power");
             set("onset_exponent", 1.0);
             set("normal_strength", sn);
             set("tangential_strength", st);
         };
-        if (onset_first) onset();
+        if (onset_first) set_onset();
         text("criterion", "benzeggagh-kenane");
         set("toughness_exponent", eta);
         set("normal_stiffness", kn);
         set("tangential_stiffness", kt);
         set("normal_toughness", gn);
         set("tangential_toughness", gt);
-        if (!onset_first) onset();
+        if (!onset_first) set_onset();
         std::vector<double> mixity, go(11), gc(11);
         for (int i = 0; i <= 10; ++i) mixity.push_back(i / 10.0);
         scene.require(delam_law_toughness(raw, 11, mixity.data(), go.data(), gc.data()), "delam_law_toughness");

@@ -41,8 +41,8 @@ public:
                    void* user) {
             return self(user).set(*couplings, {fixed, index(fixed_count)}, {pivots, index(pivot_count)}, *masters);
         };
-        e.renew = [](const delam_experimental_entries* entries, double* cost, void* user) {
-            return self(user).renew(*entries, *cost);
+        e.renew = [](const delam_experimental_entries* entries, double* paid, void* user) {
+            return self(user).renew(*entries, *paid);
         };
         e.solve = [](const delam_experimental_request* request, delam_experimental_answer* answer, void* user) {
             return self(user).solve(*request, *answer);

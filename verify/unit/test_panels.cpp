@@ -19,12 +19,12 @@ namespace {
 constexpr std::int64_t n = 1400;  // a whole number of panels and a remainder
 
 // Definite, with a decaying coupling.
-DenseMatrix definite(std::int64_t n = ::n) {
+DenseMatrix definite(std::int64_t size = n) {
     std::mt19937_64 random(7);
     std::uniform_real_distribution<double> value(-1.0, 1.0);
-    DenseMatrix a(n, n);
-    for (std::int64_t j = 0; j < n; ++j)
-        for (std::int64_t i = j; i < n; ++i) a(i, j) = i == j ? 60.0 : value(random);
+    DenseMatrix a(size, size);
+    for (std::int64_t j = 0; j < size; ++j)
+        for (std::int64_t i = j; i < size; ++i) a(i, j) = i == j ? 60.0 : value(random);
     mirror_lower(a);
     return a;
 }
