@@ -57,11 +57,11 @@ struct Analysis {
     double kkt = nan;
     std::string kkt_text;
 
-    double silent(bool factors) const {
+    double silent(bool in_factors) const {
         double longest = 0.0;
-        for (const auto& [stage, seconds] : silence)
-            if ((std::find(std::begin(factoring), std::end(factoring), stage) != std::end(factoring)) == factors)
-                longest = std::max(longest, seconds);
+        for (const auto& [stage, silent_for] : silence)
+            if ((std::find(std::begin(factoring), std::end(factoring), stage) != std::end(factoring)) == in_factors)
+                longest = std::max(longest, silent_for);
         return longest;
     }
 };
