@@ -16,6 +16,7 @@
 #include "deck_cards.hpp"
 #include "deck_interfaces.hpp"
 #include "deck_loads.hpp"
+#include "printable.hpp"
 #include "say.hpp"
 #include "toml_text.hpp"
 #include "wildcard.hpp"
@@ -220,11 +221,11 @@ private:
 };
 
 std::string header(const ImportedScene& scene, const std::string& deck) {
-    std::string out = fmt::format("{}{}{}\n", begin_of_origin, deck, end_of_origin);
+    std::string out = fmt::format("{}{}{}\n", begin_of_origin, one_line(deck), end_of_origin);
     const auto list = [&](const char* title, const std::vector<std::string>& texts) {
         if (texts.empty()) return;
         out += fmt::format("# {}:\n", title);
-        for (const std::string& text : texts) out += "#   " + text + "\n";
+        for (const std::string& text : texts) out += "#   " + one_line(text) + "\n";
     };
     list("Changed", scene.changed);
     list("Left out", scene.left_out);

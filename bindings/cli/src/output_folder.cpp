@@ -27,12 +27,19 @@ namespace {
 nlohmann::json result_json(const std::string& folder) {
     const std::string file = folder + "/result.json";
     if (!is_there(file)) return nullptr;
-    return nlohmann::json::parse(read_bytes(file), nullptr, false);
+    return nlohmann::json::parse(read_bytes(file, most_result_bytes), nullptr, false);
 }
 
 bool is_of_program(const nlohmann::json& result) {
-    const auto program = result.is_object() ? result.find("program") : result.end();
-    return program != result.end() && *program == "delam";
+    const auto has_text = [&result](const char* name) { return result.contains(name) && result[name].is_string(); };
+    return result.is_object() && result.value("program", nlohmann::json()) == "delam" && has_text("status") &&
+           has_text("scene_content_hash");
+}
+
+// True if a result has a file of this name. Results of earlier versions do not say which they have.
+bool is_of_result(const nlohmann::json& result, const std::string& name) {
+    const auto files = result.find("files");
+    return name == "result.json" || files == result.end() || files->contains(name);
 }
 
 // Throws OutputFailure where a run would replace or remove what is not its own.
@@ -50,14 +57,19 @@ void refuse_strange_files(const std::string& folder, const std::string& running)
                                          ", and neither a marker nor a state says that a run has written it: "
                                          "move it away, or choose another folder");
     // While a result is moved in, `running` is there and marked.
-    const bool own = marked || is_of_program(result_json(folder));
+    const nlohmann::json result = result_json(folder);
+    const bool known = is_of_program(result);
     for (const std::string& name : result_names()) {
         const std::string file = folder + "/" + name;
         require_plain(file);
-        if (!own && is_there(file))
+        if (!is_there(file)) continue;
+        if (!known && !marked)
             throw OutputFailure(folder, "there is " + file +
                                             ", which would be replaced, and no result.json of delam beside it: "
                                             "move it away, or choose another folder");
+        if (known && !is_of_result(result, name))
+            throw OutputFailure(folder,
+                                "there is " + file + ", which does not belong to the result there: move it away");
     }
 }
 

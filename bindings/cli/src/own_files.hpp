@@ -6,6 +6,7 @@
 // second name are never its own: what they lead to is somebody else's.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,6 +14,8 @@
 namespace cli {
 
 inline constexpr std::string_view marker_name = ".delam";
+// Of result.json, and of a table (history.csv, jumps.csv), when they are read.
+inline constexpr std::int64_t most_result_bytes = std::int64_t{64} << 20, most_table_bytes = std::int64_t{1} << 30;
 
 // Names of the files of a result.
 const std::vector<std::string>& result_names();

@@ -62,4 +62,14 @@ std::string printable(std::string_view text) {
     return out;
 }
 
+std::string one_line(std::string_view text) {
+    std::string out;
+    for (const char c : printable(text))
+        if (c == '\n')
+            out += "\\x0a";
+        else
+            out += c;
+    return out;
+}
+
 }  // namespace cli

@@ -6,6 +6,7 @@
 
 #include "error.hpp"
 #include "input_file.hpp"
+#include "own_files.hpp"
 
 namespace cli {
 
@@ -18,9 +19,11 @@ RowFile::RowFile(std::string path, std::string_view header)
 RowFile::RowFile(std::string path, std::size_t rows, const std::optional<Content>& saved)
     : path_(std::move(path)), at_(path_) {
     take_revised(path_, [&saved](const std::string& revised) {
-        return saved && content_of(read_bytes(revised).substr(0, static_cast<std::size_t>(saved->bytes))) == *saved;
+        return saved &&
+               content_of(read_bytes(revised, most_table_bytes).substr(0, static_cast<std::size_t>(saved->bytes))) ==
+                   *saved;
     });
-    const std::string bytes = read_bytes(path_);
+    const std::string bytes = read_bytes(path_, most_table_bytes);
     for (std::size_t end = bytes.find('\n'); end != std::string::npos && ends_.size() <= rows;
          end = bytes.find('\n', end + 1))
         ends_.push_back(end + 1);

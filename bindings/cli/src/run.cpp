@@ -308,6 +308,8 @@ int already_complete(OutputFolder& folder, const Scene& scene) {
     require_unchanged(folder.path(), published);
     folder.end();  // which may have been interrupted
     say("{}: complete already\n", folder.path());
+    if (published.files.empty())
+        say("result.json names no files, as those of earlier versions: history.csv and the others were not compared\n");
     say_lines(published.closing);
     return published.converged ? exit_done : exit_not_converged;
 }

@@ -22,7 +22,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::int64_t most_result_bytes = std::int64_t{64} << 20, most_table_bytes = std::int64_t{1} << 30;
 constexpr std::size_t most_levels = 32;
 
 [[noreturn]] void wrong_result(const std::string& path, const std::string& what) {

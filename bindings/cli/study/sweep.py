@@ -116,11 +116,12 @@ class Sweep:
         """The results of the sweep before, and nothing else that lies in the folder."""
         runs = self.runs(len(self.known["points"]))
         claim(self.out, runs, True)  # no link, no folder in the place of a log
+        files = [os.path.join(self.out, name) for name in [n for n in runs if n.endswith(".log")] + FILES[1:]]
+        for path in files:  # all of them before the first is removed
+            refuse_foreign_log(path)
         discard([os.path.join(self.out, name) for name in runs if not name.endswith(".log")])
-        for name in [name for name in runs if name.endswith(".log")] + FILES[1:]:
-            path = os.path.join(self.out, name)
+        for path in files:
             if os.path.lexists(path):
-                refuse_foreign_log(path)
                 os.remove(path)
 
     def can_resume(self, out):

@@ -440,6 +440,15 @@ REFUSED = [
 ]
 
 
+def check_names():
+    """The name of a deck stays in its comment, whatever ends a line in it."""
+    text = decks.abaqus(Beam(nx=6, ny=0, nz=1))
+    plain = delam("import", saved(text))[1].splitlines()
+    status, scene, _ = delam("import", saved(text, name="x\nschema = 9\n#.inp"))
+    expect(status == 0 and "# From" in scene and r"x\x0aschema = 9\x0a#.inp by delam import." in scene, "in the comment")
+    expect("\nschema = 9" not in scene and len(scene.splitlines()) == len(plain), "and in no line of its own")
+
+
 def check_refusals():
     text = decks.abaqus(Beam(nx=6, ny=0, nz=1))
     for old, new, pattern in REFUSED:
@@ -575,5 +584,6 @@ check_parts_of_their_own()
 check_bonded()
 check_reference_nodes()
 check_rotations()
+check_names()
 check_refusals()
 finish()

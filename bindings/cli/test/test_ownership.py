@@ -47,7 +47,7 @@ for name in ("running/notes.txt", "running/history.csv", "running/state.bin", "r
     place = name.replace("/old/notes.txt", "/old").replace(".", r"\.")
     refused(name, out, "run", scene, "--out", out, says=place)
     refused(name + ", resumed", out, "run", scene, "--out", out, "--resume", says=place)
-for text in ("", "{}", '{"program": "another"}', "no json"):
+for text in ("", "{}", '{"program": "another"}', '{"program": "delam"}', "no json"):
     out = folder()
     put(os.path.join(out, "result.json"), text)
     refused(f"a result.json that says {text!r}", out, "run", scene, "--out", out, says=r"result\.json")
@@ -59,6 +59,20 @@ expect(read(os.path.join(out, "notes.txt")) == read(os.path.join(out, "2025", "t
 expect(delam("run", scene, "--out", out)[0] == 0, "a result of one's own is replaced")
 expect(sorted(set(os.listdir(out)) - {"jumps.csv"}) == ["2025", "fields.h5", "fields.xdmf", "history.csv", "notes.txt",
                                                         "result.json", "state.bin"], "there is no other file")
+# A file that has the name of a result's file, and does not belong to the one that is there.
+about = json.loads(read(os.path.join(out, "result.json")))
+about["files"].pop("jumps.csv", None)  # as of a result without jumps
+put(os.path.join(out, "result.json"), json.dumps(about))
+put(os.path.join(out, "jumps.csv"))
+refused("jumps.csv beside a result without jumps", out, "run", scene, "--out", out, says=r"jumps\.csv, which does not")
+os.remove(os.path.join(out, "jumps.csv"))
+# A result that names no files is one of earlier versions, or somebody has removed them.
+del about["files"]
+put(os.path.join(out, "result.json"), json.dumps(about))
+code, said, _ = delam("run", scene, "--out", out, "--resume")
+expect(code == 0 and "were not compared" in said, f"a result without hashes says so: {said}")
+os.truncate(os.path.join(out, "result.json"), 3 << 30)
+expect_error(delam("run", scene, "--out", out, "--resume"), 2, r"result\.json: .*3221225472 bytes, and at most 67108864")
 
 # Links and second names: a folder elsewhere, files elsewhere.
 for name in ("running", "running/state.bin", "running/.delam", "history.csv", "fields.h5", "result.json"):
@@ -132,6 +146,10 @@ expect(sweep(out, "--replace", vary=["--vary", "laws.0.normal_toughness=220"])[0
 after = listing(out)
 expect(all(after.get(name) == bytes_ for name, bytes_ in others.items()), "and nothing else")
 expect("0001" in after and "0002" not in after and "0002.log" not in after, "all of them")
+os.rename(os.path.join(out, "0001.log"), os.path.join(out, "kept"))
+put(os.path.join(out, "0001.log"))
+swept("0001.log in the place of a run's", out, "--replace", says=r"0001\.log", vary=["--vary", "time.steps=2"])
+os.rename(os.path.join(out, "kept"), os.path.join(out, "0001.log"))
 put(os.path.join(out, "0001", "notes.txt"))
 before = listing(out)
 expect_error(sweep(out, "--replace", vary=["--vary", "laws.0.normal_toughness=240"]), 3, r"0001/notes\.txt")
