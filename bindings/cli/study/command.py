@@ -99,7 +99,7 @@ def _interrupt(*_):
     raise KeyboardInterrupt
 
 
-def _on_interrupt(action):
+def on_interrupt(action):
     """What Ctrl-C and SIGTERM do, unless whoever started this program has it ignore them."""
     for number in (signal.SIGINT, signal.SIGTERM):
         if signal.getsignal(number) is not signal.SIG_IGN:
@@ -120,7 +120,7 @@ def begin(who):
             stream.reconfigure(errors="backslashreplace")
     sys.excepthook = _end_uncaught
     warnings.showwarning = lambda message, *_, **__: complain(f"warning: {message}")
-    _on_interrupt(_end_at_once)
+    on_interrupt(_end_at_once)
     # The program that starts a study holds signals back until someone answers them.
     signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT, signal.SIGTERM})
 
@@ -129,7 +129,7 @@ def begin(who):
 def loading():
     """Around imports within a command: an interrupt ends it there, because modules may swallow exceptions."""
     before = [(number, signal.getsignal(number)) for number in (signal.SIGINT, signal.SIGTERM)]
-    _on_interrupt(_end_at_once)
+    on_interrupt(_end_at_once)
     try:
         yield
     finally:
@@ -156,11 +156,11 @@ def reported(main, interrupted=None):
 
 def run(main, interrupted=None):
     """Ends the program with the exit code of main()."""
-    _on_interrupt(_interrupt)
+    on_interrupt(_interrupt)
     try:
         code = reported(main, interrupted)
     finally:
-        _on_interrupt(_end_at_once)
+        on_interrupt(_end_at_once)
     if code == OUTPUT:
         # What the standard output cannot take must not be tried again while the interpreter ends.
         with contextlib.suppress(OSError):

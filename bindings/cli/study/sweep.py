@@ -10,7 +10,6 @@ import csv
 import io
 import json
 import os
-import signal
 import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
@@ -27,7 +26,7 @@ require("numpy", "matplotlib")
 import numpy as np  # noqa: E402
 
 from _pictures.input_file import MOST_MESH, MOST_SCENE, MOST_SWEEP, Unreadable, read_bytes, read_json  # noqa: E402
-from command import complain, loading, say  # noqa: E402
+from command import complain, loading, on_interrupt, say  # noqa: E402
 from marches import (DONE, INTERRUPTED, NOT_CONVERGED, WRONG, Check, Trouble, end_all, finish,  # noqa: E402
                      given_words, hold, last_words, read_about, read_history, refuse_foreign_log,  # noqa: E402
                      refuse_set, run_study, setting, start)
@@ -196,8 +195,7 @@ class Sweep:
         end_all()
 
     def run(self, jobs):
-        signal.signal(signal.SIGINT, self.stop)
-        signal.signal(signal.SIGTERM, self.stop)
+        on_interrupt(self.stop)
         with ThreadPoolExecutor(jobs) as pool:
             for result in [pool.submit(self.run_one, number) for number in range(len(self.points))]:
                 result.result()

@@ -118,6 +118,17 @@ def interrupted_sweep():
         _, error = child.communicate(timeout=60)
     expect(child.returncode == 130 and "the same command goes on" in error, f"a sweep is interrupted: {error}")
     expect(not os.path.exists(os.path.join(out, "0002")), "no further run begins")
+    # In the background of a script a shell has its programs ignore Ctrl-C.
+    scene = write(changed("h = 0.0015", "h = 0.003", changed("steps = 20", "steps = 60")))
+    words = [DELAM, "sweep", scene, "--vary", "laws.0.normal_toughness=250:260:2", "--out", out + "2"]
+    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                          preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_IGN)) as child:
+        deadline = time.monotonic() + 60
+        while not os.path.exists(os.path.join(out + "2", "0001")) and time.monotonic() < deadline:
+            time.sleep(0.01)
+        child.send_signal(signal.SIGINT)
+        _, error = child.communicate(timeout=60)
+    expect(child.returncode == 0, f"a sweep that was told to ignore Ctrl-C goes on: {child.returncode} {error}")
 
 
 # Two squares, one above the other, each with its own nodes at the interface.
