@@ -57,11 +57,11 @@ void refuse_strange_files(const std::string& folder, const std::string& running)
                                          ", and neither a marker nor a state says that a run has written it: "
                                          "move it away, or choose another folder");
     // While a result is moved in, `running` is there and marked.
+    for (const std::string& name : result_names()) require_plain(folder + "/" + name);
     const nlohmann::json result = result_json(folder);
     const bool known = is_of_program(result);
     for (const std::string& name : result_names()) {
         const std::string file = folder + "/" + name;
-        require_plain(file);
         if (!is_there(file)) continue;
         if (!known && !marked)
             throw OutputFailure(folder, "there is " + file +
