@@ -14,7 +14,7 @@
 namespace cli {
 
 inline constexpr std::string_view marker_name = ".delam";
-// Of result.json, and of a table (history.csv, jumps.csv), when they are read.
+// A file of more bytes is refused: result.json, and a table (history.csv, jumps.csv).
 inline constexpr std::int64_t most_result_bytes = std::int64_t{64} << 20, most_table_bytes = std::int64_t{1} << 30;
 
 // Names of the files of a result.
