@@ -56,13 +56,13 @@ void refuse_strange_files(const std::string& folder, const std::string& running)
         throw OutputFailure(running, "there is " + running + "/" + names.front() +
                                          ", and neither a marker nor a state says that a run has written it: "
                                          "move it away, or choose another folder");
-    // While a result is moved in, `running` is there and marked.
     for (const std::string& name : result_names()) require_plain(folder + "/" + name);
     const nlohmann::json result = result_json(folder);
     const bool known = is_of_program(result);
     for (const std::string& name : result_names()) {
         const std::string file = folder + "/" + name;
         if (!is_there(file)) continue;
+        // While a result is moved in, its result.json is not there, but `running` is, and marked.
         if (!known && !marked)
             throw OutputFailure(folder, "there is " + file +
                                             ", which would be replaced, and no result.json of delam beside it: "

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cmath>
 #include <limits>
+#include <new>
 #include <set>
 #include <tuple>
 #include <type_traits>
@@ -28,6 +30,7 @@ namespace {
 hid_t identified(hid_t id, const std::string& path, const std::string& item) {
     if (id >= 0) return id;
     const h5::FileTrouble trouble = h5::take_trouble();
+    if (trouble.code == ENOMEM) throw std::bad_alloc();
     wrong_fields(path,
                  item + " cannot be read: " +
                      (trouble.code != 0 ? reason_of(trouble.code) : "the file is damaged, or no fields.h5 of delam"));
