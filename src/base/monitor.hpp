@@ -55,4 +55,7 @@ private:
     static_assert(std::atomic<std::uint32_t>::is_always_lock_free, "cancel runs in signal handlers");
 };
 
+// Throws Error(DELAM_CANCELLED) with the stage in its message.
+[[noreturn]] void stop(const char* stage);
+
 }  // namespace delam

@@ -8,8 +8,8 @@
 #include <system_error>
 #include <utility>
 
-#include "base/blas_memory.hpp"
-#include "base/blas_threads.hpp"
+#include "base/machine/blas_memory.hpp"
+#include "base/machine/blas_threads.hpp"
 
 namespace delam {
 

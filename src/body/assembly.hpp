@@ -9,7 +9,7 @@
 #include "base/monitor.hpp"
 #include "body/eigenstrain.hpp"
 #include "body/model.hpp"
-#include "linalg/sparse.hpp"
+#include "linalg/sparse/sparse.hpp"
 #include "mesh/mesh.hpp"
 
 namespace delam {

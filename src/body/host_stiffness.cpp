@@ -8,7 +8,7 @@
 #include "base/numbers.hpp"
 #include "body/rigid_modes.hpp"
 #include "delam/delam.h"
-#include "linalg/cholesky.hpp"
+#include "linalg/sparse/cholesky.hpp"
 
 namespace delam {
 

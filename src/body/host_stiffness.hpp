@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "base/monitor.hpp"
-#include "linalg/dense.hpp"
-#include "linalg/sparse.hpp"
+#include "linalg/dense/dense.hpp"
+#include "linalg/sparse/sparse.hpp"
 #include "mesh/mesh.hpp"
 
 namespace delam {

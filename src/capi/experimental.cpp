@@ -7,8 +7,8 @@
 #include <unordered_set>
 #include <utility>
 
-#include "capi/handles.hpp"
-#include "evolution/solver.hpp"
+#include "capi/handle/handles.hpp"
+#include "evolution/analysis/solver.hpp"
 #include "scene/engine.hpp"
 #include "scene/part.hpp"
 
@@ -132,7 +132,7 @@ int32_t delam_experimental_part_fields(delam_context* context, int64_t size, con
 
 int32_t delam_experimental_solver_recover(delam_solver* solver) {
     return guard_read(solver, listed::experimental_solver_recover, [&] {
-        if (!solver->core->recover_in_engine())
+        if (!solver->core->observer().recover_in_engine())
             fail(DELAM_ERROR_STATE, "solver: its problem has no engine (delam_experimental_problem_set_engine)");
     });
 }
@@ -140,7 +140,7 @@ int32_t delam_experimental_solver_recover(delam_solver* solver) {
 int32_t delam_experimental_solver_eigenstrains(delam_solver* solver, int64_t capacity, int32_t* bodies,
                                                double* eigenstrains, int64_t* count) {
     return guard_read(solver, listed::experimental_solver_eigenstrains, [&] {
-        const std::vector<Strain> strains = solver->core->eigenstrains();
+        const std::vector<Strain> strains = solver->core->observer().eigenstrains();
         const auto needed = static_cast<std::int64_t>(strains.size());
         require_capacity_if(bodies != nullptr || eigenstrains != nullptr, capacity, needed, "bodies, eigenstrains");
         for (std::int64_t b = 0; b < needed; ++b) {

@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "base/numbers.hpp"
-#include "capi/handles.hpp"
+#include "capi/handle/handles.hpp"
+#include "law/admissible.hpp"
 #include "law/law_parameters.hpp"
 #include "law/respond.hpp"
 
@@ -105,7 +106,7 @@ int32_t delam_law_set(delam_law* law, const char* key, double value) {
         if (!parameter.range.allows(value))
             fail(DELAM_ERROR_ARGUMENT, "law parameter '", key, "' = ", value, " must be ", parameter.range.words);
         Law changed = *law->core;
-        changed.set(key, value);
+        set_parameter(changed, key, value);
         *law->core = std::move(changed);
     });
 }
@@ -183,7 +184,7 @@ int32_t delam_law_kind_info(int64_t index, const char** kind, const char** meani
 }
 
 int32_t delam_law_check(const delam_law* law) {
-    return guard(law, [&] { law->core->validate(); });
+    return guard(law, [&] { validate(*law->core); });
 }
 
 int32_t delam_law_toughness(const delam_law* law, int64_t count, const double* mixity, double* onset,
@@ -192,7 +193,7 @@ int32_t delam_law_toughness(const delam_law* law, int64_t count, const double* m
         require_count(count, "count");
         require_fraction(mixity, count, "mixity");
         require_apart(onset, "onset", count, toughness, "toughness", count);
-        law->core->validate();
+        validate(*law->core);
         std::vector<Toughness> found;  // an output may be the input array
         found.reserve(index(count));
         for (std::int64_t i = 0; i < count; ++i) found.push_back(law->core->toughness(mixity[i]));
@@ -220,7 +221,7 @@ int32_t delam_law_respond(const delam_law* law, int32_t dimension, int64_t count
             }
         }
         require_apart(adhesion, "adhesion", count, traction, "traction", count * dimension);
-        law->core->validate();
+        validate(*law->core);
         const Law& p = *law->core;
         std::vector<double> zetas(index(count)), pulls(index(traction != nullptr ? count * dimension : 0));
         for (std::int64_t i = 0; i < count; ++i) {

@@ -9,7 +9,7 @@
 #include <unordered_map>
 
 #include "base/numbers.hpp"
-#include "capi/handles.hpp"
+#include "capi/handle/handles.hpp"
 #include "scene/periodic.hpp"
 #include "scene/problem.hpp"
 

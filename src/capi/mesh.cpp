@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/numbers.hpp"
-#include "capi/handles.hpp"
+#include "capi/handle/handles.hpp"
 #include "mesh/cell_type.hpp"
 #include "mesh/layers.hpp"
 #include "mesh/selection.hpp"

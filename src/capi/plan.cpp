@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a host can ask of a problem before it creates a solver: options, keys of values, the plan.
-#include "evolution/plan.hpp"
-#include "capi/handles.hpp"
-#include "evolution/values.hpp"
+#include "evolution/analysis/plan.hpp"
+#include "capi/handle/handles.hpp"
+#include "evolution/observe/values.hpp"
 
 using namespace delam;
 

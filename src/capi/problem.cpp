@@ -10,7 +10,8 @@
 #include <span>
 #include <string>
 
-#include "capi/handles.hpp"
+#include "capi/handle/handles.hpp"
+#include "law/admissible.hpp"
 #include "mesh/selection.hpp"
 #include "scene/given_stiffness.hpp"
 
@@ -205,7 +206,7 @@ int32_t delam_problem_set_law(delam_problem* problem, int64_t interface_index, c
         InterfaceProperties& interface = problem->core->interfaces[require_interface(*problem->core, interface_index)];
         require_handle(law, "law");
         const Law taken = *law->core;  // its callbacks may destroy the handle
-        taken.validate();
+        validate(taken);
         if (interface.contact) std::fill(interface.adhesion.begin(), interface.adhesion.end(), 1.0);
         interface.law = taken;
         interface.bonded = interface.contact = false;

@@ -9,12 +9,13 @@
 
 #include "base/file.hpp"
 #include "base/team.hpp"
-#include "capi/handles.hpp"
-#include "evolution/condensed_matrices.hpp"
-#include "evolution/fields.hpp"
-#include "evolution/snapshot.hpp"
-#include "evolution/solver.hpp"
-#include "evolution/values.hpp"
+#include "capi/handle/handles.hpp"
+#include "evolution/analysis/condensed_matrices.hpp"
+#include "evolution/analysis/plan.hpp"
+#include "evolution/analysis/snapshot.hpp"
+#include "evolution/analysis/solver.hpp"
+#include "evolution/observe/fields.hpp"
+#include "evolution/observe/values.hpp"
 
 using namespace delam;
 
@@ -34,7 +35,7 @@ void copy_out(const std::vector<T>& values, std::int64_t capacity, T* out, const
 
 const std::vector<CrackFront>& fronts_of(const delam_solver& solver, std::int64_t interface_index) {
     const auto count = static_cast<std::int64_t>(solver.core->problem().interfaces.size());
-    return solver.core->crack_fronts(require_index(interface_index, count, 0, "interface_index"));
+    return solver.core->observer().crack_fronts(require_index(interface_index, count, 0, "interface_index"));
 }
 
 // As guard_solve(), with the library's threads that the options of the scene ask for.
@@ -60,7 +61,7 @@ int32_t delam_solver_create(const delam_problem* problem, double time, delam_sol
         handle->context = problem->context;
         handle->core = std::make_shared<Solver>(*problem->core, problem->context->monitor, time);
         handle->value_names = value_names(handle->core->problem());
-        handle->plan = handle->core->plan();
+        handle->plan = plan_of(*handle->core);
         const Outcome& outcome = handle->core->initial_outcome();
         *out = handle.release();
         return report(*problem->context, outcome);
@@ -184,7 +185,7 @@ int32_t delam_solver_field_shape(const delam_solver* solver, const char* key, in
                                  int64_t* columns) {
     return guard(solver, [&] {
         require_pointer(key, "key");
-        const FieldShape shape = field_shape(*solver->core, key, part);
+        const FieldShape shape = field_shape(solver->core->observer(), key, part);
         if (rows != nullptr) *rows = shape.rows;
         if (columns != nullptr) *columns = shape.columns;
     });
@@ -193,9 +194,9 @@ int32_t delam_solver_field_shape(const delam_solver* solver, const char* key, in
 int32_t delam_solver_field(delam_solver* solver, const char* key, int64_t part, int64_t capacity, double* values) {
     return guard_read(solver, listed::solver_field, [&] {
         require_pointer(key, "key");
-        const FieldShape shape = field_shape(*solver->core, key, part);
+        const FieldShape shape = field_shape(solver->core->observer(), key, part);
         require_capacity(capacity, shape.rows * shape.columns, "values");
-        copy_out(field(*solver->core, key, part), capacity, values, "values");
+        copy_out(field(solver->core->observer(), key, part), capacity, values, "values");
     });
 }
 
@@ -245,7 +246,7 @@ int32_t delam_solver_average(const delam_solver* solver, int32_t body, double* v
         if (body != -1 && index < 0) fail(DELAM_ERROR_ARGUMENT, "body ", body, ": no body has this label");
         if (index >= 0 && mesh.host_body(index))
             fail(DELAM_ERROR_ARGUMENT, "body ", body, " has no cells to average over");
-        const VolumeAverage average = solver->core->average(index);
+        const VolumeAverage average = solver->core->observer().average(index);
         if (volume != nullptr) *volume = average.volume;
         if (strain != nullptr) std::copy(average.strain.begin(), average.strain.end(), strain);
         if (stress != nullptr) std::copy(average.stress.begin(), average.stress.end(), stress);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Facts about the library: version, commit, binary interface, names of statuses.
-#include "base/blas_threads.hpp"
+#include "base/machine/blas_threads.hpp"
 #include "delam/delam.h"
 #include "delam_commit.h"
 

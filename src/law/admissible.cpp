@@ -8,6 +8,8 @@
 
 #include "base/error.hpp"
 #include "delam/delam.h"
+#include "law/law_parameters.hpp"
+#include "law/softening/host_check.hpp"
 
 namespace delam {
 
@@ -108,6 +110,25 @@ void require_admissible(const Law& law) {
     fail(DELAM_ERROR_PROBLEM, "law: toughness ", toughness_at(law.criterion, total, b), " < onset ",
          toughness_at(law.criterion_of_onset(), onset, b), " at mixity B = ", b,
          " although the pure modes are fine: Gc(B) >= Go(B) is needed for every B in [0,1]; change the exponents");
+}
+
+void validate(const Law& law) {
+    for (const LawParameter& p : law_parameters()) {
+        if (!applies(p, law) || p.type != std::string("real")) continue;
+        const double value = p.value != nullptr ? law.*p.value : p.read(law.softening);
+        if (p.instead_of != nullptr && value == 0.0 && law.*p.instead_of != 0.0) continue;
+        if (!p.range.allows(value)) fail(DELAM_ERROR_PROBLEM, "law: ", p.key, " ", value, ": must be ", p.range.words);
+    }
+    std::visit(
+        [](const auto& shape) {
+            if constexpr (requires { shape.missing(); })
+                if (const char* what = shape.missing()) fail(DELAM_ERROR_PROBLEM, "law: ", what);
+        },
+        law.softening);
+    if (const HostSoftening* given = law.host())
+        require_consistent(*given);
+    else
+        require_admissible(law);
 }
 
 }  // namespace delam

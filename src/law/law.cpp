@@ -6,24 +6,8 @@
 
 #include "base/error.hpp"
 #include "delam/delam.h"
-#include "law/admissible.hpp"
-#include "law/host_check.hpp"
-#include "law/law_parameters.hpp"
 
 namespace delam {
-
-bool Law::set(const std::string& key, double value) {
-    const LawParameter* p = find_parameter(*this, key);
-    if (p == nullptr) return false;
-    if (p->value != nullptr) {
-        this->*p->value = value;
-        if (p->second != nullptr) this->*p->second = value;
-        if (p->instead_of != nullptr) this->*p->instead_of = 0.0;
-    } else if (p->write != nullptr) {
-        p->write(softening, value);
-    }
-    return p->type == std::string("real");
-}
 
 void Law::set_criterion(Criterion chosen) {
     if (chosen == criterion) return;
@@ -35,25 +19,6 @@ void Law::set_criterion(Criterion chosen) {
 void Law::set_onset_criterion(Criterion chosen) {
     if (chosen != criterion_of_onset()) onset_exponent_1 = onset_exponent_2 = 2.0;
     onset_criterion = chosen;
-}
-
-void Law::validate() const {
-    for (const LawParameter& p : law_parameters()) {
-        if (!applies(p, *this) || p.type != std::string("real")) continue;
-        const double value = p.value != nullptr ? this->*p.value : p.read(softening);
-        if (p.instead_of != nullptr && value == 0.0 && this->*p.instead_of != 0.0) continue;
-        if (!p.range.allows(value)) fail(DELAM_ERROR_PROBLEM, "law: ", p.key, " ", value, ": must be ", p.range.words);
-    }
-    std::visit(
-        [](const auto& shape) {
-            if constexpr (requires { shape.missing(); })
-                if (const char* what = shape.missing()) fail(DELAM_ERROR_PROBLEM, "law: ", what);
-        },
-        softening);
-    if (const HostSoftening* given = host())
-        require_consistent(*given);
-    else
-        require_admissible(*this);
 }
 
 bool Law::depends_on_mixity() const {

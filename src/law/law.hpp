@@ -20,8 +20,8 @@
 #include <variant>
 
 #include "law/criterion.hpp"
-#include "law/softening.hpp"
-#include "law/toughness.hpp"
+#include "law/softening/softening.hpp"
+#include "law/softening/toughness.hpp"
 
 namespace delam {
 
@@ -43,16 +43,11 @@ struct Law {
     std::optional<Criterion> onset_criterion;  // of the onset where it is not that of the toughness
     Softening softening;
 
-    // Sets a number by its public name (delam_law_set), whatever its value; false: the law has no such number.
-    bool set(const std::string& key, double value);
     // The criterion of the toughness, and of the onset as long as the onset has none of its own. Another criterion
     // starts with its own exponents, 2.
     void set_criterion(Criterion chosen);
     void set_onset_criterion(Criterion chosen);
     Criterion criterion_of_onset() const { return onset_criterion.value_or(criterion); }
-    // Throws Error(DELAM_ERROR_PROBLEM) naming the parameter, its value and range, or the mixity where Gc(B) < Go(B),
-    // or where the callbacks of the host contradict each other.
-    void validate() const;
     // False: Go and Gc are the same at every mixity.
     bool depends_on_mixity() const;
     const LawKind& kind() const { return law_kinds[softening.index()]; }

@@ -166,4 +166,17 @@ std::string known_parameters(const Law& law, const std::string& type) {
     return out;
 }
 
+bool set_parameter(Law& law, const std::string& key, double value) {
+    const LawParameter* p = find_parameter(law, key);
+    if (p == nullptr) return false;
+    if (p->value != nullptr) {
+        law.*p->value = value;
+        if (p->second != nullptr) law.*p->second = value;
+        if (p->instead_of != nullptr) law.*p->instead_of = 0.0;
+    } else if (p->write != nullptr) {
+        p->write(law.softening, value);
+    }
+    return p->type == std::string("real");
+}
+
 }  // namespace delam

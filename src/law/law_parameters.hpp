@@ -33,5 +33,7 @@ bool applies(const LawParameter& parameter, const Law& law);
 const LawParameter* find_parameter(const Law& law, const std::string& key);
 // "normal_stiffness, ...", of one type
 std::string known_parameters(const Law& law, const std::string& type);
+// Sets a number by its public name (delam_law_set), whatever its value; false: the law has no such number.
+bool set_parameter(Law& law, const std::string& key, double value);
 
 }  // namespace delam

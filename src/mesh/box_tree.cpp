@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/cancel_scope.hpp"
-#include "mesh/faces.hpp"
+#include "base/numbers.hpp"
 
 namespace delam {
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mesh/box_tree.hpp"
+#include "mesh/faces.hpp"
 #include "mesh/mesh.hpp"
 
 namespace delam {

@@ -162,4 +162,18 @@ Box box_of(const Mesh& mesh, const BoundaryFace& face, double widened) {
     return box;
 }
 
+std::vector<BoundaryFace> boundary_faces(const Mesh& mesh, std::int32_t body) {
+    const std::vector<std::int64_t> cells = mesh.body_cells(body);
+    const FaceTable table = match_faces(mesh, cells);
+    std::vector<BoundaryFace> faces;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        poll_cancel("mesh");
+        const CellTopology& shape = topology(mesh.cell_type(cells[i]));
+        for (int f = 0; f < shape.faces; ++f)
+            if (table.neighbour[i * index(FaceTable::stride) + index(f)] < 0)
+                faces.push_back({cells[i], shape.face_nodes, shape.face_corners, face_nodes(mesh, cells[i], f)});
+    }
+    return faces;
+}
+
 }  // namespace delam

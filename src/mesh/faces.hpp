@@ -13,6 +13,21 @@
 
 namespace delam {
 
+// A face that one cell alone has: cell, its nodes (corners outward, then the others), in order of cells and local
+// faces.
+struct BoundaryFace {
+    std::int64_t cell;
+    int nodes;
+    int corners;
+    std::array<std::int64_t, most_face_nodes> node;
+
+    std::span<const std::int64_t> all() const { return std::span(node).first(static_cast<std::size_t>(nodes)); }
+    std::span<const std::int64_t> corner() const { return all().first(static_cast<std::size_t>(corners)); }
+    std::span<const std::int64_t> middle() const { return all().subspan(static_cast<std::size_t>(corners)); }
+};
+// body -1: of all bodies.
+std::vector<BoundaryFace> boundary_faces(const Mesh& mesh, std::int32_t body);
+
 // Neighbours across faces among some cells of a mesh: the neighbour of cells[i] across its local face f is
 // cells[neighbour[i*stride + f]]; negative: none.
 struct FaceTable {

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "mesh/mesh.hpp"
+#include "mesh/cell_type.hpp"
 
 namespace delam {
 

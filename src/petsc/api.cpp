@@ -8,9 +8,10 @@
 #include <vector>
 
 #include "delam/petsc.h"
-#include "petsc/options.hpp"
-#include "petsc/own_cells.hpp"
-#include "petsc/rows.hpp"
+#include "petsc/base/options.hpp"
+#include "petsc/callbacks.hpp"
+#include "petsc/part/own_cells.hpp"
+#include "petsc/part/rows.hpp"
 #include "petsc/session.hpp"
 
 static_assert(sizeof(PetscScalar) == sizeof(double),
@@ -179,7 +180,8 @@ int32_t delam_petsc_set_cells(delam_petsc* petsc, const delam_mesh* mesh, const 
 }
 
 int32_t delam_petsc_attach(delam_petsc* petsc, delam_problem* problem) {
-    return call(petsc, {DELAM_ERROR_ARGUMENT, DELAM_ERROR_STATE}, [&](Session& session) { session.attach(problem); });
+    return call(petsc, {DELAM_ERROR_ARGUMENT, DELAM_ERROR_STATE},
+                [&](Session& session) { session.attach(problem, delam::petsc::make_callbacks); });
 }
 
 int32_t delam_petsc_run(delam_petsc* petsc, int32_t (*work)(void* user), void* user) {

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "delam/experimental.h"
-#include "petsc/mesh_fields.hpp"
-#include "petsc/part_state.hpp"
-#include "petsc/solve.hpp"
+#include "petsc/bodies/mesh_fields.hpp"
+#include "petsc/bodies/part_state.hpp"
+#include "petsc/solve/solve.hpp"
 
 namespace delam::petsc {
 

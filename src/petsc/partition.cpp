@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "petsc/cell_bytes.hpp"
-#include "petsc/glued_cells.hpp"
-#include "petsc/options.hpp"
+#include "petsc/base/options.hpp"
+#include "petsc/part/cell_bytes.hpp"
+#include "petsc/part/glued_cells.hpp"
 
 namespace delam::petsc {
 

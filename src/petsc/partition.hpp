@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "delam/experimental.h"
-#include "petsc/communicator.hpp"
-#include "petsc/part.hpp"
-#include "petsc/part_state.hpp"
+#include "petsc/base/communicator.hpp"
+#include "petsc/bodies/part_state.hpp"
+#include "petsc/part/part.hpp"
 
 namespace delam::petsc {
 

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "petsc/callbacks.hpp"
-
 namespace delam::petsc {
 
 Session::~Session() {
@@ -46,13 +44,13 @@ void Session::take_scene(const delam_mesh* mesh, const delam_problem* problem, c
     set_part(std::move(received.part), std::move(received.cells));
 }
 
-void Session::attach(delam_problem* problem) {
+void Session::attach(delam_problem* problem, delam_experimental_engine (*callbacks)(Link* link)) {
     comm_.together([&] {
         if (!comm_.root()) return;
         if (problem == nullptr) fail(DELAM_ERROR_ARGUMENT, "problem is NULL on rank 0");
         auto link = std::make_unique<Link>(Link{this});
         links_.push_back(link.get());
-        const delam_experimental_engine engine = make_callbacks(link.release());
+        const delam_experimental_engine engine = callbacks(link.release());
         const std::int32_t status = delam_experimental_problem_set_engine(problem, &engine);
         if (status == DELAM_OK) return;
         forget_link(links_.back());

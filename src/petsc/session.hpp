@@ -45,7 +45,7 @@ public:
 
     void set_part(Part part, PartCells cells = {});
     void take_scene(const delam_mesh* mesh, const delam_problem* problem, const GivenRanks* given = nullptr);
-    void attach(delam_problem* problem);
+    void attach(delam_problem* problem, delam_experimental_engine (*callbacks)(Link* link));
     using Task = std::int32_t (*)(std::int64_t size, const std::uint8_t* bytes, void* user);
     void set_task(Task task, void* user);
     std::int32_t run(std::int32_t (*work)(void* user), void* user);

@@ -13,7 +13,7 @@
 #include "base/error.hpp"
 #include "base/numbers.hpp"
 #include "delam/delam.h"
-#include "linalg/dense.hpp"
+#include "linalg/dense/dense.hpp"
 
 namespace delam {
 

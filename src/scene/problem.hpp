@@ -13,7 +13,7 @@
 #include "body/host_stiffness.hpp"
 #include "body/model.hpp"
 #include "law/law.hpp"
-#include "linalg/sparse.hpp"
+#include "linalg/sparse/sparse.hpp"
 #include "mesh/mesh.hpp"
 #include "scene/engine.hpp"
 #include "scene/options.hpp"

@@ -12,7 +12,8 @@
 #include "base/error.hpp"
 #include "base/numbers.hpp"
 #include "delam/delam.h"
-#include "linalg/sparse_elimination.hpp"
+#include "law/admissible.hpp"
+#include "linalg/sparse/sparse_elimination.hpp"
 #include "scene/problem.hpp"
 #include "scene/supports.hpp"
 
@@ -62,7 +63,7 @@ void check_interfaces(const Problem& problem) {
                  ": no law (delam_problem_set_law, delam_problem_set_bonded or delam_problem_set_contact)");
         } else {
             try {
-                interface.law->validate();
+                validate(*interface.law);
             } catch (const Error& e) {
                 fail(e.status(), "interface ", i, ": ", e.what());
             }

@@ -81,7 +81,7 @@ def split(value):
 def own_statuses(folder):
     """function -> statuses that its own lines in src/capi give, with those of helpers of the façade by name."""
     found = {}
-    for path in sorted(glob.glob(os.path.join(folder, "*.cpp"))):
+    for path in sorted(glob.glob(os.path.join(folder, "**/*.cpp"), recursive=True)):
         with open(path, encoding="utf-8") as file:
             text = file.read()
         definition = r"^(?:int32_t|int64_t|void|const char\*) (delam_\w+)\([^{]*\{(?:[^\n]*\}$|.*?^\})"
@@ -106,7 +106,7 @@ def passed_statuses(folder):
         with open(path, encoding="utf-8") as file:
             rows = re.findall(r"Listed (\w+) =\s*Listed::of\(([^)]*)\)", file.read())
         found = {"delam_" + name: words_of(text) for name, text in rows}
-    for path in sorted(glob.glob(os.path.join(folder, "*.cpp"))):
+    for path in sorted(glob.glob(os.path.join(folder, "**/*.cpp"), recursive=True)):
         with open(path, encoding="utf-8") as file:
             text = file.read()
         for match in re.finditer(r"^int32_t (delam_\w+)\([^{]*\{\n\s*return (?:call|here)\(\w+,\s*\{([^}]*)\}", text, re.M):
@@ -120,7 +120,7 @@ def words_of(text):
 
 def unused_passed(folder):
     """Rows of listed.hpp that no function takes."""
-    text = "".join(open(path, encoding="utf-8").read() for path in sorted(glob.glob(os.path.join(folder, "*.cpp"))))
+    text = "".join(open(path, encoding="utf-8").read() for path in sorted(glob.glob(os.path.join(folder, "**/*.cpp"), recursive=True)))
     for name in passed_statuses(folder):
         short = name[len("delam_"):]
         body = re.search(rf"^int32_t {name}\([^{{]*\{{(?:[^\n]*\}}$|.*?^\}})", text, re.S | re.M)

@@ -2,8 +2,7 @@
 // All values and fields of an analysis, bit by bit, for tests that require the same digits.
 #pragma once
 
-#include <cstring>
-
+#include "../unit/same_bits.hpp"
 #include "enf.hpp"
 #include "support.hpp"
 
@@ -28,13 +27,9 @@ inline Bits read_bits(const reference::Solver& solver) {
     return bits;
 }
 
-inline bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
-    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0);
-}
-
 inline void expect_same(const reference::Solver& solver, const Bits& a, const Bits& b, const std::string& where) {
     for (std::size_t i = 0; i < a.values.size() && i < b.values.size(); ++i) {
-        if (same_bits({a.values[i]}, {b.values[i]})) continue;
+        if (delam::same_bits(a.values[i], b.values[i])) continue;
         char line[200];
         std::snprintf(line, sizeof line, "%s: %s is %.17g or %.17g", where.c_str(),
                       delam_solver_value_name(solver.get(), static_cast<std::int64_t>(i)), a.values[i], b.values[i]);
@@ -42,7 +37,7 @@ inline void expect_same(const reference::Solver& solver, const Bits& a, const Bi
     }
     expect(a.values.size() == b.values.size(), where + ": other values");
     for (std::size_t f = 0; f < a.fields.size(); ++f) {
-        expect(same_bits(a.fields[f], b.fields[f]), where + ": field " + all_fields[f] + " differs");
+        expect(delam::same_bits(a.fields[f], b.fields[f]), where + ": field " + all_fields[f] + " differs");
     }
 }
 

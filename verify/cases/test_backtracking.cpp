@@ -229,7 +229,7 @@ CASE_TEST(limits_and_depth) {
     double returns = 0.0;
     for (int k = 1; k <= steps; ++k) {
         for (Solver* s : {&a, &b, &c, &d}) s->step(time_of(k, steps));
-        cases::expect(cases::same_bits(a.field("adhesion"), b.field("adhesion")) && b.value("backtracks") == 0.0,
+        cases::expect(delam::same_bits(a.field("adhesion"), b.field("adhesion")) && b.value("backtracks") == 0.0,
                       "limit 0 never returns");
         cases::expect_below(c.value("backtracks"), 1.0, "limit 1");
         returns += c.value("backtracks");

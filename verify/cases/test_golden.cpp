@@ -2,6 +2,7 @@
 // Saved states of every format version that the library reads exist and are read, whatever version wrote them:
 // golden/vN-NAME.state, with the values in golden/vN-NAME.txt (key value). Given a folder as its argument, the program
 // writes both for the present version.
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>

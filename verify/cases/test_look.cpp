@@ -23,8 +23,8 @@ CASE_TEST(fields_after_a_look) {
     solver.commit();
     plain.commit();
     const auto now = solver.field("displacement");
-    cases::expect(cases::same_bits(now, plain.field("displacement")), "displacements of the committed step");
-    cases::expect(!cases::same_bits(now, earlier), "the load has grown");
+    cases::expect(delam::same_bits(now, plain.field("displacement")), "displacements of the committed step");
+    cases::expect(!delam::same_bits(now, earlier), "the load has grown");
 }
 
 // The margin of a search does not depend on the reduction of the bodies, with a gradient term either.

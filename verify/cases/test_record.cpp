@@ -69,7 +69,7 @@ void expect_as_looked_at(Solver& solver, const std::string& where) {
         const std::vector<double> values = recorded(solver, key);
         for (std::size_t i = 0; i < values.size(); ++i) {
             look(solver, size.first + static_cast<std::int64_t>(i));
-            cases::expect(cases::same_bits({solver.value(key)}, {values[i]}),
+            cases::expect(delam::same_bits(solver.value(key), values[i]),
                           where + ": " + key + " of step " + std::to_string(size.first + static_cast<std::int64_t>(i)));
         }
     }
@@ -124,7 +124,7 @@ CASE_TEST(saved_with_the_state) {
     cases::expect(size_of(second).first == 2 && size_of(second).steps == steps - 1,
                   "from the step on at which it was asked for");
     for (const char* key : keys)
-        cases::expect(cases::same_bits(recorded(whole, key), recorded(second, key)),
+        cases::expect(delam::same_bits(recorded(whole, key), recorded(second, key)),
                       std::string(key) + " after loading");
     // A return to before the start of the record replaces the whole record.
     expect_as_looked_at(second, "resumed");
@@ -144,8 +144,8 @@ CASE_TEST(in_space_by_feti) {
         rates.push_back(solver.value("energy_release_rate"));
     }
     cases::expect(seen.back() > 0.0, "nothing was damaged");
-    cases::expect(cases::same_bits(seen, recorded(solver, "dissipated")), "dissipated");
-    cases::expect(cases::same_bits(rates, recorded(solver, "energy_release_rate")), "energy release rate");
+    cases::expect(delam::same_bits(seen, recorded(solver, "dissipated")), "dissipated");
+    cases::expect(delam::same_bits(rates, recorded(solver, "energy_release_rate")), "energy release rate");
 }
 
 CASE_TEST(later_keys_and_set_states) {

@@ -48,7 +48,7 @@ CASE_TEST(rollback_is_exact) {
 
     solver.step(cases::small_time(half + 1));
     const auto pending = cases::read_bits(solver);
-    cases::expect(!cases::same_bits(pending.values, committed.values), "a pending step is what is read");
+    cases::expect(!delam::same_bits(pending.values, committed.values), "a pending step is what is read");
     solver.rollback();
     cases::expect_same(solver, cases::read_bits(solver), committed, "after rollback");
     cases::expect(solver.save() == bytes, "snapshot after rollback");

@@ -7,11 +7,11 @@
 #include <string_view>
 #include <vector>
 
-#include "cell_shape.hpp"
 #include "contract.hpp"
-#include "error.hpp"
 #include "folder.hpp"
-#include "mesh_file.hpp"
+#include "mesh/cell_shape.hpp"
+#include "scene/read_mesh.hpp"
+#include "text/error.hpp"
 
 namespace {
 

@@ -8,15 +8,16 @@
 #include <string>
 #include <string_view>
 
-#include "build.hpp"
 #include "contract.hpp"
-#include "error.hpp"
 #include "folder.hpp"
-#include "history.hpp"
-#include "notes.hpp"
-#include "resolution.hpp"
-#include "scene.hpp"
-#include "scene_text.hpp"
+#include "model/build.hpp"
+#include "model/notes.hpp"
+#include "result/closing/resolution.hpp"
+#include "result/history/history.hpp"
+#include "scene/read_scene.hpp"
+#include "scene/scene.hpp"
+#include "scene/table/scene_text.hpp"
+#include "text/error.hpp"
 
 namespace {
 

@@ -37,7 +37,7 @@ DISSIPATED = {"variational": ("stored_interface_slides", "dissipated_slides")}
 # The most by which the adhesion of a pair changes with the logarithm of its jump. Piecewise-linear law:
 # zeta + Go/(Gc - Go); the mixity adds its part.
 SENSITIVITY = 2.0
-# A violation below this part of the largest jump is none (contact_rounding of src/evolution/increment/active_set.hpp).
+# A violation below this part of the largest jump is none (contact_rounding of src/evolution/contact/active_set.hpp).
 CONTACT_ROUNDING = 1e-11
 
 

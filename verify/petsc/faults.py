@@ -23,7 +23,7 @@ from launch import DELAM_MPI, ENVIRONMENT, EXAMPLES, Ranks, alone, expect, finis
 
 PROMPT = 10.0  # s, in which all has ended
 START = 60.0  # s, where the ranks start first, perhaps beside other programs
-PATIENCE = 8.0  # s, in which a rank that has failed waits for the others (src/petsc/communicator.cpp)
+PATIENCE = 8.0  # s, in which a rank that has failed waits for the others (src/petsc/base/communicator.cpp)
 ENGINE = os.environ.get("DELAM_TEST_ENGINE", "")  # test_engine.cpp
 SCARCE = os.environ.get("DELAM_SCARCE_LIBRARY", "")  # scarce.c
 SCENE = os.path.join(EXAMPLES, "enf-ductile", "enf-ductile.toml")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checks that every folder of src has a README that names each of its files.
+"""Checks that every file of src is named in the README of its folder or of a folder above it.
 
     python3 verify/style/readmes.py
 """
@@ -12,15 +12,15 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 def problems(src):
-    """Folders without README.md, and files whose name without its ending stands in none of it."""
-    for folder in [src, *sorted(p for p in src.rglob("*") if p.is_dir())]:
-        readme = folder / "README.md"
-        if not readme.is_file():
+    """Yields top folders without README.md, and files whose name without its ending stands in no README above them."""
+    for folder in [src, *sorted(p for p in src.iterdir() if p.is_dir())]:
+        if not (folder / "README.md").is_file():
             yield f"{folder.relative_to(src.parent)}: no README.md"
-            continue
-        words = set(re.findall(r"\w+", readme.read_text(encoding="utf-8")))
-        for stem in sorted({p.stem for p in folder.glob("*.[ch]pp")} - words):
-            yield f"{readme.relative_to(src.parent)}: does not name {stem}"
+    words = {p.parent: set(re.findall(r"\w+", p.read_text(encoding="utf-8"))) for p in src.rglob("README.md")}
+    for stem in sorted({p.with_suffix("") for p in src.rglob("*.[ch]pp")}):
+        above = [folder for folder in stem.parents if folder.is_relative_to(src)]
+        if not any(stem.name in words.get(folder, ()) for folder in above):
+            yield f"{stem.relative_to(src.parent)}: named in no README of its folder or of one above it"
 
 
 def main():

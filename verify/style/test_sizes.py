@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests the scanner of functions on code whose lengths are known, and plants what sizes.py, words.py and
-readmes.py must refuse."""
+"""Tests the scanner of functions on code whose lengths are known, and plants what sizes.py, words.py,
+readmes.py and arrows.py must refuse."""
 
 import pathlib
 import sys
 import tempfile
 
+import arrows
 import readmes
 import scanner
 import sizes
@@ -66,6 +67,33 @@ def lengthy(lines):
     return "int f() {\n" + "    g();\n" * (lines - 2) + "}\n"
 
 
+HOUSE = {"scene/scene.cpp": ["scene/scene.hpp", "mesh/mesh.hpp"], "scene/scene.hpp": [],
+         "mesh/mesh.hpp": ["mesh/cells/cell.hpp"], "mesh/cells/cell.hpp": []}
+TABLES = ["| `scene/` | input | mesh |\n| `mesh/` | geometry | - |\n",
+          "| `mesh/.` | the mesh | mesh/cells |\n| `mesh/cells/` | cells | - |\n"]
+
+
+def planted_arrows():
+    """Plants a fault of each kind in a house without any; returns how many."""
+    assert arrows.problems("src", TABLES, HOUSE) == []
+    many = {f"mesh/cells/c{i}.hpp": [] for i in range(arrows.CONCEPTS)}
+    faults = {
+        "in no table": (TABLES, HOUSE | {"mesh/cells/cell.hpp": ["scene/scene.hpp"]}),
+        "but no file needs it": ([TABLES[0].replace("- |", "cells |"), "| `cells/` | cells | - |\n", TABLES[1]], HOUSE),
+        "points up": (["".join(reversed(TABLES[0].splitlines(True))), TABLES[1]], HOUSE),
+        "there is no such room": ([TABLES[0].replace("- |", "law |"), TABLES[1]], HOUSE),
+        "circle of files: mesh/mesh, scene/scene": (TABLES, HOUSE | {"mesh/mesh.hpp": ["mesh/cells/cell.hpp", "scene/scene.hpp"]}),
+        f"{arrows.CONCEPTS + 1} concepts": (TABLES, HOUSE | many),
+        f"{arrows.FOLDERS + 1} folders": (TABLES, HOUSE | {f"mesh/f{i}/x.hpp": [] for i in range(arrows.FOLDERS)}),
+    }
+    for words_of_it, (tables, house) in faults.items():
+        found = arrows.problems("src", tables, house)
+        assert any(words_of_it in line for line in found), f"{words_of_it}: {found}"
+    assert list(arrows.twice({"src": ["a/x.hpp"], "other": ["a/x.hpp", "a/y.hpp"]}))
+    assert not list(arrows.twice({"src": ["a/x.hpp"], "other": ["a/x.cpp", "b/x.hpp"]}))
+    return len(faults) + 1
+
+
 def main():
     found = list(scanner.functions(CODE))
     assert found == EXPECTED, f"found {found}, expected {EXPECTED}"
@@ -107,12 +135,17 @@ def main():
         (src / "README.md").write_text("One folder.\n", encoding="utf-8")
         (src / "law" / "mixity.cpp").touch()
         (src / "law" / "law_kind.hpp").touch()
-        assert list(readmes.problems(src)) == ["src/law: no README.md"]
-        (src / "law" / "README.md").write_text("- `mixity`\n- `law`\n", encoding="utf-8")
-        assert list(readmes.problems(src)) == ["src/law/README.md: does not name law_kind"]
-        (src / "law" / "README.md").write_text("- `mixity`, `law_kind`\n", encoding="utf-8")
+        (src / "law" / "shape").mkdir()
+        (src / "law" / "shape" / "linear.hpp").touch()
+        missing = "named in no README of its folder or of one above it"
+        assert list(readmes.problems(src)) == ["src/law: no README.md",
+                                               *(f"src/law/{name}: {missing}" for name in ("law_kind", "mixity", "shape/linear"))]
+        (src / "law" / "README.md").write_text("- `mixity`\n- `law`\n- `linear`\n", encoding="utf-8")
+        assert list(readmes.problems(src)) == [f"src/law/law_kind: {missing}"]
+        (src / "law" / "README.md").write_text("- `mixity`, `law_kind`, `linear`\n", encoding="utf-8")
         assert not list(readmes.problems(src))
-    print(f"{len(EXPECTED)} functions, {len(refused) + len(planted) + 2} planted")
+    houses = planted_arrows()
+    print(f"{len(EXPECTED)} functions, {len(refused) + len(planted) + 2 + houses} planted")
     return 0
 
 

@@ -17,7 +17,7 @@ RULES = [
     ("dynamic_cast", r"\bdynamic_cast\b", []),
     ("a helper that makes an index of an integer, besides index() of base/numbers.hpp and at() of petsc, which sees only public headers",
      r"\b(?:std::)?size_t \w+\([\w:]+ (\w+)\) (?:noexcept )?\{\s*return static_cast<(?:std::)?size_t>\(\1\);",
-     ["base/numbers.hpp", "petsc/index.hpp"]),
+     ["base/numbers.hpp", "petsc/base/index.hpp"]),
     ("a loop for the largest absolute value of a list, besides max_abs() of base/numbers.hpp",
      r"for \((?:const )?(?:double|auto)&? (\w+) : [\w.()\[\]]+\)\s*\{?\s*(\w+) = std::max\(\2, std::abs\(\1\)\);",
      ["base/numbers.hpp"]),
@@ -31,7 +31,7 @@ RULES = [
      ["evolution/increment/mixity_rule.cpp", "scene/validate.cpp"]),
     ("the option mixity_rule read, besides where a step is constructed, the plan and the check of a scene",
      r"\boptions(?:\(\))?(?:\.|->)mixity_rule\b",
-     ["evolution/step/stepper.cpp", "evolution/plan.cpp", "scene/validate.cpp"]),
+     ["evolution/step/stepper.cpp", "evolution/analysis/plan.cpp", "scene/validate.cpp"]),
     ("the stiffness of a component chosen by hand, besides Law::stiffness() of law/law.hpp",
      r"\?\s*[\w.>-]*\bnormal_stiffness\s*:", ["law/law.hpp"]),
 ]

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "linalg/sparse.hpp"
+#include "linalg/sparse/sparse.hpp"
 
 namespace unit {
 

@@ -7,6 +7,7 @@
 
 #include "../cases/host_bilinear.hpp"
 #include "law/law.hpp"
+#include "law/law_parameters.hpp"
 
 namespace laws {
 
@@ -32,8 +33,8 @@ inline Law law(const std::string& shape, delam::Criterion criterion, double rati
         l.onset_exponent_1 = l.toughness_exponent_1 = 1.4;
         l.onset_exponent_2 = l.toughness_exponent_2 = 2.3;
     } else {
-        l.set("onset_exponent", 1.6);
-        l.set("toughness_exponent", 1.6);
+        set_parameter(l, "onset_exponent", 1.6);
+        set_parameter(l, "toughness_exponent", 1.6);
     }
     return l;
 }
@@ -52,7 +53,7 @@ inline std::vector<Named> shapes(delam::Criterion criterion, double ratio) {
     add("exponential", law("exponential", criterion, ratio));
     for (const double plateau : {0.0, 0.5, 0.95}) {
         Law l = law("trapezoidal", criterion, ratio);
-        l.set("plateau", plateau);
+        set_parameter(l, "plateau", plateau);
         add("trapezium " + std::to_string(plateau), l);
     }
     add("table", table({0.0, 0.1, 0.3, 0.6, 1.0}, {1.0, 0.7, 0.4, 0.1, 0.0}));

@@ -9,8 +9,8 @@
 
 #include "base/numbers.hpp"
 #include "flexure.hpp"
-#include "reduction/jump_operator.hpp"
-#include "reduction/zone/zone.hpp"
+#include "reduction/operator/jump_operator.hpp"
+#include "reduction/operator/zone.hpp"
 #include "scene/problem.hpp"
 
 // Last: its macro fail() would break delam::fail().

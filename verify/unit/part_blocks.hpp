@@ -6,16 +6,16 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "base/numbers.hpp"
-#include "capi/handles.hpp"
+#include "capi/handle/handles.hpp"
 #include "delam/experimental.h"
 #include "mesh/mesh.hpp"
+#include "same_bits.hpp"
 #include "scene/problem.hpp"
 
 // Last: its macro fail() would break delam::fail().
@@ -195,10 +195,6 @@ inline Matrix matrix_of(const Blocks& b, const std::vector<std::uint8_t>& bytes)
         ck_assert(std::equal(x.begin(), x.end(), m.place.begin() + static_cast<std::int64_t>(i) * m.dimension));
     }
     return m;
-}
-
-inline bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
 }
 
 }  // namespace delam::part_test

@@ -13,10 +13,10 @@
 
 #include "base/numbers.hpp"
 #include "delam/experimental.h"
-#include "linalg/cholesky.hpp"
-#include "linalg/dense.hpp"
-#include "linalg/sparse.hpp"
-#include "reduction/iterated/conjugate_gradients.hpp"
+#include "linalg/dense/dense.hpp"
+#include "linalg/sparse/cholesky.hpp"
+#include "linalg/sparse/sparse.hpp"
+#include "reduction/sparse/iterated/conjugate_gradients.hpp"
 
 namespace unit {
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "evolution/increment/active_set.hpp"
-#include "linalg/dense.hpp"
+#include "evolution/contact/active_set.hpp"
+#include "linalg/dense/dense.hpp"
 
 #include <check.h>
 

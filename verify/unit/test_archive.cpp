@@ -11,7 +11,7 @@
 #include "base/archive.hpp"
 #include "base/error.hpp"
 #include "evolution/increment/state_fields.hpp"
-#include "evolution/jump_event_fields.hpp"
+#include "evolution/step/jump_event_fields.hpp"
 
 // Last: its macro fail() would break delam::fail().
 #include <check.h>

@@ -7,12 +7,12 @@
 
 #include <dlfcn.h>
 
-#include "base/blas_threads.hpp"
+#include "base/machine/blas_threads.hpp"
 #include "base/monitor.hpp"
-#include "evolution/solver.hpp"
+#include "evolution/analysis/solver.hpp"
 #include "flexure.hpp"
-#include "linalg/blas.hpp"
-#include "linalg/dense.hpp"
+#include "linalg/dense/blas.hpp"
+#include "linalg/dense/dense.hpp"
 
 #include <check.h>  // last: it has a macro named fail
 

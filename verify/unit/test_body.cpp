@@ -19,7 +19,8 @@
 #include "body/element.hpp"
 #include "body/material.hpp"
 #include "body/rigid_modes.hpp"
-#include "linalg/sparse.hpp"
+#include "linalg/sparse/sparse.hpp"
+#include "mesh/faces.hpp"
 #include "mesh/layers.hpp"
 #include "mesh/mesh.hpp"
 

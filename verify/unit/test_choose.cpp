@@ -13,12 +13,12 @@
 #include "base/error.hpp"
 #include "counting_allocator.hpp"
 #include "delam/delam.h"
-#include "evolution/solver.hpp"
+#include "evolution/analysis/solver.hpp"
 #include "flexure.hpp"
-#include "linalg/cholesky.hpp"
-#include "reduction/choose.hpp"
+#include "linalg/sparse/cholesky.hpp"
+#include "reduction/choice/choose.hpp"
 #include "reduction/condensed/bulk.hpp"
-#include "reduction/iterated/iterated.hpp"
+#include "reduction/sparse/iterated/iterated.hpp"
 
 // Last: its macro fail() would break delam::fail().
 #include <check.h>

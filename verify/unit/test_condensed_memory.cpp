@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <memory>
 #include <vector>
 
 #include "base/monitor.hpp"
 #include "mesh/layers.hpp"
 #include "reduction/condensed/condensed.hpp"
+#include "same_bits.hpp"
 #include "scene/problem.hpp"
 
 // Last: its macro fail() would break delam::fail().
@@ -68,10 +68,6 @@ private:
     Problem problem_;
     std::shared_ptr<Bulk> bulk_;
 };
-
-bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
-}
 
 void solve_alike(const Problem& problem, Condensed& one, Condensed& other) {
     for (const std::size_t broken : {3U, 4U, 9U, 30U, 31U}) {

@@ -11,16 +11,16 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "evolution/increment/extrapolation.hpp"
+#include "evolution/contact/extrapolation.hpp"
 #include "law/law.hpp"
-#include "linalg/dense.hpp"
-#include "linalg/echelon.hpp"
-#include "linalg/sparse.hpp"
+#include "linalg/dense/dense.hpp"
+#include "linalg/dense/echelon.hpp"
+#include "linalg/sparse/sparse.hpp"
 #include "mesh/layers.hpp"
-#include "reduction/jump_variables.hpp"
-#include "reduction/zone/dense_energy.hpp"
-#include "reduction/zone/dense_zone.hpp"
-#include "reduction/zone/rigid_jumps.hpp"
+#include "reduction/dense/dense_energy.hpp"
+#include "reduction/dense/dense_zone.hpp"
+#include "reduction/dense/rigid_jumps.hpp"
+#include "reduction/operator/jump_variables.hpp"
 #include "scene/problem.hpp"
 
 // Last: its macro fail() would break delam::fail().

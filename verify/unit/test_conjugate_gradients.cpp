@@ -2,12 +2,12 @@
 // The iteration against a solution in closed form: how often it asks its preconditioner, that it finds out a recursion
 // that drifts away from the true residual, that it stops at what rounding leaves, and that it recognises negative
 // curvature.
-#include "reduction/iterated/conjugate_gradients.hpp"
+#include "reduction/sparse/iterated/conjugate_gradients.hpp"
 
 #include <cmath>
 #include <vector>
 
-#include "linalg/dense.hpp"
+#include "linalg/dense/dense.hpp"
 
 // Last: its macro fail() would break delam::fail().
 #include "quiet_check.hpp"

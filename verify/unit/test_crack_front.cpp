@@ -4,7 +4,7 @@
 #include <cmath>
 #include <functional>
 
-#include "evolution/crack_front.hpp"
+#include "evolution/observe/crack_front.hpp"
 #include "mesh/layers.hpp"
 
 #include <check.h>  // last: it has a macro named fail

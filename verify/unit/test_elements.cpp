@@ -16,7 +16,7 @@
 #include "base/error.hpp"
 #include "body/assembly.hpp"
 #include "body/element.hpp"
-#include "linalg/sparse.hpp"
+#include "linalg/sparse/sparse.hpp"
 #include "mesh/layers.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/shape.hpp"

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "base/numbers.hpp"
-#include "evolution/solver.hpp"
+#include "evolution/analysis/solver.hpp"
 #include "layer_states.hpp"
 #include "reduction/condensed/condensed.hpp"
-#include "reduction/engine/engine_operator.hpp"
+#include "reduction/sparse/engine/engine_operator.hpp"
 #include "serial_engine.hpp"
 
 // Last: its macro fail() would break delam::fail().
@@ -292,8 +292,8 @@ START_TEST(marches_as_without_an_engine) {
         const double allowed = m.mixity_rule == std::string("variational") ? 2e-5 : 1e-6;
         expect_close(others, energies, allowed, max_abs(energies), where + ", energies");
         ck_assert_msg(t.closed == s.closed, "%s: contact", where.c_str());
-        const std::vector<double> u = a.displacement();
-        expect_close(b.displacement(), u, allowed, max_abs(u), where + ", displacements");
+        const std::vector<double> u = a.observer().displacement();
+        expect_close(b.observer().displacement(), u, allowed, max_abs(u), where + ", displacements");
         broken = std::count_if(t.adhesion.begin(), t.adhesion.end(), [](double z) { return z < 1.0; });
     }
     const std::vector<double> k = a.tangent(), other = b.tangent();
@@ -382,8 +382,8 @@ START_TEST(bodies_that_only_the_engine_knows) {
             solver->commit();
         }
         expect_close(b.committed().adhesion, a.committed().adhesion, 1e-4, 1.0, where + ", adhesion");
-        const std::vector<double> rho = a.reaction();
-        expect_close(b.reaction(), rho, 1e-6, max_abs(rho), where + ", reactions");
+        const std::vector<double> rho = a.observer().reaction();
+        expect_close(b.observer().reaction(), rho, 1e-6, max_abs(rho), where + ", reactions");
     }
 }
 END_TEST
@@ -449,8 +449,8 @@ START_TEST(solvers_take_turns) {
             expect_close(one.committed().adhesion, two.committed().adhesion, 1e-6, 1.0, "two solvers");
         }
         ck_assert_int_ge(engined.engine.prepared, 18);
-        const std::vector<double> u = one.displacement();
-        expect_close(two.displacement(), u, 1e-6, max_abs(u), "displacements of two solvers");
+        const std::vector<double> u = one.observer().displacement();
+        expect_close(two.observer().displacement(), u, 1e-6, max_abs(u), "displacements of two solvers");
     }
     engined.problem.engine.reset();
     ck_assert_int_eq(engined.engine.released, 1);

@@ -12,7 +12,7 @@
 #include "layer_states.hpp"
 #include "reduction/condensed/condensed.hpp"
 #include "reduction/feti/feti.hpp"
-#include "reduction/zone/zone.hpp"
+#include "reduction/operator/zone.hpp"
 
 // Last: its macro fail() would break delam::fail().
 #include "quiet_check.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "evolution/step/fronts.hpp"
+#include "evolution/search/fronts.hpp"
 #include "mesh/layers.hpp"
 #include "mesh/mesh.hpp"
 

@@ -8,7 +8,9 @@
 
 #include "base/error.hpp"
 #include "delam/delam.h"
+#include "law/admissible.hpp"
 #include "law/law.hpp"
+#include "law/law_parameters.hpp"
 #include "laws.hpp"
 
 #include <check.h>  // last: it has a macro named fail
@@ -118,10 +120,10 @@ START_TEST(same_as_the_bilinear_law) {
     own.tangential_onset = data.tangential_onset;
     own.normal_toughness = data.normal_toughness;
     own.tangential_toughness = data.tangential_toughness;
-    own.set("onset_exponent", data.eta);
-    own.set("toughness_exponent", data.eta);
-    host.validate();
-    own.validate();
+    set_parameter(own, "onset_exponent", data.eta);
+    set_parameter(own, "toughness_exponent", data.eta);
+    validate(host);
+    validate(own);
     ck_assert(host.depends_on_mixity());
     ck_assert(close(host.least_onset(), own.least_onset(), 1e-14));
     for (int i = 0; i <= 10; ++i) {
@@ -152,7 +154,7 @@ START_TEST(endless_softening) {
     Law shape;
     delam::softening_of("exponential", shape.softening);
     const Law law = given(exponential_adhesion, exponential_dissipation, &shape);
-    const std::string text = refusal([&] { law.validate(); });
+    const std::string text = refusal([&] { validate(law); });
     ck_assert_msg(text.empty(), "%s", text.c_str());
     ck_assert(std::isinf(law.driving(law.toughness(0.0), 0.0)));
 }
@@ -162,7 +164,7 @@ START_TEST(failures) {
     laws::Bilinear data;
     data.failing = 17;
     const Law law = given(laws::adhesion, laws::dissipation, &data);
-    expect(refusal([&] { law.validate(); }), "the dissipation callback failed with 17 at mixity B = 1, zeta = ");
+    expect(refusal([&] { validate(law); }), "the dissipation callback failed with 17 at mixity B = 1, zeta = ");
     expect(refusal([&] {
                law.minimiser({1.0, 2.0, 0.95}, 3.0, 1.0);
            }),
@@ -189,9 +191,9 @@ START_TEST(inconsistent_callbacks) {
     for (const auto& c : cases) {
         Spoilt spoilt{{}, c.fault};
         const Law law = given(spoilt_adhesion, spoilt_dissipation, &spoilt);
-        expect(refusal([&] { law.validate(); }), c.says);
+        expect(refusal([&] { validate(law); }), c.says);
         spoilt.fault = none;
-        const std::string text = refusal([&] { law.validate(); });
+        const std::string text = refusal([&] { validate(law); });
         ck_assert_msg(text.empty(), "%s", text.c_str());
     }
     // Also during an analysis.
@@ -209,9 +211,10 @@ START_TEST(stiffness_is_needed) {
     laws::Bilinear data;
     Law law = given(laws::adhesion, laws::dissipation, &data);
     law.tangential_stiffness = 0.0;
-    const std::string text = refusal([&] { law.validate(); });
+    const std::string text = refusal([&] { validate(law); });
     ck_assert_msg(text.find("tangential_stiffness 0: must be finite and > 0") != std::string::npos, "%s", text.c_str());
-    ck_assert(!law.set("normal_onset", 1.0) && law.set("gradient", 0.1) && law.set("tangential_stiffness", 1.0));
+    ck_assert(!set_parameter(law, "normal_onset", 1.0) && set_parameter(law, "gradient", 0.1) &&
+              set_parameter(law, "tangential_stiffness", 1.0));
 }
 END_TEST
 

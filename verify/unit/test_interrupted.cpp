@@ -9,9 +9,9 @@
 
 #include "base/error.hpp"
 #include "delam/delam.h"
-#include "evolution/snapshot.hpp"
-#include "evolution/solver.hpp"
-#include "evolution/values.hpp"
+#include "evolution/analysis/snapshot.hpp"
+#include "evolution/analysis/solver.hpp"
+#include "evolution/observe/values.hpp"
 #include "flexure.hpp"
 
 // Last: its macro fail() would break delam::fail().

@@ -10,16 +10,16 @@
 #include <vector>
 
 #include "base/numbers.hpp"
-#include "evolution/increment/contact.hpp"
-#include "evolution/increment/contact_levels.hpp"
+#include "evolution/contact/contact.hpp"
+#include "evolution/contact/contact_levels.hpp"
 #include "layer_states.hpp"
-#include "linalg/dense.hpp"
+#include "linalg/dense/dense.hpp"
 #include "reduction/condensed/condensed.hpp"
-#include "reduction/iterated/conjugate_gradients.hpp"
-#include "reduction/iterated/floating.hpp"
-#include "reduction/iterated/iterated.hpp"
-#include "reduction/zone/dense_zone.hpp"
-#include "reduction/zone/rigid_jumps.hpp"
+#include "reduction/dense/dense_zone.hpp"
+#include "reduction/dense/rigid_jumps.hpp"
+#include "reduction/sparse/floating.hpp"
+#include "reduction/sparse/iterated/conjugate_gradients.hpp"
+#include "reduction/sparse/iterated/iterated.hpp"
 
 // Last: its macro fail() would break delam::fail().
 #include "quiet_check.hpp"

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "evolution/jump_event.hpp"
+#include "evolution/step/jump_event.hpp"
 #include "law/law.hpp"
 
 #include <check.h>

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "base/numbers.hpp"
-#include "evolution/solver.hpp"
+#include "evolution/analysis/solver.hpp"
 #include "layer_states.hpp"
-#include "linalg/dense.hpp"
-#include "reduction/iterated/iterated.hpp"
+#include "linalg/dense/dense.hpp"
+#include "reduction/sparse/iterated/iterated.hpp"
 
 // Last: its macro fail() would break delam::fail().
 #include "quiet_check.hpp"

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <string>
 
-#include "evolution/solver.hpp"
+#include "evolution/analysis/solver.hpp"
 #include "flexure.hpp"
 
 // Last: its macro fail() would break delam::fail().

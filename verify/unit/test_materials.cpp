@@ -14,7 +14,7 @@
 #include "body/cell_elasticity.hpp"
 #include "body/material.hpp"
 #include "body/orientation.hpp"
-#include "linalg/dense.hpp"
+#include "linalg/dense/dense.hpp"
 #include "mesh/layers.hpp"
 
 #include <check.h>  // last: it has a macro named fail

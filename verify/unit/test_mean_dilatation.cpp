@@ -10,7 +10,7 @@
 
 #include "base/error.hpp"
 #include "body/assembly.hpp"
-#include "linalg/dense.hpp"
+#include "linalg/dense/dense.hpp"
 #include "mesh/layers.hpp"
 
 #include <check.h>  // last: it has a macro named fail

@@ -18,6 +18,7 @@
 #include "base/error.hpp"
 #include "delam/delam.h"
 #include "mesh/box_tree.hpp"
+#include "mesh/faces.hpp"
 #include "mesh/layers.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/partition.hpp"

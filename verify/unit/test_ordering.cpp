@@ -17,10 +17,10 @@
 #include <vector>
 
 #include "box_matrix.hpp"
-#include "linalg/cholesky.hpp"
-#include "linalg/dissection.hpp"
-#include "linalg/elimination_order.hpp"
-#include "linalg/equal_rows.hpp"
+#include "linalg/sparse/cholesky.hpp"
+#include "linalg/sparse/dissection.hpp"
+#include "linalg/sparse/elimination_order.hpp"
+#include "linalg/sparse/equal_rows.hpp"
 #include "quiet_check.hpp"
 
 // Last: its macro fail() would break delam::fail().

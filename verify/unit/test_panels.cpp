@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/team.hpp"
-#include "linalg/dense.hpp"
+#include "linalg/dense/dense.hpp"
 
 // Last: its macro fail() would break delam::fail().
 #include <check.h>

@@ -17,7 +17,7 @@
 #include "base/archive.hpp"
 #include "base/error.hpp"
 #include "base/numbers.hpp"
-#include "capi/handles.hpp"
+#include "capi/handle/handles.hpp"
 #include "delam/experimental.h"
 #include "part_blocks.hpp"
 #include "scene/part.hpp"

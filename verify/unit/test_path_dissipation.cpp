@@ -8,6 +8,7 @@
 
 #include "evolution/increment/path_dissipation.hpp"
 #include "law/adhesion_after.hpp"
+#include "law/law_parameters.hpp"
 #include "law/mixity.hpp"
 #include "laws.hpp"
 
@@ -34,8 +35,8 @@ Law turning_law() {
     law.tangential_onset = (1.0 + growth) * onset;
     law.normal_toughness = total;
     law.tangential_toughness = (1.0 + growth) * total;
-    law.set("onset_exponent", 1.0);
-    law.set("toughness_exponent", 1.0);
+    set_parameter(law, "onset_exponent", 1.0);
+    set_parameter(law, "toughness_exponent", 1.0);
     return law;
 }
 
@@ -219,7 +220,7 @@ START_TEST(exactly_the_share) {
     for (const char* shape : {"piecewise-linear", "exponential", "trapezoidal"})
         for (const double ratio : {2.5, 40.0, 1e5}) {
             Law law = laws::law(shape, laws::criteria[_i], ratio);
-            if (std::string(shape) == "trapezoidal") law.set("plateau", 0.5);
+            if (std::string(shape) == "trapezoidal") set_parameter(law, "plateau", 0.5);
             const Toughness t = law.toughness(0.4);
             for (const double zeta_old : {1.0, 0.5})
                 for (const double share : {0.01, 0.1}) {

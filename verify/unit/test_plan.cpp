@@ -6,9 +6,10 @@
 #include <cstring>
 #include <string>
 
-#include "evolution/fields.hpp"
-#include "evolution/solver.hpp"
-#include "evolution/values.hpp"
+#include "evolution/analysis/plan.hpp"
+#include "evolution/analysis/solver.hpp"
+#include "evolution/observe/fields.hpp"
+#include "evolution/observe/values.hpp"
 #include "flexure.hpp"
 
 // Last: its macro fail() would break delam::fail().
@@ -120,16 +121,16 @@ START_TEST(bodies_are_factored_once_and_displacements_recovered_on_request) {
     const double factorisations = _i == 0 ? 1.0 : _i == 1 ? 2.0 : 5.0;
     ck_assert(value(*solver, "bulk_factorisations") == factorisations);
     ck_assert(value(*solver, "field_recoveries") == 0.0);
-    for (const char* key : {"jump", "traction", "adhesion", "mixity", "contact"}) field(*solver, key, -1);
+    for (const char* key : {"jump", "traction", "adhesion", "mixity", "contact"}) field(solver->observer(), key, -1);
     ck_assert(value(*solver, "field_recoveries") == 0.0);
-    field(*solver, "displacement", -1);
+    field(solver->observer(), "displacement", -1);
     ck_assert(value(*solver, "field_recoveries") == 1.0);
-    field(*solver, "displacement", -1);
-    field(*solver, "stress", -1);
+    field(solver->observer(), "displacement", -1);
+    field(solver->observer(), "stress", -1);
     value(*solver, "kkt_gap");
     ck_assert(value(*solver, "field_recoveries") == 1.0);
     solver->advance(1.1);
-    field(*solver, "displacement", -1);
+    field(solver->observer(), "displacement", -1);
     ck_assert(value(*solver, "field_recoveries") == 2.0);
     ck_assert(value(*solver, "bulk_factorisations") == factorisations);
     delete solver;
@@ -160,7 +161,7 @@ START_TEST(the_plan_is_known_beforehand) {
     for (const char* stage : {"factor", "condense", "displacement", "subdomain"})
         ck_assert_msg(std::ranges::count(stages, stage) == 0, "%s", stage);
     const Solver solver(problem, monitor, 0.0);
-    const std::vector<PlanItem> after = solver.plan();
+    const std::vector<PlanItem> after = plan_of(solver);
     ck_assert_uint_eq(before.plan.size(), after.size());
     ck_assert(before.memory == solver.reduction().own().bytes);
     for (std::size_t i = 0; i < after.size(); ++i) {

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "mesh/layers.hpp"
+#include "scene/advice/process_zone.hpp"
+#include "scene/advice/proposal.hpp"
 #include "scene/problem.hpp"
-#include "scene/process_zone.hpp"
-#include "scene/proposal.hpp"
 
 #include "quiet_check.hpp"  // last: it has a macro named fail
 

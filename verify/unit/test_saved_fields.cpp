@@ -8,8 +8,8 @@
 
 #include "base/archive.hpp"
 #include "base/error.hpp"
+#include "evolution/analysis/snapshot.hpp"
 #include "evolution/increment/state_fields.hpp"
-#include "evolution/snapshot.hpp"
 #include "flexure.hpp"
 
 // Last: its macro fail() would break delam::fail().

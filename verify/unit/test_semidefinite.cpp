@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "counting_allocator.hpp"
-#include "linalg/semidefinite.hpp"
+#include "linalg/sparse/semidefinite.hpp"
 #include "quiet_check.hpp"
 
 // Last: its macro fail() would break delam::fail().

@@ -8,7 +8,7 @@
 
 #include "base/numbers.hpp"
 #include "box_matrix.hpp"
-#include "linalg/cholesky.hpp"
+#include "linalg/sparse/cholesky.hpp"
 #include "quiet_check.hpp"
 
 // Last: its macro fail() would break delam::fail().

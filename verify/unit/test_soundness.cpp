@@ -5,9 +5,9 @@
 #include <string>
 
 #include "base/error.hpp"
+#include "evolution/analysis/solver.hpp"
 #include "evolution/increment/state_fields.hpp"
-#include "evolution/solver.hpp"
-#include "evolution/soundness.hpp"
+#include "evolution/observe/soundness.hpp"
 #include "flexure.hpp"
 
 // Last: its macro fail() would break delam::fail().

@@ -4,7 +4,6 @@
 #include <check.h>
 
 #include <cmath>
-#include <cstring>
 #include <random>
 #include <set>
 
@@ -13,6 +12,7 @@
 #include "flexure.hpp"
 #include "quiet_check.hpp"
 #include "reduction/condensed/bulk.hpp"
+#include "same_bits.hpp"
 
 using namespace delam;
 
@@ -119,10 +119,6 @@ std::vector<double> random_states(const Superelements& bodies, std::mt19937& ran
             (state[p] == Elimination::in_zone) != (p >= first && p < last))
             state[p] = p >= first && p < last ? Elimination::in_zone : 1e9;
     return state;
-}
-
-bool same_bits(std::span<const double> a, std::span<const double> b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
 }
 
 }  // namespace

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "base/blas_threads.hpp"
+#include "base/machine/blas_threads.hpp"
 #include "base/monitor.hpp"
 #include "base/team.hpp"
-#include "evolution/solver.hpp"
+#include "evolution/analysis/solver.hpp"
 #include "flexure.hpp"
 
 // Last: its macro fail() would break delam::fail().

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "base/numbers.hpp"
-#include "linalg/dense.hpp"
-#include "reduction/zone/dense_zone.hpp"
+#include "linalg/dense/dense.hpp"
+#include "reduction/dense/dense_zone.hpp"
 
 // Last: its macro fail() would break delam::fail().
 #include "quiet_check.hpp"

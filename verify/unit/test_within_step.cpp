@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "evolution/step/within_step.hpp"
+#include "evolution/path/within_step.hpp"
 
 #include <check.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "descriptors.hpp"
-#include "program.hpp"
+#include "command/program.hpp"
+#include "file/descriptors.hpp"
 
 int main(int argc, char** argv) {
     cli::open_standard_descriptors();

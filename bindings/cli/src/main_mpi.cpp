@@ -14,13 +14,13 @@
 
 #include <dlfcn.h>
 
-#include "build.hpp"
+#include "command/program.hpp"
 #include "delam/petsc.h"
-#include "descriptors.hpp"
-#include "error.hpp"
-#include "program.hpp"
-#include "rank_fields.hpp"
-#include "say.hpp"
+#include "file/descriptors.hpp"
+#include "model/model.hpp"
+#include "result/fields/rank_fields.hpp"
+#include "text/error.hpp"
+#include "text/say.hpp"
 
 namespace {
 

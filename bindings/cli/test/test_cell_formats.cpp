@@ -10,10 +10,10 @@
 
 #include <gmsh.h>
 
-#include "cell_format.hpp"
-#include "cell_shape.hpp"
 #include "delam/delam.h"
-#include "error.hpp"
+#include "mesh/cell_format.hpp"
+#include "mesh/cell_shape.hpp"
+#include "text/error.hpp"
 
 namespace {
 

@@ -9,8 +9,8 @@
 
 #include <fmt/format.h>
 
-#include "closing.hpp"
-#include "estimate.hpp"
+#include "result/closing/closing.hpp"
+#include "result/closing/estimate.hpp"
 
 namespace {
 

@@ -10,11 +10,11 @@
 #include <set>
 #include <string>
 
-#include "cell_shape.hpp"
 #include "delam/delam.h"
-#include "generate_fibre_cell.hpp"
-#include "generate_weave.hpp"
-#include "generator_model.hpp"
+#include "mesh/cell_shape.hpp"
+#include "mesh/gmsh/generate_fibre_cell.hpp"
+#include "mesh/gmsh/generate_weave.hpp"
+#include "mesh/gmsh/generator_model.hpp"
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "packing.hpp"
+#include "mesh/gmsh/packing.hpp"
 
 namespace {
 

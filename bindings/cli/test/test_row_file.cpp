@@ -9,9 +9,9 @@
 
 #include <unistd.h>
 
-#include "error.hpp"
-#include "input_file.hpp"
-#include "row_file.hpp"
+#include "file/input_file.hpp"
+#include "file/row_file.hpp"
+#include "text/error.hpp"
 
 namespace {
 

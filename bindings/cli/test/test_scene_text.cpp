@@ -12,8 +12,8 @@
 
 #include <sys/resource.h>
 
-#include "error.hpp"
-#include "scene_text.hpp"
+#include "scene/table/scene_text.hpp"
+#include "text/error.hpp"
 
 namespace {
 

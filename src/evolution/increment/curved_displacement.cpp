@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/numbers.hpp"
-#include "evolution/increment/extrapolation.hpp"
+#include "evolution/contact/extrapolation.hpp"
 
 namespace delam {
 

@@ -16,8 +16,8 @@
 #include <span>
 #include <vector>
 
-#include "linalg/cholesky.hpp"
-#include "linalg/sparse.hpp"
+#include "linalg/sparse/cholesky.hpp"
+#include "linalg/sparse/sparse.hpp"
 #include "mesh/mesh.hpp"
 
 namespace delam {

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "reduction/jump_operator.hpp"
+#include "reduction/operator/jump_operator.hpp"
 
 namespace delam {
 

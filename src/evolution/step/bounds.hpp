@@ -20,8 +20,8 @@
 
 #include "evolution/increment/damage_step.hpp"
 #include "evolution/increment/state.hpp"
-#include "linalg/dense.hpp"
-#include "reduction/bound_rows.hpp"
+#include "linalg/dense/dense.hpp"
+#include "reduction/operator/bound_rows.hpp"
 
 namespace delam {
 

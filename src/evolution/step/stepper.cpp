@@ -8,8 +8,8 @@
 #include "base/error.hpp"
 #include "base/numbers.hpp"
 #include "delam/delam.h"
-#include "evolution/increment/contact_levels.hpp"
-#include "evolution/step/step_tangent.hpp"
+#include "evolution/contact/contact_levels.hpp"
+#include "evolution/derivative/step_tangent.hpp"
 #include "scene/strain_loads.hpp"
 
 namespace delam {

@@ -13,13 +13,13 @@
 #include <vector>
 
 #include "base/monitor.hpp"
+#include "evolution/derivative/sensitivity.hpp"
 #include "evolution/increment/mixity_rule.hpp"
+#include "evolution/minimise/minimise.hpp"
+#include "evolution/path/inner_path.hpp"
+#include "evolution/search/search.hpp"
 #include "evolution/step/bounds.hpp"
-#include "evolution/step/inner_path.hpp"
-#include "evolution/step/minimise.hpp"
-#include "evolution/step/search.hpp"
-#include "evolution/step/sensitivity.hpp"
-#include "reduction/choose.hpp"
+#include "reduction/choice/choose.hpp"
 #include "scene/problem.hpp"
 
 namespace delam {

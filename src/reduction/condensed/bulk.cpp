@@ -7,7 +7,7 @@
 #include "base/cancel_scope.hpp"
 #include "base/error.hpp"
 #include "base/numbers.hpp"
-#include "reduction/zone/rigid_jumps.hpp"
+#include "reduction/dense/rigid_jumps.hpp"
 #include "scene/strain_loads.hpp"
 
 namespace delam {

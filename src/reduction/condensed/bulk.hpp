@@ -18,11 +18,11 @@
 
 #include "base/monitor.hpp"
 #include "base/numbers.hpp"
-#include "reduction/body_system.hpp"
 #include "reduction/condensed/elimination.hpp"
 #include "reduction/condensed/superelements.hpp"
-#include "reduction/zone/dense_energy.hpp"
-#include "reduction/zone/jump_row.hpp"
+#include "reduction/dense/dense_energy.hpp"
+#include "reduction/operator/body_system.hpp"
+#include "reduction/operator/jump_row.hpp"
 #include "scene/problem.hpp"
 
 namespace delam {

@@ -10,8 +10,8 @@
 #include <memory>
 
 #include "reduction/condensed/bulk.hpp"
-#include "reduction/jump_operator.hpp"
-#include "reduction/zone/dense_zone.hpp"
+#include "reduction/dense/dense_zone.hpp"
+#include "reduction/operator/jump_operator.hpp"
 
 namespace delam {
 

@@ -18,7 +18,7 @@
 
 #include "base/monitor.hpp"
 #include "reduction/condensed/superelements.hpp"
-#include "reduction/zone/dense_energy.hpp"
+#include "reduction/dense/dense_energy.hpp"
 
 namespace delam {
 

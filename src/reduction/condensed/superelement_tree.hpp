@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "base/monitor.hpp"
-#include "linalg/sparse.hpp"
-#include "reduction/jump_variables.hpp"
+#include "linalg/sparse/sparse.hpp"
+#include "reduction/operator/jump_variables.hpp"
 #include "scene/problem.hpp"
 
 namespace delam {

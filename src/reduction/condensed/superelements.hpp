@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "base/numbers.hpp"
-#include "linalg/cholesky.hpp"
-#include "linalg/dense.hpp"
-#include "linalg/sparse.hpp"
+#include "linalg/dense/dense.hpp"
+#include "linalg/sparse/cholesky.hpp"
+#include "linalg/sparse/sparse.hpp"
 #include "reduction/condensed/superelement_tree.hpp"
 
 namespace delam {

@@ -2,7 +2,7 @@
 #include "reduction/feti/dense_dual.hpp"
 
 #include "base/numbers.hpp"
-#include "linalg/block.hpp"
+#include "linalg/sparse/block.hpp"
 
 namespace delam {
 

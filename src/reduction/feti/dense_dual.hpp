@@ -5,7 +5,7 @@
 //   (F + C) lambda = right + G^T alpha,   G lambda = resultant
 #pragma once
 
-#include "reduction/feti/dual_operator.hpp"
+#include "reduction/feti/dual/dual_operator.hpp"
 
 namespace delam {
 

@@ -14,11 +14,11 @@
 
 #include "base/monitor.hpp"
 #include "base/team.hpp"
-#include "reduction/feti/dual_loads.hpp"
-#include "reduction/feti/dual_operator.hpp"
+#include "reduction/feti/dual/dual_loads.hpp"
+#include "reduction/feti/dual/dual_operator.hpp"
+#include "reduction/feti/dual/parts.hpp"
 #include "reduction/feti/feti_zone.hpp"
-#include "reduction/feti/parts.hpp"
-#include "reduction/jump_operator.hpp"
+#include "reduction/operator/jump_operator.hpp"
 #include "scene/problem.hpp"
 
 namespace delam {

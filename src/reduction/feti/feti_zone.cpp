@@ -7,8 +7,8 @@
 #include "base/error.hpp"
 #include "base/numbers.hpp"
 #include "delam/delam.h"
-#include "linalg/block.hpp"
-#include "reduction/zone/rigid_jumps.hpp"
+#include "linalg/sparse/block.hpp"
+#include "reduction/dense/rigid_jumps.hpp"
 
 namespace delam {
 

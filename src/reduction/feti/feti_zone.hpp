@@ -13,8 +13,8 @@
 #include <span>
 #include <vector>
 
+#include "reduction/dense/dense_zone.hpp"
 #include "reduction/feti/jump_columns.hpp"
-#include "reduction/zone/dense_zone.hpp"
 
 namespace delam {
 

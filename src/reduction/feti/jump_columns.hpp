@@ -17,10 +17,10 @@
 #include <vector>
 
 #include "base/monitor.hpp"
+#include "reduction/dense/dense_energy.hpp"
 #include "reduction/feti/dense_dual.hpp"
-#include "reduction/feti/dual_loads.hpp"
-#include "reduction/feti/dual_operator.hpp"
-#include "reduction/zone/dense_energy.hpp"
+#include "reduction/feti/dual/dual_loads.hpp"
+#include "reduction/feti/dual/dual_operator.hpp"
 
 namespace delam {
 

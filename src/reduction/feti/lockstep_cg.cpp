@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/numbers.hpp"
-#include "linalg/block.hpp"
+#include "linalg/sparse/block.hpp"
 #include "reduction/feti/projected_cg.hpp"
 
 namespace delam {

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <functional>
 
-#include "reduction/feti/dual_operator.hpp"
+#include "reduction/feti/dual/dual_operator.hpp"
 
 namespace delam {
 

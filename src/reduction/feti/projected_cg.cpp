@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "linalg/dense.hpp"
+#include "linalg/dense/dense.hpp"
 
 namespace delam {
 

@@ -3,8 +3,9 @@
 
 #include <algorithm>
 
-#include "build.hpp"
-#include "error.hpp"
+#include "model/build.hpp"
+#include "scene/read_scene.hpp"
+#include "text/error.hpp"
 
 namespace reference {
 

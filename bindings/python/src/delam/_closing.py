@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The lines that end a history, as the command line writes them (bindings/cli/src/closing.cpp), without units."""
+"""The lines that end a history, without units, as the command line writes them (bindings/cli/src/result/closing)."""
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence

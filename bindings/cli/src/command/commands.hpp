@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The subcommands; each returns an exit code or throws a Failure.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace cli {
+
+class Bulk;
+struct Model;
+
+// What solvers of the model are made and used in: calls the rest of the command and returns its exit code. Empty: the
+// command calls it itself. For programs that solve the bodies elsewhere.
+using Around = std::function<int(const Model& model, const std::function<int()>& rest)>;
+// The program whose commands these are: how people call it, what it does around solvers, and where the fields of nodes
+// and cells are; null: here.
+struct Caller {
+    std::string name = "delam";
+    Around around{};
+    Bulk* bulk = nullptr;
+};
+
+// settings: KEY=VALUE, see setting.hpp. command: the line as typed, for result.json.
+int run(const std::string& scene_file, const std::vector<std::string>& settings, const std::string& folder, bool resume,
+        const std::string& command, const Caller& caller);
+// Writes the scene of an Abaqus input file; scene_file "": to standard output. replace: also where there is a file.
+int import(const std::string& deck, const std::string& scene_file, bool replace);
+// A study is a Python script of share/delam/study, which runs the program again for each march.
+struct Study {
+    std::string name;  // "sweep" or "fit"
+    std::vector<std::string> scenes;
+    std::vector<std::string> settings;  // for all runs
+    std::string folder;
+    bool replace = false;
+    std::int64_t jobs = 1;
+    std::vector<std::string> vary;  // of a sweep
+    std::int64_t latin = 0, seed = 1;
+    std::vector<std::string> data, parameters, columns;  // of a fit
+    std::string x = "load", y = "reaction", weights = "curve";
+    double scale = 1.0, confidence = 0.95;
+};
+int study(const Study& study);
+// For the studies: marks a folder as theirs (file/own_files.hpp), unless one of the names is there and is not. known:
+// an older study, which wrote no marker, is recognised.
+int claim(const std::string& folder, const std::vector<std::string>& names, bool known);
+// For the studies: removes folders of results; none of them if one holds anything else.
+int discard(const std::vector<std::string>& folders);
+// Lists the options of [solver] and the parameters of the laws.
+int options(bool json);
+// json: one object instead of lines, also for a wrong scene.
+int check(const std::string& scene_file, const std::vector<std::string>& settings, bool json, const Caller& caller);
+
+}  // namespace cli

@@ -1,0 +1,366 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "deck/abaqus/abaqus_cards.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <numbers>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "deck/abaqus/abaqus_elements.hpp"
+#include "text/wording.hpp"
+
+namespace cli::abaqus {
+
+namespace {
+
+// Materials, loads, steps and output requests, which the scene file defines instead. A *STEP is ignored up to its end.
+const std::set<std::string> passed_over{"AMPLITUDE",
+                                        "BOUNDARY",
+                                        "CLOAD",
+                                        "COHESIVE BEHAVIOR",
+                                        "CONTACT",
+                                        "CONTACT PAIR",
+                                        "CONTACT PROPERTY ASSIGNMENT",
+                                        "CONTACT INCLUSIONS",
+                                        "CONTACT EXCLUSIONS",
+                                        "CONDUCTIVITY",
+                                        "COUPLING",
+                                        "DAMAGE EVOLUTION",
+                                        "DAMAGE INITIATION",
+                                        "DAMAGE STABILIZATION",
+                                        "DAMPING",
+                                        "DENSITY",
+                                        "DEPVAR",
+                                        "DISTRIBUTING",
+                                        "DISTRIBUTION",
+                                        "DISTRIBUTION TABLE",
+                                        "DLOAD",
+                                        "DSLOAD",
+                                        "ELASTIC",
+                                        "ELEMENT OUTPUT",
+                                        "EQUATION",
+                                        "EXPANSION",
+                                        "FIELD",
+                                        "FRICTION",
+                                        "HOURGLASS STIFFNESS",
+                                        "INITIAL CONDITIONS",
+                                        "KINEMATIC",
+                                        "MATERIAL",
+                                        "NODE OUTPUT",
+                                        "ORIENTATION",
+                                        "OUTPUT",
+                                        "PHYSICAL CONSTANTS",
+                                        "PLASTIC",
+                                        "PREPRINT",
+                                        "RESTART",
+                                        "RIGID BODY",
+                                        "SECTION CONTROLS",
+                                        "SPECIFIC HEAT",
+                                        "SURFACE BEHAVIOR",
+                                        "SURFACE INTERACTION",
+                                        "TIME POINTS",
+                                        "USER DEFINED FIELD",
+                                        "USER MATERIAL"};
+
+// Rotation of a point by an angle about the axis from a to b (Rodrigues).
+std::array<double, 3> rotated(const std::array<double, 3>& point, const std::array<double, 3>& a,
+                              const std::array<double, 3>& b, double angle) {
+    std::array<double, 3> k{b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+    const double length = std::hypot(k[0], k[1], k[2]);
+    for (double& x : k) x /= length;
+    const std::array<double, 3> v{point[0] - a[0], point[1] - a[1], point[2] - a[2]};
+    const double along = k[0] * v[0] + k[1] * v[1] + k[2] * v[2];
+    const std::array<double, 3> across{k[1] * v[2] - k[2] * v[1], k[2] * v[0] - k[0] * v[2], k[0] * v[1] - k[1] * v[0]};
+    std::array<double, 3> out{};
+    for (std::size_t i = 0; i < 3; ++i)
+        out[i] = a[i] + v[i] * std::cos(angle) + across[i] * std::sin(angle) + k[i] * along * (1 - std::cos(angle));
+    return out;
+}
+
+class CardReader {
+public:
+    explicit CardReader(Model& model) : model_(model), open_(&model.root) {}
+
+    void read(const std::vector<InpCard>& cards) {
+        for (const InpCard& card : cards) take(card);
+        if (open_ != &model_.root) throw SceneFailure(model_.file, "\"" + open_->name + "\" is not ended");
+        if (in_step_) throw SceneFailure(model_.file, "*STEP is not ended");
+        if (model_.instances.empty())
+            for (const auto& [key, part] : model_.parts)
+                throw SceneFailure(model_.file, fmt::format("part \"{}\" is in no *INSTANCE", part->name));
+        if (!passed_.empty()) model_.notes.push_back("ignored: " + listing({passed_.begin(), passed_.end()}));
+    }
+
+private:
+    void take(const InpCard& card) {
+        const std::string& word = card.keyword;
+        if (in_step_) {
+            in_step_ = word != "END STEP";
+            return;
+        }
+        if (word == "STEP") {
+            in_step_ = true;
+            passed_.insert("*STEP");
+        } else if (word == "HEADING") {
+            return;
+        } else if (word == "NODE") {
+            take_nodes(card);
+        } else if (word == "ELEMENT") {
+            take_elements(card);
+        } else if (word == "NSET") {
+            take_set(card, open_->node_sets, "NSET");
+        } else if (word == "ELSET") {
+            take_set(card, open_->element_sets, "ELSET");
+        } else if (word == "SURFACE") {
+            take_surface(card);
+        } else if (word == "SOLID SECTION" || word == "SHELL SECTION") {
+            open_->sections.push_back({open_, card.required("ELSET"), card.place});
+        } else if (word == "COHESIVE SECTION") {
+            open_->cohesive_sections.push_back({open_, card.required("ELSET"), card.place});
+        } else if (word == "PART") {
+            begin_part(card);
+        } else if (word == "INSTANCE") {
+            begin_instance(card);
+        } else if (word == "ASSEMBLY") {
+            require_outside(card);
+        } else if (word == "END ASSEMBLY") {
+            require_outside(card);
+        } else if (word == "END PART" || word == "END INSTANCE") {
+            if (open_ == &model_.root) throw SceneFailure(card.place, "nothing of the kind was begun");
+            open_ = &model_.root;
+        } else if (passed_over.contains(word)) {
+            passed_.insert("*" + word);
+        } else {
+            throw SceneFailure(card.place,
+                               "this keyword is not supported; SCENE.md lists the keywords that are read and "
+                               "those that are ignored");
+        }
+    }
+
+    void require_outside(const InpCard& card) const {
+        if (open_ != &model_.root) throw SceneFailure(card.place, "\"" + open_->name + "\" is not ended");
+    }
+
+    void begin_part(const InpCard& card) {
+        require_outside(card);
+        card.only({"NAME"});
+        auto& part = model_.parts[upper(card.required("NAME"))];
+        if (part) throw SceneFailure(card.place, "there is another part \"" + part->name + "\"");
+        part = std::make_unique<Part>();
+        part->name = card.required("NAME");
+        open_ = part.get();
+    }
+
+    // The first data line moves the part's nodes and the second rotates them: two points of the axis, degrees.
+    void begin_instance(const InpCard& card) {
+        require_outside(card);
+        card.only({"NAME", "PART"});
+        const auto from = model_.parts.find(upper(card.required("PART")));
+        if (from == model_.parts.end())
+            throw SceneFailure(card.place, "part \"" + card.required("PART") + "\" is not there");
+        const std::string name = card.required("NAME");
+        if (model_.instance_of.contains(upper(name)))
+            throw SceneFailure(card.place, "there is another instance \"" + name + "\"");
+        count_copies(*from->second, card.place);
+        model_.instances.push_back(std::make_unique<Part>(*from->second));
+        Part& instance = *model_.instances.back();
+        const Part* part = from->second.get();
+        model_.instance_of.emplace(upper(name), &instance);
+        instance.name = name;
+        instance.order = model_.instances.size();
+        // What the part defines now belongs to the instance.
+        const auto renew = [&](Entry& entry) {
+            if (entry.scope == part) entry.scope = &instance;
+        };
+        for (auto* sets : {&instance.node_sets, &instance.element_sets})
+            for (auto& [key, set] : *sets) {
+                std::for_each(set.entries.begin(), set.entries.end(), renew);
+                std::for_each(set.element_sets.begin(), set.element_sets.end(), renew);
+            }
+        for (auto& [key, surface] : instance.surfaces) {
+            for (Side& side : surface.sides) renew(side.elements);
+            std::for_each(surface.nodes.begin(), surface.nodes.end(), renew);
+        }
+        std::for_each(instance.sections.begin(), instance.sections.end(), renew);
+        std::for_each(instance.cohesive_sections.begin(), instance.cohesive_sections.end(), renew);
+        if (card.lines.size() > 2) throw SceneFailure(card.lines[2].place, "at most two lines are expected");
+        if (!card.lines.empty()) {
+            const std::vector<double> by = numbers(card.lines[0], 3);
+            for (Node& node : instance.nodes)
+                for (std::size_t a = 0; a < 3; ++a) node.at[a] += by[a];
+        }
+        if (card.lines.size() == 2) {
+            const std::vector<double> turn = numbers(card.lines[1], 7);
+            const std::array<double, 3> a{turn[0], turn[1], turn[2]};
+            const std::array<double, 3> b{turn[3], turn[4], turn[5]};
+            if (a == b) throw SceneFailure(card.lines[1].place, "the two points of the axis of rotation are the same");
+            instance.rotated = true;
+            for (Node& node : instance.nodes) node.at = rotated(node.at, a, b, turn[6] * std::numbers::pi / 180);
+        }
+        open_ = &instance;
+    }
+
+    // Before they are made: a line stands for a part of any size.
+    void count_copies(const Part& part, const Place& place) {
+        std::size_t count = 1 + part.nodes.size() + part.elements.size() + part.sections.size();
+        for (const auto* sets : {&part.node_sets, &part.element_sets})
+            for (const auto& [key, set] : *sets) count += 1 + set.entries.size() + set.element_sets.size();
+        for (const auto& [key, surface] : part.surfaces) count += 1 + surface.sides.size() + surface.nodes.size();
+        copies_ += static_cast<std::int64_t>(count);
+        if (copies_ > most_copies)
+            throw SceneFailure(place, fmt::format("with it the instances have {} nodes, elements and members of sets: "
+                                                  "at most {} are allowed",
+                                                  copies_, most_copies));
+    }
+
+    static std::vector<double> numbers(const InpLine& line, std::size_t count) {
+        if (line.fields.size() > count)
+            throw SceneFailure(line.place, fmt::format("{} entries: {} are expected", line.fields.size(), count));
+        std::vector<double> out(count, 0.0);
+        for (std::size_t i = 0; i < line.fields.size(); ++i)
+            if (!line.fields[i].empty()) out[i] = inp_number(line.fields[i], line.place);
+        return out;
+    }
+
+    void take_nodes(const InpCard& card) {
+        card.only({"NSET"});
+        for (const InpLine& line : card.lines) {
+            if (line.fields.size() < 3 || line.fields.size() > 4)
+                throw SceneFailure(line.place, fmt::format("{} entries: a number and 2 or 3 coordinates are expected",
+                                                           line.fields.size()));
+            Node node{inp_whole(line.fields[0], line.place), {}};
+            for (std::size_t i = 1; i < line.fields.size(); ++i)
+                node.at[i - 1] = inp_number(line.fields[i], line.place);
+            if (!open_->node_of.emplace(node.id, open_->nodes.size()).second)
+                throw SceneFailure(line.place, fmt::format("node {} occurs twice", node.id));
+            open_->nodes.push_back(node);
+            if (card.has("NSET"))
+                set_named(open_->node_sets, card.required("NSET"), card.place)
+                    .entries.push_back({open_, line.fields[0], line.place});
+        }
+    }
+
+    void take_elements(const InpCard& card) {
+        card.only({"TYPE", "ELSET"});
+        const ElementType& type = type_named(card);
+        const std::size_t per_element = type.nodes();
+        if (!type.note.empty()) set_note(fmt::format("{}: {}", type.name, type.note));
+        if (!type.formulation.empty())
+            set_note(
+                fmt::format("{}: formulation \"{}\" unless the scene says otherwise", type.name, type.formulation));
+        for (std::size_t i = 0; i < card.lines.size(); ++i) {
+            // A line that ends with a comma continues on the next.
+            std::vector<std::string> fields = card.lines[i].fields;
+            const Place place = card.lines[i].place;
+            while (card.lines[i].continues && fields.size() < per_element + 1 && i + 1 < card.lines.size()) {
+                ++i;
+                fields.insert(fields.end(), card.lines[i].fields.begin(), card.lines[i].fields.end());
+            }
+            if (fields.size() != per_element + 1)
+                throw SceneFailure(place, fmt::format("{} nodes: {} has {}", fields.empty() ? 0 : fields.size() - 1,
+                                                      type.name, per_element));
+            Element element{inp_whole(fields[0], place), &type, {}, card.parameter("ELSET"), place};
+            for (std::size_t k = 1; k < fields.size(); ++k) element.nodes.push_back(inp_whole(fields[k], place));
+            if (!open_->element_of.emplace(element.id, open_->elements.size()).second)
+                throw SceneFailure(place, fmt::format("element {} occurs twice", element.id));
+            open_->elements.push_back(std::move(element));
+            if (card.has("ELSET"))
+                set_named(open_->element_sets, card.required("ELSET"), card.place)
+                    .entries.push_back({open_, fields[0], place});
+        }
+    }
+
+    static Set& set_named(std::map<std::string, Set>& sets, const std::string& name, const Place& place) {
+        Set& set = sets[upper(name)];
+        if (set.name.empty()) {
+            set.name = name;
+            set.place = place;
+        }
+        return set;
+    }
+
+    void take_set(const InpCard& card, std::map<std::string, Set>& sets, const std::string& key) {
+        card.only(key == "NSET" ? std::vector<std::string>{key, "GENERATE", "INSTANCE", "INTERNAL", "UNSORTED", "ELSET"}
+                                : std::vector<std::string>{key, "GENERATE", "INSTANCE", "INTERNAL", "UNSORTED"});
+        Set& set = set_named(sets, card.required(key), card.place);
+        set.unsorted = set.unsorted || card.has("UNSORTED");
+        const Part* scope = card.has("INSTANCE") ? model_.instance_named(card.required("INSTANCE"), card.place) : open_;
+        if (key == "NSET" && card.has("ELSET")) set.element_sets.push_back({scope, card.required("ELSET"), card.place});
+        for (const InpLine& line : card.lines) {
+            if (card.has("GENERATE")) {
+                generate(line, scope, set);
+                continue;
+            }
+            for (const std::string& field : line.fields)
+                if (!field.empty()) set.entries.push_back({scope, field, line.place});
+        }
+    }
+
+    static void generate(const InpLine& line, const Part* scope, Set& set) {
+        if (line.fields.size() < 2 || line.fields.size() > 3)
+            throw SceneFailure(
+                line.place, fmt::format("{} entries: first, last and (1) increment are expected", line.fields.size()));
+        const std::int64_t first = inp_whole(line.fields[0], line.place);
+        const std::int64_t last = inp_whole(line.fields[1], line.place);
+        const std::int64_t by = line.fields.size() == 3 ? inp_whole(line.fields[2], line.place) : 1;
+        // Without a sign, because the difference of two numbers may exceed the largest that has one.
+        const auto step = static_cast<std::uint64_t>(by);
+        const std::uint64_t span = static_cast<std::uint64_t>(last) - static_cast<std::uint64_t>(first);
+        if (by <= 0 || last < first || span % step != 0)
+            throw SceneFailure(
+                line.place, fmt::format("{}, {}, {}: from first up to last in whole increments > 0", first, last, by));
+        set.entries.push_back({scope, std::to_string(first), line.place, last, by});
+    }
+
+    void take_surface(const InpCard& card) {
+        card.only({"NAME", "TYPE", "INTERNAL"});
+        const std::string name = card.required("NAME");
+        const std::string type = card.has("TYPE") ? upper(card.required("TYPE")) : "ELEMENT";
+        if (type != "ELEMENT" && type != "NODE")
+            throw SceneFailure(card.place, "TYPE=" + type + " is not read: ELEMENT and NODE are");
+        Surface& surface = open_->surfaces[upper(name)];
+        if (!surface.name.empty()) throw SceneFailure(card.place, "there is another surface \"" + name + "\"");
+        surface.name = name;
+        surface.place = card.place;
+        surface.of_nodes = type == "NODE";
+        for (const InpLine& line : card.lines) {
+            if (surface.of_nodes) {
+                surface.nodes.push_back({open_, line.fields.at(0), line.place});
+                continue;
+            }
+            if (line.fields.size() != 2)
+                throw SceneFailure(line.place, "an element or an element set and a side, S1 .. S6, are expected");
+            const std::string side = upper(line.fields[1]);
+            if (side.size() != 2 || side[0] != 'S' || side[1] < '1' || side[1] > '6')
+                throw SceneFailure(line.place, "\"" + line.fields[1] + "\": a side, S1 .. S6, is expected");
+            surface.sides.push_back({{open_, line.fields[0], line.place}, static_cast<std::size_t>(side[1] - '1')});
+        }
+    }
+
+    void set_note(const std::string& text) {
+        auto& notes = model_.notes;
+        if (std::find(notes.begin(), notes.end(), text) == notes.end()) notes.push_back(text);
+    }
+
+    Model& model_;
+    Part* open_;
+    bool in_step_ = false;
+    std::int64_t copies_ = 0;
+    std::set<std::string> passed_;
+};
+
+}  // namespace
+
+void take_cards(const std::vector<InpCard>& cards, const std::string& path, Model& model) {
+    model.file = {path, "", 0};
+    CardReader(model).read(cards);
+}
+
+}  // namespace cli::abaqus

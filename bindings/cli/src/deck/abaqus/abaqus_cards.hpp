@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Builds the model from the cards of an Abaqus input file.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "deck/abaqus/abaqus_model.hpp"
+#include "deck/abaqus/inp_cards.hpp"
+
+namespace cli::abaqus {
+
+// model: empty; it must not be moved, because parts refer to it. Throws SceneFailure with file and line.
+void take_cards(const std::vector<InpCard>& cards, const std::string& path, Model& model);
+
+}  // namespace cli::abaqus

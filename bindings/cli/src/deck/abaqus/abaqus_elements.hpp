@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The element types of Abaqus that are read.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "deck/abaqus/inp_cards.hpp"
+
+namespace cli::abaqus {
+
+struct ElementType {
+    std::string_view name;
+    std::int32_t cell;  // -1: a cohesive element, which is no cell
+    std::string_view formulation;
+    std::string_view plane;
+    std::string_view note;
+    std::size_t face_nodes =
+        0;  // of a cohesive element: nodes of its lower face, which come first, and of its upper one
+
+    [[nodiscard]] bool cohesive() const { return face_nodes > 0; }
+    [[nodiscard]] std::size_t nodes() const;
+    [[nodiscard]] std::int32_t dimension() const;
+};
+
+// By the TYPE of an *ELEMENT card.
+const ElementType& type_named(const InpCard& card);
+
+}  // namespace cli::abaqus

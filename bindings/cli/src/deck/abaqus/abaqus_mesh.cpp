@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "deck/abaqus/abaqus_mesh.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <map>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "deck/abaqus/inp_cards.hpp"
+#include "mesh/cell_shape.hpp"
+#include "text/wording.hpp"
+
+namespace cli::abaqus {
+
+namespace {
+
+// Converts the model to the mesh of the scene.
+class MeshMaker {
+public:
+    explicit MeshMaker(Model& model) : model_(model) { mesh_.notes = model.notes; }
+
+    MeshData make(const std::vector<std::string>& bodies, const Place& place) {
+        number_nodes();
+        assign_bodies(bodies, place);
+        add_cells();
+        add_sets();
+        add_cohesive();
+        return std::move(mesh_);
+    }
+
+private:
+    void number_nodes() {
+        bool plane = false;
+        bool solid = false;
+        for (const Part* scope : model_.scopes())
+            for (const Element& element : scope->elements) {
+                (element.type->dimension() == 2 ? plane : solid) = true;
+                if (plane && solid) throw SceneFailure(element.place, "plane and solid elements in one mesh");
+                if (element.type->plane.empty()) continue;
+                if (!mesh_.plane.empty() && mesh_.plane != element.type->plane)
+                    throw SceneFailure(element.place, "elements of plane strain and of plane stress in one mesh");
+                mesh_.plane = element.type->plane;
+            }
+        if (!plane && !solid) throw SceneFailure(model_.file, "there are no elements in it");
+        mesh_.dimension = plane ? 2 : 3;
+        const auto dimension = static_cast<std::size_t>(mesh_.dimension);
+        std::vector<Part*> all{&model_.root};
+        for (const auto& instance : model_.instances) all.push_back(instance.get());
+        double extent = 0;
+        for (const Part* scope : all)
+            for (const Node& node : scope->nodes)
+                for (const double x : node.at) extent = std::max(extent, std::abs(x));
+        for (Part* scope : all) {
+            scope->first_node = static_cast<std::int64_t>(mesh_.nodes.size() / dimension);
+            for (const Node& node : scope->nodes) {
+                if (plane && std::abs(node.at[2]) > 1e-12 * extent)
+                    throw SceneFailure(model_.file,
+                                       fmt::format("node {} is at z = {}: a plane mesh must lie in z = 0",
+                                                   full_name(*scope, std::to_string(node.id)), node.at[2]));
+                mesh_.nodes.insert(mesh_.nodes.end(), node.at.begin(),
+                                   node.at.begin() + static_cast<std::ptrdiff_t>(dimension));
+            }
+        }
+    }
+
+    // True if an entry of this name has not been met yet; many cards may give it.
+    using Met = std::set<std::tuple<std::string, const Part*, std::string>>;
+    static bool is_new(Met& met, const Model& model, const std::string& name, const Entry& raw) {
+        const Entry entry = model.resolved_scope(raw);
+        return met.emplace(name, entry.scope, upper(entry.text)).second;
+    }
+
+    void assign_body(const std::string& name, const Entry& elements) {
+        if (!is_new(assigned_, model_, name, elements)) return;
+        std::set<ElementAt> members;
+        model_.collect_elements(elements, members);
+        std::erase_if(members, [](const ElementAt& at) { return at.type().cohesive(); });
+        if (members.empty()) throw SceneFailure(elements.place, "\"" + elements.text + "\": there is no element in it");
+        const auto [at, first] = label_of_.emplace(name, static_cast<std::int32_t>(mesh_.body_names.size()));
+        const std::int32_t label = at->second;
+        if (first) mesh_.body_names.push_back(name);
+        for (const ElementAt& member : members) {
+            const auto [entry, fresh] = body_of_.emplace(member, label);
+            if (!fresh && entry->second != label)
+                throw SceneFailure(elements.place,
+                                   fmt::format("element {} is in \"{}\" and in \"{}\": it belongs to one body only",
+                                               member.scope->elements[member.index].id,
+                                               mesh_.body_names[static_cast<std::size_t>(entry->second)], name));
+        }
+    }
+
+    // The name of a set in the scene, in its first spelling.
+    std::string body_name(const Entry& raw) const {
+        const Entry entry = model_.resolved_scope(raw);
+        const auto set = entry.scope->element_sets.find(upper(entry.text));
+        return full_name(*entry.scope, set == entry.scope->element_sets.end() ? entry.text : set->second.name);
+    }
+
+    void assign_bodies(const std::vector<std::string>& wanted, const Place& place) {
+        for (const std::string& name : wanted) {
+            const Entry entry{&model_.root, name, {place.file, place.path + ".bodies", place.line}};
+            assign_body(name, entry);
+        }
+        if (wanted.empty())
+            for (const Part* scope : model_.scopes())
+                for (const Entry& section : scope->sections) assign_body(body_name(section), section);
+        if (mesh_.body_names.empty()) {
+            for (const Part* scope : model_.scopes())
+                for (const Element& element : scope->elements)
+                    if (!element.type->cohesive())
+                        assign_body(element.set.empty() ? (scope->name.empty() ? "body" : scope->name)
+                                                        : body_name({scope, element.set, element.place}),
+                                    {scope, std::to_string(element.id), element.place});
+            return;
+        }
+        for (const Part* scope : model_.scopes())
+            for (std::size_t i = 0; i < scope->elements.size(); ++i)
+                if (!scope->elements[i].type->cohesive() && !body_of_.contains({scope, i}))
+                    throw SceneFailure(scope->elements[i].place,
+                                       fmt::format("element {} is in none of the bodies: {}", scope->elements[i].id,
+                                                   listing(mesh_.body_names)));
+    }
+
+    void add_cells() {
+        mesh_.formulations.resize(mesh_.body_names.size());
+        for (const Part* scope : model_.scopes())
+            for (std::size_t i = 0; i < scope->elements.size(); ++i) {
+                const Element& element = scope->elements[i];
+                if (element.type->cohesive()) continue;
+                auto block = std::find_if(mesh_.blocks.begin(), mesh_.blocks.end(),
+                                          [&](const CellBlock& b) { return b.type == element.type->cell; });
+                if (block == mesh_.blocks.end())
+                    block = mesh_.blocks.insert(block, CellBlock{element.type->cell, {}, {}});
+                for (const std::int64_t id : element.nodes)
+                    block->connectivity.push_back(node_number(*scope, id, element.place));
+                const std::int32_t body = body_of_.at({scope, i});
+                block->bodies.push_back(body);
+                std::string& formulation = mesh_.formulations[static_cast<std::size_t>(body)];
+                if (formulation.empty()) formulation = element.type->formulation;
+            }
+        if (std::all_of(mesh_.formulations.begin(), mesh_.formulations.end(), [](const auto& f) { return f.empty(); }))
+            mesh_.formulations.clear();
+    }
+
+    void add_sets() {
+        for (const Part* scope : model_.scopes()) {
+            for (const auto& [key, set] : scope->node_sets) {
+                std::set<std::int64_t> nodes;
+                model_.collect_set(set, nodes);
+                if (!nodes.empty()) mesh_.node_sets[full_name(*scope, set.name)].assign(nodes.begin(), nodes.end());
+            }
+            for (const auto& [key, surface] : scope->surfaces) {
+                const std::string name = full_name(*scope, surface.name);
+                if (mesh_.node_sets.contains(name))
+                    throw SceneFailure(surface.place, "\"" + name + "\" is a node set too: give it a name of its own");
+                std::set<std::int64_t> nodes;
+                for (const Entry& entry : surface.nodes) model_.collect_nodes(entry, nodes);
+                for (const Side& side : surface.sides) add_sides(side, mesh_.face_sets[name], nodes);
+                if (!nodes.empty()) mesh_.node_sets[name].assign(nodes.begin(), nodes.end());
+            }
+        }
+    }
+
+    // Cohesive elements by the sets of their sections, or of their *ELEMENT lines.
+    void add_cohesive() {
+        std::vector<bool> in_cell(mesh_.nodes.size() / static_cast<std::size_t>(mesh_.dimension), false);
+        for (const CellBlock& block : mesh_.blocks)
+            for (const std::int64_t node : block.connectivity) in_cell[static_cast<std::size_t>(node)] = true;
+        std::map<ElementAt, std::string> set_of;
+        Met met;
+        for (const Part* scope : model_.scopes()) {
+            for (const Entry& section : scope->cohesive_sections) {
+                if (!is_new(met, model_, body_name(section), section)) continue;
+                std::set<ElementAt> members;
+                model_.collect_elements(section, members);
+                for (const ElementAt& at : members) {
+                    if (!at.type().cohesive())
+                        throw SceneFailure(section.place, fmt::format("\"{}\": element {} ({}) is no cohesive element",
+                                                                      section.text, at.element().id, at.type().name));
+                    set_of[at] = body_name(section);
+                }
+            }
+        }
+        for (const Part* scope : model_.scopes())
+            for (std::size_t i = 0; i < scope->elements.size(); ++i) {
+                const Element& element = scope->elements[i];
+                if (!element.type->cohesive()) continue;
+                const auto known = set_of.find({scope, i});
+                std::string name = known != set_of.end() ? known->second
+                                   : element.set.empty() ? full_name(*scope, "cohesive")
+                                                         : body_name({scope, element.set, element.place});
+                add_cohesive_element(*scope, element, name, in_cell);
+            }
+        for (CohesiveSet& set : mesh_.cohesive) {
+            set.faces = set.name;
+            while (mesh_.node_sets.contains(set.faces)) set.faces += "-faces";
+            auto& faces = mesh_.face_sets[set.faces];
+            std::set<std::int64_t> nodes;
+            for (const auto* side : {&set.lower, &set.upper})
+                for (const auto& face : *side) {
+                    faces.push_back(face);
+                    std::copy_if(face.begin(), face.end(), std::inserter(nodes, nodes.end()),
+                                 [](std::int64_t node) { return node >= 0; });
+                }
+            mesh_.node_sets[set.faces].assign(nodes.begin(), nodes.end());
+        }
+    }
+
+    void add_cohesive_element(const Part& scope, const Element& element, const std::string& name,
+                              const std::vector<bool>& in_cell) {
+        const auto [known, first] = cohesive_of_.emplace(name, mesh_.cohesive.size());
+        if (first) mesh_.cohesive.push_back(CohesiveSet{name, "", {}, {}});
+        CohesiveSet& set = mesh_.cohesive[known->second];
+        std::array<std::array<std::int64_t, 9>, 2> faces{};
+        for (std::size_t k = 0; k < element.nodes.size(); ++k) {
+            const std::size_t half = element.type->face_nodes;
+            if (k % half == 0) faces[k / half].fill(-1);
+            const std::int64_t node = node_number(scope, element.nodes[k], element.place);
+            if (!in_cell[static_cast<std::size_t>(node)])
+                throw SceneFailure(
+                    element.place,
+                    fmt::format("node {} of the cohesive element {} belongs to no cell: cohesive elements "
+                                "share their nodes with the bodies that they hold together (*TIE is not "
+                                "read)",
+                                full_name(scope, std::to_string(element.nodes[k])), element.id));
+            faces[k / half][k % half] = node;
+        }
+        set.lower.push_back(faces[0]);
+        set.upper.push_back(faces[1]);
+    }
+
+    void add_sides(const Side& side, std::vector<std::array<std::int64_t, 9>>& faces,
+                   std::set<std::int64_t>& nodes) const {
+        std::set<ElementAt> elements;
+        model_.collect_elements(side.elements, elements);
+        for (const ElementAt& at : elements) {
+            const Element& element = at.scope->elements[at.index];
+            if (element.type->cohesive())
+                throw SceneFailure(side.elements.place,
+                                   fmt::format("element {} is a cohesive element, which has no sides here: give those "
+                                               "of the bodies beside it",
+                                               element.id));
+            const CellShape& shape = shape_of(element.type->cell);
+            if (side.side >= shape.sides.size())
+                throw SceneFailure(side.elements.place,
+                                   fmt::format("S{}: element {} ({}) has sides S1 .. S{}", side.side + 1, element.id,
+                                               element.type->name, shape.sides.size()));
+            std::array<std::int64_t, 9> face{};
+            face.fill(-1);
+            for (std::size_t k = 0; k < shape.sides[side.side].size(); ++k) {
+                face[k] = node_number(*at.scope, element.nodes[shape.sides[side.side][k]], element.place);
+                nodes.insert(face[k]);
+            }
+            faces.push_back(face);
+        }
+    }
+
+    Model& model_;
+    std::map<ElementAt, std::int32_t> body_of_;
+    std::map<std::string, std::int32_t> label_of_;  // of bodies, by name
+    Met assigned_;
+    std::map<std::string, std::size_t> cohesive_of_;  // by name
+    MeshData mesh_;
+};
+
+}  // namespace
+
+MeshData mesh_of(Model& model, const std::vector<std::string>& bodies, const Place& place) {
+    return MeshMaker(model).make(bodies, place);
+}
+
+}  // namespace cli::abaqus

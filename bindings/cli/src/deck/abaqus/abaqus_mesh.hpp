@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From the parts, sets and surfaces of an Abaqus input file to the mesh of a scene.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "deck/abaqus/abaqus_model.hpp"
+#include "mesh/mesh_data.hpp"
+
+namespace cli::abaqus {
+
+// bodies: as in read_abaqus.hpp, named at `place`. Nodes have the numbers of Part::first_node, which is set here.
+MeshData mesh_of(Model& model, const std::vector<std::string>& bodies, const Place& place);
+
+}  // namespace cli::abaqus

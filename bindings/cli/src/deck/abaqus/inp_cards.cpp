@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "deck/abaqus/inp_cards.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <set>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "file/input_file.hpp"
+#include "mesh/mesh_file.hpp"
+#include "text/wording.hpp"
+
+namespace cli {
+
+namespace {
+
+constexpr std::size_t deepest_include = 8;
+constexpr std::size_t most_files = 1000;
+
+std::string trimmed(std::string_view text) {
+    const auto blank = [](char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; };
+    while (!text.empty() && blank(text.front())) text.remove_prefix(1);
+    while (!text.empty() && blank(text.back())) text.remove_suffix(1);
+    return std::string(text);
+}
+
+// In place, so that a line that goes on in many others is not copied for each.
+void trim_end(std::string& text) {
+    while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back())) != 0) text.pop_back();
+}
+
+std::string unquoted(const std::string& text) {
+    return text.size() >= 2 && text.front() == '"' && text.back() == '"' ? text.substr(1, text.size() - 2) : text;
+}
+
+// Fields between commas outside quotes; an empty last field is dropped.
+std::vector<std::string> split(const std::string& line) {
+    std::vector<std::string> out;
+    std::string field;
+    bool quoted = false;
+    for (const char c : line) {
+        if (c == '"') quoted = !quoted;
+        if (c == ',' && !quoted) {
+            out.push_back(trimmed(field));
+            field.clear();
+        } else {
+            field += c;
+        }
+    }
+    if (!trimmed(field).empty()) out.push_back(trimmed(field));
+    return out;
+}
+
+void parse_keyword_line(const std::string& line, InpCard& card) {
+    std::vector<std::string> fields = split(line);
+    std::string keyword;
+    for (const char c : fields.at(0).substr(1))
+        if (std::isspace(static_cast<unsigned char>(c)) == 0)
+            keyword += c;
+        else if (!keyword.empty() && keyword.back() != ' ')
+            keyword += ' ';
+    card.keyword = upper(trimmed(keyword));
+    if (card.keyword.empty()) throw SceneFailure(card.place, "a keyword is expected after *");
+    std::set<std::string> known;
+    for (std::size_t i = 1; i < fields.size(); ++i) {
+        if (fields[i].empty()) continue;
+        const std::size_t equals = fields[i].find('=');
+        const std::string name = upper(trimmed(fields[i].substr(0, equals)));
+        if (equals != std::string::npos && !known.insert(name).second)
+            throw SceneFailure(card.place, fmt::format("the parameter {:.40} is given twice", name));
+        card.parameters.emplace_back(
+            name, equals == std::string::npos ? "" : unquoted(trimmed(fields[i].substr(equals + 1))));
+    }
+}
+
+class CardReader {
+public:
+    std::vector<InpCard> cards;
+    std::string bytes;
+
+    void read(const std::string& path, const Place& from, std::size_t depth) {
+        const std::string text = text_of(path, from);
+        bytes += text;
+        std::istringstream lines(text);
+        std::string line;
+        int number = 0;
+        while (std::getline(lines, line)) {
+            ++number;
+            const Place place{path, "", number};
+            if (line.find('\0') != std::string::npos) throw SceneFailure(place, "not a text file");
+            line = trimmed(line);
+            if (line.empty() || line.rfind("**", 0) == 0) continue;
+            if (line.front() == '*') {
+                std::string next;
+                while (line.back() == ',') {
+                    if (!std::getline(lines, next)) throw SceneFailure(place, "the keyword line goes on in no line");
+                    ++number;
+                    line += next;
+                    trim_end(line);
+                }
+                InpCard card;
+                card.place = place;
+                parse_keyword_line(line, card);
+                card.place.path = "*" + card.keyword;
+                if (card.keyword == "INCLUDE")
+                    include(card, path, depth);
+                else
+                    cards.push_back(std::move(card));
+                continue;
+            }
+            if (cards.empty()) throw SceneFailure(place, "a keyword line (*NAME) is expected first");
+            InpLine data{split(line), line.back() == ',', place};
+            for (std::string& field : data.fields) field = unquoted(field);
+            data.place.path = "*" + cards.back().keyword;
+            cards.back().lines.push_back(std::move(data));
+        }
+    }
+
+private:
+    std::size_t files_ = 0;
+
+    // What files include may repeat, so that a small one could stand for more than any machine can read.
+    std::string text_of(const std::string& path, const Place& from) {
+        if (++files_ > most_files)
+            throw SceneFailure(from, fmt::format("{}: is file {} of this mesh, and at most {} are read, one that is "
+                                                 "included again each time",
+                                                 path, files_, most_files));
+        try {
+            InputFile file(path);
+            require_mesh_size(path, static_cast<std::int64_t>(bytes.size()) + file.size(), from);
+            return file.rest();
+        } catch (const SceneFailure&) {
+            throw;
+        } catch (const Failure& e) {
+            throw SceneFailure(from, e.what());
+        }
+    }
+
+    // The lines of the included file replace the card; its name is relative to the including file.
+    void include(const InpCard& card, const std::string& path, std::size_t depth) {
+        card.only({"INPUT"});
+        if (depth == deepest_include)
+            throw SceneFailure(card.place, fmt::format("files include each other more than {} deep", deepest_include));
+        const std::filesystem::path beside = std::filesystem::path(path).parent_path();
+        read((beside / card.required("INPUT")).string(), card.place, depth + 1);
+    }
+};
+
+}  // namespace
+
+std::string upper(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    return text;
+}
+
+bool InpCard::has(const std::string& name) const {
+    return std::any_of(parameters.begin(), parameters.end(), [&](const auto& p) { return p.first == name; });
+}
+
+std::string InpCard::parameter(const std::string& name) const {
+    for (const auto& [key, value] : parameters)
+        if (key == name) return value;
+    return "";
+}
+
+std::string InpCard::required(const std::string& name) const {
+    const std::string value = parameter(name);
+    if (value.empty()) throw SceneFailure(place, name + "= is missing");
+    return value;
+}
+
+std::vector<double> InpLine::numbers(std::size_t first) const {
+    std::vector<double> out;
+    for (std::size_t i = first; i < fields.size(); ++i)
+        out.push_back(fields[i].empty() ? 0.0 : inp_number(fields[i], place));
+    return out;
+}
+
+const InpLine& InpCard::first_line() const {
+    if (lines.empty()) throw SceneFailure(place, "a data line is expected");
+    return lines.front();
+}
+
+std::vector<double> InpCard::row() const {
+    std::vector<double> out;
+    for (const InpLine& line : lines) {
+        const std::vector<double> more = line.numbers();
+        out.insert(out.end(), more.begin(), more.end());
+    }
+    return out;
+}
+
+void InpCard::refuse(const std::string& name, const std::string& value, const std::string& known) const {
+    throw SceneFailure(place, fmt::format("{}={} is not imported: {} is", name, value, known));
+}
+
+void InpCard::only(const std::vector<std::string>& names) const {
+    for (const auto& [key, value] : parameters)
+        if (std::find(names.begin(), names.end(), key) == names.end())
+            throw SceneFailure(place, fmt::format("the parameter {} is not read{}; these are: {}", key,
+                                                  suggestion(key, names), listing(names)));
+}
+
+std::vector<InpCard> read_cards(const std::string& path, const Place& place, std::string& bytes) {
+    CardReader reader;
+    reader.read(path, place, 0);
+    bytes = std::move(reader.bytes);
+    return std::move(reader.cards);
+}
+
+double inp_number(const std::string& field, const Place& place) {
+    std::string text = field;
+    for (char& c : text)
+        if (c == 'd' || c == 'D') c = 'e';
+    if (!text.empty() && text.front() == '+') text.erase(0, 1);
+    double value = 0;
+    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (code != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
+        throw SceneFailure(place, fmt::format("\"{:.40}\": a finite number is expected", field));
+    return value;
+}
+
+std::optional<std::int64_t> inp_whole(const std::string& field) {
+    std::int64_t value = 0;
+    const auto [end, code] = std::from_chars(field.data(), field.data() + field.size(), value);
+    if (code != std::errc() || end != field.data() + field.size()) return std::nullopt;
+    return value;
+}
+
+std::int64_t inp_whole(const std::string& field, const Place& place) {
+    const auto value = inp_whole(field);
+    if (!value) throw SceneFailure(place, fmt::format("\"{:.40}\": a whole number is expected", field));
+    return *value;
+}
+
+}  // namespace cli

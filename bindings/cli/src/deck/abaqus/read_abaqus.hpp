@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Meshes of Abaqus input files. SCENE.md lists what the program reads, ignores and refuses.
+#pragma once
+
+#include "mesh/mesh_file.hpp"
+
+namespace cli {
+
+// By the ending of its name.
+bool is_abaqus_file(const std::string& path);
+
+// bodies: the element sets that are the bodies, under their names in the scene; if empty, those of the *SOLID SECTIONs;
+// if there are none, those of the *ELEMENT lines.
+MeshFile read_abaqus(const std::string& path, const std::vector<std::string>& bodies, const Place& place);
+
+}  // namespace cli

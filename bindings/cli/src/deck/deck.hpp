@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What an input file of Abaqus says beside its mesh: materials, sections, interactions and the steps of the analysis,
+// as written there. Data alone: deck_cards.hpp reads it, deck_scene.hpp makes a scene of it.
+#pragma once
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "deck/abaqus/abaqus_model.hpp"
+#include "deck/abaqus/inp_cards.hpp"
+#include "text/error.hpp"
+#include "text/wording.hpp"
+
+namespace cli::abaqus {
+
+using Numbers = std::vector<double>;
+
+// Objects with names, in the order of the deck; found whatever the case of their name is, the first of several.
+template <class T>
+class Catalogue {
+public:
+    void push_back(T object) {
+        at_.emplace(upper(object.name), all_.size());
+        all_.push_back(std::move(object));
+    }
+    [[nodiscard]] const T* find(const std::string& name) const {
+        const auto found = at_.find(upper(name));
+        return found == at_.end() ? nullptr : &all_[found->second];
+    }
+    [[nodiscard]] bool empty() const { return all_.empty(); }
+    [[nodiscard]] T& back() { return all_.back(); }
+    [[nodiscard]] auto begin() const { return all_.begin(); }
+    [[nodiscard]] auto end() const { return all_.end(); }
+
+private:
+    std::vector<T> all_;
+    std::unordered_map<std::string, std::size_t> at_;
+};
+
+inline constexpr const char* axis_names[] = {"x", "y", "z"};
+
+// *DAMAGE INITIATION and *DAMAGE EVOLUTION, of a material or of a surface interaction.
+struct DamageCards {
+    std::string initiation;  // MAXS, QUADS, ..; empty: none
+    Numbers strengths;
+    Place initiation_place;
+    std::string evolution;  // ENERGY or DISPLACEMENT; empty: none
+    std::string softening = "LINEAR";
+    std::string mixed_mode;  // BK, POWER LAW; empty: none
+    double power = 0;
+    std::vector<Numbers> values;
+    Place evolution_place;
+};
+
+struct MaterialCards {
+    std::string name;
+    std::string elastic;  // TYPE of *ELASTIC; empty: none
+    Numbers constants;
+    DamageCards damage;
+    Place place;
+};
+
+struct Section {
+    std::string material;
+    std::string orientation;
+    double angle = 0;         // of the one ply of a composite, degrees about its normal
+    std::string thickness{};  // of cohesive elements: SPECIFIED or GEOMETRY
+    double value = 1;         // the specified thickness
+    double width = 1;         // out of the plane
+    bool shell = false;
+    std::string part{};  // in which it and its orientation stand
+    Place place;         // of the card, by which the mesh knows it
+};
+
+struct Orientation {
+    std::string name;
+    std::string part;  // in which it stands; "": outside
+    Numbers points;    // a and b, then the origin
+    int about = 0;     // 0: not said
+    double angle = 0;  // degrees
+    Place place;
+};
+
+struct InteractionCards {
+    std::string name;
+    bool cohesive = false;
+    Numbers stiffness;
+    std::string eligibility;
+    DamageCards damage;
+    Place place;
+};
+
+struct ContactPair {
+    std::string interaction;
+    Entry slave, master;   // surfaces
+    std::string bonded{};  // of *INITIAL CONDITIONS, TYPE=CONTACT: the set of nodes that adhere; empty: all
+    Place place;
+};
+
+struct Amplitude {
+    std::string name;
+    bool total_time = false;
+    bool absolute = false;
+    bool smooth = false;
+    std::vector<std::pair<double, double>> points;
+    Place place;
+};
+
+// A term of *EQUATION.
+struct EquationEntry {
+    Entry where;
+    int dof = 0;
+    double coefficient = 0;
+};
+
+// Nodes that move with a reference node as one rigid body: *COUPLING with *KINEMATIC, *RIGID BODY.
+struct Coupling {
+    Entry reference;
+    Entry where;
+    std::vector<int> dofs;               // 1 to 3; empty: all
+    std::optional<Entry> rotation_node;  // of CalculiX: its degrees of freedom 1 to 3 are the rotation
+    Place place;
+};
+
+// A line of *BOUNDARY, *CLOAD or *DSLOAD.
+struct LoadLine {
+    Entry where;
+    int first = 0, last = 0;  // degrees of freedom, 1 to 6; of a distributed load 0
+    std::string distributed;  // P, TRVEC
+    double magnitude = 0;
+    Numbers direction{};  // of TRVEC
+    std::string amplitude{};
+    bool named = false;  // ENCASTRE, ..: of its degrees of freedom, those that the node has
+};
+
+struct Step {
+    std::string name;
+    double first_increment = 1;
+    double period = 1;
+    bool ramp = true;  // what has no amplitude grows over the step
+    bool new_boundaries = false, new_forces = false, new_distributed = false;  // those before end
+    std::vector<LoadLine> boundaries, forces;
+    Place place;
+};
+
+struct Deck {
+    std::string title;
+    Catalogue<MaterialCards> materials;
+    std::vector<Section> sections;
+    std::map<std::pair<std::string, std::string>, Orientation> orientations;  // by part and name in upper case
+    Catalogue<InteractionCards> interactions;
+    std::vector<ContactPair> pairs;
+    Catalogue<Amplitude> amplitudes;
+    std::vector<std::vector<EquationEntry>> equations;
+    std::vector<Coupling> couplings;
+    std::vector<LoadLine> held;  // *BOUNDARY before the first step
+    std::vector<Step> steps;
+    bool general_contact = false;
+    double width = 0;                  // of a plane mesh; 0: not known yet
+    std::vector<std::string> changed;  // for people: what the scene does otherwise
+    std::vector<std::string> left_out;
+};
+
+// The section of a set of elements, and the part or instance in which the set is. Null: it has none.
+struct SectionOf {
+    const Section* section = nullptr;
+    const Part* scope = nullptr;
+};
+// The sections of all sets, found by the names that the sets have in the scene.
+class SectionIndex {
+public:
+    // sections: Part::sections or Part::cohesive_sections.
+    SectionIndex(const Deck& deck, const Model& model, std::vector<Entry> Part::*sections);
+    [[nodiscard]] SectionOf of(const std::string& name) const;
+
+private:
+    std::unordered_map<std::string, SectionOf> of_;
+};
+
+// The names that sets of nodes and surfaces have in the scene; "": there is none.
+std::string node_set_name(const Model& model, const Entry& raw);
+std::string surface_name(const Model& model, const Entry& raw);
+
+// 1 to `most`. Throws SceneFailure at `place`.
+int degree_of_freedom(const std::string& field, int most, const Place& place);
+
+// Adds a line for people, once.
+inline void say_once(std::vector<std::string>& texts, const std::string& text) {
+    if (std::find(texts.begin(), texts.end(), text) == texts.end()) texts.push_back(text);
+}
+
+// The object of this name, whatever its case. Throws SceneFailure at `place`.
+template <class T>
+const T& named(const Catalogue<T>& all, const std::string& name, const char* what, const Place& place) {
+    if (const T* found = all.find(name)) return *found;
+    std::vector<std::string> known;
+    for (const T& each : all) known.push_back(each.name);
+    throw SceneFailure(place, std::string(what) + " \"" + name + "\" is not there" + suggestion(name, known));
+}
+
+}  // namespace cli::abaqus

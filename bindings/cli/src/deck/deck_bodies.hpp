@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How the bodies of a mesh lie beside each other: which sides of their cells are one and the same, and which coincide.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "mesh/mesh_data.hpp"
+#include "text/error.hpp"
+
+namespace cli::abaqus {
+
+using Face = std::array<std::int64_t, 9>;   // nodes, -1 padded
+using FaceKey = std::vector<std::int64_t>;  // its corners, ascending
+
+// The bodies on a side of cells. A side on which two bodies meet has two, unless the nodes are doubled.
+class FaceBodies {
+public:
+    explicit FaceBodies(const MeshData& mesh);
+    // Ascending and without repetitions; empty: no side of a cell.
+    [[nodiscard]] std::vector<std::int32_t> of(const Face& face) const;
+    [[nodiscard]] const std::map<FaceKey, std::vector<std::int32_t>>& all() const { return bodies_; }
+
+private:
+    std::int32_t dimension_;
+    std::map<FaceKey, std::vector<std::int32_t>> bodies_;
+};
+
+struct BodyPair {
+    std::int32_t a = 0, b = 0;  // a < b
+    std::int64_t shared = 0;    // sides whose nodes belong to both
+    std::int64_t doubled = 0;   // sides that coincide, with nodes of their own
+};
+// Nodes coincide within 1e-6 of the shortest edge. Throws SceneFailure at `place` where there are too many pairs.
+std::vector<BodyPair> pairs_of_bodies(const MeshData& mesh, const FaceBodies& faces, double shortest_edge,
+                                      const Place& place);
+
+// Knows where the faces of sets lie.
+class FacePlaces {
+public:
+    FacePlaces(const MeshData& mesh, double shortest_edge);
+    ~FacePlaces();
+    FacePlaces(const FacePlaces&) = delete;
+    FacePlaces& operator=(const FacePlaces&) = delete;
+    // Returns how many faces of a set coincide with one of the other set.
+    [[nodiscard]] std::int64_t coinciding(const std::string& set, const std::string& other);
+
+private:
+    struct Known;
+    std::unique_ptr<Known> known_;
+};
+
+// The bodies that have a node in their cells, ascending.
+class NodeBodies {
+public:
+    explicit NodeBodies(const MeshData& mesh);
+    [[nodiscard]] const std::vector<std::int32_t>& of(std::int64_t node) const {
+        return of_[static_cast<std::size_t>(node)];
+    }
+
+private:
+    std::vector<std::vector<std::int32_t>> of_;
+};
+
+}  // namespace cli::abaqus

@@ -1,0 +1,395 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "deck/deck_cards.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "deck/deck_constraint_cards.hpp"
+#include "deck/deck_step_cards.hpp"
+#include "text/wording.hpp"
+
+namespace cli::abaqus {
+
+namespace {
+
+// Requests for output, settings of a solver, and what quasi-static steps without temperatures do not need.
+const std::set<std::string> not_needed{"CONDUCTIVITY",
+                                       "CONTACT CONTROLS",
+                                       "CONTACT FILE",
+                                       "CONTACT OUTPUT",
+                                       "CONTACT PRINT",
+                                       "CONTROLS",
+                                       "DAMPING",
+                                       "DENSITY",
+                                       "EL FILE",
+                                       "EL PRINT",
+                                       "ELEMENT OUTPUT",
+                                       "ENERGY OUTPUT",
+                                       "ENERGY PRINT",
+                                       "EXPANSION",
+                                       "FILE FORMAT",
+                                       "FILE OUTPUT",
+                                       "HOURGLASS STIFFNESS",
+                                       "MONITOR",
+                                       "NODE FILE",
+                                       "NODE OUTPUT",
+                                       "NODE PRINT",
+                                       "OUTPUT",
+                                       "PHYSICAL CONSTANTS",
+                                       "PREPRINT",
+                                       "PRINT",
+                                       "RESTART",
+                                       "SECTION CONTROLS",
+                                       "SOLVER CONTROLS",
+                                       "SPECIFIC HEAT",
+                                       "TIME POINTS",
+                                       "TRANSVERSE SHEAR STIFFNESS"};
+// Of the mesh, which abaqus_cards.cpp reads.
+const std::set<std::string> of_mesh{"NODE",     "ELEMENT",  "NSET",         "ELSET",    "SURFACE",     "PART",
+                                    "END PART", "ASSEMBLY", "END ASSEMBLY", "INSTANCE", "END INSTANCE"};
+// What the scene does otherwise, by keyword: said once.
+const std::pair<const char*, const char*> otherwise[] = {
+    {"DAMAGE STABILIZATION", "*DAMAGE STABILIZATION: no viscosity; jumps of the crack are found by energy"},
+    {"FRICTION", "*FRICTION: contact without friction"},
+    {"SURFACE BEHAVIOR", "*SURFACE BEHAVIOR: contact is exact, without a penalty"},
+};
+
+class DeckReader {
+public:
+    DeckReader(const std::string& path, const Part& root)
+        : path_(path), root_(root), steps_(deck_, root), constraints_(deck_, root) {}
+
+    Deck read(const std::vector<InpCard>& cards) {
+        for (const InpCard& card : cards) take(card);
+        constraints_.finish();
+        if (deck_.steps.empty())
+            throw SceneFailure({path_, "", 0}, "there is no *STEP in it: a deck with loads is expected");
+        for (const std::string& name : left_) deck_.left_out.push_back("*" + name);
+        return std::move(deck_);
+    }
+
+private:
+    void take(const InpCard& card) {
+        const std::string& word = card.keyword;
+        if (word == "PART") part_ = card.required("NAME");
+        if (word == "END PART") part_.clear();
+        if (of_mesh.contains(word)) return;
+        if (not_needed.contains(word)) {
+            left_.insert(word);
+            return;
+        }
+        for (const auto& [keyword, text] : otherwise)
+            if (word == keyword) return say_once(deck_.changed, text);
+        if (steps_.take(card)) return;
+        if (constraints_.take(card)) {
+            if (!part_.empty()) throw SceneFailure(card.place, "within a *PART it is not imported: give it outside");
+            return;
+        }
+        using Take = void (DeckReader::*)(const InpCard&);
+        static const std::pair<const char*, Take> known[] = {
+            {"COHESIVE BEHAVIOR", &DeckReader::take_behavior},
+            {"COHESIVE SECTION", &DeckReader::take_cohesive_section},
+            {"CONTACT", &DeckReader::take_general_contact},
+            {"CONTACT INCLUSIONS", &DeckReader::take_inclusions},
+            {"CONTACT PAIR", &DeckReader::take_pair},
+            {"CONTACT PROPERTY ASSIGNMENT", &DeckReader::take_assignment},
+            {"DAMAGE EVOLUTION", &DeckReader::take_evolution},
+            {"DAMAGE INITIATION", &DeckReader::take_initiation},
+            {"ELASTIC", &DeckReader::take_elastic},
+            {"HEADING", &DeckReader::take_heading},
+            {"INITIAL CONDITIONS", &DeckReader::take_initial},
+            {"MATERIAL", &DeckReader::take_material},
+            {"ORIENTATION", &DeckReader::take_orientation},
+            {"SHELL SECTION", &DeckReader::take_section},
+            {"SOLID SECTION", &DeckReader::take_section},
+            {"SURFACE INTERACTION", &DeckReader::take_interaction},
+        };
+        for (const auto& [keyword, function] : known)
+            if (word == keyword) return (this->*function)(card);
+        throw SceneFailure(card.place,
+                           "this keyword would change the result and cannot be imported; take it out of a copy of the "
+                           "deck to go on without it, or write the scene by hand (SCENE.md)");
+    }
+
+    void take_heading(const InpCard& card) {
+        if (!card.lines.empty() && !card.lines[0].fields.empty()) deck_.title = listing(card.lines[0].fields);
+    }
+
+    void take_material(const InpCard& card) {
+        deck_.materials.push_back({card.required("NAME"), "", {}, {}, card.place});
+        damage_of_ = &DeckReader::damage_of_material;
+    }
+
+    void take_interaction(const InpCard& card) {
+        InteractionCards interaction;
+        interaction.name = card.required("NAME");
+        interaction.place = card.place;
+        deck_.interactions.push_back(std::move(interaction));
+        damage_of_ = &DeckReader::damage_of_interaction;
+    }
+
+    DamageCards& damage_of_material() { return deck_.materials.back().damage; }
+    DamageCards& damage_of_interaction() { return deck_.interactions.back().damage; }
+    DamageCards& damage(const InpCard& card) {
+        if (damage_of_ == nullptr)
+            throw SceneFailure(card.place, "a *MATERIAL or *SURFACE INTERACTION is expected first");
+        return (this->*damage_of_)();
+    }
+    MaterialCards& material(const InpCard& card) {
+        if (deck_.materials.empty() || damage_of_ != &DeckReader::damage_of_material)
+            throw SceneFailure(card.place, "a *MATERIAL is expected first");
+        return deck_.materials.back();
+    }
+
+    static void require_constant(const InpCard& card) {
+        if (card.has("DEPENDENCIES")) throw SceneFailure(card.place, "DEPENDENCIES: constants alone are imported");
+    }
+
+    // Further lines are for other temperatures.
+    static void require_one_line(const InpCard& card) {
+        if (card.lines.size() > 1)
+            throw SceneFailure(card.lines[1].place, "one line is expected: values at one temperature are imported");
+    }
+
+    void take_elastic(const InpCard& card) {
+        card.only({"TYPE", "MODULI", "DEPENDENCIES"});
+        require_constant(card);
+        MaterialCards& m = material(card);
+        m.elastic = card.has("TYPE") ? upper(card.required("TYPE")) : "ISOTROPIC";
+        const std::size_t count = m.elastic == "ISOTROPIC"               ? 2
+                                  : m.elastic == "TRACTION"              ? 3
+                                  : m.elastic == "LAMINA"                ? 6
+                                  : m.elastic == "ENGINEERING CONSTANTS" ? 9
+                                                                         : 0;
+        if (count == 0) card.refuse("TYPE", m.elastic, "ISOTROPIC, ENGINEERING CONSTANTS, LAMINA or TRACTION");
+        m.constants = card.row();
+        // A temperature may follow, and another row would be for another temperature.
+        if (m.constants.size() < count || m.constants.size() > count + 1)
+            throw SceneFailure(card.place, fmt::format("{} numbers: {} constants, at one temperature, are expected",
+                                                       m.constants.size(), count));
+        m.constants.resize(count);
+    }
+
+    void take_initiation(const InpCard& card) {
+        card.only({"CRITERION", "DEPENDENCIES", "TOLERANCE"});
+        require_constant(card);
+        DamageCards& d = damage(card);
+        if (!d.initiation.empty()) throw SceneFailure(card.place, "is given twice for one law");
+        d.initiation = upper(card.required("CRITERION"));
+        if (d.initiation != "MAXS" && d.initiation != "QUADS" && d.initiation != "MAXE" && d.initiation != "QUADE")
+            card.refuse("CRITERION", d.initiation, "MAXS, QUADS, MAXE or QUADE");
+        require_one_line(card);
+        d.strengths = card.first_line().numbers();
+        d.initiation_place = card.place;
+        if (d.strengths.size() < 2) throw SceneFailure(card.place, "two or three values are expected");
+        d.strengths.resize(3, d.strengths[1]);
+    }
+
+    void take_evolution(const InpCard& card) {
+        card.only(
+            {"TYPE", "SOFTENING", "MIXED MODE BEHAVIOR", "MODE MIX RATIO", "POWER", "DEGRADATION", "DEPENDENCIES"});
+        require_constant(card);
+        DamageCards& d = damage(card);
+        if (!d.evolution.empty()) throw SceneFailure(card.place, "is given twice for one law");
+        d.evolution = upper(card.required("TYPE"));
+        if (d.evolution != "ENERGY" && d.evolution != "DISPLACEMENT")
+            card.refuse("TYPE", d.evolution, "ENERGY or DISPLACEMENT");
+        if (card.has("SOFTENING")) d.softening = upper(card.required("SOFTENING"));
+        if (d.softening != "LINEAR" && d.softening != "EXPONENTIAL" && d.softening != "TABULAR")
+            card.refuse("SOFTENING", d.softening, "LINEAR, EXPONENTIAL or TABULAR");
+        if (card.has("MIXED MODE BEHAVIOR")) d.mixed_mode = upper(card.required("MIXED MODE BEHAVIOR"));
+        if (d.mixed_mode == "MODE INDEPENDENT") d.mixed_mode.clear();
+        if (!d.mixed_mode.empty() && d.mixed_mode != "BK" && d.mixed_mode != "POWER LAW")
+            card.refuse("MIXED MODE BEHAVIOR", d.mixed_mode, "BK or POWER LAW");
+        if (card.has("MODE MIX RATIO") && upper(card.required("MODE MIX RATIO")) != "ENERGY")
+            card.refuse("MODE MIX RATIO", card.required("MODE MIX RATIO"), "ENERGY");
+        if (!d.mixed_mode.empty()) {
+            d.power = inp_number(card.required("POWER"), card.place);
+            if (!(d.power > 0)) throw SceneFailure(card.place, fmt::format("POWER={}: must be > 0", d.power));
+        }
+        if (card.has("DEGRADATION") && upper(card.required("DEGRADATION")) != "MAXIMUM")
+            card.refuse("DEGRADATION", card.required("DEGRADATION"), "MAXIMUM");
+        if (d.evolution == "DISPLACEMENT" && !d.mixed_mode.empty())
+            throw SceneFailure(card.place, "MIXED MODE BEHAVIOR=" + d.mixed_mode + " needs TYPE=ENERGY");
+        if (d.softening != "TABULAR") require_one_line(card);
+        (void)card.first_line();
+        for (const InpLine& line : card.lines) d.values.push_back(line.numbers());
+        d.evolution_place = card.place;
+    }
+
+    void take_behavior(const InpCard& card) {
+        card.only({"ELIGIBILITY", "REPEATED CONTACTS", "TYPE", "DEPENDENCIES"});
+        require_constant(card);
+        if (deck_.interactions.empty()) throw SceneFailure(card.place, "a *SURFACE INTERACTION is expected first");
+        if (card.has("TYPE") && upper(card.required("TYPE")) != "UNCOUPLED")
+            card.refuse("TYPE", card.required("TYPE"), "UNCOUPLED");
+        InteractionCards& interaction = deck_.interactions.back();
+        interaction.cohesive = true;
+        interaction.eligibility = upper(card.parameter("ELIGIBILITY"));
+        interaction.stiffness = card.row();
+        if (interaction.stiffness.size() < 2)
+            throw SceneFailure(card.place,
+                               "no stiffness: Abaqus would take that of its contact; give Knn, Kss, Ktt, about "
+                               "50 E3/t with the thickness t of a layer");
+        interaction.stiffness.resize(3, interaction.stiffness[1]);
+    }
+
+    void take_section(const InpCard& card) {
+        card.only({"ELSET", "MATERIAL", "ORIENTATION", "CONTROLS", "COMPOSITE", "STACK DIRECTION", "SYMMETRIC", "LAYUP",
+                   "OFFSET", "POISSON", "SECTION INTEGRATION"});
+        Section section;
+        section.place = card.place;
+        section.orientation = card.parameter("ORIENTATION");
+        section.part = part_;
+        section.shell = card.keyword == "SHELL SECTION";
+        if (!card.has("COMPOSITE")) {
+            section.material = card.required("MATERIAL");
+            if (!section.shell && !card.lines.empty() && !card.lines[0].fields.empty() &&
+                !card.lines[0].fields[0].empty())
+                section.width = positive_number(card.lines[0].fields[0], card.lines[0].place);
+        } else {
+            if (card.has("STACK DIRECTION") && card.required("STACK DIRECTION") != "3")
+                card.refuse("STACK DIRECTION", card.required("STACK DIRECTION"), "3");
+            if (card.lines.size() != 1)
+                throw SceneFailure(card.place,
+                                   fmt::format("a composite of {} plies: one ply in each element is imported; "
+                                               "give the plies elements of their own",
+                                               card.lines.size()));
+            const InpLine& line = card.lines[0];
+            if (line.fields.size() < 3) throw SceneFailure(line.place, "thickness, points, material are expected");
+            section.material = line.fields[2];
+            if (line.fields.size() > 3 && !line.fields[3].empty())
+                section.angle = inp_number(line.fields[3], line.place);
+        }
+        deck_.sections.push_back(std::move(section));
+    }
+
+    static double positive_number(const std::string& field, const Place& place) {
+        const double value = inp_number(field, place);
+        if (!(value > 0)) throw SceneFailure(place, fmt::format("thickness {}: must be > 0", value));
+        return value;
+    }
+
+    void take_cohesive_section(const InpCard& card) {
+        card.only({"ELSET", "MATERIAL", "RESPONSE", "THICKNESS", "CONTROLS", "ORIENTATION", "STACK DIRECTION"});
+        if (const std::string response = upper(card.required("RESPONSE")); response != "TRACTION SEPARATION")
+            card.refuse("RESPONSE", response, "TRACTION SEPARATION");
+        if (card.has("CONTROLS"))
+            say_once(deck_.changed,
+                     "CONTROLS of cohesive elements: no viscosity; jumps of the crack are found by energy");
+        Section section;
+        section.material = card.required("MATERIAL");
+        section.thickness = card.has("THICKNESS") ? upper(card.required("THICKNESS")) : "SPECIFIED";
+        if (section.thickness != "SPECIFIED" && section.thickness != "GEOMETRY")
+            card.refuse("THICKNESS", section.thickness, "SPECIFIED or GEOMETRY");
+        if (card.has("STACK DIRECTION"))
+            throw SceneFailure(card.place,
+                               "STACK DIRECTION is not imported: the first half of the nodes of a cohesive "
+                               "element is one face, the second half the other");
+        if (!card.lines.empty()) {
+            const InpLine& line = card.lines[0];
+            if (!line.fields.empty() && !line.fields[0].empty())
+                section.value = positive_number(line.fields[0], line.place);
+            if (line.fields.size() > 1 && !line.fields[1].empty())
+                section.width = positive_number(line.fields[1], line.place);
+        }
+        section.place = card.place;
+        deck_.sections.push_back(std::move(section));
+    }
+
+    void take_orientation(const InpCard& card) {
+        card.only({"NAME", "DEFINITION", "SYSTEM"});
+        if (card.has("DEFINITION") && upper(card.required("DEFINITION")) != "COORDINATES")
+            card.refuse("DEFINITION", card.required("DEFINITION"), "COORDINATES");
+        if (card.has("SYSTEM") && upper(card.required("SYSTEM")) != "RECTANGULAR")
+            card.refuse("SYSTEM", card.required("SYSTEM"), "RECTANGULAR");
+        Orientation orientation;
+        orientation.name = card.required("NAME");
+        orientation.part = part_;
+        orientation.place = card.place;
+        const std::pair key(part_, upper(orientation.name));
+        if (const auto other = deck_.orientations.find(key); other != deck_.orientations.end())
+            throw SceneFailure(card.place, "there is another orientation \"" + other->second.name + "\"");
+        orientation.points = card.first_line().numbers();
+        if (orientation.points.size() != 6 && orientation.points.size() != 9)
+            throw SceneFailure(card.lines[0].place, "6 or 9 coordinates are expected");
+        orientation.points.resize(9, 0.0);
+        if (card.lines.size() > 1) {
+            const Numbers turn = card.lines[1].numbers();
+            if (turn.empty() || turn.size() > 2 || (turn[0] != 1 && turn[0] != 2 && turn[0] != 3))
+                throw SceneFailure(card.lines[1].place, "an axis, 1 to 3, and an angle are expected");
+            orientation.about = static_cast<int>(turn[0]);
+            if (turn.size() == 2) orientation.angle = turn[1];
+        }
+        deck_.orientations.emplace(key, std::move(orientation));
+    }
+
+    void take_pair(const InpCard& card) {
+        if (!card.has("INTERACTION")) throw SceneFailure(card.place, "INTERACTION= is missing");
+        if (card.has("TIED"))
+            throw SceneFailure(card.place, "TIED is not imported: bodies that share nodes are bonded");
+        const std::string interaction = card.required("INTERACTION");
+        for (const InpLine& line : card.lines) {
+            if (line.fields.size() < 2) throw SceneFailure(line.place, "a slave and a master surface are expected");
+            pair_of_.emplace(std::pair(upper(line.fields[0]), upper(line.fields[1])), deck_.pairs.size());
+            deck_.pairs.push_back({interaction,
+                                   {&root_, line.fields[0], line.place},
+                                   {&root_, line.fields[1], line.place},
+                                   "",
+                                   card.place});
+        }
+    }
+
+    void take_general_contact(const InpCard&) { deck_.general_contact = true; }
+
+    void take_inclusions(const InpCard& card) {
+        if (!card.has("ALL EXTERIOR"))
+            throw SceneFailure(card.place, "ALL EXTERIOR alone is imported: give the others as *CONTACT PAIR");
+    }
+
+    // The properties of contact that is no pair have no meaning here unless surfaces adhere.
+    void take_assignment(const InpCard& card) {
+        for (const InpLine& line : card.lines) {
+            const std::string& name = line.fields.back();
+            if (named(deck_.interactions, name, "surface interaction", line.place).cohesive)
+                throw SceneFailure(line.place,
+                                   "general contact with *COHESIVE BEHAVIOR is not imported: give the "
+                                   "surfaces that adhere as *CONTACT PAIR");
+        }
+    }
+
+    void take_initial(const InpCard& card) {
+        const std::string type = upper(card.required("TYPE"));
+        if (type != "CONTACT")
+            throw SceneFailure(card.place,
+                               "TYPE=" + type + " is not imported: CONTACT (the set of nodes that adhere) is");
+        for (const InpLine& line : card.lines) {
+            if (line.fields.size() != 3)
+                throw SceneFailure(line.place, "slave, master and a set of nodes are expected");
+            const auto pair = pair_of_.find({upper(line.fields[0]), upper(line.fields[1])});
+            if (pair == pair_of_.end()) throw SceneFailure(line.place, "there is no *CONTACT PAIR of these surfaces");
+            deck_.pairs[pair->second].bonded = line.fields[2];
+        }
+    }
+
+    std::string path_;
+    const Part& root_;
+    Deck deck_;
+    DamageCards& (DeckReader::*damage_of_)() = nullptr;
+    StepReader steps_;
+    ConstraintReader constraints_;
+    std::string part_;                                                    // that is open
+    std::map<std::pair<std::string, std::string>, std::size_t> pair_of_;  // by slave and master in upper case
+    std::set<std::string> left_;
+};
+
+}  // namespace
+
+Deck read_deck(const std::vector<InpCard>& cards, const std::string& path, const Part& root) {
+    return DeckReader(path, root).read(cards);
+}
+
+}  // namespace cli::abaqus

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "deck/deck_constraint_cards.hpp"
+
+#include <algorithm>
+#include <cstdint>
+
+#include <fmt/format.h>
+
+namespace cli::abaqus {
+
+bool ConstraintReader::take(const InpCard& card) {
+    using Take = void (ConstraintReader::*)(const InpCard&);
+    static const std::pair<const char*, Take> known[] = {{"COUPLING", &ConstraintReader::take_coupling},
+                                                         {"EQUATION", &ConstraintReader::take_equation},
+                                                         {"KINEMATIC", &ConstraintReader::take_kinematic},
+                                                         {"RIGID BODY", &ConstraintReader::take_rigid_body}};
+    if (card.keyword != "KINEMATIC") finish();
+    for (const auto& [keyword, function] : known)
+        if (card.keyword == keyword) {
+            (this->*function)(card);
+            return true;
+        }
+    return false;
+}
+
+void ConstraintReader::finish() const {
+    if (open_)
+        throw SceneFailure(open_->place,
+                           "*KINEMATIC is expected next: couplings that distribute a force are not imported; give the "
+                           "surface a traction (*DSLOAD)");
+}
+
+void ConstraintReader::take_coupling(const InpCard& card) {
+    card.only({"CONSTRAINT NAME", "REF NODE", "SURFACE"});
+    open_ = Coupling{{&root_, card.required("REF NODE"), card.place},
+                     {&root_, card.required("SURFACE"), card.place},
+                     {},
+                     {},
+                     card.place};
+}
+
+void ConstraintReader::take_kinematic(const InpCard& card) {
+    if (!open_) throw SceneFailure(card.place, "a *COUPLING is expected first");
+    card.only({});
+    for (const InpLine& line : card.lines) {
+        const int first = degree_of_freedom(line.fields[0], 6, line.place);
+        const bool one = line.fields.size() < 2 || line.fields[1].empty();
+        const int last = one ? first : degree_of_freedom(line.fields[1], 6, line.place);
+        if (last < first) throw SceneFailure(line.place, fmt::format("degrees of freedom {} to {}: none", first, last));
+        // Those above are rotations, which nodes of solids do not have.
+        for (int dof = first; dof <= std::min(last, 3); ++dof)
+            if (std::find(open_->dofs.begin(), open_->dofs.end(), dof) == open_->dofs.end()) open_->dofs.push_back(dof);
+    }
+    if (!card.lines.empty() && open_->dofs.empty())
+        throw SceneFailure(card.place, "no degree of freedom from 1 to 3: nodes of solids do not rotate");
+    deck_.couplings.push_back(std::move(*open_));
+    open_.reset();
+}
+
+void ConstraintReader::take_rigid_body(const InpCard& card) {
+    card.only({"REF NODE", "NSET", "PIN NSET", "TIE NSET", "ROT NODE"});
+    Coupling coupling{{&root_, card.required("REF NODE"), card.place}, {&root_, "", card.place}, {}, {}, card.place};
+    std::size_t given = 0;
+    for (const char* name : {"NSET", "PIN NSET", "TIE NSET"})
+        if (card.has(name)) {
+            coupling.where.text = card.required(name);
+            ++given;
+        }
+    if (given != 1) throw SceneFailure(card.place, "one of NSET=, PIN NSET= and TIE NSET= is expected");
+    if (card.has("ROT NODE")) coupling.rotation_node = Entry{&root_, card.required("ROT NODE"), card.place};
+    deck_.couplings.push_back(std::move(coupling));
+}
+
+// Lines with the number of terms, each followed by that many triples of node or set, degree of freedom, coefficient.
+void ConstraintReader::take_equation(const InpCard& card) {
+    card.only({});
+    std::vector<EquationEntry> terms;
+    std::int64_t wanted = 0;
+    for (const InpLine& line : card.lines) {
+        if (wanted == 0) {
+            wanted = inp_whole(line.fields.at(0), line.place);
+            if (wanted < 1) throw SceneFailure(line.place, fmt::format("{} terms: at least 1 is expected", wanted));
+            if (line.fields.size() > 1 && !line.fields[1].empty())
+                throw SceneFailure(line.place, "the number of terms alone is expected");
+            continue;
+        }
+        std::size_t last = line.fields.size();
+        while (last > 0 && line.fields[last - 1].empty()) --last;
+        if (last % 3 != 0)
+            throw SceneFailure(line.place,
+                               "triples of a node or set, a degree of freedom and a coefficient are expected");
+        for (std::size_t i = 0; i < last; i += 3) {
+            EquationEntry term;
+            term.where = {&root_, line.fields[i], line.place};
+            term.dof = degree_of_freedom(line.fields[i + 1], 6, line.place);
+            term.coefficient = inp_number(line.fields[i + 2], line.place);
+            terms.push_back(std::move(term));
+        }
+        if (static_cast<std::int64_t>(terms.size()) > wanted)
+            throw SceneFailure(line.place, fmt::format("{} terms: {} are expected", terms.size(), wanted));
+        if (static_cast<std::int64_t>(terms.size()) == wanted) {
+            deck_.equations.push_back(std::move(terms));
+            terms.clear();
+            wanted = 0;
+        }
+    }
+    if (wanted != 0) throw SceneFailure(card.place, fmt::format("{} terms: {} are expected", terms.size(), wanted));
+    if (card.lines.empty()) throw SceneFailure(card.place, "the number of terms is expected");
+}
+
+}  // namespace cli::abaqus

@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "deck/deck_interfaces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "deck/deck_bodies.hpp"
+#include "deck/deck_laws.hpp"
+#include "mesh/mesh_file.hpp"
+#include "text/toml_text.hpp"
+
+namespace cli::abaqus {
+
+namespace {
+
+// A small part more than the distance of the faces, so that rounding of coordinates does not part them.
+constexpr double allowance = 1.001;
+
+struct Held {
+    std::int32_t a = 0, b = 0;
+    std::string law;  // empty: contact
+    std::string set;  // the faces or nodes that adhere; empty: all
+    double gap = 0;   // between the faces; 0: they coincide
+    bool matching = true;
+    Place place;
+};
+
+class Interfaces {
+public:
+    Interfaces(Deck& deck, const Model& model, const MeshData& mesh)
+        : deck_(deck),
+          model_(model),
+          mesh_(mesh),
+          faces_(mesh),
+          edge_(shortest_edge(mesh)),
+          places_(mesh, edge_),
+          cohesive_sections_(deck, model, &Part::cohesive_sections),
+          neighbours_(mesh.body_names.size()) {
+        for (const BodyPair& pair : pairs_of_bodies(mesh, faces_, edge_, model.file)) {
+            touching_[{pair.a, pair.b}] = pair;
+            neighbours_[static_cast<std::size_t>(pair.a)].push_back(pair.b);
+            neighbours_[static_cast<std::size_t>(pair.b)].push_back(pair.a);
+        }
+        for (std::vector<std::int32_t>& bodies : neighbours_) std::sort(bodies.begin(), bodies.end());
+    }
+
+    std::string text() {
+        for (const CohesiveSet& set : mesh_.cohesive) add_cohesive(set);
+        for (const ContactPair& pair : deck_.pairs) add_pair(pair);
+        for (const auto& [key, pair] : touching_) require_one_way(pair);
+        std::string out = laws_;
+        for (const Held& held : held_) out += entry(held);
+        for (const auto& [key, pair] : touching_) {
+            if (find(pair.a, pair.b) != nullptr) continue;
+            out += fmt::format("[[interfaces]]\na = {}\nb = {}\n{} = true\n\n", body(pair.a), body(pair.b),
+                               pair.shared > 0 ? "bonded" : "contact");
+            if (pair.shared == 0 && !deck_.general_contact)
+                deck_.changed.push_back(
+                    fmt::format("{} and {} touch and have nothing between them: here they are in contact", body(pair.a),
+                                body(pair.b)));
+        }
+        return out;
+    }
+
+private:
+    [[nodiscard]] std::string body(std::int32_t label) const {
+        return toml_text(mesh_.body_names[static_cast<std::size_t>(label)]);
+    }
+
+    Held* find(std::int32_t a, std::int32_t b) {
+        const auto found = held_by_.find(std::minmax(a, b));
+        return found == held_by_.end() ? nullptr : &held_[found->second];
+    }
+
+    // Bodies that share some nodes and have doubled ones elsewhere would be bonded and free at once.
+    void require_one_way(const BodyPair& pair) {
+        const Held* held = find(pair.a, pair.b);
+        if (pair.shared == 0 || (pair.doubled == 0 && held == nullptr)) return;
+        throw SceneFailure(
+            held != nullptr ? held->place : model_.file,
+            fmt::format("{} and {} share the nodes of {} sides, where they would be bonded, and have nodes "
+                        "of their own elsewhere: an interface has one law; double all its nodes",
+                        body(pair.a), body(pair.b), pair.shared));
+    }
+
+    void add(const Held& held) {
+        // Contact acts in every interface: a pair that asks for it alone adds nothing to a law.
+        Held* other = find(held.a, held.b);
+        if (other == nullptr) {
+            held_by_.emplace(std::minmax(held.a, held.b), held_.size());
+            held_.push_back(held);
+        } else if (held.law.empty()) {
+            return;
+        } else if (other->law.empty()) {
+            *other = held;
+        } else if (other->law != held.law || other->set != held.set) {
+            throw SceneFailure(held.place,
+                               fmt::format("{} and {} are held together by {} already: an interface has one "
+                                           "law and one set",
+                                           body(held.a), body(held.b), other->place.text()));
+        }
+    }
+
+    [[nodiscard]] double distance(std::int64_t a, std::int64_t b) const {
+        double square = 0;
+        for (std::int32_t i = 0; i < mesh_.dimension; ++i) {
+            const double d = mesh_.nodes[static_cast<std::size_t>(a * mesh_.dimension + i)] -
+                             mesh_.nodes[static_cast<std::size_t>(b * mesh_.dimension + i)];
+            square += d * d;
+        }
+        return std::sqrt(square);
+    }
+
+    // Of the nodes of a cohesive element; in the plane they go round.
+    [[nodiscard]] double gap_of(const Face& lower, const Face& upper) const {
+        const auto count = static_cast<std::size_t>(std::find(lower.begin(), lower.end(), -1) - lower.begin());
+        double out = 0;
+        for (std::size_t k = 0; k < count; ++k)
+            out = std::max(out, distance(lower[k], upper[mesh_.dimension == 2 ? count - 1 - k : k]));
+        return out;
+    }
+
+    [[nodiscard]] std::int32_t one_body(const Face& face, const CohesiveSet& set, const Place& place) const {
+        const std::vector<std::int32_t> bodies = faces_.of(face);
+        if (bodies.size() == 1) return bodies[0];
+        throw SceneFailure(
+            place, bodies.empty() ? fmt::format("an element of \"{}\" has a face that is no side of a cell", set.name)
+                                  : fmt::format("an element of \"{}\" has a face between {} and {}: its nodes must be "
+                                                "those of one of them",
+                                                set.name, body(bodies[0]), body(bodies[1])));
+    }
+
+    void add_cohesive(const CohesiveSet& set) {
+        const Section* found = cohesive_sections_.of(set.name).section;
+        if (found == nullptr)
+            throw SceneFailure(model_.file,
+                               fmt::format("the cohesive elements \"{}\" have no *COHESIVE SECTION", set.name));
+        const Section& section = *found;
+        std::map<std::pair<std::int32_t, std::int32_t>, double> gaps;  // by lower and upper body
+        double sum = 0, least = std::numeric_limits<double>::infinity(), most = 0;
+        for (std::size_t i = 0; i < set.lower.size(); ++i) {
+            const std::int32_t a = one_body(set.lower[i], set, section.place);
+            const std::int32_t b = one_body(set.upper[i], set, section.place);
+            if (a == b)
+                throw SceneFailure(section.place,
+                                   fmt::format("an element of \"{}\" lies within {}: nodes connect its two sides "
+                                               "elsewhere, and a body has no interface with itself",
+                                               set.name, body(a)));
+            const double gap = gap_of(set.lower[i], set.upper[i]);
+            sum += gap;
+            least = std::min(least, gap);
+            most = std::max(most, gap);
+            // Elements may stand either way up.
+            const auto key = gaps.contains({b, a}) ? std::pair(b, a) : std::pair(a, b);
+            gaps[key] = std::max(gaps[key], gap);
+        }
+        const MaterialCards& material = named(deck_.materials, section.material, "material", section.place);
+        const double mean = sum / static_cast<double>(set.lower.size());
+        const double thickness = section.thickness == "GEOMETRY" ? mean : section.value;
+        if (!(thickness > 1e-9 * edge_))
+            throw SceneFailure(section.place, "THICKNESS=GEOMETRY, and the elements have none");
+        if (section.thickness == "GEOMETRY" && most - least > 1e-3 * most)
+            throw SceneFailure(section.place, fmt::format("THICKNESS=GEOMETRY, and the elements are {:.6g} to {:.6g} "
+                                                          "thick: one law has one stiffness; give a section to each",
+                                                          least, most));
+        const std::string law = cohesive_law(material, thickness);
+        for (const auto& [bodies, gap] : gaps) {
+            const bool apart = gap > 1e-6 * edge_;
+            if (apart)
+                deck_.changed.push_back(
+                    fmt::format("\"{}\" is {:.6g} thick: the faces beside it are projected upon each "
+                                "other, and it has no volume",
+                                set.name, gap));
+            add({bodies.first, bodies.second, law, set.faces, apart ? gap * allowance : 0.0, !apart, section.place});
+        }
+    }
+
+    std::string cohesive_law(const MaterialCards& material, double thickness) {
+        if (material.elastic != "TRACTION")
+            throw SceneFailure(material.place, fmt::format("material \"{}\" of cohesive elements needs *ELASTIC, "
+                                                           "TYPE=TRACTION",
+                                                           material.name));
+        Numbers stiffness = material.constants;
+        for (double& k : stiffness) k /= thickness;
+        return new_law("material", material.name, stiffness, thickness, material.damage, material.place);
+    }
+
+    // The law of this name and thickness, made where it is new.
+    std::string new_law(const std::string& of, const std::string& name, const Numbers& stiffness, double thickness,
+                        const DamageCards& damage, const Place& place) {
+        const auto [known, fresh] = law_names_.emplace(std::pair(of + " " + name, thickness), name);
+        if (!fresh) return known->second;
+        const std::size_t alike = ++laws_of_name_[name];
+        if (alike > 1) known->second = fmt::format("{} ({})", name, alike);
+        laws_ += law_text(known->second, stiffness, thickness, damage, mesh_.dimension, place, deck_.changed) + "\n";
+        return known->second;
+    }
+
+    [[nodiscard]] std::string faces_named(const Entry& raw) const {
+        std::string name = surface_name(model_, raw);
+        if (!mesh_.face_sets.contains(name))
+            throw SceneFailure(raw.place, fmt::format("\"{}\": a *SURFACE of sides of elements is expected", raw.text));
+        return name;
+    }
+
+    const std::set<std::int32_t>& bodies_of(const std::string& surface) {
+        const auto [at, fresh] = bodies_of_.try_emplace(surface);
+        if (!fresh) return at->second;
+        for (const Face& face : mesh_.face_sets.at(surface))
+            for (const std::int32_t each : faces_.of(face)) at->second.insert(each);
+        return at->second;
+    }
+
+    // b is the slave's body, whose nodes make the pairs.
+    void add_pair(const ContactPair& pair) {
+        const InteractionCards& interaction =
+            named(deck_.interactions, pair.interaction, "surface interaction", pair.place);
+        const std::string slave = faces_named(pair.slave);
+        const std::string master = faces_named(pair.master);
+        std::string law;
+        if (interaction.cohesive) {
+            law = new_law("interaction", interaction.name, interaction.stiffness, 1.0, interaction.damage,
+                          interaction.place);
+            require_extent(pair, interaction, slave, master);
+        }
+        const std::set<std::int32_t>&slaves = bodies_of(slave), &masters = bodies_of(master);
+        std::string set = law.empty() ? "" : slave;
+        if (!law.empty() && !pair.bonded.empty()) set = bonded_set(pair);
+        std::size_t added = 0;
+        // Surfaces of several bodies hold those together that touch; those of two need not match.
+        const bool two = slaves.size() == 1 && masters.size() == 1;
+        if (two && *slaves.begin() != *masters.begin()) {
+            const std::int32_t a = *masters.begin(), b = *slaves.begin();
+            add({a, b, law, set, 0.0, touching_.contains(std::minmax(a, b)), pair.place});
+            ++added;
+        }
+        for (auto b = slaves.begin(); b != slaves.end() && !two; ++b)
+            for (const std::int32_t a : neighbours_[static_cast<std::size_t>(*b)]) {
+                if (!masters.contains(a)) continue;
+                add({a, *b, law, set, 0.0, true, pair.place});
+                ++added;
+            }
+        if (added == 0)
+            throw SceneFailure(
+                pair.place, fmt::format("no body of \"{}\" touches one of \"{}\"", pair.slave.text, pair.master.text));
+    }
+
+    // What adheres is what the slave surface has, or its bonded nodes; the master must not say less.
+    void require_extent(const ContactPair& pair, const InteractionCards& interaction, const std::string& slave,
+                        const std::string& master) {
+        const bool specified = interaction.eligibility == "SPECIFIED CONTACTS";
+        if (specified == pair.bonded.empty())
+            throw SceneFailure(pair.place,
+                               "ELIGIBILITY=SPECIFIED CONTACTS and *INITIAL CONDITIONS, TYPE=CONTACT are "
+                               "imported together: one of them is missing");
+        if (!interaction.eligibility.empty() && !specified && interaction.eligibility != "CURRENT CONTACTS")
+            throw SceneFailure(interaction.place, "ELIGIBILITY=" + interaction.eligibility +
+                                                      " is not imported: CURRENT and SPECIFIED CONTACTS are");
+        const auto& faces = mesh_.face_sets.at(slave);
+        const auto opposite = places_.coinciding(slave, master);
+        if (opposite == 0)
+            deck_.changed.push_back(
+                fmt::format("\"{}\" and \"{}\" do not match: the slave adheres wherever it meets "
+                            "the body of the master",
+                            pair.slave.text, pair.master.text));
+        else if (!specified && opposite < static_cast<std::int64_t>(faces.size()))
+            throw SceneFailure(pair.place, fmt::format("{} of the {} sides of \"{}\" lie opposite \"{}\": only these "
+                                                       "would adhere; make the slave surface as small",
+                                                       opposite, faces.size(), pair.slave.text, pair.master.text));
+    }
+
+    [[nodiscard]] std::string bonded_set(const ContactPair& pair) const {
+        std::string name = node_set_name(model_, {pair.slave.scope, pair.bonded, pair.place});
+        if (!mesh_.node_sets.contains(name))
+            throw SceneFailure(pair.place, "node set \"" + pair.bonded + "\" is not there, or empty");
+        return name;
+    }
+
+    [[nodiscard]] std::string entry(const Held& held) const {
+        std::string out = fmt::format("[[interfaces]]\na = {}\nb = {}\n", body(held.a), body(held.b));
+        out += held.law.empty() ? "contact = true\n" : fmt::format("law = {}\n", toml_text(held.law));
+        if (!held.matching) out += "projected = true\n";
+        if (held.gap > 0) out += fmt::format("gap = {}\n", toml_number(held.gap));
+        if (!held.set.empty()) out += fmt::format("notch = [{{ set = {}, outside = true }}]\n", toml_text(held.set));
+        return out + "\n";
+    }
+
+    Deck& deck_;
+    const Model& model_;
+    const MeshData& mesh_;
+    FaceBodies faces_;
+    double edge_;
+    FacePlaces places_;
+    SectionIndex cohesive_sections_;
+    std::map<std::pair<std::int32_t, std::int32_t>, BodyPair> touching_;
+    std::vector<std::vector<std::int32_t>> neighbours_;  // by body: those that touch it, ascending
+    std::vector<Held> held_;
+    std::map<std::pair<std::int32_t, std::int32_t>, std::size_t> held_by_;  // by bodies
+    std::map<std::string, std::set<std::int32_t>> bodies_of_;               // by surface
+    std::map<std::string, std::size_t> laws_of_name_;
+    std::map<std::pair<std::string, double>, std::string> law_names_;
+    std::string laws_;
+};
+
+}  // namespace
+
+std::string interfaces_text(Deck& deck, const Model& model, const MeshData& mesh) {
+    return Interfaces(deck, model, mesh).text();
+}
+
+}  // namespace cli::abaqus

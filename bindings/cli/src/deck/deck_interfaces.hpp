@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What holds the bodies of a deck together, as [[laws]] and [[interfaces]] of a scene.
+#pragma once
+
+#include <string>
+
+#include "deck/deck.hpp"
+#include "mesh/mesh_data.hpp"
+
+namespace cli::abaqus {
+
+// mesh: split into pieces. Bodies that share nodes are bonded, cohesive elements and contact pairs with *COHESIVE
+// BEHAVIOR have laws, and all else that touches is in contact.
+std::string interfaces_text(Deck& deck, const Model& model, const MeshData& mesh);
+
+}  // namespace cli::abaqus

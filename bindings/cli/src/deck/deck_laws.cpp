@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "deck/deck_laws.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "text/toml_text.hpp"
+
+namespace cli::abaqus {
+
+namespace {
+
+// max((t_n/s_n)^2, (t_t/s_t)^2) = 1 is the limit of a power law whose exponent grows.
+constexpr double maximum_exponent = 100;
+
+// In the plane Ktt, T and Gt play no part; in space the law is the same in both directions of sliding.
+void require_isotropic(const Numbers& values, const char* what, std::int32_t dimension, const Place& place) {
+    if (dimension == 3 && values.size() > 2 && std::abs(values[1] - values[2]) > 1e-9 * std::abs(values[1]))
+        throw SceneFailure(place, fmt::format("{}: {} and {} in the two directions of sliding: the law of an interface "
+                                              "has one value for both",
+                                              what, values[1], values[2]));
+}
+
+void require_positive(const Numbers& values, std::size_t count, const char* what, const Place& place) {
+    for (std::size_t i = 0; i < count; ++i)
+        if (!(values[i] > 0)) throw SceneFailure(place, fmt::format("{} {}: must be > 0", what, values[i]));
+}
+
+// The toughness of a mode of peak `strength`.
+struct Mode {
+    double stiffness;
+    double strength;
+    [[nodiscard]] double at_onset() const { return strength / stiffness; }
+};
+
+using Curve = std::vector<std::array<double, 2>>;
+
+// Between two points D is straight in Abaqus, and the traction, (1 - D) times a straight line, may rise far above both.
+void require_no_hump(const DamageCards& damage, const Mode& mode) {
+    constexpr double allowed = 0.05;  // of the peak
+    for (std::size_t i = 1; i < damage.values.size(); ++i) {
+        const Numbers &a = damage.values[i - 1], &b = damage.values[i];
+        for (const double x : {0.25, 0.5, 0.75}) {
+            const double d = a[0] + x * (b[0] - a[0]), jump = a[1] + x * (b[1] - a[1]);
+            const double traction = (1 - d) * (1 + jump / mode.at_onset());
+            const double before = (1 - a[0]) * (1 + a[1] / mode.at_onset());
+            if (traction > before + allowed)
+                throw SceneFailure(
+                    damage.evolution_place,
+                    fmt::format("between the displacements {} and {}, the traction of Abaqus' straight D "
+                                "rises to {:.3g} times the strength: give more points there, or "
+                                "TYPE=ENERGY",
+                                a[1], b[1], traction));
+        }
+    }
+}
+
+// Points of D over the jump beyond the onset, as traction over its peak, with straight lines between them.
+Curve softening_of(const DamageCards& damage, const Mode& mode) {
+    const std::vector<Numbers>& rows = damage.values;
+    const Place& place = damage.evolution_place;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        if (rows[i].size() < 2 || (i > 0 && !(rows[i][1] > rows[i - 1][1])))
+            throw SceneFailure(place, "rows of D and a growing displacement beyond the onset are expected");
+    if (rows.size() < 2 || rows.front()[0] != 0 || rows.front()[1] != 0 || rows.back()[0] != 1)
+        throw SceneFailure(place, "rows from D = 0 at displacement 0 to D = 1 are expected");
+    Curve out;
+    for (const Numbers& row : rows) {
+        const double traction = (1 - row[0]) * (1 + row[1] / mode.at_onset());
+        if (!out.empty() && traction > out.back()[1] * (1 + 1e-9))
+            throw SceneFailure(place,
+                               fmt::format("the traction rises beyond the onset, from {:.6g} to {:.6g} of its peak "
+                                           "at a displacement of {}: it must not",
+                                           out.back()[1], traction, row[1]));
+        out.push_back({row[1] / rows.back()[1], std::min(traction, out.empty() ? 1.0 : out.back()[1])});
+    }
+    require_no_hump(damage, mode);
+    return out;
+}
+
+double area_of(const Curve& softening) {
+    double area = 0;
+    for (std::size_t i = 1; i < softening.size(); ++i)
+        area += (softening[i][0] - softening[i - 1][0]) * (softening[i][1] + softening[i - 1][1]) / 2;
+    return area;
+}
+
+// The same where D, not the traction, is straight between the points: each part is the product of two straight lines,
+// (1 - D) and 1 + jump/onset, and Simpson's rule is exact.
+double area_with_straight_damage(const DamageCards& damage, const Mode& mode) {
+    double area = 0;
+    const auto traction = [&](double d, double jump) { return (1 - d) * (1 + jump / mode.at_onset()); };
+    for (std::size_t i = 1; i < damage.values.size(); ++i) {
+        const Numbers &a = damage.values[i - 1], &b = damage.values[i];
+        area += (b[1] - a[1]) / 6 *
+                (traction(a[0], a[1]) + 4 * traction((a[0] + b[0]) / 2, (a[1] + b[1]) / 2) + traction(b[0], b[1]));
+    }
+    return area / damage.values.back()[1];
+}
+
+// The toughness of both modes, from energies or displacements.
+Numbers toughness_of(const std::string& name, const DamageCards& damage, const Mode (&modes)[2], std::int32_t dimension,
+                     std::vector<std::string>& changed) {
+    const Place& place = damage.evolution_place;
+    if (damage.evolution == "ENERGY") {
+        Numbers energy = damage.values[0];
+        if (energy.empty()) throw SceneFailure(place, "a toughness is expected");
+        if (damage.mixed_mode.empty()) return {energy[0], energy[0]};
+        if (energy.size() < 2) throw SceneFailure(place, "the toughness of two or three modes is expected");
+        if (damage.mixed_mode == "POWER LAW") require_isotropic(energy, "toughness", dimension, place);
+        energy.resize(2);
+        return energy;
+    }
+    if (damage.softening == "TABULAR") (void)softening_of(damage, modes[0]);
+    if (damage.values[0].empty()) throw SceneFailure(place, "a displacement is expected");
+    const double end = damage.softening == "TABULAR" ? damage.values.back()[1] : damage.values[0][0];
+    Numbers out;
+    for (const Mode& mode : modes)
+        out.push_back(damage.softening == "TABULAR"
+                          ? mode.strength * (mode.at_onset() / 2 + end * area_of(softening_of(damage, mode)))
+                          : mode.strength * (mode.at_onset() + end) / 2);
+    if (damage.softening == "TABULAR") {
+        const double lines = area_of(softening_of(damage, modes[0]));
+        const double other = area_with_straight_damage(damage, modes[0]);
+        if (std::abs(other - lines) > 1e-3 * lines)
+            changed.push_back(
+                fmt::format("law \"{}\": between the points of the table the traction is straight here, D in "
+                            "Abaqus, where the area beyond the onset is {:+.2g} % different",
+                            name, 100 * (other / lines - 1)));
+    }
+    const bool same_onset = std::abs(modes[0].at_onset() - modes[1].at_onset()) <= 1e-9 * modes[0].at_onset();
+    if (damage.softening == "TABULAR" && !same_onset)
+        throw SceneFailure(place,
+                           "SOFTENING=TABULAR is imported for modes whose jumps at the onset are the same: the "
+                           "curve of a law is that of all modes");
+    if (!same_onset || std::abs(modes[0].strength - modes[1].strength) > 1e-9 * modes[0].strength)
+        changed.push_back(
+            fmt::format("law \"{}\": the deck gives displacements, the scene energies: alike in the pure "
+                        "modes, and between them by a power law with exponent 1",
+                        name));
+    return out;
+}
+
+std::string kind_of(const std::string& name, const DamageCards& damage, std::vector<std::string>& changed) {
+    const Place& place = damage.evolution_place;
+    if (damage.softening == "LINEAR") return "piecewise-linear";
+    if (damage.softening == "TABULAR") {
+        if (damage.evolution == "ENERGY") throw SceneFailure(place, "SOFTENING=TABULAR needs TYPE=DISPLACEMENT");
+        return "tabulated";
+    }
+    if (damage.evolution == "DISPLACEMENT")
+        throw SceneFailure(place,
+                           "SOFTENING=EXPONENTIAL with TYPE=DISPLACEMENT is not imported: give points of D "
+                           "(SOFTENING=TABULAR)");
+    changed.push_back(
+        fmt::format("law \"{}\": exponential softening of the same strength and toughness; here the traction falls "
+                    "from the onset on, "
+                    "by exp(-(jump - onset)/length), where Abaqus' damage decays with the square of the jump",
+                    name));
+    return "exponential";
+}
+
+}  // namespace
+
+std::string law_text(const std::string& name, const Numbers& stiffness, double thickness, const DamageCards& damage,
+                     std::int32_t dimension, const Place& place, std::vector<std::string>& changed) {
+    if (damage.initiation.empty() || damage.evolution.empty())
+        throw SceneFailure(place,
+                           fmt::format("\"{}\" has no {}: an interface that stays whole is no law; bodies that "
+                                       "share nodes are bonded",
+                                       name, damage.initiation.empty() ? "*DAMAGE INITIATION" : "*DAMAGE EVOLUTION"));
+    require_positive(stiffness, 2, "stiffness", place);
+    require_isotropic(stiffness, "stiffness", dimension, place);
+    require_positive(damage.strengths, 2, damage.initiation.c_str(), damage.initiation_place);
+    require_isotropic(damage.strengths, damage.initiation.c_str(), dimension, damage.initiation_place);
+    const bool strains = damage.initiation.back() == 'E';
+    Mode modes[2];
+    for (std::size_t m = 0; m < 2; ++m)
+        modes[m] = {stiffness[m], damage.strengths[m] * (strains ? stiffness[m] * thickness : 1.0)};
+    const Numbers toughness = toughness_of(name, damage, modes, dimension, changed);
+    require_positive(toughness, 2, "toughness", damage.evolution_place);
+    const std::string kind = kind_of(name, damage, changed);
+
+    std::string out = fmt::format("[[laws]]\nname = {}\n", toml_text(name));
+    if (kind != "piecewise-linear") out += fmt::format("kind = \"{}\"\n", kind);
+    for (std::size_t m = 0; m < 2; ++m)
+        out += fmt::format("{}_stiffness = {}\n", m == 0 ? "normal" : "tangential", toml_number(stiffness[m]));
+    for (std::size_t m = 0; m < 2; ++m)
+        out += fmt::format("{}_strength = {}\n", m == 0 ? "normal" : "tangential", toml_number(modes[m].strength));
+    for (std::size_t m = 0; m < 2; ++m)
+        out += fmt::format("{}_toughness = {}\n", m == 0 ? "normal" : "tangential", toml_number(toughness[m]));
+    const bool maximum = damage.initiation.rfind("MAX", 0) == 0;
+    if (maximum)
+        changed.push_back(
+            fmt::format("law \"{}\": {} as a power law with exponent {}: at equal shares of both modes the "
+                        "strength is 0.35 % less",
+                        name, damage.initiation, maximum_exponent));
+    const bool bk = damage.mixed_mode == "BK";
+    out += fmt::format("onset_criterion = \"power\"       # {}\nonset_exponent = {}\n", damage.initiation,
+                       toml_number(maximum ? maximum_exponent : 1.0));
+    out += fmt::format("criterion = \"{}\"\ntoughness_exponent = {}\n", bk ? "benzeggagh-kenane" : "power",
+                       toml_number(damage.mixed_mode.empty() ? 1.0 : damage.power));
+    if (kind == "tabulated") {
+        out += "softening = [\n";
+        for (const auto& point : softening_of(damage, modes[0]))
+            out += fmt::format("    [{}, {}],\n", toml_number(point[0]), toml_number(point[1]));
+        out += "]\n";
+    }
+    return out;
+}
+
+}  // namespace cli::abaqus

@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "deck/deck_scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "deck/abaqus/abaqus_cards.hpp"
+#include "deck/abaqus/abaqus_mesh.hpp"
+#include "deck/deck_bodies.hpp"
+#include "deck/deck_cards.hpp"
+#include "deck/deck_interfaces.hpp"
+#include "deck/deck_loads.hpp"
+#include "mesh/body_pieces.hpp"
+#include "text/printable.hpp"
+#include "text/say.hpp"
+#include "text/toml_text.hpp"
+#include "text/wildcard.hpp"
+
+namespace cli::abaqus {
+
+namespace {
+
+// The first line of a scene: what stands before and behind the name of its deck.
+constexpr std::string_view begin_of_origin = "# From ", end_of_origin = " by delam import.";
+
+using Vector = std::array<double, 3>;
+
+Vector cross(const Vector& a, const Vector& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+Vector unit(const Vector& v, const Place& place) {
+    const double length = std::hypot(v[0], v[1], v[2]);
+    if (!(length > 0)) throw SceneFailure(place, "the points lie on one line: they give no axes");
+    return {v[0] / length, v[1] / length, v[2] / length};
+}
+
+// Axes 1, 2, 3 turned about one of them.
+void turn(std::array<Vector, 3>& axes, int about, double degrees) {
+    const double c = std::cos(degrees * std::numbers::pi / 180);
+    const double s = std::sin(degrees * std::numbers::pi / 180);
+    const auto i = static_cast<std::size_t>(about % 3);
+    const auto j = static_cast<std::size_t>((about + 1) % 3);
+    const Vector a = axes[i], b = axes[j];
+    for (std::size_t k = 0; k < 3; ++k) {
+        axes[i][k] = c * a[k] + s * b[k];
+        axes[j][k] = c * b[k] - s * a[k];
+    }
+}
+
+// Near-zeros of rotations by right angles would hide the axes from a reader.
+std::vector<double> tidy_axis(const Vector& v) {
+    std::vector<double> out;
+    for (const double x : v) out.push_back(std::abs(x) < 1e-15 ? 0.0 : x);
+    return out;
+}
+
+class SceneWriter {
+public:
+    SceneWriter(Deck& deck, const Model& model, const MeshData& mesh, const std::vector<std::string>& plain_names,
+                const std::vector<std::size_t>& pieces)
+        : deck_(deck), model_(model), mesh_(mesh), plain_names_(plain_names), pieces_(pieces) {}
+
+    std::string text(const std::string& mesh_name, bool pieces) {
+        std::string out = "schema = 1\n";
+        if (!deck_.title.empty()) out += fmt::format("title = {}\n", toml_text(as_utf8(deck_.title)));
+        out += fmt::format("\n[mesh]\nfile = {}\n", toml_text(mesh_name));
+        if (pieces) out += "pieces = true       # what no nodes connect is a body of its own\n";
+        out += "\n";
+        out += bodies_and_materials();
+        out += interfaces_text(deck_, model_, mesh_);
+        References references(deck_, model_, mesh_);
+        const std::string loads = loads_text(deck_, model_, mesh_, references);
+        out += references.text() + loads;
+        out += "# For labels: the deck does not say which units it has.\n[units]\nlength = \"\"\nforce = \"\"\n";
+        return out;
+    }
+
+private:
+    // A scene in the plane is per unit of thickness; the thickness of the deck has to be one.
+    void require_width(const Section& section) {
+        if (mesh_.dimension == 3) return;
+        if (deck_.width == 0) deck_.width = section.width;
+        if (section.width != deck_.width)
+            throw SceneFailure(section.place,
+                               fmt::format("a thickness of {} and one of {} in one plane mesh: they must "
+                                           "be the same",
+                                           deck_.width, section.width));
+    }
+
+    std::string bodies_and_materials() {
+        std::string bodies;
+        std::set<std::string> used;
+        // In a plane mesh, cohesive elements have a width too.
+        for (const Section& section : deck_.sections)
+            if (!section.thickness.empty()) require_width(section);
+        const SectionIndex sections(deck_, model_, &Part::sections);
+        std::vector<std::string> sorted = mesh_.body_names;
+        std::sort(sorted.begin(), sorted.end());
+        std::size_t begin = 0;  // of its pieces
+        for (std::size_t i = 0; i < plain_names_.size(); ++i) {
+            const std::string& plain = plain_names_[i];
+            const SectionOf found = sections.of(plain);
+            if (found.section == nullptr)
+                throw SceneFailure(model_.file, fmt::format("\"{}\" has no *SOLID SECTION", plain));
+            const Section& section = *found.section;
+            require_width(section);
+            const MaterialCards& material = named(deck_.materials, section.material, "material", section.place);
+            used.insert(material.name);
+            const std::string rest =
+                fmt::format("material = {}\n{}\n", toml_text(material.name), axes_text(section, found.scope->rotated));
+            for (const std::string& name : entries_for(plain, begin, begin + pieces_[i], sorted))
+                bodies += fmt::format("[[bodies]]\nname = {}\n{}", toml_text(name), rest);
+            begin += pieces_[i];
+        }
+        std::string out;
+        for (const MaterialCards& material : deck_.materials)
+            if (used.contains(material.name)) out += material_text(material);
+        return out + bodies;
+    }
+
+    // One entry for all pieces of a body, if its name fits no other.
+    [[nodiscard]] std::vector<std::string> entries_for(const std::string& plain, std::size_t begin, std::size_t end,
+                                                       const std::vector<std::string>& sorted) const {
+        const auto& names = mesh_.body_names;
+        if (end - begin > 1 && !is_pattern(plain) && number_beginning_with(sorted, plain + "-") == end - begin)
+            return {plain + "-*"};
+        return {names.begin() + static_cast<std::ptrdiff_t>(begin), names.begin() + static_cast<std::ptrdiff_t>(end)};
+    }
+
+    const Orientation& orientation_of(const Section& section) const {
+        for (const std::string& part : {section.part, std::string()})
+            if (const auto found = deck_.orientations.find({part, upper(section.orientation)});
+                found != deck_.orientations.end())
+                return found->second;
+        return named(Catalogue<Orientation>(), section.orientation, "orientation", section.place);
+    }
+
+    // The angle of a ply, and an orientation of a shell, are about the normal of the plies, which must be axis 3 here.
+    void require_third_axis(const Section& section) const {
+        const bool said = !section.orientation.empty() && orientation_of(section).about == 3;
+        if (section.angle != 0 && !said)
+            throw SceneFailure(section.place,
+                               "the angle of a ply is imported with an *ORIENTATION whose second line is "
+                               "3, ..: axis 3 is the normal of the plies");
+        if (section.shell && !section.orientation.empty() && !said)
+            throw SceneFailure(section.place,
+                               "the *ORIENTATION of a shell section needs a second line 3, ..: axis 3 is "
+                               "the normal of the plies");
+    }
+
+    std::string axes_text(const Section& section, bool rotated) {
+        require_third_axis(section);
+        if (section.orientation.empty() && section.angle == 0) {
+            if (section.shell)
+                say_once(deck_.changed, "*SHELL SECTION without ORIENTATION: material axes 1, 2, 3 are x, y, z");
+            return "";
+        }
+        if (rotated)
+            throw SceneFailure(section.place,
+                               "ORIENTATION in an instance that is rotated is not imported: rotate the part");
+        std::array<Vector, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+        if (!section.orientation.empty()) {
+            const Orientation& o = orientation_of(section);
+            const auto from_origin = [&](std::size_t at) {
+                return Vector{o.points[at] - o.points[6], o.points[at + 1] - o.points[7],
+                              o.points[at + 2] - o.points[8]};
+            };
+            axes[0] = unit(from_origin(0), o.place);
+            axes[2] = unit(cross(axes[0], from_origin(3)), o.place);
+            axes[1] = cross(axes[2], axes[0]);
+            turn(axes, o.about == 0 ? 1 : o.about, o.angle);
+        }
+        turn(axes, 3, section.angle);
+        return fmt::format("axes = [{}, {}]\n", toml_list(tidy_axis(axes[0])), toml_list(tidy_axis(axes[1])));
+    }
+
+    std::string material_text(const MaterialCards& m) {
+        const Numbers& c = m.constants;
+        std::string out = fmt::format("[[materials]]\nname = {}\n", toml_text(m.name));
+        const auto key = [&](const char* name, double value) {
+            out += fmt::format("{} = {}\n", name, toml_number(value));
+        };
+        if (m.elastic == "ISOTROPIC") {
+            key("young", c[0]);
+            key("poisson", c[1]);
+        } else if (m.elastic == "ENGINEERING CONSTANTS") {
+            const char* const names[] = {"E1", "E2", "E3", "nu12", "nu13", "nu23", "G12", "G13", "G23"};
+            for (std::size_t i = 0; i < 9; ++i) key(names[i], c[i]);
+        } else if (m.elastic == "LAMINA") {
+            const double nu23 = c[1] / (2 * c[5]) - 1;
+            if (!(std::abs(nu23) < 1))
+                throw SceneFailure(m.place,
+                                   fmt::format("E2 = {} and G23 = {} make nu23 = {}: a lamina that is the same "
+                                               "across its fibres has it in (-1, 1); give ENGINEERING CONSTANTS",
+                                               c[1], c[5], nu23));
+            deck_.changed.push_back(
+                fmt::format("material \"{}\": LAMINA says nothing of the third direction; E3 = E2, "
+                            "nu13 = nu12, nu23 = E2/(2 G23) - 1 = {:.4g}",
+                            m.name, nu23));
+            const std::pair<const char*, double> values[] = {{"E1", c[0]},   {"E2", c[1]},   {"E3", c[1]},
+                                                             {"nu12", c[2]}, {"nu13", c[2]}, {"nu23", nu23},
+                                                             {"G12", c[3]},  {"G13", c[4]},  {"G23", c[5]}};
+            for (const auto& [name, value] : values) key(name, value);
+        } else {
+            throw SceneFailure(m.place, fmt::format("material \"{}\" of a body has {}", m.name,
+                                                    m.elastic.empty() ? "no *ELASTIC" : "*ELASTIC, TYPE=" + m.elastic));
+        }
+        return out + "\n";
+    }
+
+    Deck& deck_;
+    const Model& model_;
+    const MeshData& mesh_;
+    const std::vector<std::string>& plain_names_;
+    const std::vector<std::size_t>& pieces_;  // how many each of them consists of
+};
+
+std::string header(const ImportedScene& scene, const std::string& deck) {
+    std::string out = fmt::format("{}{}{}\n", begin_of_origin, one_line(deck), end_of_origin);
+    const auto list = [&](const char* title, const std::vector<std::string>& texts) {
+        if (texts.empty()) return;
+        out += fmt::format("# {}:\n", title);
+        for (const std::string& text : texts) out += "#   " + one_line(text) + "\n";
+    };
+    list("Changed", scene.changed);
+    list("Left out", scene.left_out);
+    return out + "\n";
+}
+
+}  // namespace
+
+}  // namespace cli::abaqus
+
+namespace cli {
+
+bool is_imported(std::string_view text) {
+    const std::string_view line = text.substr(0, text.find('\n'));
+    return line.starts_with(abaqus::begin_of_origin) && line.ends_with(abaqus::end_of_origin);
+}
+
+std::vector<std::string> import_lines(const ImportedScene& scene) {
+    std::vector<std::string> lines;
+    for (const std::string& text : scene.taken) lines.push_back("taken     " + text);
+    for (const std::string& text : scene.changed) lines.push_back("changed   " + text);
+    for (const std::string& text : scene.left_out) lines.push_back("left out  " + text);
+    return lines;
+}
+
+ImportedScene import_deck(const std::string& deck_path, const std::string& mesh_name) {
+    const Place place{deck_path, "", 0};
+    std::string bytes;
+    const std::vector<InpCard> cards = read_cards(deck_path, place, bytes);
+    abaqus::Model model;
+    abaqus::take_cards(cards, deck_path, model);
+    abaqus::Deck deck = abaqus::read_deck(cards, deck_path, model.root);
+    MeshData mesh = abaqus::mesh_of(model, {}, place);
+    const std::vector<std::string> plain_names = mesh.body_names;
+    const std::vector<std::size_t> parts = split_into_pieces(mesh);
+    const bool pieces = mesh.body_names != plain_names;
+
+    ImportedScene out;
+    const std::string text = abaqus::SceneWriter(deck, model, mesh, plain_names, parts).text(mesh_name, pieces);
+    for (const std::string& note : mesh.notes)
+        if (note.rfind("ignored: ", 0) != 0) out.changed.push_back(note);
+    out.changed.insert(out.changed.end(), deck.changed.begin(), deck.changed.end());
+    out.left_out = deck.left_out;
+    std::int64_t cells = 0, held = 0;
+    for (const CellBlock& block : mesh.blocks) cells += static_cast<std::int64_t>(block.bodies.size());
+    for (const CohesiveSet& set : mesh.cohesive) held += static_cast<std::int64_t>(set.lower.size());
+    out.taken.push_back(
+        fmt::format("{} in {}", counted(cells, "cell"),
+                    mesh.body_names.size() == 1 ? "1 body" : fmt::format("{} bodies", mesh.body_names.size())));
+    if (held > 0) out.taken.push_back(counted(held, "cohesive element"));
+    if (!deck.couplings.empty())
+        out.taken.push_back(counted(static_cast<std::int64_t>(deck.couplings.size()), "rigid coupling"));
+    if (!deck.equations.empty())
+        out.taken.push_back(counted(static_cast<std::int64_t>(deck.equations.size()), "equation"));
+    out.taken.push_back(counted(static_cast<std::int64_t>(deck.steps.size()), "step"));
+    out.text = abaqus::header(out, deck_path) + text;
+    return out;
+}
+
+}  // namespace cli

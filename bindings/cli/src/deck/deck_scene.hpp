@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// An Abaqus input file as a scene: the mesh stays in the file, everything else is written for people to read and
+// change.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "text/error.hpp"
+
+namespace cli {
+
+struct ImportedScene {
+    std::string text;                   // TOML
+    std::vector<std::string> taken;     // what became what, for people
+    std::vector<std::string> changed;   // what the scene does otherwise
+    std::vector<std::string> left_out;  // what it does not have
+};
+
+// mesh_name: by which the scene names the deck, relative to its own folder. Throws SceneFailure with file, line and
+// keyword where the deck says something that the scene could only guess.
+ImportedScene import_deck(const std::string& deck, const std::string& mesh_name);
+
+// True if a text is a scene that delam import has written, whatever was changed in it since.
+bool is_imported(std::string_view text);
+
+// What was taken, changed and left out, for people.
+std::vector<std::string> import_lines(const ImportedScene& scene);
+
+}  // namespace cli

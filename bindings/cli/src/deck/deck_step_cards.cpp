@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "deck/deck_step_cards.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace cli::abaqus {
+
+namespace {
+
+const std::pair<const char*, std::vector<int>> named_supports[] = {{"ENCASTRE", {1, 2, 3, 4, 5, 6}},
+                                                                   {"PINNED", {1, 2, 3}},
+                                                                   {"XSYMM", {1, 5, 6}},
+                                                                   {"YSYMM", {2, 4, 6}},
+                                                                   {"ZSYMM", {3, 4, 5}},
+                                                                   {"XASYMM", {2, 3, 4}},
+                                                                   {"YASYMM", {1, 3, 5}},
+                                                                   {"ZASYMM", {1, 2, 6}}};
+
+}  // namespace
+
+bool StepReader::take(const InpCard& card) {
+    using Take = void (StepReader::*)(const InpCard&);
+    static const std::pair<const char*, Take> known[] = {
+        {"AMPLITUDE", &StepReader::take_amplitude}, {"BOUNDARY", &StepReader::take_boundary},
+        {"CLOAD", &StepReader::take_forces},        {"DSLOAD", &StepReader::take_distributed},
+        {"DYNAMIC", &StepReader::take_procedure},   {"END STEP", &StepReader::end_step},
+        {"STATIC", &StepReader::take_procedure},    {"STEP", &StepReader::take_step},
+    };
+    for (const auto& [keyword, function] : known)
+        if (card.keyword == keyword) {
+            (this->*function)(card);
+            return true;
+        }
+    return false;
+}
+
+void StepReader::take_amplitude(const InpCard& card) {
+    card.only({"NAME", "DEFINITION", "TIME", "VALUE", "SMOOTH"});
+    Amplitude amplitude;
+    amplitude.name = card.required("NAME");
+    amplitude.place = card.place;
+    amplitude.total_time = upper(card.parameter("TIME")) == "TOTAL TIME";
+    amplitude.absolute = upper(card.parameter("VALUE")) == "ABSOLUTE";
+    const std::string definition = card.has("DEFINITION") ? upper(card.required("DEFINITION")) : "TABULAR";
+    amplitude.smooth = definition == "SMOOTH STEP";
+    if (definition != "TABULAR" && definition != "SMOOTH STEP")
+        card.refuse("DEFINITION", definition, "TABULAR or SMOOTH STEP");
+    if (card.has("SMOOTH")) say_once(deck_.changed, "*AMPLITUDE, SMOOTH: straight lines between its points");
+    const Numbers values = card.row();
+    if (values.size() < 2 || values.size() % 2 != 0)
+        throw SceneFailure(card.place, "pairs of time and value are expected");
+    for (std::size_t i = 0; i < values.size(); i += 2) {
+        if (i > 0 && !(values[i] > values[i - 2]))
+            throw SceneFailure(card.place, fmt::format("time {} after {}: times must grow", values[i], values[i - 2]));
+        amplitude.points.emplace_back(values[i], values[i + 1]);
+    }
+    deck_.amplitudes.push_back(std::move(amplitude));
+}
+
+void StepReader::take_step(const InpCard& card) {
+    card.only({"NAME", "NLGEOM", "INC", "AMPLITUDE", "UNSYMM", "EXTRAPOLATION", "CONVERT SDI"});
+    Step step;
+    step.name = card.parameter("NAME");
+    step.place = card.place;
+    if (card.has("AMPLITUDE")) step.ramp = upper(card.required("AMPLITUDE")) == "RAMP";
+    if (card.has("NLGEOM") && upper(card.parameter("NLGEOM")) != "NO")
+        say_once(
+            deck_.changed,
+            "NLGEOM: small displacements and rotations; the program warns where cells rotate by more than 0.1 rad");
+    deck_.steps.push_back(std::move(step));
+    in_step_ = true;
+}
+
+Step& StepReader::step(const InpCard& card) {
+    if (!in_step_) throw SceneFailure(card.place, "a *STEP is expected first");
+    return deck_.steps.back();
+}
+void StepReader::end_step(const InpCard&) { in_step_ = false; }
+
+void StepReader::take_procedure(const InpCard& card) {
+    Step& s = step(card);
+    if (card.has("RIKS"))
+        throw SceneFailure(card.place, "RIKS is not imported: prescribe displacements; jumps are found by energy");
+    if (card.keyword == "DYNAMIC") {
+        if (upper(card.parameter("APPLICATION")) != "QUASI-STATIC")
+            throw SceneFailure(card.place, "dynamic steps are not imported, but for APPLICATION=QUASI-STATIC");
+        say_once(deck_.changed, "*DYNAMIC: without inertia");
+    }
+    if (card.has("STABILIZE"))
+        say_once(deck_.changed, "STABILIZE: no viscosity; jumps of the crack are found by energy");
+    if (card.lines.empty()) return;
+    if (card.lines.size() > 1) throw SceneFailure(card.lines[1].place, "one line is expected");
+    const Numbers values = card.lines[0].numbers();
+    if (values.size() > 1 && values[1] > 0) s.period = values[1];
+    s.first_increment = !values.empty() && values[0] > 0 ? std::min(values[0], s.period) : s.period;
+}
+
+std::vector<LoadLine>& StepReader::boundaries() { return in_step_ ? deck_.steps.back().boundaries : deck_.held; }
+
+// OP=NEW: what earlier steps have prescribed ends, unless this step gives it again.
+bool StepReader::renews(const InpCard& card) {
+    const std::string op = card.has("OP") ? upper(card.required("OP")) : "MOD";
+    if (op != "MOD" && op != "NEW") card.refuse("OP", op, "MOD or NEW");
+    return op == "NEW";
+}
+
+void StepReader::take_boundary(const InpCard& card) {
+    card.only({"AMPLITUDE", "OP", "TYPE", "FIXED"});
+    if (renews(card)) step(card).new_boundaries = true;
+    if (card.has("TYPE") && upper(card.required("TYPE")) != "DISPLACEMENT")
+        card.refuse("TYPE", card.required("TYPE"), "DISPLACEMENT");
+    if (card.has("FIXED")) throw SceneFailure(card.place, "FIXED is not imported: give the displacement");
+    for (const InpLine& line : card.lines) {
+        if (line.fields.size() < 2)
+            throw SceneFailure(line.place, "a node or set and a degree of freedom are expected");
+        LoadLine load;
+        load.where = {&root_, line.fields[0], line.place};
+        load.amplitude = card.parameter("AMPLITUDE");
+        for (const auto& [name, dofs] : named_supports)
+            if (upper(line.fields[1]) == name) {
+                load.named = true;
+                for (const int dof : dofs) {
+                    load.first = load.last = dof;
+                    boundaries().push_back(load);
+                }
+                load.first = -1;
+            }
+        if (load.first < 0) continue;
+        load.first = load.last = degree_of_freedom(line.fields[1], 6, line.place);
+        if (line.fields.size() > 2 && !line.fields[2].empty())
+            load.last = degree_of_freedom(line.fields[2], 6, line.place);
+        if (load.last < load.first)
+            throw SceneFailure(line.place, fmt::format("degrees of freedom {} to {}: none", load.first, load.last));
+        if (line.fields.size() > 3) load.magnitude = inp_number(line.fields[3], line.place);
+        if (!in_step_ && load.magnitude != 0)
+            throw SceneFailure(line.place, "a displacement other than 0 is expected within a *STEP");
+        boundaries().push_back(std::move(load));
+    }
+}
+
+void StepReader::take_forces(const InpCard& card) {
+    card.only({"AMPLITUDE", "OP"});
+    if (renews(card)) step(card).new_forces = true;
+    for (const InpLine& line : card.lines) {
+        if (line.fields.size() < 3)
+            throw SceneFailure(line.place, "a node or set, a degree of freedom and a force are expected");
+        if (std::any_of(line.fields.begin() + 3, line.fields.end(), [](const std::string& f) { return !f.empty(); }))
+            throw SceneFailure(line.place, "3 values are expected: a line for each degree of freedom");
+        LoadLine load;
+        load.where = {&root_, line.fields[0], line.place};
+        load.amplitude = card.parameter("AMPLITUDE");
+        load.first = load.last = degree_of_freedom(line.fields[1], 6, line.place);
+        load.magnitude = inp_number(line.fields[2], line.place);
+        step(card).forces.push_back(std::move(load));
+    }
+}
+
+void StepReader::take_distributed(const InpCard& card) {
+    card.only({"AMPLITUDE", "OP", "FOLLOWER", "ORIENTATION", "CONSTANT RESULTANT"});
+    if (renews(card)) step(card).new_distributed = true;
+    if (card.has("ORIENTATION")) throw SceneFailure(card.place, "ORIENTATION is not imported");
+    for (const InpLine& line : card.lines) {
+        if (line.fields.size() < 3)
+            throw SceneFailure(line.place, "a surface, P or TRVEC, and a magnitude are expected");
+        LoadLine load;
+        load.where = {&root_, line.fields[0], line.place};
+        load.amplitude = card.parameter("AMPLITUDE");
+        load.distributed = upper(line.fields[1]);
+        if (load.distributed != "P" && load.distributed != "TRVEC")
+            throw SceneFailure(line.place, "\"" + line.fields[1] + "\" is not imported: P and TRVEC are");
+        load.magnitude = inp_number(line.fields[2], line.place);
+        if (load.distributed == "TRVEC") load.direction = line.numbers(3);
+        step(card).forces.push_back(std::move(load));
+    }
+}
+
+}  // namespace cli::abaqus

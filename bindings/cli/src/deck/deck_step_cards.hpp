@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The cards of steps, and of amplitudes, which steps use.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "deck/abaqus/inp_cards.hpp"
+#include "deck/deck.hpp"
+
+namespace cli::abaqus {
+
+class StepReader {
+public:
+    // root: the scope of the sets that steps name.
+    StepReader(Deck& deck, const Part& root) : deck_(deck), root_(root) {}
+
+    // False: the card is none of a step.
+    bool take(const InpCard& card);
+
+private:
+    void take_amplitude(const InpCard& card);
+    void take_step(const InpCard& card);
+    void end_step(const InpCard&);
+    void take_procedure(const InpCard& card);
+    void take_boundary(const InpCard& card);
+    void take_forces(const InpCard& card);
+    void take_distributed(const InpCard& card);
+    Step& step(const InpCard& card);
+    std::vector<LoadLine>& boundaries();
+    // OP=NEW: what earlier steps have prescribed ends, unless this step gives it again.
+    static bool renews(const InpCard& card);
+
+    Deck& deck_;
+    const Part& root_;
+    bool in_step_ = false;
+};
+
+}  // namespace cli::abaqus

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "model/build.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "model/build_constraints.hpp"
+#include "model/build_materials.hpp"
+#include "model/build_mesh.hpp"
+#include "model/call.hpp"
+#include "model/named.hpp"
+#include "model/notes.hpp"
+#include "model/selection.hpp"
+#include "model/sensitivities.hpp"
+
+namespace cli {
+
+namespace {
+
+// The regions of a block of layers reach over its height.
+void set_layer_regions(Model& model, const Scene& scene, std::int64_t index, const InterfaceData& data) {
+    const auto last = static_cast<std::size_t>(scene.geometry.dimension) - 1;
+    for (Region region : data.regions) {
+        region.lower[last] = -scene.geometry.height;
+        region.upper[last] = 2.0 * scene.geometry.height;
+        if (set_box(model, index, region) == 0)
+            throw SceneFailure(region.place, "no pair of the interface is in this region");
+    }
+}
+
+void set_interfaces(Model& model, const Scene& scene) {
+    for (std::size_t i = 0; i < model.interfaces.size(); ++i) {
+        const InterfaceData& data = model.interfaces[i];
+        const auto index = static_cast<std::int64_t>(i);
+        const delam_context* context = model.context.get();
+        if (data.bonded) {
+            call(context, delam_problem_set_bonded(model.problem.get(), index), data.place);
+            model.adheres.push_back(true);
+            continue;
+        }
+        if (data.contact) {
+            call(context, delam_problem_set_contact(model.problem.get(), index), data.place);
+            model.adheres.push_back(true);
+            continue;
+        }
+        const LawData& from = scene.laws[data.law];
+        delam_law* handle = nullptr;
+        const std::int32_t status = delam_law_create(model.context.get(), from.kind.c_str(), &handle);
+        const Law law(handle);
+        call(context, status, from.place);
+        const auto at = [&](const std::string& key) { return from.places.at(key); };
+        for (const auto& [key, value] : from.texts)
+            call(context, delam_law_set_text(law.get(), key.c_str(), value.c_str()), at(key));
+        for (const auto& [key, value] : from.parameters)
+            call(context, delam_law_set(law.get(), key.c_str(), value), at(key));
+        if (!from.table_xi.empty())
+            call(context,
+                 delam_law_set_table(law.get(), static_cast<std::int64_t>(from.table_xi.size()), from.table_xi.data(),
+                                     from.table_s.data()),
+                 at("softening"));
+        call(context, delam_law_check(law.get()), from.place);
+        call(context, delam_problem_set_law(model.problem.get(), index, law.get()), data.place);
+        scene.mesh ? set_mesh_regions(model, scene, index, data) : set_layer_regions(model, scene, index, data);
+        double spacing = 0;
+        call(context, delam_problem_process_zone(model.problem.get(), index, nullptr, &spacing), data.place);
+        model.adheres.push_back(spacing > 0);
+    }
+}
+
+void prescribe(Model& model, const Scene& scene, const Prescription& data) {
+    const Selected at = select(model.context.get(), model.mesh.get(), scene, data.where, data.mean);
+    note_place(model, scene, data.where, at);
+    if (data.mean && at.weights.empty()) throw SceneFailure(data.place, "mean: a single node has no face");
+    std::vector<std::int64_t> patterns;
+    std::vector<double> coefficients;
+    for (const Term& term : data.terms) {
+        patterns.push_back(static_cast<std::int64_t>(term.pattern));
+        coefficients.push_back(term.coefficient);
+    }
+    const auto count = static_cast<std::int64_t>(at.nodes.size());
+    const auto pattern_count = static_cast<std::int64_t>(patterns.size());
+    std::vector<double> all;
+    for (std::size_t i = 0; i < at.nodes.size(); ++i) all.insert(all.end(), coefficients.begin(), coefficients.end());
+    for (const std::vector<double>& direction : data.directions) {
+        const std::int32_t status =
+            at.weights.empty()
+                ? delam_problem_prescribe_nodes(model.problem.get(), count, at.nodes.data(), direction.data(),
+                                                pattern_count, patterns.data(), all.data(), 0)
+                : delam_problem_prescribe_mean(model.problem.get(), count, at.nodes.data(), at.weights.data(),
+                                               direction.data(), pattern_count, patterns.data(), coefficients.data(),
+                                               0);
+        call(model.context.get(), status, data.place);
+    }
+}
+
+void add_force(Model& model, const Scene& scene, const DeadForce& data) {
+    const Selected at = select(model.context.get(), model.mesh.get(), scene, data.where, true);
+    note_place(model, scene, data.where, at);
+    if (data.kind != ForceKind::total && at.weights.empty())
+        throw SceneFailure(data.place, "a single node has no face: give force instead of a force per area");
+    const double total = std::accumulate(at.weights.begin(), at.weights.end(), 0.0);
+    const auto dimension = static_cast<std::size_t>(scene.geometry.dimension);
+    std::vector<double> forces;
+    for (std::size_t i = 0; i < at.nodes.size(); ++i)
+        for (std::size_t a = 0; a < dimension; ++a) {
+            if (data.kind == ForceKind::pressure)
+                forces.push_back(-data.force[0] * at.normals[i * dimension + a]);
+            else if (data.kind == ForceKind::traction)
+                forces.push_back(data.force[a] * at.weights[i]);
+            else
+                forces.push_back(at.weights.empty() ? data.force[a] : data.force[a] * at.weights[i] / total);
+        }
+    call(model.context.get(),
+         delam_problem_add_forces(model.problem.get(), static_cast<std::int64_t>(data.pattern),
+                                  static_cast<std::int64_t>(at.nodes.size()), at.nodes.data(), forces.data(), 0),
+         data.place);
+}
+
+extern "C" void on_build_log(std::int32_t level, const char* text, void* said) {
+    if (level == 1) static_cast<std::vector<std::string>*>(said)->emplace_back(text);
+}
+
+void fill(Model& model, const Scene& scene) {
+    const delam_context* owner = model.context.get();
+    build_mesh(model, scene);
+    delam_problem* handle = nullptr;
+    const std::int32_t status = delam_problem_create(model.context.get(), model.mesh.get(), &handle);
+    model.problem.reset(handle);
+    call(owner, status, scene.geometry.place);
+    delam_problem* problem = model.problem.get();
+    if (scene.geometry.dimension == 2)
+        call(owner, delam_problem_set_plane(problem, scene.geometry.plane.c_str()), scene.geometry.place);
+    for (std::size_t i = 0; i < scene.layers.size(); ++i) {
+        const Material& material = scene.materials[scene.layers[i].material];
+        set_material(owner, problem, static_cast<std::int32_t>(i), material, scene.layers[i]);
+        set_plies(model, scene, i);
+        const bool directed = !std::holds_alternative<Isotropic>(material.elastic);
+        if (scene.mesh && directed && !scene.layers[i].axes && !scene.mesh->orientation.empty())
+            set_cell_axes(owner, problem, static_cast<std::int32_t>(i), *scene.mesh, scene.layers[i].place);
+    }
+    set_interfaces(model, scene);
+    for (const PatternData& pattern : scene.patterns) {
+        std::int64_t index = 0;
+        call(owner,
+             delam_problem_add_pattern(problem, pattern.name.c_str(), static_cast<std::int64_t>(pattern.times.size()),
+                                       pattern.times.data(), pattern.values.data(), &index),
+             pattern.place);
+    }
+    for (const Prescription& data : scene.prescriptions) {
+        prescribe(model, scene, data);
+        note_constraints(model, data.place);
+    }
+    for (const DeadForce& data : scene.forces) add_force(model, scene, data);
+    add_constraints(model, scene);
+    for (const EigenstrainData& data : scene.eigenstrains)
+        call(owner,
+             delam_problem_add_eigenstrain(problem, static_cast<std::int64_t>(data.pattern), data.body,
+                                           data.strain.data()),
+             data.place);
+    for (const SolverOption& option : scene.options) {
+        const auto* number = std::get_if<double>(&option.value);
+        call(owner,
+             number != nullptr
+                 ? delam_problem_set_number(problem, option.key.c_str(), *number)
+                 : delam_problem_set_text(problem, option.key.c_str(), std::get<std::string>(option.value).c_str()),
+             option.place);
+    }
+    call(owner, delam_problem_check(problem), {scene.file, "", 0});
+}
+
+}  // namespace
+
+Model build(Context context, const Scene& scene) {
+    Model model;
+    model.context = std::move(context);
+    delam_context_set_log(model.context.get(), on_build_log, &model.said);
+    try {
+        fill(model, scene);
+    } catch (const Failure& failure) {
+        const std::string text = named(failure.text(), scene, model);
+        if (failure.place().file.empty()) throw Failure(failure.code(), text);
+        throw Failure(failure.code(), failure.place(), text);
+    }
+    delam_context_set_log(model.context.get(), nullptr, nullptr);
+    return model;
+}
+
+Solver new_solver(const Model& model, const Scene& scene, bool& converged) {
+    delam_solver* handle = nullptr;
+    const std::int32_t status = delam_solver_create(model.problem.get(), scene.times.front(), &handle);
+    Solver solver(handle);
+    converged = status != DELAM_NOT_CONVERGED;
+    if (converged || solver == nullptr) call(model.context.get(), status, {scene.file, "", 0});
+    follow_sensitivities(model, scene, solver.get());
+    return solver;
+}
+
+}  // namespace cli

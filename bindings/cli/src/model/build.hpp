@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Builds the library's objects from a scene.
+#pragma once
+
+#include "model/model.hpp"
+
+namespace cli {
+
+// Returns a complete and checked problem. Errors name the place in the scene.
+Model build(Context context, const Scene& scene);
+// Factors the operator; the state is the initial one. converged: whether its displacement step converged.
+Solver new_solver(const Model& model, const Scene& scene, bool& converged);
+
+}  // namespace cli

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "model/model.hpp"
+
+#include "model/call.hpp"
+
+namespace cli {
+
+Context new_context() {
+    delam_context* handle = nullptr;
+    if (delam_context_create(&handle) != DELAM_OK) throw Failure(exit_numerical, "out of memory");
+    return Context(handle);
+}
+
+void note_constraints(Model& model, const Place& place) {
+    std::int64_t rows = 0;
+    call(model.context.get(),
+         delam_problem_constraints(model.problem.get(), &rows, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr),
+         place);
+    model.constraint_places.resize(static_cast<std::size_t>(rows), place);
+}
+
+}  // namespace cli

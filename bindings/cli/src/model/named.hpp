@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The library uses labels and numbers, a scene names and places.
+#pragma once
+
+#include <string>
+
+#include "model/model.hpp"
+
+namespace cli {
+
+// `message` with the numbers of bodies, interfaces and control nodes replaced by names, and those of constraints by
+// places.
+std::string named(const std::string& message, const Scene& scene, const Model& model);
+
+// A line of the log: with the names of interfaces, and words as a scene has them. Asks the library nothing.
+std::string said_of_scene(const std::string& message, const Model& model);
+
+}  // namespace cli

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "result/closing/balance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "scene/labels.hpp"
+
+namespace cli {
+
+namespace {
+
+constexpr double noticeable = 0.01;  // of the work
+
+}  // namespace
+
+double Balance::relative() const {
+    if (defect == 0.0) return 0.0;
+    return work > 0.0 ? std::abs(defect) / work : std::numeric_limits<double>::infinity();
+}
+
+Balance balance_of(const Rows& rows, bool slides) {
+    const std::string split = slides ? "_slides" : "";
+    const auto stored = [&](const Row& row) {
+        return number_of(row, "stored_bulk") + number_of(row, "stored_interface" + split) +
+               number_of(row, "load_potential");
+    };
+    Balance out;
+    double released = 0.0;
+    for (const Row& row : rows) {
+        released += number_of(row, "released");
+        const double work = number_of(row, "work");
+        out.last_defect = stored(row) - stored(rows.front()) + number_of(row, "dissipated" + split) + released - work;
+        out.work = std::max(out.work, std::abs(work));
+        // Negated, so that NaN counts, and stays.
+        if (std::isnan(out.defect) || std::abs(out.last_defect) <= std::abs(out.defect)) continue;
+        out.defect = out.last_defect;
+        out.step = static_cast<std::int64_t>(number_of(row, "step"));
+        out.time = number_of(row, "time");
+    }
+    return out;
+}
+
+std::string balance_line(const Balance& balance, const Scene& scene) {
+    if (balance.work == 0.0 && balance.defect == 0.0) return "energy balance: no work was done";
+    return fmt::format(
+        "{}energy balance: off by {} of the work (stored + dissipated + released - work is {} in {}; the "
+        "work is up to {})",
+        balance.relative() <= noticeable ? "" : "warning: ", percent_text(balance.relative()),
+        energy_text(balance.defect, scene), instant_text(balance.step, balance.time), energy_text(balance.work, scene));
+}
+
+}  // namespace cli

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The ledger of a march: stored + dissipated + released energy against the work, from the rows of history.csv.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "result/history/rows.hpp"
+#include "scene/scene.hpp"
+
+namespace cli {
+
+struct Balance {
+    std::int64_t step = 0;  // in which the ledger is off most
+    double time = 0;
+    double defect = 0;       // there: what is stored, dissipated and released since the start, less the work
+    double work = 0;         // the largest of the march
+    double last_defect = 0;  // at the end
+    // The largest defect over the largest work; 0 if there is neither.
+    [[nodiscard]] double relative() const;
+};
+
+// slides: the ledger of mixity_rule = variational, the columns that end in _slides.
+Balance balance_of(const Rows& rows, bool slides);
+std::string balance_line(const Balance& balance, const Scene& scene);
+
+}  // namespace cli

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "result/closing/closing.hpp"
+
+#include "result/closing/estimate.hpp"
+#include "result/closing/resolution.hpp"
+#include "result/history/concept.hpp"
+
+namespace cli {
+
+Closing closing_of(const Model& model, const delam_solver* solver, const Scene& scene, std::string_view history,
+                   double rotation_max) {
+    const Rows rows = rows_of(history);
+    Closing out;
+    out.jumps = jumps_of(model, solver, scene);
+    out.balance = balance_of(rows, option_text(solver, "mixity_rule") == "variational");
+    out.mixity_error = mixity_error_of(rows);
+    out.search = search_limits_of(rows, option_number(solver, "search_tolerance"));
+    out.load_drops = load_drops_of(rows, out.jumps, scene);
+    out.estimate_tolerance = option_number(solver, "backtracking_tolerance");
+    out.estimate_violated = violated_steps(rows, out.estimate_tolerance);
+    out.estimate_hollow = hollow_steps(rows);
+    out.front_unresolved = unresolved_steps(rows, model, scene);
+    out.rotation_max = rotation_max;
+    return out;
+}
+
+std::vector<std::string> closing_lines(const Closing& closing, const Scene& scene) {
+    std::vector<std::string> out = jump_lines(closing.jumps, scene);
+    out.push_back(balance_line(closing.balance, scene));
+    out.push_back(estimate_line(closing.estimate_violated, closing.estimate_tolerance));
+    out.push_back(hollow_line(closing.estimate_hollow));
+    out.push_back(mixity_error_line(closing.mixity_error, scene));
+    out.push_back(load_drops_line(closing.load_drops));
+    for (std::string& line : search_lines(closing.search, scene)) out.push_back(std::move(line));
+    out.push_back(unresolved_line(closing.front_unresolved));
+    out.push_back(rotation_line(closing.rotation_max));
+    std::erase(out, "");
+    return out;
+}
+
+}  // namespace cli

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a march ends with: jumps, energy balance, and what it did not resolve; as data, and as lines for people. Made
+// from history.csv and the state, so that a resumed run includes the steps before it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "result/closing/balance.hpp"
+#include "result/closing/load_drops.hpp"
+#include "result/closing/mixity_error.hpp"
+#include "result/closing/search_limits.hpp"
+#include "result/history/jumps.hpp"
+
+namespace cli {
+
+struct Closing {
+    std::vector<Jump> jumps;
+    Balance balance;
+    MixityError mixity_error;
+    SearchLimits search;
+    LoadDrops load_drops;
+    std::vector<std::int64_t> estimate_violated, estimate_hollow;
+    double estimate_tolerance = 0;
+    std::vector<std::int64_t> front_unresolved;  // steps in which a crack grew with too few pairs in its process zone
+    double rotation_max = 0;                     // rad, in the steps with fields
+};
+
+Closing closing_of(const Model& model, const delam_solver* solver, const Scene& scene, std::string_view history,
+                   double rotation_max);
+// Each fact once, without ends of line.
+std::vector<std::string> closing_lines(const Closing& closing, const Scene& scene);
+
+}  // namespace cli

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "result/closing/resolution.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "model/call.hpp"
+
+namespace cli {
+
+namespace {
+
+constexpr double resolving_pairs = 3.0;
+constexpr double small_rotation = 0.1;
+constexpr double stiffest =
+    100.0;  // times the least: a further digit of the layer's stiffness is not worth its rounding
+
+struct Prediction {
+    double length = 0;  // 0: nothing softens
+    double spacing = 0;
+};
+
+Prediction prediction(const Model& model, std::size_t index) {
+    Prediction out;
+    call(model.context.get(),
+         delam_problem_process_zone(model.problem.get(), static_cast<std::int64_t>(index), &out.length, &out.spacing),
+         std::string("process zone"));
+    return out;
+}
+
+// Without an onset of its own a law has no process zone.
+bool has_onset(const std::string& kind) {
+    const std::int64_t count = delam_law_parameter_count(kind.c_str());
+    for (std::int64_t i = 0; i < count; ++i) {
+        const char* key = "";
+        delam_law_parameter_info(kind.c_str(), i, &key, nullptr, nullptr, nullptr, nullptr, nullptr);
+        if (std::string_view(key) == "normal_onset") return true;
+    }
+    return false;
+}
+
+// To three digits, so that a proposal still holds when it is pasted.
+double rounded(double value, double (*towards)(double)) {
+    const double unit = std::pow(10.0, std::floor(std::log10(value)) - 2.0);
+    return towards(value / unit) * unit;
+}
+double rounded_down(double value) {
+    return rounded(value, [](double x) { return std::floor(x); });
+}
+double rounded_up(double value) {
+    return rounded(value, [](double x) { return std::ceil(x); });
+}
+
+// 0: the law has no such number.
+double number_of_law(const LawData& law, std::string_view key) {
+    for (const auto& [name, value] : law.parameters)
+        if (name == key) return value;
+    return 0;
+}
+
+// The peak of the traction in a mode, "normal" or "tangential"; 0: none.
+double peak_of(const LawData& law, const std::string& mode) {
+    const double strength = number_of_law(law, mode + "_strength");
+    if (strength > 0) return strength;
+    return std::sqrt(2 * number_of_law(law, mode + "_stiffness") * number_of_law(law, mode + "_onset"));
+}
+
+bool energetic(const Model& model) {
+    const char* solution = delam_problem_option(model.problem.get(), "solution");
+    return solution != nullptr && std::string_view(solution) == "energetic";
+}
+
+}  // namespace
+
+std::vector<std::string> process_zones(const Model& model) {
+    std::vector<std::string> out;
+    for (std::size_t i = 0; i < model.interfaces.size(); ++i) {
+        const Prediction zone = prediction(model, i);
+        if (zone.length > 0 && zone.spacing > 0)
+            out.push_back(fmt::format("\"{}\", about {:.3g}, {:.2g} pairs of spacing {:.3g}", model.interfaces[i].name,
+                                      zone.length, zone.length / zone.spacing, zone.spacing));
+    }
+    return out;
+}
+
+namespace {
+
+// What the interfaces of a law need together.
+struct Needs {
+    std::vector<std::string> interfaces;
+    double stiffness = 0, share = 1;
+    std::array<double, 2> strength{};
+    double pairs = 0;  // in the shortest process zone; 0: none is predicted
+};
+
+void add(double& least, double value) {
+    if (value > 0) least = least > 0 ? std::min(least, value) : value;
+}
+
+Needs needs_of(const Model& model, std::size_t law) {
+    Needs out;
+    for (std::size_t i = 0; i < model.interfaces.size(); ++i) {
+        const InterfaceData& data = model.interfaces[i];
+        if (data.bonded || data.contact || data.law != law) continue;
+        double stiffness = 0, share = 0, normal = 0, tangential = 0;
+        call(model.context.get(),
+             delam_problem_propose(model.problem.get(), static_cast<std::int64_t>(i), resolving_pairs, &stiffness,
+                                   &share, &normal, &tangential),
+             std::string("proposal"));
+        out.interfaces.push_back(data.name);
+        out.stiffness = std::max(out.stiffness, stiffness);
+        add(out.share, share);
+        add(out.strength[0], normal);
+        add(out.strength[1], tangential);
+        const Prediction zone = prediction(model, i);
+        if (zone.spacing > 0) add(out.pairs, zone.length / zone.spacing);
+    }
+    return out;
+}
+
+Advice advice_for(const Model& model, const LawData& law, const Needs& needs) {
+    Advice out{law.name, needs.interfaces, {}, ""};
+    const double own = number_of_law(law, "normal_stiffness");
+    const bool unresolved = !energetic(model) && needs.pairs > 0 && needs.pairs < resolving_pairs;
+    const bool apart = needs.stiffness > 0 && (own < needs.stiffness || own > stiffest * needs.stiffness);
+    if (apart) {
+        for (const char* key : {"normal_stiffness", "tangential_stiffness"})
+            out.keys.emplace_back(key, rounded_up(needs.stiffness));
+        out.reason = fmt::format(
+            "50 E3/t of the adjacent layer, which then keeps 98 % of its stiffness instead of "
+            "{:.3g} % (Turon et al. 2007; in range up to {:.2g})",
+            100 * needs.share, stiffest * needs.stiffness);
+    }
+    // Another stiffness would change the peaks of a law with given onsets.
+    const bool onsets = number_of_law(law, "normal_onset") + number_of_law(law, "tangential_onset") > 0;
+    if (!unresolved && !(apart && onsets)) return out;
+    for (const std::size_t mode : {std::size_t{0}, std::size_t{1}}) {
+        const std::string name = mode == 0 ? "normal" : "tangential";
+        const double peak = peak_of(law, name);
+        if (!(peak > 0)) continue;
+        const bool lower = unresolved && needs.strength[mode] < peak;
+        out.keys.emplace_back(name + "_strength", lower ? rounded_down(needs.strength[mode]) : peak);
+    }
+    if (unresolved)
+        out.reason += fmt::format(
+            "{}{:g} pairs in the process zone instead of {:.2g}: damage then begins at a lower "
+            "load, but cracks grow at the same, which follows from the toughness",
+            out.reason.empty() ? "" : "; ", resolving_pairs, needs.pairs);
+    else
+        out.reason += "; the strengths are those of now";
+    return out;
+}
+
+}  // namespace
+
+std::vector<Advice> advice(const Model& model, const Scene& scene) {
+    std::vector<Advice> out;
+    for (std::size_t law = 0; law < scene.laws.size(); ++law) {
+        const Needs needs = needs_of(model, law);
+        if (needs.interfaces.empty()) continue;
+        Advice one = advice_for(model, scene.laws[law], needs);
+        if (!one.keys.empty()) out.push_back(std::move(one));
+    }
+    return out;
+}
+
+std::vector<std::int64_t> unresolved_steps(const Rows& rows, const Model& model, const Scene& scene) {
+    std::vector<std::int64_t> out;
+    const auto softens = [&scene](const InterfaceData& data) {
+        return !data.bonded && !data.contact && has_onset(scene.laws[data.law].kind);
+    };
+    if (energetic(model) || std::none_of(model.interfaces.begin(), model.interfaces.end(), softens)) return out;
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+        const auto best = [&](const char* key) {
+            return std::max(number_of(rows[i - 1], key), number_of(rows[i], key));
+        };
+        const bool grew = number_of(rows[i], "debonded_length") > number_of(rows[i - 1], "debonded_length");
+        if (grew && best("energy_release_rate") > 0 && best("process_zone_pairs") < resolving_pairs)
+            out.push_back(static_cast<std::int64_t>(number_of(rows[i], "step")));
+    }
+    return out;
+}
+
+std::string unresolved_line(const std::vector<std::int64_t>& steps) {
+    if (steps.empty()) return "";
+    return fmt::format(
+        "warning: in {} (the first is step {}) a crack grew with fewer than {:g} pairs in its process zone: the load "
+        "and the length of its growth depend on the mesh",
+        steps.size() == 1 ? "1 step" : fmt::format("{} steps", steps.size()), steps.front(), resolving_pairs);
+}
+
+std::string rotation_line(double largest) {
+    if (!(largest > small_rotation)) return "";
+    return fmt::format("warning: cells rotate by up to {:.3g} rad: the error of the strains is about {:.2g}", largest,
+                       0.5 * largest * largest);
+}
+
+}  // namespace cli

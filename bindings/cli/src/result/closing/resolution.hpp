@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Whether the pairs of an interface resolve the process zones of its cracks: predicted before an analysis, checked
+// after it in its rows.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "model/model.hpp"
+#include "result/history/rows.hpp"
+
+namespace cli {
+
+// One line for each interface with a softening law: predicted process zone and the pairs in it.
+std::vector<std::string> process_zones(const Model& model);
+// Numbers for a law that are better than its own.
+struct Advice {
+    std::string law;
+    std::vector<std::string> interfaces;  // with this law
+    std::vector<std::pair<std::string, double>> keys;
+    std::string reason;
+};
+// Strengths where the process zone has fewer than 3 pairs, and stiffnesses where they are far from what layers need.
+std::vector<Advice> advice(const Model& model, const Scene& scene);
+// Steps in which a crack grew with fewer than 3 pairs in its process zone, before and after. None for energetic
+// solutions and for scenes whose laws do not soften.
+std::vector<std::int64_t> unresolved_steps(const Rows& rows, const Model& model, const Scene& scene);
+std::string unresolved_line(const std::vector<std::int64_t>& steps);
+// "" below 0.1 rad.
+std::string rotation_line(double largest);
+
+}  // namespace cli

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "result/closing/search_limits.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "scene/labels.hpp"
+#include "text/say.hpp"
+
+namespace cli {
+
+namespace {
+
+constexpr double margin_rounding = 1e-9;  // of energy or work
+
+}  // namespace
+
+SearchLimits search_limits_of(const Rows& rows, double tolerance) {
+    SearchLimits out;
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+        const Row& row = rows[i];
+        const auto step = static_cast<std::int64_t>(number_of(row, "step"));
+        const double scale = energy_scale(row), gap = number_of(row, "search_gap"),
+                     margin = number_of(row, "search_margin");
+        if (gap > tolerance * scale) {
+            out.gap_steps.push_back(step);
+            if (gap > out.gap) {
+                out.gap_step = step;
+                out.gap_time = number_of(row, "time");
+                out.gap = gap;
+                out.gap_allowed = tolerance * scale;
+            }
+        }
+        if (margin < -margin_rounding * scale) {
+            out.margin_steps.push_back(step);
+            if (margin < out.margin) {
+                out.margin_step = step;
+                out.margin_time = number_of(row, "time");
+                out.margin = margin;
+            }
+        }
+    }
+    return out;
+}
+
+std::vector<std::string> search_lines(const SearchLimits& limits, const Scene& scene) {
+    std::vector<std::string> out;
+    const auto in_steps = [](const std::vector<std::int64_t>& steps) {
+        return counted(static_cast<std::int64_t>(steps.size()), "step");
+    };
+    if (!limits.gap_steps.empty() && std::isinf(limits.gap))
+        out.push_back(
+            fmt::format("warning: search: in {} (the first is step {}) it has no bound on the energy of the "
+                        "states that it left out (search_gap is infinite)",
+                        in_steps(limits.gap_steps), limits.gap_steps.front()));
+    else if (!limits.gap_steps.empty())
+        out.push_back(
+            fmt::format("warning: search: in {} a state that it left out may have less energy than the one "
+                        "kept, by up to {} ({}; search_tolerance allows {})",
+                        in_steps(limits.gap_steps), energy_text(limits.gap, scene),
+                        instant_text(limits.gap_step, limits.gap_time), energy_text(limits.gap_allowed, scene)));
+    if (!limits.margin_steps.empty())
+        out.push_back(
+            fmt::format("warning: search: in {} a state of lower energy was seen and not kept, lower by up "
+                        "to {} ({})",
+                        in_steps(limits.margin_steps), energy_text(-limits.margin, scene),
+                        instant_text(limits.margin_step, limits.margin_time)));
+    return out;
+}
+
+}  // namespace cli

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Owners of HDF5 identifiers and the few calls that the program needs. Every failure is an OutputFailure.
+#pragma once
+
+#include <cerrno>
+#include <cstddef>
+#include <cstdint>
+#include <new>
+#include <string>
+#include <vector>
+
+#include <hdf5.h>
+
+#include "result/fields/h5_driver.hpp"
+#include "text/error.hpp"
+#include "text/reason.hpp"
+
+namespace cli::h5 {
+
+// Throws what went wrong with a file, by its own name and the system's reason where there is one: HDF5 gives none.
+[[noreturn]] inline void refuse(const std::string& what, const char* otherwise) {
+    const FileTrouble trouble = take_trouble();
+    if (trouble.code == ENOMEM) throw std::bad_alloc();
+    if (trouble.code != 0) throw OutputFailure(trouble.path, reason_of(trouble.code));
+    throw OutputFailure(what, otherwise);
+}
+
+template <herr_t (*Close)(hid_t)>
+class Id {
+public:
+    Id(hid_t id, const std::string& what) : id_(id) {
+        if (id < 0) refuse(what, "HDF5 refused (file damaged?)");
+    }
+    ~Id() {
+        if (id_ >= 0) Close(id_);
+    }
+    Id(const Id&) = delete;
+    Id& operator=(const Id&) = delete;
+    [[nodiscard]] hid_t get() const { return id_; }
+    // Closing a file writes its buffered data, which can fail.
+    void close(const std::string& what) {
+        const hid_t id = id_;
+        id_ = -1;
+        const bool closed = Close(id) >= 0;
+        if (const FileTrouble trouble = take_trouble(); trouble.code != 0)
+            throw OutputFailure(trouble.path, reason_of(trouble.code));
+        if (!closed) throw OutputFailure(what, "HDF5 refused to close it");
+    }
+
+private:
+    hid_t id_;
+};
+
+using File = Id<H5Fclose>;
+using Group = Id<H5Gclose>;
+using Space = Id<H5Sclose>;
+using Data = Id<H5Dclose>;
+using Attribute = Id<H5Aclose>;
+using Properties = Id<H5Pclose>;
+using Type = Id<H5Tclose>;
+
+// In a folder or, with access, in memory; an earlier file is replaced.
+inline hid_t create(const std::string& path, hid_t access = driver_access()) {
+    (void)take_trouble();
+    return H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
+}
+inline hid_t open(const std::string& path) { return H5Fopen(path.c_str(), H5F_ACC_RDONLY, driver_access()); }
+
+// A file whose bytes are in memory, to be read: HDF5 1.10 crashes where it copies an object and cannot read the file.
+inline hid_t open_bytes(const std::string& bytes) {
+    if (!memory_for_a_file()) throw std::bad_alloc();
+    const Properties access(H5Pcreate(H5P_FILE_ACCESS), "fields.h5");
+    constexpr std::size_t increment = std::size_t{1} << 16;  // of a file that grows; this one does not
+    // HDF5 takes the bytes as they may change, and copies them.
+    if (H5Pset_fapl_core(access.get(), increment, false) < 0 ||
+        H5Pset_file_image(access.get(), const_cast<char*>(bytes.data()), bytes.size()) < 0)
+        return H5I_INVALID_HID;
+    return H5Fopen("step", H5F_ACC_RDONLY, access.get());
+}
+
+inline void require(herr_t status, const std::string& what) {
+    if (status < 0) refuse(what, "HDF5 could not write");
+}
+
+template <class T>
+hid_t type_of();
+template <>
+inline hid_t type_of<double>() {
+    return H5T_NATIVE_DOUBLE;
+}
+template <>
+inline hid_t type_of<std::int64_t>() {
+    return H5T_NATIVE_INT64;
+}
+template <>
+inline hid_t type_of<std::int32_t>() {
+    return H5T_NATIVE_INT32;
+}
+
+// columns 0: a vector.
+template <class T>
+void write(hid_t parent, const std::string& name, const std::vector<T>& values, std::size_t columns) {
+    const hsize_t shape[2] = {values.size() / (columns > 0 ? columns : 1), columns};
+    const Space space(H5Screate_simple(columns > 0 ? 2 : 1, shape, nullptr), name);
+    const Properties properties(H5Pcreate(H5P_DATASET_CREATE), name);
+    // A date of its own would make each file of a result another.
+    require(H5Pset_obj_track_times(properties.get(), false), name);
+    // Padding and constant parts compress well; below the size of a page compression does not pay.
+    if (values.size() > 512) {
+        require(H5Pset_chunk(properties.get(), columns > 0 ? 2 : 1, shape), name);
+        require(H5Pset_shuffle(properties.get()), name);
+        require(H5Pset_deflate(properties.get(), 1), name);
+    }
+    const Data data(
+        H5Dcreate2(parent, name.c_str(), type_of<T>(), space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT), name);
+    if (!values.empty())
+        require(H5Dwrite(data.get(), type_of<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), name);
+}
+
+// Room for a matrix of doubles, whose bytes others write: one behind the other, from the returned offset of the file
+// on.
+inline std::int64_t reserve(hid_t parent, const std::string& name, std::int64_t rows, std::int64_t columns) {
+    const hsize_t shape[2] = {static_cast<hsize_t>(rows), static_cast<hsize_t>(columns)};
+    const Space space(H5Screate_simple(2, shape, nullptr), name);
+    const Properties properties(H5Pcreate(H5P_DATASET_CREATE), name);
+    require(H5Pset_obj_track_times(properties.get(), false), name);
+    require(H5Pset_layout(properties.get(), H5D_CONTIGUOUS), name);
+    require(H5Pset_alloc_time(properties.get(), H5D_ALLOC_TIME_EARLY), name);
+    require(H5Pset_fill_time(properties.get(), H5D_FILL_TIME_NEVER), name);
+    const Data data(
+        H5Dcreate2(parent, name.c_str(), H5T_NATIVE_DOUBLE, space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT),
+        name);
+    const haddr_t offset = H5Dget_offset(data.get());
+    if (offset == HADDR_UNDEF) throw OutputFailure(name, "HDF5 gave it no place in the file");
+    return static_cast<std::int64_t>(offset);
+}
+
+// Where such a matrix lies; offset -1: its bytes do not lie one behind the other.
+struct Extent {
+    std::int64_t offset = -1, rows = 0, columns = 0;
+};
+inline Extent extent(hid_t parent, const std::string& name) {
+    const Data data(H5Dopen2(parent, name.c_str(), H5P_DEFAULT), name);
+    const Space space(H5Dget_space(data.get()), name);
+    hsize_t shape[2] = {0, 0};
+    if (H5Sget_simple_extent_ndims(space.get()) != 2 || H5Sget_simple_extent_dims(space.get(), shape, nullptr) < 0)
+        throw OutputFailure(name, "HDF5 finds no matrix there (file damaged?)");
+    const haddr_t offset = H5Dget_offset(data.get());
+    return {offset == HADDR_UNDEF ? -1 : static_cast<std::int64_t>(offset), static_cast<std::int64_t>(shape[0]),
+            static_cast<std::int64_t>(shape[1])};
+}
+
+template <class T>
+void attribute(hid_t parent, const std::string& name, T value) {
+    const Space space(H5Screate(H5S_SCALAR), name);
+    const Attribute out(H5Acreate2(parent, name.c_str(), type_of<T>(), space.get(), H5P_DEFAULT, H5P_DEFAULT), name);
+    require(H5Awrite(out.get(), type_of<T>(), &value), name);
+}
+
+inline void attribute(hid_t parent, const std::string& name, const std::string& value) {
+    const Space space(H5Screate(H5S_SCALAR), name);
+    const Type type(H5Tcopy(H5T_C_S1), name);
+    require(H5Tset_size(type.get(), value.size() + 1), name);
+    require(H5Tset_cset(type.get(), H5T_CSET_UTF8), name);
+    const Attribute out(H5Acreate2(parent, name.c_str(), type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT), name);
+    require(H5Awrite(out.get(), type.get(), value.c_str()), name);
+}
+
+inline double read_number(hid_t parent, const std::string& name) {
+    const Attribute in(H5Aopen(parent, name.c_str(), H5P_DEFAULT), name);
+    double value = 0;
+    require(H5Aread(in.get(), H5T_NATIVE_DOUBLE, &value), name);
+    return value;
+}
+
+inline hid_t new_group(hid_t parent, const std::string& name) {
+    return H5Gcreate2(parent, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+}
+
+}  // namespace cli::h5

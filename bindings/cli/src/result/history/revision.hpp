@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Steps that backtracking replaced.
+#pragma once
+
+#include <cstdint>
+
+#include "model/model.hpp"
+
+namespace cli {
+
+// The first step whose row is invalid after the step just committed; `step` itself if no step was revised.
+std::int64_t revised_from(const Model& model, delam_solver* solver, std::int64_t step);
+
+// While it lives, the solver's values and fields are those of an earlier step that it keeps.
+class Look {
+public:
+    Look(const Model& model, delam_solver* solver, std::int64_t step);
+    ~Look();
+    Look(const Look&) = delete;
+    Look& operator=(const Look&) = delete;
+
+private:
+    delam_solver* solver_;
+};
+
+}  // namespace cli

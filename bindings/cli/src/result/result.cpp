@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "result/result.hpp"
+
+#include <algorithm>
+#include <ctime>
+
+#include <nlohmann/json.hpp>
+
+#include "model/build_constraints.hpp"
+#include "model/call.hpp"
+#include "result/history/concept.hpp"
+
+namespace cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json options(const delam_solver* solver) {
+    Json out = Json::object();
+    for (const auto& [key, value] : options_of(solver))
+        std::visit([&out, &key = key](const auto& v) { out[key] = v; }, value);
+    return out;
+}
+
+Json jumps_json(const std::vector<Jump>& jumps, const Scene& scene) {
+    double released = 0.0;
+    double debonded = 0.0;
+    for (const Jump& jump : jumps) {
+        released += jump.released;
+        debonded += jump.debonded;
+    }
+    Json largest = Json::array();
+    for (const Jump& jump : largest_jumps(jumps)) {
+        Json loads = Json::object();
+        Json reactions = Json::object();
+        for (std::size_t p = 0; p < jump.loads.size(); ++p) {
+            loads[scene.patterns[p].name] = jump.loads[p];
+            reactions[scene.patterns[p].name] = {{"before", jump.reaction_before[p]},
+                                                 {"after", jump.reaction_after[p]}};
+        }
+        largest.push_back({{"step", jump.step},
+                           {"time", jump.time},
+                           {"loads", loads},
+                           {"reactions", reactions},
+                           {"interface", jump.interface},
+                           {"name", jump.name},
+                           {"debonded", jump.debonded},
+                           {"dissipated", jump.dissipated},
+                           {"released", jump.released}});
+    }
+    return {{"count", jumps.size()}, {"released", released}, {"debonded", debonded}, {"largest", largest}};
+}
+
+Json balance_json(const Balance& balance) {
+    return {{"relative", balance.relative()},
+            {"step", balance.step},
+            {"time", balance.time},
+            {"defect", balance.defect},
+            {"last_defect", balance.last_defect},
+            {"work", balance.work}};
+}
+
+Json mixity_error_json(const MixityError& error) {
+    return {{"relative", error.relative}, {"step", error.step}, {"time", error.time}, {"dissipated", error.dissipated}};
+}
+
+Json load_drops_json(const LoadDrops& drops) {
+    if (drops.steps.empty()) return {{"steps", Json::array()}, {"largest", nullptr}};
+    return {{"steps", drops.steps},
+            {"largest",
+             {{"step", drops.step},
+              {"time", drops.time},
+              {"column", drops.column},
+              {"from", drops.from},
+              {"to", drops.to}}}};
+}
+
+// Infinite gaps become null.
+Json search_json(const SearchLimits& limits) {
+    Json gap = nullptr;
+    if (!limits.gap_steps.empty())
+        gap = {
+            {"step", limits.gap_step}, {"time", limits.gap_time}, {"gap", limits.gap}, {"allowed", limits.gap_allowed}};
+    Json margin = nullptr;
+    if (!limits.margin_steps.empty())
+        margin = {{"step", limits.margin_step}, {"time", limits.margin_time}, {"margin", limits.margin}};
+    return {{"gap_steps", limits.gap_steps},
+            {"largest_gap", gap},
+            {"margin_steps", limits.margin_steps},
+            {"largest_margin", margin}};
+}
+
+// For a periodic cell: its volume, and d2 E / d factor2 divided by it at the last state, at fixed adhesion and contact.
+// If each pattern drives one strain with coefficient 1, these are the moduli.
+Json cell_of(const Model& model, delam_solver* solver, const Scene& scene, bool complete) {
+    if (!scene.cell) return nullptr;
+    const double volume = cell_volume(model, scene);
+    Json names = Json::array();
+    for (const PatternData& pattern : scene.patterns) names.push_back(pattern.name);
+    const std::size_t n = scene.patterns.size();
+    std::vector<double> matrix(n * n);
+    Json rows = nullptr;
+    // If a stress acts on a part that nothing holds any more, there is no tangent; a result must not be lost for that.
+    if (complete && delam_solver_tangent(solver, static_cast<std::int64_t>(matrix.size()), matrix.data()) == DELAM_OK) {
+        rows = Json::array();
+        for (std::size_t p = 0; p < n; ++p) {
+            Json row = Json::array();
+            for (std::size_t q = 0; q < n; ++q) row.push_back(matrix[p * n + q] / volume);
+            rows.push_back(std::move(row));
+        }
+    }
+    return {{"volume", volume}, {"periods", scene.cell->periods}, {"tangent_patterns", names}, {"tangent", rows}};
+}
+
+}  // namespace
+
+std::string now_text() {
+    const std::time_t now = std::time(nullptr);
+    std::tm parts{};
+    gmtime_r(&now, &parts);
+    char text[32];
+    std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
+    return text;
+}
+
+std::string hash_of(const Model& model) {
+    char text[17] = {};
+    call(model.context.get(), delam_problem_hash(model.problem.get(), text), std::string("hash of the scene"));
+    return text;
+}
+
+std::string result_text(const Model& model, delam_solver* solver, const Scene& scene, const Outcome& outcome) {
+    std::int64_t primal = 0;
+    std::int64_t dual = 0;
+    call(model.context.get(), delam_problem_dofs(model.problem.get(), &primal, &dual),
+         std::string("numbers of unknowns"));
+    Json patterns = Json::array();
+    const std::vector<bool> force = force_patterns(scene);
+    for (std::size_t i = 0; i < scene.patterns.size(); ++i) {
+        const bool strain = std::any_of(scene.eigenstrains.begin(), scene.eigenstrains.end(),
+                                        [i](const EigenstrainData& e) { return e.pattern == i; });
+        patterns.push_back({{"name", scene.patterns[i].name},
+                            {"drives", strain     ? "strain"
+                                       : force[i] ? "force"
+                                                  : "displacement"}});
+    }
+    Json files = Json::object();
+    for (const auto& [name, content] : outcome.files) files[name] = {{"bytes", content.bytes}, {"hash", content.hash}};
+    Json layers = Json::array();
+    for (const Layer& layer : scene.layers) layers.push_back(layer.name);
+    Json named = Json::object();
+    for (const auto& [key, value] : concept_of(model.problem.get())) named[key] = value;
+    const Json out{
+        {"program", "delam"},
+        {"version", delam_version()},
+        {"commit", delam_commit()},
+        {"abi", delam_abi()},
+        {"status", outcome.complete ? "complete" : "incomplete"},
+        {"reason", outcome.reason},
+        {"concept", named},
+        {"steps_done", outcome.steps_done},
+        {"steps", scene.step_count()},
+        {"not_converged", outcome.not_converged},
+        {"closing", outcome.closing_lines},
+        {"jumps", jumps_json(outcome.closing.jumps, scene)},
+        {"energy_balance", balance_json(outcome.closing.balance)},
+        {"mixity_error", mixity_error_json(outcome.closing.mixity_error)},
+        {"load_drops", load_drops_json(outcome.closing.load_drops)},
+        {"search", search_json(outcome.closing.search)},
+        {"estimate_violated", outcome.closing.estimate_violated},
+        {"estimate_hollow", outcome.closing.estimate_hollow},
+        {"front_unresolved", outcome.closing.front_unresolved},
+        {"rotation_max", outcome.closing.rotation_max},
+        {"scene",
+         {{"file", scene.file},
+          {"title", scene.title},
+          {"schema", 1},
+          {"dimension", scene.geometry.dimension},
+          {"shortest_edge", scene.geometry.smallest_edge},
+          {"settings", scene.settings}}},
+        {"scene_hash", outcome.problem_hash},
+        {"scene_file_hash", scene.file_hash},
+        {"scene_content_hash", scene.content_hash},
+        {"options", options(solver)},
+        {"unknowns", {{"primal", primal}, {"dual", dual}}},
+        {"layers", layers},
+        {"patterns", patterns},
+        {"cell", cell_of(model, solver, scene, outcome.complete)},
+        {"output",
+         {{"snapshots", scene.output.snapshots},
+          {"displacement_scale", scene.output.displacement_scale},
+          {"fields", scene.output.fields}}},
+        {"units", {{"length", scene.units.length}, {"force", scene.units.force}, {"time", scene.units.time}}},
+        {"command", outcome.command},
+        {"started", outcome.started},
+        {"ended", now_text()},
+        {"resumed", outcome.resumed},
+        {"plan", delam_solver_plan(solver)},
+        {"searched", delam_solver_searched(solver)},
+        {"files", files},
+    };
+    return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace cli

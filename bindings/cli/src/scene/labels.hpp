@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Numbers with the names of units of the scene, in lines for people. In 2D, energies are per unit thickness.
+#pragma once
+
+#include <string>
+
+#include "scene/scene.hpp"
+
+namespace cli {
+
+// "1.98 J/m", in 3D "1.98 J".
+std::string energy_text(double energy, const Scene& scene);
+// A part of an interface: "0.0113 m", in 3D "0.0113 m2".
+std::string extent_text(double extent, const Scene& scene);
+// "0.04 %" for 4e-4.
+std::string percent_text(double fraction);
+// "step 7, time 0.35".
+std::string instant_text(std::int64_t step, double time);
+
+}  // namespace cli

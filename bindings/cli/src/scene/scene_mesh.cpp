@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// [mesh], its [[bodies]] and their [[interfaces]].
+#include <algorithm>
+#include <filesystem>
+#include <unordered_map>
+
+#include <fmt/format.h>
+
+#include "file/hash.hpp"
+#include "mesh/body_pieces.hpp"
+#include "mesh/cell_shape.hpp"
+#include "mesh/mesh_file.hpp"
+#include "scene/scene_generators.hpp"
+#include "scene/scene_parts.hpp"
+#include "text/wildcard.hpp"
+#include "text/wording.hpp"
+
+namespace cli {
+
+namespace {
+
+// Bodies of the mesh by their names.
+using BodyIndex = std::unordered_map<std::string, std::size_t>;
+BodyIndex index_of(const std::vector<std::string>& names) {
+    BodyIndex out;
+    for (std::size_t i = 0; i < names.size(); ++i) out.emplace(names[i], i);
+    return out;
+}
+
+void require_body(const Table& table, std::string_view key, const std::string& name, const Scene& scene,
+                  const BodyIndex& index) {
+    const auto& names = scene.mesh->body_names;
+    if (index.contains(name)) return;
+    if (std::none_of(names.begin(), names.end(), [&](const std::string& n) { return fits(name, n); }))
+        table.fail(key,
+                   fmt::format("\"{}\": no body of the mesh {}{}; it has: {}", name,
+                               is_pattern(name) ? "fits" : "has this name", suggestion(name, names), listing(names)));
+}
+
+Region read_region(const Table& table, const Scene& scene, bool with_value) {
+    Region region;
+    region.place = table.place();
+    region.adhesion = with_value ? table.number("value") : 0;
+    if (table.has("set")) {
+        region.set = set_name(table, "set", scene);
+        region.outside = table.flag("outside");
+        return region;
+    }
+    const auto dimension = static_cast<std::size_t>(scene.geometry.dimension);
+    const std::vector<double> lower = table.numbers("lower", dimension);
+    const std::vector<double> upper = table.numbers("upper", dimension);
+    for (std::size_t a = 0; a < dimension; ++a) {
+        if (upper[a] < lower[a])
+            table.fail("upper", fmt::format("entry {} is {}: >= {} is expected", a, upper[a], lower[a]));
+        region.lower[a] = lower[a];
+        region.upper[a] = upper[a];
+    }
+    return region;
+}
+
+MeshFile mesh_of_file(const Table& table, const Scene& scene) {
+    const std::string name = table.text("file");
+    if (name.empty()) table.fail("file", "is empty: the name of a mesh is expected, relative to the scene file");
+    const std::string path = (std::filesystem::path(scene.file).parent_path() / name).string();
+    return read_mesh(path, table.has("bodies") ? table.texts("bodies") : std::vector<std::string>{},
+                     table.place("file"));
+}
+
+}  // namespace
+
+std::string set_name(const Table& table, std::string_view key, const Scene& scene) {
+    if (!scene.mesh) table.fail(key, "is for a scene with [mesh]");
+    const std::string name = table.text(key);
+    if (scene.mesh->node_sets.contains(name) || scene.mesh->face_sets.contains(name)) return name;
+    std::vector<std::string> known;
+    for (const auto& [set, nodes] : scene.mesh->node_sets) known.push_back(set);
+    for (const auto& [set, faces] : scene.mesh->face_sets)
+        if (!scene.mesh->node_sets.contains(set)) known.push_back(set);
+    table.fail(key, fmt::format("\"{}\": no such set in the mesh{}{}", name, suggestion(name, known),
+                                known.empty() ? "; it has none" : "; it has: " + listing(known)));
+}
+
+void read_mesh_table(const Table& root, Scene& scene) {
+    const Table table = root.table("mesh");
+    MeshFile file = table.has("file") ? mesh_of_file(table, scene) : MeshFile{read_generator(table), ""};
+    MeshData& mesh = file.mesh;
+    if (table.flag("pieces")) (void)split_into_pieces(mesh);
+    Geometry& geometry = scene.geometry;
+    geometry.place = table.place();
+    geometry.dimension = mesh.dimension;
+    if (mesh.dimension == 2)
+        geometry.plane = table.has("plane") || mesh.plane.empty() ? table.text("plane") : mesh.plane;
+    else if (table.has("plane"))
+        table.fail("plane", "is for plane meshes only");
+    geometry.smallest_edge = shortest_edge(mesh);
+    if (!(geometry.smallest_edge > 0)) table.fail("file", "a cell has an edge of no length");
+    // A generated mesh follows from the keys of its generator.
+    if (!file.hash.empty()) scene.content_hash = hash_text(scene.content_hash + file.hash);
+    scene.mesh = std::make_shared<const MeshData>(std::move(mesh));
+}
+
+void read_bodies(const Table& root, Scene& scene) {
+    const std::vector<Table> tables = root.tables("bodies");
+    const std::vector<Table> materials = root.tables("materials");
+    const auto& names = scene.mesh->body_names;
+    const BodyIndex index = index_of(names);
+    std::vector<const Table*> chosen(names.size(), nullptr);
+    // A full name has priority over one with *.
+    for (const bool spelt : {true, false})
+        for (const Table& table : tables) {
+            const std::string name = table.text("name");
+            if (is_pattern(name) == spelt) continue;
+            require_body(table, "name", name, scene, index);
+            const std::size_t first = spelt ? index.at(name) : 0;
+            for (std::size_t i = first; i < (spelt ? first + 1 : names.size()); ++i) {
+                if (!spelt && !fits(name, names[i])) continue;
+                if (chosen[i] != nullptr && is_pattern(chosen[i]->text("name")) == is_pattern(name))
+                    table.fail("name",
+                               fmt::format("\"{}\" is described by {} already", names[i], chosen[i]->place().path));
+                if (chosen[i] == nullptr) chosen[i] = &table;
+            }
+        }
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (chosen[i] == nullptr)
+            root.fail("bodies", fmt::format("there is none for \"{}\"; the mesh has: {}", names[i], listing(names)));
+        const Table& table = *chosen[i];
+        Layer body;
+        body.name = names[i];
+        body.place = table.place();
+        body.material = find_named(table, "material", table.text("material"), scene.materials, "material");
+        body.formulation = scene.materials[body.material].formulation;
+        if (!materials[body.material].has("formulation") && !scene.mesh->formulations.empty() &&
+            !scene.mesh->formulations[i].empty())
+            body.formulation = scene.mesh->formulations[i];
+        body.axes = read_axes(table, scene.geometry.dimension);
+        if (table.has("formulation")) body.formulation = read_formulation(table);
+        scene.layers.push_back(std::move(body));
+    }
+}
+
+void read_mesh_interfaces(const Table& root, Scene& scene) {
+    const BodyIndex index = index_of(scene.mesh->body_names);
+    for (const Table& table : root.tables("interfaces")) {
+        InterfaceData interface;
+        interface.place = table.place();
+        const bool all = table.flag("all");
+        if (!all) {
+            interface.a = table.text("a");
+            interface.b = table.text("b");
+            require_body(table, "a", interface.a, scene, index);
+            require_body(table, "b", interface.b, scene, index);
+            if (interface.a == interface.b && !is_pattern(interface.a))
+                table.fail("b", fmt::format("\"{}\" is a too: two bodies are expected", interface.b));
+        }
+        interface.projected = table.flag("projected");
+        if (interface.projected) {
+            if (is_pattern(interface.a) || is_pattern(interface.b)) table.fail("projected", "needs two bodies by name");
+            interface.gap = table.number("gap", 0.0);
+        }
+        interface.tolerance = table.number("tolerance", 0.0);
+        interface.bonded = table.flag("bonded");
+        interface.contact = table.flag("contact");
+        if (table.has("law")) interface.law = find_named(table, "law", table.text("law"), scene.laws, "law");
+        for (const Table& notch : table.tables("notch")) interface.regions.push_back(read_region(notch, scene, false));
+        for (const Table& part : table.tables("adhesion")) interface.regions.push_back(read_region(part, scene, true));
+        scene.interfaces.push_back(std::move(interface));
+    }
+}
+
+}  // namespace cli

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Names and texts as messages quote them.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace cli {
+
+// The longest title or name, in bytes; files of HDF5 keep texts of up to 64 kB.
+constexpr std::size_t most_text_bytes = 4096;
+// Returns the beginning of a text that would be too long for a message.
+std::string shortened(const std::string& text);
+// Returns " (did you mean 'young'?)", or "" if no known word is near.
+std::string suggestion(std::string_view word, const std::vector<std::string>& known);
+// Returns "a, b, c".
+std::string listing(const std::vector<std::string>& names);
+
+}  // namespace cli

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evolution/analysis/snapshot.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <string>
+
+#include "base/archive.hpp"
+#include "base/cancel_scope.hpp"
+#include "base/error.hpp"
+#include "base/file.hpp"
+#include "delam/delam.h"
+#include "evolution/increment/state_fields.hpp"
+#include "evolution/observe/values.hpp"
+#include "evolution/step/jump_event_fields.hpp"
+
+namespace delam {
+
+namespace {
+
+constexpr std::uint64_t magic = 0x31305453'4d4c4544;  // "DELMST01" in memory on a little-endian machine
+// 5: the first that was ever published. 6: histories of patterns that the host has changed. 7: recorded values. 8:
+// released energy in the ledger. 10: another zone of the condensed operator, which begins anew after an older version.
+// 11: energies of candidates for the next search.
+constexpr std::uint32_t version = 11, oldest = 5;
+constexpr std::int64_t most_steps = std::int64_t{1} << 53;
+// Of a larger file, hash and checksum are compared piece by piece, before there is memory for all of it.
+constexpr std::uint64_t largest_unchecked = std::uint64_t{1} << 20;
+
+void forget_zones(State& state) {
+    state.memory.clear();
+    state.search_memory.clear();
+}
+
+// Every member must be as its row says, and every number one that an analysis can produce.
+void check(const State& state, const Solver& solver, std::uint32_t found_version) {
+    Sound sound(found_version);
+    sound.compare(state, solver.committed());
+    if (!sound.sizes) fail(DELAM_ERROR_SNAPSHOT, "snapshot has arrays of other sizes than this solver");
+    for (const auto* fractions : {&state.adhesion, &state.mixity, &state.mixity_before})
+        for (const double v : *fractions)
+            if (!(v >= 0.0 && v <= 1.0))
+                fail(DELAM_ERROR_SNAPSHOT, "snapshot holds an adhesion or mixity of ", v, ", allowed: 0 to 1");
+    if (!std::isfinite(state.time)) fail(DELAM_ERROR_SNAPSHOT, "snapshot holds a time of ", state.time);
+    if (!sound.numbers)
+        fail(DELAM_ERROR_SNAPSHOT, "snapshot holds a number of step ", state.step, " that is not finite");
+    if (state.step < 0 || state.step > most_steps)
+        fail(DELAM_ERROR_SNAPSHOT, "snapshot holds step ", state.step, ", allowed: 0 to 2^53");
+    solver.jump_operator().require_memory(state.memory);
+    solver.jump_operator().require_memory(state.search_memory);  // of its twin
+}
+
+void check(const JumpEvent& jump, const Solver& solver, std::uint32_t found_version) {
+    const auto& interfaces = solver.problem().mesh->interfaces();
+    const bool named = jump.interface >= 0 && jump.interface < static_cast<std::int64_t>(interfaces.size());
+    const std::int64_t pairs = named ? interfaces[static_cast<std::size_t>(jump.interface)].pair_count() : 0;
+    const bool sound = named && jump.first_pair >= -1 && jump.first_pair < pairs && jump.last_pair >= -1 &&
+                       jump.last_pair < pairs && jump.step >= 0 && jump.before <= jump.time;
+    const std::size_t patterns = found_version >= 9 ? solver.problem().patterns.size() : 0;
+    if (jump.conjugate_before.size() != patterns || jump.conjugate_after.size() != patterns)
+        fail(DELAM_ERROR_SNAPSHOT, "snapshot holds a jump with the reactions of ", jump.conjugate_before.size(),
+             " and ", jump.conjugate_after.size(), " patterns, this scene has ", solver.problem().patterns.size());
+    Sound finite(version);
+    finite.compare(jump, jump);
+    if (!sound || !finite.numbers)
+        fail(DELAM_ERROR_SNAPSHOT, "snapshot holds a jump at time ", jump.time, " of interface ", jump.interface,
+             ", pairs ", jump.first_pair, " to ", jump.last_pair, ", which this scene cannot have");
+}
+
+// Histories that the host has changed since the solver was made: pattern, times, values.
+void write_histories(Writer& w, const Solver& solver) {
+    const std::vector<std::int64_t> changed = solver.changed_histories();
+    w.item(static_cast<std::uint64_t>(changed.size()));
+    for (const std::int64_t p : changed) {
+        const Pattern& pattern = solver.problem().patterns[static_cast<std::size_t>(p)];
+        w.item(p);
+        w.item(pattern.times);
+        w.item(pattern.values);
+    }
+}
+
+std::vector<Pattern> read_histories(Reader& r, std::vector<Pattern> patterns) {
+    std::uint64_t changed = 0;
+    r.item(changed);
+    std::int64_t last = -1;
+    for (std::uint64_t i = 0; i < changed; ++i) {
+        std::int64_t p = 0;
+        r.item(p);
+        if (p <= last || p >= static_cast<std::int64_t>(patterns.size()))
+            fail(DELAM_ERROR_SNAPSHOT, "snapshot holds a history of pattern ", p, ", this scene has ", patterns.size());
+        last = p;
+        Pattern& pattern = patterns[static_cast<std::size_t>(p)];
+        r.item(pattern.times);
+        r.item(pattern.values);
+        bool sound = !pattern.times.empty() && pattern.times.size() == pattern.values.size();
+        for (std::size_t k = 0; sound && k < pattern.times.size(); ++k)
+            sound = std::isfinite(pattern.times[k]) && std::isfinite(pattern.values[k]) &&
+                    (k == 0 || pattern.times[k] > pattern.times[k - 1]);
+        if (!sound)
+            fail(DELAM_ERROR_SNAPSHOT, "snapshot holds a history of pattern '", pattern.name,
+                 "' whose times do not increase");
+    }
+    return patterns;
+}
+
+// Recorded values: first step, then keys with their columns.
+void write_record(Writer& w, const Record& record) {
+    w.item(static_cast<std::uint64_t>(record.columns().size()));
+    w.item(record.first());
+    for (const Record::Column& column : record.columns()) {
+        w.item(std::vector<char>(column.key.begin(), column.key.end()));
+        w.item(column.values);
+    }
+}
+
+Record read_record(Reader& r, const Solver& solver) {
+    std::uint64_t columns = 0;
+    std::int64_t first = 0;
+    r.item(columns);
+    r.item(first);
+    Record record;
+    const std::vector<std::string> names = value_names(solver.problem());
+    for (std::uint64_t i = 0; i < columns; ++i) {
+        std::vector<char> letters;
+        std::vector<double> values;
+        r.item(letters);
+        r.item(values);
+        const std::string key(letters.begin(), letters.end());
+        if (std::find(names.begin(), names.end(), key) == names.end() || why_unrecorded(key) != nullptr ||
+            record.find(key) != nullptr)
+            fail(DELAM_ERROR_SNAPSHOT, "snapshot holds a record of '", key,
+                 "', which is not a value that this solver records, or occurs twice");
+        record.add({key, std::move(values)}, first);
+    }
+    if (columns == 0 && first != 0)
+        fail(DELAM_ERROR_SNAPSHOT, "snapshot holds a record from step ", first, " on that has no values");
+    return record;
+}
+
+// One row for every step from the first to that of the state.
+void check(const Record& record, const State& state) {
+    for (const Record::Column& column : record.columns())
+        if (record.first() < 0 || record.first() > state.step ||
+            static_cast<std::int64_t>(column.values.size()) != state.step - record.first() + 1)
+            fail(DELAM_ERROR_SNAPSHOT, "snapshot holds ", column.values.size(), " recorded values of '", column.key,
+                 "' from step ", record.first(), " on, but its state is of step ", state.step);
+}
+
+// Of bytes that begin as those of this library do, in any version that it reads.
+std::uint32_t read_head(Reader& r) {
+    std::uint64_t found_magic = 0;
+    std::uint32_t found_version = 0;
+    r.item(found_magic);
+    if (found_magic != magic) fail(DELAM_ERROR_SNAPSHOT, "not a snapshot of a libdelam solver");
+    r.item(found_version);
+    if (found_version < oldest || found_version > version)
+        fail(DELAM_ERROR_SNAPSHOT, "snapshot version ", found_version, ", this library reads ", oldest, " to ",
+             version);
+    return found_version;
+}
+
+// For complete bytes that this library has written.
+std::uint32_t read_version(std::span<const std::uint8_t> bytes) {
+    Reader r(bytes, version);
+    std::uint64_t found_sum = 0;
+    const std::uint32_t found_version = read_head(r);
+    if (r.left() < sizeof(found_sum)) fail(DELAM_ERROR_SNAPSHOT, "snapshot ends early");
+    const auto checked = bytes.first(bytes.size() - sizeof(found_sum));
+    std::memcpy(&found_sum, bytes.data() + checked.size(), sizeof(found_sum));
+    if (found_sum != checksum(checked))
+        fail(DELAM_ERROR_SNAPSHOT, "snapshot is damaged: its checksum does not match its ", bytes.size(), " bytes");
+    return found_version;
+}
+
+// A file of this scene and undamaged, with memory for one piece of it. r: behind magic and version.
+void require_whole(const InputFile& file, Reader& r, std::uint64_t hash) {
+    std::uint64_t found = 0;
+    r.item(found);
+    if (found != hash)
+        fail(DELAM_ERROR_SNAPSHOT, "snapshot of ", file.size(),
+             " bytes belongs to another scene or other options (its hash differs), or is damaged");
+    const std::uint64_t checked = file.size() - sizeof(found);
+    std::uint64_t sum = checksum_start;
+    for (std::uint64_t at = 0; at < checked; at += largest_unchecked) {
+        poll_cancel_now("load");
+        sum = checksum(file.read(at, std::min(largest_unchecked, checked - at)), sum);
+    }
+    const std::vector<std::uint8_t> last = file.read(checked, sizeof(found));
+    if (last.size() == sizeof(found)) std::memcpy(&found, last.data(), sizeof(found));
+    if (last.size() != sizeof(found) || found != sum)
+        fail(DELAM_ERROR_SNAPSHOT, "snapshot is damaged: its checksum does not match its ", file.size(), " bytes");
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> save(const Solver& solver) {
+    Writer w(version);
+    w.item(magic);
+    w.item(version);
+    w.item(solver.scene_hash());
+    write_histories(w, solver);
+    walk(w, solver.committed());
+    write_list(w, solver.past());
+    write_list(w, solver.jumps(false));
+    write_record(w, solver.recorded());
+    w.item(checksum(w.bytes));
+    return w.bytes;
+}
+
+void load(Solver& solver, std::span<const std::uint8_t> bytes) {
+    const std::uint32_t found_version = read_version(bytes);
+    Reader r(bytes, found_version);
+    std::uint64_t found_magic = 0, found_hash = 0;
+    std::uint32_t again = 0;
+    r.item(found_magic);
+    r.item(again);
+    r.item(found_hash);
+    if (found_hash != solver.scene_hash())
+        fail(DELAM_ERROR_SNAPSHOT, "snapshot belongs to another scene or other options (its hash differs)");
+    std::vector<Pattern> patterns = solver.first_patterns();
+    if (found_version >= 6) patterns = read_histories(r, std::move(patterns));
+    State state;
+    walk(r, state);
+    std::vector<State> past = read_list<State>(r);
+    std::vector<JumpEvent> jumps = read_list<JumpEvent>(r);
+    Record record;
+    if (found_version >= 7) record = read_record(r, solver);
+    if (found_version < 10 && solver.jump_operator().bulk() != nullptr) {
+        forget_zones(state);
+        for (State& earlier : past) forget_zones(earlier);
+    }
+    if (r.left() != sizeof(std::uint64_t)) fail(DELAM_ERROR_SNAPSHOT, "snapshot has ", r.left(), " bytes too many");
+    check(state, solver, found_version);
+    std::int64_t step = state.step - static_cast<std::int64_t>(past.size());
+    for (const State& earlier : past) {
+        check(earlier, solver, found_version);
+        if (earlier.step != step++)
+            fail(DELAM_ERROR_SNAPSHOT, "snapshot holds step ", earlier.step, " instead of ", step - 1);
+    }
+    for (std::size_t i = 0; i < past.size(); ++i)
+        if (const double next = i + 1 < past.size() ? past[i + 1].time : state.time; !(past[i].time < next))
+            fail(DELAM_ERROR_SNAPSHOT, "snapshot holds step ", past[i].step, " at time ", past[i].time,
+                 ", the step after it at ", next);
+    for (const JumpEvent& jump : jumps) check(jump, solver, found_version);
+    check(record, state);
+    solver.restore(std::move(state), std::move(past), std::move(jumps), std::move(patterns), std::move(record));
+}
+
+void load_file(Solver& solver, const std::string& path) {
+    const InputFile file(path);
+    const std::vector<std::uint8_t> head = file.read(0, 2 * sizeof(std::uint64_t) + sizeof(std::uint32_t));
+    Reader r(head, version);
+    (void)read_head(r);
+    if (file.size() > largest_unchecked) require_whole(file, r, solver.scene_hash());
+    load(solver, file.read(0, file.size()));
+}
+
+}  // namespace delam

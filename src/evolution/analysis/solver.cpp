@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evolution/analysis/solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "base/error.hpp"
+#include "base/team.hpp"
+#include "evolution/observe/balance.hpp"
+#include "evolution/observe/soundness.hpp"
+#include "evolution/observe/values.hpp"
+#include "evolution/search/fronts.hpp"
+#include "evolution/step/step_control.hpp"
+#include "scene/advice/scene_warnings.hpp"
+
+namespace delam {
+
+namespace {
+
+// The part of the minimisation that did not come to its end, with its measure and limit.
+std::string what_did_not_converge(const State& state, const Options& options) {
+    const Effort& effort = state.effort;
+    const StepOutcome& outcome = state.outcome;
+    const std::string after = text(" after ", effort.am_iterations, " alternate minimisation ",
+                                   effort.am_iterations == 1 ? "iteration" : "iterations");
+    const std::string change =
+        text("last change of adhesion ", outcome.damage_change, ", tolerance ", options.damage_tolerance);
+    if (outcome.damage_change > options.damage_tolerance)
+        return text("the adhesion still changes", after, " (", change,
+                    "; minimisation_limit = ", options.minimisation_limit, ")");
+    const std::string rest = text("; the adhesion is at rest", after, " (", change, ")");
+    if (outcome.mixity_held > 0)
+        return text("the mixity of ", outcome.mixity_held, " pairs did not converge and was held fixed", rest);
+    const std::string where = "a displacement step at fixed adhesion did not converge";
+    if (!state.response.converged)
+        return text(where, ": the iterative linear solve leaves a relative residual of ", effort.linear_residual,
+                    ", tolerance ", options.linear_tolerance, rest);
+    if (effort.contact_iterations_max >= options.contact_limit)
+        return text(where, ": the contact set still changes after ", effort.contact_iterations_max,
+                    " active-set steps (contact_limit = ", options.contact_limit, ")", rest);
+    if (effort.am_iterations >= options.minimisation_limit)
+        return text("the mixity still changes (minimisation_limit = ", options.minimisation_limit, ")", rest);
+    return text(where,
+                ": its linear solves and its contact set did, so that it does not balance the traction that "
+                "mixity_rule = variational adds",
+                rest);
+}
+
+}  // namespace
+
+Solver::Solver(const Problem& problem, Monitor& monitor, double time)
+    : problem_(problem),
+      first_patterns_(problem.patterns),
+      scene_hash_(hash(problem)),
+      monitor_(monitor),
+      stepper_(problem_, monitor),
+      graph_(problem_.mesh->interfaces()),
+      observer_(problem_, stepper_.op(), stepper_.pairs(), stepper_.contact(), stepper_.initial_adhesion()),
+      warnings_(problem_, monitor) {
+    Stepper::Result first = stepper_.initial(time);
+    committed_ = std::move(first.state);
+    observer_.show(committed_);
+    if (!first.converged) initial_outcome_ = unconverged_displacement(committed_);
+    require_sound(problem_, committed_, first.converged);
+    judge_balance(committed_, initial_outcome_);
+    warn_of_scene(problem_, monitor_);
+    const std::int64_t threads = problem_.options.threads;
+    if (threads > processors())
+        monitor_.log(1, text("option threads = ", threads, ": ", useful_threads(threads),
+                             " are used, the number of processors of this process"));
+}
+
+Outcome Solver::unconverged_displacement(const State& state) const {
+    return {DELAM_NOT_CONVERGED, text("displacements at time ", state.time, ": not converged (worst linear residual ",
+                                      state.effort.linear_residual, ", tolerance ", problem_.options.linear_tolerance,
+                                      "; ", state.effort.contact_iterations, " active-set steps)")};
+}
+
+void Solver::judge_balance(const State& state, Outcome& outcome) {
+    const double off = out_of_balance(problem_, stepper_.op(), state, stepper_.contact().force_floor(state.theta));
+    if (!(off > poor_balance)) return;
+    const std::string what =
+        text("step ", state.step, " at time ", state.time, ": nodal forces are out of balance by ", off,
+             " of the largest reaction, because digits of the stiffness are lost to rounding (plies much longer than "
+             "thick, or moduli that differ by many orders of magnitude)");
+    if (off > no_balance) {
+        outcome = {DELAM_NOT_CONVERGED,
+                   text(outcome.text, outcome.text.empty() ? "" : "; ", what, "; allowed: up to ", no_balance)};
+    } else {
+        warnings_.report_balance(what);
+    }
+}
+
+void Solver::require_nothing_pending(double time) const {
+    if (pending_) fail(DELAM_ERROR_STATE, "a step is pending: commit it or roll it back first");
+    if (!std::isfinite(time)) fail(DELAM_ERROR_ARGUMENT, "time = ", time, " must be finite");
+}
+
+void Solver::note_jump(const State& before, State& after, std::vector<JumpEvent>& jumps) const {
+    if (!delam::jumps(stepper_.pairs(), graph_, before, after)) return;
+    jumps.push_back(describe_jump(stepper_.pairs(), graph_, before, after));
+    after.outcome.jumps = 1;
+}
+
+Outcome Solver::advance(double time) {
+    require_nothing_pending(time);
+    if (time <= committed_.time)
+        fail(DELAM_ERROR_ARGUMENT, "time ", time, " is not after the committed time ", committed_.time);
+    const Options& options = problem_.options;
+    Chain chain(past_, committed_);
+    Stepper::Result result = keeps_past() ? backtracked_step(stepper_, chain, committed_.step, time, options)
+                                          : stepper_.step(committed_, time);
+    Pending pending;
+    for (auto& [step, state] : chain.revised()) note_jump(chain.at(step - 1), state, pending.jumps);
+    if (controls_steps(options)) {
+        ControlledStep controlled =
+            controlled_step(stepper_, graph_, chain.at(committed_.step), std::move(result), options);
+        result = std::move(controlled.result);
+        std::ranges::move(controlled.jumps, std::back_inserter(pending.jumps));
+    } else {
+        note_jump(chain.at(committed_.step), result.state, pending.jumps);
+    }
+    pending.state = std::move(result.state);
+    pending.searched = std::move(result.searched);
+    for (auto& [step, state] : chain.revised()) pending.revised.push_back(std::move(state));
+    require_sound(problem_, pending.state, result.converged);
+    for (const State& revised : pending.revised) require_sound(problem_, revised, result.converged);
+    warned_of_mixity_ = warned_of_mixity_ || stepper_.warn(pending.state);
+    warnings_.judge_front(observer_, committed_, pending.state);
+    warnings_.judge_ledger(pending.state, options);
+    Outcome outcome;
+    if (!result.converged)
+        outcome = {DELAM_NOT_CONVERGED, text("step ", pending.state.step, " at time ", time,
+                                             ": not converged: ", what_did_not_converge(pending.state, options))};
+    judge_balance(pending.state, outcome);
+    selected_ = nullptr;
+    pending_ = std::move(pending);
+    observer_.show(pending_->state);
+    return outcome;
+}
+
+Outcome Solver::equilibrate(double time, std::span<const double> adhesion) {
+    require_nothing_pending(time);
+    Stepper::Result result = stepper_.equilibrate(committed_, time, adhesion);
+    Outcome outcome;
+    if (!result.converged) outcome = unconverged_displacement(result.state);
+    require_sound(problem_, result.state, result.converged);
+    judge_balance(result.state, outcome);
+    selected_ = nullptr;
+    pending_ = Pending{std::move(result.state), {}, {}, {}};
+    observer_.show(pending_->state);
+    return outcome;
+}
+
+void Solver::commit() {
+    if (!pending_) fail(DELAM_ERROR_STATE, "nothing to commit: no step is pending");
+    const bool keeps = keeps_past() && pending_->state.step > committed_.step;
+    std::vector<JumpEvent> all = jumps(true);
+    if (keeps) past_.reserve(past_.size() + 1);
+    const std::vector<std::string> keys = record_.keys();
+    std::vector<Record::Row> rows;
+    for (const State& state : pending_->revised) rows.push_back({state.step, values(state, keys)});
+    rows.push_back({pending_->state.step, values(pending_->state, keys)});
+    record_.reserve_row();
+    // From here on nothing can fail.
+    for (const Record::Row& row : rows) record_.put(row);
+    const bool was_shown = selected_ == nullptr;
+    selected_ = nullptr;
+    jumps_ = std::move(all);
+    for (State& state : pending_->revised) {
+        if (state.step == committed_.step)
+            committed_ = std::move(state);
+        else
+            past_[static_cast<std::size_t>(state.step - past_.front().step)] = std::move(state);
+    }
+    if (pending_->state.step == committed_.step) past_.clear();  // a state that was set: no earlier step leads to it
+    if (keeps) {
+        past_.push_back(std::move(committed_));
+        if (past_.size() > static_cast<std::size_t>(problem_.options.backtracking_depth)) past_.erase(past_.begin());
+    }
+    committed_ = std::move(pending_->state);
+    searched_ = std::move(pending_->searched);
+    pending_.reset();
+    was_shown ? observer_.follow(committed_) : observer_.show(committed_);
+}
+
+void Solver::rollback() {
+    if (!pending_) fail(DELAM_ERROR_STATE, "nothing to roll back: no step is pending");
+    selected_ = nullptr;
+    pending_.reset();
+    observer_.show(committed_);
+}
+
+void Solver::set_history(std::int64_t pattern, std::span<const double> times, std::span<const double> values) {
+    if (pending_) fail(DELAM_ERROR_STATE, "a step is pending: commit it or roll it back before a history changes");
+    const double now = committed_.time;
+    if (times.front() <= now)
+        fail(DELAM_ERROR_ARGUMENT, "times[0] = ", times.front(), " is not after the committed time ", now);
+    Pattern& changed = problem_.patterns[static_cast<std::size_t>(pattern)];
+    std::vector<double> t, v;
+    for (std::size_t i = 0; i < changed.times.size() && changed.times[i] < now; ++i) {
+        t.push_back(changed.times[i]);
+        v.push_back(changed.values[i]);
+    }
+    t.push_back(now);
+    v.push_back(changed.at(now));
+    t.insert(t.end(), times.begin(), times.end());
+    v.insert(v.end(), values.begin(), values.end());
+    changed.times = std::move(t);
+    changed.values = std::move(v);
+}
+
+void Solver::record(const std::string& key) {
+    if (pending_) fail(DELAM_ERROR_STATE, "a step is pending: commit it or roll it back before a value is recorded");
+    if (const char* why = why_unrecorded(key)) fail(DELAM_ERROR_ARGUMENT, "value '", key, "' is not recorded: ", why);
+    const std::string own = value_key(key);
+    if (record_.find(own) == nullptr) record_.add(own, committed_.step, values(committed_, {own}).front());
+}
+
+std::vector<double> Solver::values(const State& state, const std::vector<std::string>& keys) {
+    std::vector<double> values = values_of(observer_, state, keys);
+    for (std::size_t i = 0; i < keys.size(); ++i)
+        if (value_key(keys[i]) == rotation_key) warnings_.judge_rotation(state, values[i]);
+    return values;
+}
+
+std::vector<std::int64_t> Solver::changed_histories() const {
+    std::vector<std::int64_t> changed;
+    for (std::size_t p = 0; p < first_patterns_.size(); ++p)
+        if (problem_.patterns[p].times != first_patterns_[p].times ||
+            problem_.patterns[p].values != first_patterns_[p].values)
+            changed.push_back(static_cast<std::int64_t>(p));
+    return changed;
+}
+
+std::vector<double> Solver::step_tangent() {
+    if (!pending_ || pending_->state.step == committed_.step)
+        fail(DELAM_ERROR_STATE, "step tangent: no step is pending");
+    if (!pending_->revised.empty())
+        fail(DELAM_ERROR_STATE, "step tangent: not available, because backtracking has replaced the steps from ",
+             pending_->revised.front().step, " on");
+    if (const std::int64_t parts = pending_->state.history.substeps; parts > 1)
+        fail(DELAM_ERROR_STATE, "step tangent: not available, because the step was divided into ", parts,
+             " substeps (step_control, jump_tolerance or mixity_step_tolerance)");
+    return stepper_.step_tangent(committed_, pending_->state);
+}
+
+std::int64_t Solver::follow(std::span<const std::int64_t> interfaces, const std::string& key) {
+    if (pending_ || committed_.step != 0)
+        fail(DELAM_ERROR_STATE, "sensitivities are followed from the initial state on: there are steps already");
+    std::vector<FollowedParameter> parameters = followed_;
+    parameters.push_back(followed_parameter(problem_, interfaces, key));
+    committed_.sensitivity = stepper_.follow(parameters, committed_);
+    followed_ = std::move(parameters);
+    return followed() - 1;
+}
+
+std::vector<double> Solver::sensitivities() const {
+    const std::size_t patterns = problem_.patterns.size(), count = followed_.size();
+    const std::vector<double>& by = state().sensitivity.conjugate;
+    if (by.size() != count * patterns)
+        fail(DELAM_ERROR_STATE,
+             "sensitivities are not known in a state that was loaded or set: they are followed from "
+             "the initial state on");
+    std::vector<double> matrix(by.size());
+    for (std::size_t k = 0; k < count; ++k)
+        for (std::size_t p = 0; p < patterns; ++p) matrix[p * count + k] = by[k * patterns + p];
+    return matrix;
+}
+
+void Solver::select(std::int64_t step) {
+    const State* found = nullptr;
+    if (step != -1) {
+        const std::int64_t present = pending_ ? pending_->state.step : committed_.step;
+        if (step < first_kept() || step > present)
+            fail(DELAM_ERROR_ARGUMENT, "step ", step, " is not kept; kept are ", first_kept(), " to ", present,
+                 keeps_past() ? "" : " (earlier ones with option backtracking = on)");
+        if (pending_) {
+            if (step == pending_->state.step) found = &pending_->state;
+            for (const State& state : pending_->revised)
+                if (state.step == step) found = &state;
+        }
+        if (found == nullptr)
+            found = step == committed_.step ? &committed_ : &past_[static_cast<std::size_t>(step - past_.front().step)];
+    }
+    selected_ = found;
+    observer_.show(state());
+}
+
+std::vector<JumpEvent> Solver::jumps(bool pending) const {
+    std::vector<JumpEvent> all = jumps_;
+    if (!pending || !pending_) return all;
+    if (pending_->state.step == committed_.step) return all;  // set, not computed by steps
+    const std::int64_t from = pending_->revised.empty() ? pending_->state.step : pending_->revised.front().step;
+    std::erase_if(all, [&](const JumpEvent& jump) { return jump.step >= from; });
+    all.insert(all.end(), pending_->jumps.begin(), pending_->jumps.end());
+    return all;
+}
+
+void Solver::restore(State restored, std::vector<State> past, std::vector<JumpEvent> jumps,
+                     std::vector<Pattern> patterns, Record record) {
+    stepper_.recall(restored);
+    problem_.patterns = std::move(patterns);
+    committed_ = std::move(restored);
+    searched_.clear();
+    past_ = std::move(past);
+    jumps_ = std::move(jumps);
+    record_ = std::move(record);
+    pending_.reset();
+    selected_ = nullptr;
+    observer_.show(committed_);
+}
+
+}  // namespace delam

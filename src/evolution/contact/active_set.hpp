@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Frictionless unilateral contact as an active set, over anything that can be solved with given rows held:
+//
+//   u_n >= 0,   lambda_n <= 0,   u_n lambda_n = 0        (u_n: normal jump, lambda_n: force of the pair, tension > 0).
+//
+// A closed row is held at u_n = 0 and may only push; an open one follows its spring and must not penetrate. The
+// primal-dual active set (Hintermueller, Ito, Kunisch, SIAM J. Optim. 13, 2002) moves every row that violates its side
+// at once and needs 3 to 4 solves from a good start. It can cycle: once a set comes back, only the violating row of
+// least index moves (least-index principal pivoting, Murty 1988), which ends for every positive definite system.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <cstdint>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/numbers.hpp"
+#include "reduction/operator/zone.hpp"
+
+namespace delam {
+
+// unbalanced: no equilibrium, because a part that nothing holds carries a load. failed: no unique minimum, or an
+// iteration that did not converge.
+enum class ContactSolve { solved, unbalanced, failed };
+
+// The rows of a system that may open and close, in ascending order.
+struct ContactRows {
+    std::vector<std::size_t> row;     // among the system's jumps and forces
+    std::vector<std::uint8_t> level;  // coarse sets have high levels (contact_levels.hpp); empty: all rows have level 0
+    std::uint8_t least = 0;           // the search ends with the rows of this level and above
+    std::uint8_t first = 0;           // and begins with those of this one
+    bool on(std::size_t i, std::uint8_t at) const { return level.empty() || level[i] >= at; }
+};
+
+// solve(closed): with these contact rows held, the others free. Afterwards jump() and force() return those of all rows,
+// and jump_floor() and force_floor() return sizes below which a jump or force may be rounding (0: unknown).
+template <class S>
+concept ContactSystem = requires(S system, const std::vector<std::uint8_t>& closed) {
+    { system.solve(closed) } -> std::same_as<ContactSolve>;
+    { system.jump() } -> std::convertible_to<std::span<const double>>;
+    { system.force() } -> std::convertible_to<std::span<const double>>;
+    { system.jump_floor() } -> std::convertible_to<double>;
+    { system.force_floor() } -> std::convertible_to<double>;
+};
+
+struct ActiveSet {
+    ContactSolve last = ContactSolve::solved;  // anything else: the search ended there
+    bool settled = false;                      // no row violates its side
+    bool exchanged = false;                    // least-index exchanges were needed
+    std::int64_t solves = 0;
+    std::int64_t doubts = 0;  // sets of which a solve left open whether a row violates its side
+};
+
+// Violations below this part of the largest jump or force are rounding of the solve.
+inline constexpr double contact_rounding = 1e-11;
+
+// Answers of an iteration: error() is what the last one leaves open. rough(): a set cannot end with such an answer.
+// tighten(): the next ones leave less open; false: they cannot. guesses: so many sets may follow from signs that are in
+// doubt in the tightest answers. (Estimates of what is open are ten times and more too large: the signs mostly hold.)
+template <class S>
+concept InexactSystem = requires(S system) {
+    { system.error() } -> std::same_as<SolveError>;
+    { system.rough() } -> std::same_as<bool>;
+    { system.tighten() } -> std::same_as<bool>;
+    { S::guesses } -> std::convertible_to<std::int64_t>;
+};
+
+// What a solve has left open says nothing about contact. (Measured on an ENF in space with answers off by 1e-6: 153,000
+// active-set steps in the first five load steps where it was taken to say something, one for each solve otherwise.)
+template <ContactSystem S>
+SolveError left_open(const S& system) {
+    if constexpr (InexactSystem<S>)
+        return system.error();
+    else
+        return {};
+}
+
+// Contact rows on the wrong side by more than `open` and rounding, as positions in `rows`; only those on this level or
+// above.
+template <ContactSystem S>
+std::vector<std::size_t> contact_violators(const S& system, const ContactRows& rows,
+                                           const std::vector<std::uint8_t>& closed, std::uint8_t level,
+                                           const SolveError& open = {}) {
+    const std::span<const double> jump = system.jump(), force = system.force();
+    const double least_jump = std::max(open.jump, contact_rounding * std::max(max_abs(jump), system.jump_floor()));
+    const double least_force = std::max(open.force, contact_rounding * std::max(max_abs(force), system.force_floor()));
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < rows.row.size(); ++i) {
+        if (!rows.on(i, level)) continue;
+        const std::size_t r = rows.row[i];
+        if (closed[i] != 0 ? force[r] > least_force : jump[r] < -least_jump) found.push_back(i);
+    }
+    return found;
+}
+
+// Systems with tangents that may be negative say so: without `softens` a system is positive definite, or nearly so.
+template <class S>
+concept SofteningSystem = requires(const S& system) {
+    { system.softens() } -> std::same_as<bool>;
+};
+
+// Two equilibria of one system, A x + N^T lambda = b with lambda = 0 in free rows, differ by d with
+//
+//   d^T A d = -(u1 - u0) (lambda1 - lambda0),     summed over the contact rows.
+//
+// Where this is negative, A is not positive definite, and moving rows from one side to the other need not end. An
+// iteration does not see that if its preconditioner is as indefinite.
+class Curvature {
+public:
+    // Whether this equilibrium and the one seen before say that A is indefinite, by more than is left open of either.
+    template <ContactSystem S>
+    bool negative(const S& system, const ContactRows& rows, const std::vector<std::uint8_t>& closed,
+                  const SolveError& open) {
+        std::vector<double> jump, force;
+        for (std::size_t i = 0; i < rows.row.size(); ++i) {
+            jump.push_back(system.jump()[rows.row[i]]);
+            force.push_back(closed[i] != 0 ? system.force()[rows.row[i]] : 0.0);
+        }
+        const double rounded = contact_rounding;
+        const SolveError doubtful{open.jump + open_.jump + rounded * max_abs(system.jump()),
+                                  open.force + open_.force + rounded * max_abs(system.force())};
+        double work = 0.0, doubt = 0.0;
+        for (std::size_t i = 0; i < jump_.size(); ++i) {
+            const double u = jump[i] - jump_[i], f = force[i] - force_[i];
+            if (f == 0.0) continue;
+            work -= u * f;
+            doubt += doubtful.jump * std::abs(f) + doubtful.force * std::abs(u);
+        }
+        jump_ = std::move(jump);
+        force_ = std::move(force);
+        open_ = open;
+        return work < -doubt;
+    }
+
+private:
+    std::vector<double> jump_, force_;  // of the equilibrium before; empty: none
+    SolveError open_;
+};
+
+// Systems of which only the energy is wanted may say that the rows on the wrong side hardly matter.
+template <class S>
+concept EnergySystem = requires(S system, const std::vector<std::uint8_t>& closed, std::span<const std::size_t> wrong) {
+    { system.negligible(closed, wrong) } -> std::same_as<bool>;
+};
+
+// closed: [contact rows], on entry the starting set, on return the contact set. Where a loaded part floats, contact may
+// hold it: with close_once the search begins once more with everything closed.
+template <ContactSystem S>
+ActiveSet find_active_set(S& system, const ContactRows& rows, std::vector<std::uint8_t>& closed, std::int64_t limit,
+                          bool close_once) {
+    ActiveSet result;
+    std::set<std::string> seen;  // contact sets, as bytes
+    [[maybe_unused]] Curvature curvature;
+    std::uint8_t level = rows.first;
+    bool exchange = false;
+    [[maybe_unused]] std::int64_t guesses = 0;
+    while (true) {
+        result.last = system.solve(closed);
+        ++result.solves;
+        if (result.last == ContactSolve::unbalanced && close_once) {
+            close_once = false;
+            level = rows.least;
+            std::fill(closed.begin(), closed.end(), std::uint8_t{1});
+            continue;
+        }
+        if (result.last != ContactSolve::solved) return result;
+        const SolveError open = left_open(system);
+        std::vector<std::size_t> wrong = contact_violators(system, rows, closed, level, open);
+        while (wrong.empty() && level > rows.least) {
+            wrong = contact_violators(system, rows, closed, --level, open);
+            seen.clear();
+            exchange = false;
+        }
+        if constexpr (InexactSystem<S>) {
+            if (wrong.empty() && system.rough() && system.tighten()) {
+                seen.clear();
+                exchange = false;
+                continue;
+            }
+            const bool doubtful = wrong.empty() && !contact_violators(system, rows, closed, level).empty();
+            if (doubtful) ++result.doubts;
+            if (doubtful && result.solves < limit) {
+                if (system.tighten()) continue;
+                if (guesses++ < S::guesses) wrong = contact_violators(system, rows, closed, level);
+            }
+        }
+        if constexpr (SofteningSystem<S>) {
+            if (system.softens() && !wrong.empty() && curvature.negative(system, rows, closed, open)) {
+                result.last = ContactSolve::failed;
+                return result;
+            }
+        }
+        result.settled = wrong.empty();
+        if constexpr (EnergySystem<S>) result.settled = system.negligible(closed, wrong);
+        if (result.settled || result.solves >= limit) return result;
+        if (!seen.emplace(closed.begin(), closed.end()).second) result.exchanged = exchange = true;
+        for (const std::size_t i : wrong) {
+            closed[i] ^= 1;
+            if (exchange) break;
+        }
+    }
+}
+
+}  // namespace delam

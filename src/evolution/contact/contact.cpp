@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evolution/contact/contact.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/error.hpp"
+#include "base/numbers.hpp"
+#include "evolution/contact/active_set.hpp"
+
+namespace delam {
+
+namespace {
+
+// Fraction of the largest jump by which a prescribed displacement may press two faces into each other: rounding.
+constexpr double pressed = 1e-9;
+
+// closed: [pairs] or empty; constraints on many jumps may leave a closed pair no choice but to open, or to be pressed.
+void refuse_pressed(const ContactScene& scene, std::span<const std::uint8_t> prescribed,
+                    std::span<const std::uint8_t> closed, const Response& response, std::span<const double> theta) {
+    const auto dim = static_cast<std::size_t>(scene.dimension);
+    const double deepest = -pressed * std::max(max_abs(response.jump), scene.jump_floor(theta));
+    for (std::size_t p = 0; p < scene.bonded.size(); ++p)
+        if (scene.bonded[p] == 0 && (!scene.may_close(p, prescribed) || (!closed.empty() && closed[p] != 0)) &&
+            response.jump[p * dim] < deepest)
+            fail(DELAM_ERROR_PROBLEM, "prescribed displacements press two faces into each other at pair ", p,
+                 " (normal jump ", response.jump[p * dim], " < 0)");
+}
+
+// The normal rows of all pairs that may close.
+ContactRows contact_rows(const ContactScene& scene, std::span<const std::uint8_t> prescribed, bool cold) {
+    const auto dim = static_cast<std::size_t>(scene.dimension);
+    ContactRows rows;
+    rows.least = rows.first = scene.least_level;
+    if (cold && !scene.level.empty()) rows.first = *std::max_element(scene.level.begin(), scene.level.end());
+    for (std::size_t p = 0; p < scene.bonded.size(); ++p) {
+        if (!scene.may_close(p, prescribed) || scene.level[p] < rows.least) continue;
+        rows.row.push_back(p * dim);
+        rows.level.push_back(scene.level[p]);
+    }
+    return rows;
+}
+
+class OperatorSystem {
+public:
+    static constexpr std::int64_t guesses = 3;
+
+    // cold: nothing is known of the set, and any row may change.
+    OperatorSystem(JumpOperator& op, const ContactScene& scene, const ContactRows& rows, Springs springs,
+                   std::span<const double> theta, Response& response, ContactResult& result, bool cold)
+        : op_(op),
+          scene_(scene),
+          rows_(rows),
+          springs_(std::move(springs)),
+          theta_(theta),
+          response_(response),
+          result_(result) {
+        // From one of the first sets to the next, hundreds of rows change: rough answers tell which.
+        if (rows.first > rows.least && op_.aim(Accuracy::rough)) accuracy_ = Accuracy::rough;
+        if (cold) op_.expect_changes(rows.row);
+    }
+    OperatorSystem(const OperatorSystem&) = delete;
+    OperatorSystem& operator=(const OperatorSystem&) = delete;
+    ~OperatorSystem() {
+        op_.aim(Accuracy::usual);
+        op_.expect_changes({});
+    }
+
+    ContactSolve solve(const std::vector<std::uint8_t>& closed) {
+        for (std::size_t i = 0; i < closed.size(); ++i) springs_.held[rows_.row[i]] = closed[i];
+        op_.solve(springs_, theta_, response_);
+        if (!response_.balanced) return ContactSolve::unbalanced;
+        result_.linear_iterations += response_.iterations;
+        if (!rough()) result_.linear_residual = std::max(result_.linear_residual, response_.residual);
+        result_.converged = result_.converged && response_.converged;
+        if (scene_.always) refuse_pressed(scene_, op_.prescribed_rows(), {}, response_, theta_);
+        return ContactSolve::solved;
+    }
+    std::span<const double> jump() const { return response_.jump; }
+    std::span<const double> force() const { return response_.force; }
+    double jump_floor() const { return scene_.jump_floor(theta_); }
+    double force_floor() const { return scene_.force_floor(theta_); }
+    SolveError error() const { return response_.error; }
+    bool rough() const { return accuracy_ == Accuracy::rough; }
+    bool tighten() {
+        if (accuracy_ == Accuracy::tight) return false;
+        const bool was_rough = rough();
+        accuracy_ = was_rough ? Accuracy::usual : Accuracy::tight;
+        return op_.aim(accuracy_) || was_rough;
+    }
+
+private:
+    JumpOperator& op_;
+    const ContactScene& scene_;
+    const ContactRows& rows_;
+    Springs springs_;
+    std::span<const double> theta_;
+    Response& response_;
+    ContactResult& result_;
+    Accuracy accuracy_ = Accuracy::usual;
+};
+
+// A response that is there already.
+struct ResponseSystem {
+    const ContactScene& scene;
+    std::span<const double> theta;
+    const Response& response;
+
+    ContactSolve solve(const std::vector<std::uint8_t>&) const { return ContactSolve::solved; }
+    std::span<const double> jump() const { return response.jump; }
+    std::span<const double> force() const { return response.force; }
+    double jump_floor() const { return scene.jump_floor(theta); }
+    double force_floor() const { return scene.force_floor(theta); }
+};
+
+}  // namespace
+
+std::vector<std::size_t> pairs_on_the_wrong_side(const JumpOperator& op, const ContactScene& scene,
+                                                 std::span<const double> theta, std::span<const std::uint8_t> closed,
+                                                 const Response& response) {
+    const auto dim = static_cast<std::size_t>(scene.dimension);
+    const ContactRows rows = contact_rows(scene, op.prescribed_rows(), false);
+    std::vector<std::uint8_t> set;
+    for (const std::size_t row : rows.row) set.push_back(closed[row / dim]);
+    std::vector<std::size_t> pairs;
+    for (const std::size_t i : contact_violators(ResponseSystem{scene, theta, response}, rows, set, rows.least))
+        pairs.push_back(rows.row[i] / dim);
+    return pairs;
+}
+
+std::vector<std::uint8_t> held_rows(const ContactScene& scene, std::span<const std::uint8_t> closed) {
+    const auto dim = static_cast<std::size_t>(scene.dimension);
+    std::vector<std::uint8_t> held(closed.size() * dim, 0);
+    for (std::size_t p = 0; p < closed.size(); ++p)
+        for (std::size_t c = 0; c < dim; ++c)
+            held[p * dim + c] = scene.bonded[p] != 0 || (c == 0 && closed[p] != 0) ? 1 : 0;
+    return held;
+}
+
+ContactResult solve_contact(JumpOperator& op, const ContactScene& scene, std::span<const double> stiffness,
+                            std::span<const double> theta, std::vector<std::uint8_t>& closed, Response& response,
+                            bool cold, std::span<const double> row_force) {
+    const auto dim = static_cast<std::size_t>(scene.dimension);
+    const ContactRows rows = contact_rows(scene, op.prescribed_rows(), cold);
+    if (rows.first > rows.least) std::fill(closed.begin(), closed.end(), std::uint8_t{0});
+    std::vector<std::uint8_t> set;  // of the contact rows
+    for (const std::size_t row : rows.row) set.push_back(closed[row / dim]);
+    ContactResult result;
+    OperatorSystem system(
+        op, scene, rows,
+        {{stiffness.begin(), stiffness.end()}, held_rows(scene, closed), {row_force.begin(), row_force.end()}}, theta,
+        response, result, cold);
+    const ActiveSet found = find_active_set(system, rows, set, scene.limit, true);
+    result.solves = found.solves;
+    result.doubts = found.doubts;
+    result.fallback = found.exchanged;
+    if (found.last != ContactSolve::solved)
+        fail(DELAM_LIMIT,
+             "no equilibrium: a dead force acts on a part that neither adhesion, supports nor contact hold");
+    result.converged = result.converged && found.settled;
+    for (std::size_t i = 0; i < set.size(); ++i) closed[rows.row[i] / dim] = set[i];
+    refuse_pressed(scene, op.prescribed_rows(), closed, response, theta);
+    return result;
+}
+
+}  // namespace delam

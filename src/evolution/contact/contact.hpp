@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Unilateral contact of a whole scene: the active set of active_set.hpp over the jump operator.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/monitor.hpp"
+#include "reduction/operator/jump_operator.hpp"
+
+namespace delam {
+
+struct ContactResult {
+    std::int64_t solves = 0;  // active-set steps
+    std::int64_t doubts = 0;  // sets of which a solve left open whether they are right
+    std::int64_t linear_iterations = 0;
+    double linear_residual = 0.0;  // worst of the solves
+    bool converged = true;
+    bool fallback = false;  // least-index exchanges were needed
+};
+
+struct ContactScene {
+    int dimension = 2;
+    std::vector<std::uint8_t> bonded;  // [pairs] bonded permanently: held in every direction
+    std::vector<std::uint8_t> level;   // [pairs] of contact_levels.hpp
+    // Pairs below this level are not tested and may pass through each other: less energy than any contact leaves.
+    std::uint8_t least_level = 0;
+    std::int64_t limit = 200;
+    // Also test, in every step, pairs whose normal jump is prescribed: they cannot close, only be pressed.
+    bool always = false;
+    // [patterns] Motion (L) and force (F) of the eigenstrains at factor 1 if they were restrained. Where the strains
+    // are free, jumps and forces are only the rounding of these numbers and say nothing about contact. Empty: no
+    // eigenstrains.
+    std::vector<double> strain_jump{}, strain_force{};
+    // Of a pair neither bonded nor prescribed in its normal row. prescribed: [rows].
+    bool may_close(std::size_t pair, std::span<const std::uint8_t> prescribed) const {
+        return bonded[pair] == 0 && prescribed[pair * static_cast<std::size_t>(dimension)] == 0;
+    }
+    double jump_floor(std::span<const double> theta) const { return floor(strain_jump, theta); }
+    double force_floor(std::span<const double> theta) const { return floor(strain_force, theta); }
+
+private:
+    static double floor(std::span<const double> size, std::span<const double> theta) {
+        double sum = 0.0;
+        for (std::size_t p = 0; p < size.size(); ++p) sum += size[p] * (theta[p] < 0.0 ? -theta[p] : theta[p]);
+        return sum;
+    }
+};
+
+// Springs::held of a contact set: every row of a bonded pair and the normal row of a closed one. closed: [pairs].
+std::vector<std::uint8_t> held_rows(const ContactScene& scene, std::span<const std::uint8_t> closed);
+
+// stiffness: [rows] of the springs. closed: [pairs], on entry the warm start, on return the contact set. row_force:
+// Springs::force. cold: searches the set from coarse levels to fine ones, with all pairs open at first. Throws
+// Error(DELAM_LIMIT) if no contact set balances the loads, Error(DELAM_ERROR_PROBLEM) if prescribed displacements press
+// faces into each other.
+ContactResult solve_contact(JumpOperator& op, const ContactScene& scene, std::span<const double> stiffness,
+                            std::span<const double> theta, std::vector<std::uint8_t>& closed, Response& response,
+                            bool cold, std::span<const double> row_force = {});
+
+// Pairs that this response shows on the wrong side of contact, ascending; empty: the contact set is its own, as far as
+// rounding lets it be known.
+std::vector<std::size_t> pairs_on_the_wrong_side(const JumpOperator& op, const ContactScene& scene,
+                                                 std::span<const double> theta, std::span<const std::uint8_t> closed,
+                                                 const Response& response);
+
+}  // namespace delam

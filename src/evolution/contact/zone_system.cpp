@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evolution/contact/zone_system.hpp"
+
+#include <limits>
+#include <utility>
+
+#include "base/numbers.hpp"
+
+namespace delam {
+
+ZoneSystem::ZoneSystem(Zone& zone, const ContactScene& scene, std::span<const std::uint8_t> prescribed,
+                       std::span<const std::uint8_t> held, std::span<const double> theta, Poll poll)
+    : zone_(zone), scene_(scene), theta_(theta), poll_(std::move(poll)) {
+    const auto dim = static_cast<std::size_t>(scene.dimension);
+    const std::vector<std::int64_t>& rows = zone.jump_rows();
+    for (std::size_t z = 0; z < rows.size(); ++z) {
+        const std::size_t row = index(rows[z]);
+        held_.push_back(prescribed[row] != 0 ? 0 : held[row]);  // by constraints: neither held nor released
+        if (row % dim == 0 && scene.may_close(row / dim, prescribed)) {
+            contact_.row.push_back(z);
+            entered_.push_back(held_[z]);
+        }
+        if (row % dim == 0 && z + dim <= rows.size() && index(rows[z + dim - 1]) == row + dim - 1)
+            pairs_.push_back({row / dim, z});
+    }
+}
+
+void ZoneSystem::load(std::vector<Zone::Coupling> couplings, std::vector<double> row_force) {
+    couplings_ = std::move(couplings);
+    row_force_ = std::move(row_force);
+}
+
+void ZoneSystem::load_model(std::vector<Zone::Coupling> couplings, std::vector<double> row_force) {
+    zone_.begin_model();
+    load(std::move(couplings), std::move(row_force));
+}
+
+std::vector<std::uint8_t> ZoneSystem::held(const std::vector<std::uint8_t>& closed) const {
+    std::vector<std::uint8_t> held = held_;
+    for (std::size_t i = 0; i < closed.size(); ++i) held[contact_.row[i]] = closed[i];
+    return held;
+}
+
+bool ZoneSystem::softens() const {
+    return std::any_of(couplings_.begin(), couplings_.end(),
+                       [](const Zone::Coupling& c) { return c.row != c.column || c.value < 0.0; });
+}
+
+// With A = S + C and the forces lambda <= 0 of the other closed rows kept, releasing the closed rows V that pull lowers
+// the energy by 1/2 lambda_V^T (A^-1)_VV lambda_V, and A >= C_VV:   below = sum_V lambda^2 / (2 C).   By duality no
+// state without penetration lies lower. Moving the open rows P that penetrate to zero, and nothing else, gives a state
+// without penetration:   above = 1/2 j_P^T A_PP j_P.
+ZoneSystem::ContactDoubt ZoneSystem::doubt_contact(const std::vector<std::uint8_t>& closed,
+                                                   std::span<const std::size_t> wrong) const {
+    std::vector<double> spring(jump_.size(), 0.0), moved;
+    for (const Zone::Coupling& c : couplings_) spring[index(c.row)] += c.row == c.column ? c.value : 0.0;
+    std::vector<std::size_t> open;
+    ContactDoubt doubt;
+    for (const std::size_t i : wrong) {
+        const std::size_t r = contact_.row[i];
+        if (closed[i] != 0) {
+            doubt.below +=
+                spring[r] > 0.0 ? 0.5 * force_[r] * force_[r] / spring[r] : std::numeric_limits<double>::infinity();
+        } else {
+            open.push_back(r);
+            moved.push_back(-jump_[r]);
+            doubt.above += 0.5 * spring[r] * jump_[r] * jump_[r];
+        }
+    }
+    if (!open.empty() && doubt.below + doubt.above <= allowed_) doubt.above += zone_.energy_of_moving(open, moved);
+    return doubt;
+}
+
+bool ZoneSystem::negligible(const std::vector<std::uint8_t>& closed, std::span<const std::size_t> wrong) {
+    doubt_ = {};
+    if (wrong.empty() || !(allowed_ > 0.0)) return wrong.empty();
+    const ContactDoubt doubt = doubt_contact(closed, wrong);
+    if (!(doubt.above + doubt.below <= allowed_)) return false;
+    doubt_ = doubt;
+    return true;
+}
+
+std::optional<DenseMatrix> ZoneSystem::flexibility(const std::vector<std::uint8_t>& closed,
+                                                   std::span<const std::vector<Zone::RowForce>> forces) {
+    call_if_set(poll_);
+    if (!zone_.factor(couplings_, held(closed))) return {};
+    return zone_.flexibility(forces);
+}
+
+ContactSolve ZoneSystem::solve(const std::vector<std::uint8_t>& closed) {
+    call_if_set(poll_);
+    held_ = held(closed);
+    if (!zone_.factor(couplings_, held_)) return ContactSolve::failed;
+    Zone::Solution solution = zone_.solve(theta_, row_force_);
+    iterations_ += solution.iterations;
+    if (!solution.balanced) return ContactSolve::unbalanced;
+    if (!solution.definite || !solution.converged) return ContactSolve::failed;
+    solution_ = std::move(solution);
+    jump_ = zone_.jumps(theta_, solution_.unknowns);
+    force_.assign(jump_.size(), 0.0);
+    for (std::size_t z = 0; z < row_force_.size(); ++z) force_[z] = -row_force_[z];
+    for (const Zone::Coupling& c : couplings_) force_[index(c.row)] += c.value * jump_[index(c.column)];
+    const std::vector<double> acting = force_;
+    zone_.complete_forces(theta_, solution_, force_);
+    for (std::size_t i = 0; i < closed.size(); ++i)
+        if (closed[i] != 0) force_[contact_.row[i]] -= acting[contact_.row[i]];
+    return ContactSolve::solved;
+}
+
+}  // namespace delam

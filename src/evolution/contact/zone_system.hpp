@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A zone of the jump operator as a system with contact: springs or tangents on its rows, forces of their own, and the
+// normal rows of its pairs that may open and close.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "base/monitor.hpp"
+#include "evolution/contact/active_set.hpp"
+#include "evolution/contact/contact.hpp"
+#include "reduction/operator/zone.hpp"
+
+namespace delam {
+
+class ZoneSystem {
+public:
+    // held: [jump rows] of the whole scene, when the zone is entered. poll: called in every solve. The zone, the scene
+    // and theta must outlive the system.
+    ZoneSystem(Zone& zone, const ContactScene& scene, std::span<const std::uint8_t> prescribed,
+               std::span<const std::uint8_t> held, std::span<const double> theta, Poll poll = {});
+
+    const Zone& zone() const { return zone_; }
+    std::span<const double> theta() const { return theta_; }
+    const ContactRows& contact_rows() const { return contact_; }
+    // The contact set with which the zone was entered, [contact rows].
+    const std::vector<std::uint8_t>& entered_closed() const { return entered_; }
+    // First zone row of a pair of which the zone has all rows, [pairs found], with the pair.
+    struct Pair {
+        std::size_t pair;
+        std::size_t first;
+    };
+    const std::vector<Pair>& pairs() const { return pairs_; }
+
+    // What acts on the rows from now on: the force of a row is sum_q C_rq j_q - h_r. row_force: h, [zone rows] or
+    // empty.
+    void load(std::vector<Zone::Coupling> couplings, std::vector<double> row_force);
+    // The same about an iterate of Newton's method.
+    void load_model(std::vector<Zone::Coupling> couplings, std::vector<double> row_force);
+
+    ContactSolve solve(const std::vector<std::uint8_t>& closed);
+    // Zone::flexibility of what is loaded, with this contact set.
+    std::optional<DenseMatrix> flexibility(const std::vector<std::uint8_t>& closed,
+                                           std::span<const std::vector<Zone::RowForce>> forces);
+    std::span<const double> jump() const { return jump_; }
+    // Of a closed contact row that of contact alone: where a model of a softening pair pulls at a jump of zero, the
+    // force of the pair would open it, and open it would penetrate.
+    std::span<const double> force() const { return force_; }
+    double jump_floor() const { return scene_.jump_floor(theta_); }
+    double force_floor() const { return scene_.force_floor(theta_); }
+    bool softens() const;
+    // Only energies are wanted, within so much, F L: contact may then be left undecided where it matters less.
+    void ask_for_energies(double allowed) { allowed_ = allowed; }
+    bool negligible(const std::vector<std::uint8_t>& closed, std::span<const std::size_t> wrong);
+    // The energy with contact lies above that of the last solve by at most `above`, below it by at most `below`, F L.
+    struct ContactDoubt {
+        double above = 0.0, below = 0.0;
+    };
+    const ContactDoubt& doubt() const { return doubt_; }
+    SolveError error() const { return solution_.error; }
+    double energy_error() const { return solution_.energy_error; }
+    bool rough() const { return false; }
+    // What is in doubt here is decided by the operator, which checks the end of a minimiser.
+    static constexpr std::int64_t guesses = 0;
+    bool tighten() { return false; }
+    // The last solve.
+    const Zone::Solution& solution() const { return solution_; }
+    const std::vector<double>& unknowns() const { return solution_.unknowns; }
+    // What it has left of the residual with which this load began, as a part of it.
+    double left() const { return solution_.left; }
+    // Krylov iterations of all solves.
+    std::int64_t iterations() const { return iterations_; }
+    // Zone rows that are held with this contact set.
+    std::vector<std::uint8_t> held(const std::vector<std::uint8_t>& closed) const;
+
+private:
+    ContactDoubt doubt_contact(const std::vector<std::uint8_t>& closed, std::span<const std::size_t> wrong) const;
+
+    Zone& zone_;
+    const ContactScene& scene_;
+    std::span<const double> theta_;
+    Poll poll_;
+    ContactRows contact_;
+    std::vector<std::uint8_t> entered_;
+    std::vector<Pair> pairs_;
+    std::vector<std::uint8_t> held_;  // [zone rows]
+    std::vector<Zone::Coupling> couplings_;
+    std::vector<double> row_force_;
+    std::vector<double> jump_, force_;
+    Zone::Solution solution_;
+    double allowed_ = 0.0;  // of energies
+    ContactDoubt doubt_;
+    std::int64_t iterations_ = 0;
+};
+
+}  // namespace delam

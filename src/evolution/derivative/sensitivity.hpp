@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Derivatives of a march by parameters of the laws, followed step by step.
+//
+// At the end of a step the bodies and springs are at rest, and each pair that damages satisfies Y(j) = D(B, zeta)
+// (step_tangent.hpp). Both depend on a parameter p by the stiffness and the toughness of the law. With dzeta given for
+// the pairs that do not damage (as before the step; 0 if debonded), the forces of the springs change at fixed jumps by
+//
+//   F = w zeta dk j + sum over pairs at rest of v dzeta
+//
+// and the jumps by  dj = -(answer to F) - U dzeta.  For the pairs that damage
+//
+//   own dzeta = omega . dj + r,     r = d(Y - D)/dp at fixed jump and adhesion
+//
+// which is the system of the step tangent with another right-hand side: one solve for each parameter beside one for
+// each damaging pair. The derivatives belong to the branch on which the march is: they are those of the march as long
+// as no pair, contact or jump changes its branch.
+// Source: the direct differentiation method, P. Michaleris, D. Tortorelli, C. Vidal, Int. J. Numer. Meth. Engng 37
+// (1994) 2471-2499.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "evolution/derivative/step_tangent.hpp"
+#include "evolution/increment/increment.hpp"
+#include "scene/problem.hpp"
+
+namespace delam {
+
+// A number of the laws of some interfaces, changed in all of them together.
+struct FollowedParameter {
+    std::vector<Law> more, less;    // the laws with a slightly larger and a smaller value
+    double difference = 0.0;        // between their values
+    std::vector<std::int64_t> law;  // [pairs] index into more and less; -1: not concerned
+};
+
+// The parameter of these interfaces. Error(DELAM_ERROR_ARGUMENT): an interface has no law, its law has no such number
+// or a value of 0, or values that differ from those of the others; DELAM_ERROR_STATE: a law has a gradient term.
+FollowedParameter followed_parameter(const Problem& problem, std::span<const std::int64_t> interfaces,
+                                     const std::string& key);
+
+// Of the state that the tangent has been made for. step: the increment that ended in it; null: it is the initial state,
+// without any damage.
+Sensitivity sensitivity(Linearised linearised, std::span<const FollowedParameter> parameters,
+                        std::span<const Pattern> patterns, const Increment* step);
+
+}  // namespace delam

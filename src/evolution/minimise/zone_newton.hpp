@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The incremental minimisation within a zone of the jump operator. With the damage eliminated in closed form, each pair
+// has the potential
+//
+//   phi(j) = min over 0 <= zeta <= zeta_before of  zeta Y(j) + g(zeta)      (Increment::minimum),
+//
+// and  1/2 x^T S x - theta^T L^T x + sum w phi(j)  over u_n >= 0 is minimised by Newton's method with the active set of
+// active_set.hpp and a line search on the energy. Where a pair softens faster than the bodies unload, the tangent is
+// indefinite: then the pair is taken straight to its debonded branch if that lowers the energy, or so much of the
+// tangents is used that they remain definite (a damped step); else the step is that of the staggered scheme, which
+// always lowers the energy. No step raises it. Where the mixity follows the iterates, every step renews it, from the
+// pairs that took part in its displacements.
+#pragma once
+
+#include <optional>
+
+#include "base/monitor.hpp"
+#include "evolution/contact/contact.hpp"
+#include "evolution/increment/increment.hpp"
+
+namespace delam {
+
+struct ZoneNewton {
+    JumpOperator& op;
+    const ContactScene& contact;
+    Monitor& monitor;
+    double tolerance;  // of the adhesion
+    std::int64_t limit;
+
+    // state: displacements at its adhesion in; adhesion, contact set and the jumps of the zone out. Returns the energy
+    // that new mixities alone have added; none where the operator offers no zone.
+    std::optional<double> run(State& state, Increment& increment) const;
+};
+
+}  // namespace delam

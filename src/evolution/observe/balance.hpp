@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Checks whether a state is in equilibrium. Rounding can destroy all digits of a stiffness that is a small difference
+// of large ones (plies thousands of times longer than thick), and neither minimisation nor its tolerances would notice.
+#pragma once
+
+#include "evolution/increment/state.hpp"
+#include "reduction/operator/jump_operator.hpp"
+#include "scene/problem.hpp"
+
+namespace delam {
+
+// Relative to the largest reaction, or to force_floor (F) if that is larger:
+inline constexpr double poor_balance = 1e-6;  // worth a warning
+inline constexpr double no_balance = 1e-3;    // the state is useless
+
+// F: largest reaction, or force_floor where that is larger (stresses of eigenstrains may need no reactions).
+double largest_reaction(const JumpOperator& op, const State& state, double force_floor);
+
+// Largest unbalanced force over the largest reaction; 0 if the operator's estimate gives no reason to compute it, which
+// takes no time.
+double out_of_balance(const Problem& problem, const JumpOperator& op, const State& state, double force_floor);
+
+}  // namespace delam

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evolution/observe/crack_front.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "law/mixity.hpp"
+#include "mesh/faces.hpp"
+
+namespace delam {
+
+namespace {
+
+constexpr double zone_ends = 1e-3;
+
+double mixity_of(const CrackedInterface& interface, std::int64_t pair) {
+    const SpaceJump jump = jump_of(interface, pair);
+    double shear = 0.0;
+    for (const double component : jump.tangential) shear += component * component;
+    return mode_mixity(0.5 * interface.law.normal_stiffness * jump.normal * jump.normal,
+                       0.5 * interface.law.tangential_stiffness * shear);
+}
+
+}  // namespace
+
+bool in_process_zone(const CrackedInterface& interface, std::int64_t pair) {
+    return interface.adhesion[index(pair)] < (1.0 - zone_ends) * interface.initial[index(pair)] &&
+           !exhausted(interface, pair);
+}
+
+bool exhausted(const CrackedInterface& interface, std::int64_t pair) {
+    const double adhesion = interface.adhesion[index(pair)];
+    if (!(adhesion > 0.0)) return true;
+    if (!(adhesion < 1.0)) return false;
+    const Toughness toughness = interface.law.toughness(mixity_of(interface, pair));
+    return interface.law.dissipated(toughness, adhesion) >= (1.0 - zone_ends) * toughness.total;
+}
+
+double process_zone(const CrackedInterface& interface) {
+    double zone = 0.0;
+    for (std::size_t p = 0; p < interface.adhesion.size(); ++p)
+        if (in_process_zone(interface, static_cast<std::int64_t>(p))) zone += interface.geometry.weight[p];
+    return zone;
+}
+
+std::vector<PairPiece> pair_pieces(const InterfaceGeometry& geometry, int dimension) {
+    const auto per_face = static_cast<std::size_t>(geometry.nodes_per_face);
+    std::vector<PairPiece> pieces;
+    for (std::size_t f = 0; f + per_face <= geometry.face.size(); f += per_face)
+        for (const FacePiece& piece : face_pieces(dimension, per_face)) {
+            PairPiece own{0, {}};
+            for (int k = 0; k < piece.nodes; ++k) {
+                const std::int64_t pair = geometry.face[f + index(piece.node[index(k)])];
+                const auto end = own.pair.begin() + own.pairs;
+                if (std::find(own.pair.begin(), end, pair) == end) own.pair[index(own.pairs++)] = pair;
+            }
+            if (own.pairs >= dimension) pieces.push_back(own);
+        }
+    return pieces;
+}
+
+Vector3 place_of(const CrackedInterface& interface, std::int64_t pair) {
+    const auto node = interface.mesh.node(interface.geometry.node_b[index(pair)]);
+    Vector3 place{};
+    std::copy(node.begin(), node.end(), place.begin());
+    return place;
+}
+
+SpaceJump jump_of(const CrackedInterface& interface, std::int64_t pair) {
+    const std::size_t dim = index(interface.mesh.dimension());
+    const double* frame = &interface.geometry.frame[index(pair) * dim * dim];
+    SpaceJump jump{interface.jump[index(pair) * dim], {}};
+    for (std::size_t t = 1; t < dim; ++t)
+        for (std::size_t i = 0; i < dim; ++i)
+            jump.tangential[i] += frame[t * dim + i] * interface.jump[index(pair) * dim + t];
+    return jump;
+}
+
+std::vector<CrackFront> crack_fronts(const CrackedInterface& interface) {
+    return interface.mesh.dimension() == 2 ? crack_fronts_on_lines(interface) : crack_fronts_on_faces(interface);
+}
+
+namespace {
+
+double measure(const CrackedInterface& interface, const PairPiece& piece) {
+    std::array<std::int64_t, 4> node{};
+    for (int k = 0; k < piece.pairs; ++k) node[index(k)] = interface.geometry.node_b[index(piece.pair[index(k)])];
+    const auto area = area_vector(interface.mesh, std::span<const std::int64_t>(node).first(index(piece.pairs)));
+    return std::hypot(area[0], area[1], area[2]);
+}
+
+}  // namespace
+
+double crack_length(const CrackedInterface& interface) {
+    double length = 0.0, all = 0.0;
+    for (std::size_t p = 0; p < interface.adhesion.size(); ++p) {
+        const double weight = interface.geometry.weight[p];
+        all += weight;
+        if (interface.initial[p] > 0.0) length += weight * (1.0 - interface.adhesion[p]);
+    }
+    for (const PairPiece& piece : pair_pieces(interface.geometry, interface.mesh.dimension())) {
+        const auto pairs = std::span(piece.pair).first(index(piece.pairs));
+        if (std::any_of(pairs.begin(), pairs.end(),
+                        [&](std::int64_t p) { return !(interface.initial[index(p)] > 0.0); }))
+            length += measure(interface, piece);
+    }
+    return std::min(length, all);
+}
+
+}  // namespace delam

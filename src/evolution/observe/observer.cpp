@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evolution/observe/observer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/numbers.hpp"
+#include "body/assembly.hpp"
+#include "body/rotation.hpp"
+#include "evolution/observe/balance.hpp"
+#include "scene/strain_loads.hpp"
+
+namespace delam {
+
+namespace {
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+}  // namespace
+
+void Observer::show(const State& state) {
+    shown_ = &state;
+    displacement_.clear();
+    fronts_.clear();
+}
+
+std::optional<CrackedInterface> Observer::cracked(const State& state, std::int64_t interface) const {
+    const Mesh& mesh = *problem_.mesh;
+    const InterfaceProperties& properties = problem_.interfaces[index(interface)];
+    if (properties.bonded || !properties.law) return std::nullopt;
+    const InterfaceGeometry& geometry = mesh.interfaces()[index(interface)];
+    std::size_t first = 0;
+    const std::size_t count = index(geometry.pair_count());
+    for (std::int64_t i = 0; i < interface; ++i) first += index(mesh.interfaces()[index(i)].pair_count());
+    const auto dim = index(mesh.dimension());
+    return CrackedInterface{mesh,
+                            geometry,
+                            *properties.law,
+                            std::span(properties.adhesion),
+                            std::span(state.adhesion).subspan(first, count),
+                            std::span(state.response.jump).subspan(first * dim, count * dim)};
+}
+
+double Observer::largest_rotation(const State& state) const {
+    return problem_.mesh->cell_count() == 0 ? unknown : delam::largest_rotation(*problem_.mesh, displacement(state));
+}
+
+std::vector<BodyModel> Observer::models() const {
+    std::vector<BodyModel> models;
+    for (std::int32_t body = 0; body < problem_.mesh->body_count(); ++body)
+        models.push_back(known(body) ? problem_.model(body)
+                                     : BodyModel{Elastic{1.0, 0.0}, problem_.plane, Formulation::standard, nullptr});
+    return models;
+}
+
+std::vector<Strain> Observer::eigenstrains() const {
+    std::vector<Strain> strains;
+    for (std::int32_t body = 0; body < problem_.mesh->body_count() && !problem_.eigenstrains.empty(); ++body)
+        strains.push_back(strain_at(problem_, body, state().theta));
+    return strains;
+}
+
+std::vector<double> Observer::stress() const {
+    const Mesh& mesh = *problem_.mesh;
+    std::vector<double> stress = centre_stress(mesh, models(), displacement(), eigenstrains());
+    const std::int64_t columns = mesh.dimension() == 2 ? 4 : 6;
+    for (std::int64_t c = 0; c < mesh.cell_count(); ++c)
+        if (!known(mesh.cell_body(c))) std::fill_n(stress.begin() + c * columns, columns, unknown);
+    return stress;
+}
+
+VolumeAverage Observer::average(std::int32_t body) const {
+    VolumeAverage average = volume_average(*problem_.mesh, models(), displacement(), eigenstrains(), body);
+    for (std::int32_t b = 0; b < problem_.mesh->body_count(); ++b) {
+        if ((body >= 0 && b != body) || known(b) || problem_.mesh->host_body(b)) continue;
+        average.stress.fill(unknown);
+        if (problem_.mesh->dimension() == 2 && problem_.plane == Plane::stress)
+            std::fill(average.strain.begin() + 2, average.strain.end(), unknown);
+    }
+    return average;
+}
+
+const std::vector<CrackFront>& Observer::crack_fronts(std::int64_t interface) const {
+    fronts_.resize(problem_.interfaces.size());
+    auto& kept = fronts_[index(interface)];
+    if (!kept) {
+        const std::optional<CrackedInterface> of = cracked(state(), interface);
+        kept = of ? delam::crack_fronts(*of) : std::vector<CrackFront>{};
+    }
+    return *kept;
+}
+
+const std::vector<double>& Observer::displacement() const {
+    if (displacement_.empty()) displacement_ = op_.displacement(state().theta, state().response);
+    return displacement_;
+}
+
+std::vector<double> Observer::displacement(const State& state) const {
+    return &state == &this->state() ? displacement() : op_.displacement(state.theta, state.response);
+}
+
+double Observer::equilibrium_defect(const State& state) const {
+    const double reaction = largest_reaction(op_, state, contact_.force_floor(state.theta));
+    const double defect = op_.equilibrium_defect(state.theta, state.response);
+    return reaction > 0.0 ? defect / reaction : defect;
+}
+
+}  // namespace delam

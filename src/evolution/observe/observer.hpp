@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reads states of an analysis: fields in the bodies, averages over them, crack fronts. Of one state, the one that is
+// shown, it keeps what it has computed.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "body/averages.hpp"
+#include "evolution/contact/contact.hpp"
+#include "evolution/increment/damage_step.hpp"
+#include "evolution/increment/state.hpp"
+#include "evolution/observe/crack_front.hpp"
+#include "scene/problem.hpp"
+
+namespace delam {
+
+class Observer {
+public:
+    // What is read must outlive the observer.
+    Observer(const Problem& problem, const JumpOperator& op, const PairLaws& pairs, const ContactScene& contact,
+             const std::vector<double>& initial_adhesion)
+        : problem_(problem), op_(op), pairs_(pairs), contact_(contact), initial_adhesion_(initial_adhesion) {}
+
+    // Shows a state and discards what was computed of the one before.
+    void show(const State& state);
+    // The state that is shown lies at another address now.
+    void follow(const State& state) { shown_ = &state; }
+
+    const Problem& problem() const { return problem_; }
+    const JumpOperator& jump_operator() const { return op_; }
+    const PairLaws& pairs() const { return pairs_; }
+    const ContactScene& contact() const { return contact_; }
+    // Initial adhesion, [pairs].
+    const std::vector<double>& initial_adhesion() const { return initial_adhesion_; }
+    const State& state() const { return *shown_; }
+
+    // Displacements of the state that is shown, [mesh DOFs], recovered on request.
+    const std::vector<double>& displacement() const;
+    // Displacements of any state.
+    std::vector<double> displacement(const State& state) const;
+    // True if the engine of the host has recovered the displacements of the state that is shown, and keeps them.
+    bool recover_in_engine() const { return op_.recover_in_engine(state().theta, state().response); }
+    // Returns how often displacements were recovered.
+    std::int64_t recoveries() const { return op_.recoveries(); }
+    // Reactions of the constraints, [constraints].
+    std::vector<double> reaction() const { return op_.reaction(state().theta, state().response); }
+    // Out-of-balance force over the largest reaction.
+    double equilibrium_defect(const State& state) const;
+    // At the centres of the cells (centre_stress); NaN for bodies with a stiffness of the host and no material.
+    std::vector<double> stress() const;
+    // e* of the bodies, in material axes; empty if there are none.
+    std::vector<Strain> eigenstrains() const;
+    // Of a body (index), -1: of all; recovers the displacements.
+    VolumeAverage average(std::int32_t body) const;
+    // Returns the largest rotation of a cell, rad; NaN without cells. Recovers the displacements.
+    double largest_rotation(const State& state) const;
+
+    // The interface with its law and its fields of a state; nothing if it has no law.
+    std::optional<CrackedInterface> cracked(const State& state, std::int64_t interface) const;
+    // Fronts of the cracks of an interface in the state that is shown; none if it has no law.
+    const std::vector<CrackFront>& crack_fronts(std::int64_t interface) const;
+
+private:
+    bool known(std::int32_t body) const { return problem_.material[static_cast<std::size_t>(body)].has_value(); }
+    // For each body; undefined where the material is unknown.
+    std::vector<BodyModel> models() const;
+
+    const Problem& problem_;
+    const JumpOperator& op_;
+    const PairLaws& pairs_;
+    const ContactScene& contact_;
+    const std::vector<double>& initial_adhesion_;
+    const State* shown_ = nullptr;
+    mutable std::vector<double> displacement_;                            // empty: not recovered
+    mutable std::vector<std::optional<std::vector<CrackFront>>> fronts_;  // [interfaces]
+};
+
+}  // namespace delam

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evolution/path/inner_path.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/numbers.hpp"
+#include "evolution/increment/path_dissipation.hpp"
+#include "law/mixity.hpp"
+
+namespace delam {
+
+namespace {
+
+constexpr double nearly_loaded_share = 0.5;  // driving energy over onset, from which the mode of a pair counts
+constexpr double softening = 0.02;           // share dissipated, and left, of a pair in the process zone
+constexpr double most_parts = 0.5;           // share times pairs of the process zone
+constexpr double same_mode = 1e-3;           // spread of onset and toughness, relative, that is no change of mode
+
+}  // namespace
+
+bool InnerPath::one_mode(const State& at, std::span<const double> mixity, const State* before) const {
+    double least[2] = {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+    double most[2] = {0.0, 0.0};
+    bool any = false;
+    const auto add = [&](const Toughness& t) {
+        least[0] = std::min(least[0], t.onset), most[0] = std::max(most[0], t.onset);
+        least[1] = std::min(least[1], t.total), most[1] = std::max(most[1], t.total);
+    };
+    for (std::size_t p = 0; p < at.adhesion.size(); ++p) {
+        if (!pairs_.mixed(p)) continue;
+        const Toughness t = pairs_.toughness(p, mixity[p]);
+        const Driving y = driving_energy(pairs_, p, at.response.jump);
+        const bool damaged = before != nullptr && at.adhesion[p] < before->adhesion[p];
+        const bool partly = at.adhesion[p] > 0.0 && at.adhesion[p] < 1.0;
+        const bool nearly = at.adhesion[p] > 0.0 && y.total() > nearly_loaded_share * t.onset;
+        if (!damaged && !partly && !nearly) continue;
+        any = true;
+        add(t);
+        if (damaged && tells_mixity(*pairs_.law[p], y, 0.0))
+            add(pairs_.toughness(p, mode_mixity(y.normal, y.tangential)));
+    }
+    return !any || (most[0] <= (1.0 + same_mode) * least[0] && most[1] <= (1.0 + same_mode) * least[1]);
+}
+
+PathPoint path_point(const PairLaws& pairs, const PairGraph& graph, const State& state, double dissipated) {
+    PathPoint point;
+    point.energy = state.response.stored_bulk + state.response.load_potential +
+                   stored_energy(pairs, state.adhesion, state.response.jump);
+    point.gradient = gradient_energy(pairs, state.adhesion);
+    point.dissipated = dissipated;
+    for (std::size_t p = 0; p < state.adhesion.size(); ++p) {
+        const std::size_t interface = index(graph.interface_of(p));
+        if (point.debonded.size() <= interface) point.debonded.resize(interface + 1, 0.0);
+        if (pairs.law[p] != nullptr) point.debonded[interface] += pairs.weight[p] * (1.0 - state.adhesion[p]);
+    }
+    point.conjugate = state.response.conjugate;
+    return point;
+}
+
+void InnerPath::book(const State& at, const State& next) {
+    const auto dim = static_cast<std::size_t>(pairs_.dimension);
+    const auto local = [dim](const std::vector<double>& jump, std::size_t pair) {
+        return jump.empty() ? std::span<const double>() : std::span<const double>(jump).subspan(pair * dim, dim);
+    };
+    for (std::size_t p = 0; p < at.adhesion.size(); ++p) {
+        if (pairs_.law[p] == nullptr || next.adhesion[p] == at.adhesion[p]) continue;
+        const PathEnergy e = path_energy(pairs_, p,
+                                         {local(last_, p), local(at.response.jump, p), local(next.response.jump, p),
+                                          at.adhesion[p], next.adhesion[p]},
+                                         next.mixity[p]);
+        dissipated_.booked += pairs_.weight[p] * e.dissipated;
+        dissipated_.linear += pairs_.weight[p] * e.linear;
+        dissipated_.error += pairs_.weight[p] * e.error;
+    }
+}
+
+// Where the process zone has few pairs, each of them softens while the others wait, and the path would be long. There
+// the mesh decides about the growth, and the share is so large that a front needs no more than two parts for a pair.
+double InnerPath::bound(const State& at, std::span<const double> mixity) const {
+    std::vector<std::uint8_t> softening_pair(at.adhesion.size(), 0), broken(at.adhesion.size(), 0);
+    std::int64_t interfaces = 0;
+    for (std::size_t p = 0; p < at.adhesion.size(); ++p) {
+        interfaces = std::max(interfaces, graph_.interface_of(p) + 1);
+        if (pairs_.law[p] == nullptr) continue;
+        const Toughness t = pairs_.toughness(p, mixity[p]);
+        const double share = pairs_.law[p]->dissipated(t, at.adhesion[p]) / t.total;
+        broken[p] = share >= 1.0 - softening ? 1 : 0;
+        softening_pair[p] = share > softening && broken[p] == 0 ? 1 : 0;
+    }
+    // Of the zones of all interfaces, the one with the most pairs in the direction of its growth.
+    std::vector<double> zone(index(interfaces), 0.0), front(index(interfaces), 0.0);
+    for (std::size_t p = 0; p < at.adhesion.size(); ++p) {
+        if (softening_pair[p] == 0) continue;
+        zone[index(graph_.interface_of(p))] += 1.0;
+        const auto neighbours = graph_.neighbours(p);
+        if (std::any_of(neighbours.begin(), neighbours.end(), [&](std::int64_t q) { return broken[index(q)] != 0; }))
+            front[index(graph_.interface_of(p))] += 1.0;
+    }
+    double longest = 1.0;
+    for (std::size_t i = 0; i < zone.size(); ++i) longest = std::max(longest, zone[i] / std::max(front[i], 1.0));
+    return std::clamp(most_parts / longest, stride_, 1.0);
+}
+
+bool InnerPath::part(const State& at, State& next, bool displaced) {
+    const double stride = bound(at, next.mixity);
+    const State start = next;
+    const bool free = !bounded_ && one_mode(at, next.mixity, nullptr);
+    std::unique_ptr<Increment> own = make_(at, next.mixity, free ? 1.0 : stride);
+    bool converged = minimise_(next, *own, displaced);
+    bounded_ = !free;
+    if (free && !one_mode(next, next.mixity, &at)) {
+        double most = 0.0;
+        for (std::size_t p = 0; p < next.adhesion.size(); ++p)
+            if (pairs_.mixed(p) && next.adhesion[p] < at.adhesion[p])
+                most = std::max(most, own->left(p, at.adhesion[p]) - own->left(p, next.adhesion[p]));
+        if (most > stride) {
+            bounded_ = true;
+            const Effort effort = next.effort;
+            next = start;
+            next.effort = effort;
+            own = make_(at, next.mixity, stride);
+            converged = minimise_(next, *own, displaced);
+        }
+    }
+    stopped_ = own->stopped(next.adhesion);
+    return converged;
+}
+
+bool InnerPath::follow(State& next, const Increment& step, const Dissipation* begun, const Watch& watch,
+                       bool displaced) {
+    State at = step.before();
+    at.theta = next.theta;
+    at.time = next.time;
+    dissipated_ = begun != nullptr
+                      ? *begun
+                      : Dissipation{dissipation(pairs_, next.mixity, at.adhesion, next.adhesion),
+                                    dissipation_linear(pairs_, next.mixity, at.adhesion, next.adhesion), 0.0};
+    at.adhesion = next.adhesion;
+    last_.clear();
+    bounded_ = false;
+    points_.clear();
+    started_elsewhere_ = next.adhesion != step.before().adhesion;
+    std::int64_t held = 0;
+    bool converged = part(at, next, displaced);
+    while (true) {
+        book(at, next);
+        points_.push_back(path_point(pairs_, graph_, next, dissipated_.booked));
+        held = std::max(held, next.outcome.mixity_held);
+        if ((watch && !watch(next, dissipated_)) || !stopped_) break;
+        last_ = std::move(at.response.jump);
+        at.adhesion = next.adhesion;
+        at.response = next.response;
+        at.closed = next.closed;
+        converged = part(at, next, true) && converged;
+    }
+    next.outcome.mixity_held = held;
+    return converged;
+}
+
+}  // namespace delam

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One load step, followed in parts at the fixed load of its end. Where the toughness depends on the mode, what a pair
+// dissipates depends on the way that it takes. In a jump of the state, or in a step that moves a front by more than its
+// process zone, the iterates of a minimisation say nothing about this way. Here each part is an incremental
+// minimisation from the state that the part before has reached, and bounds the share of its toughness that a pair may
+// dissipate (option path_step; more where few pairs soften at once). The path ends where no pair reaches this bound (M.
+// Efendiev, A. Mielke, J. Convex Anal. 13, 2006; D. Knees, M. Negri, M3AS 27, 2017). The dissipated energy is that of
+// every pair along the jumps that it meets (increment/path_dissipation.hpp).
+//
+// A step in which no pair reaches the bound is a path of one part. Where all pairs that are loaded have the same
+// toughness (one mode), the way does not matter, and the step is not bounded; if they turn out not to have it at the
+// end of the step, the step is followed in parts. A law that debonds at once (Griffith's) is not bounded either.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "evolution/increment/increment.hpp"
+#include "evolution/path/within_step.hpp"
+#include "evolution/search/fronts.hpp"
+
+namespace delam {
+
+PathPoint path_point(const PairLaws& pairs, const PairGraph& graph, const State& state, double dissipated);
+
+class InnerPath {
+public:
+    // A minimisation of an increment from a state whose displacements may be known (`displaced`); whether it converged.
+    using Minimise = std::function<bool(State& state, Increment& increment, bool displaced)>;
+    // An increment from a state, with these mixities and largest share.
+    using Make = std::function<std::unique_ptr<Increment>(const State& before, std::span<const double> mixity, double)>;
+
+    // Sees the state after each part, and what has been dissipated until then. False: far enough.
+    using Watch = std::function<bool(const State& state, const Dissipation& dissipated)>;
+
+    InnerPath(const PairLaws& pairs, const PairGraph& graph, double stride, Make make, Minimise minimise)
+        : pairs_(pairs), graph_(graph), stride_(stride), make_(std::move(make)), minimise_(std::move(minimise)) {}
+
+    // From the adhesion and mixity of `next`, which has the load of the end of the step; `step` begins at the state
+    // before. begun: what it has dissipated down to this adhesion; none: at these mixities. displaced: the
+    // displacements of `next` are those of its adhesion. False: a part did not converge.
+    bool follow(State& next, const Increment& step, const Dissipation* begun = nullptr, const Watch& watch = {},
+                bool displaced = false);
+    // Do all pairs that are damaged in part, or nearly loaded to their onset, have the same toughness at these
+    // mixities? before: and those that were damaged since then, at the mixities that they show now, too. Without such
+    // pairs: yes.
+    bool one_mode(const State& at, std::span<const double> mixity, const State* before) const;
+    // In one part, without its bound.
+    bool minimise(State& next, Increment& increment, bool displaced) const {
+        return minimise_(next, increment, displaced);
+    }
+    // What the step has dissipated in all parts, with that of its start, F L.
+    const Dissipation& dissipated() const { return dissipated_; }
+    // Did the path begin at a state that is not the one before the step?
+    bool started_elsewhere() const { return started_elsewhere_; }
+    // The states reached by the parts, without the state before the step.
+    const std::vector<PathPoint>& points() const { return points_; }
+
+private:
+    double bound(const State& at, std::span<const double> mixity) const;
+    bool part(const State& at, State& next, bool displaced);
+    void book(const State& at, const State& next);
+
+    const PairLaws& pairs_;
+    const PairGraph& graph_;
+    double stride_;
+    Make make_;
+    Minimise minimise_;
+    bool started_elsewhere_ = false;
+    bool bounded_ = false;      // a part of this path has needed its bound: so do those that follow
+    bool stopped_ = false;      // the last part, by its bound
+    std::vector<double> last_;  // jumps at the state before the last part
+    Dissipation dissipated_;
+    std::vector<PathPoint> points_;
+};
+
+}  // namespace delam

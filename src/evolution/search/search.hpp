@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A search for states of lower energy than the one that the last step continues to.
+//
+// A candidate is the adhesion before the step with a set R of pairs debonded at once:
+//   I(R) = E(t, z_R) + D(z_before, z_R).
+// Sets grow by rings from every front and from places where a crack may begin (fronts.hpp), from all fronts together,
+// and from each front again with the others where they were best; and an interface may come off altogether. E falls as
+// R grows, and D grows with it. So nothing between two sets R1 < R2 of a sweep lies below  E(R2) + D(R1),  nor anything
+// beyond R below  E_all + D(R),  where E_all is the energy with everything debonded. A sweep samples rings far apart,
+// then around its minima, then wherever these bounds leave room for a state that is lower by more than
+// search_tolerance (sweep.hpp).
+//
+// Contact without friction and springs are homogeneous, E(theta) = |theta|^2 E(theta/|theta|): under a proportional
+// load one solve gives E_all for all steps.
+//
+// Where the operator offers a zone the energies come from a zone about each front (zone_energies.hpp), with the contact
+// outside as it is in the step; else from whole displacement solves. They choose what is minimised from; the energy of
+// a result never comes from here.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/monitor.hpp"
+#include "evolution/increment/increment.hpp"
+#include "evolution/search/fronts.hpp"
+#include "evolution/search/search_result.hpp"
+#include "evolution/search/zone_energies.hpp"
+#include "scene/problem.hpp"
+
+namespace delam {
+
+class Search {
+public:
+    // op: any operator of the scene whose memory may be disturbed; it must outlive the search.
+    Search(const Problem& problem, const PairLaws& pairs, const ContactScene& contact, Monitor& monitor,
+           JumpOperator& op);
+    // from: the step as far as it is known, booked; mixity: that of its start. What a search finds depends on its step
+    // and on the state before it, so that an analysis that was saved, rolled back or cancelled goes on with the same
+    // bits: energies for later searches are part of the state. Besides these nothing is kept from other steps but E_all
+    // of the same load.
+    SearchResult run(const Increment& increment, const State& from, std::span<const double> mixity);
+
+private:
+    double debonded_energy(const State& from, std::span<const double> direction) const;
+
+    const Problem& problem_;
+    const PairLaws& pairs_;
+    const ContactScene& contact_;
+    Monitor& monitor_;
+    JumpOperator& op_;
+    PairGraph graph_;
+    std::optional<ZoneEnergies> zone_;     // where the operator offers zones
+    std::vector<double> floor_direction_;  // load for which unit_floor_ was computed
+    double unit_floor_ = 0.0;              // E_all at this load
+};
+
+}  // namespace delam

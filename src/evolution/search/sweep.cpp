@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evolution/search/sweep.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "base/numbers.hpp"
+
+namespace delam {
+
+namespace {
+
+constexpr std::size_t fine = 8;            // rings that are all sampled; of longer sweeps about as many
+constexpr std::size_t fine_mixity = 16;    // where the mixity of a ring is that of the sample before it
+constexpr std::size_t largest_crack = 32;  // rings of a new crack, and of the zone about it
+constexpr std::size_t small_zone = 512;    // rows of a zone that serves all new cracks
+
+}  // namespace
+
+const std::vector<std::uint8_t>& SearchRun::adhering(const Candidate& base) {
+    if (last_adhering.empty() || base.adhesion != last_base.adhesion || base.mixity != last_base.mixity) {
+        last_adhering = adhering_pairs(pairs(), base.adhesion, toughnesses(pairs(), base.mixity));
+        last_base = base;
+    }
+    return last_adhering;
+}
+
+double SearchRun::compare(Candidate& candidate, std::span<const std::int64_t> next, std::vector<double>* next_mixity) {
+    --left;
+    ++result.candidates;
+    const CandidateEnergy& e = energies.at(candidate.adhesion, next, candidate.mixity, result.candidates);
+    if (next_mixity != nullptr) *next_mixity = e.next_mixity;
+    const double size = energies.size();
+    result.error = std::max(result.error, size * size * e.error);
+    candidate.incremental = size * size * e.value - increment.energy_before() +
+                            gradient_energy(pairs(), candidate.adhesion) + cost(candidate);
+    result.lowest = std::min(result.lowest, candidate.incremental);
+    best = std::min(best, candidate.incremental);
+    return candidate.incremental;
+}
+
+std::vector<std::uint8_t> reach_of_new_cracks(SearchRun& search, std::span<const Front> fronts, const Candidate& base) {
+    const std::vector<std::uint8_t> adhering = search.adhering(base);
+    std::vector<std::uint8_t> reached(adhering.size(), 0);
+    for (const Front& front : fronts) {
+        if (!front.nucleation) continue;
+        const std::vector<std::vector<std::int64_t>> ring = rings(search.graph, adhering, front);
+        for (std::size_t k = 0; k < std::min(ring.size(), largest_crack + 1); ++k)
+            for (const std::int64_t p : ring[k]) reached[index(p)] = 1;
+    }
+    const auto pairs = static_cast<std::size_t>(std::count(reached.begin(), reached.end(), std::uint8_t{1}));
+    if (pairs * index(search.pairs().dimension) > small_zone) reached.clear();
+    return reached;
+}
+
+std::vector<std::uint8_t> SearchRun::with_new_cracks(std::vector<std::uint8_t> wanted, bool always) const {
+    std::vector<std::uint8_t> all = wanted;
+    for (std::size_t p = 0; p < new_cracks.size(); ++p)
+        if (new_cracks[p] != 0) all[p] = 1;
+    const auto rows = [&](const std::vector<std::uint8_t>& set) {
+        return static_cast<std::size_t>(std::count(set.begin(), set.end(), std::uint8_t{1})) * index(pairs().dimension);
+    };
+    return always || rows(all) <= 2 * rows(wanted) + spare_rows ? all : wanted;
+}
+
+// A new crack that meets an older one is an advance of the older one, with the mixity of its front.
+bool Sweep::touches_debonded(std::span<const std::int64_t> ring) const {
+    for (const std::int64_t p : ring)
+        for (const std::int64_t q : search_.graph.neighbours(index(p)))
+            if (search_.pairs().law[index(q)] != nullptr && adhering_[index(q)] == 0) return true;
+    return false;
+}
+
+Sweep::Sweep(SearchRun& search, const Front& front, const Candidate& base)
+    : search_(search),
+      base_(base),
+      adhering_(search.adhering(base)),
+      ring_(rings(search.graph, adhering_, front)),
+      nucleation_(front.nucleation),
+      all_(ring_.size()) {
+    keep_rings();
+}
+
+void Sweep::keep_rings() {
+    const PairLaws& pairs = search_.pairs();
+    double cost = search_.cost(base_);
+    std::vector<std::uint8_t> wanted(base_.adhesion.size(), 0);
+    for (std::size_t p = 0; p < wanted.size(); ++p)
+        if (base_.adhesion[p] != search_.increment.adhesion_before()[p]) wanted[p] = 1;
+    auto rows = static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), std::uint8_t{1}));
+    std::size_t keep = 0;
+    while (keep < ring_.size() && (keep < 2 || search_.floor + cost < search_.best)) {
+        rows += ring_[keep].size();
+        if (keep > 0 && rows * index(pairs.dimension) > search_.energies.largest_zone()) break;
+        if (nucleation_ && (keep == largest_crack || touches_debonded(ring_[keep]))) break;
+        for (const std::int64_t i : ring_[keep]) {
+            const std::size_t p = index(i);
+            const Toughness t = pairs.toughness(p, base_.mixity[p]);
+            cost += pairs.weight[p] * (t.total - pairs.law[p]->dissipated(t, base_.adhesion[p]));
+            wanted[p] = 1;
+        }
+        ++keep;
+    }
+    if (keep < ring_.size())
+        for (const std::int64_t p : ring_[keep]) wanted[index(p)] = 1;  // pairs whose mixity may be needed
+    ring_.resize(keep);
+    mixity_.resize(ring_.size());
+    search_.energies.focus(search_.with_new_cracks(std::move(wanted), nucleation_));
+}
+
+Candidate Sweep::candidate(std::size_t n) const {
+    Candidate c = base_;
+    const std::vector<double>* latest = nullptr;
+    for (std::size_t k = 0; k < n; ++k) {
+        if (!mixity_[k].empty()) latest = &mixity_[k];
+        for (std::size_t i = 0; i < ring_[k].size(); ++i) {
+            const auto p = index(ring_[k][i]);
+            if (search_.increment.follows_iterates() && latest != nullptr)
+                c.mixity[p] = (*latest)[std::min(i, latest->size() - 1)];
+            c.adhesion[p] = 0.0;
+        }
+    }
+    if (const auto it = value_.find(n); it != value_.end()) c.incremental = it->second.incremental;
+    return c;
+}
+
+std::optional<Candidate> Sweep::best() const {
+    if (best_at_ == 0) return std::nullopt;
+    return candidate(best_at_);
+}
+
+void Sweep::sample(std::size_t n) {
+    if (value_.contains(n)) return;
+    Candidate c = candidate(n);
+    const std::span<const std::int64_t> next =
+        n < ring_.size() ? std::span<const std::int64_t>(ring_[n]) : std::span<const std::int64_t>();
+    std::vector<double> next_mixity;
+    search_.compare(c, next, &next_mixity);
+    if (n < ring_.size()) mixity_[n] = std::move(next_mixity);
+    cost_[n] = search_.cost(c);
+    value_[n] = Candidate{{}, {}, c.incremental};
+}
+
+std::size_t Sweep::place(std::size_t n) const { return ring_[n - 1].size() == 1 ? index(ring_[n - 1].front()) : n; }
+
+// In the middle half the place that is the multiple of the highest power of two: the energies of steps between which
+// the front has moved are then of the same states.
+std::size_t Sweep::middle(std::size_t low, std::size_t high) const {
+    const std::size_t quarter = (high - low) / 4;
+    std::size_t best = low + (high - low) / 2;
+    for (std::size_t n = low + std::max<std::size_t>(1, quarter); n + std::max<std::size_t>(1, quarter) <= high; ++n)
+        if (std::countr_zero(place(n)) > std::countr_zero(place(best))) best = n;
+    return best;
+}
+
+double Sweep::cost_of(std::size_t n) const {
+    if (search_.increment.follows_iterates()) return search_.cost(candidate(n));
+    auto known = other_cost_.find(n);
+    if (known == other_cost_.end()) known = other_cost_.emplace(n, search_.cost(candidate(n))).first;
+    return known->second;
+}
+
+double Sweep::between(std::size_t low, std::size_t high) const {
+    const double first = cost_of(low + 1);
+    // The gradient energy is not monotone along the front; between samples its lower bound is 0.
+    const double gradient =
+        search_.pairs().gradient.empty() ? 0.0 : gradient_energy(search_.pairs(), candidate(high).adhesion);
+    return value_.at(high).incremental - search_.result.error - gradient - cost_.at(high) + first;
+}
+
+double Sweep::bound() const {
+    double least = infinite;
+    for (auto low = value_.begin(), high = std::next(low); high != value_.end(); low = high++) {
+        if (!std::isfinite(high->second.incremental))  // its energy is unknown, or it has no equilibrium
+            least = std::min(least, search_.floor + cost_.at(low->first));
+        else if (high->first > low->first + 1)
+            least = std::min(least, between(low->first, high->first));
+    }
+    const std::size_t last = value_.rbegin()->first;
+    return last < all_ ? std::min(least, search_.floor + cost_.at(last)) : least;
+}
+
+// Halves the intervals on both sides of the lowest sample until its neighbours are sampled.
+void Sweep::refine_minimum() {
+    while (search_.left > 0) {
+        // The lowest sample down to which I decreases: beyond the first pairs' resistance it may lie above the start
+        // and still be worth relaxing.
+        auto lowest = value_.end();
+        for (auto it = std::next(value_.begin()); it != value_.end(); ++it)
+            if (it->second.incremental < std::prev(it)->second.incremental &&
+                (lowest == value_.end() || it->second.incremental < lowest->second.incremental))
+                lowest = it;
+        best_at_ = lowest != value_.end() ? lowest->first : 0;
+        if (best_at_ == 0) return;
+        const std::size_t at = lowest->first, left = std::prev(lowest)->first;
+        const std::size_t right = std::next(lowest) == value_.end() ? at : std::next(lowest)->first;
+        if (at - left <= 1 && right - at <= 1) return;
+        if (at - left > 1) sample(middle(left, at));
+        if (right - at > 1 && search_.left > 0) sample(middle(at, right));
+    }
+    stopped_ = true;
+}
+
+void Sweep::close_gap() {
+    while (true) {
+        std::size_t low = 0, high = 0;
+        double least = search_.best - search_.tolerance;
+        for (auto a = value_.begin(), b = std::next(a); b != value_.end(); a = b++) {
+            if (b->first <= a->first + 1 || !std::isfinite(b->second.incremental)) continue;
+            if (const double left = between(a->first, b->first); left < least) {
+                least = left;
+                low = a->first;
+                high = b->first;
+            }
+        }
+        if (high == 0) return;
+        if (search_.left <= 0) {
+            stopped_ = true;
+            return;
+        }
+        sample(middle(low, high));
+    }
+}
+
+// New cracks of sizes 1, 2, 4 ... and the largest, from above: what a crack releases is at least what smaller ones do.
+// Where no smaller one can be promising, they need no energy. Where the mixity follows the iterates, that of a ring is
+// known from the size before it: from below.
+void Sweep::sample_new_crack() {
+    std::vector<std::size_t> sizes;
+    for (std::size_t n = 1; n < ring_.size(); n *= 2) sizes.push_back(n);
+    if (!ring_.empty()) sizes.push_back(ring_.size());
+    const bool from_below = search_.increment.follows_iterates();
+    if (!from_below) std::reverse(sizes.begin(), sizes.end());
+    for (const std::size_t n : sizes) {
+        if (search_.left <= 0) {
+            stopped_ = true;
+            return;
+        }
+        if (!from_below && settled_by_a_larger_one(n)) return;
+        sample(n);
+        if (from_below && search_.floor + cost_.at(n) >= search_.best) return;
+        if (!from_below) note_beneath(n);
+    }
+}
+
+std::vector<std::int64_t> Sweep::pairs_within(std::size_t n) const {
+    std::vector<std::int64_t> pairs;
+    for (std::size_t k = 0; k < n; ++k) pairs.insert(pairs.end(), ring_[k].begin(), ring_[k].end());
+    std::sort(pairs.begin(), pairs.end());
+    return pairs;
+}
+
+bool Sweep::not_promising(double energy) const { return energy + (1.0 - promising) * cost_of(1) >= search_.level; }
+
+void Sweep::note_beneath(std::size_t n) {
+    if (!search_.pairs().gradient.empty() || !std::isfinite(value_.at(n).incremental)) return;
+    search_.beneath.push_back({pairs_within(n), value_.at(n).incremental - search_.result.error - cost_.at(n)});
+}
+
+bool Sweep::settled_by_a_larger_one(std::size_t n) const {
+    const std::vector<std::int64_t> pairs = pairs_within(n);
+    return std::any_of(search_.beneath.begin(), search_.beneath.end(), [&](const SearchRun::Beneath& b) {
+        return not_promising(b.energy) && std::includes(b.pairs.begin(), b.pairs.end(), pairs.begin(), pairs.end());
+    });
+}
+
+// Rings far apart, at positions that do not move with the front.
+void Sweep::sample_coarsely() {
+    const std::size_t most = search_.increment.follows_iterates() ? fine_mixity : fine;
+    std::size_t stride = 1;
+    while (ring_.size() / stride > most) stride *= 2;
+    for (std::size_t n = 1; n <= ring_.size(); ++n) {
+        if (n > 2 && place(n) % stride != 0 && n < ring_.size()) continue;
+        if (search_.left <= 0) {
+            stopped_ = true;
+            return;
+        }
+        sample(n);
+        if (search_.floor + cost_.at(n) >= search_.best) return;
+    }
+}
+
+void Sweep::run() {
+    sample(0);
+    if (nucleation_)
+        sample_new_crack();
+    else
+        sample_coarsely();
+    if (value_.size() > 1) {
+        refine_minimum();
+        if (!nucleation_) close_gap();
+    }
+    search_.result.bound = std::min(search_.result.bound, nucleation_ ? infinite : bound());
+}
+
+}  // namespace delam

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The growth of one front, or of a new crack, ring by ring from a base; and what all sweeps of one search share.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "evolution/search/candidate_energies.hpp"
+#include "evolution/search/fronts.hpp"
+#include "evolution/search/search_result.hpp"
+
+namespace delam {
+
+// One search as far as it has come.
+struct SearchRun {
+    const Increment& increment;
+    const PairGraph& graph;
+    CandidateEnergies& energies;
+    SearchResult& result;
+    double floor;       // E_all less the energy before
+    double level;       // I of the step
+    double best;        // lowest I so far, of the step or a candidate
+    double tolerance;   // of energies
+    std::int64_t left;  // candidates until the limit
+    // Pairs of cracks, ascending, and less than the energy with them debonded: with fewer of them there is no less.
+    struct Beneath {
+        std::vector<std::int64_t> pairs;
+        double energy;  // E less the energy before, F L
+    };
+    std::vector<Beneath> beneath{};
+    // [pairs] that the new cracks of this search may reach, if one zone serves them all; empty: a zone for each.
+    std::vector<std::uint8_t> new_cracks{};
+
+    const PairLaws& pairs() const { return increment.pairs(); }
+    double cost(const Candidate& c) const { return increment.cost(c.mixity, c.adhesion); }
+    const std::vector<std::uint8_t>& adhering(const Candidate& base);
+    // These pairs and those that new cracks may reach, where a small zone serves both, or always.
+    std::vector<std::uint8_t> with_new_cracks(std::vector<std::uint8_t> wanted, bool always) const;
+    // I of a candidate; counts it. next_mixity: B that the pairs `next` show, where the mixity follows the iterates.
+    double compare(Candidate& candidate, std::span<const std::int64_t> next, std::vector<double>* next_mixity);
+
+    // What adhering() has answered last.
+    Candidate last_base{};
+    std::vector<std::uint8_t> last_adhering{};
+};
+
+// SearchRun::new_cracks of these fronts.
+std::vector<std::uint8_t> reach_of_new_cracks(SearchRun& search, std::span<const Front> fronts, const Candidate& base);
+
+class Sweep {
+public:
+    Sweep(SearchRun& search, const Front& front, const Candidate& base);
+
+    void run();
+    std::size_t rings_swept() const { return all_; }
+    std::size_t sampled() const { return value_.size() - 1; }
+    std::size_t best_at() const { return best_at_; }
+    bool stopped() const { return stopped_; }
+    // The lowest minimum beyond the base; none where I only grows.
+    std::optional<Candidate> best() const;
+    // No state between or beyond the samples lies below.
+    double bound() const;
+
+private:
+    // Keeps the rings whose dissipation alone does not yet exceed what could be gained.
+    void keep_rings();
+    bool touches_debonded(std::span<const std::int64_t> ring) const;
+    Candidate candidate(std::size_t n) const;
+    void sample(std::size_t n);
+    // A place of ring n that does not move with the front, where rings are single pairs.
+    std::size_t place(std::size_t n) const;
+    // Between two samples, about in the middle.
+    std::size_t middle(std::size_t low, std::size_t high) const;
+    void sample_coarsely();
+    void sample_new_crack();
+    std::vector<std::int64_t> pairs_within(std::size_t n) const;
+    // Whether a crack with this energy, and each smaller one, lies too high.
+    bool not_promising(double energy) const;
+    // Says a larger crack, of this sweep or another one, that one of n rings is not promising?
+    bool settled_by_a_larger_one(std::size_t n) const;
+    // Keeps what the sample says about smaller cracks.
+    void note_beneath(std::size_t n);
+    void refine_minimum();
+    void close_gap();
+    // Lower bound of what lies strictly between two samples.
+    double between(std::size_t low, std::size_t high) const;
+    // D of the rings up to n, of which a sample need not exist.
+    double cost_of(std::size_t n) const;
+
+    SearchRun& search_;
+    const Candidate& base_;
+    std::vector<std::uint8_t> adhering_;
+    std::vector<std::vector<std::int64_t>> ring_;
+    bool nucleation_;
+    std::map<std::size_t, Candidate> value_;            // by rings; adhesion is left out: only I and D are needed
+    std::map<std::size_t, double> cost_;                // D
+    mutable std::map<std::size_t, double> other_cost_;  // where it does not depend on the samples
+    std::vector<std::vector<double>> mixity_;           // B of a ring, from the nearest sample before it
+    std::size_t best_at_ = 0;
+    std::size_t all_ = 0;  // rings of the front; those kept may matter and fit
+    bool stopped_ = false;
+};
+
+}  // namespace delam

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evolution/step/jump_event.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "base/numbers.hpp"
+#include "evolution/step/bounds.hpp"
+
+namespace delam {
+
+namespace {
+
+constexpr double released_share = 1e-3;  // of the larger of energy and work
+constexpr double load_drop = 0.02;       // of the load
+constexpr double single_row = 1.5;       // a front that moves on by one row of pairs does not jump
+
+// Longest advance that is no jump: of a step that moves each front of an interface by one row of pairs. Its fronts are
+// the pairs next to a debonded region that the step has damaged: one for each front in the plane, a row in space.
+double regular_advance(const PairLaws& pairs, const PairGraph& graph, const State& before, const State& after,
+                       std::int64_t interface) {
+    double row = 0.0, sum = 0.0, count = 0.0;
+    for (std::size_t p = 0; p < before.adhesion.size(); ++p) {
+        if (graph.interface_of(p) != interface || pairs.law[p] == nullptr) continue;
+        sum += pairs.weight[p];
+        count += 1.0;
+        if (!(before.adhesion[p] - after.adhesion[p] > debonded_below)) continue;
+        const auto neighbours = graph.neighbours(p);
+        if (std::any_of(neighbours.begin(), neighbours.end(), [&](std::int64_t q) {
+                return pairs.law[index(q)] != nullptr && before.adhesion[index(q)] <= debonded_below;
+            }))
+            row += 1.0;
+    }
+    return count > 0.0 ? single_row * sum / count * std::max(row, 1.0) : 0.0;
+}
+
+// sum w (zeta before - zeta after) of each interface.
+std::vector<double> advances(const PairLaws& pairs, const PairGraph& graph, const State& before, const State& after) {
+    std::vector<double> found;
+    for (std::size_t p = 0; p < before.adhesion.size(); ++p) {
+        const std::size_t interface = index(graph.interface_of(p));
+        if (found.size() <= interface) found.resize(interface + 1, 0.0);
+        if (pairs.law[p] != nullptr) found[interface] += pairs.weight[p] * (before.adhesion[p] - after.adhesion[p]);
+    }
+    return found;
+}
+
+// Force along the loads.
+double load(const State& state) {
+    double along = 0.0, size = 0.0;
+    for (std::size_t p = 0; p < state.theta.size(); ++p) {
+        along += state.theta[p] * state.response.conjugate[p];
+        size = std::hypot(size, state.theta[p]);
+    }
+    return size > 0.0 ? along / size : 0.0;
+}
+
+}  // namespace
+
+JumpEvent describe_jump(const PairLaws& pairs, const PairGraph& graph, const State& before, const State& after) {
+    const Ledger &a = before.ledger, &b = after.ledger;
+    JumpEvent jump{after.step,
+                   before.time,
+                   after.time,
+                   b.energy() - a.energy(),
+                   b.dissipated - a.dissipated,
+                   b.released - a.released,
+                   0.0,
+                   0,
+                   -1,
+                   -1,
+                   before.response.conjugate,
+                   after.response.conjugate};
+    if (after.jump_within.known != 0 && after.jump_within.debonded > 0.0) {
+        const double begin = load_ratio(before.theta, after.theta).value_or(0.0);
+        const double instant = begin < 1.0 ? (after.jump_within.load - begin) / (1.0 - begin) : 1.0;
+        jump.before = jump.time = before.time + instant * (after.time - before.time);
+        jump.released = after.jump_within.released;
+        jump.conjugate_before = after.jump_within.conjugate_before;
+        jump.conjugate_after = after.jump_within.conjugate_after;
+    }
+    const std::vector<double> changed = advances(pairs, graph, before, after);
+    jump.debonded = std::accumulate(changed.begin(), changed.end(), 0.0);
+    jump.interface = std::max_element(changed.begin(), changed.end()) - changed.begin();
+    for (std::size_t p = 0; p < before.adhesion.size(); ++p) {
+        if (graph.interface_of(p) != jump.interface || before.adhesion[p] - after.adhesion[p] <= debonded_below)
+            continue;
+        const std::int64_t local = static_cast<std::int64_t>(p) - graph.first_pair(jump.interface);
+        if (jump.first_pair < 0) jump.first_pair = local;
+        jump.last_pair = local;
+    }
+    return jump;
+}
+
+bool jumps(const PairLaws& pairs, const PairGraph& graph, const State& before, const State& after) {
+    const auto worth = [&](double released) { return released > released_share * after.ledger.scale(); };
+    const auto far = [&](std::int64_t interface, double advance) {
+        return advance > 0.0 && advance > regular_advance(pairs, graph, before, after, interface);
+    };
+    if (const JumpWithin& jump = after.jump_within; jump.known != 0)
+        return (jump.drop > load_drop || worth(jump.released)) && far(jump.interface, jump.debonded);
+    if (!(after.outcome.released > 0.0)) return false;
+    if (!(std::abs(load(after)) < (1.0 - load_drop) * std::abs(load(before))) && !worth(after.outcome.released))
+        return false;
+    const std::vector<double> advance = advances(pairs, graph, before, after);
+    for (std::size_t i = 0; i < advance.size(); ++i)
+        if (far(static_cast<std::int64_t>(i), advance[i])) return true;
+    return false;
+}
+
+}  // namespace delam

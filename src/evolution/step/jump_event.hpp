@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A jump of the state between two instants of the analysis, and where its energy went.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "evolution/increment/damage_step.hpp"
+#include "evolution/increment/state.hpp"
+#include "evolution/search/fronts.hpp"
+
+namespace delam {
+
+struct JumpEvent {
+    std::int64_t step;    // load step
+    double before, time;  // the jump lies between these two
+    double stored;        // change of stored energy and load potential, F L
+    double dissipated;
+    double released;                                        // neither stored nor dissipated, >= 0
+    double debonded;                                        // change of sum w (1 - zeta), L or L2
+    std::int64_t interface;                                 // the one that changed most
+    std::int64_t first_pair, last_pair;                     // of that interface, with changed adhesion
+    std::vector<double> conjugate_before, conjugate_after;  // [patterns] dE/dtheta
+};
+
+// What happened between two states.
+JumpEvent describe_jump(const PairLaws& pairs, const PairGraph& graph, const State& before, const State& after);
+// Does a step jump: does it release energy worth mentioning, or lose load, as a front moves by more than one row of
+// pairs?
+bool jumps(const PairLaws& pairs, const PairGraph& graph, const State& before, const State& after);
+
+}  // namespace delam

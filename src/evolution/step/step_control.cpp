@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evolution/step/step_control.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+
+namespace delam {
+
+namespace {
+
+constexpr double sharp_share = 0.75;  // of the change, in half of the time: a jump rather than growth
+constexpr int smooth_levels = 2;      // consecutive halvings that halve the change: the change is continuous
+
+// Sum of w |z - z_before|, in units of the mean weight of a pair.
+double change_in_pairs(const PairLaws& pairs, const State& before, const State& after) {
+    double change = 0.0, weight = 0.0, count = 0.0;
+    for (std::size_t p = 0; p < before.adhesion.size(); ++p) {
+        if (pairs.law[p] == nullptr) continue;
+        change += pairs.weight[p] * std::abs(after.adhesion[p] - before.adhesion[p]);
+        weight += pairs.weight[p];
+        count += 1.0;
+    }
+    return weight > 0.0 ? change * count / weight : 0.0;
+}
+
+// An instant to be reached, and its state once computed.
+struct Goal {
+    double time;
+    std::unique_ptr<Stepper::Result> reached;  // null: not computed
+    double change = 0.0;
+    int smooth = 0;
+    bool sharp = false;  // nearly all of the change in an interval about twice as long
+};
+
+// One step in parts: the instants yet to be reached lie on a stack, the next one on top.
+class Parts {
+public:
+    Parts(Stepper& stepper, const PairGraph& graph, const State& before, Stepper::Result whole, const Options& options)
+        : stepper_(stepper),
+          graph_(graph),
+          options_(options),
+          step_(before.step + 1),
+          asked_(whole.state.time - before.time),
+          history_(whole.state.history),
+          at_(before) {
+        at_.step = whole.state.step - 1;
+        const double end = whole.state.time;
+        goals_.push_back({end, std::make_unique<Stepper::Result>(std::move(whole)), 0.0, 0});
+        count(*goals_.back().reached);
+        goals_.back().change = change_in_pairs(stepper_.pairs(), at_, goals_.back().reached->state);
+    }
+
+    ControlledStep run() {
+        while (!goals_.empty()) {
+            if (!goals_.back().reached && compute())
+                accept_parent();
+            else if (!halve())
+                accept_goal();
+        }
+        return close();
+    }
+
+private:
+    Stepper& stepper_;
+    const PairGraph& graph_;
+    const Options& options_;
+    std::int64_t step_;
+    double asked_;  // length of the whole step
+    StepHistory history_;
+    State at_;  // end of the parts accepted so far
+    std::vector<Goal> goals_;
+    std::vector<JumpEvent> jumps_;
+    Effort effort_;
+    StepOutcome outcome_;
+    Ledger sum_;  // of the parts
+    std::string searched_;
+    bool converged_ = true;
+    std::int64_t parts_ = 0, refused_ = 0;
+
+    void count(const Stepper::Result& computed);
+    bool too_long(const Stepper::Result& result, double change) const;
+    bool compute();
+    bool halve();
+    bool jumps(const Goal& goal) const { return options_.jump_tolerance > 0.0 && goal.change >= options_.jump_size; }
+    void accept_parent();
+    void accept_goal();
+    void accept(Goal goal);
+    void book_jump(State& next) const;
+    ControlledStep close();
+};
+
+// While nothing is damaged the work is exact, however wide the band.
+bool Parts::too_long(const Stepper::Result& result, double change) const {
+    const Ledger& l = result.state.ledger;
+    return (options_.step_control == "adaptive" &&
+            (!result.converged || (change > 0.0 && l.upper - l.lower > options_.step_tolerance * l.scale()))) ||
+           (options_.mixity_step_tolerance > 0.0 && l.mixity_error > options_.mixity_step_tolerance);
+}
+
+void Parts::count(const Stepper::Result& computed) {
+    effort_.add(computed.state.effort);
+    outcome_.mixity_held += computed.state.outcome.mixity_held;
+}
+
+// Computes the state at the next goal. True if the change is continuous up to the goal behind it, which is reached
+// already and short enough: then that one is accepted in one part.
+bool Parts::compute() {
+    Goal& goal = goals_.back();
+    goal.reached = std::make_unique<Stepper::Result>(stepper_.step(at_, goal.time));
+    count(*goal.reached);
+    const double longer = goal.change;  // to the same end, from an earlier start
+    goal.change = change_in_pairs(stepper_.pairs(), at_, goal.reached->state);
+    goal.sharp = goal.change > sharp_share * longer && longer > 0.0;
+    if (goals_.size() == 1) return false;
+    const Goal& parent = goals_[goals_.size() - 2];
+    const double share = parent.change > 0.0 ? goal.change / parent.change : 0.0;
+    goal.sharp = goal.sharp || (parent.reached && share > sharp_share);
+    goal.smooth = parent.reached && share > 0.25 && share < 0.75 ? parent.smooth + 1 : 0;
+    return goal.smooth >= smooth_levels && !too_long(*parent.reached, parent.change);
+}
+
+// Puts an instant halfway to the goal before it, if the interval must and can be halved.
+bool Parts::halve() {
+    const Goal& goal = goals_.back();
+    const double length = goal.time - at_.time;
+    const double smallest = options_.smallest_step * asked_;
+    const bool locate =
+        jumps(goal) && (length > options_.jump_tolerance * asked_ || (!goal.sharp && length > smallest));
+    if (!locate && !(too_long(*goal.reached, goal.change) && length > smallest)) return false;
+    const double middle = at_.time + 0.5 * length;
+    if (!(middle > at_.time && middle < goal.time)) return false;
+    goals_.push_back({middle, nullptr, 0.0, 0});
+    return true;
+}
+
+void Parts::accept_parent() {
+    goals_.pop_back();
+    Goal done = std::move(goals_.back());
+    goals_.pop_back();
+    ++refused_;
+    accept(std::move(done));
+}
+
+void Parts::accept_goal() {
+    Goal done = std::move(goals_.back());
+    goals_.pop_back();
+    if (jumps(done)) {
+        book_jump(done.reached->state);
+        jumps_.push_back(describe_jump(stepper_.pairs(), graph_, at_, done.reached->state));
+        jumps_.back().step = step_;
+    }
+    accept(std::move(done));
+}
+
+// The jump has been located: the load moves first, at the state before, and then the state jumps.
+void Parts::book_jump(State& next) const {
+    Ledger& ledger = next.ledger;
+    next.jump_within = {};  // bisection tells the instant
+    next.outcome.released = std::max(0.0, ledger.upper - ledger.increment);
+    ledger.work = at_.ledger.work + ledger.increment + next.outcome.released;
+    ledger.released = at_.ledger.released + next.outcome.released;
+}
+
+// Adds a part to the step.
+void Parts::accept(Goal goal) {
+    State& next = goal.reached->state;
+    if (!(options_.jump_tolerance > 0.0) && delam::jumps(stepper_.pairs(), graph_, at_, next)) {
+        jumps_.push_back(describe_jump(stepper_.pairs(), graph_, at_, next));
+        jumps_.back().step = step_;
+    }
+    sum_.lower += next.ledger.lower;
+    sum_.increment += next.ledger.increment;
+    sum_.upper += next.ledger.upper;
+    sum_.increment_lower += next.ledger.increment_lower;
+    sum_.mixity_error = std::max(sum_.mixity_error, next.ledger.mixity_error);
+    const double margin = next.outcome.search_margin;
+    outcome_.search_gap = std::max(outcome_.search_gap, next.outcome.search_gap);
+    outcome_.search_margin = parts_ == 0 ? margin : std::min(outcome_.search_margin, margin);
+    converged_ = converged_ && goal.reached->converged;
+    ++parts_;
+    searched_ += goal.reached->searched;
+    outcome_.released += next.outcome.released;
+    at_ = std::move(next);
+    --at_.step;  // the parts of a step share its number
+    // What was computed from the start of this part is invalid from its end.
+    for (Goal& other : goals_) {
+        if (!other.reached) continue;
+        other.reached.reset();
+        ++refused_;
+    }
+}
+
+// The whole step: the last state, with the sums and the effort of all parts.
+ControlledStep Parts::close() {
+    ++at_.step;
+    ControlledStep out{{std::move(at_), converged_, std::move(searched_)}, std::move(jumps_)};
+    State& state = out.result.state;
+    state.ledger.lower = sum_.lower;
+    state.ledger.increment = sum_.increment;
+    state.ledger.upper = sum_.upper;
+    state.ledger.increment_lower = sum_.increment_lower;
+    state.ledger.mixity_error = sum_.mixity_error;
+    outcome_.damage_change = state.outcome.damage_change;
+    outcome_.jumps = static_cast<std::int64_t>(out.jumps.size());
+    history_.substeps = parts_;
+    history_.refused_steps = refused_;
+    state.effort = effort_;
+    state.outcome = outcome_;
+    state.history = history_;
+    return out;
+}
+
+}  // namespace
+
+bool controls_steps(const Options& options) {
+    return options.jump_tolerance > 0.0 || options.step_control == "adaptive" || options.mixity_step_tolerance > 0.0;
+}
+
+ControlledStep controlled_step(Stepper& stepper, const PairGraph& graph, const State& before, Stepper::Result whole,
+                               const Options& options) {
+    return Parts(stepper, graph, before, std::move(whole), options).run();
+}
+
+}  // namespace delam

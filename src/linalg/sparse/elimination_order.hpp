@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The order in which a sparse factor eliminates its variables.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/monitor.hpp"
+#include "linalg/sparse/equal_rows.hpp"
+#include "linalg/sparse/sparse.hpp"
+
+namespace delam {
+
+// Of a symmetric matrix (both triangles stored), all variables. The last `trailing` of them keep their place. The
+// others are ordered by constrained minimum degree, or by nested dissection where this is estimated to need fewer
+// operations; those of a matrix that is nearly full, shortest rows first. poll: called between orders.
+std::vector<std::int64_t> elimination_order(const SparseMatrix& matrix, std::int64_t trailing, const Poll& poll);
+
+// The sum of the squares of the columns of the factor in this order, in which members of a group follow one another:
+// from the groups alone, as if those below a column had the average number of members. Exact where all have as many.
+// The leading variables come back in postorder, which changes no fill and makes columns with the same rows neighbours.
+// groups: equal_rows() of all variables; pattern: pattern_of_groups().
+double estimated_operations(const EqualRows& groups, const SparseMatrix& pattern, std::int64_t trailing,
+                            std::vector<std::int64_t>& order);
+
+}  // namespace delam

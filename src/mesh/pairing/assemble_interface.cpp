@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mesh/pairing/assemble_interface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "base/cancel_scope.hpp"
+#include "base/error.hpp"
+#include "delam/delam.h"
+#include "mesh/faces.hpp"
+#include "mesh/pairing/nodal_rule.hpp"
+#include "mesh/points.hpp"
+
+namespace delam {
+
+namespace {
+
+// Orders positions by x, then y, then z, where coordinates closer than `distance` count as equal, so that rounding of
+// the nodes of a straight interface does not change their order.
+std::vector<std::size_t> spatial_order(const Mesh& mesh, std::span<const NodePair> pairs, FaceSide side,
+                                       double distance) {
+    std::vector<std::size_t> order(pairs.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::vector<std::array<std::int64_t, 3>> rank(pairs.size(), {0, 0, 0});
+    for (std::size_t axis = 0; axis < index(mesh.dimension()); ++axis) {
+        const auto x = [&](std::size_t i) {
+            return mesh.node(side == FaceSide::a ? pairs[i].first : pairs[i].second)[axis];
+        };
+        std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return x(i) < x(j); });
+        for (std::size_t k = 1; k < order.size(); ++k)
+            rank[order[k]][axis] = rank[order[k - 1]][axis] + (x(order[k]) - x(order[k - 1]) > distance ? 1 : 0);
+    }
+    std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
+        return std::pair(rank[i], pairs[i].first) < std::pair(rank[j], pairs[j].first);
+    });
+    return order;
+}
+
+// A face in terms of pairs, beginning at its smallest pair (edges: at their first corner), so that neither weights nor
+// order depend on the host's numbering of its cells.
+struct PairFace {
+    std::vector<std::int64_t> pair;  // corners, then mid-sides, then the centre
+    std::size_t corners;
+    bool operator<(const PairFace& other) const { return pair < other.pair; }
+};
+
+PairFace pair_face(const BoundaryFace& face, const std::map<std::int64_t, std::int64_t>& index) {
+    PairFace result{{}, face.corner().size()};
+    for (const std::int64_t node : face.all()) result.pair.push_back(index.at(node));
+    if (result.corners == 2) return result;
+    const auto first = result.pair.begin();
+    const auto corners = static_cast<std::ptrdiff_t>(result.corners);
+    const auto middle = first + corners;
+    const auto turn = std::min_element(first, middle) - first;
+    std::rotate(first, first + turn, middle);
+    if (middle != result.pair.end()) std::rotate(middle, middle + turn, middle + corners);
+    return result;
+}
+
+// The face in the list of an interface whose largest faces are of the kind `row`: where it has fewer corners, its last
+// corner is repeated; a corner replaces a missing mid-side node, the first mid-side node a missing centre. The pieces
+// of the larger face then cover the smaller one.
+void append_padded(const PairFace& face, const FaceRow& row, std::vector<std::int64_t>& out) {
+    const std::size_t own = face.corners, corners = index(row.corners), sides = index(row.sides());
+    const std::size_t own_sides = own == 2 ? 1 : own;
+    const std::size_t start = out.size();
+    for (std::size_t k = 0; k < corners; ++k) out.push_back(face.pair[std::min(k, own - 1)]);
+    for (std::size_t side = 0; corners + side < index(row.nodes); ++side) {
+        if (side >= sides) {
+            const std::size_t centre = own + own_sides + (side - sides);
+            out.push_back(centre < face.pair.size() ? face.pair[centre] : out[start + corners]);
+            continue;
+        }
+        const std::size_t mine = side + 1 == corners ? own - 1 : side;  // the last side closes either polygon
+        const bool there = own + mine < face.pair.size() && (side + 1 < own || side + 1 == corners);
+        out.push_back(there ? face.pair[own + mine] : face.pair[std::min(side, own - 1)]);
+    }
+}
+
+}  // namespace
+
+// In the plane the tangent is the normal rotated clockwise. In space the first tangent is the x axis projected onto the
+// face, or the y axis if the normal is close to x, and the second completes a right-handed frame.
+void write_frame(int dimension, const Point& along, double* frame) {
+    const double size = length(along);
+    const Point n{along[0] / size, along[1] / size, along[2] / size};
+    if (dimension == 2) {
+        const double rows[] = {n[0], n[1], n[1], -n[0]};
+        std::copy(std::begin(rows), std::end(rows), frame);
+        return;
+    }
+    const std::size_t axis = std::abs(n[0]) <= 0.9 ? 0 : 1;
+    Point t;
+    for (std::size_t i = 0; i < 3; ++i) t[i] = (i == axis ? 1.0 : 0.0) - n[axis] * n[i];
+    const double norm = std::hypot(t[0], t[1], t[2]);
+    for (double& component : t) component /= norm;
+    const double rows[] = {n[0],
+                           n[1],
+                           n[2],
+                           t[0],
+                           t[1],
+                           t[2],
+                           n[1] * t[2] - n[2] * t[1],
+                           n[2] * t[0] - n[0] * t[2],
+                           n[0] * t[1] - n[1] * t[0]};
+    std::copy(std::begin(rows), std::end(rows), frame);
+}
+
+BoundaryFace turned(const BoundaryFace& face) {
+    BoundaryFace result = face;
+    const auto n = index(face.corners);
+    for (std::size_t k = 0; k < n; ++k) result.node[k] = face.node[n - 1 - k];
+    const std::size_t sides = std::min(face.middle().size(), n == 2 ? 1 : n);
+    for (std::size_t k = 0; k < sides; ++k) result.node[n + k] = face.node[n + (2 * sides - 2 - k) % sides];
+    return result;
+}
+
+std::vector<Point> lay_faces(const Mesh& mesh, std::span<const BoundaryFace> faces_of_nodes, FaceSide side,
+                             InterfaceGeometry& interface) {
+    const std::vector<std::int64_t>& on_faces = side == FaceSide::a ? interface.node_a : interface.node_b;
+    std::map<std::int64_t, std::int64_t> pair_of;  // pair of a node of the faces
+    for (std::size_t p = 0; p < on_faces.size(); ++p) pair_of.emplace(on_faces[p], static_cast<std::int64_t>(p));
+    std::size_t corners = index(mesh.dimension()), others = 0;
+    std::vector<PairFace> faces;
+    for (const BoundaryFace& face : faces_of_nodes) {
+        poll_cancel("pairs", 2);
+        corners = std::max(corners, face.corner().size());
+        others = std::max(others, face.middle().size());
+        faces.push_back(pair_face(face, pair_of));
+    }
+    std::sort(faces.begin(), faces.end());
+    const FaceRow& row = face_row(mesh.dimension(), corners, others);
+    interface.nodes_per_face = row.nodes;
+
+    interface.weight.assign(on_faces.size(), 0.0);
+    std::vector<Point> area(on_faces.size(), Point{});
+    for (const PairFace& face : faces) {
+        poll_cancel("pairs", 2);
+        std::array<std::int64_t, most_face_nodes> nodes{};
+        for (std::size_t k = 0; k < face.pair.size(); ++k) nodes[k] = on_faces[index(face.pair[k])];
+        const NodalRule rule = nodal_rule(mesh, std::span<const std::int64_t>(nodes).first(face.pair.size()));
+        for (std::size_t k = 0; k < face.pair.size(); ++k) {
+            interface.weight[index(face.pair[k])] += rule.weight[k];
+            for (std::size_t i = 0; i < 3; ++i) area[index(face.pair[k])][i] += rule.area[k][i];
+        }
+        append_padded(face, row, interface.face);
+    }
+    return area;
+}
+
+InterfaceGeometry assemble_interface(const Mesh& mesh, std::span<const NodePair> pairs,
+                                     std::span<const BoundaryFace> faces, FaceSide side, double distance) {
+    InterfaceGeometry result;
+    for (const std::size_t i : spatial_order(mesh, pairs, side, distance)) {
+        result.node_a.push_back(pairs[i].first);
+        result.node_b.push_back(pairs[i].second);
+    }
+    const std::vector<Point> area = lay_faces(mesh, faces, side, result);
+    const auto dim = index(mesh.dimension());
+    result.frame.resize(result.node_a.size() * dim * dim);
+    for (std::size_t p = 0; p < result.node_a.size(); ++p) {
+        if (!(length(area[p]) > 1e-6 * result.weight[p]))
+            fail(DELAM_ERROR_MESH, "the faces that meet at ",
+                 place(mesh, side == FaceSide::a ? result.node_a[p] : result.node_b[p]),
+                 " have opposite normals: the normal of the interface is not defined");
+        write_frame(mesh.dimension(), area[p], &result.frame[p * dim * dim]);
+    }
+    return result;
+}
+
+}  // namespace delam

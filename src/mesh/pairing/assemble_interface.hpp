@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Builds an interface from node pairs and their faces: order, weights, frames.
+#pragma once
+
+#include <array>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "mesh/faces.hpp"
+#include "mesh/mesh.hpp"
+
+namespace delam {
+
+using NodePair = std::pair<std::int64_t, std::int64_t>;  // of a, of b
+
+// `faces` have the nodes that `side` selects from the pairs (all of them), and face from a to b. Pairs are ordered by
+// the positions of these nodes, where coordinates closer than `distance` count as equal; weights and normals are those
+// of the faces. The caller sets the bodies.
+enum class FaceSide { a, b };
+InterfaceGeometry assemble_interface(const Mesh& mesh, std::span<const NodePair> pairs,
+                                     std::span<const BoundaryFace> faces, FaceSide side, double distance);
+
+// Weights and faces of an interface that has its pairs, from such faces; returns the sum of the area vectors at each
+// pair. Pairs on no face have weight 0.
+std::vector<std::array<double, 3>> lay_faces(const Mesh& mesh, std::span<const BoundaryFace> faces, FaceSide side,
+                                             InterfaceGeometry& interface);
+
+// The same face with the opposite orientation.
+BoundaryFace turned(const BoundaryFace& face);
+
+// Rows normal, tangent(s), from any vector along the normal: [dimension][dimension].
+void write_frame(int dimension, const std::array<double, 3>& along, double* frame);
+
+}  // namespace delam

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Bodies that the library knows by their nodes alone, and interfaces whose pairs the host gives, like those of an
+// obstacle but with two deformable sides.
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "base/cancel_scope.hpp"
+#include "base/error.hpp"
+#include "delam/delam.h"
+#include "mesh/faces.hpp"
+#include "mesh/mesh.hpp"
+#include "mesh/pairing/assemble_interface.hpp"
+#include "mesh/points.hpp"
+
+namespace delam {
+
+void Mesh::add_host_body(std::int32_t label, std::span<const std::int64_t> nodes) {
+    if (label < 0) fail(DELAM_ERROR_ARGUMENT, "body = ", label, ": must be >= 0");
+    if (nodes.empty()) fail(DELAM_ERROR_ARGUMENT, "nodes: a body needs at least one");
+    if (body_of_label(label) >= 0) fail(DELAM_ERROR_MESH, "body ", label, " exists already");
+    std::set<std::int64_t> listed;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        poll_cancel("mesh");
+        const std::int64_t node = nodes[i];
+        if (node < 0 || node >= node_count())
+            fail(DELAM_ERROR_ARGUMENT, "nodes[", i, "] = ", node, ": must be in 0..", node_count() - 1);
+        if (!listed.insert(node).second) fail(DELAM_ERROR_ARGUMENT, "nodes[", i, "] = ", node, " occurs twice");
+        if (node_label_[index(node)] == reserved)
+            fail(DELAM_ERROR_MESH, "nodes[", i, "] = ", node,
+                 " is tied to an interface or the control node of an obstacle");
+        if (node_label_[index(node)] >= 0)
+            fail(DELAM_ERROR_MESH, "nodes[", i, "] = ", node, " belongs to body ", node_label_[index(node)]);
+    }
+    std::vector<std::int32_t> labels = labels_, host = host_labels_;
+    labels.insert(std::lower_bound(labels.begin(), labels.end(), label), label);
+    host.insert(std::lower_bound(host.begin(), host.end(), label), label);
+    // Nothing below can fail.
+    rename_bodies(labels);
+    labels_.swap(labels);
+    host_labels_.swap(host);
+    for (const std::int64_t node : nodes) node_label_[index(node)] = label;
+}
+
+std::int64_t Mesh::add_pairs(std::int32_t label_a, std::int32_t label_b, std::span<const std::int64_t> nodes_a,
+                             std::span<const std::int64_t> nodes_b, std::span<const double> normals,
+                             std::span<const double> weights, int nodes_per_face, std::span<const std::int64_t> face) {
+    const auto dim = index(dimension_);
+    const auto [a, b] = require_unjoined(label_a, label_b);
+    InterfaceGeometry made;
+    made.body_a = a;
+    made.body_b = b;
+    if (nodes_a.empty()) fail(DELAM_ERROR_ARGUMENT, "count = 0: an interface needs at least one pair");
+    const auto take = [&](std::span<const std::int64_t> nodes, std::int32_t body, const char* name) {
+        std::set<std::int64_t> listed;
+        for (std::size_t p = 0; p < nodes.size(); ++p) {
+            poll_cancel("pairs");
+            const std::int64_t node = nodes[p];
+            if (node < 0 || node >= node_count())
+                fail(DELAM_ERROR_ARGUMENT, name, "[", p, "] = ", node, ": must be in 0..", node_count() - 1);
+            if (node_body(node) != body)
+                fail(DELAM_ERROR_ARGUMENT, name, "[", p, "] = ", node, " does not belong to body ", body_label(body));
+            if (!listed.insert(node).second) fail(DELAM_ERROR_ARGUMENT, name, "[", p, "] = ", node, " occurs twice");
+        }
+    };
+    take(nodes_a, a, "nodes_a");
+    take(nodes_b, b, "nodes_b");
+    for (std::size_t p = 0; p < nodes_a.size(); ++p) {
+        Point normal{};
+        for (std::size_t i = 0; i < dim; ++i) {
+            normal[i] = normals[p * dim + i];
+            if (!std::isfinite(normal[i]))
+                fail(DELAM_ERROR_ARGUMENT, "normals[", p, "][", i, "] = ", normal[i], " is not finite");
+        }
+        if (!(length(normal) > 0.0)) fail(DELAM_ERROR_ARGUMENT, "normals[", p, "] has length 0");
+        if (!(weights[p] > 0.0 && std::isfinite(weights[p])))
+            fail(DELAM_ERROR_ARGUMENT, "weights[", p, "] = ", weights[p], ": must be > 0 and finite");
+        made.frame.resize(made.frame.size() + dim * dim);
+        write_frame(dimension_, normal, &made.frame[p * dim * dim]);
+    }
+    made.node_a.assign(nodes_a.begin(), nodes_a.end());
+    made.node_b.assign(nodes_b.begin(), nodes_b.end());
+    made.weight.assign(weights.begin(), weights.end());
+
+    made.nodes_per_face = dimension_;
+    if (!face.empty()) {
+        const FaceRow& kind = face_row(dimension_, index(nodes_per_face));
+        made.nodes_per_face = nodes_per_face;
+        const auto per_face = static_cast<std::size_t>(nodes_per_face);
+        for (std::size_t i = 0; i < face.size(); ++i) {
+            if (face[i] < 0 || face[i] >= made.pair_count())
+                fail(DELAM_ERROR_ARGUMENT, "faces[", i / per_face, "][", i % per_face, "] = ", face[i],
+                     ": must be in 0..", made.pair_count() - 1);
+            // Corners must differ, except the last one of a triangle among quadrilaterals.
+            const std::size_t corners = index(kind.corners), k = i % per_face;
+            for (std::size_t j = 0; j < k && k < corners; ++j)
+                if (face[i] == face[i - k + j] && !(corners == 4 && k == 3 && j == 2))
+                    fail(DELAM_ERROR_ARGUMENT, "faces[", i / per_face, "]: pair ", face[i],
+                         " occurs twice among its corners");
+        }
+        made.face.assign(face.begin(), face.end());
+    }
+    interfaces_.push_back(std::move(made));
+    return static_cast<std::int64_t>(interfaces_.size()) - 1;
+}
+
+}  // namespace delam

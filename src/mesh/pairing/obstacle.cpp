@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// An obstacle is rigid and only translates, with its control node: each node that may touch it forms a pair with this
+// node.
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "base/cancel_scope.hpp"
+#include "base/error.hpp"
+#include "delam/delam.h"
+#include "mesh/faces.hpp"
+#include "mesh/mesh.hpp"
+#include "mesh/pairing/assemble_interface.hpp"
+#include "mesh/points.hpp"
+
+namespace delam {
+
+std::int64_t Mesh::add_obstacle(std::span<const std::int64_t> nodes, std::span<const double> normals,
+                                std::span<const double> weights, std::int64_t control) {
+    const auto dim = index(dimension_);
+    if (nodes.empty()) fail(DELAM_ERROR_ARGUMENT, "nodes: an obstacle needs at least one");
+    if (normals.size() != nodes.size() * dim || (!weights.empty() && weights.size() != nodes.size()))
+        fail(DELAM_ERROR_ARGUMENT, normals.size(), " components of normals and ", weights.size(), " weights for ",
+             nodes.size(), " nodes");
+    if (control < 0 || control >= node_count())
+        fail(DELAM_ERROR_ARGUMENT, "control_node ", control, ": must be in 0..", node_count() - 1);
+    if (node_label_[index(control)] >= 0)
+        fail(DELAM_ERROR_MESH, "control_node ", control, " belongs to body ", node_label_[index(control)],
+             ": an obstacle needs a node of no body");
+    if (std::any_of(ties_.begin(), ties_.end(), [&](const NodeTie& t) { return t.node == control; }))
+        fail(DELAM_ERROR_MESH, "control_node ", control, " is tied to the faces of an interface");
+
+    InterfaceGeometry made;
+    std::map<std::int64_t, std::size_t> listed;
+    for (std::size_t p = 0; p < nodes.size(); ++p) {
+        poll_cancel("pairs");
+        const std::int64_t node = nodes[p];
+        if (node < 0 || node >= node_count())
+            fail(DELAM_ERROR_ARGUMENT, "nodes[", p, "] = ", node, ": must be in 0..", node_count() - 1);
+        const std::int32_t body = node_body(node);
+        if (body < 0) fail(DELAM_ERROR_ARGUMENT, "nodes[", p, "] = ", node, " belongs to no body");
+        if (p == 0) made.body_b = body;
+        if (body != made.body_b)
+            fail(DELAM_ERROR_ARGUMENT, "nodes[", p, "] = ", node, " belongs to body ", body_label(body),
+                 ", nodes[0] to ", body_label(made.body_b), ": each body needs an obstacle of its own");
+        if (!listed.emplace(node, p).second) fail(DELAM_ERROR_ARGUMENT, "nodes[", p, "] = ", node, " occurs twice");
+        Point normal{};
+        for (std::size_t i = 0; i < dim; ++i) {
+            normal[i] = normals[p * dim + i];
+            if (!std::isfinite(normal[i]))
+                fail(DELAM_ERROR_ARGUMENT, "normals[", p, "][", i, "] = ", normal[i], " is not finite");
+        }
+        if (!(length(normal) > 0.0)) fail(DELAM_ERROR_ARGUMENT, "normals[", p, "] has length 0");
+        if (!weights.empty() && !(weights[p] > 0.0 && std::isfinite(weights[p])))
+            fail(DELAM_ERROR_ARGUMENT, "weights[", p, "] = ", weights[p], ": must be > 0 and finite");
+        made.node_a.push_back(control);
+        made.node_b.push_back(node);
+        made.frame.resize(made.frame.size() + dim * dim);
+        write_frame(dimension_, normal, &made.frame[p * dim * dim]);
+    }
+
+    std::vector<BoundaryFace> covered;
+    for (const BoundaryFace& face : boundary_faces(*this, made.body_b)) {
+        const Point outward = area_vector(*this, face.all());
+        if (std::all_of(face.all().begin(), face.all().end(), [&](std::int64_t node) {
+                const auto found = listed.find(node);
+                if (found == listed.end()) return false;
+                Point normal{};
+                std::copy_n(&made.frame[found->second * dim * dim], dim, normal.begin());
+                return dot(outward, normal) < 0.0;
+            }))
+            covered.push_back(turned(face));
+    }
+    lay_faces(*this, covered, FaceSide::b, made);
+    if (!weights.empty()) {
+        made.weight.assign(weights.begin(), weights.end());
+    } else {
+        for (std::size_t p = 0; p < nodes.size(); ++p)
+            if (!(made.weight[p] > 0.0))
+                fail(DELAM_ERROR_MESH, "node ", nodes[p], " at ", place(*this, nodes[p]),
+                     " lies on no boundary face that faces the obstacle and has all its nodes in the list: give "
+                     "weights");
+    }
+    interfaces_.push_back(std::move(made));
+    node_label_[index(control)] = reserved;
+    return static_cast<std::int64_t>(interfaces_.size()) - 1;
+}
+
+}  // namespace delam

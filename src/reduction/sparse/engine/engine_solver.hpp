@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A body solver that leaves the bodies to an engine of the host (scene/engine.hpp). It knows the trailing variables
+// alone: jumps, and displacements in long constraints. What it knows of the others it knows from the engine's answers.
+//
+// A state x is [variables v | T^T (f - K u) there | f_p^T u | U_p^T K u | weights | rigid]: linear all of them, so that
+// combinations of states are right by themselves. weights: which kept answers u_s of the engine make up the state, u =
+// sum of w_s u_s + R rigid, R the rigid motions of floating parts. The energy follows from the products u_s^T K u_t, to
+// second order in what the solves have left; a state of another time (a saved one) is solved for once more, with all
+// its variables given.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "base/monitor.hpp"
+#include "linalg/dense/dense.hpp"
+#include "reduction/operator/body_system.hpp"
+#include "reduction/sparse/body_solver.hpp"
+#include "reduction/sparse/floating.hpp"
+#include "scene/engine.hpp"
+
+namespace delam {
+
+class EngineSolver final : public BodySolver {
+public:
+    // bodies: without a stiffness.
+    EngineSolver(const BodySystem& bodies, std::shared_ptr<Engine> engine, Monitor& monitor);
+    ~EngineSolver() override;
+
+    const JumpSystem& system() const override { return system_; }
+    std::int64_t state_size() const override;
+    void compare_energies(bool yes) override { comparing_ = yes; }
+    bool set(std::vector<Zone::Coupling> couplings, std::span<const std::uint8_t> held) override;
+    Answer solve(std::span<const double> theta, std::span<const double> row_force, double tolerance,
+                 std::vector<double>& x, const Forcing& forcing = {}) override;
+    std::vector<double> held_forces(std::span<const double> theta, std::span<const double> x,
+                                    std::span<double> force) const override;
+    double load_size(std::span<const double> theta) const override;
+    Work work(std::span<const double> theta, std::span<const double> x) override;
+    double energy_rounding(std::span<const double>, std::span<const double>) override { return rounding_; }
+    void recover(std::span<const double> theta, std::span<const double> x, std::vector<double>& displacement,
+                 std::vector<double>& stressed) override;
+    // The same, but the engine keeps them.
+    void recover_in_engine(std::span<const double> theta, std::span<const double> x);
+    std::int64_t factorisations() const override { return renewals_; }
+    std::vector<double> memory() const override;
+    void recall(std::span<const double> memory) override;
+    void require_memory(std::span<const double> memory) const override;
+
+private:
+    // Where the parts of a state begin.
+    struct Layout {
+        std::size_t variables, balance, done, lifted, weights, rigid, size;
+    };
+    std::span<const double> part(std::span<const double> x, std::size_t first, std::size_t next) const {
+        return x.subspan(first, next - first);
+    }
+    void claim();  // the engine has the variables of this operator
+    void apply();  // what acts
+    void renew_now();
+    void renew();  // at lagged_
+    // Whether tangents that soften leave a minimum.
+    bool has_minimum();
+    bool balanced(std::span<const double> theta, std::span<const double> force) const;
+    std::vector<double> forces(std::span<const double> theta, std::span<const double> row_force) const;
+    std::vector<double> rights(std::span<const double> theta) const;
+    // What the engine has answered.
+    struct Raw {
+        delam_experimental_answer answer{};
+        std::vector<double> correction, correction_balance;
+    };
+    // Fills x, but for the rigid motions.
+    Raw ask(std::span<const double> theta, std::span<const double> force, std::span<const double> right,
+            std::span<const double> start, double tolerance, std::int64_t limit, const Forcing& forcing,
+            std::vector<double>& x, bool reading = false);
+    void require_numbers(const Raw& raw, std::span<const double> state, std::span<const double> products) const;
+    SolveError error_of(const Raw& raw) const;
+    std::size_t free_place(std::span<const double> start) const;
+    // The weights of a state, as long as the answers that they name are kept. theta: of the state; empty: any.
+    std::optional<std::vector<double>> known_weights(std::span<const double> x, std::span<const double> theta) const;
+    std::vector<double> weights_of(std::span<const double> theta, std::span<const double> x);
+    // Solves for the state whose variables are those of x, without its rigid motions or with them; its weights.
+    std::vector<double> solve_again(std::span<const double> theta, std::span<const double> x, bool with_rigid = false);
+    void settle(std::vector<double>& x) const;
+
+    const BodySystem& bodies_;
+    std::shared_ptr<Engine> engine_;
+    Monitor& monitor_;
+    JumpSystem system_;
+    Floating floating_;
+    Layout at_{};
+    std::vector<double> load_sizes_;  // [patterns]
+    std::vector<double> lift_force_;  // [patterns][patterns] U_p^T f_k
+
+    struct Kept {
+        std::vector<double> variables, theta;
+        bool there = false;
+        void forget() { *this = {}; }
+    };
+    std::vector<Kept> kept_;  // [places]
+    DenseMatrix products_;    // [places][places]
+    std::size_t newest_ = 0;
+
+    std::vector<double> lagged_;  // [rows] springs of the preconditioner; empty: there is none
+    bool comparing_ = false;      // energies
+    bool applied_ = false;        // the engine has what acts
+    bool renewed_ = false;        // the engine's preconditioner is that of lagged_
+    double cost_ = 1.0;           // of a new one, in iterations
+    double debt_ = 0.0;           // iterations that a new one would have saved
+    double fresh_ = 0.0;          // iterations of the first solve with it; 0: there was none
+    double rounding_ = 1e-14;     // of energies
+    std::int64_t renewals_ = 0;
+};
+
+}  // namespace delam

@@ -1,0 +1,462 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reduction/sparse/iterated/reanalysis.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "base/error.hpp"
+#include "base/numbers.hpp"
+#include "linalg/dense/dense.hpp"
+#include "reduction/sparse/spring_entries.hpp"
+
+namespace delam {
+
+namespace {
+
+// Patches of more than this share of all variables cost as much as a new factor of the whole.
+constexpr double largest_patch = 0.25;
+// A triangular solve waits for memory: its operations are this many times slower than a factorisation's.
+constexpr double slower = 20.0;
+// Iterations, before a factor is given up for a new one.
+constexpr std::int64_t least_attempt = 8, longest_attempt = 16;
+// Of the work of all tangents along a rigid motion: what may be rounding of a sum that cancels.
+constexpr double cancelled = 1e-13;
+// Multiple of the estimated error below which a jump or force is in doubt.
+constexpr double in_doubt = 10.0;
+constexpr double cautious = 1e-3;  // of the tolerance, without wide patches
+constexpr double softest = 0.01;   // least eigenvalue of M A that the estimate takes for true
+// Rounding units, of the terms of a component, by which a residual from a recursion may differ from the true one.
+constexpr double rounding_units = 16.0;
+
+}  // namespace
+
+bool Reanalysis::keeps_two_factors(const Problem& problem) { return problem.options.solution == "energetic"; }
+
+Reanalysis::Reanalysis(const BodySystem& bodies, SparseMatrix transformed, Monitor& monitor)
+    : bodies_(bodies),
+      monitor_(monitor),
+      system_(bodies, std::move(transformed), [&monitor] { monitor.progress("assemble", 0, 0); }),
+      floating_(bodies, system_),
+      patches_(system_, 5, largest_patch),
+      comes_back_(keeps_two_factors(bodies.problem())) {
+    const std::size_t patterns = bodies_.problem().patterns.size();
+    std::vector<double> nodal(index(bodies_.dofs()));
+    for (std::size_t p = 0; p < patterns; ++p) {
+        multiply(bodies_.stiffness(), bodies_.variables().lift[p], nodal);
+        const std::vector<double>& force = bodies_.force()[p];
+        for (std::size_t i = 0; i < nodal.size(); ++i) nodal[i] = (force.empty() ? 0.0 : force[i]) - nodal[i];
+        load_.emplace_back(index(system_.count()));
+        multiply_transposed(bodies_.variables().transform, nodal, load_.back());
+    }
+    monitor_.progress("analyse", 0, 0);
+    whole_ = std::make_unique<WholeFactor>(system_, [&monitor] { monitor.progress("analyse", 0, 0); });
+}
+
+std::vector<double> Reanalysis::load(std::span<const double> theta) const {
+    std::vector<double> g(index(system_.count()), 0.0);
+    for (std::size_t p = 0; p < theta.size(); ++p)
+        if (theta[p] != 0.0) add_scaled(theta[p], load_[p], g);
+    return g;
+}
+
+bool Reanalysis::plain() const {
+    return std::all_of(system_.couplings().begin(), system_.couplings().end(),
+                       [](const Zone::Coupling& c) { return c.row == c.column && c.value >= 0.0; });
+}
+
+std::vector<std::int64_t> Reanalysis::changed() const {
+    const std::vector<std::uint8_t> row = differing_rows(system_, lagged_);
+    std::vector<std::int64_t> variables;
+    for (std::size_t r = 0; r < row.size(); ++r)
+        for (const auto& [i, n] : system_.rows()[r].unknowns)
+            if (row[r] != 0) variables.push_back(i);
+    std::sort(variables.begin(), variables.end());
+    variables.erase(std::unique(variables.begin(), variables.end()), variables.end());
+    return variables;
+}
+
+double Reanalysis::iteration_cost() const {
+    const double matrix = static_cast<double>(system_.matrix().entries());
+    return slower * (4.0 * whole_->entries() + 6.0 * matrix + 8.0 * patches_.entries());
+}
+
+std::int64_t Reanalysis::affordable() const {
+    const double worth = (whole_->size().flops - debt_) / iteration_cost();
+    return std::clamp(static_cast<std::int64_t>(worth), least_attempt, longest_attempt);
+}
+
+void Reanalysis::factorise_whole() {
+    monitor_.progress("factor", factorisations_, 0);
+    std::vector<Zone::Coupling> springs;
+    for (std::size_t r = 0; r < lagged_.size(); ++r)
+        if (lagged_[r] != 0.0)
+            springs.push_back({static_cast<std::int64_t>(r), static_cast<std::int64_t>(r), lagged_[r]});
+    ++factorisations_;
+    whole_->factorise(spring_entries(system_, springs, std::vector<std::uint8_t>(lagged_.size(), 0)),
+                      [this] { monitor_.progress("factor", factorisations_, 0); });
+}
+
+void Reanalysis::set_aside() {
+    if (!comes_back_ || !remembered_ || lagged_.empty()) return;
+    if (aside_ == nullptr)
+        aside_ = std::make_unique<WholeFactor>(system_, [this] { monitor_.progress("analyse", 0, 0); });
+    aside_.swap(whole_);
+    springs_aside_ = std::move(lagged_);
+    lagged_.clear();
+    remembered_ = false;
+}
+
+void Reanalysis::renew(std::vector<double> springs) {
+    set_aside();
+    lagged_.clear();  // an interrupted factorisation is never taken for a valid one
+    patches_.forget();
+    std::vector<double> now = std::move(springs);
+    lagged_.swap(now);
+    try {
+        factorise_whole();
+    } catch (...) {
+        lagged_.clear();
+        throw;
+    }
+    debt_ = rounded_ = fresh_ = 0.0;
+    remembered_ = false;
+}
+
+void Reanalysis::renew_now() {
+    std::vector<double> springs = springs_of(system_);
+    for (double& s : springs) s = std::max(0.0, s);
+    for (const Zone::Coupling& c : floating_.anchors()) springs[index(c.row)] += c.value;
+    renew(std::move(springs));
+}
+
+// Patches about what differs. False: without any_size they would have too many variables.
+bool Reanalysis::cover(bool any_size) {
+    const double before = patches_.cost();
+    const bool covered =
+        patches_.cover(changed(), any_size, [this] { monitor_.progress("patch", patches_.count(), 0); });
+    attempt_ = patches_.narrow();
+    debt_ += patches_.cost() - before;
+    return covered;
+}
+
+// At the springs that act. False: a patch is not positive definite.
+bool Reanalysis::factorise_patches() {
+    std::vector<Zone::Coupling> acting = system_.couplings();
+    acting.insert(acting.end(), floating_.anchors().begin(), floating_.anchors().end());
+    debt_ += patches_.flops();  // also of those whose springs are as before: a saved state does not know
+    return patches_.factorise(spring_entries(system_, acting, system_.held()),
+                              [this] { monitor_.progress("patch", patches_.count(), 0); });
+}
+
+bool Reanalysis::set(std::vector<Zone::Coupling> couplings, std::span<const std::uint8_t> held) {
+    system_.set(std::move(couplings), held);
+    floating_.update();
+    const bool fresh = lagged_.empty() || (debt_ > whole_->size().flops && !changed().empty());
+    if (fresh) renew_now();
+    // A factor of the whole cannot have tangents: those of some pairs are negative.
+    if (!cover(fresh || !plain())) {
+        renew_now();
+        cover(true);
+    }
+    const bool definite = factorise_patches();
+    null_.clear();
+    for (std::vector<double> motion : floating_.free()) {
+        system_.reduce(motion);
+        for (int pass = 0; pass < 2; ++pass)
+            for (const std::vector<double>& other : null_) add_scaled(-dot(other, motion), other, motion);
+        const double length = std::sqrt(dot(motion, motion));
+        if (!(length > 0.0)) continue;
+        for (double& m : motion) m /= length;
+        null_.push_back(std::move(motion));
+    }
+    return definite;
+}
+
+std::vector<double> Reanalysis::right_side(std::span<const double> theta, std::span<const double> row_force) const {
+    std::vector<double> b = load(theta);
+    for (std::size_t r = 0; r < row_force.size(); ++r)
+        if (system_.held()[r] == 0 && row_force[r] != 0.0) system_.add_row(r, row_force[r], b);
+    const std::vector<double> offset = system_.offsets(theta);
+    for (const Zone::Coupling& c : system_.couplings())
+        if (offset[index(c.column)] != 0.0) system_.add_row(index(c.row), -c.value * offset[index(c.column)], b);
+    return b;
+}
+
+// Sum of the magnitudes of what springs and tangents do along x.
+double Reanalysis::work_of_couplings(std::span<const double> x) const {
+    double work = 0.0;
+    for (const Zone::Coupling& c : system_.couplings())
+        work += std::abs(system_.row_value(index(c.row), x) * c.value * system_.row_value(index(c.column), x));
+    return work;
+}
+
+// sqrt of u^T K u and the work of the springs.
+double Reanalysis::size_of(std::span<const double> theta, std::span<const double> x) const {
+    std::vector<double> u = bodies_.lift(theta), force(u.size());
+    bodies_.add_variables(x, u);
+    multiply(bodies_.stiffness(), u, force);
+    return std::sqrt(std::abs(dot(u, force)) + work_of_couplings(x));
+}
+
+// What is missing is A^-1 r, and the preconditioner is nearly A^-1: jumps and forces of M r, over the root of the
+// least eigenvalue of M A that the iteration has met: sqrt(r^T A^-1 r) <= sqrt(r^T M r / least). An estimate. (The
+// energy of M r would give bounds, |force| <= sqrt(stiffness of the row) |error| and |jump| <= sqrt(flexibility of the
+// row) |error|, but those of a row at the tip of an arm are useless, by the flexibility of the whole arm.)
+SolveError Reanalysis::error_of(std::span<const double> correction, double least) const {
+    SolveError error;
+    std::vector<double> left(correction.size()), force(system_.rows().size(), 0.0);
+    system_.multiply_held(correction, left);
+    system_.add_couplings(correction, left);
+    system_.multipliers(left, force);
+    for (std::size_t r = 0; r < force.size(); ++r)
+        if (system_.held()[r] == 0) error.jump = std::max(error.jump, std::abs(system_.row_value(r, correction)));
+    const double factor = in_doubt / std::sqrt(std::max(least, softest));
+    return {factor * error.jump, factor * max_abs(force)};
+}
+
+std::vector<double> Reanalysis::held_forces(std::span<const double> theta, std::span<const double> x,
+                                            std::span<double> force) const {
+    std::vector<double> left = load(theta), image(left.size());
+    system_.multiply_held(x, image);
+    for (std::size_t i = 0; i < left.size(); ++i) left[i] -= image[i];
+    for (std::size_t r = 0; r < force.size(); ++r) {
+        if (system_.held()[r] != 0)
+            force[r] = 0.0;
+        else
+            system_.add_row(r, -force[r], left);
+    }
+    return system_.multipliers(left, force);
+}
+
+// The recursion's residual against the true one, in units of what rounding does to each component.
+bool Reanalysis::confirm(std::span<const double> right, std::span<const double> theta, std::span<const double> x,
+                         std::span<const double> residual) const {
+    if (!null_.empty() || !floating_.weak().empty()) return false;
+    std::vector<double> at(x.begin(), x.end()), r(x.size()), sizes(x.size());
+    system_.spread(at, theta);
+    system_.apply(at, r, sizes);
+    for (std::size_t i = 0; i < r.size(); ++i) {
+        r[i] = right[i] - r[i];
+        sizes[i] += std::abs(right[i]);
+    }
+    system_.gather(r);
+    system_.gather_sizes(sizes);
+    for (std::size_t i = 0; i < r.size(); ++i)
+        if (!(std::abs(r[i] - residual[i]) <= rounding_units * std::numeric_limits<double>::epsilon() * sizes[i]))
+            return false;
+    return true;
+}
+
+// Each component has an error of the size of its largest terms times the rounding unit, with a random sign.
+double Reanalysis::rounding_at(std::span<const double> right, std::span<const double> x) {
+    std::vector<double> delta(x.size()), z(x.size());
+    system_.apply(x, z, delta);
+    std::uint64_t seed = 1;
+    for (std::size_t i = 0; i < delta.size(); ++i) {
+        double& d = delta[i];
+        d += std::abs(right[i]);
+        seed = seed * 6364136223846793005u + 1442695040888963407u;
+        if ((seed >> 63U) == 0) d = -d;
+    }
+    system_.gather(delta);
+    for (const std::vector<double>& motion : null_) add_scaled(-dot(motion, delta), motion, delta);
+    precondition(delta, z);
+    return std::numeric_limits<double>::epsilon() * std::sqrt(std::abs(dot(delta, z)));
+}
+
+void Reanalysis::precondition(std::span<const double> r, std::span<double> z) {
+    const auto reduced = [&](std::vector<double>& v) {
+        system_.gather(v);
+        for (const std::vector<double>& motion : null_) add_scaled(-dot(motion, v), motion, v);
+    };
+    const auto subtract_image = [&] {  // work_ = r - A z
+        for (std::size_t i = 0; i < work_.size(); ++i) work_[i] = r[i] - image_[i];
+        reduced(work_);
+    };
+    work_.resize(r.size());
+    image_.resize(r.size());
+    std::fill(z.begin(), z.end(), 0.0);
+    const bool patched = patches_.count() > 0;
+    if (patched) {
+        patches_.add(r, z);
+        system_.spread(z);
+        system_.apply_sparse(z, image_);
+        subtract_image();
+    } else {
+        std::copy(r.begin(), r.end(), work_.begin());
+    }
+    whole_->apply(work_, image_);
+    system_.spread(image_);
+    for (std::size_t i = 0; i < z.size(); ++i) z[i] += image_[i];
+    if (patched) {
+        if (null_.empty())
+            system_.apply(z, image_, patches_.members());
+        else
+            system_.apply(z, image_);
+        subtract_image();
+        std::fill(image_.begin(), image_.end(), 0.0);
+        patches_.add(work_, image_);
+        system_.spread(image_);
+        for (std::size_t i = 0; i < z.size(); ++i) z[i] += image_[i];
+    }
+}
+
+// The multiple of the start that has the least energy: a load that has only grown needs nothing else. A start so much
+// larger than the load that its energy is not finite is none. Returns A x there, with the rest of expressed variables.
+std::vector<double> Reanalysis::start_from(std::span<const double> right, std::span<const double> theta,
+                                           std::span<double> x) const {
+    std::vector<double> y(x.begin(), x.end()), image(x.size());
+    system_.spread(y);
+    std::vector<double> rest(x.size(), 0.0), of_rest(x.size(), 0.0);
+    system_.spread(rest, theta);
+    double pull = dot(y, right);
+    if (std::any_of(rest.begin(), rest.end(), [](double v) { return v != 0.0; })) {
+        system_.apply(rest, of_rest);
+        pull -= dot(y, of_rest);
+    }
+    system_.apply(y, image);
+    const double curvature = dot(y, image);
+    const bool usable = std::isfinite(curvature) && std::isfinite(pull);
+    const double scale = !usable ? 0.0 : curvature > 0.0 ? pull / curvature : 1.0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        x[i] = scale * y[i];
+        of_rest[i] += scale == 0.0 ? 0.0 : scale * image[i];
+    }
+    return of_rest;
+}
+
+// Directions of weakly held rigid motions, conjugate to each other. False: tangents along one are negative.
+bool Reanalysis::weak_directions(std::vector<Direction>& given) const {
+    bool definite = true;
+    for (const std::vector<double>& motion : floating_.weak()) {
+        Direction d{motion, std::vector<double>(motion.size(), 0.0), 0.0};
+        system_.add_couplings(d.p, d.ap);  // the bodies do not resist
+        const double size = work_of_couplings(d.p);
+        system_.gather(d.ap);
+        for (int pass = 0; pass < 2; ++pass)
+            for (const Direction& other : given) {
+                const double share = dot(other.ap, d.p) / other.pap;
+                add_scaled(-share, other.p, d.p);
+                add_scaled(-share, other.ap, d.ap);
+            }
+        d.pap = dot(d.p, d.ap);
+        definite = definite && d.pap >= -cancelled * size;
+        if (d.pap > 0.0) given.push_back(std::move(d));
+    }
+    return definite;
+}
+
+// With the factor at hand or, where that was an attempt that failed, with a new one.
+CgOutcome Reanalysis::iterate(CgSystem& cg, double tolerance, std::span<double> x) {
+    const std::int64_t limit = bodies_.problem().options.linear_limit;
+    const auto owe = [this](std::int64_t iterations) {
+        const auto n = static_cast<double>(iterations);
+        if (fresh_ == 0.0) fresh_ = std::clamp(n, fresh_iterations, most_fresh_iterations);
+        debt_ += iteration_cost() * std::max(0.0, n - fresh_);
+    };
+    cg.rounded = rounded_;
+    cg.attempt = attempt_;
+    // Residuals weigh less what the factor takes for stiffer than it is.
+    const double careful = attempt_ ? cautious : 1.0;
+    const double target = std::max(finest, careful * tolerance);
+    double enough = 0.0;
+    if (const Forcing forcing = cg.enough)
+        cg.enough = [forcing, careful, &enough](double start) { return careful * (enough = forcing(start)); };
+    CgOutcome outcome = conjugate_gradients(cg, x, target, attempt_ ? std::min(limit, affordable()) : limit);
+    if (attempt_ && outcome.definite && !outcome.converged && outcome.iterations < limit) {
+        const std::int64_t before = outcome.iterations;
+        const double first = outcome.first;
+        renew_now();
+        cg.rounded = 0.0;
+        cg.attempt = false;
+        cg.enough = [enough](double) { return enough; };
+        cover(true);
+        if (factorise_patches())
+            outcome = conjugate_gradients(cg, x, tolerance, limit);
+        else
+            outcome.definite = false;
+        owe(outcome.iterations);
+        outcome.iterations += before;
+        outcome.first = first;
+    } else {
+        owe(outcome.iterations);
+    }
+    rounded_ = outcome.rounded;
+    return outcome;
+}
+
+Reanalysis::Answer Reanalysis::solve(std::span<const double> theta, std::span<const double> row_force, double tolerance,
+                                     std::vector<double>& x, const Forcing& forcing) {
+    Answer answer;
+    const std::vector<double> right = right_side(theta, row_force);
+    answer.balanced = floating_.balances(right);
+    if (!answer.balanced) return answer;
+    std::vector<double> image;  // A x at the start, where it is known
+    if (x.size() != right.size())
+        x.assign(right.size(), 0.0);
+    else
+        image = start_from(right, theta, x);
+
+    CgSystem cg;
+    cg.apply = [&](std::span<const double> p, std::span<double> ap) {
+        std::vector<double> full(p.begin(), p.end());
+        system_.spread(full);
+        system_.apply(full, ap);
+        system_.gather(ap);
+    };
+    // Free motions are null vectors; removing them keeps them from growing. Expressed variables have zeros.
+    cg.precondition = [&](std::span<const double> r, std::span<double> z) {
+        precondition(r, z);
+        for (const std::vector<double>& motion : null_) add_scaled(-dot(motion, z), motion, z);
+        system_.spread(z);
+    };
+    answer.definite = weak_directions(cg.given);
+    if (!answer.definite) return answer;
+    cg.restart = [&](std::span<double> at, std::span<double> r) {
+        system_.spread(at, theta);
+        std::vector<double> springs(at.size(), 0.0);
+        for (const Direction& d : cg.given) {
+            // What acts along a rigid motion are loads and springs alone.
+            std::fill(springs.begin(), springs.end(), 0.0);
+            system_.add_couplings(at, springs);
+            const double along = (dot(d.p, right) - dot(d.p, springs)) / d.pap;
+            add_scaled(along, d.p, at);
+        }
+        if (image.empty() || !cg.given.empty())
+            system_.apply(at, r);
+        else
+            std::copy(image.begin(), image.end(), r.begin());
+        image.clear();
+        for (std::size_t i = 0; i < r.size(); ++i) r[i] = right[i] - r[i];
+        system_.gather(r);
+        for (const std::vector<double>& motion : null_) add_scaled(-dot(motion, r), motion, r);
+        for (const Direction& d : cg.given) add_scaled(-dot(d.p, r) / d.pap, d.ap, r);
+    };
+    cg.size = [&](std::span<const double> at) {
+        std::vector<double> full(at.begin(), at.end());
+        system_.spread(full, theta);
+        return size_of(theta, full);
+    };
+    cg.rounding = [&](std::span<const double> at) { return rounding_at(right, at); };
+    cg.confirm = [&](std::span<const double> at, std::span<const double> residual) {
+        return confirm(right, theta, at, residual);
+    };
+    cg.each_iteration = [&](std::int64_t iteration) { monitor_.progress("linear solve", iteration, 0); };
+    cg.enough = forcing;
+    const CgOutcome outcome = iterate(cg, std::max(tolerance, finest), x);
+    system_.spread(x, theta);
+    floating_.settle(x);
+    answer.iterations = outcome.iterations;
+    answer.residual = outcome.residual;
+    answer.first = outcome.first;
+    answer.norm = outcome.norm;
+    answer.energy_error = 0.5 * outcome.norm * outcome.norm / std::max(outcome.least, softest);
+    if (!outcome.correction.empty()) answer.error = error_of(outcome.correction, outcome.least);
+    answer.converged = outcome.converged;
+    answer.definite = outcome.definite;
+    return answer;
+}
+
+}  // namespace delam

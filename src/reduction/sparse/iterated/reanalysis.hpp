@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Solves the system of bodies and interfaces again and again while its springs change little from one time to the next
+// (global/local reanalysis; P. Gosselet, M. Blanchard, O. Allix, G. Guguin, AMSES 5, 2018): conjugate gradients,
+// preconditioned by
+// a factor of the whole at springs of an earlier moment, and before and after it exact factors of patches around the
+// springs that differ (multiplicative Schwarz, symmetric).
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "base/monitor.hpp"
+#include "reduction/operator/body_system.hpp"
+#include "reduction/sparse/body_solver.hpp"
+#include "reduction/sparse/floating.hpp"
+#include "reduction/sparse/iterated/conjugate_gradients.hpp"
+#include "reduction/sparse/iterated/patches.hpp"
+#include "reduction/sparse/iterated/whole_factor.hpp"
+#include "reduction/sparse/jump_system.hpp"
+
+namespace delam {
+
+class Reanalysis final : public BodySolver {
+public:
+    // transformed: T^T K T of the bodies
+    Reanalysis(const BodySystem& bodies, SparseMatrix transformed, Monitor& monitor);
+
+    bool set(std::vector<Zone::Coupling> couplings, std::span<const std::uint8_t> held) override;
+    Answer solve(std::span<const double> theta, std::span<const double> row_force, double tolerance,
+                 std::vector<double>& x, const Forcing& forcing = {}) override;
+    std::vector<double> held_forces(std::span<const double> theta, std::span<const double> x,
+                                    std::span<double> force) const override;
+    double load_size(std::span<const double> theta) const override;
+    Work work(std::span<const double> theta, std::span<const double> x) override;
+    double energy_rounding(std::span<const double> theta, std::span<const double> x) override;
+    void recover(std::span<const double> theta, std::span<const double> x, std::vector<double>& displacement,
+                 std::vector<double>& stressed) override;
+
+    const JumpSystem& system() const override { return system_; }
+    std::int64_t state_size() const override { return system_.count(); }
+    const Floating& floating() const { return floating_; }
+    // g = T^T (f - K U theta)
+    std::vector<double> load(std::span<const double> theta) const;
+    std::int64_t factorisations() const override { return factorisations_; }
+    const WholeFactor* whole() const { return whole_.get(); }
+    const Patches& patches() const { return patches_; }
+
+    // Of an analysis that looks at other states and comes back.
+    static bool keeps_two_factors(const Problem& problem);
+
+    std::vector<double> memory() const override;
+    void recall(std::span<const double> memory) override;
+    void require_memory(std::span<const double> memory) const override;
+
+private:
+    // Iterations with a fresh factor for which no newer one is blamed: as many as its first solve has taken, within
+    // these bounds (tangents that are negative or couple rows are in patches alone).
+    static constexpr double fresh_iterations = 4.0, most_fresh_iterations = 12.0;
+
+    // Variables of rows whose springs differ from those of the factor.
+    std::vector<std::int64_t> changed() const;
+    bool plain() const;
+    bool cover(bool any_size);
+    bool factorise_patches();
+    void renew(std::vector<double> springs);
+    void set_aside();
+    std::vector<double> history() const;
+    void renew_now();  // at the springs that act
+    void factorise_whole();
+    std::vector<double> right_side(std::span<const double> theta, std::span<const double> row_force) const;
+    double work_of_couplings(std::span<const double> x) const;
+    double size_of(std::span<const double> theta, std::span<const double> x) const;
+    bool confirm(std::span<const double> right, std::span<const double> theta, std::span<const double> x,
+                 std::span<const double> residual) const;
+    double rounding_at(std::span<const double> right, std::span<const double> x);
+    void precondition(std::span<const double> r, std::span<double> z);
+    std::vector<double> start_from(std::span<const double> right, std::span<const double> theta,
+                                   std::span<double> x) const;
+    SolveError error_of(std::span<const double> correction, double least) const;
+    double iteration_cost() const;
+    bool weak_directions(std::vector<Direction>& given) const;
+    CgOutcome iterate(CgSystem& cg, double tolerance, std::span<double> x);
+    std::int64_t affordable() const;  // iterations that cost less than a new factor
+
+    const BodySystem& bodies_;
+    Monitor& monitor_;
+    JumpSystem system_;
+    Floating floating_;
+    Patches patches_;
+    std::vector<std::vector<double>> load_;  // [patterns][variables]
+    std::unique_ptr<WholeFactor> whole_;
+    std::vector<double> lagged_;  // [rows] springs of the factor; held ones as springs. Empty: there is none
+    double debt_ = 0.0;           // operations since then that a fresh factor would have saved
+    bool attempt_ = false;        // too much differs for wide patches, but the factor is still the one before
+    double fresh_ = 0.0;          // iterations of the first solve with this factor; 0: there was none
+    double rounded_ = 0.0;        // what rounding leaves of a residual, relative; 0: not yet met with this factor
+    // A search looks at other states and comes back: the factor to come back to is kept beside the one in use.
+    bool comes_back_;
+    mutable bool remembered_ = false;  // memory() has told of the factor in use
+    std::unique_ptr<WholeFactor> aside_;
+    std::vector<double> springs_aside_;  // [rows]; empty: there is none
+    std::int64_t factorisations_ = 0;
+    std::vector<std::vector<double>> null_;  // free motions in the reduced space, orthonormal
+    std::vector<double> work_, image_;
+};
+
+}  // namespace delam

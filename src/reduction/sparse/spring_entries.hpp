@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What acts on the jump rows, as entries of a matrix of all variables, for preconditioners. There a held row is a
+// spring so stiff that the bodies do not feel it give way: the pattern of the matrix then does not depend on contact.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "linalg/sparse/sparse.hpp"
+#include "reduction/sparse/jump_system.hpp"
+
+namespace delam {
+
+// Of the bodies' stiffness: a held row.
+inline constexpr double held_as = 1e8;
+
+// Of the diagonal, on variables of constraints on many: parts that only such constraints hold would leave a factor
+// singular. Far below what the bodies feel.
+inline constexpr double constraint_shift = 1e-7;
+
+// Stiffness of the bodies against a row: the largest of its variables.
+double row_diagonal(const JumpSystem& system, std::size_t row);
+// N^T C N, held rows included.
+std::vector<Triplet> spring_entries(const JumpSystem& system, std::span<const Zone::Coupling> couplings,
+                                    std::span<const std::uint8_t> held);
+
+// What acts on the rows at the moment, as springs, held rows as those that stand for them: [rows].
+std::vector<double> springs_of(const JumpSystem& system);
+
+// A spring differs from an earlier one if bodies and spring together are stiffer or softer by this share.
+inline constexpr double differs = 0.1;
+// The same for tangents that soften or couple rows, which no preconditioner can have: small ones of many thin cells
+// together leave little of a soft motion.
+inline constexpr double differs_in_kind = 0.03;
+// [rows] 1: what acts on it differs from these springs [rows].
+std::vector<std::uint8_t> differing_rows(const JumpSystem& system, std::span<const double> springs);
+// Whether what acts on some row is softer than these springs.
+bool any_softer(const JumpSystem& system, std::span<const double> springs);
+
+}  // namespace delam

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/advice/scene_warnings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <iomanip>
+#include <locale>
+#include <sstream>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/numbers.hpp"
+#include "scene/advice/process_zone.hpp"
+
+namespace delam {
+
+namespace {
+
+constexpr double brittle = 0.5;  // onset over toughness: softening then ends at twice the jump at which it begins
+
+// Warnings, each with the interfaces that it is of.
+using Warnings = std::vector<std::pair<std::string, std::vector<std::int64_t>>>;
+
+void add(Warnings& warnings, std::int64_t interface, const std::string& warning) {
+    for (auto& [known, interfaces] : warnings)
+        if (known == warning) {
+            interfaces.push_back(interface);
+            return;
+        }
+    warnings.push_back({warning, {interface}});
+}
+
+// Predictions are good to a factor, not to more digits.
+std::string about(double value) {
+    std::ostringstream out;
+    out.imbue(std::locale::classic());
+    out << std::setprecision(3) << value;
+    return out.str();
+}
+
+void judge_zone(const Problem& problem, std::int64_t i, Warnings& warnings) {
+    if (problem.options.solution == "energetic") return;
+    const ProcessZone zone = predicted_process_zone(problem, i);
+    if (!(zone.length > 0.0) || zone.length >= resolving_pairs * zone.spacing) return;
+    add(warnings, i,
+        text("the process zone, about ", about(zone.length), ", is shorter than ", resolving_pairs,
+             " pairs of spacing ", about(zone.spacing),
+             ": loads and crack lengths of a local solution then depend on the mesh; a spacing of ",
+             about(zone.length / resolving_pairs),
+             " would do, or a lower strength (delam_problem_propose), or solution = energetic"));
+}
+
+bool adheres(const InterfaceProperties& properties) {
+    return std::any_of(properties.adhesion.begin(), properties.adhesion.end(), [](double zeta) { return zeta > 0.0; });
+}
+
+void judge_law(const Problem& problem, std::int64_t i, Warnings& warnings) {
+    const Law& law = *problem.interfaces[index(i)].law;
+    const double thickness = arm_thickness(problem, i);
+    for (const auto& [mode, mixity, component] :
+         {std::tuple{"normal", 0.0, std::size_t{0}}, std::tuple{"tangential", 1.0, std::size_t{1}}}) {
+        const Toughness toughness = law.toughness(mixity);
+        const double k = law.stiffness(component);
+        if (!(toughness.onset > 0.0)) continue;
+        const double share = toughness.onset / toughness.total;
+        if (share > brittle) {
+            add(warnings, i,
+                text("the ", mode, " onset is ", about(share),
+                     " of the toughness, so that the law hardly softens, and loads depend on the stiffness and on the "
+                     "mesh: give more stiffness or less strength"));
+            continue;
+        }
+        const double last = 2.0 * toughness.total / std::sqrt(2.0 * k * toughness.onset);
+        if (thickness > 0.0 && last > thickness)
+            add(warnings, i,
+                text("it debonds at a ", mode, " jump of about 2 G/s = ", about(last),
+                     ", but a body beside it is only ", about(thickness),
+                     " thick: do toughness, strength and lengths have units that fit together?"));
+    }
+}
+
+}  // namespace
+
+void warn_of_scene(const Problem& problem, const Monitor& monitor) {
+    Warnings warnings;
+    for (std::int64_t i = 0; i < static_cast<std::int64_t>(problem.interfaces.size()); ++i) {
+        const InterfaceProperties& properties = problem.interfaces[index(i)];
+        if (properties.bonded || !properties.law || !properties.law->softens()) continue;
+        if (!adheres(properties)) {
+            add(warnings, i, "no pair adheres at the start, so that contact alone acts");
+            continue;
+        }
+        judge_zone(problem, i, warnings);
+        judge_law(problem, i, warnings);
+    }
+    for (const auto& [warning, interfaces] : warnings) {
+        std::string of = interfaces.size() > 1 ? "interfaces " : "interface ";
+        for (std::size_t k = 0; k < interfaces.size(); ++k)
+            of += (k == 0 ? "" : k + 1 == interfaces.size() ? " and " : ", ") + std::to_string(interfaces[k]);
+        monitor.log(1, text(of, ": ", warning));
+    }
+}
+
+}  // namespace delam
