@@ -15,20 +15,20 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 # What may stand in the files listed only, as an expression over the code without comments and literals.
 RULES = [
     ("dynamic_cast", r"\bdynamic_cast\b", []),
-    ("a helper that makes an index of an integer, besides index() of base/numbers.hpp and at() of petsc, which sees only public headers",
+    ("a helper that makes an index of an integer, besides index() of base/numbers.hpp",
      r"\b(?:std::)?size_t \w+\([\w:]+ (\w+)\) (?:noexcept )?\{\s*return static_cast<(?:std::)?size_t>\(\1\);",
-     ["base/numbers.hpp", "petsc/base/index.hpp"]),
+     ["base/numbers.hpp"]),
     ("a loop for the largest absolute value of a list, besides max_abs() of base/numbers.hpp",
      r"for \((?:const )?(?:double|auto)&? (\w+) : [\w.()\[\]]+\)\s*\{?\s*(\w+) = std::max\(\2, std::abs\(\1\)\);",
      ["base/numbers.hpp"]),
     ("a rule for the mode mixity, besides its own files and where a step is constructed",
      r"\b(?:MixityRule|(?:Frozen|Converged|Variational)Increment)\b",
-     [f"evolution/increment/{name}.{kind}" for kind in ("hpp", "cpp")
+     [f"evolution/increment/rule/{name}.{kind}" for kind in ("hpp", "cpp")
       for name in ("mixity_rule", "frozen_increment", "converged_increment", "variational_increment")]
      + ["evolution/step/stepper.hpp", "evolution/step/stepper.cpp"]),
     ("the option mixity_rule compared, besides the table of its rules and the check of a scene",
      r"\bmixity_rule\s*[!=]=|[!=]=\s*(?:\w+(?:\.|->))*mixity_rule\b",
-     ["evolution/increment/mixity_rule.cpp", "scene/validate.cpp"]),
+     ["evolution/increment/rule/mixity_rule.cpp", "scene/validate.cpp"]),
     ("the option mixity_rule read, besides where a step is constructed, the plan and the check of a scene",
      r"\boptions(?:\(\))?(?:\.|->)mixity_rule\b",
      ["evolution/step/stepper.cpp", "evolution/analysis/plan.cpp", "scene/validate.cpp"]),

@@ -13,10 +13,10 @@
 
 #include "base/error.hpp"
 #include "delam/delam.h"
-#include "evolution/increment/converged_increment.hpp"
-#include "evolution/increment/frozen_increment.hpp"
-#include "evolution/increment/mixity_rule.hpp"
-#include "evolution/increment/variational_increment.hpp"
+#include "evolution/increment/rule/converged_increment.hpp"
+#include "evolution/increment/rule/frozen_increment.hpp"
+#include "evolution/increment/rule/mixity_rule.hpp"
+#include "evolution/increment/rule/variational_increment.hpp"
 #include "scene/options.hpp"
 
 #include <check.h>
@@ -32,7 +32,7 @@ struct Case {
     PairLaws pairs;
     State before;
     std::vector<double> jump;
-    std::vector<std::unique_ptr<Increment>> rules;
+    std::vector<std::unique_ptr<StepRule>> rules;
 };
 
 double real(std::mt19937& random, double a, double b) { return std::uniform_real_distribution<double>(a, b)(random); }
@@ -127,7 +127,7 @@ START_TEST(model_is_the_derivative) {
     for (int trial = 0; trial < 30; ++trial) {
         const auto c = some_case(random, 2 + trial % 2);
         const auto dim = static_cast<std::size_t>(c->pairs.dimension);
-        const auto force = [&](const Increment& rule, std::size_t p, std::span<const double> j, double fraction) {
+        const auto force = [&](const StepRule& rule, std::size_t p, std::span<const double> j, double fraction) {
             const PairModel m = rule.model(p, j, rule.minimum(p, j).adhesion, fraction);
             std::vector<double> f(dim);
             for (std::size_t r = 0; r < dim; ++r) {
@@ -173,7 +173,7 @@ START_TEST(the_ledger_is_the_sum_over_pairs) {
         c->before.ledger.dissipated = 3.0;
         c->before.ledger.dissipated_linear = 5.0;
         for (std::size_t r = 0; r < c->rules.size(); ++r) {
-            const Increment& rule = *c->rules[r];
+            const StepRule& rule = *c->rules[r];
             State next = c->before;
             next.response.jump = c->jump;
             next.adhesion = rule.damage_step(c->before.adhesion, c->jump);
@@ -211,7 +211,7 @@ START_TEST(words_of_the_option) {
     for (const auto& expected : c->rules) {
         const auto has_it = [&](const std::string& word) {
             const auto made = MixityRule(c->pairs, word).increment(c->pairs, c->before, c->before.mixity, 1e-6);
-            const Increment &one = *made, &other = *expected;
+            const StepRule &one = *made, &other = *expected;
             return typeid(one) == typeid(other);
         };
         ck_assert_int_eq(std::count_if(option->words.begin(), option->words.end(), has_it), 1);

@@ -75,7 +75,7 @@ struct Scene {
         return held;
     }
     // Of a zone, its springs included.
-    double energy(const Zone& zone, const std::vector<double>& x, double share) const {
+    double energy(Zone& zone, const std::vector<double>& x, double share) const {
         double energy = zone.energy_of(theta, x);
         const std::vector<double> jump = zone.jumps(theta, x);
         for (const Zone::Coupling& c : softened(zone, share))

@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
-#include "evolution/increment/converged_increment.hpp"
-#include "evolution/increment/frozen_increment.hpp"
+#include "evolution/increment/rule/converged_increment.hpp"
+#include "evolution/increment/rule/frozen_increment.hpp"
 #include "law/variational.hpp"
 
 #include <check.h>

@@ -14,6 +14,7 @@
 
 #include "scene/table/scene_text.hpp"
 #include "text/error.hpp"
+#include "text/wording.hpp"
 
 namespace {
 

@@ -19,7 +19,6 @@
 #include "base/error.hpp"
 #include "base/machine/float_environment.hpp"
 #include "base/monitor.hpp"
-#include "body/model.hpp"
 #include "capi/handle/listed.hpp"
 #include "delam/delam.h"
 #include "evolution/analysis/plan.hpp"

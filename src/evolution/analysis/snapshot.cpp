@@ -226,7 +226,7 @@ void load(Solver& solver, std::span<const std::uint8_t> bytes) {
     std::vector<JumpEvent> jumps = read_list<JumpEvent>(r);
     Record record;
     if (found_version >= 7) record = read_record(r, solver);
-    if (found_version < 10 && solver.jump_operator().bulk() != nullptr) {
+    if (found_version < 10 && solver.condensed() != nullptr) {
         forget_zones(state);
         for (State& earlier : past) forget_zones(earlier);
     }

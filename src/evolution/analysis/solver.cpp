@@ -56,7 +56,8 @@ Solver::Solver(const Problem& problem, Monitor& monitor, double time)
       monitor_(monitor),
       stepper_(problem_, monitor),
       graph_(problem_.mesh->interfaces()),
-      observer_(problem_, stepper_.op(), stepper_.pairs(), stepper_.contact(), stepper_.initial_adhesion()),
+      observer_(problem_, stepper_.op(), stepper_.pairs(), stepper_.contact(), stepper_.initial_adhesion(),
+                stepper_.design().in_engine),
       warnings_(problem_, monitor) {
     Stepper::Result first = stepper_.initial(time);
     committed_ = std::move(first.state);

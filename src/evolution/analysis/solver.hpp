@@ -67,6 +67,7 @@ public:
     const std::vector<Pattern>& first_patterns() const { return first_patterns_; }
     bool keeps_past() const { return delam::keeps_past(problem_.options); }
     // Reads state().
+    Observer& observer() { return observer_; }
     const Observer& observer() const { return observer_; }
     // Values of a state (values.hpp); warns once if cells rotate much.
     std::vector<double> values(const State& state, const std::vector<std::string>& keys);
@@ -80,6 +81,8 @@ public:
     std::vector<double> sensitivities() const;
     std::int64_t followed() const { return static_cast<std::int64_t>(followed_.size()); }
     const JumpOperator& jump_operator() const { return stepper_.op(); }
+    // The bodies condensed onto the jumps; null: they are not.
+    const Bulk* condensed() const { return stepper_.design().condensed; }
     const ReductionChoice& reduction() const { return stepper_.reduction(); }
     // What the search of the pending step compared, or of the committed one if none is pending; empty: no search.
     const std::string& searched() const { return pending_ ? pending_->searched : searched_; }

@@ -24,6 +24,7 @@ public:
                std::span<const std::uint8_t> held, std::span<const double> theta, Poll poll = {});
 
     const Zone& zone() const { return zone_; }
+    Zone& zone() { return zone_; }
     std::span<const double> theta() const { return theta_; }
     const ContactRows& contact_rows() const { return contact_; }
     // The contact set with which the zone was entered, [contact rows].

@@ -55,7 +55,7 @@ struct AtPair {
 // The derivative by one parameter.
 class Derivative {
 public:
-    Derivative(Linearised& linearised, const FollowedParameter& parameter, const Increment* step,
+    Derivative(Linearised& linearised, const FollowedParameter& parameter, const StepRule* step,
                const Linearised::Damaging& damaging, std::size_t patterns)
         : linearised_(linearised),
           state_(linearised.state()),
@@ -168,7 +168,7 @@ private:
     const State& state_;
     const PairLaws& pairs_;
     const FollowedParameter& parameter_;
-    const Increment* step_;
+    const StepRule* step_;
     const Linearised::Damaging& damaging_;
     std::size_t patterns_, dim_;
     double largest_;
@@ -210,7 +210,7 @@ FollowedParameter followed_parameter(const Problem& problem, std::span<const std
 }
 
 Sensitivity sensitivity(Linearised linearised, std::span<const FollowedParameter> parameters,
-                        std::span<const Pattern> patterns, const Increment* step) {
+                        std::span<const Pattern> patterns, const StepRule* step) {
     const Sensitivity none, &before = step != nullptr ? step->before().sensitivity : none;
     const State& state = linearised.state();
     const std::size_t pairs = state.adhesion.size();

@@ -24,7 +24,7 @@
 #include <vector>
 
 #include "evolution/derivative/step_tangent.hpp"
-#include "evolution/increment/increment.hpp"
+#include "evolution/increment/rule/step_rule.hpp"
 #include "scene/problem.hpp"
 
 namespace delam {
@@ -44,6 +44,6 @@ FollowedParameter followed_parameter(const Problem& problem, std::span<const std
 // Of the state that the tangent has been made for. step: the increment that ended in it; null: it is the initial state,
 // without any damage.
 Sensitivity sensitivity(Linearised linearised, std::span<const FollowedParameter> parameters,
-                        std::span<const Pattern> patterns, const Increment* step);
+                        std::span<const Pattern> patterns, const StepRule* step);
 
 }  // namespace delam

@@ -76,12 +76,12 @@ bool Minimiser::displace(State& state, const Increment& increment, bool cold) co
     return increment.displace(solve, state);
 }
 
-bool Minimiser::end(State& state, const Increment& increment, bool converged) const {
+bool Minimiser::end(State& state, const StepRule& increment, bool converged) const {
     increment.record(state);
     return converged && increment.held() == 0;
 }
 
-bool Minimiser::alternate(State& state, Increment& increment, bool displaced) const {
+bool Minimiser::alternate(State& state, StepRule& increment, bool displaced) const {
     const std::int64_t last = state.effort.am_iterations + limit;
     AtRest at_rest(tolerance);
     while (true) {
@@ -105,7 +105,7 @@ double Minimiser::energy(const State& state, const Increment& increment) const {
            increment.energy(state.adhesion, state.response.jump);
 }
 
-void Minimiser::extrapolate(State& state, const Increment& increment, std::span<const double> plain,
+void Minimiser::extrapolate(State& state, const StepRule& increment, std::span<const double> plain,
                             Extrapolation& extrapolation) const {
     const std::vector<double> from = state.adhesion;
     state.adhesion = extrapolation.next(from, plain);
@@ -123,16 +123,16 @@ void Minimiser::extrapolate(State& state, const Increment& increment, std::span<
 // Each round is one alternation, which is also the stopping test; between rounds the adhesion moves ahead. A move that
 // raised the energy of the whole is taken back, and the plain step is made instead. Where the mixity follows the
 // iterates, energies are compared at equal B: what a new B alone adds goes onto the level of comparison.
-bool Minimiser::accelerate(State& state, Increment& increment, bool displaced) const {
+bool Minimiser::accelerate(State& state, StepRule& increment, bool displaced) const {
     const std::int64_t last = state.effort.am_iterations + limit;
     // Newton's method eliminates the damage pair by pair, which a gradient term forbids.
-    const bool by_newton = increment.pairs().gradient.empty() && op.offers_zone();
-    const ZoneNewton newton{op, contact, monitor, tolerance, std::min(newton_steps, limit)};
-    ZoneProgress progress(op.zone_rounding());
+    Zones* const zones = increment.pairs().gradient.empty() ? op.zones() : nullptr;
+    const ZoneNewton newton{op, zones, contact, monitor, tolerance, std::min(newton_steps, limit)};
+    ZoneProgress progress(zones != nullptr ? zones->zone_traits().rounding : 0.0);
     AtRest at_rest(tolerance);
     bool ahead = false;
     std::optional<State> before;
-    std::optional<Increment::Memory> mixity_before;
+    std::optional<StepMixities::Memory> mixity_before;
     std::vector<double> plain;
     Extrapolation extrapolation;
     double level = 0.0;
@@ -164,8 +164,8 @@ bool Minimiser::accelerate(State& state, Increment& increment, bool displaced) c
         }
         before = state;
         mixity_before = increment.memory();
-        const bool in_zone = progress.use(state.outcome.damage_change) && by_newton;
-        if (const std::optional<double> added = in_zone ? newton.run(state, increment) : std::nullopt) {
+        const bool in_zone = progress.use(state.outcome.damage_change) && zones != nullptr;
+        if (const std::optional<double> added = in_zone ? newton.run(state, increment, increment) : std::nullopt) {
             level += *added;
             ahead = state.adhesion != before->adhesion;
             if (!ahead) state.adhesion = plain;

@@ -9,7 +9,7 @@
 
 #include "base/monitor.hpp"
 #include "evolution/contact/contact.hpp"
-#include "evolution/increment/increment.hpp"
+#include "evolution/increment/rule/step_rule.hpp"
 
 namespace delam {
 
@@ -28,18 +28,18 @@ struct Minimiser {
     // Both unknowns, by plain alternation. The adhesion starts at the state's, the mixity at the increment's. False: a
     // limit was met, or the mixity of some pairs does not settle. displaced: the displacements of the state belong to
     // its adhesion.
-    bool alternate(State& state, Increment& increment, bool displaced = false) const;
+    bool alternate(State& state, StepRule& increment, bool displaced = false) const;
     // The same to the same stopping test, sped up and safeguarded by the energy: between two alternations Newton's
     // method moves ahead in a zone of the operator (zone_newton.hpp), or plain steps are extrapolated.
-    bool accelerate(State& state, Increment& increment, bool displaced = false) const;
+    bool accelerate(State& state, StepRule& increment, bool displaced = false) const;
 
 private:
     // E + D of a state whose displacements belong to its adhesion, up to a constant of the step.
     double energy(const State& state, const Increment& increment) const;
     // Extrapolates plain damage steps; the adhesion stays between 0 and that before the step.
-    void extrapolate(State& state, const Increment& increment, std::span<const double> plain,
+    void extrapolate(State& state, const StepRule& increment, std::span<const double> plain,
                      Extrapolation& extrapolation) const;
-    bool end(State& state, const Increment& increment, bool converged) const;
+    bool end(State& state, const StepRule& increment, bool converged) const;
 };
 
 }  // namespace delam

@@ -59,7 +59,8 @@ private:
 
 class Descent {
 public:
-    Descent(const ZoneNewton& newton, State& state, Increment& increment, const Springs& springs, Zone& zone);
+    Descent(const ZoneNewton& newton, State& state, const Increment& increment, StepMixities& mixities,
+            const Springs& springs, Zone& zone);
     // So many steps at most, until one changes the damage by less than the tolerance. Returns the energy added by new
     // mixities alone.
     double run(std::int64_t limit, double tolerance);
@@ -98,7 +99,7 @@ private:
     bool minimise(const Point& at, std::span<const double> adhesion, double fraction, std::int64_t debonded,
                   Point& out);
     // A point between `at` and `to` with less energy, at which pairs change one by one if asked for; false: none.
-    bool descend(const Point& at, Point& to, bool singly) const;
+    bool descend(const Point& at, Point& to, bool singly);
     // Between the points at most one pair breaks, and if one does, none that was at rest begins to soften.
     bool one_by_one(const Point& from, const Point& to) const;
     std::int64_t weakest(const Point& at) const;
@@ -116,7 +117,8 @@ private:
 
     const ZoneNewton& newton_;
     State& state_;
-    Increment& increment_;
+    const Increment& increment_;
+    StepMixities& mixities_;
     std::size_t dim_;
     Zone& zone_;
     ZoneSystem system_;
@@ -126,7 +128,7 @@ private:
     double added_ = 0.0;
     bool ended_ = false, newton_step_ = false;
     double first_change_ = infinite, last_change_ = infinite;
-    mutable bool halved_ = false;  // descend() has gone a part of the way only
+    bool halved_ = false;  // descend() has gone a part of the way only
     Extrapolation extrapolation_;
     std::vector<double> used_;  // adhesions from which the last extrapolation started
     Patience newton_patience_, move_patience_;
@@ -136,10 +138,12 @@ private:
     double growth_ = least_growth;  // by which damped steps exceed staggered ones along the softest mode
 };
 
-Descent::Descent(const ZoneNewton& newton, State& state, Increment& increment, const Springs& springs, Zone& zone)
+Descent::Descent(const ZoneNewton& newton, State& state, const Increment& increment, StepMixities& mixities,
+                 const Springs& springs, Zone& zone)
     : newton_(newton),
       state_(state),
       increment_(increment),
+      mixities_(mixities),
       dim_(static_cast<std::size_t>(newton.contact.dimension)),
       zone_(zone),
       system_(zone, newton.contact, newton.op.prescribed_rows(), springs.held, state.theta,
@@ -224,7 +228,7 @@ bool Descent::one_by_one(const Point& from, const Point& to) const {
     return broken == 0 || (broken == 1 && begun == 0);
 }
 
-bool Descent::descend(const Point& at, Point& to, bool singly) const {
+bool Descent::descend(const Point& at, Point& to, bool singly) {
     const double rounding = zone_.energy_rounding() * (std::abs(at.energy) + std::abs(to.energy));
     for (std::int64_t n = 0; n < halvings; ++n) {
         halved_ = n > 0;
@@ -378,7 +382,7 @@ bool Descent::observe(Point& at, std::span<const double> carried) {
         const std::size_t pair = members_[i].pair;
         if (!(carried[i] > 0.0) || !pairs.mixed(pair)) continue;
         const double before = increment_.dissipated(pair, at.adhesion[i]);
-        if (!increment_.observe(pair, driving_energy(*pairs.law[pair], local(at, i)))) continue;
+        if (!mixities_.observe(pair, driving_energy(*pairs.law[pair], local(at, i)))) continue;
         changed = true;
         added_ += pairs.weight[pair] * (increment_.dissipated(pair, at.adhesion[i]) - before);
     }
@@ -450,7 +454,7 @@ std::vector<std::uint8_t> loaded_rows(const ZoneNewton& newton, const State& sta
 
 }  // namespace
 
-std::optional<double> ZoneNewton::run(State& state, Increment& increment) const {
+std::optional<double> ZoneNewton::run(State& state, const Increment& increment, StepMixities& mixities) const {
     const auto springs = [&] {
         return Springs{spring_stiffness(increment.pairs(), state.adhesion), held_rows(contact, state.closed)};
     };
@@ -459,18 +463,18 @@ std::optional<double> ZoneNewton::run(State& state, Increment& increment) const 
     for (std::int64_t n = 0; n < limit; ++n) {
         const std::vector<std::uint8_t> wanted = loaded_rows(*this, state, increment);
         // What softens is brought to its end with the rest of the bodies at rest, before these all move by a step.
-        Zone* part = op.part(state.theta, state.response, wanted);
+        Zone* part = zones->part(state.theta, state.response, wanted);
         if (part != nullptr) {
-            Descent descent(*this, state, increment, springs(), *part);
+            Descent descent(*this, state, increment, mixities, springs(), *part);
             added += descent.run(std::min(limit, steps_in_part),
                                  std::max(tolerance, part_of_change * std::min(1.0, last_change)));
             // Nothing is left of a step of Newton's method but what it has linearised.
             if (newton && descent.ended() && descent.first_change() <= tolerance) break;
         }
         const Springs acting = springs();
-        Zone* zone = op.zone(acting, wanted, false);
+        Zone* zone = zones->zone(acting, wanted, false);
         if (zone == nullptr) return std::nullopt;
-        Descent descent(*this, state, increment, acting, *zone);
+        Descent descent(*this, state, increment, mixities, acting, *zone);
         added += descent.run(part != nullptr ? 1 : limit, tolerance);
         if (part == nullptr || descent.ended()) break;
         newton = descent.newton();

@@ -17,19 +17,21 @@
 #include "base/monitor.hpp"
 #include "evolution/contact/contact.hpp"
 #include "evolution/increment/increment.hpp"
+#include "evolution/increment/step_mixities.hpp"
 
 namespace delam {
 
 struct ZoneNewton {
     JumpOperator& op;
+    Zones* zones;  // of the operator
     const ContactScene& contact;
     Monitor& monitor;
     double tolerance;  // of the adhesion
     std::int64_t limit;
 
     // state: displacements at its adhesion in; adhesion, contact set and the jumps of the zone out. Returns the energy
-    // that new mixities alone have added; none where the operator offers no zone.
-    std::optional<double> run(State& state, Increment& increment) const;
+    // that new mixities alone have added; none where there is no zone this time.
+    std::optional<double> run(State& state, const Increment& increment, StepMixities& mixities) const;
 };
 
 }  // namespace delam

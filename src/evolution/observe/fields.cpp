@@ -47,7 +47,7 @@ FieldShape field_shape(const Observer& observer, const std::string& key, std::in
          "'; known: displacement, stress, rotation, jump, traction, adhesion, mixity, contact, reaction");
 }
 
-std::vector<double> field(const Observer& observer, const std::string& key, std::int64_t part) {
+std::vector<double> field(Observer& observer, const std::string& key, std::int64_t part) {
     const FieldShape shape = field_shape(observer, key, part);
     const State& state = observer.state();
     const Problem& problem = observer.problem();

@@ -16,6 +16,6 @@ struct FieldShape {
 };
 // part: an interface for pair fields, -1 for everything. Throws Error(DELAM_ERROR_ARGUMENT) for an unknown key or part.
 FieldShape field_shape(const Observer& observer, const std::string& key, std::int64_t part);
-std::vector<double> field(const Observer& observer, const std::string& key, std::int64_t part);
+std::vector<double> field(Observer& observer, const std::string& key, std::int64_t part);
 
 }  // namespace delam

@@ -9,6 +9,7 @@
 #include "body/assembly.hpp"
 #include "body/rotation.hpp"
 #include "evolution/observe/balance.hpp"
+#include "reduction/sparse/engine/engine_operator.hpp"
 #include "scene/strain_loads.hpp"
 
 namespace delam {
@@ -40,7 +41,7 @@ std::optional<CrackedInterface> Observer::cracked(const State& state, std::int64
                             std::span(state.response.jump).subspan(first * dim, count * dim)};
 }
 
-double Observer::largest_rotation(const State& state) const {
+double Observer::largest_rotation(const State& state) {
     return problem_.mesh->cell_count() == 0 ? unknown : delam::largest_rotation(*problem_.mesh, displacement(state));
 }
 
@@ -59,7 +60,7 @@ std::vector<Strain> Observer::eigenstrains() const {
     return strains;
 }
 
-std::vector<double> Observer::stress() const {
+std::vector<double> Observer::stress() {
     const Mesh& mesh = *problem_.mesh;
     std::vector<double> stress = centre_stress(mesh, models(), displacement(), eigenstrains());
     const std::int64_t columns = mesh.dimension() == 2 ? 4 : 6;
@@ -68,7 +69,7 @@ std::vector<double> Observer::stress() const {
     return stress;
 }
 
-VolumeAverage Observer::average(std::int32_t body) const {
+VolumeAverage Observer::average(std::int32_t body) {
     VolumeAverage average = volume_average(*problem_.mesh, models(), displacement(), eigenstrains(), body);
     for (std::int32_t b = 0; b < problem_.mesh->body_count(); ++b) {
         if ((body >= 0 && b != body) || known(b) || problem_.mesh->host_body(b)) continue;
@@ -79,7 +80,7 @@ VolumeAverage Observer::average(std::int32_t body) const {
     return average;
 }
 
-const std::vector<CrackFront>& Observer::crack_fronts(std::int64_t interface) const {
+const std::vector<CrackFront>& Observer::crack_fronts(std::int64_t interface) {
     fronts_.resize(problem_.interfaces.size());
     auto& kept = fronts_[index(interface)];
     if (!kept) {
@@ -89,13 +90,25 @@ const std::vector<CrackFront>& Observer::crack_fronts(std::int64_t interface) co
     return *kept;
 }
 
-const std::vector<double>& Observer::displacement() const {
-    if (displacement_.empty()) displacement_ = op_.displacement(state().theta, state().response);
+const std::vector<double>& Observer::displacement() {
+    if (displacement_.empty()) {
+        displacement_ = op_.displacement(state().theta, state().response);
+        ++recoveries_;
+    }
     return displacement_;
 }
 
-std::vector<double> Observer::displacement(const State& state) const {
-    return &state == &this->state() ? displacement() : op_.displacement(state.theta, state.response);
+std::vector<double> Observer::displacement(const State& state) {
+    if (&state == shown_) return displacement();
+    ++recoveries_;
+    return op_.displacement(state.theta, state.response);
+}
+
+bool Observer::recover_in_engine() {
+    if (in_engine_ == nullptr) return false;
+    in_engine_->recover_in_engine(state().theta, state().response);
+    ++recoveries_;
+    return true;
 }
 
 double Observer::equilibrium_defect(const State& state) const {

@@ -15,12 +15,19 @@
 
 namespace delam {
 
+class EngineOperator;
+
 class Observer {
 public:
-    // What is read must outlive the observer.
+    // What is read must outlive the observer. in_engine: the operator, if an engine of the host has the bodies.
     Observer(const Problem& problem, const JumpOperator& op, const PairLaws& pairs, const ContactScene& contact,
-             const std::vector<double>& initial_adhesion)
-        : problem_(problem), op_(op), pairs_(pairs), contact_(contact), initial_adhesion_(initial_adhesion) {}
+             const std::vector<double>& initial_adhesion, const EngineOperator* in_engine)
+        : problem_(problem),
+          op_(op),
+          pairs_(pairs),
+          contact_(contact),
+          initial_adhesion_(initial_adhesion),
+          in_engine_(in_engine) {}
 
     // Shows a state and discards what was computed of the one before.
     void show(const State& state);
@@ -36,30 +43,30 @@ public:
     const State& state() const { return *shown_; }
 
     // Displacements of the state that is shown, [mesh DOFs], recovered on request.
-    const std::vector<double>& displacement() const;
+    const std::vector<double>& displacement();
     // Displacements of any state.
-    std::vector<double> displacement(const State& state) const;
+    std::vector<double> displacement(const State& state);
     // True if the engine of the host has recovered the displacements of the state that is shown, and keeps them.
-    bool recover_in_engine() const { return op_.recover_in_engine(state().theta, state().response); }
+    bool recover_in_engine();
     // Returns how often displacements were recovered.
-    std::int64_t recoveries() const { return op_.recoveries(); }
+    std::int64_t recoveries() const { return recoveries_; }
     // Reactions of the constraints, [constraints].
     std::vector<double> reaction() const { return op_.reaction(state().theta, state().response); }
     // Out-of-balance force over the largest reaction.
     double equilibrium_defect(const State& state) const;
     // At the centres of the cells (centre_stress); NaN for bodies with a stiffness of the host and no material.
-    std::vector<double> stress() const;
+    std::vector<double> stress();
     // e* of the bodies, in material axes; empty if there are none.
     std::vector<Strain> eigenstrains() const;
     // Of a body (index), -1: of all; recovers the displacements.
-    VolumeAverage average(std::int32_t body) const;
+    VolumeAverage average(std::int32_t body);
     // Returns the largest rotation of a cell, rad; NaN without cells. Recovers the displacements.
-    double largest_rotation(const State& state) const;
+    double largest_rotation(const State& state);
 
     // The interface with its law and its fields of a state; nothing if it has no law.
     std::optional<CrackedInterface> cracked(const State& state, std::int64_t interface) const;
     // Fronts of the cracks of an interface in the state that is shown; none if it has no law.
-    const std::vector<CrackFront>& crack_fronts(std::int64_t interface) const;
+    const std::vector<CrackFront>& crack_fronts(std::int64_t interface);
 
 private:
     bool known(std::int32_t body) const { return problem_.material[static_cast<std::size_t>(body)].has_value(); }
@@ -72,8 +79,10 @@ private:
     const ContactScene& contact_;
     const std::vector<double>& initial_adhesion_;
     const State* shown_ = nullptr;
-    mutable std::vector<double> displacement_;                            // empty: not recovered
-    mutable std::vector<std::optional<std::vector<CrackFront>>> fronts_;  // [interfaces]
+    const EngineOperator* in_engine_;
+    std::vector<double> displacement_;                            // empty: not recovered
+    std::vector<std::optional<std::vector<CrackFront>>> fronts_;  // [interfaces]
+    std::int64_t recoveries_ = 0;
 };
 
 }  // namespace delam

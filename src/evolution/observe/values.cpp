@@ -18,9 +18,9 @@ namespace {
 // A state of a solver as the values see it. The fronts of an interface are sought when the first value asks for them.
 class Reading {
 public:
-    Reading(const Observer& observer, const State& state) : observer_(observer), state_(state) {}
+    Reading(Observer& observer, const State& state) : observer_(observer), state_(state) {}
 
-    const Observer& observer() const { return observer_; }
+    Observer& observer() const { return observer_; }
     const State& state() const { return state_; }
     std::int64_t interfaces() const { return static_cast<std::int64_t>(observer_.problem().interfaces.size()); }
     std::size_t dimension() const { return index(observer_.pairs().dimension); }
@@ -37,7 +37,7 @@ public:
     }
 
 private:
-    const Observer& observer_;
+    Observer& observer_;
     const State& state_;
     mutable std::map<std::int64_t, std::vector<CrackFront>> fronts_;
 };
@@ -403,7 +403,7 @@ std::optional<KeyedValue> not_finite(const Ledger& ledger) {
     return std::nullopt;
 }
 
-std::vector<double> values_of(const Observer& observer, const State& state, const std::vector<std::string>& keys) {
+std::vector<double> values_of(Observer& observer, const State& state, const std::vector<std::string>& keys) {
     const Reading reading(observer, state);
     std::vector<double> values;
     values.reserve(keys.size());
@@ -411,6 +411,6 @@ std::vector<double> values_of(const Observer& observer, const State& state, cons
     return values;
 }
 
-double value(const Observer& observer, const std::string& key) { return read({observer, observer.state()}, key); }
+double value(Observer& observer, const std::string& key) { return read({observer, observer.state()}, key); }
 
 }  // namespace delam

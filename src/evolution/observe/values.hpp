@@ -58,8 +58,8 @@ std::optional<KeyedValue> not_finite(const Ledger& ledger);
 
 // Values of a state of the analysis, which need not be the one that is shown. Throws Error(DELAM_ERROR_ARGUMENT) for an
 // unknown key.
-std::vector<double> values_of(const Observer& observer, const State& state, const std::vector<std::string>& keys);
+std::vector<double> values_of(Observer& observer, const State& state, const std::vector<std::string>& keys);
 // Of the state that is shown.
-double value(const Observer& observer, const std::string& key);
+double value(Observer& observer, const std::string& key);
 
 }  // namespace delam

@@ -107,7 +107,7 @@ bool InnerPath::part(const State& at, State& next, bool displaced) {
     const double stride = bound(at, next.mixity);
     const State start = next;
     const bool free = !bounded_ && one_mode(at, next.mixity, nullptr);
-    std::unique_ptr<Increment> own = make_(at, next.mixity, free ? 1.0 : stride);
+    std::unique_ptr<StepRule> own = make_(at, next.mixity, free ? 1.0 : stride);
     bool converged = minimise_(next, *own, displaced);
     bounded_ = !free;
     if (free && !one_mode(next, next.mixity, &at)) {
@@ -128,7 +128,7 @@ bool InnerPath::part(const State& at, State& next, bool displaced) {
     return converged;
 }
 
-bool InnerPath::follow(State& next, const Increment& step, const Dissipation* begun, const Watch& watch,
+bool InnerPath::follow(State& next, const StepRule& step, const Dissipation* begun, const Watch& watch,
                        bool displaced) {
     State at = step.before();
     at.theta = next.theta;

@@ -17,7 +17,7 @@
 #include <span>
 #include <vector>
 
-#include "evolution/increment/increment.hpp"
+#include "evolution/increment/rule/step_rule.hpp"
 #include "evolution/path/within_step.hpp"
 #include "evolution/search/fronts.hpp"
 
@@ -28,9 +28,9 @@ PathPoint path_point(const PairLaws& pairs, const PairGraph& graph, const State&
 class InnerPath {
 public:
     // A minimisation of an increment from a state whose displacements may be known (`displaced`); whether it converged.
-    using Minimise = std::function<bool(State& state, Increment& increment, bool displaced)>;
+    using Minimise = std::function<bool(State& state, StepRule& increment, bool displaced)>;
     // An increment from a state, with these mixities and largest share.
-    using Make = std::function<std::unique_ptr<Increment>(const State& before, std::span<const double> mixity, double)>;
+    using Make = std::function<std::unique_ptr<StepRule>(const State& before, std::span<const double> mixity, double)>;
 
     // Sees the state after each part, and what has been dissipated until then. False: far enough.
     using Watch = std::function<bool(const State& state, const Dissipation& dissipated)>;
@@ -41,14 +41,14 @@ public:
     // From the adhesion and mixity of `next`, which has the load of the end of the step; `step` begins at the state
     // before. begun: what it has dissipated down to this adhesion; none: at these mixities. displaced: the
     // displacements of `next` are those of its adhesion. False: a part did not converge.
-    bool follow(State& next, const Increment& step, const Dissipation* begun = nullptr, const Watch& watch = {},
+    bool follow(State& next, const StepRule& step, const Dissipation* begun = nullptr, const Watch& watch = {},
                 bool displaced = false);
     // Do all pairs that are damaged in part, or nearly loaded to their onset, have the same toughness at these
     // mixities? before: and those that were damaged since then, at the mixities that they show now, too. Without such
     // pairs: yes.
     bool one_mode(const State& at, std::span<const double> mixity, const State* before) const;
     // In one part, without its bound.
-    bool minimise(State& next, Increment& increment, bool displaced) const {
+    bool minimise(State& next, StepRule& increment, bool displaced) const {
         return minimise_(next, increment, displaced);
     }
     // What the step has dissipated in all parts, with that of its start, F L.

@@ -38,7 +38,7 @@ std::uint64_t key_of(std::span<const double> adhesion) {
 
 CandidateEnergies::CandidateEnergies(JumpOperator& op, const ContactScene& contact, Monitor& monitor,
                                      ZoneEnergies* zone, const PairGraph& graph, const Increment& increment,
-                                     const State& from, double allowed)
+                                     bool follow_mixity, const State& from, double allowed)
     : op_(op),
       contact_(contact),
       monitor_(monitor),
@@ -46,7 +46,7 @@ CandidateEnergies::CandidateEnergies(JumpOperator& op, const ContactScene& conta
       graph_(graph),
       increment_(increment),
       from_(from),
-      follow_mixity_(increment.follows_iterates()),
+      follow_mixity_(follow_mixity),
       allowed_(allowed),
       size_(max_abs(from.theta)),
       direction_(from.theta),
@@ -56,7 +56,7 @@ CandidateEnergies::CandidateEnergies(JumpOperator& op, const ContactScene& conta
 }
 
 std::size_t CandidateEnergies::largest_zone() const {
-    const bool dense = zone_ != nullptr && !op_.zone_is_whole();
+    const bool dense = zone_ != nullptr && !zone_->whole();
     return dense ? largest_dense_zone : std::numeric_limits<std::size_t>::max();
 }
 

@@ -11,6 +11,7 @@
 
 #include "base/monitor.hpp"
 #include "evolution/increment/increment.hpp"
+#include "evolution/increment/step_account.hpp"
 #include "evolution/search/fronts.hpp"
 #include "evolution/search/zone_energies.hpp"
 
@@ -28,7 +29,8 @@ public:
     // The load of `from`: a direction whose largest entry has size 1, and its size. allowed: by how much an energy may
     // be too high, F L.
     CandidateEnergies(JumpOperator& op, const ContactScene& contact, Monitor& monitor, ZoneEnergies* zone,
-                      const PairGraph& graph, const Increment& increment, const State& from, double allowed);
+                      const PairGraph& graph, const Increment& increment, bool follow_mixity, const State& from,
+                      double allowed);
     // memory() of a search of an earlier step; ignored where it is of another load, or not of this kind.
     void recall(std::span<const double> memory);
     // The direction of the load, then key, value, error and age of each energy of the last searches.

@@ -172,7 +172,7 @@ Search::Search(const Problem& problem, const PairLaws& pairs, const ContactScene
       monitor_(monitor),
       op_(op),
       graph_(problem.mesh->interfaces()) {
-    if (op.offers_zone()) zone_.emplace(op, pairs, contact);
+    if (Zones* zones = op.zones()) zone_.emplace(op, *zones, pairs, contact);
 }
 
 // E_all with contact tested at a few pairs only: less than with all of it, and a small problem.
@@ -199,7 +199,8 @@ double Search::debonded_energy(const State& from, std::span<const double> direct
     Response response;
     try {
         // One zone for all contact sets.
-        if (twin) op.zone({spring_stiffness(pairs_, nothing), held_rows(coarse, closed)}, tested, true);
+        if (Zones* zones = twin ? op.zones() : nullptr)
+            zones->zone({spring_stiffness(pairs_, nothing), held_rows(coarse, closed)}, tested, true);
         const bool settled =
             solve_contact(op, coarse, spring_stiffness(pairs_, nothing), direction, closed, response, false).converged;
         if (settled && response.balanced) return response.stored_bulk + response.load_potential;
@@ -209,11 +210,12 @@ double Search::debonded_energy(const State& from, std::span<const double> direct
     return dead ? -infinite : 0.0;
 }
 
-SearchResult Search::run(const Increment& increment, const State& from, std::span<const double> mixity) {
+SearchResult Search::run(const Increment& increment, const StepAccount& account, const State& from,
+                         std::span<const double> mixity) {
     SearchResult result;
     const double tolerance = problem_.options.search_tolerance * from.ledger.scale();
-    CandidateEnergies energies(op_, contact_, monitor_, zone_ ? &*zone_ : nullptr, graph_, increment, from,
-                               of_tolerance * tolerance);
+    CandidateEnergies energies(op_, contact_, monitor_, zone_ ? &*zone_ : nullptr, graph_, increment,
+                               account.follows_iterates(), from, of_tolerance * tolerance);
     if (energies.direction() != floor_direction_) {
         floor_direction_.clear();
         unit_floor_ = energies.size() > 0.0 ? debonded_energy(from, energies.direction()) : 0.0;
@@ -226,10 +228,11 @@ SearchResult Search::run(const Increment& increment, const State& from, std::spa
     if (zone_) zone_->forget();
     energies.recall(increment.before().search_energies);
     SearchRun run{increment,
+                  account,
                   graph_,
                   energies,
                   result,
-                  energies.size() * energies.size() * unit_floor_ - increment.energy_before(),
+                  energies.size() * energies.size() * unit_floor_ - account.energy_before(),
                   from.ledger.increment,
                   from.ledger.increment,
                   tolerance,

@@ -26,6 +26,7 @@
 
 #include "base/monitor.hpp"
 #include "evolution/increment/increment.hpp"
+#include "evolution/increment/step_account.hpp"
 #include "evolution/search/fronts.hpp"
 #include "evolution/search/search_result.hpp"
 #include "evolution/search/zone_energies.hpp"
@@ -42,7 +43,8 @@ public:
     // and on the state before it, so that an analysis that was saved, rolled back or cancelled goes on with the same
     // bits: energies for later searches are part of the state. Besides these nothing is kept from other steps but E_all
     // of the same load.
-    SearchResult run(const Increment& increment, const State& from, std::span<const double> mixity);
+    SearchResult run(const Increment& increment, const StepAccount& account, const State& from,
+                     std::span<const double> mixity);
 
 private:
     double debonded_energy(const State& from, std::span<const double> direction) const;

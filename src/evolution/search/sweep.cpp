@@ -33,7 +33,7 @@ double SearchRun::compare(Candidate& candidate, std::span<const std::int64_t> ne
     if (next_mixity != nullptr) *next_mixity = e.next_mixity;
     const double size = energies.size();
     result.error = std::max(result.error, size * size * e.error);
-    candidate.incremental = size * size * e.value - increment.energy_before() +
+    candidate.incremental = size * size * e.value - account.energy_before() +
                             gradient_energy(pairs(), candidate.adhesion) + cost(candidate);
     result.lowest = std::min(result.lowest, candidate.incremental);
     best = std::min(best, candidate.incremental);
@@ -116,7 +116,7 @@ Candidate Sweep::candidate(std::size_t n) const {
         if (!mixity_[k].empty()) latest = &mixity_[k];
         for (std::size_t i = 0; i < ring_[k].size(); ++i) {
             const auto p = index(ring_[k][i]);
-            if (search_.increment.follows_iterates() && latest != nullptr)
+            if (search_.account.follows_iterates() && latest != nullptr)
                 c.mixity[p] = (*latest)[std::min(i, latest->size() - 1)];
             c.adhesion[p] = 0.0;
         }
@@ -155,7 +155,7 @@ std::size_t Sweep::middle(std::size_t low, std::size_t high) const {
 }
 
 double Sweep::cost_of(std::size_t n) const {
-    if (search_.increment.follows_iterates()) return search_.cost(candidate(n));
+    if (search_.account.follows_iterates()) return search_.cost(candidate(n));
     auto known = other_cost_.find(n);
     if (known == other_cost_.end()) known = other_cost_.emplace(n, search_.cost(candidate(n))).first;
     return known->second;
@@ -230,7 +230,7 @@ void Sweep::sample_new_crack() {
     std::vector<std::size_t> sizes;
     for (std::size_t n = 1; n < ring_.size(); n *= 2) sizes.push_back(n);
     if (!ring_.empty()) sizes.push_back(ring_.size());
-    const bool from_below = search_.increment.follows_iterates();
+    const bool from_below = search_.account.follows_iterates();
     if (!from_below) std::reverse(sizes.begin(), sizes.end());
     for (const std::size_t n : sizes) {
         if (search_.left <= 0) {
@@ -267,7 +267,7 @@ bool Sweep::settled_by_a_larger_one(std::size_t n) const {
 
 // Rings far apart, at positions that do not move with the front.
 void Sweep::sample_coarsely() {
-    const std::size_t most = search_.increment.follows_iterates() ? fine_mixity : fine;
+    const std::size_t most = search_.account.follows_iterates() ? fine_mixity : fine;
     std::size_t stride = 1;
     while (ring_.size() / stride > most) stride *= 2;
     for (std::size_t n = 1; n <= ring_.size(); ++n) {

@@ -16,6 +16,7 @@ namespace delam {
 // One search as far as it has come.
 struct SearchRun {
     const Increment& increment;
+    const StepAccount& account;
     const PairGraph& graph;
     CandidateEnergies& energies;
     SearchResult& result;
@@ -34,7 +35,7 @@ struct SearchRun {
     std::vector<std::uint8_t> new_cracks{};
 
     const PairLaws& pairs() const { return increment.pairs(); }
-    double cost(const Candidate& c) const { return increment.cost(c.mixity, c.adhesion); }
+    double cost(const Candidate& c) const { return account.cost(c.mixity, c.adhesion); }
     const std::vector<std::uint8_t>& adhering(const Candidate& base);
     // These pairs and those that new cracks may reach, where a small zone serves both, or always.
     std::vector<std::uint8_t> with_new_cracks(std::vector<std::uint8_t> wanted, bool always) const;

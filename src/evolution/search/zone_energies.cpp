@@ -33,7 +33,7 @@ bool ZoneEnergies::choose() {
     Springs springs{spring_stiffness(pairs_, known_->adhesion), held_rows(contact_, known_->closed)};
     std::vector<std::uint8_t> rows;
     for (std::size_t p = 0; p < wanted_.size(); ++p) rows.insert(rows.end(), dim, wants(p) ? 1 : 0);
-    Zone* zone = op_.zone(springs, rows, true);
+    Zone* zone = zones_.zone(springs, rows, true);
     if (zone == nullptr) return false;
     system_.emplace(*zone, contact_, op_.prescribed_rows(), springs.held, known_->theta);
     if (solved_.empty()) solved_.push_back({known_->adhesion, known_->closed});
@@ -43,7 +43,7 @@ bool ZoneEnergies::choose() {
     zone->ask_for_energies(0.0);
     const std::optional<double> energy = zone_energy(known_->adhesion);
     if (!energy) return false;
-    zone->ask_for_energies(with_jumps_ && !op_.zone_is_whole() ? 0.0 : allowed_);
+    zone->ask_for_energies(with_jumps_ && !whole_ ? 0.0 : allowed_);
     system_->ask_for_energies(with_jumps_ ? 0.0 : undecided * allowed_);
     // The search itself handles the gradient term, which does not depend on displacements.
     offset_ = known_->ledger.energy() - gradient_energy(pairs_, known_->adhesion) - *energy;
@@ -54,7 +54,7 @@ std::optional<double> ZoneEnergies::energy(std::span<const double> adhesion) {
     std::size_t differ = 0;
     for (std::size_t p = 0; p < adhesion.size(); ++p) differ += adhesion[p] != known_->adhesion[p] ? 1 : 0;
     std::optional<double> energy = zone_energy(adhesion);
-    settled_ = !energy || op_.zone_is_whole() || differ < std::max<std::size_t>(1, look_again * looked_at_);
+    settled_ = !energy || whole_ || differ < std::max<std::size_t>(1, look_again * looked_at_);
     for (int round = 0; !settled_ && round < rounds_outside; ++round) {
         const std::vector<std::size_t> wrong = wrong_outside();
         settled_ = wrong.empty();
@@ -74,8 +74,8 @@ std::optional<double> ZoneEnergies::energy(std::span<const double> adhesion) {
 std::vector<std::size_t> ZoneEnergies::wrong_outside() const {
     const Solved& last = solved_.back();
     Response response;
-    if (!op_.complete({spring_stiffness(pairs_, last.adhesion), held_rows(contact_, last.closed)}, known_->theta,
-                      system_->solution(), response))
+    if (!zones_.complete({spring_stiffness(pairs_, last.adhesion), held_rows(contact_, last.closed)}, known_->theta,
+                         system_->solution(), response))
         return {};
     std::vector<std::size_t> wrong = pairs_on_the_wrong_side(op_, contact_, known_->theta, last.closed, response);
     std::erase_if(wrong, [&](std::size_t p) { return inside(p); });
@@ -89,7 +89,7 @@ bool ZoneEnergies::serves(std::span<const std::uint8_t> wanted) const {
         if (!inside(p)) return false;
         rows += static_cast<std::size_t>(pairs_.dimension);
     }
-    return op_.zone_is_whole() || system_->zone().jump_rows().size() <= 2 * rows + spare_rows;
+    return whole_ || system_->zone().jump_rows().size() <= 2 * rows + spare_rows;
 }
 
 // Every pair as in the nearest of the solved states that has the same adhesion there. A pair that is debonded for the

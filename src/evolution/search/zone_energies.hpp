@@ -22,8 +22,12 @@ inline constexpr std::size_t spare_rows = 128;
 
 class ZoneEnergies {
 public:
-    ZoneEnergies(JumpOperator& op, const PairLaws& pairs, const ContactScene& contact)
-        : op_(op), pairs_(pairs), contact_(contact) {}
+    // zones: those of the operator.
+    ZoneEnergies(const JumpOperator& op, Zones& zones, const PairLaws& pairs, const ContactScene& contact)
+        : op_(op), zones_(zones), whole_(zones.zone_traits().whole), pairs_(pairs), contact_(contact) {}
+
+    // True if every zone has all rows.
+    bool whole() const { return whole_; }
     // known: a state with displacements and booked energy, which must outlive the following calls. wanted: [pairs] that
     // may differ. allowed: by how much an energy may be too high, F L. with_jumps: its jumps are wanted, too, which
     // contact must not be left undecided for. False: there is no zone for them, or no equilibrium under the known load
@@ -62,7 +66,9 @@ private:
     // Pairs outside the zone that are on the wrong side of contact in the last state that was solved.
     std::vector<std::size_t> wrong_outside() const;
 
-    JumpOperator& op_;
+    const JumpOperator& op_;
+    Zones& zones_;
+    bool whole_;
     const PairLaws& pairs_;
     const ContactScene& contact_;
     std::optional<ZoneSystem> system_;

@@ -119,7 +119,7 @@ Minimiser Stepper::minimiser() {
     return {*operator_, contact_, monitor_, problem_.options.damage_tolerance, problem_.options.minimisation_limit};
 }
 
-std::unique_ptr<Increment> Stepper::increment(const State& before, std::span<const double> mixity) const {
+std::unique_ptr<StepRule> Stepper::increment(const State& before, std::span<const double> mixity) const {
     return rule_->increment(pairs_, before, mixity, problem_.options.damage_tolerance);
 }
 
@@ -154,7 +154,7 @@ void Stepper::begin(State& next, const State& before, double time) {
     operator_->recall(before.memory);
 }
 
-double Stepper::largest_loss(const Increment& step, const State& next) const {
+double Stepper::largest_loss(const StepRule& step, const State& next) const {
     const std::vector<double>& before = step.before().adhesion;
     double largest = 0.0;
     for (std::size_t p = 0; p < before.size(); ++p)
@@ -167,7 +167,7 @@ double Stepper::largest_loss(const Increment& step, const State& next) const {
 // nor dissipated of it in a step that damages a pair abruptly is released, into a motion that a quasi-static model does
 // not have. A step that was followed in parts knows when they happen, and books what the load does between them
 // (within_step.hpp).
-void Stepper::book_step(State& next, const Increment& step, const InnerPath* path) const {
+void Stepper::book_step(State& next, const StepRule& step, const InnerPath* path) const {
     step.book(next, path != nullptr ? &path->dissipated() : nullptr);
     const State& before = step.before();
     Ledger& ledger = next.ledger;
@@ -209,7 +209,7 @@ InnerPath Stepper::inner_path() {
             [this](const State& before, std::span<const double> mixity, double stride) {
                 return rule_->increment(pairs_, before, mixity, {problem_.options.damage_tolerance, stride});
             },
-            [this](State& state, Increment& increment, bool displaced) {
+            [this](State& state, StepRule& increment, bool displaced) {
                 return problem_.options.minimisation == "alternate"
                            ? minimiser().alternate(state, increment, displaced)
                            : minimiser().accelerate(state, increment, displaced);
@@ -217,7 +217,7 @@ InnerPath Stepper::inner_path() {
 }
 
 // Starts from the adhesion and the mixity of `next`.
-bool Stepper::minimise(State& next, const Increment& step, const Dissipation* begun, bool displaced) {
+bool Stepper::minimise(State& next, const StepRule& step, const Dissipation* begun, bool displaced) {
     InnerPath path = inner_path();
     const bool converged = step.in_parts() ? path.follow(next, step, begun, {}, displaced)
                                            : path.minimise(next, *step.starting_at(next.mixity), displaced);
@@ -231,7 +231,7 @@ bool Stepper::minimise(State& next, const Increment& step, const Dissipation* be
 // Beyond the limit of a dead load, alternation takes adhesion to zero by ever smaller steps and displacements to
 // infinity: pairs with less than the tolerance left of their toughness do not hold a part. Without them the
 // displacement step finds no equilibrium (DELAM_LIMIT).
-void Stepper::refuse_runaway(const State& state, const Increment& step) {
+void Stepper::refuse_runaway(const State& state, const StepRule& step) {
     bool dead = false, faint = false;
     for (std::size_t p = 0; p < state.theta.size(); ++p)
         dead = dead || (problem_.patterns[p].drives == Pattern::Drives::force && state.theta[p] != 0.0);
@@ -259,7 +259,7 @@ double Stepper::lower_excess(const State& state) const {
 // proportion: the bodies, springs and frictionless contact without a gap have no other length.
 bool Stepper::displaced_in_proportion(State& next, const State& before) const {
     const std::optional<double> a = load_ratio(before.theta, next.theta);
-    if (!a || !operator_->answers_in_proportion() || before.response.jump.empty() ||
+    if (!a || !operator_->traits().proportional || before.response.jump.empty() ||
         !pairs_on_the_wrong_side(*operator_, contact_, before.theta, before.closed, before.response).empty())
         return false;
     const double grown = 1.0 / *a;
@@ -292,7 +292,7 @@ bool Stepper::start(State& next, const State& before, double time) {
 Stepper::Result Stepper::step(const State& before, double time, std::span<const Start> also) {
     State first;
     const bool converged = start(first, before, time);
-    const std::unique_ptr<Increment> step = increment(before, first.mixity);
+    const std::unique_ptr<StepRule> step = increment(before, first.mixity);
     // Plain alternation solves for the displacements in every step, as the reference solver does.
     const bool displaced = problem_.options.minimisation != "alternate" && step->quadratic() &&
                            (before.loaded == 0 || displaced_in_proportion(first, before));
@@ -328,7 +328,7 @@ Sensitivity Stepper::follow(std::vector<FollowedParameter> parameters, const Sta
 }
 
 // Minimises from another start and keeps the lower state. All effort is counted.
-void Stepper::keep_lower(Result& best, State other, const Increment& step, const Dissipation* begun) {
+void Stepper::keep_lower(Result& best, State other, const StepRule& step, const Dissipation* begun) {
     const bool converged = minimise(other, step, begun);
     const Effort effort = other.effort;
     if (best.state.ledger.undercut_by(other.ledger.increment)) best = {std::move(other), converged};
@@ -337,7 +337,7 @@ void Stepper::keep_lower(Result& best, State other, const Increment& step, const
 
 // The load grows until fronts have run so far that `extent` is dissipated beyond the step's own state. E of a state at
 // the load of the step is that at the larger one over the square of their ratio, but for the gradient energy.
-Stepper::Scouted Stepper::scout(Result& best, const Increment& step, double extent) {
+Stepper::Scouted Stepper::scout(Result& best, const StepRule& step, double extent) {
     const State& from = best.state;
     const Ledger &now = from.ledger, &then = step.before().ledger;
     const Dissipation own{now.dissipated - then.dissipated, now.dissipated_linear - then.dissipated_linear,
@@ -383,7 +383,7 @@ Stepper::Scouted Stepper::scout(Result& best, const Increment& step, double exte
 // A zone's energy keeps the contact outside as it was, unless a look has shown otherwise, and may be too low, so
 // candidates that seem lower than the kept state are checked by displacement steps of their own. Returns the lowest
 // candidate.
-double Stepper::hold_against(Result& best, const SearchResult& found, const Increment& step) {
+double Stepper::hold_against(Result& best, const SearchResult& found, const StepRule& step) {
     double lowest = std::numeric_limits<double>::infinity();
     bool held = false;
     for (const Candidate& candidate : found.starts) {
@@ -404,7 +404,7 @@ double Stepper::hold_against(Result& best, const SearchResult& found, const Incr
     return held ? lowest : found.lowest;
 }
 
-void Stepper::search(Result& best, const Increment& step) {
+void Stepper::search(Result& best, const StepRule& step) {
     if (!search_) {
         twin_ = operator_->twin();
         search_.emplace(problem_, pairs_, contact_, monitor_, twin_ ? *twin_ : *operator_);
@@ -413,7 +413,7 @@ void Stepper::search(Result& best, const Increment& step) {
     const double level = from.ledger.increment;
     const State& before = step.before();
     if (twin_) twin_->recall(before.search_memory);
-    SearchResult found = search_->run(step, from, step.memory().used);
+    SearchResult found = search_->run(step, step, from, step.memory().used);
     if (!twin_) operator_->recall(from.memory);
     const bool one_mode = step.in_parts() && inner_path().one_mode(from, from.mixity, nullptr);
     std::size_t minimised = 0;
@@ -476,7 +476,7 @@ Stepper::Result Stepper::equilibrate(const State& before, double time, std::span
     for (std::size_t p = 0; p < next.adhesion.size(); ++p)
         if (!(next.adhesion[p] >= 0.0 && next.adhesion[p] <= 1.0))
             fail(DELAM_ERROR_ARGUMENT, "adhesion of pair ", p, " is ", next.adhesion[p], ", allowed: 0 to 1");
-    const std::unique_ptr<Increment> still = increment(before, next.mixity);
+    const std::unique_ptr<StepRule> still = increment(before, next.mixity);
     result.converged = minimiser().displace(next, *still);
     next.mixity = still->shown(next.response.jump, std::move(next.mixity));
     book_energies(pairs_, next);

@@ -14,7 +14,7 @@
 
 #include "base/monitor.hpp"
 #include "evolution/derivative/sensitivity.hpp"
-#include "evolution/increment/mixity_rule.hpp"
+#include "evolution/increment/rule/mixity_rule.hpp"
 #include "evolution/minimise/minimise.hpp"
 #include "evolution/path/inner_path.hpp"
 #include "evolution/search/search.hpp"
@@ -83,7 +83,7 @@ public:
 private:
     Minimiser minimiser();
     void begin(State& next, const State& before, double time);
-    std::unique_ptr<Increment> increment(const State& before, std::span<const double> mixity) const;
+    std::unique_ptr<StepRule> increment(const State& before, std::span<const double> mixity) const;
     // The state from which the minimisations of a step begin; false: its elastic displacements reached a limit.
     bool start(State& next, const State& before, double time);
     // False: not known without a solve.
@@ -91,12 +91,12 @@ private:
     InnerPath inner_path();
     // begun: what is dissipated down to the adhesion of `next`, where the step is followed in parts. displaced: the
     // displacements of `next` are those of its adhesion.
-    bool minimise(State& next, const Increment& step, const Dissipation* begun = nullptr, bool displaced = false);
-    void refuse_runaway(const State& state, const Increment& step);
+    bool minimise(State& next, const StepRule& step, const Dissipation* begun = nullptr, bool displaced = false);
+    void refuse_runaway(const State& state, const StepRule& step);
     // The largest part of its toughness that a pair loses in a step.
-    double largest_loss(const Increment& step, const State& next) const;
-    void book_step(State& next, const Increment& step, const InnerPath* path = nullptr) const;
-    void keep_lower(Result& best, State other, const Increment& step, const Dissipation* begun = nullptr);
+    double largest_loss(const StepRule& step, const State& next) const;
+    void book_step(State& next, const StepRule& step, const InnerPath* path = nullptr) const;
+    void keep_lower(Result& best, State other, const StepRule& step, const Dissipation* begun = nullptr);
     // Where the dissipated energy depends on the way: how far fronts run at a larger load, and the state on this way
     // that is lowest at the load of the step.
     struct Scouted {
@@ -107,9 +107,9 @@ private:
         bool given_up = false;                                         // it lies far above the step
         std::int64_t compared = 0;                                     // states on it
     };
-    Scouted scout(Result& best, const Increment& step, double extent);
-    double hold_against(Result& best, const SearchResult& found, const Increment& step);
-    void search(Result& best, const Increment& step);
+    Scouted scout(Result& best, const StepRule& step, double extent);
+    double hold_against(Result& best, const SearchResult& found, const StepRule& step);
+    void search(Result& best, const StepRule& step);
 
     const Problem& problem_;
     Monitor& monitor_;

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
+#include "base/numbers.hpp"
 #include "mesh/faces.hpp"
 #include "mesh/selection.hpp"
 
@@ -12,7 +12,6 @@ namespace delam {
 namespace {
 
 constexpr double coinciding = 1e-6;  // of the shortest edge
-constexpr double infinite = std::numeric_limits<double>::infinity();
 
 class BoxedPairs {
 public:

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/numbers.hpp"
 #include "petsc/base/failure.hpp"
-#include "petsc/base/index.hpp"
 
 namespace delam::petsc {
 
@@ -14,8 +14,8 @@ namespace {
 
 template <class Term>
 void each(const LocalMatrix& a, const Term& term) {
-    for (std::size_t r = 0; r < at(a.rows); ++r)
-        for (auto e = at(a.start[r]); e < at(a.start[r + 1]); ++e) term(r, at(a.column[e]), a.value[e]);
+    for (std::size_t r = 0; r < index(a.rows); ++r)
+        for (auto e = index(a.start[r]); e < index(a.start[r + 1]); ++e) term(r, index(a.column[e]), a.value[e]);
 }
 
 }  // namespace
@@ -48,8 +48,8 @@ OwnedMat LocalMatrix::borrow() {
 void LocalMatrix::sort_rows() {
     std::vector<std::pair<PetscInt, double>> row;
     std::size_t end = 0, from = 0;
-    for (std::size_t r = 0; r < at(rows); ++r) {
-        const std::size_t until = at(start[r + 1]);
+    for (std::size_t r = 0; r < index(rows); ++r) {
+        const std::size_t until = index(start[r + 1]);
         row.clear();
         for (std::size_t e = from; e < until; ++e) row.emplace_back(column[e], value[e]);
         const auto before = [](const auto& a, const auto& b) { return a.first < b.first; };
@@ -79,9 +79,9 @@ LocalMatrix with_diagonal(Mat matrix, std::span<const double> missing) {
     check(MatSeqAIJGetArrayRead(matrix, &value));
     LocalMatrix copy;
     copy.rows = copy.columns = n;
-    copy.start.reserve(at(n) + 1);
-    copy.column.reserve(at(start[n]));
-    copy.value.reserve(at(start[n]));
+    copy.start.reserve(index(n) + 1);
+    copy.column.reserve(index(start[n]));
+    copy.value.reserve(index(start[n]));
     for (PetscInt r = 0; r < n; ++r) {
         bool present = false;
         const auto add = [&](PetscInt c, double v) {
@@ -90,12 +90,12 @@ LocalMatrix with_diagonal(Mat matrix, std::span<const double> missing) {
         };
         for (PetscInt e = start[r]; e < start[r + 1]; ++e) {
             if (!present && column[e] >= r) {
-                if (column[e] > r) add(r, missing[at(r)]);
+                if (column[e] > r) add(r, missing[index(r)]);
                 present = true;
             }
             add(column[e], value[e]);
         }
-        if (!present) add(r, missing[at(r)]);
+        if (!present) add(r, missing[index(r)]);
         copy.start.push_back(petsc_int(copy.column.size()));
     }
     check(MatSeqAIJRestoreArrayRead(matrix, &value));

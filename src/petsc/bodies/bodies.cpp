@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "petsc/bodies/bodies.hpp"
+#include "base/numbers.hpp"
 
 #include <algorithm>
 #include <cmath>
-
-#include "petsc/base/index.hpp"
 
 namespace delam::petsc {
 
@@ -32,9 +31,9 @@ Bodies::Bodies(const Communicator& comm, const Part& part, const SceneVariables&
     check(ISCreateGeneral(PETSC_COMM_SELF, local_.places(), local_.number.data(), PETSC_COPY_VALUES, numbers.out()));
     check(VecScatterCreate(layout_, numbers, here_, nullptr, fetch_.out()));
     comm.together([&] {
-        places_.assign(at(local_.places()), 0.0);
-        displacement_.assign(at(local_.dofs), 0.0);
-        force_of_part_.assign(at(local_.dofs), 0.0);
+        places_.assign(index(local_.places()), 0.0);
+        displacement_.assign(index(local_.dofs), 0.0);
+        force_of_part_.assign(index(local_.dofs), 0.0);
     });
     make_diagonal();
     make_loads();
@@ -51,16 +50,16 @@ OwnedVec Bodies::vector() const {
 void Bodies::make_diagonal() {
     std::vector<double> sums;
     comm_.together([&] {
-        sums.assign(at(local_.places()), 0.0);
+        sums.assign(index(local_.places()), 0.0);
         const LocalMatrix &k = part_.stiffness, &t = local_.transform;
-        for (std::size_t r = 0; r < at(k.rows); ++r)
-            for (auto e = at(k.start[r]); e < at(k.start[r + 1]); ++e)
-                for (auto a = at(t.start[r]); a < at(t.start[r + 1]); ++a) {
-                    const auto s = at(k.column[e]);
+        for (std::size_t r = 0; r < index(k.rows); ++r)
+            for (auto e = index(k.start[r]); e < index(k.start[r + 1]); ++e)
+                for (auto a = index(t.start[r]); a < index(t.start[r + 1]); ++a) {
+                    const auto s = index(k.column[e]);
                     const auto first = t.column.begin() + t.start[s], last = t.column.begin() + t.start[s + 1];
                     const auto b = std::lower_bound(first, last, t.column[a]);
                     if (b != last && *b == t.column[a])
-                        sums[at(*b)] += t.value[a] * k.value[e] * t.value[at(b - t.column.begin())];
+                        sums[index(*b)] += t.value[a] * k.value[e] * t.value[index(b - t.column.begin())];
                 }
     });
     diagonal_ = vector();
@@ -70,7 +69,7 @@ void Bodies::make_diagonal() {
 void Bodies::apply(Vec v, Vec av) const {
     fetch(v, places_);
     local_.transform.multiply(places_, displacement_);
-    const auto rows = at(part_.stiffness.rows);  // orphans, behind these, have no stiffness
+    const auto rows = index(part_.stiffness.rows);  // orphans, behind these, have no stiffness
     part_.stiffness.multiply(std::span(displacement_).first(rows), std::span(force_of_part_).first(rows));
     std::fill(places_.begin(), places_.end(), 0.0);
     local_.transform.add_multiplied_transposed(force_of_part_, places_);
@@ -83,14 +82,14 @@ void Bodies::make_loads() {
     for (std::size_t p = 0; p < count; ++p) {
         std::vector<double> places, forces;
         comm_.together([&] {
-            std::vector<double> lift(at(local_.dofs), 0.0), force(at(local_.dofs), 0.0);
+            std::vector<double> lift(index(local_.dofs), 0.0), force(index(local_.dofs), 0.0);
             for (std::size_t i = 0; i < local_.lift[p].dof.size(); ++i)
-                lift[at(local_.lift[p].dof[i])] += local_.lift[p].value[i];
+                lift[index(local_.lift[p].dof[i])] += local_.lift[p].value[i];
             for (std::size_t i = 0; i < local_.force[p].dof.size(); ++i)
-                force[at(local_.force[p].dof[i])] += local_.force[p].value[i];
+                force[index(local_.force[p].dof[i])] += local_.force[p].value[i];
             stiffness_lift[p] = stiffness_times(lift);
-            places.assign(at(local_.places()), 0.0);
-            forces.assign(at(local_.places()), 0.0);
+            places.assign(index(local_.places()), 0.0);
+            forces.assign(index(local_.places()), 0.0);
             local_.transform.add_multiplied_transposed(stiffness_lift[p], places);
             local_.transform.add_multiplied_transposed(force, forces);
         });
@@ -105,13 +104,13 @@ void Bodies::make_loads() {
     for (std::size_t p = 0; p < count; ++p)
         for (std::size_t q = 0; q < count; ++q)
             for (std::size_t i = 0; i < local_.lift[p].dof.size(); ++i)
-                lift_lift_[p * count + q] += local_.lift[p].value[i] * stiffness_lift[q][at(local_.lift[p].dof[i])];
+                lift_lift_[p * count + q] += local_.lift[p].value[i] * stiffness_lift[q][index(local_.lift[p].dof[i])];
     comm_.sum(lift_lift_);
 }
 
 std::vector<double> Bodies::stiffness_times(std::span<const double> displacement) const {
     std::vector<double> force(displacement.size(), 0.0);
-    const auto rows = at(part_.stiffness.rows);
+    const auto rows = index(part_.stiffness.rows);
     part_.stiffness.multiply(displacement.first(rows), std::span(force).first(rows));
     return force;
 }
@@ -140,19 +139,19 @@ BodyState Bodies::state(std::span<const double> theta, Vec v) const {
     fetch(v, places);
     comm_.together([&] {
         std::vector<double>& u = state.displacement;
-        u.resize(at(local_.dofs));
+        u.resize(index(local_.dofs));
         local_.transform.multiply(places, u);
         for (std::size_t p = 0; p < theta.size(); ++p)
             for (std::size_t i = 0; i < local_.lift[p].dof.size(); ++i)
-                u[at(local_.lift[p].dof[i])] += theta[p] * local_.lift[p].value[i];
+                u[index(local_.lift[p].dof[i])] += theta[p] * local_.lift[p].value[i];
         state.force = stiffness_times(u);
         sums.push_back(dot(u, state.force));
         for (std::size_t p = 0; p < theta.size(); ++p) {
             double work = 0.0, lifted = 0.0;
             for (std::size_t i = 0; i < local_.force[p].dof.size(); ++i)
-                work += local_.force[p].value[i] * u[at(local_.force[p].dof[i])];
+                work += local_.force[p].value[i] * u[index(local_.force[p].dof[i])];
             for (std::size_t i = 0; i < local_.lift[p].dof.size(); ++i)
-                lifted += local_.lift[p].value[i] * state.force[at(local_.lift[p].dof[i])];
+                lifted += local_.lift[p].value[i] * state.force[index(local_.lift[p].dof[i])];
             sums.push_back(work);
             sums.push_back(lifted);
         }
@@ -169,7 +168,7 @@ BodyState Bodies::state(std::span<const double> theta, Vec v) const {
 void Bodies::forces(const BodyState& state, Vec out) const {
     std::vector<double> places;
     comm_.together([&] {
-        places.assign(at(local_.places()), 0.0);
+        places.assign(index(local_.places()), 0.0);
         local_.transform.add_multiplied_transposed(state.force, places);
     });
     assemble(places, out);
@@ -184,9 +183,9 @@ void Bodies::sizes(const BodyState& state, Vec out) const {
     std::vector<double> places;
     comm_.together([&] {
         std::vector<double> force(state.displacement.size(), 0.0);
-        const auto rows = at(part_.stiffness.rows);
+        const auto rows = index(part_.stiffness.rows);
         part_.stiffness.multiply_sizes(std::span(state.displacement).first(rows), std::span(force).first(rows));
-        places.assign(at(local_.places()), 0.0);
+        places.assign(index(local_.places()), 0.0);
         local_.transform.add_multiplied_transposed_sizes(force, places);
     });
     assemble(places, out);

@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-#include "petsc/base/index.hpp"
+#include "base/numbers.hpp"
 #include "petsc/part/places.hpp"
 
 namespace delam::petsc {
@@ -27,8 +27,8 @@ void add(LocalMatrix& matrix, const Springs& springs) {
     sum.value.reserve(matrix.value.size() + springs.size());
     auto spring = springs.begin();
     for (PetscInt r = 0; r < matrix.rows; ++r) {
-        auto e = at(matrix.start[at(r)]);
-        const auto last = at(matrix.start[at(r) + 1]);
+        auto e = index(matrix.start[index(r)]);
+        const auto last = index(matrix.start[index(r) + 1]);
         while (true) {
             const bool springs_left = spring != springs.end() && spring->first.first == r;
             if (!springs_left && e == last) break;
@@ -50,9 +50,9 @@ void add(LocalMatrix& matrix, const Springs& springs) {
 void complete_diagonal(LocalMatrix& matrix, const std::vector<std::uint8_t>& is_variable) {
     double largest = 0.0;
     for (const double x : matrix.value) largest = std::max(largest, x);
-    for (std::size_t i = 0; i < at(matrix.rows); ++i)
-        for (auto e = at(matrix.start[i]); e < at(matrix.start[i + 1]); ++e)
-            if (at(matrix.column[e]) == i && matrix.value[e] == 0.0)
+    for (std::size_t i = 0; i < index(matrix.rows); ++i)
+        for (auto e = index(matrix.start[i]); e < index(matrix.start[i + 1]); ++e)
+            if (index(matrix.column[e]) == i && matrix.value[e] == 0.0)
                 matrix.value[e] = is_variable[i] == 0 ? largest : nothing * largest;
 }
 
@@ -80,17 +80,17 @@ void DisplacementSystem::make_transform(const SceneVariables& scene) {
         transform.column.push_back(places.of(home));
         transform.value.push_back(coefficient);
     };
-    for (std::size_t i = 0; i < at(transform.rows); ++i) {
+    for (std::size_t i = 0; i < index(transform.rows); ++i) {
         const std::int64_t dof = dof_of(i), row = scene.place(dof);
-        if (row < 0 || scene.is_home[at(row)] != 0)
+        if (row < 0 || scene.is_home[index(row)] != 0)
             add(dof, 1.0);
         else
-            for (std::int64_t e = scene.start[at(row)]; e < scene.start[at(row) + 1]; ++e)
-                for (const auto& [home, value] : jumps_.row(scene.home[at(e)]))
-                    add(home, scene.coefficient[at(e)] * value);
+            for (std::int64_t e = scene.start[index(row)]; e < scene.start[index(row) + 1]; ++e)
+                for (const auto& [home, value] : jumps_.row(scene.home[index(e)]))
+                    add(home, scene.coefficient[index(e)] * value);
         transform.start.push_back(petsc_int(transform.column.size()));
     }
-    transform.columns = petsc_int(nodes_.size() * at(scene.dimension));
+    transform.columns = petsc_int(nodes_.size() * index(scene.dimension));
     transform.sort_rows();
 }
 
@@ -102,7 +102,7 @@ LocalMatrix DisplacementSystem::stiffness() const {
     const OwnedMat k = part.borrow(), t = transform.borrow();
     OwnedMat product;
     check(MatPtAP(k, t, MAT_INITIAL_MATRIX, PETSC_DEFAULT, product.out()));
-    return with_diagonal(product, std::vector<double>(at(transform.columns), 0.0));
+    return with_diagonal(product, std::vector<double>(index(transform.columns), 0.0));
 }
 
 // A visible variable that no rank has, with all nodes it consists of, gets these on the rank that owns its home.
@@ -137,11 +137,11 @@ void DisplacementSystem::cover_visible(const Visible& visible, const SceneVariab
             for (const auto& [home, coefficient] : jumps_.row(homes[i]))
                 visible_[i].push_back({places.of(home), coefficient});
         }
-        const auto count = nodes_.size() * at(scene.dimension);
+        const auto count = nodes_.size() * index(scene.dimension);
         transform_.columns = petsc_int(count);
         for (std::size_t i = 0; i < count; ++i) {
             const std::int64_t row = scene.place(dof_of(i));
-            is_variable_.push_back(row < 0 || scene.is_home[at(row)] != 0 ? 1 : 0);
+            is_variable_.push_back(row < 0 || scene.is_home[index(row)] != 0 ? 1 : 0);
         }
     });
 }
@@ -161,7 +161,7 @@ void DisplacementSystem::make_expansion(const SceneVariables& scene) {
     std::vector<double> values;
     comm.together([&] {
         Places places(scene.dimension, nodes);
-        const auto d = at(scene.dimension);
+        const auto d = index(scene.dimension);
         for (std::size_t i = 0; i < local.nodes.size() * d; ++i) {
             if (!local.owns(i) || local.is_variable[i] == 0) continue;
             const std::int64_t dof = local.nodes[i / d] * scene.dimension + static_cast<std::int64_t>(i % d);
@@ -173,7 +173,7 @@ void DisplacementSystem::make_expansion(const SceneVariables& scene) {
         }
     });
     const std::vector<PetscInt> blocks = bodies_.numbering().find(nodes);
-    for (PetscInt& c : columns) c = blocks[at(c / local.dimension)] * local.dimension + c % local.dimension;
+    for (PetscInt& c : columns) c = blocks[index(c / local.dimension)] * local.dimension + c % local.dimension;
     check(MatCreate(comm.get(), expansion_.out()));
     check(MatSetSizes(expansion_, local.owned, local.owned, PETSC_DETERMINE, PETSC_DETERMINE));
     check(MatSetType(expansion_, MATAIJ));
@@ -192,7 +192,7 @@ OwnedMat DisplacementSystem::local_matrix(LocalMatrix stiffness, const std::vect
     comm.broadcast(v);
     comm.together([&] {
         for (std::size_t e = 0; e < v.size(); ++e)
-            having.push_back(visible_[at(r[e])].empty() || visible_[at(c[e])].empty() ? 0.0 : 1.0);
+            having.push_back(visible_[index(r[e])].empty() || visible_[index(c[e])].empty() ? 0.0 : 1.0);
     });
     std::vector<double> all(having);
     comm.sum(all);
@@ -201,8 +201,8 @@ OwnedMat DisplacementSystem::local_matrix(LocalMatrix stiffness, const std::vect
         Springs springs;
         for (std::size_t e = 0; e < v.size(); ++e) {
             if (having[e] == 0.0 || v[e] == 0.0) continue;
-            for (const Term& a : visible_[at(r[e])])
-                for (const Term& b : visible_[at(c[e])])
+            for (const Term& a : visible_[index(r[e])])
+                for (const Term& b : visible_[index(c[e])])
                     springs[{a.place, b.place}] += v[e] / all[e] * a.coefficient * b.coefficient;
         }
         add(stiffness, springs);

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "petsc/bodies/jump_expansion.hpp"
+#include "base/numbers.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
-
-#include "petsc/base/index.hpp"
 
 namespace delam::petsc {
 
@@ -49,15 +48,15 @@ const JumpExpansion::Row& JumpExpansion::row(std::int64_t home) {
 void JumpExpansion::expand_node(std::int64_t node) {
     std::vector<std::int64_t> homes;
     for (std::int64_t dof = node * scene_.dimension; dof < (node + 1) * scene_.dimension; ++dof)
-        if (const std::int64_t r = scene_.place(dof); r >= 0 && scene_.is_home[at(r)] != 0) homes.push_back(dof);
+        if (const std::int64_t r = scene_.place(dof); r >= 0 && scene_.is_home[index(r)] != 0) homes.push_back(dof);
     std::vector<std::vector<double>> own(homes.size(), std::vector<double>(homes.size(), 0.0));
     std::vector<std::map<std::int64_t, double>> rest(homes.size());
     for (std::size_t i = 0; i < homes.size(); ++i) {
         rest[i][homes[i]] = 1.0;
         const std::int64_t r = scene_.place(homes[i]);
-        for (std::int64_t e = scene_.start[at(r)]; e < scene_.start[at(r) + 1]; ++e) {
-            const std::int64_t variable = scene_.home[at(e)];
-            const double coefficient = scene_.coefficient[at(e)];
+        for (std::int64_t e = scene_.start[index(r)]; e < scene_.start[index(r) + 1]; ++e) {
+            const std::int64_t variable = scene_.home[index(e)];
+            const double coefficient = scene_.coefficient[index(e)];
             if (const auto k = std::find(homes.begin(), homes.end(), variable); k != homes.end())
                 own[i][static_cast<std::size_t>(k - homes.begin())] += coefficient;
             else

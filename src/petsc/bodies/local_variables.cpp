@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "petsc/bodies/local_variables.hpp"
 
-#include "petsc/base/index.hpp"
+#include "base/numbers.hpp"
 #include "petsc/part/places.hpp"
 
 namespace delam::petsc {
@@ -9,32 +9,32 @@ namespace delam::petsc {
 namespace {
 
 std::int64_t dof_of(const LocalVariables& local, std::size_t place) {
-    const auto d = at(local.dimension);
+    const auto d = index(local.dimension);
     return local.nodes[place / d] * local.dimension + static_cast<std::int64_t>(place % d);
 }
 
 void fill_transform(const SceneVariables& scene, Places& places, LocalVariables& local) {
     LocalMatrix& t = local.transform;
     t.rows = local.dofs;
-    for (std::size_t i = 0; i < at(local.dofs); ++i) {
+    for (std::size_t i = 0; i < index(local.dofs); ++i) {
         const std::int64_t row = scene.place(dof_of(local, i));
         if (row < 0) {
             t.column.push_back(petsc_int(i));
             t.value.push_back(1.0);
         } else {
-            for (std::int64_t e = scene.start[at(row)]; e < scene.start[at(row) + 1]; ++e) {
-                t.column.push_back(places.of(scene.home[at(e)]));
-                t.value.push_back(scene.coefficient[at(e)]);
+            for (std::int64_t e = scene.start[index(row)]; e < scene.start[index(row) + 1]; ++e) {
+                t.column.push_back(places.of(scene.home[index(e)]));
+                t.value.push_back(scene.coefficient[index(e)]);
             }
         }
         t.start.push_back(petsc_int(t.column.size()));
     }
-    t.columns = petsc_int(local.nodes.size() * at(local.dimension));
+    t.columns = petsc_int(local.nodes.size() * index(local.dimension));
     t.sort_rows();
-    for (std::size_t i = 0; i < at(t.columns); ++i) {
+    for (std::size_t i = 0; i < index(t.columns); ++i) {
         const std::int64_t row = scene.place(dof_of(local, i));
-        local.is_variable.push_back(row < 0 || scene.is_home[at(row)] != 0 ? 1 : 0);
-        local.is_jump.push_back(row >= 0 && scene.is_home[at(row)] != 0 ? 1 : 0);
+        local.is_variable.push_back(row < 0 || scene.is_home[index(row)] != 0 ? 1 : 0);
+        local.is_jump.push_back(row >= 0 && scene.is_home[index(row)] != 0 ? 1 : 0);
     }
 }
 
@@ -45,7 +45,7 @@ LocalVariables::Terms local_terms(const SceneVariables::Terms& all, const LocalV
     for (std::size_t i = 0; i < all.dof.size(); ++i) {
         if (!places.has(all.dof[i])) continue;
         const PetscInt place = places.of(all.dof[i]);
-        if (place >= local.dofs || (only_owned && !local.owns(at(place)))) continue;
+        if (place >= local.dofs || (only_owned && !local.owns(index(place)))) continue;
         kept.dof.push_back(place);
         kept.value.push_back(all.value[i]);
     }
@@ -62,7 +62,7 @@ LocalVariables make_local_variables(const Communicator& comm, const Part& part, 
         local.dimension = petsc_int(scene.dimension);
         local.nodes = part.nodes;
         local.nodes.insert(local.nodes.end(), numbering.orphans().begin(), numbering.orphans().end());
-        local.dofs = petsc_int(local.nodes.size() * at(scene.dimension));
+        local.dofs = petsc_int(local.nodes.size() * index(scene.dimension));
         local.first = numbering.first() * local.dimension;
         local.owned = numbering.owned() * local.dimension;
     });

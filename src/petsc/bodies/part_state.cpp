@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/numbers.hpp"
 #include "delam/experimental.h"
-#include "petsc/base/index.hpp"
 
 namespace delam::petsc {
 
@@ -17,7 +17,7 @@ void PartState::take(const Bodies& bodies, BodyState state, Eigenstrains eigenst
     std::vector<double> places;
     bodies.comm().together([&] {
         places = std::move(state.force);
-        places.resize(at(local.places()), 0.0);
+        places.resize(index(local.places()), 0.0);
     });
     bodies.assemble(places, sum);
     bodies.fetch(sum, places);
@@ -28,7 +28,7 @@ void PartState::take(const Bodies& bodies, BodyState state, Eigenstrains eigenst
         found.part_nodes_ = static_cast<std::int64_t>(bodies.part().nodes.size());
         found.nodes_.assign(local.nodes.begin(), local.nodes.begin() + dofs / local.dimension);
         for (std::size_t i = 0; i < found.nodes_.size(); ++i)
-            found.owned_.push_back(local.owns(i * at(local.dimension)) ? 1 : 0);
+            found.owned_.push_back(local.owns(i * index(local.dimension)) ? 1 : 0);
         found.displacement_ = std::move(state.displacement);
         found.force_.assign(places.begin(), places.begin() + dofs);
         for (const std::vector<double>* field : {&found.displacement_, &found.force_})

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "petsc/bodies/scene_variables.hpp"
+#include "base/numbers.hpp"
 
 #include <algorithm>
 #include <numeric>
-
-#include "petsc/base/index.hpp"
 
 namespace delam::petsc {
 
@@ -20,7 +19,7 @@ std::int64_t home_of(const delam_experimental_variables& v, std::int64_t variabl
 void translate(const delam_experimental_variables& v, SceneVariables& scene) {
     scene.dimension = v.dimension;
     scene.dofs = v.dofs;
-    std::vector<std::int64_t> order(at(v.replaced_count));
+    std::vector<std::int64_t> order(index(v.replaced_count));
     std::iota(order.begin(), order.end(), std::int64_t{0});
     std::sort(order.begin(), order.end(),
               [&](std::int64_t a, std::int64_t b) { return v.replaced[a] < v.replaced[b]; });
@@ -72,13 +71,13 @@ SceneVariables share_variables(const Communicator& comm, const delam_experimenta
     comm.broadcast(scene.coefficient);
     comm.broadcast(patterns);
     comm.together([&] {
-        scene.lift.resize(at(patterns));
-        scene.force.resize(at(patterns));
+        scene.lift.resize(index(patterns));
+        scene.force.resize(index(patterns));
         if (!comm.root()) return;
         const delam_experimental_variables& v = *variables;
         for (std::int64_t p = 0; p < patterns; ++p) {
-            scene.lift[at(p)] = terms(p, v.lift_starts, v.lift_dofs, v.lift_values);
-            scene.force[at(p)] = terms(p, v.force_starts, v.force_dofs, v.force_values);
+            scene.lift[index(p)] = terms(p, v.lift_starts, v.lift_dofs, v.lift_values);
+            scene.force[index(p)] = terms(p, v.force_starts, v.force_dofs, v.force_values);
         }
     });
     for (std::size_t p = 0; p < scene.patterns(); ++p)

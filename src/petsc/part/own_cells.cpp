@@ -4,8 +4,8 @@
 #include <numeric>
 #include <vector>
 
+#include "base/numbers.hpp"
 #include "petsc/base/failure.hpp"
-#include "petsc/base/index.hpp"
 #include "petsc/part/cell_bytes.hpp"
 
 namespace delam::petsc {
@@ -54,7 +54,7 @@ Part part_of_cells(const delam_mesh* mesh, const delam_problem* problem, const S
     (void)make_nodes(sizes.dimension, node_count, nodes, nullptr);  // also those that no cell has
     require_cells(mesh);
     require_bodies_alone(sizes, problem, rank);
-    std::vector<std::int64_t> cells(at(sizes.cells));
+    std::vector<std::int64_t> cells(index(sizes.cells));
     std::iota(cells.begin(), cells.end(), std::int64_t{0});
     Part part = part_of_bytes(sizes.dimension, part_bytes(problem, cells, rank));
     for (std::int64_t& node : part.nodes) {

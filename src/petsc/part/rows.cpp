@@ -9,8 +9,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "base/numbers.hpp"
 #include "petsc/base/failure.hpp"
-#include "petsc/base/index.hpp"
 #include "petsc/part/places.hpp"
 
 namespace delam::petsc {
@@ -91,11 +91,11 @@ public:
             }
             matrix_.start.push_back(petsc_int(matrix_.column.size()));
         }
-        matrix_.columns = petsc_int(nodes_.size() * at(dimension_));
+        matrix_.columns = petsc_int(nodes_.size() * index(dimension_));
         matrix_.sort_rows();
         part.ghosts = nodes_.size() - own;
         for (std::size_t i = 0; i < nodes_.size(); ++i) place_.emplace(nodes_[i], i);
-        for (std::size_t r = 0; r < at(count); ++r) {
+        for (std::size_t r = 0; r < index(count); ++r) {
             diagonal_.push_back(entry(r, r));
             if (!(diagonal_[r] > 0.0))
                 fail(DELAM_ERROR_ARGUMENT, "rows: ", diagonal_[r], " on the diagonal at ", name(dof(r)),
@@ -114,36 +114,38 @@ public:
         });
     }
     void require_symmetry_here() const {
-        for (std::size_t r = 0; r < at(matrix_.rows); ++r)
-            for (auto e = at(matrix_.start[r]); e < at(matrix_.start[r + 1]) && at(matrix_.column[e]) < own(); ++e) {
-                const std::size_t c = at(matrix_.column[e]);
+        for (std::size_t r = 0; r < index(matrix_.rows); ++r)
+            for (auto e = index(matrix_.start[r]); e < index(matrix_.start[r + 1]) && index(matrix_.column[e]) < own();
+                 ++e) {
+                const std::size_t c = index(matrix_.column[e]);
                 compare(dof(r), dof(c), matrix_.value[e], entry(c, r),
                         std::sqrt(diagonal_[r]) * std::sqrt(diagonal_[c]));
             }
     }
     std::vector<std::vector<Mirrored>> for_others(const std::vector<int>& owner, int ranks) const {
-        std::vector<std::vector<Mirrored>> lists(at(ranks));
+        std::vector<std::vector<Mirrored>> lists(index(ranks));
         each_of_others([&](std::size_t r, std::size_t c, double value) {
-            lists[at(owner[ghost(c)])].push_back({dof(r), dof(c), value, diagonal_[r]});
+            lists[index(owner[ghost(c)])].push_back({dof(r), dof(c), value, diagonal_[r]});
         });
         return lists;
     }
     void require_symmetry_with(const std::vector<Mirrored>& theirs) const {
         for (const Mirrored& m : theirs) {
-            const std::size_t r = at(m.column % dimension_) + place_.at(m.column / dimension_) * at(dimension_);
+            const std::size_t r = index(m.column % dimension_) + place_.at(m.column / dimension_) * index(dimension_);
             const auto c = place_.find(m.row / dimension_);
-            const double mine = c == place_.end() ? 0.0 : entry(r, c->second * at(dimension_) + at(m.row % dimension_));
+            const double mine =
+                c == place_.end() ? 0.0 : entry(r, c->second * index(dimension_) + index(m.row % dimension_));
             compare(m.row, m.column, m.value, mine, std::sqrt(m.diagonal) * std::sqrt(diagonal_[r]));
         }
     }
     // 1/2 (R + R^T)
     LocalMatrix halves() const {
-        std::vector<PetscInt> count(at(matrix_.columns), 0);
+        std::vector<PetscInt> count(index(matrix_.columns), 0);
         const auto both = [&](const auto& add) {
-            for (std::size_t r = 0; r < at(matrix_.rows); ++r)
-                for (auto e = at(matrix_.start[r]); e < at(matrix_.start[r + 1]); ++e) {
-                    add(r, at(matrix_.column[e]), 0.5 * matrix_.value[e]);
-                    add(at(matrix_.column[e]), r, 0.5 * matrix_.value[e]);
+            for (std::size_t r = 0; r < index(matrix_.rows); ++r)
+                for (auto e = index(matrix_.start[r]); e < index(matrix_.start[r + 1]); ++e) {
+                    add(r, index(matrix_.column[e]), 0.5 * matrix_.value[e]);
+                    add(index(matrix_.column[e]), r, 0.5 * matrix_.value[e]);
                 }
         };
         LocalMatrix sum;
@@ -151,21 +153,21 @@ public:
         both([&](std::size_t r, std::size_t, double) { ++count[r]; });
         for (const PetscInt entries : count) sum.start.push_back(petsc_int(std::int64_t{sum.start.back()} + entries));
         std::vector<PetscInt> next(sum.start.begin(), sum.start.end() - 1);
-        sum.column.resize(at(sum.start.back()));
+        sum.column.resize(index(sum.start.back()));
         sum.value.resize(sum.column.size());
         both([&](std::size_t r, std::size_t c, double value) {
-            sum.column[at(next[r])] = static_cast<PetscInt>(c);
-            sum.value[at(next[r]++)] = value;
+            sum.column[index(next[r])] = static_cast<PetscInt>(c);
+            sum.value[index(next[r]++)] = value;
         });
         sum.sort_rows();
         return sum;
     }
 
 private:
-    std::size_t own() const { return at(matrix_.rows); }  // DOFs
-    std::size_t ghost(std::size_t place) const { return (place - own()) / at(dimension_); }
+    std::size_t own() const { return index(matrix_.rows); }  // DOFs
+    std::size_t ghost(std::size_t place) const { return (place - own()) / index(dimension_); }
     std::int64_t dof(std::size_t place) const {
-        return nodes_[place / at(dimension_)] * dimension_ + static_cast<std::int64_t>(place % at(dimension_));
+        return nodes_[place / index(dimension_)] * dimension_ + static_cast<std::int64_t>(place % index(dimension_));
     }
     std::string name(std::int64_t dof) const {
         return "component " + std::to_string(dof % dimension_) + " of node " + std::to_string(dof / dimension_);
@@ -174,13 +176,13 @@ private:
         const auto first = matrix_.column.begin() + matrix_.start[r],
                    last = matrix_.column.begin() + matrix_.start[r + 1];
         const auto found = std::lower_bound(first, last, static_cast<PetscInt>(c));
-        return found == last || at(*found) != c ? 0.0 : matrix_.value[at(found - matrix_.column.begin())];
+        return found == last || index(*found) != c ? 0.0 : matrix_.value[index(found - matrix_.column.begin())];
     }
     template <class Work>
     void each_of_others(const Work& work) const {
-        for (std::size_t r = 0; r < at(matrix_.rows); ++r)
-            for (auto e = at(matrix_.start[r]); e < at(matrix_.start[r + 1]); ++e)
-                if (at(matrix_.column[e]) >= own()) work(r, at(matrix_.column[e]), matrix_.value[e]);
+        for (std::size_t r = 0; r < index(matrix_.rows); ++r)
+            for (auto e = index(matrix_.start[r]); e < index(matrix_.start[r + 1]); ++e)
+                if (index(matrix_.column[e]) >= own()) work(r, index(matrix_.column[e]), matrix_.value[e]);
     }
     void compare(std::int64_t row, std::int64_t column, double value, double mirrored, double scale) const {
         if (!(std::abs(value - mirrored) <= allowed_asymmetry * scale))

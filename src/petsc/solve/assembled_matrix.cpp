@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "petsc/solve/assembled_matrix.hpp"
+#include "base/numbers.hpp"
 
 #include <algorithm>
-
-#include "petsc/base/index.hpp"
 
 namespace delam::petsc {
 
@@ -13,11 +12,11 @@ namespace {
 // uses, get the stiffness of their DOF, so that the matrix is definite and its entries are of one size; variables of
 // other ranks a zero.
 std::vector<double> missing_diagonal(const LocalMatrix& stiffness, const LocalVariables& local) {
-    std::vector<double> own(at(local.places()), 0.0);
+    std::vector<double> own(index(local.places()), 0.0);
     double typical = 0.0;
-    for (std::size_t r = 0; r < at(stiffness.rows); ++r)
-        for (auto e = at(stiffness.start[r]); e < at(stiffness.start[r + 1]); ++e)
-            if (at(stiffness.column[e]) == r) typical = std::max(typical, own[r] = stiffness.value[e]);
+    for (std::size_t r = 0; r < index(stiffness.rows); ++r)
+        for (auto e = index(stiffness.start[r]); e < index(stiffness.start[r + 1]); ++e)
+            if (index(stiffness.column[e]) == r) typical = std::max(typical, own[r] = stiffness.value[e]);
     for (std::size_t i = 0; i < own.size(); ++i) {
         if (local.is_variable[i] != 0)
             own[i] = 0.0;

@@ -5,18 +5,14 @@
 #include <cmath>
 #include <cstring>
 
-#include "petsc/base/index.hpp"
+#include "base/costs.hpp"
+#include "base/numbers.hpp"
 #include "petsc/base/options.hpp"
 #include "petsc/solve/assembled_matrix.hpp"
 
 namespace delam::petsc {
 
-namespace {
-
-// A triangular solve waits for memory: its operations are this many times slower than a factorisation's.
-constexpr double slower = 20.0;
-
-}  // namespace
+namespace {}  // namespace
 
 AssembledPreconditioner::AssembledPreconditioner(const Bodies& bodies, const Visible& visible)
     : bodies_(bodies), visible_(visible), of_bodies_(assembled_matrix(bodies)), work_(bodies.vector()) {
@@ -63,7 +59,7 @@ void AssembledPreconditioner::give_rigid_motions() {
     const Vec* motion = nullptr;
     check(MatNullSpaceGetVecs(motions, nullptr, &count, &motion));
     for (PetscInt k = 0; k < count; ++k)
-        fill(motion[k], at(local.places()), [&local](std::size_t i, double value) {
+        fill(motion[k], index(local.places()), [&local](std::size_t i, double value) {
             return local.is_variable[i] != 0 && local.is_jump[i] == 0 ? value : 0.0;
         });
     check(MatSetBlockSize(matrix_, local.dimension));
@@ -141,7 +137,7 @@ double AssembledPreconditioner::worth() {
     factor_entries_ = entries < 0 ? -1e6 * static_cast<double>(entries) : static_cast<double>(entries);
     MatInfo info;
     check(MatGetInfo(of_bodies_, MAT_GLOBAL_SUM, &info));
-    return std::max(1.0, factor_flops_ / (slower * (4.0 * factor_entries_ + 6.0 * info.nz_used)));
+    return std::max(1.0, factor_flops_ / (triangular_slowdown * (4.0 * factor_entries_ + 6.0 * info.nz_used)));
 }
 
 void AssembledPreconditioner::apply(Vec residual, Vec z) const { check(PCApply(inner_, residual, z)); }

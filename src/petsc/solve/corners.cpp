@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "petsc/solve/corners.hpp"
+#include "base/numbers.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
-
-#include "petsc/base/index.hpp"
 
 namespace delam::petsc {
 
@@ -21,8 +20,8 @@ std::vector<std::size_t> bodies_of(const LocalMatrix& stiffness, std::size_t cou
         return i;
     };
     for (std::size_t r = 0; r < count * dimension; ++r)
-        for (auto e = at(stiffness.start[r]); e < at(stiffness.start[r + 1]); ++e) {
-            const std::size_t other = at(stiffness.column[e]) / dimension;
+        for (auto e = index(stiffness.start[r]); e < index(stiffness.start[r + 1]); ++e) {
+            const std::size_t other = index(stiffness.column[e]) / dimension;
             if (other >= count || stiffness.value[e] == 0.0) continue;
             const std::size_t a = root(r / dimension), b = root(other);
             parent[std::max(a, b)] = std::min(a, b);
@@ -84,7 +83,7 @@ std::vector<PetscInt> corners(const Bodies& bodies, const DisplacementSystem& sy
             if (ranks[k] == bodies.comm().rank()) continue;
             std::map<std::size_t, std::vector<std::size_t>> faces;  // by body
             for (PetscInt i = 0; i < counts[k]; ++i) {
-                const std::size_t node = at(shared[k][i]);
+                const std::size_t node = index(shared[k][i]);
                 if (node < count && system.is_whole(node)) faces[body[node]].push_back(node);
             }
             for (auto& [which, nodes] : faces) {

@@ -9,20 +9,7 @@ namespace delam::petsc {
 
 namespace {
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr int most_rounds = 8;
-constexpr double recursion_goal = 0.3;      // of the target, so that the true residual meets it too
-constexpr double gained = 0.5;              // a round that leaves more of the residual has met rounding
-constexpr double largest_residual = 1e-5;   // that rounding may excuse: an error of 1e-10 of the energy
-constexpr double rounding_slack = 30.0;     // the estimate of rounding is one of its size, not a bound
-constexpr double far_from_rounding = 1e-8;  // a residual of which rounding need not be known
-// Rounding units, of the terms of a component, by which a residual from a recursion may differ from the true one.
-constexpr double rounding_units = 16.0;
-// Tolerances of this size and less ask for all that rounding leaves. Where a spring has become softer than in the
-// preconditioner, M takes little notice of the residual there (a contact that opens, with a tension of 2e-6 of the
-// largest: 3.5e-12 of the state, less than a fifth of its rounding): no component may then be larger than its rounding.
-constexpr double finest = 1e-12;
-constexpr double at_rounding = 3.0;  // times that estimate: another round would gain nothing
+constexpr double rounding_bound = RestartLimits{}.rounding_units * std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
@@ -116,11 +103,16 @@ bool Solve::largest_rounding(const Question& question) {
     if (constraints_.has_pivots()) return false;
     residual_sizes(question);
     check(VecCopy(work_, largest_));
-    check(VecScale(largest_, rounding_units * std::numeric_limits<double>::epsilon()));
+    check(VecScale(largest_, rounding_bound));
     return true;
 }
 
-bool Solve::asks_for_all(double tolerance) const { return tolerance <= std::max(finest, rounded_); }
+// The finest tolerances ask for all that rounding leaves. Where a spring has become softer than in the
+// preconditioner, M takes little notice of the residual there (a contact that opens, with a tension of 2e-6 of the
+// largest: 3.5e-12 of the state, less than a fifth of its rounding): no component may then be larger than its rounding.
+bool Solve::asks_for_all(const Restarts& restarts) {
+    return restarts.tolerance() <= std::max(finest_tolerance, restarts.rounded());
+}
 
 // Whether the true residual r is that of the recursion, but for what rounding does to each component.
 bool Solve::confirms(const Question& question, Vec recursion) {
@@ -134,9 +126,8 @@ bool Solve::confirms(const Question& question, Vec recursion) {
     check(VecGetArrayRead(r_, &own));
     check(VecGetArrayRead(constraints_.free(), &free));
     double differing = 0.0;
-    constexpr double bound = rounding_units * std::numeric_limits<double>::epsilon();
     for (PetscInt i = 0; i < count; ++i)
-        if (free[i] != 0.0 && !(std::abs(own[i] - known[i]) <= bound * sizes[i])) differing = 1.0;
+        if (free[i] != 0.0 && !(std::abs(own[i] - known[i]) <= rounding_bound * sizes[i])) differing = 1.0;
     check(VecRestoreArrayRead(work_, &sizes));
     check(VecRestoreArrayRead(recursion, &known));
     check(VecRestoreArrayRead(r_, &own));
@@ -147,10 +138,10 @@ bool Solve::confirms(const Question& question, Vec recursion) {
 // One run of the recursion from the residual r. True: nothing more to do. Leaves the true residual in r and returns the
 // size of the state; where the recursion has reached the target and its residual is the true one, its M r is taken
 // over.
-bool Solve::iterate(const Question& question, double tolerance, double norm, double& size, Result& result) {
-    Iterations::Limits limits{recursion_goal * std::max(tolerance, rounded_) * std::max(size, norm), nullptr,
-                              question.limit - result.iterations, question.poll, question.user};
-    if (asks_for_all(tolerance) && largest_rounding(question)) limits.largest = largest_;
+bool Solve::iterate(const Question& question, const Restarts& restarts, double& size, Result& result) {
+    Iterations::Limits limits{restarts.goal(), nullptr, question.limit - result.iterations, question.poll,
+                              question.user};
+    if (asks_for_all(restarts) && largest_rounding(question)) limits.largest = largest_;
     check(VecCopy(r_, recursion_));
     const Iterations::Outcome outcome = iterations_.run(recursion_, z_, x_, limits);
     result.iterations += outcome.iterations;
@@ -161,10 +152,9 @@ bool Solve::iterate(const Question& question, double tolerance, double norm, dou
     constraints_.spread(x_, cv_);
     check(VecAXPY(v_, 1.0, cv_));
     size = residual(question);
-    const bool rounding_matters = !(rounded_ > 0.0) && tolerance < far_from_rounding;
-    if (rounding_matters || !outcome.reached || !confirms(question, recursion_)) return false;
-    const double left = std::hypot(outcome.norm, rounded_ * size);
-    if (!(left <= std::max(tolerance, at_rounding * rounded_) * size)) return false;
+    if (!restarts.may_end() || !outcome.reached || !confirms(question, recursion_)) return false;
+    const double left = restarts.left(outcome.norm, size);
+    if (!restarts.accepts(left, size)) return false;
     check(VecCopy(v_, best_));
     constraints_.spread(z_, best_z_);
     if (outcome.norm > 0.0) check(VecScale(best_z_, left / outcome.norm));
@@ -177,25 +167,25 @@ bool Solve::iterate(const Question& question, double tolerance, double norm, dou
 Result Solve::rounds(const Question& question) {
     const Communicator& comm = bodies_.comm();
     Result result;
-    double tolerance = question.tolerance, before = infinite, least_residual = infinite, size = residual(question);
-    for (int round = 0;; ++round) {
+    Restarts restarts(question.tolerance, rounded_);
+    double size = residual(question);
+    while (true) {
         const double norm = precondition();
         if (!std::isfinite(norm)) fail(DELAM_ERROR_NUMERICAL, "the residual is not finite");
-        const double relative = norm == 0.0 ? 0.0 : norm / std::max(size, norm);
-        if (round == 0) {
+        restarts.begin(norm, size);
+        if (restarts.first()) {
             result.first = norm;
-            if (comm.root() && question.enough != nullptr && norm > 0.0)
-                tolerance = std::max(tolerance, relative * question.enough(norm, question.user) / norm);
-            comm.broadcast(tolerance);
+            double enough =
+                comm.root() && question.enough != nullptr && norm > 0.0 ? question.enough(norm, question.user) : 0.0;
+            comm.broadcast(enough);
+            restarts.allow(enough);
         }
-        bool reached = relative <= tolerance;
-        if (!reached && round > 0 && !(rounded_ > 0.0) && size > 0.0) rounded_ = rounding(question) / size;
-        const double excused = (round == 0 ? recursion_goal : at_rounding) * rounded_;
-        reached = reached || relative <= std::min(largest_residual, excused);
-        if (reached && round == 0 && asks_for_all(tolerance) && largest_rounding(question))
+        if (restarts.needs_rounding()) restarts.set_rounded(rounding(question) / size);
+        rounded_ = restarts.rounded();
+        bool reached = restarts.reached();
+        if (reached && restarts.first() && asks_for_all(restarts) && largest_rounding(question))
             reached = within(comm, r_, largest_);
-        if (round == 0 || norm < before) {
-            least_residual = relative;
+        if (restarts.best()) {
             result.norm = norm;
             result.size = size;
             check(VecCopy(v_, best_));
@@ -203,12 +193,11 @@ Result Solve::rounds(const Question& question) {
         }
         std::int64_t over = !reached && question.limit <= result.iterations ? 1 : 0;
         comm.broadcast(over);
-        if (reached || over != 0 || !(norm <= gained * before) || round == most_rounds) {
-            result.converged = reached || least_residual <= std::min(largest_residual, rounding_slack * rounded_);
+        if (reached || over != 0 || restarts.over()) {
+            result.converged = reached || restarts.excused();
             return result;
         }
-        before = norm;
-        if (iterate(question, tolerance, norm, size, result)) return result;
+        if (iterate(question, restarts, size, result)) return result;
     }
 }
 

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "base/restarts.hpp"
 #include "petsc/bodies/kept_states.hpp"
 #include "petsc/solve/iterations.hpp"
 
@@ -57,9 +58,9 @@ private:
     bool largest_rounding(const Question& question);
     bool confirms(const Question& question, Vec recursion);
     Result rounds(const Question& question);
-    bool iterate(const Question& question, double tolerance, double norm, double& size, Result& result);
+    bool iterate(const Question& question, const Restarts& restarts, double& size, Result& result);
     // True if a tolerance asks for all that rounding leaves.
-    bool asks_for_all(double tolerance) const;
+    static bool asks_for_all(const Restarts& restarts);
 
     const Bodies& bodies_;
     const Visible& visible_;

@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "base/costs.hpp"
 #include "base/error.hpp"
 #include "base/numbers.hpp"
 #include "delam/delam.h"
@@ -49,7 +50,6 @@ constexpr double iterated_vectors = 46.0;  // states and directions of an iterat
 constexpr double most_vectors = 156.0;     // with the 60 pairs that conjugate gradients keep at most
 // Per variable: METIS takes 1.1 s for 354,000 displacements, 3 s for a million.
 constexpr double ordering_operations = 6e4;
-constexpr double largest_patch = 0.25;      // of all variables, as of reanalysis.cpp and local_zone.cpp
 constexpr double relaxed_supernodes = 1.5;  // numbers stored per entry of its factor
 // Operations of a factor, times variables over the square of its entries (1: all columns alike).
 constexpr double column_spread = 6.0;
@@ -329,6 +329,7 @@ Design of_engine(Design design, const Problem& problem, Monitor& monitor) {
     design.description = op->description();
     design.bound = bound_rows(op->variables());
     design.prescribed.assign(op->prescribed_rows().begin(), op->prescribed_rows().end());
+    design.in_engine = op.get();
     design.op = std::move(op);
     return design;
 }
@@ -467,6 +468,7 @@ std::unique_ptr<JumpOperator> build_operator(Design& design, const Problem& prob
     if (design.op != nullptr) return std::move(design.op);
     if (design.bulk == nullptr) return std::make_unique<Feti>(problem, monitor);
     design.bulk->condense(monitor);
+    design.condensed = design.bulk.get();
     return std::make_unique<Condensed>(std::move(design.bulk), problem, monitor);
 }
 

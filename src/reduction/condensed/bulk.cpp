@@ -42,7 +42,6 @@ void Bulk::condense(Monitor& monitor) {
         resting_->update(states(std::vector<double>(index(unknowns()), Elimination::held)), condensing);
         resting_energy_ = std::make_unique<ZoneEnergy>(*this, *resting_, condensing);
     }
-    recoveries_ = 0;
 }
 
 void Bulk::factorise(const Poll& poll) {
@@ -211,7 +210,6 @@ std::vector<double> Bulk::displacement(std::span<const double> theta, std::span<
         system_->add_variables(v, u);
         system_->add_variables(solve_bonded(carried(theta, u)), u);
     }
-    ++recoveries_;
     return u;
 }
 

@@ -105,7 +105,6 @@ public:
     std::int64_t transformed_entries() const { return transformed_.entries(); }
     const SparseMatrix& transformed() const { return transformed_; }
     std::int64_t factorisations() const { return factorisations_; }
-    std::int64_t recoveries() const { return recoveries_; }  // of displacements, since condense()
 
 private:
     void factorise(const Poll& poll);
@@ -135,7 +134,6 @@ private:
     std::unique_ptr<ZoneEnergy> resting_energy_;
     DenseMatrix kept_factor_;  // of the kept displacements that no equation determines, all jumps at rest
     std::int64_t factorisations_ = 0;
-    mutable std::int64_t recoveries_ = 0;
     // Trailing variables: t = M r + d theta, r = [kept ones that no equation determines | unknown jumps].
     std::vector<std::int64_t> rest_;   // trailing index of r
     std::vector<std::int64_t> pivot_;  // trailing index of variables determined by equations

@@ -13,9 +13,6 @@ namespace delam {
 
 namespace {
 
-// A spring weaker than this fraction of the bodies' stiffness cannot support a factorisation; such rows stay in the
-// zone.
-constexpr double weak = 1e-9;
 // So many times faster than the small fronts of a tree is one factor of the same operations.
 constexpr double one_factor = 3.0;
 // Unknowns of a zone in which a solve costs less than the choice of a smaller zone.
@@ -130,7 +127,7 @@ void Condensed::choose(const Springs& springs, std::span<const std::uint8_t> wan
                                  : std::min<std::uint8_t>(forgotten, static_cast<std::uint8_t>(age_[i] + 1));
         const double body = bulk_->diagonal(static_cast<std::int64_t>(i));
         const bool kept = age_[i] < forgotten && (!tight || wanted[i] != 0);
-        if (kept || (now[i] > 0.0 && now[i] < weak * body)) set[i] = 1;
+        if (kept || (now[i] > 0.0 && now[i] < weakest_hold * body)) set[i] = 1;
     }
     if (!expected_.empty() && floats_unless_held(expected_, now)) expected_.clear();
     const std::size_t needed = count(set);

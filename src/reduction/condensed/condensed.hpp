@@ -15,43 +15,44 @@
 
 namespace delam {
 
-class Condensed final : public JumpOperator {
+class Condensed final : public JumpOperator, private Zones {
 public:
     Condensed(std::shared_ptr<Bulk> bulk, const Problem& problem, Monitor& monitor);
     void solve(const Springs& springs, std::span<const double> theta, Response& response) override;
     void expect_changes(std::span<const std::size_t> rows) override;
-    bool complete(const Springs& springs, std::span<const double> theta, const Zone::Solution& solution,
-                  Response& response) const override;
-    bool answers_in_proportion() const override { return true; }
+    OperatorTraits traits() const override { return {.proportional = true}; }
     std::vector<double> displacement(std::span<const double> theta, const Response& response) const override;
     std::vector<double> reaction(std::span<const double> theta, const Response& response) const override;
     double equilibrium_defect(std::span<const double> theta, const Response& response) const override;
     double rounding_energy(std::span<const double> theta, const Response& response) const override;
     std::span<const std::uint8_t> prescribed_rows() const override { return prescribed_; }
-    const Bulk* bulk() const override { return bulk_.get(); }
     std::int64_t factorisations() const override { return bulk_->factorisations(); }
-    std::int64_t recoveries() const override { return bulk_->recoveries(); }
     std::unique_ptr<JumpOperator> twin() const override {
         return std::make_unique<Condensed>(bulk_, problem_, monitor_);
     }
     std::string description() const override { return description_of(*bulk_); }
     static std::string description_of(const Bulk& bulk);
-    std::vector<double> memory() const override;
+    std::vector<double> memory() override { return choice(); }
     void recall(std::span<const double> memory) override;
     void require_memory(std::span<const double> memory) const override {
         if (!memory.empty()) parse(memory);
     }
 
-    bool offers_zone() const override { return true; }
+    Zones* zones() override { return this; }
     DenseZone* zone(const Springs& springs, std::span<const std::uint8_t> wanted, bool tight) override;
     // All rows, forces and energies from a zone solution with these springs; none: no unknown moves.
     void respond(const Springs& springs, std::span<const double> theta, const Zone::Solution* solution,
                  Response& response) const;
 
 private:
+    ZoneTraits zone_traits() const override { return {}; }
+    bool complete(const Springs& springs, std::span<const double> theta, const Zone::Solution& solution,
+                  Response& response) const override;
+    // The content of memory().
+    std::vector<double> choice() const;
     // An unknown that has not changed may leave the zone so many choices later.
     static constexpr std::uint8_t forgotten = 3;
-    // The content of memory().
+    // The same, read.
     struct Choice {
         std::vector<std::uint8_t> age, inside;
         std::vector<double> spring, last;

@@ -11,7 +11,7 @@
 namespace delam {
 
 // Per unknown: a code of age and inside, the spring at which it is minimised out, that of the last solve.
-std::vector<double> Condensed::memory() const {
+std::vector<double> Condensed::choice() const {
     if (zone_ == nullptr) return {};
     zone_->forget();  // the factor that earlier solves have left is not saved
     std::vector<double> m;
@@ -59,7 +59,7 @@ void Condensed::recall(std::span<const double> memory) {
         energy_.reset();
         return;
     }
-    if (std::ranges::equal(memory, this->memory())) {
+    if (std::ranges::equal(memory, choice())) {
         zone_->forget();
         return;
     }

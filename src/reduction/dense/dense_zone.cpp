@@ -431,7 +431,7 @@ void DenseZone::complete_forces(std::span<const double> theta, const Solution& s
         if (plain_[r] >= 0 && held_[r] != 0) row_force[r] = left[index(plain_[r])];
 }
 
-double DenseZone::energy_of(std::span<const double> theta, std::span<const double> unknowns) const {
+double DenseZone::energy_of(std::span<const double> theta, std::span<const double> unknowns) {
     std::vector<double> load(unknowns.size()), image(unknowns.size());
     multiply(energy_->load, theta, load);
     multiply_symmetric(energy_->stiffness, unknowns, image);
@@ -452,7 +452,7 @@ double DenseZone::energy_of_moving(std::span<const std::size_t> rows, std::span<
     return sum;
 }
 
-std::vector<double> DenseZone::unknowns_at(const Response& response) const {
+std::vector<double> DenseZone::unknowns_at(const Response& response) {
     std::vector<double> x(index(energy_->rows()), 0.0);
     for (std::size_t r = 0; r < rows_.size(); ++r) {
         const JumpRow& row = rows_[r];

@@ -23,7 +23,7 @@
 
 namespace delam {
 
-class Feti final : public JumpOperator {
+class Feti final : public JumpOperator, private Zones {
 public:
     Feti(const Problem& problem, Monitor& monitor);
     void solve(const Springs& springs, std::span<const double> theta, Response& response) override;
@@ -34,14 +34,13 @@ public:
     std::int64_t factorisations() const override {
         return static_cast<std::int64_t>(parts_.subdomains.size()) - (parts_.subdomains.back().body < 0 ? 1 : 0);
     }
-    std::int64_t recoveries() const override { return recoveries_; }
-    bool offers_zone() const override { return true; }
-    // The columns are right to 1e-12 of the bodies' flexibility, and an unstable pair multiplies what they are off.
-    double zone_rounding() const override { return 1e-6; }
+    Zones* zones() override { return this; }
     DenseZone* zone(const Springs& springs, std::span<const std::uint8_t> wanted, bool tight) override;
     std::string description() const override;
 
 private:
+    // The columns are right to 1e-12 of the bodies' flexibility, and an unstable pair multiplies what they are off.
+    ZoneTraits zone_traits() const override { return {.rounding = 1e-6}; }
     Poll condensing();
     // The phases of a solve, in feti_solve.cpp.
     void solve_unit(Team& team, const Springs& springs, const DualLoads::Sum& load, Response& response);
@@ -67,7 +66,6 @@ private:
     DualOperator dual_;
     DualLoads loads_;
     std::unique_ptr<FetiZone> zone_;  // once it is asked for
-    mutable std::int64_t recoveries_ = 0;
 };
 
 }  // namespace delam

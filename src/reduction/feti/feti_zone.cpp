@@ -17,10 +17,6 @@ namespace {
 // Rows of A: its dense energy takes a few seconds and 0.3 GB to find.
 constexpr std::size_t largest = 3000;
 constexpr double largest_bytes = 512.0 * 1048576.0;  // of the columns
-// A spring weaker than this part of the bodies' stiffness is no hold to factor with: such rows stay in the zone, which
-// can.
-constexpr double weak = 1e-9;
-
 }  // namespace
 
 FetiZone::FetiZone(const Problem& problem, const std::vector<Subdomain>& subdomains, DualOperator& dual,
@@ -107,7 +103,7 @@ FetiZone::Split FetiZone::split(const Springs& springs, std::span<const std::uin
     for (std::size_t i = 0; i < rows_.size(); ++i) {
         const std::size_t r = index(rows_[i]);
         const double s = springs.stiffness[r], body = energy_.stiffness.value[i * (rows_.size() + 1)];
-        if (springs.held[r] == 0 && s > 0.0 && s < weak * body) pair[r / dim] = 1;
+        if (springs.held[r] == 0 && s > 0.0 && s < weakest_hold * body) pair[r / dim] = 1;
     }
     Split result{{}, std::vector<double>(rows_.size(), 0.0)};
     for (std::size_t i = 0; i < rows_.size(); ++i) {

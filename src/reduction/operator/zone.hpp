@@ -76,7 +76,7 @@ public:
     virtual const std::vector<std::int64_t>& jump_rows() const = 0;
     // Unknowns at the jumps of a response of the operator, from which an iteration then starts; and the other way
     // round: jumps apart, what such a response keeps of them for the next solve.
-    virtual std::vector<double> unknowns_at(const Response& response) const = 0;
+    virtual std::vector<double> unknowns_at(const Response& response) = 0;
     virtual void keep(std::span<const double> unknowns, Response& response) const = 0;
     // j of all rows.
     virtual std::vector<double> jumps(std::span<const double> theta, std::span<const double> unknowns) const = 0;
@@ -84,7 +84,7 @@ public:
     virtual void complete_forces(std::span<const double> theta, const Solution& solution,
                                  std::span<double> row_force) const = 0;
     // 1/2 x^T S x - theta^T L^T x, up to what depends on theta alone.
-    virtual double energy_of(std::span<const double> theta, std::span<const double> unknowns) const = 0;
+    virtual double energy_of(std::span<const double> theta, std::span<const double> unknowns) = 0;
     // 1/2 d^T S d, by which the energy changes where rows move by d on their own from a minimum of energy and springs;
     // infinite: it is not known, or these rows cannot move on their own.
     virtual double energy_of_moving(std::span<const std::size_t> /*rows*/, std::span<const double> /*d*/) const {

@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "base/restarts.hpp"
 #include "reduction/operator/zone.hpp"
 #include "reduction/sparse/jump_system.hpp"
 
@@ -19,7 +20,7 @@ namespace delam {
 class BodySolver {
 public:
     // Residuals below this part of the state are not asked for: it is what a decision about contact can still use.
-    static constexpr double finest = 1e-12;
+    static constexpr double finest = finest_tolerance;
 
     virtual ~BodySolver() = default;
 
@@ -68,7 +69,7 @@ public:
 
     virtual std::int64_t factorisations() const = 0;
     // What the next solution's last digits depend on.
-    virtual std::vector<double> memory() const = 0;
+    virtual std::vector<double> memory() = 0;
     virtual void recall(std::span<const double> memory) = 0;
     // Throws Error(DELAM_ERROR_SNAPSHOT).
     virtual void require_memory(std::span<const double> memory) const = 0;

@@ -97,7 +97,7 @@ void IteratedZone::start_anew() {
     solver_.compare_energies(false);
 }
 
-std::vector<double> IteratedZone::unknowns_at(const Response& response) const {
+std::vector<double> IteratedZone::unknowns_at(const Response& response) {
     rounding_ = -1.0;
     start_ = response.multipliers;
     start_.resize(index(solver_.state_size()), 0.0);
@@ -120,7 +120,7 @@ void IteratedZone::complete_forces(std::span<const double>, const Solution& solu
         if (solver_.system().held()[r] != 0) row_force[r] = solution.multiplier[r];
 }
 
-double IteratedZone::energy_of(std::span<const double> theta, std::span<const double> unknowns) const {
+double IteratedZone::energy_of(std::span<const double> theta, std::span<const double> unknowns) {
     const BodySolver::Work work = solver_.work(theta, unknowns);
     double energy = work.strain;
     for (std::size_t p = 0; p < theta.size(); ++p) energy -= theta[p] * work.done[p];

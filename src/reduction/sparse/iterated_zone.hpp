@@ -18,13 +18,13 @@ public:
     bool factor(std::span<const Coupling> couplings, std::span<const std::uint8_t> held) override;
     Solution solve(std::span<const double> theta, std::span<const double> row_force) override;
     const std::vector<std::int64_t>& jump_rows() const override { return jump_rows_; }
-    std::vector<double> unknowns_at(const Response& response) const override;
+    std::vector<double> unknowns_at(const Response& response) override;
     void keep(std::span<const double> unknowns, Response& response) const override;
     std::vector<double> jumps(std::span<const double> theta, std::span<const double> unknowns) const override;
     void complete_forces(std::span<const double> theta, const Solution& solution,
                          std::span<double> row_force) const override;
     // The energy of the bodies, from their displacements.
-    double energy_of(std::span<const double> theta, std::span<const double> unknowns) const override;
+    double energy_of(std::span<const double> theta, std::span<const double> unknowns) override;
     double energy_rounding() const override;
     // The next solve does not depend on those before.
     void start_anew();
@@ -43,8 +43,8 @@ private:
     double part_ = 0.0;     // of the residual with which the model begins: what a solve may leave
     double allowed_ = 0.0;  // above the least energy, F L; 0: only the tolerance counts
     std::vector<std::int64_t> jump_rows_;
-    mutable std::vector<double> start_;  // of the next solve
-    mutable double rounding_ = -1.0;     // of energy_of(), relative; negative: not yet known
+    std::vector<double> start_;  // of the next solve
+    double rounding_ = -1.0;     // of energy_of(), relative; negative: not yet known
 };
 
 }  // namespace delam

@@ -151,9 +151,7 @@ Zone::Solution LocalZone::solve(std::span<const double>, std::span<const double>
     return solution;
 }
 
-std::vector<double> LocalZone::unknowns_at(const Response&) const {
-    return std::vector<double>(variables_.size(), 0.0);
-}
+std::vector<double> LocalZone::unknowns_at(const Response&) { return std::vector<double>(variables_.size(), 0.0); }
 
 void LocalZone::keep(std::span<const double> unknowns, Response& response) const {
     for (std::size_t k = 0; k < variables_.size(); ++k)
@@ -171,7 +169,7 @@ void LocalZone::complete_forces(std::span<const double>, const Solution& solutio
         if (held_as_[z] != 0.0) row_force[z] = solution.multiplier[z];
 }
 
-double LocalZone::energy_of(std::span<const double>, std::span<const double> unknowns) const {
+double LocalZone::energy_of(std::span<const double>, std::span<const double> unknowns) {
     std::vector<double> image(unknowns.size());
     multiply(matrix_, unknowns, image);
     return 0.5 * dot(unknowns, image) - dot(left_, unknowns);

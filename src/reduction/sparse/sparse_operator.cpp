@@ -172,7 +172,6 @@ std::vector<double> SparseOperator::stressed(std::span<const double> theta, cons
     poll_cancel("recover", bodies_->dofs() / 64);
     std::vector<double> force;
     solver_.recover(theta, response.multipliers, displacement, force);
-    note_recovery();
     return force;
 }
 

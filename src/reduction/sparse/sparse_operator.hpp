@@ -13,7 +13,7 @@
 
 namespace delam {
 
-class SparseOperator : public JumpOperator {
+class SparseOperator : public JumpOperator, protected Zones {
 public:
     ~SparseOperator() override;
     void solve(const Springs& springs, std::span<const double> theta, Response& response) override;
@@ -24,20 +24,18 @@ public:
     double rounding_energy(std::span<const double> theta, const Response& response) const override;
     std::span<const std::uint8_t> prescribed_rows() const override { return solver_.system().prescribed(); }
     std::int64_t factorisations() const override { return solver_.factorisations(); }
-    std::int64_t recoveries() const override { return recoveries_; }
-    std::vector<double> memory() const override { return solver_.memory(); }
+    std::vector<double> memory() override { return solver_.memory(); }
     void recall(std::span<const double> memory) override { solver_.recall(memory); }
     void require_memory(std::span<const double> memory) const override { solver_.require_memory(memory); }
 
-    bool offers_zone() const override { return true; }
-    bool zone_is_whole() const override { return true; }
-    // Its steps are solved to a residual far below the tolerance of the damage.
-    double zone_rounding() const override { return problem_.options.damage_tolerance; }
+    Zones* zones() override { return this; }
     Zone* zone(const Springs& springs, std::span<const std::uint8_t> wanted, bool tight) override;
 
     const JumpVariables& variables() const { return bodies_->variables(); }
 
 protected:
+    // The steps of a zone are solved to a residual far below the tolerance of the damage.
+    ZoneTraits zone_traits() const override { return {.whole = true, .rounding = problem_.options.damage_tolerance}; }
     using SolverOf = std::function<std::unique_ptr<BodySolver>(const BodySystem& bodies)>;
     // `problem` must outlive the operator. solver: called once, when the loads of the bodies are known.
     SparseOperator(const Problem& problem, Monitor& monitor, std::unique_ptr<BodySystem> bodies,
@@ -47,7 +45,6 @@ protected:
     Monitor& monitor() const { return monitor_; }
     const BodySystem& bodies() const { return *bodies_; }
     BodySolver& solver() const { return solver_; }
-    void note_recovery() const { ++recoveries_; }
 
 private:
     double tolerance() const;
@@ -66,7 +63,6 @@ private:
     BodySolver& solver_;
     std::unique_ptr<IteratedZone> zone_;  // once they are asked for
     Accuracy accuracy_ = Accuracy::usual;
-    mutable std::int64_t recoveries_ = 0;
 };
 
 }  // namespace delam

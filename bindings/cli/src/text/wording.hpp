@@ -11,6 +11,8 @@ namespace cli {
 
 // The longest title or name, in bytes; files of HDF5 keep texts of up to 64 kB.
 constexpr std::size_t most_text_bytes = 4096;
+// The deepest nesting of tables, lists and objects in a file; the deepest scene of the examples has 7.
+constexpr int most_levels = 32;
 // Returns the beginning of a text that would be too long for a message.
 std::string shortened(const std::string& text);
 // Returns " (did you mean 'young'?)", or "" if no known word is near.

@@ -22,8 +22,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t most_levels = 32;
-
 [[noreturn]] void wrong_result(const std::string& path, const std::string& what) {
     throw Failure(exit_scene, path + ": " + what);
 }

@@ -14,11 +14,9 @@ EngineOperator::EngineOperator(const Problem& problem, Monitor& monitor)
               problem, [&monitor] { monitor.progress("assemble", 0, 0); }, BodySystem::Stiffness::elsewhere),
           [&](const BodySystem& bodies) { return std::make_unique<EngineSolver>(bodies, problem.engine, monitor); }) {}
 
-bool EngineOperator::recover_in_engine(std::span<const double> theta, const Response& response) const {
+void EngineOperator::recover_in_engine(std::span<const double> theta, const Response& response) const {
     poll_cancel_now("recover");
     static_cast<EngineSolver&>(solver()).recover_in_engine(theta, response.multipliers);
-    note_recovery();
-    return true;
 }
 
 std::string EngineOperator::description() const {

@@ -10,7 +10,8 @@ class EngineOperator final : public SparseOperator {
 public:
     // The problem has an engine and must outlive the operator.
     EngineOperator(const Problem& problem, Monitor& monitor);
-    bool recover_in_engine(std::span<const double> theta, const Response& response) const override;
+    // Has the engine recover the displacements of a response and keep them.
+    void recover_in_engine(std::span<const double> theta, const Response& response) const;
     std::string description() const override;
 };
 

@@ -16,20 +16,12 @@ namespace delam {
 
 namespace {
 
-// Iterations with a fresh preconditioner for which no newer one is blamed: as many as its first solve has taken, at
-// least so many.
-constexpr double fresh_iterations = 4.0;
 // Iterations beyond those of a fresh preconditioner after which an old one is given up.
 constexpr std::int64_t least_attempt = 20;
 constexpr double highest_cost = 1e6;
-// Multiple of the estimated error below which a jump or force is in doubt, and the least eigenvalue that the estimate
-// takes for true, as of the library's own iteration (reanalysis.cpp).
-constexpr double in_doubt = 10.0, softest = 0.01;
 // Residual and iterations of the search for a direction without a minimum.
 constexpr double probed = 1e-3;
 constexpr std::int64_t longest_probe = 60;
-// Of the tolerance, where springs are softer than in the preconditioner.
-constexpr double cautious = 1e-3;
 // What a solve calls back. An exception waits until the engine has returned.
 struct Calls {
     const BodySolver::Forcing& forcing;
@@ -188,7 +180,7 @@ void EngineSolver::renew_now() {
     for (const Zone::Coupling& c : floating_.anchors()) springs[index(c.row)] += c.value;
     lagged_ = std::move(springs);
     renewed_ = false;
-    debt_ = fresh_ = 0.0;
+    renewal_.renewed();
     renew();
 }
 
@@ -204,7 +196,7 @@ bool EngineSolver::set(std::vector<Zone::Coupling> couplings, std::span<const st
     // A residual weighs too little where springs have become softer than in the preconditioner: a crack that opens goes
     // unnoticed. Energies are then compared with a new one. (The other way round a residual weighs too much.)
     const bool hidden = comparing_ && !lagged_.empty() && any_softer(system_, lagged_);
-    if (lagged_.empty() || hidden || (debt_ > cost_ && changed())) renew_now();
+    if (lagged_.empty() || hidden || (renewal_.due(cost_) && changed())) renew_now();
     return has_minimum();
 }
 
@@ -350,14 +342,14 @@ BodySolver::Answer EngineSolver::solve(std::span<const double> theta, std::span<
             start[newest_] = 1.0;
         }
     }
-    const double careful = any_softer(system_, lagged_) ? cautious : 1.0;
+    const double careful = any_softer(system_, lagged_) ? renewal_.limits().cautious : 1.0;
     const double target = std::max(finest, careful * tolerance);
     double enough = 0.0;
     const Forcing carefully = [&](double first) { return careful * (enough = forcing(first)); };
     const std::int64_t most = bodies_.problem().options.linear_limit;
-    const bool old = fresh_ > 0.0;
-    const auto attempt =
-        static_cast<std::int64_t>(std::min(fresh_ + std::max(0.0, cost_ - debt_), static_cast<double>(most)));
+    const bool old = renewal_.used();
+    const auto attempt = static_cast<std::int64_t>(
+        std::min(renewal_.first() + std::max(0.0, cost_ - renewal_.excess()), static_cast<double>(most)));
     const std::int64_t limit = old ? std::min(most, std::max(least_attempt, attempt)) : most;
     Raw raw = ask(theta, force, right, start, target, limit, forcing ? carefully : Forcing{}, x);
     std::int64_t iterations = raw.answer.iterations;
@@ -366,7 +358,7 @@ BodySolver::Answer EngineSolver::solve(std::span<const double> theta, std::span<
         renew_now();
         start.assign(kept_.size(), 0.0);
         start[newest_] = 1.0;
-        const double again = any_softer(system_, lagged_) ? cautious : 1.0;
+        const double again = any_softer(system_, lagged_) ? renewal_.limits().cautious : 1.0;
         const Forcing as_before = [&](double) { return again * enough; };
         raw = ask(theta, force, right, start, std::max(finest, again * tolerance), most,
                   forcing ? as_before : Forcing{}, x);
@@ -374,8 +366,7 @@ BodySolver::Answer EngineSolver::solve(std::span<const double> theta, std::span<
         iterations += raw.answer.iterations;
     }
     const auto own = static_cast<double>(raw.answer.iterations);
-    if (fresh_ == 0.0) fresh_ = std::max(own, fresh_iterations);
-    debt_ += std::max(0.0, own - fresh_);
+    renewal_.solved(own, 1.0);
     answer.iterations = iterations;
     answer.definite = raw.answer.definite != 0;
     answer.converged = raw.answer.converged != 0;
@@ -385,7 +376,7 @@ BodySolver::Answer EngineSolver::solve(std::span<const double> theta, std::span<
     answer.first = raw.answer.first;
     answer.norm = raw.answer.norm;
     answer.residual = raw.answer.norm == 0.0 ? 0.0 : raw.answer.norm / std::max(raw.answer.size, raw.answer.norm);
-    answer.energy_error = 0.5 * answer.norm * answer.norm / std::max(raw.answer.least, softest);
+    answer.energy_error = 0.5 * answer.norm * answer.norm / std::max(raw.answer.least, renewal_.limits().softest);
     answer.error = error_of(raw);
     return answer;
 }
@@ -397,7 +388,7 @@ SolveError EngineSolver::error_of(const Raw& raw) const {
     (void)system_.multipliers(left, force);
     for (std::size_t r = 0; r < force.size(); ++r)
         if (system_.held()[r] == 0) error.jump = std::max(error.jump, std::abs(system_.row_value(r, raw.correction)));
-    const double factor = in_doubt / std::sqrt(std::max(raw.answer.least, softest));
+    const double factor = renewal_.doubt(raw.answer.least);
     return {factor * error.jump, factor * max_abs(force)};
 }
 

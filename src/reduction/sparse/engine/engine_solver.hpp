@@ -19,6 +19,7 @@
 #include "reduction/operator/body_system.hpp"
 #include "reduction/sparse/body_solver.hpp"
 #include "reduction/sparse/floating.hpp"
+#include "reduction/sparse/renewal.hpp"
 #include "scene/engine.hpp"
 
 namespace delam {
@@ -45,7 +46,7 @@ public:
     // The same, but the engine keeps them.
     void recover_in_engine(std::span<const double> theta, std::span<const double> x);
     std::int64_t factorisations() const override { return renewals_; }
-    std::vector<double> memory() const override;
+    std::vector<double> memory() override;
     void recall(std::span<const double> memory) override;
     void require_memory(std::span<const double> memory) const override;
 
@@ -108,8 +109,7 @@ private:
     bool applied_ = false;        // the engine has what acts
     bool renewed_ = false;        // the engine's preconditioner is that of lagged_
     double cost_ = 1.0;           // of a new one, in iterations
-    double debt_ = 0.0;           // iterations that a new one would have saved
-    double fresh_ = 0.0;          // iterations of the first solve with it; 0: there was none
+    Renewal renewal_;             // its price and excess in iterations
     double rounding_ = 1e-14;     // of energies
     std::int64_t renewals_ = 0;
 };

@@ -129,11 +129,11 @@ void EngineSolver::recover_in_engine(std::span<const double> theta, std::span<co
 }
 
 // Springs of the preconditioner, the debt, the iterations of its first solve, what it is worth.
-std::vector<double> EngineSolver::memory() const {
+std::vector<double> EngineSolver::memory() {
     std::vector<double> m = lagged_;
     if (m.empty()) return m;
-    m.push_back(debt_);
-    m.push_back(fresh_);
+    m.push_back(renewal_.excess());
+    m.push_back(renewal_.first());
     m.push_back(cost_);
     return m;
 }
@@ -152,8 +152,7 @@ void EngineSolver::recall(std::span<const double> memory) {
     const std::size_t rows = system_.rows().size();
     lagged_.assign(memory.begin(),
                    memory.empty() ? memory.begin() : memory.begin() + static_cast<std::ptrdiff_t>(rows));
-    debt_ = memory.empty() ? 0.0 : memory[rows];
-    fresh_ = memory.empty() ? 0.0 : memory[rows + 1];
+    renewal_.restore(memory.empty() ? 0.0 : memory[rows], memory.empty() ? 0.0 : memory[rows + 1]);
     cost_ = memory.empty() ? 1.0 : memory[rows + 2];
     renewed_ = false;
 }

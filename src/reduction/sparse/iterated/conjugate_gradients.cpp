@@ -3,29 +3,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "base/numbers.hpp"
+#include "base/restarts.hpp"
 #include "linalg/dense/dense.hpp"
 
 namespace delam {
 
 namespace {
 
-constexpr int restarts = 8;
 constexpr std::size_t most_directions = 60;  // kept conjugate; older ones are forgotten
-constexpr double recursion_goal = 0.3;       // of the target, so that the true residual meets it too
-constexpr double gained = 0.5;               // a restart that leaves more of the residual has met rounding
-constexpr double largest_residual = 1e-5;    // that rounding may excuse: an error of 1e-10 of the energy
-constexpr double rounding_slack = 30.0;      // the estimate of rounding is one of its size, not a bound
-constexpr double far_from_rounding = 1e-8;   // a residual of which it need not be known
-constexpr double at_rounding = 3.0;          // times that estimate: another restart would gain nothing
 constexpr std::size_t judged = 5;            // iterations, before their gain says anything about the others
 constexpr double accelerates = 1.5;          // conjugate gradients become faster
 // An error of less than this part of the size of the state leaves the size as it is.
 constexpr double same_size = 0.03;
-// Of r^T z: below it a curvature is zero but for rounding.
-constexpr double flat = 1e-13;
 
 // Whether what the iterations so far have gained says that the limit will not do.
 bool hopeless(double gained_by_now, double needed, std::size_t iterations, std::int64_t limit) {
@@ -81,7 +72,7 @@ bool descend(const CgSystem& system, std::span<double> x, std::vector<double>& r
         }
         system.apply(z, ap);
         const double pap = dot(z, ap);
-        if (!(pap > 0.0)) return !(pap <= -flat * std::abs(rz));  // what is not finite has no sign
+        if (!(pap > 0.0)) return !(pap <= -RestartLimits{}.flat * std::abs(rz));  // what is not finite has no sign
         const double step = rz / pap;
         steps.push_back(step);
         add_scaled(step, z, x);
@@ -97,51 +88,42 @@ bool descend(const CgSystem& system, std::span<double> x, std::vector<double>& r
 
 CgOutcome conjugate_gradients(const CgSystem& system, std::span<double> x, double tolerance, std::int64_t limit) {
     CgOutcome outcome;
+    Restarts restarts(tolerance, system.rounded);
     std::vector<double> r(x.size()), z(x.size()), best;
-    double before = infinite;
-    outcome.rounded = system.rounded;
-    for (int round = 0;; ++round) {
-        system.restart(x, r);
+    while (true) {
+        system.restart(x, r);  // r = b - A x
         double size = system.size(x);
         system.precondition(r, z);
         const double norm = std::sqrt(std::abs(dot(r, z)));
-        const double relative = norm == 0.0 ? 0.0 : norm / std::max(size, norm);
-        if (round == 0) {
+        restarts.begin(norm, size);
+        if (restarts.first()) {
             outcome.first = norm;
-            const double enough = system.enough ? system.enough(norm) : 0.0;
-            if (norm > 0.0) tolerance = std::max(tolerance, relative * enough / norm);
+            restarts.allow(system.enough ? system.enough(norm) : 0.0);
         }
-        bool reached = relative <= tolerance;
-        if (!reached && round > 0 && !(outcome.rounded > 0.0) && size > 0.0)
-            outcome.rounded = system.rounding(x) / size;
-        const double excused = (round == 0 ? recursion_goal : at_rounding) * outcome.rounded;
-        reached = reached || relative <= std::min(largest_residual, excused);
-        if (round == 0 || norm < before) {
-            outcome.residual = relative;
+        if (restarts.needs_rounding()) restarts.set_rounded(system.rounding(x) / size);
+        outcome.rounded = restarts.rounded();
+        if (restarts.best()) {
+            outcome.residual = restarts.relative();
             outcome.norm = norm;
             best.assign(x.begin(), x.end());
             outcome.correction = z;
         }
-        if (reached) {
-            outcome.converged = true;
-            return outcome;
-        }
-        if (!(norm <= gained * before) || round == restarts || outcome.iterations >= limit) {
+        outcome.converged = restarts.reached();
+        if (outcome.converged) return outcome;
+        if (restarts.over() || outcome.iterations >= limit) {
             std::copy(best.begin(), best.end(), x.begin());
-            outcome.converged = outcome.residual <= std::min(largest_residual, rounding_slack * outcome.rounded);
+            outcome.converged = restarts.excused();
             return outcome;
         }
-        before = norm;
-        const double goal = recursion_goal * std::max(tolerance, outcome.rounded) * std::max(size, norm);
-        double left = infinite;
-        outcome.definite = descend(system, x, r, z, goal, limit, outcome, left);
+        const double goal = restarts.goal();
+        double recursion = infinite;
+        outcome.definite = descend(system, x, r, z, goal, limit, outcome, recursion);
         if (!outcome.definite) return outcome;
-        const bool rounding_matters = !(outcome.rounded > 0.0) && tolerance < far_from_rounding;
-        if (rounding_matters || left > goal) continue;
-        if (!system.confirm(x, r)) continue;
+        // The recursion's residual is taken for the true one where both agree to rounding.
+        if (!restarts.may_end() || recursion > goal || !system.confirm(x, r)) continue;
         if (norm > same_size * std::sqrt(outcome.least) * size) size = system.size(x);
-        const double recursion = std::exchange(left, std::hypot(left, outcome.rounded * size));
-        if (left > std::max(tolerance, at_rounding * outcome.rounded) * size) continue;
+        const double left = restarts.left(recursion, size);
+        if (!restarts.accepts(left, size)) continue;
         outcome.correction = z;
         for (double& c : outcome.correction) c *= recursion > 0.0 ? left / recursion : 0.0;
         outcome.norm = left;

@@ -6,8 +6,10 @@
 #include <limits>
 #include <utility>
 
+#include "base/costs.hpp"
 #include "base/error.hpp"
 #include "base/numbers.hpp"
+#include "base/restarts.hpp"
 #include "linalg/dense/dense.hpp"
 #include "reduction/sparse/spring_entries.hpp"
 
@@ -15,20 +17,10 @@ namespace delam {
 
 namespace {
 
-// Patches of more than this share of all variables cost as much as a new factor of the whole.
-constexpr double largest_patch = 0.25;
-// A triangular solve waits for memory: its operations are this many times slower than a factorisation's.
-constexpr double slower = 20.0;
 // Iterations, before a factor is given up for a new one.
 constexpr std::int64_t least_attempt = 8, longest_attempt = 16;
 // Of the work of all tangents along a rigid motion: what may be rounding of a sum that cancels.
 constexpr double cancelled = 1e-13;
-// Multiple of the estimated error below which a jump or force is in doubt.
-constexpr double in_doubt = 10.0;
-constexpr double cautious = 1e-3;  // of the tolerance, without wide patches
-constexpr double softest = 0.01;   // least eigenvalue of M A that the estimate takes for true
-// Rounding units, of the terms of a component, by which a residual from a recursion may differ from the true one.
-constexpr double rounding_units = 16.0;
 
 }  // namespace
 
@@ -79,11 +71,11 @@ std::vector<std::int64_t> Reanalysis::changed() const {
 
 double Reanalysis::iteration_cost() const {
     const double matrix = static_cast<double>(system_.matrix().entries());
-    return slower * (4.0 * whole_->entries() + 6.0 * matrix + 8.0 * patches_.entries());
+    return triangular_slowdown * (4.0 * whole_->entries() + 6.0 * matrix + 8.0 * patches_.entries());
 }
 
 std::int64_t Reanalysis::affordable() const {
-    const double worth = (whole_->size().flops - debt_) / iteration_cost();
+    const double worth = (whole_->size().flops - renewal_.excess()) / iteration_cost();
     return std::clamp(static_cast<std::int64_t>(worth), least_attempt, longest_attempt);
 }
 
@@ -120,7 +112,8 @@ void Reanalysis::renew(std::vector<double> springs) {
         lagged_.clear();
         throw;
     }
-    debt_ = rounded_ = fresh_ = 0.0;
+    renewal_.renewed();
+    rounded_ = 0.0;
     remembered_ = false;
 }
 
@@ -137,7 +130,7 @@ bool Reanalysis::cover(bool any_size) {
     const bool covered =
         patches_.cover(changed(), any_size, [this] { monitor_.progress("patch", patches_.count(), 0); });
     attempt_ = patches_.narrow();
-    debt_ += patches_.cost() - before;
+    renewal_.spent(patches_.cost() - before);
     return covered;
 }
 
@@ -145,7 +138,7 @@ bool Reanalysis::cover(bool any_size) {
 bool Reanalysis::factorise_patches() {
     std::vector<Zone::Coupling> acting = system_.couplings();
     acting.insert(acting.end(), floating_.anchors().begin(), floating_.anchors().end());
-    debt_ += patches_.flops();  // also of those whose springs are as before: a saved state does not know
+    renewal_.spent(patches_.flops());  // also of those whose springs are as before: a saved state does not know
     return patches_.factorise(spring_entries(system_, acting, system_.held()),
                               [this] { monitor_.progress("patch", patches_.count(), 0); });
 }
@@ -153,7 +146,7 @@ bool Reanalysis::factorise_patches() {
 bool Reanalysis::set(std::vector<Zone::Coupling> couplings, std::span<const std::uint8_t> held) {
     system_.set(std::move(couplings), held);
     floating_.update();
-    const bool fresh = lagged_.empty() || (debt_ > whole_->size().flops && !changed().empty());
+    const bool fresh = lagged_.empty() || (renewal_.due(whole_->size().flops) && !changed().empty());
     if (fresh) renew_now();
     // A factor of the whole cannot have tangents: those of some pairs are negative.
     if (!cover(fresh || !plain())) {
@@ -212,7 +205,7 @@ SolveError Reanalysis::error_of(std::span<const double> correction, double least
     system_.multipliers(left, force);
     for (std::size_t r = 0; r < force.size(); ++r)
         if (system_.held()[r] == 0) error.jump = std::max(error.jump, std::abs(system_.row_value(r, correction)));
-    const double factor = in_doubt / std::sqrt(std::max(least, softest));
+    const double factor = renewal_.doubt(least);
     return {factor * error.jump, factor * max_abs(force)};
 }
 
@@ -244,7 +237,8 @@ bool Reanalysis::confirm(std::span<const double> right, std::span<const double> 
     system_.gather(r);
     system_.gather_sizes(sizes);
     for (std::size_t i = 0; i < r.size(); ++i)
-        if (!(std::abs(r[i] - residual[i]) <= rounding_units * std::numeric_limits<double>::epsilon() * sizes[i]))
+        if (!(std::abs(r[i] - residual[i]) <=
+              RestartLimits{}.rounding_units * std::numeric_limits<double>::epsilon() * sizes[i]))
             return false;
     return true;
 }
@@ -351,15 +345,10 @@ bool Reanalysis::weak_directions(std::vector<Direction>& given) const {
 // With the factor at hand or, where that was an attempt that failed, with a new one.
 CgOutcome Reanalysis::iterate(CgSystem& cg, double tolerance, std::span<double> x) {
     const std::int64_t limit = bodies_.problem().options.linear_limit;
-    const auto owe = [this](std::int64_t iterations) {
-        const auto n = static_cast<double>(iterations);
-        if (fresh_ == 0.0) fresh_ = std::clamp(n, fresh_iterations, most_fresh_iterations);
-        debt_ += iteration_cost() * std::max(0.0, n - fresh_);
-    };
     cg.rounded = rounded_;
     cg.attempt = attempt_;
     // Residuals weigh less what the factor takes for stiffer than it is.
-    const double careful = attempt_ ? cautious : 1.0;
+    const double careful = attempt_ ? renewal_.limits().cautious : 1.0;
     const double target = std::max(finest, careful * tolerance);
     double enough = 0.0;
     if (const Forcing forcing = cg.enough)
@@ -377,11 +366,11 @@ CgOutcome Reanalysis::iterate(CgSystem& cg, double tolerance, std::span<double> 
             outcome = conjugate_gradients(cg, x, tolerance, limit);
         else
             outcome.definite = false;
-        owe(outcome.iterations);
+        renewal_.solved(static_cast<double>(outcome.iterations), iteration_cost());
         outcome.iterations += before;
         outcome.first = first;
     } else {
-        owe(outcome.iterations);
+        renewal_.solved(static_cast<double>(outcome.iterations), iteration_cost());
     }
     rounded_ = outcome.rounded;
     return outcome;
@@ -452,7 +441,7 @@ Reanalysis::Answer Reanalysis::solve(std::span<const double> theta, std::span<co
     answer.residual = outcome.residual;
     answer.first = outcome.first;
     answer.norm = outcome.norm;
-    answer.energy_error = 0.5 * outcome.norm * outcome.norm / std::max(outcome.least, softest);
+    answer.energy_error = 0.5 * outcome.norm * outcome.norm / std::max(outcome.least, renewal_.limits().softest);
     if (!outcome.correction.empty()) answer.error = error_of(outcome.correction, outcome.least);
     answer.converged = outcome.converged;
     answer.definite = outcome.definite;

@@ -21,6 +21,7 @@
 #include "reduction/sparse/iterated/patches.hpp"
 #include "reduction/sparse/iterated/whole_factor.hpp"
 #include "reduction/sparse/jump_system.hpp"
+#include "reduction/sparse/renewal.hpp"
 
 namespace delam {
 
@@ -52,14 +53,13 @@ public:
     // Of an analysis that looks at other states and comes back.
     static bool keeps_two_factors(const Problem& problem);
 
-    std::vector<double> memory() const override;
+    std::vector<double> memory() override;
     void recall(std::span<const double> memory) override;
     void require_memory(std::span<const double> memory) const override;
 
 private:
     // Iterations with a fresh factor for which no newer one is blamed: as many as its first solve has taken, within
     // these bounds (tangents that are negative or couple rows are in patches alone).
-    static constexpr double fresh_iterations = 4.0, most_fresh_iterations = 12.0;
 
     // Variables of rows whose springs differ from those of the factor.
     std::vector<std::int64_t> changed() const;
@@ -93,14 +93,13 @@ private:
     Patches patches_;
     std::vector<std::vector<double>> load_;  // [patterns][variables]
     std::unique_ptr<WholeFactor> whole_;
-    std::vector<double> lagged_;  // [rows] springs of the factor; held ones as springs. Empty: there is none
-    double debt_ = 0.0;           // operations since then that a fresh factor would have saved
-    bool attempt_ = false;        // too much differs for wide patches, but the factor is still the one before
-    double fresh_ = 0.0;          // iterations of the first solve with this factor; 0: there was none
-    double rounded_ = 0.0;        // what rounding leaves of a residual, relative; 0: not yet met with this factor
+    std::vector<double> lagged_;             // [rows] springs of the factor; held ones as springs. Empty: there is none
+    Renewal renewal_{{.most_first = 12.0}};  // its price and excess in operations
+    bool attempt_ = false;  // too much differs for wide patches, but the factor is still the one before
+    double rounded_ = 0.0;  // what rounding leaves of a residual, relative; 0: not yet met with this factor
     // A search looks at other states and comes back: the factor to come back to is kept beside the one in use.
     bool comes_back_;
-    mutable bool remembered_ = false;  // memory() has told of the factor in use
+    bool remembered_ = false;  // memory() has told of the factor in use
     std::unique_ptr<WholeFactor> aside_;
     std::vector<double> springs_aside_;  // [rows]; empty: there is none
     std::int64_t factorisations_ = 0;

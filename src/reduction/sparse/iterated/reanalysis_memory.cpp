@@ -15,9 +15,9 @@ constexpr std::size_t numbers = 3;  // between the springs and the seeds
 
 }  // namespace
 
-// Springs of the whole factor [rows], the debt, what rounding leaves, the iterations of its first solve, then the seeds
-// of the patches.
-std::vector<double> Reanalysis::memory() const {
+// Springs of the whole factor [rows], the excess of its solves, what rounding leaves, the iterations of its first
+// solve, then the seeds of the patches.
+std::vector<double> Reanalysis::memory() {
     remembered_ = !lagged_.empty();
     return history();
 }
@@ -25,9 +25,9 @@ std::vector<double> Reanalysis::memory() const {
 std::vector<double> Reanalysis::history() const {
     std::vector<double> m = lagged_;
     if (m.empty()) return m;
-    m.push_back(debt_);
+    m.push_back(renewal_.excess());
     m.push_back(rounded_);
-    m.push_back(fresh_);
+    m.push_back(renewal_.first());
     for (const std::int64_t i : patches_.seeds()) m.push_back(static_cast<double>(i));
     return m;
 }
@@ -39,10 +39,9 @@ void Reanalysis::require_memory(std::span<const double> memory) const {
     };
     const std::size_t rows = system_.rows().size();
     damaged(memory.size() < rows + numbers);
-    for (std::size_t i = 0; i <= rows; ++i) damaged(!(memory[i] >= 0.0 && std::isfinite(memory[i])));
+    for (std::size_t i = 0; i < rows; ++i) damaged(!(memory[i] >= 0.0 && std::isfinite(memory[i])));
     damaged(!(memory[rows + 1] >= 0.0 && memory[rows + 1] < 1.0));
-    damaged(memory[rows + 2] != 0.0 &&
-            !(memory[rows + 2] >= fresh_iterations && memory[rows + 2] <= most_fresh_iterations));
+    damaged(!renewal_.allows(memory[rows], memory[rows + 2]));
     for (std::size_t i = rows + numbers; i < memory.size(); ++i)
         damaged(!(memory[i] >= 0.0 && memory[i] < static_cast<double>(system_.count())) ||
                 memory[i] != std::floor(memory[i]) || (i > rows + numbers && !(memory[i] > memory[i - 1])));
@@ -54,7 +53,8 @@ void Reanalysis::recall(std::span<const double> memory) {
         set_aside();
         lagged_.clear();
         patches_.forget();
-        debt_ = rounded_ = fresh_ = 0.0;
+        renewal_.renewed();
+        rounded_ = 0.0;
         return;
     }
     require_memory(memory);
@@ -73,9 +73,8 @@ void Reanalysis::recall(std::span<const double> memory) {
     remembered_ = true;
     patches_.forget();
     patches_.cover(seeds, true, [this] { monitor_.progress("patch", 0, 0); });
-    debt_ = memory[rows] + 0.0;
+    renewal_.restore(memory[rows], memory[rows + 2]);
     rounded_ = memory[rows + 1] + 0.0;
-    fresh_ = memory[rows + 2] + 0.0;
 }
 
 }  // namespace delam

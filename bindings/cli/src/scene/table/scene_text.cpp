@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/table/scene_text.hpp"
+#include "text/wording.hpp"
 
 #include <vector>
 

@@ -13,7 +13,6 @@
 namespace cli {
 
 constexpr std::int64_t most_scene_bytes = std::int64_t{16} << 20;
-constexpr int most_levels = 32;  // the deepest scene of the examples has 7
 
 struct Depth {
     int levels = 0;

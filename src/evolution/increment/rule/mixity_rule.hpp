@@ -15,7 +15,7 @@
 #include <string>
 
 #include "base/monitor.hpp"
-#include "evolution/increment/increment.hpp"
+#include "evolution/increment/rule/step_rule.hpp"
 
 namespace delam {
 
@@ -26,8 +26,8 @@ public:
     MixityRule(const PairLaws& pairs, const std::string& word);
 
     // A step from the state `before`, which must outlive it, minimised from these mixities, [pairs].
-    std::unique_ptr<Increment> increment(const PairLaws& pairs, const State& before, std::span<const double> mixity,
-                                         StepLimits limits) const;
+    std::unique_ptr<StepRule> increment(const PairLaws& pairs, const State& before, std::span<const double> mixity,
+                                        StepLimits limits) const;
     // Sets mixity and mixity_before of a state with which a step from `before` starts: from the committed
     // displacements, or, where nothing was loaded before, from the elastic ones of the step itself.
     void begin(const PairLaws& pairs, const State& before, State& start) const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "evolution/increment/curved_displacement.hpp"
+#include "evolution/increment/rule/curved_displacement.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "evolution/increment/frozen_increment.hpp"
+#include "evolution/increment/rule/frozen_increment.hpp"
 
 #include <cmath>
 
 namespace delam {
 
-std::unique_ptr<Increment> FrozenIncrement::starting_at(std::span<const double> mixity) const {
+std::unique_ptr<StepRule> FrozenIncrement::starting_at(std::span<const double> mixity) const {
     return std::make_unique<FrozenIncrement>(pairs_, before_, mixity, limits_, this);
 }
 

@@ -4,17 +4,17 @@
 // (curved_displacement.hpp), and the step minimises the split with f stored and Gc dzeta dissipated.
 #pragma once
 
-#include "evolution/increment/increment.hpp"
+#include "evolution/increment/rule/step_rule.hpp"
 #include "law/variational.hpp"
 
 namespace delam {
 
-class VariationalIncrement final : public Increment {
+class VariationalIncrement final : public StepRule {
 public:
     VariationalIncrement(const PairLaws& pairs, const State& before, std::span<const double> mixity, StepLimits limits,
-                         const Increment* like = nullptr)
-        : Increment(pairs, before, mixity, limits, like) {}
-    std::unique_ptr<Increment> starting_at(std::span<const double> mixity) const override;
+                         const StepRule* like = nullptr)
+        : StepRule(pairs, before, mixity, limits, like) {}
+    std::unique_ptr<StepRule> starting_at(std::span<const double> mixity) const override;
 
     double energy(std::span<const double> adhesion, std::span<const double> jump) const override;
     std::vector<double> damage_step(std::span<const double> adhesion, std::span<const double> jump) const override;

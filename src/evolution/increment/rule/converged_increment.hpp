@@ -5,17 +5,17 @@
 // traction of its own; energies are compared at equal B.
 #pragma once
 
-#include "evolution/increment/frozen_increment.hpp"
+#include "evolution/increment/rule/frozen_increment.hpp"
 
 namespace delam {
 
 class ConvergedIncrement final : public FrozenIncrement {
 public:
     ConvergedIncrement(const PairLaws& pairs, const State& before, std::span<const double> mixity, StepLimits limits,
-                       const Increment* like = nullptr);
-    std::unique_ptr<Increment> starting_at(std::span<const double> mixity) const override;
+                       const StepRule* like = nullptr);
+    std::unique_ptr<StepRule> starting_at(std::span<const double> mixity) const override;
 
-    using Increment::observe;
+    using StepRule::observe;
     bool observe(std::size_t pair, const Driving& y) override;
     bool settled(const State& state) override;
     std::int64_t held() const override;

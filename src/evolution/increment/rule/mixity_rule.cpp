@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "evolution/increment/mixity_rule.hpp"
+#include "evolution/increment/rule/mixity_rule.hpp"
 
 #include <algorithm>
 #include <iterator>
 
 #include "base/error.hpp"
 #include "delam/delam.h"
-#include "evolution/increment/converged_increment.hpp"
-#include "evolution/increment/frozen_increment.hpp"
-#include "evolution/increment/variational_increment.hpp"
+#include "evolution/increment/rule/converged_increment.hpp"
+#include "evolution/increment/rule/frozen_increment.hpp"
+#include "evolution/increment/rule/variational_increment.hpp"
 
 namespace delam {
 
@@ -17,8 +17,8 @@ namespace {
 constexpr double tolerated_error = 0.1;  // of the dissipated energy, relative
 
 template <class Rule>
-std::unique_ptr<Increment> make(const PairLaws& pairs, const State& before, std::span<const double> mixity,
-                                StepLimits limits) {
+std::unique_ptr<StepRule> make(const PairLaws& pairs, const State& before, std::span<const double> mixity,
+                               StepLimits limits) {
     return std::make_unique<Rule>(pairs, before, mixity, limits);
 }
 
@@ -26,7 +26,7 @@ std::unique_ptr<Increment> make(const PairLaws& pairs, const State& before, std:
 
 struct MixityRule::Row {
     const char* word;
-    std::unique_ptr<Increment> (*make)(const PairLaws&, const State&, std::span<const double>, StepLimits);
+    std::unique_ptr<StepRule> (*make)(const PairLaws&, const State&, std::span<const double>, StepLimits);
     bool keeps_broken;     // a broken pair keeps the mixity with which it broke
     bool before_is_start;  // mixity_before is that of the displacements before the step, else of the step before
     const char* cure;      // of an error of its mixities, besides smaller steps; null: no warning
@@ -47,8 +47,8 @@ MixityRule::MixityRule(const PairLaws& pairs, const std::string& word)
         row_ = rows;
 }
 
-std::unique_ptr<Increment> MixityRule::increment(const PairLaws& pairs, const State& before,
-                                                 std::span<const double> mixity, StepLimits limits) const {
+std::unique_ptr<StepRule> MixityRule::increment(const PairLaws& pairs, const State& before,
+                                                std::span<const double> mixity, StepLimits limits) const {
     return row_->make(pairs, before, mixity, limits);
 }
 

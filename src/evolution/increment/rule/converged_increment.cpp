@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "evolution/increment/converged_increment.hpp"
+#include "evolution/increment/rule/converged_increment.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -24,13 +24,13 @@ constexpr double mixity_difference = 1e-6;  // of the derivative by B
 }  // namespace
 
 ConvergedIncrement::ConvergedIncrement(const PairLaws& pairs, const State& before, std::span<const double> mixity,
-                                       StepLimits limits, const Increment* like)
+                                       StepLimits limits, const StepRule* like)
     : FrozenIncrement(pairs, before, mixity, limits, like),
       swing_(mixity.size()),
       mixity_begun_(mixity.begin(), mixity.end()),
       least_(mixity.size(), -1.0) {}
 
-std::unique_ptr<Increment> ConvergedIncrement::starting_at(std::span<const double> mixity) const {
+std::unique_ptr<StepRule> ConvergedIncrement::starting_at(std::span<const double> mixity) const {
     return std::make_unique<ConvergedIncrement>(pairs_, before_, mixity, limits_, this);
 }
 

@@ -15,7 +15,7 @@
 
 #include <span>
 
-#include "evolution/increment/increment.hpp"
+#include "evolution/increment/rule/step_rule.hpp"
 #include "law/variational.hpp"
 
 namespace delam {

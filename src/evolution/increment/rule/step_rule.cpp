@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "evolution/increment/increment.hpp"
+#include "evolution/increment/rule/step_rule.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,9 +15,9 @@ constexpr double further_step = 0.1;
 
 }  // namespace
 
-Increment::Increment(const PairLaws& pairs, const State& before, std::span<const double> mixity, StepLimits limits,
-                     const Increment* like)
-    : pairs_(pairs), before_(before), limits_(limits) {
+StepRule::StepRule(const PairLaws& pairs, const State& before, std::span<const double> mixity, StepLimits limits,
+                   const StepRule* like)
+    : Increment(pairs, before), limits_(limits) {
     now_.used.assign(mixity.begin(), mixity.end());
     now_.own = now_.used;
     if (like == nullptr) {
@@ -29,14 +29,14 @@ Increment::Increment(const PairLaws& pairs, const State& before, std::span<const
         if (pairs.mixed(p) && mixity[p] != like->now_.used[p]) now_.toughness[p] = pairs.toughness(p, mixity[p]);
 }
 
-bool Increment::damages(std::size_t pair, double adhesion, std::span<const double> local_jump, double nearly) const {
+bool StepRule::damages(std::size_t pair, double adhesion, std::span<const double> local_jump, double nearly) const {
     const Law& law = *pairs_.law[pair];
     const double before = before_.adhesion[pair];
     return adhesion < before ||
            law.minimiser(now_.toughness[pair], driving_energy(law, local_jump).total() / nearly, before) < before;
 }
 
-PairMinimum Increment::minimum(std::size_t pair, std::span<const double> local_jump) const {
+PairMinimum StepRule::minimum(std::size_t pair, std::span<const double> local_jump) const {
     const Law& law = *pairs_.law[pair];
     const double driving = driving_energy(law, local_jump).total();
     const double zeta = bounded(pair, law.minimiser(now_.toughness[pair], driving, before_.adhesion[pair]));
@@ -44,8 +44,8 @@ PairMinimum Increment::minimum(std::size_t pair, std::span<const double> local_j
 }
 
 // C = w [zeta K + fraction zeta'(Y) (K j)(K j)^T],   h = C j - w zeta K j.
-PairModel Increment::model(std::size_t pair, std::span<const double> local_jump, double adhesion,
-                           double fraction) const {
+PairModel StepRule::model(std::size_t pair, std::span<const double> local_jump, double adhesion,
+                          double fraction) const {
     const std::size_t dim = local_jump.size();
     const Law& law = *pairs_.law[pair];
     const double weight = pairs_.weight[pair];
@@ -67,23 +67,23 @@ PairModel Increment::model(std::size_t pair, std::span<const double> local_jump,
     return m;
 }
 
-double Increment::dissipated(std::size_t pair, double adhesion) const {
+double StepRule::dissipated(std::size_t pair, double adhesion) const {
     const Law& law = *pairs_.law[pair];
     const Toughness& t = now_.toughness[pair];
     return law.dissipated(t, adhesion) - law.dissipated(t, before_.adhesion[pair]);
 }
 
-double Increment::left(std::size_t pair, double adhesion) const {
+double StepRule::left(std::size_t pair, double adhesion) const {
     const Toughness& t = now_.toughness[pair];
     return 1.0 - pairs_.law[pair]->dissipated(t, adhesion) / t.total;
 }
 
-double Increment::change(std::size_t pair, double from, double to, double driving) const {
+double StepRule::change(std::size_t pair, double from, double to, double driving) const {
     const double onset = now_.toughness[pair].onset;
     return std::abs(to - from) * (driving > onset ? std::sqrt(driving / onset) : 1.0);
 }
 
-double Increment::change(std::span<const double> from, std::span<const double> to, std::span<const double> jump) const {
+double StepRule::change(std::span<const double> from, std::span<const double> to, std::span<const double> jump) const {
     double largest = 0.0;
     for (std::size_t p = 0; p < to.size(); ++p)
         if (from[p] != to[p])
@@ -92,7 +92,7 @@ double Increment::change(std::span<const double> from, std::span<const double> t
 }
 
 // Each jump becomes longer by what a further step of the solve would change.
-double Increment::blur(const State& state, std::span<const double> damage) {
+double StepRule::blur(const State& state, std::span<const double> damage) {
     const double open = further_step * state.response.error.jump;
     blur_ = 0.0;
     if (!(open > 0.0)) return blur_;
@@ -109,7 +109,7 @@ double Increment::blur(const State& state, std::span<const double> damage) {
     return blur_;
 }
 
-bool Increment::observe(std::span<const double> adhesion, std::span<const double> jump) {
+bool StepRule::observe(std::span<const double> adhesion, std::span<const double> jump) {
     largest_ = largest_driving(pairs_, jump);
     begin_observation();
     bool changed = false;
@@ -118,14 +118,14 @@ bool Increment::observe(std::span<const double> adhesion, std::span<const double
     return changed;
 }
 
-bool Increment::observe(std::size_t pair, const Driving& y) {
+bool StepRule::observe(std::size_t pair, const Driving& y) {
     if (pairs_.mixed(pair) && tells_mixity(*pairs_.law[pair], y, largest_))
         now_.own[pair] = mode_mixity(y.normal, y.tangential);
     return false;
 }
 
 // mixity_error = sum w |dzeta| |Gc(own) - Gc(used)| / sum w |dzeta| Gc(used); 0 when nothing was damaged.
-void Increment::record(State& state) const {
+void StepRule::record(State& state) const {
     double missed = 0.0, all = 0.0;
     for (std::size_t p = 0; p < state.adhesion.size(); ++p) {
         if (pairs_.law[p] == nullptr || state.adhesion[p] == before_.adhesion[p]) continue;
@@ -139,7 +139,7 @@ void Increment::record(State& state) const {
     state.outcome.mixity_held = held();
 }
 
-void Increment::restore(const Memory& memory) {
+void StepRule::restore(const Memory& memory) {
     std::copy(memory.used.begin(), memory.used.end(), now_.used.begin());
     std::copy(memory.own.begin(), memory.own.end(), now_.own.begin());
     std::copy(memory.toughness.begin(), memory.toughness.end(), now_.toughness.begin());
@@ -153,7 +153,7 @@ void book_energies(const PairLaws& pairs, State& state) {
     ledger.stored_interface_linear = ledger.stored_interface + stored_linear(pairs, state.mixity, state.adhesion);
 }
 
-void Increment::book(State& next, const Dissipation* along) const {
+void StepRule::book(State& next, const Dissipation* along) const {
     book_energies(pairs_, next);
     Ledger& ledger = next.ledger;
     const double dissipated =

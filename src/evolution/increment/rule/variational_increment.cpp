@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "evolution/increment/variational_increment.hpp"
+#include "evolution/increment/rule/variational_increment.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <tuple>
 
 #include "base/error.hpp"
-#include "evolution/increment/curved_displacement.hpp"
+#include "evolution/increment/rule/curved_displacement.hpp"
 
 namespace delam {
 
@@ -17,7 +17,7 @@ constexpr double same_as_spring = 1e-12;
 
 }  // namespace
 
-std::unique_ptr<Increment> VariationalIncrement::starting_at(std::span<const double> mixity) const {
+std::unique_ptr<StepRule> VariationalIncrement::starting_at(std::span<const double> mixity) const {
     return std::make_unique<VariationalIncrement>(pairs_, before_, mixity, limits_, this);
 }
 
@@ -49,11 +49,11 @@ bool VariationalIncrement::displace(const DisplacementSolve& solve, State& state
 // A pair that is partly damaged has a traction besides its spring, whether or not it damages further.
 bool VariationalIncrement::damages(std::size_t p, double adhesion, std::span<const double> local_jump,
                                    double nearly) const {
-    return before_.adhesion[p] < 1.0 || Increment::damages(p, adhesion, local_jump, nearly);
+    return before_.adhesion[p] < 1.0 || StepRule::damages(p, adhesion, local_jump, nearly);
 }
 
 PairMinimum VariationalIncrement::minimum(std::size_t p, std::span<const double> local_jump) const {
-    if (!pairs_.mixed(p)) return Increment::minimum(p, local_jump);
+    if (!pairs_.mixed(p)) return StepRule::minimum(p, local_jump);
     const VariationalPair own = pair(p);
     const double zeta = own.minimiser(local_jump, before_.adhesion[p]);
     return {zeta, own.energy(local_jump, zeta)};
@@ -62,7 +62,7 @@ PairMinimum VariationalIncrement::minimum(std::size_t p, std::span<const double>
 // The force of the model is C j - h, that of the pair at its own jump j.
 PairModel VariationalIncrement::model(std::size_t p, std::span<const double> local_jump, double adhesion,
                                       double fraction) const {
-    if (!pairs_.mixed(p)) return Increment::model(p, local_jump, adhesion, fraction);
+    if (!pairs_.mixed(p)) return StepRule::model(p, local_jump, adhesion, fraction);
     const std::size_t dim = local_jump.size();
     const VariationalPair own = pair(p);
     const double weight = pairs_.weight[p];

@@ -3,16 +3,16 @@
 // stored zeta Y, dissipated g(B, zeta) - g(B, zeta_before). At frozen B the displacement step is a quadratic program.
 #pragma once
 
-#include "evolution/increment/increment.hpp"
+#include "evolution/increment/rule/step_rule.hpp"
 
 namespace delam {
 
-class FrozenIncrement : public Increment {
+class FrozenIncrement : public StepRule {
 public:
     FrozenIncrement(const PairLaws& pairs, const State& before, std::span<const double> mixity, StepLimits limits,
-                    const Increment* like = nullptr)
-        : Increment(pairs, before, mixity, limits, like) {}
-    std::unique_ptr<Increment> starting_at(std::span<const double> mixity) const override;
+                    const StepRule* like = nullptr)
+        : StepRule(pairs, before, mixity, limits, like) {}
+    std::unique_ptr<StepRule> starting_at(std::span<const double> mixity) const override;
 
     double energy(std::span<const double> adhesion, std::span<const double> jump) const override;
     std::vector<double> damage_step(std::span<const double> adhesion, std::span<const double> jump) const override;

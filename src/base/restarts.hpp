@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Restarts of a preconditioned Krylov method: when the true residual of a solution is small enough, what its rounding
+// excuses, and what one run of the recursion has to reach. The iterated operator and the engine on PETSc share this
+// text; it needs nothing but the standard library.
+//
+//   round 0, 1, ..:  r = b - A x,  z = M r,  norm = sqrt(r^T z),  size = sqrt(2 energy) of the state
+//                    stop if norm / max(size, norm) is small enough, or no smaller than a round ago
+//                    else run the recursion from r until its own norm is at most goal()
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace delam {
+
+// Tolerances below it are not asked for: it is what a decision about contact can still use.
+inline constexpr double finest_tolerance = 1e-12;
+
+struct RestartLimits {
+    int rounds = 8;
+    double recursion_goal = 0.3;      // of the target, so that the true residual meets it too
+    double gained = 0.5;              // a round that leaves more of the residual has met rounding
+    double largest_residual = 1e-5;   // that rounding may excuse: an error of 1e-10 of the energy
+    double rounding_slack = 30.0;     // the estimate of rounding is one of its size, not a bound
+    double far_from_rounding = 1e-8;  // a residual of which rounding need not be known
+    double at_rounding = 3.0;         // times that estimate: another round would gain nothing
+    double rounding_units = 16.0;     // by which a component of a recursion's residual may differ from the true one
+    double flat = 1e-13;              // of r^T z: a curvature below it is zero but for rounding
+};
+
+class Restarts {
+public:
+    // rounded: what rounding leaves of the residual, as a part of the size of the state; 0: not known.
+    Restarts(double tolerance, double rounded, const RestartLimits& limits = {})
+        : limits_(limits), tolerance_(tolerance), rounded_(rounded) {}
+
+    // Begins a round with the norm of the true residual and the size of the state.
+    void begin(double norm, double size) {
+        ++round_;
+        before_ = norm_;
+        norm_ = norm;
+        size_ = size;
+        relative_ = norm == 0.0 ? 0.0 : norm / std::max(size, norm);
+        best_ = round_ == 0 || norm < before_;
+        if (best_) least_ = relative_;
+    }
+    bool first() const { return round_ == 0; }
+    // Lets a norm stay that is larger than what the tolerance allows.
+    void allow(double norm) {
+        if (norm_ > 0.0) tolerance_ = std::max(tolerance_, relative_ * norm / norm_);
+    }
+    // True if the round depends on what rounding leaves, and that is not known.
+    bool needs_rounding() const { return relative_ > tolerance_ && round_ > 0 && !(rounded_ > 0.0) && size_ > 0.0; }
+    void set_rounded(double rounded) { rounded_ = rounded; }
+    // True if the residual is within the tolerance, or within what rounding leaves.
+    bool reached() const {
+        const double excused = (round_ == 0 ? limits_.recursion_goal : limits_.at_rounding) * rounded_;
+        return relative_ <= tolerance_ || relative_ <= std::min(limits_.largest_residual, excused);
+    }
+    // True if no earlier round had a smaller residual.
+    bool best() const { return best_; }
+    // True if another round would gain nothing.
+    bool over() const { return !(norm_ <= limits_.gained * before_) || round_ == limits_.rounds; }
+    // True if rounding explains the smallest residual of all rounds.
+    bool excused() const { return least_ <= std::min(limits_.largest_residual, limits_.rounding_slack * rounded_); }
+    // Returns the norm at which the recursion may stop.
+    double goal() const { return limits_.recursion_goal * std::max(tolerance_, rounded_) * std::max(size_, norm_); }
+    // True if a recursion that has reached its goal may end the solve without another true residual.
+    bool may_end() const { return rounded_ > 0.0 || !(tolerance_ < limits_.far_from_rounding); }
+    // Returns the norm that a recursion's residual and rounding leave together of a state of this size.
+    double left(double norm, double size) const { return std::hypot(norm, rounded_ * size); }
+    bool accepts(double left, double size) const {
+        return left <= std::max(tolerance_, limits_.at_rounding * rounded_) * size;
+    }
+
+    double norm() const { return norm_; }
+    double relative() const { return relative_; }
+    double tolerance() const { return tolerance_; }
+    double rounded() const { return rounded_; }
+    // The smallest residual of all rounds, relative.
+    double least() const { return least_; }
+
+private:
+    RestartLimits limits_;
+    double tolerance_, rounded_;
+    int round_ = -1;
+    double norm_ = std::numeric_limits<double>::infinity(), before_ = norm_, size_ = 0.0, relative_ = norm_,
+           least_ = norm_;
+    bool best_ = true;
+};
+
+}  // namespace delam

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a step or a candidate of its search costs, and what the ledger records of it.
+#pragma once
+
+#include <span>
+
+#include "evolution/increment/state.hpp"
+
+namespace delam {
+
+// What a step dissipates, F L.
+struct Dissipation {
+    double booked = 0.0;
+    double linear = 0.0;  // in the split of PANM 15 (2010)
+    double error = 0.0;   // estimate for what is booked
+};
+
+class StepAccount {
+public:
+    virtual ~StepAccount() = default;
+
+    // ---- candidates of a search (search.hpp) ---------------------------------------------------------------------
+    // D, with what else the rule minimises besides bodies and springs, from the state before to this adhesion.
+    virtual double cost(std::span<const double> mixity, std::span<const double> adhesion) const = 0;
+    // E of the state before, of the split that cost() completes.
+    virtual double energy_before() const = 0;
+    // Do pairs that break next take the mixity that the candidate's displacements show?
+    virtual bool follows_iterates() const = 0;
+    // Are the energies of candidates bounds for the states left out?
+    virtual bool bounds_candidates() const = 0;
+    // ---- the ledger ----------------------------------------------------------------------------------------------
+    // Energies, dissipated energies and increments of the step into next.ledger. along: what was dissipated on the way;
+    // none: at the mixities of the state.
+    virtual void book(State& next, const Dissipation* along = nullptr) const = 0;
+};
+
+// Energies of a state at its own mixity; the columns that accumulate are not touched.
+void book_energies(const PairLaws& pairs, State& state);
+
+}  // namespace delam
