@@ -1,25 +1,31 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checks the rooms of each house of C++: its folders, and which of them include one another.
+"""Checks the rooms of each house, in C++ and in Python: its folders, and which of them include or import one another.
 
 The READMEs of a house have tables of the rooms of a folder: its folders, and `FOLDER/.` for its own files. A room may
 include what its row names, and every name stands further down the table; so the structure has no circle, at any depth.
 An arrow that a table allows but no file needs is refused as well: the tables are the structure, not a fence around it.
-No two concepts (a header and its source are one) include each other, by whatever detour. A folder holds at most nine
+No two concepts (a header and its source, or a module) need each other, by whatever detour. A folder holds at most nine
 folders and twelve concepts. No two houses have a header of the same path.
+
+Every import of a module counts, wherever it stands: in a function, for type checkers alone, or by a text that names
+the module relative to its own, as importlib takes it.
 
     python3 verify/style/arrows.py [--list]
 """
 
 import argparse
+import ast
 import collections
 import pathlib
 import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-HOUSES = ("src", "bindings/cli/src")
+HOUSES = {"src": "src", "bindings/cli/src": "bindings/cli/src",  # the house, and the folder of the READMEs with its tables
+          "bindings/python/src/delam": "bindings/python"}
 FOLDERS, CONCEPTS, ARROWS = 9, 12, 30  # at most: folders in a folder, concepts in a folder, arrows between the rooms of a folder
 BESIDE = {"petsc"}  # libdelam-petsc, a library of its own, lies in the house of libdelam and counts as no room of it
+MODULE = re.compile(r"\.*\w+(\.\w+)+|\.+\w+")  # a text that may name a module: with a dot
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.M)
 ROW = re.compile(r"^\| `(?P<room>[a-z/_]+/\.?)` \|(?P<what>[^|]*)\|(?P<uses>[^|]*)\|$", re.M)
 
@@ -44,25 +50,61 @@ def rooms(a, b):
     return tuple("/".join(parts[:depth] + [parts[depth] if len(parts) > depth + 1 else "."]) for parts in (first, second))
 
 
-def includes(house):
-    """Returns path -> paths it includes, both below the house; includes of other houses are left out."""
-    paths = {p.relative_to(house).as_posix(): p for p in sorted(house.rglob("*.[ch]pp"))}
-    return {name: sorted(set(INCLUDE.findall(path.read_text(encoding="utf-8"))) & set(paths)) for name, path in paths.items()}
+def texts_of(house):
+    """Returns path below the house -> text, of its sources."""
+    paths = sorted(p for p in house.rglob("*") if p.suffix in (".cpp", ".hpp", ".py"))
+    return {p.relative_to(house).as_posix(): p.read_text(encoding="utf-8") for p in paths}
+
+
+def needs(texts, package):
+    """Returns path -> paths it includes or imports, all below the house; those of other houses are left out.
+
+    package: the name of the house as Python imports it."""
+    return {name: sorted(set(imports(name, text, texts, package) if name.endswith(".py") else INCLUDE.findall(text)) & set(texts))
+            for name, text in texts.items()}
+
+
+def imports(name, text, paths, package):
+    """Yields the paths of the modules that a module imports. paths: those of the house."""
+    at = (package, *pathlib.PurePosixPath(name).parent.parts)
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, ast.Import):
+            found = [module(alias.name, at, paths) for alias in node.names]
+        elif isinstance(node, ast.ImportFrom):
+            base = "." * node.level + (node.module or "")
+            dot = "" if base.endswith(".") else "."
+            found = [module(f"{base}{dot}{alias.name}", at, paths) or module(base, at, paths) for alias in node.names]
+        elif isinstance(node, ast.Constant) and isinstance(node.value, str):
+            found = [module(node.value, at, paths)] if MODULE.fullmatch(node.value) else []
+        else:
+            continue
+        yield from filter(None, found)
+
+
+def module(dotted, at, paths):
+    """Returns the path of the module that a name with dots means in a folder, or None. at: the folder, from the package on."""
+    level = len(dotted) - len(dotted.lstrip("."))
+    parts = [part for part in dotted.split(".") if part]
+    if level:
+        parts = [*at[:len(at) - level + 1], *parts]
+    below = "/".join(parts[1:])
+    known = (f"{below}.py", f"{below}/__init__.py".lstrip("/")) if parts[:1] == [at[0]] else ()
+    return next((path for path in known if path in paths), None)
 
 
 def arrows_between(included):
-    """Returns (from, to) -> one include that shows it, for rooms; the house's own files may include everything."""
+    """Returns (from, to) -> one example that shows it, for rooms; the house's own files may need everything."""
     out = {}
     for name, others in included.items():
         for other in others:
             of, to = rooms(name, other)
             if of not in (to, "."):
-                out.setdefault((of, to), f"{name} includes {other}")
+                out.setdefault((of, to), f"{name} needs {other}")
     return out
 
 
 def concepts_of(included):
-    """Returns concept -> concepts it includes; a header and its source are one concept."""
+    """Returns concept -> concepts it needs; a header and its source are one concept, and so is a module."""
     out = collections.defaultdict(set)
     for name, others in included.items():
         own = name.rsplit(".", 1)[0]
@@ -157,10 +199,10 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--list", action="store_true", help="print every arrow with an include that shows it")
     arguments = parser.parse_args()
-    included = {house: includes(ROOT / house) for house in HOUSES}
+    included = {house: needs(texts_of(ROOT / house), pathlib.PurePath(house).name) for house in HOUSES}
     wrong = list(twice(included))
     for house, of in included.items():
-        readmes = [p.read_text(encoding="utf-8") for p in sorted((ROOT / house).rglob("README.md"))]
+        readmes = [p.read_text(encoding="utf-8") for p in sorted((ROOT / HOUSES[house]).rglob("README.md"))]
         wrong += problems(house, readmes, of)
         arrows = arrows_between(of)
         if arguments.list:

@@ -73,6 +73,33 @@ TABLES = ["| `scene/` | input | mesh |\n| `mesh/` | geometry | - |\n",
           "| `mesh/.` | the mesh | mesh/cells |\n| `mesh/cells/` | cells | - |\n"]
 
 
+PACKAGE = {"__init__.py": "from .solver import Solver\n", "solver.py": "from ._base import raw\nfrom .history import History\n",
+           "history.py": "from ._base.needs import Solver\n", "_base/__init__.py": '"""Rooms."""\n', "_base/raw.py": "import ctypes\n",
+           "_base/needs.py": "from . import raw\n"}
+ROOMS = ["| `_base/` | the library | - |\n"]
+
+
+def planted_imports():
+    """Plants imports that a package must not have, in each of Python's forms, and texts that are none; returns how many."""
+    def found(name, text):
+        return arrows.problems("delam", ROOMS, arrows.needs(PACKAGE | {name: PACKAGE.get(name, "") + text}, "delam"))
+
+    circle = ["from .solver import Solver", "from . import solver", "from delam.solver import Solver", "from delam import solver",
+              "import delam.solver", "def plot():\n    from .solver import Solver", "if TYPE_CHECKING:\n    from .solver import Solver",
+              'KINDS = {"bodies": (".solver", "draw")}', 'importlib.import_module("delam.solver")']
+    for text in circle:
+        assert found("history.py", text) == ["delam: a circle of files: history, solver"], f"{text}: {found('history.py', text)}"
+    whole = found("history.py", "from . import Solver")
+    assert whole == ["delam: a circle of files: __init__, history, solver"], whole
+    for text in ("from .. import history", "from ..history import History", "import delam.history", "import delam"):
+        assert any("in no table" in line for line in found("_base/raw.py", text)), text
+    many = dict.fromkeys((f"m{i}.py" for i in range(arrows.CONCEPTS)), "")
+    assert any("concepts" in line for line in arrows.problems("delam", ROOMS, arrows.needs(PACKAGE | many, "delam")))
+    for text in ('"""See delam.solver, which is above."""', 'f"{time:.3g}"', 'open("solver.py")', "import solver", "from . import raw"):
+        assert found("_base/needs.py", text) == [], f"{text} was refused"
+    return len(circle) + 6
+
+
 def planted_arrows():
     """Plants a fault of each kind in a house without any; returns how many."""
     assert arrows.problems("src", TABLES, HOUSE) == []
@@ -144,7 +171,7 @@ def main():
         assert list(readmes.problems(src)) == [f"src/law/law_kind: {missing}"]
         (src / "law" / "README.md").write_text("- `mixity`, `law_kind`, `linear`\n", encoding="utf-8")
         assert not list(readmes.problems(src))
-    houses = planted_arrows()
+    houses = planted_arrows() + planted_imports()
     print(f"{len(EXPECTED)} functions, {len(refused) + len(planted) + 2 + houses} planted")
     return 0
 

@@ -47,7 +47,7 @@ class AgainstClang(unittest.TestCase):
                 ("a lost constant", "DELAM_HEX20 = 9\n", "", "DELAM_HEX20"),
                 ("text for handles", '("subject", POINTER(c_char_p))', '("subject", c_char_p)', "subject")):
             with self.subTest(what):
-                self.assertTrue(old in self.text, f"{old} is not in _raw.py any more: give another example")
+                self.assertTrue(old in self.text, f"{old} is not in raw.py any more: give another example")
                 found = self.differences(self.text.replace(old, new, 1))
                 self.assertTrue(any(words in line for line in found), f"{what} passed: {found}")
 

@@ -3,6 +3,7 @@
 returns has the type that they promise."""
 import importlib
 import inspect
+import pickle
 import pydoc
 import types
 import typing
@@ -116,6 +117,30 @@ class Described(unittest.TestCase):
                              (delam.Solver.field, "[cells][6]"), (delam.Solver.advance, "StateError"),
                              (delam.Law.respond, "[n][2 or 3]"), (delam.Fronts, "[points][3]")):
             self.assertIn(words.lower(), pydoc.render_doc(thing, renderer=pydoc.plaintext).lower())
+
+
+class Rooms(unittest.TestCase):
+    """What a private package defines and a public module shows bears the name of this module."""
+
+    OF = {delam.ArgumentError: "delam.errors", delam.Parameter: "delam.law", delam.Cells: "delam.mesh",
+          delam.Ties: "delam.mesh", delam.meshes.Grid: "delam.meshes", delam.meshes.grid_of: "delam.meshes",
+          delam.plot.bodies: "delam.plot", delam.Sparse: "delam.problem", delam.Jump: "delam.solver"}
+
+    def test_names(self):
+        self.assertEqual({thing: thing.__module__ for thing in self.OF}, self.OF)
+        private = [name for name, thing in public() if "._" in thing.__module__ and "." not in thing.__qualname__]
+        self.assertEqual(private, [])
+
+    def test_pickles_name_public_modules(self):
+        for thing in self.OF:
+            self.assertNotIn(b"delam._", pickle.dumps(thing))
+            self.assertIs(pickle.loads(pickle.dumps(thing)), thing)
+
+    def test_hints_of_fields_are_known(self):
+        records = [thing for _, thing in public() if inspect.isclass(thing) and issubclass(thing, tuple)]
+        self.assertGreater(len(records), 13)
+        for thing in records:
+            self.assertEqual(tuple(typing.get_type_hints(thing)), thing._fields)
 
 
 class Hints(unittest.TestCase):

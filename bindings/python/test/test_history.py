@@ -14,7 +14,7 @@ import support
 import numpy as np
 
 import delam
-from delam._closing import lines
+from delam._base.closing import lines
 
 if importlib.util.find_spec("matplotlib"):
     import matplotlib

@@ -13,7 +13,7 @@ import support
 import numpy as np
 
 import delam
-from delam._library import library
+from delam._base.library import library
 
 
 def at_poll(number, action):

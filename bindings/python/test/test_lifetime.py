@@ -12,7 +12,7 @@ import weakref
 import support
 
 import delam
-from delam._library import library
+from delam._base.library import library
 
 
 BEGIN = """import support, delam

@@ -6,7 +6,7 @@ import support
 import numpy as np
 
 import delam
-from delam import _raw
+from delam._base import raw
 from delam.mesh import CELL_TYPES
 from delam.meshes import NAMES
 
@@ -30,7 +30,7 @@ class Arrays(unittest.TestCase):
         np.testing.assert_array_equal(np.sort(interface.faces), [[0, 1]])
 
     def test_cell_types_are_those_of_the_library(self):
-        numbers = {name: getattr(_raw, f"DELAM_{name.upper()}") for name in delam.CELLS}
+        numbers = {name: getattr(raw, f"DELAM_{name.upper()}") for name in delam.CELLS}
         self.assertEqual({name: number for name, (number, _) in delam.CELLS.items()}, numbers)
         self.assertEqual(delam.CELLS["hex20"][1], 20)
         self.assertEqual({name: cell.corners for name, cell in CELL_TYPES.items() if cell.dimension == 2},

@@ -12,8 +12,8 @@ import support
 import numpy as np
 
 import delam
-from delam.mesh import CELL_TYPES
-from delam.meshes import LABELS, _distance
+from delam.mesh import CELL_TYPES, _distance
+from delam.meshes import LABELS
 
 HAVE = importlib.util.find_spec("meshio") is not None
 if HAVE:

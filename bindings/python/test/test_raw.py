@@ -17,7 +17,7 @@ class Generated(unittest.TestCase):
     def test_regenerating_gives_the_committed_file(self):
         text = generate_raw.python_text(generate_raw.Header(generate_raw.HEADER.read_text(encoding="utf-8")))
         self.assertEqual(text, check_raw.RAW.read_text(encoding="utf-8"),
-                         "run bindings/python/tools/generate_raw.py --out bindings/python/src/delam/_raw.py")
+                         "run bindings/python/tools/generate_raw.py --out bindings/python/src/delam/_base/raw.py")
 
     def test_what_is_not_understood_is_refused(self):
         for text, words in (("DELAM_API float delam_x(void);", "float"),
@@ -34,27 +34,27 @@ class Generated(unittest.TestCase):
 
 class Bound(unittest.TestCase):
     def test_functions_have_the_types(self):
-        from delam import _raw
-        from delam._library import library
-        for name, (result, arguments) in _raw.FUNCTIONS.items():
+        from delam._base import raw
+        from delam._base.library import library
+        for name, (result, arguments) in raw.FUNCTIONS.items():
             function = getattr(library, name)
             self.assertIs(function.restype, result, name)
             self.assertEqual(function.argtypes, [kind for _, kind in arguments], name)
 
     def test_the_package_reaches_every_function(self):
-        from delam import _raw
-        sources = [path.read_text(encoding="utf-8") for path in check_raw.RAW.parent.glob("*.py")
+        from delam._base import raw
+        sources = [path.read_text(encoding="utf-8") for path in check_raw.RAW.parents[1].rglob("*.py")
                    if path != check_raw.RAW]
-        for name in _raw.FUNCTIONS:
+        for name in raw.FUNCTIONS:
             self.assertTrue(any(re.search(rf"\b{name}\b", text) for text in sources), name)
 
     def test_a_library_that_lacks_functions_is_told(self):
-        from delam import _raw
+        from delam._base import raw
 
         class Empty:
             pass
 
-        self.assertEqual(_raw.bind(Empty()), list(_raw.FUNCTIONS))
+        self.assertEqual(raw.bind(Empty()), list(raw.FUNCTIONS))
 
 
 if __name__ == "__main__":

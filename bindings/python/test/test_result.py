@@ -15,7 +15,7 @@ import support
 import numpy as np
 
 import delam
-from delam._closing import lines
+from delam._base.closing import lines
 
 PROGRAM = os.environ.get("DELAM", "")
 HAVE = {name: importlib.util.find_spec(name) is not None for name in ("h5py", "matplotlib", "meshio", "pandas")}

@@ -9,13 +9,13 @@ import numpy as np
 
 import delam
 import delam.petsc
-from delam import _raw
-from delam._words import _OTHERS, in_python, listing, meant
+from delam._base import raw
+from delam._base.words import _OTHERS, in_python, listing, meant
 
 # Functions that nobody who writes Python can call by any name.
 INNER = {"abi", "cell_type_topology", "context_create", "context_destroy", "context_message", "context_set_log",
          "petsc_explain", "petsc_message"}
-PROGRAMS = [*_raw.FUNCTIONS, *delam.petsc._FUNCTIONS, "delam_petsc_create"]
+PROGRAMS = [*raw.FUNCTIONS, *delam.petsc._FUNCTIONS, "delam_petsc_create"]
 
 
 def found(name):

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Compares src/delam/_raw.py with what clang reads in the public header: every function, argument, callback, constant.
+"""Compares src/delam/_base/raw.py with what clang reads in the public header: every function, argument, callback and
+constant.
 
-    check_raw.py [--header delam.h] [--raw _raw.py]     exit 0: they agree; 1: they do not, each difference a line;
+    check_raw.py [--header delam.h] [--raw raw.py]     exit 0: they agree; 1: they do not, each difference a line;
                                                         77: no clang
 
 Nothing is shared with the generator: ctypes objects are turned back into C and put beside clang's spelling of the
@@ -20,7 +21,7 @@ import types
 
 HERE = pathlib.Path(__file__).resolve().parent
 HEADER = HERE.parents[2] / "include" / "delam" / "delam.h"
-RAW = HERE.parent / "src" / "delam" / "_raw.py"
+RAW = HERE.parent / "src" / "delam" / "_base" / "raw.py"
 SKIPPED = 77
 
 # clang's names of the fixed-width types on the platforms at hand; ctypes knows only the widths.
@@ -135,7 +136,7 @@ def compare(raw, header):
     return different
 
 
-def load(text, name="_raw"):
+def load(text, name="raw"):
     module = types.ModuleType(name)
     exec(compile(text, name, "exec"), vars(module))
     return module

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes src/delam/_raw.py from the public header.
+"""Writes src/delam/_base/raw.py from the public header.
 
-    generate_raw.py [--header delam.h] [--out _raw.py]     without --out the text goes to standard output
+    generate_raw.py [--header delam.h] [--out raw.py]     without --out the text goes to standard output
 
 The header keeps to a small part of C: integer macros, opaque structs, callback types, functions. That part is read
 here; whatever else turns up is refused with its line, so nothing of the interface can be passed over in silence.

@@ -26,7 +26,7 @@ import delam_build  # noqa: E402
 
 # What every Linux with Python has; the list of PEP 600, as far as it is needed.
 SYSTEM = re.compile(r"(ld-linux[-\w]*|libc|libm|libdl|librt|libpthread|libgcc_s|libstdc\+\+)\.so\.\d+$")
-FOLDER = "lib"  # in the package, where _library.py looks
+FOLDER = "lib"  # in the package, where _base/library.py looks
 # Our own part of the wheel, and of what we have built of Debian's archives.
 CHOLMOD = "libdelam-cholmod.so"
 # SPDX expressions of what may come along, by the source package of Debian. A library of another one is refused:

@@ -13,9 +13,11 @@ draws (matplotlib), delam.meshes reads and writes meshes (meshio, VTK, PyVista).
 from __future__ import annotations
 
 from types import ModuleType
-from typing import TYPE_CHECKING
+from typing import get_type_hints
 
-from . import _library
+from . import errors, law, mesh, meshes, plot, problem, solver
+from ._base.library import library as _library
+from ._base.library import location as _location
 from .errors import (ArgumentError, Cancelled, DelamError, FileError, HandleError, InternalError, LimitReached,
                      MeshError, NotConverged, NotConvergedWarning, NumericalError, Outcome, OutOfMemory,
                      ProblemError, SnapshotError, StateError)
@@ -26,9 +28,6 @@ from .options import Options, options
 from .problem import Forecast, Pattern, Problem, Proposal, Sparse
 from .result import Fields, Result
 from .solver import Average, Condensed, Fronts, Jump, PlanItem, Solver, ValueInfo, Values
-
-if TYPE_CHECKING:
-    from . import meshes, plot
 
 __version__ = "0.2.0"
 
@@ -42,28 +41,36 @@ __all__ = ["ArgumentError", "Average", "Bounds", "CELLS", "Cancelled", "Cells", 
 
 def library_version() -> str:
     """Version of the libdelam that was loaded."""
-    return str(_library.library.delam_version().decode())
+    return str(_library.delam_version().decode())
 
 
 def library_commit() -> str:
     """Commit it was built from, or "unknown"."""
-    return str(_library.library.delam_commit().decode())
+    return str(_library.delam_commit().decode())
 
 
 def library_location() -> str:
     """File it was loaded from, as passed to the loader."""
-    return _library.location
+    return _location
 
 
 def blas_threads() -> int:
     """Threads of the linear algebra of this process, 0: unknown. Equal digits from run to run need an equal number.
     Option threads sets the library's own threads."""
-    return int(_library.library.delam_blas_threads())
+    return int(_library.delam_blas_threads())
 
 
-def __getattr__(name: str) -> ModuleType:
-    # matplotlib and meshio are only needed by those who draw and read meshes.
-    if name in ("plot", "meshes"):
-        import importlib
-        return importlib.import_module(f".{name}", __name__)
-    raise AttributeError(f"module 'delam' has no attribute {name!r}")
+def _claim(*modules: ModuleType) -> None:
+    """Lets tracebacks, help and pickles name the module that shows a class, in place of the room that defines it."""
+    for module in modules:
+        for name in module.__all__:
+            thing = getattr(module, name)
+            if not getattr(thing, "__module__", "").startswith(f"{__name__}._"):
+                continue
+            if isinstance(thing, type):  # the names in its hints are known in the room alone
+                known = get_type_hints(thing)
+                thing.__annotations__ = {field: known[field] for field in thing.__annotations__}
+            thing.__module__ = module.__name__
+
+
+_claim(errors, law, mesh, meshes, plot, problem, solver)

@@ -9,16 +9,19 @@ from typing import IO, TYPE_CHECKING, Any
 
 import numpy as np
 
-from ._arrays import FloatArray
-from ._words import listing, meant
-from .errors import ArgumentError, StateError
+from ._base.arrays import FloatArray
+from ._base.closing import lines
+from ._base.errors import StateError
+from ._base.protocols import Solver
+from ._base.records import Jump
+from ._base.words import listing, meant
+from ._exchange.figures import history_figure
+from ._exchange.frames import as_frame
 
 if TYPE_CHECKING:
     import pandas
     from matplotlib.figure import Figure
     from numpy.typing import NDArray
-
-    from .solver import Jump, Solver
 
 # What pictures and closing lines need, whichever values are asked for. All of it costs nothing to read.
 _ALWAYS = ("step", "time", "stored_bulk", "stored_interface", "dissipated", "load_potential", "work", "lower",
@@ -88,6 +91,9 @@ class History:
         column = self._columns[key]
         return np.array([row[column] for row in self._rows])
 
+    def _by_value(self) -> dict[str, FloatArray]:
+        return {name: self._column(name) for name in self._columns}
+
     def _key(self, name: object) -> str | None:
         """Of the values asked for, the one of this name or alias."""
         if name in self.names:
@@ -136,8 +142,7 @@ class History:
         """What the command line ends a run with, a line each, as far as steps say it: jumps and the energy that they
         released, the largest defect of the energy balance with its step, steps outside their two-sided estimate, and
         steps whose estimate says nothing."""
-        from ._closing import lines
-        return lines({name: self._column(name) for name in self._columns}, self._jumps, self._about["options"])
+        return lines(self._by_value(), self._jumps, self._about["options"])
 
     @property
     def array(self) -> NDArray[np.void]:
@@ -149,7 +154,6 @@ class History:
 
     def to_pandas(self) -> pandas.DataFrame:
         """All rows as a pandas.DataFrame, a column each. ImportError: pandas is not installed."""
-        from .result import as_frame
         return as_frame(self.array)
 
     def plot(self, kind: str = "load", units: Mapping[str, str] | None = None, title: str = "history") -> Figure:
@@ -163,16 +167,7 @@ class History:
         "load" and "energies" draw any history; "bodies" needs the solver open. ArgumentError: there is no such kind or
         unit; ValueError: there is no load pattern, the bodies are in space, or the solver is closed; ImportError:
         matplotlib is not installed."""
-        from .result import picture
-        named = _units(units)
-        kinds = {"load": ("._live", "load_figure"), "energies": ("._pictures.curves", "energies_figure"),
-                 "bodies": ("._live", "bodies_figure")}
-
-        def shown() -> object:
-            from ._live import shown as made
-            return made(self, named, title)
-
-        return picture(shown, kind, kinds)
+        return history_figure(self._by_value(), self._jumps, self._about, self._solver, kind, units, title)
 
     def write_csv(self, file: str | os.PathLike[str] | IO[str], titles: Iterable[str] | None = None) -> None:
         """Writes all digits to an open text file or a path. titles: used instead of the names."""
@@ -184,23 +179,6 @@ class History:
         columns = [self._columns[key] for key in self._keys]
         for row in self._rows:
             file.write(",".join(format(row[column] + 0.0, ".17g") for column in columns) + "\n")
-
-
-def _units(units: Mapping[str, str] | None) -> dict[str, str]:
-    """Names of the units of length, force and time, "" where they have none."""
-    named = {"length": "", "force": "", "time": ""}
-    if units is None:
-        return named
-    if not isinstance(units, Mapping):
-        raise TypeError(f"units = {units!r} is a {type(units).__name__}, expected a mapping such as "
-                        f"{{'length': 'mm', 'force': 'N', 'time': 's'}}")
-    for key, name in units.items():
-        if key not in named:
-            raise ArgumentError(f"units: {key!r} is no quantity{meant(key, named)}; these are {listing(named)}")
-        if not isinstance(name, str):
-            raise TypeError(f"units[{key!r}] = {name!r} is a {type(name).__name__}, expected a str")
-        named[key] = name
-    return named
 
 
 def steps_of(times: Iterable[float], progress: bool) -> Iterable[float]:

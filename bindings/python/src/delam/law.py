@@ -4,43 +4,20 @@ from __future__ import annotations
 
 import ctypes
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import _raw
-from ._arrays import FloatArray, floats, listed, pointer, spread
-from ._call import Context, Object, keep_exception, number, stopped, text
-from ._library import library
-from ._words import in_python, meant
-from .errors import ArgumentError, ProblemError, error_of
+from ._base import raw
+from ._base.arrays import FloatArray, floats, listed, pointer, spread
+from ._base.call import Context, Object, keep_exception, number, stopped, text
+from ._base.errors import ArgumentError, ProblemError, error_of
+from ._base.library import library
+from ._base.records import Bounds, Parameter
+from ._base.words import in_python, meant
 
-
-class Parameter(NamedTuple):
-    """Description of a parameter or an option, as texts. type: "number", "integer" or "text"; unit: in terms of force
-    and length; initial: the value without a setting, "" if it must be given; range: the admissible values."""
-
-    key: str
-    type: str
-    unit: str
-    initial: str
-    range: str
-    meaning: str
-
-
-class Bounds(NamedTuple):
-    """Between what a number lies. open: the bound itself is outside; infinite: there is no bound, numbers are
-    finite."""
-
-    lower: float
-    upper: float
-    lower_open: bool
-    upper_open: bool
-
-    def __contains__(self, value: Any) -> bool:
-        above = value > self.lower if self.lower_open else value >= self.lower
-        return bool(above and (value < self.upper if self.upper_open else value <= self.upper))
+__all__ = ["Bounds", "Law", "Parameter", "described", "kinds"]
 
 
 def kinds() -> dict[str, str]:
@@ -71,7 +48,7 @@ def described(function: Any, *arguments: Any) -> Parameter:
     """What a function of the library says of a parameter or an option."""
     texts = [ctypes.c_char_p() for _ in Parameter._fields]
     status = function(*arguments, *(ctypes.byref(item) for item in texts))
-    if status != _raw.DELAM_OK:
+    if status != raw.DELAM_OK:
         raise error_of(status, f"no description {arguments}")
     return Parameter(*(in_python((item.value or b"").decode()) for item in texts))
 
@@ -124,7 +101,7 @@ class Law(Object):
         self._callbacks = keep
         self._given: set[str] = set()
         self._is_complete = False
-        self._make(context, _raw.delam_law, library.delam_law_destroy, function, context.handle, *arguments, keep=keep)
+        self._make(context, raw.delam_law, library.delam_law_destroy, function, context.handle, *arguments, keep=keep)
 
     def _call(self, function: Any, *arguments: Any) -> None:
         self.context.call(function, self._handle, *arguments)
@@ -227,7 +204,7 @@ def _adhesion_callback(function: Callable[[float, float], tuple[float, float]]) 
             return 1
         return 0
 
-    return _raw.delam_adhesion_callback(adhesion)
+    return raw.delam_adhesion_callback(adhesion)
 
 
 def _dissipation_callback(function: Callable[[float, float], tuple[float, float, float]]) -> Any:
@@ -241,4 +218,4 @@ def _dissipation_callback(function: Callable[[float, float], tuple[float, float,
             return 1
         return 0
 
-    return _raw.delam_dissipation_callback(dissipation)
+    return raw.delam_dissipation_callback(dissipation)

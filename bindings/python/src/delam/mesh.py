@@ -5,62 +5,28 @@ from __future__ import annotations
 import ctypes
 import os
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _raw
-from ._arrays import direction as axis
-from ._arrays import FloatArray, IntArray, floats, gate, indices, listed, ndim, pointer, spread
-from ._call import Context, Object, integer, number
-from ._library import library
-from ._words import listing, meant
-from .errors import ArgumentError
+from ._base import raw
+from ._base.arrays import direction as axis
+from ._base.arrays import FloatArray, IntArray, floats, gate, indices, listed, ndim, pointer, spread
+from ._base.call import Context, Object, integer, logger, number
+from ._base.cells import CELL_TYPES, CELLS, Cells, CellType, cell_type, cell_types
+from ._base.errors import ArgumentError
+from ._base.library import library
+from ._base.records import Ties
+from ._base.words import listing, meant
+from ._exchange.grids import grid_of, write
+from ._exchange.sources import Source, of_meshio, of_vtk
 
 if TYPE_CHECKING:
     import meshio
 
-
-class CellType(NamedTuple):
-    """What the library says of a cell type."""
-
-    number: int
-    nodes: int
-    dimension: int
-    corners: int
-    faces: NDArray[np.int32]  # [faces][nodes of a face], local nodes: corners in outward order, then mid-side nodes
-    face_corners: int
-    middle: NDArray[np.int32]  # [nodes - corners][2], the corners on either side of each node that is not a corner
-
-
-def cell_types() -> dict[str, CellType]:
-    """{name: CellType} of all types that the library has."""
-    found = {}
-    for index in range(library.delam_cell_type_count()):
-        name = ctypes.c_char_p()
-        type_, dimension, nodes, corners, faces, face_nodes, face_corners = (ctypes.c_int32() for _ in range(7))
-        library.delam_cell_type_info(index, name, type_, dimension, nodes, corners, faces, face_nodes, face_corners)
-        face = np.empty((faces.value, face_nodes.value), np.int32)
-        middle = np.empty((nodes.value - corners.value, 2), np.int32)
-        library.delam_cell_type_topology(index, pointer(face), pointer(middle))
-        found[(name.value or b"").decode()] = CellType(type_.value, nodes.value, dimension.value, corners.value, face,
-                                              face_corners.value, middle)
-    return found
-
-
-CELL_TYPES = cell_types()
-# Name: (number, nodes of a cell)
-CELLS = {name: (cell.number, cell.nodes) for name, cell in CELL_TYPES.items()}
-_CELL_NAMES = {number: name for name, (number, _) in CELLS.items()}
-
-
-def cell_type(name: str) -> tuple[int, int]:
-    """Number and nodes of a cell type; ArgumentError: there is none of this name."""
-    if name not in CELLS:
-        raise ArgumentError(f"cells = {name!r} is no cell type; known are {', '.join(CELLS)}")
-    return CELLS[name]
-
+__all__ = ["Body", "CELLS", "CELL_TYPES", "CellType", "Cells", "Interface", "Mesh", "Ties", "cell_type", "cell_types",
+           "interface_index", "place_text"]
 
 # A body, by its label or by the name that its file gave it (Mesh.body_names).
 Body = int | str
@@ -69,38 +35,6 @@ Body = int | str
 def place_text(place: FloatArray) -> str:
     """A position in a message."""
     return f"({', '.join(format(float(x), 'g') for x in place)})"
-
-
-class Cells(NamedTuple):
-    """Cells in the order they were added: types [cells], numbers of CELLS; bodies [cells], labels; connectivity, the
-    nodes of cell c at offsets[c] .. offsets[c+1]-1, with offsets [cells + 1]."""
-
-    types: NDArray[np.int32]
-    bodies: NDArray[np.int32]
-    offsets: IntArray
-    connectivity: IntArray
-
-    def of(self, name: str) -> IntArray:
-        """Connectivity [n][nodes of a cell] of the cells of one type, "quad4" for instance. ArgumentError: there is no
-        such type."""
-        number, size = cell_type(name)
-        rows = np.flatnonzero(self.types == number)
-        nodes: IntArray = self.connectivity[self.offsets[rows][:, None] + np.arange(size)]
-        return nodes
-
-    def names(self) -> list[str]:
-        """The cell types that the mesh has, by name."""
-        return [_CELL_NAMES[number] for number in sorted(set(self.types.tolist()))]
-
-
-class Ties(NamedTuple):
-    """Tied nodes: u of nodes[i] is the sum of weights[e] u of of[e] over e = starts[i] .. starts[i+1]-1; starts has an
-    entry more than nodes."""
-
-    nodes: IntArray
-    starts: IntArray
-    of: IntArray
-    weights: FloatArray
 
 
 def interface_index(value: int | Interface, mesh: Mesh) -> int:
@@ -233,39 +167,34 @@ class Mesh(Object):
                     bodies: str | Sequence[str] | None = None, interfaces: bool = True) -> Mesh:
         """A meshio.Mesh, or a file that meshio reads. bodies: name of the cell data with a label for each cell, or
         names of cell sets; see delam.meshes.read."""
-        from .meshes import read
-        return read(source, bodies, interfaces)
+        return _made(of_meshio(source, bodies), interfaces)
 
     @classmethod
     def from_vtk(cls, grid: Any, bodies: str | None = None, interfaces: bool = True) -> Mesh:
         """A vtkUnstructuredGrid, or a grid of PyVista. bodies: name of the cell array with a label for each cell; see
         delam.meshes.from_vtk."""
-        from .meshes import from_vtk
-        return from_vtk(grid, bodies, interfaces)
+        return _made(of_vtk(grid, bodies), interfaces)
 
     def to_vtk(self, point_data: Mapping[str, ArrayLike] | None = None,
                cell_data: Mapping[str, ArrayLike] | None = None) -> Any:
         """A vtkUnstructuredGrid with the same nodes and cells, and data as for to_meshio. ImportError: VTK is not
         installed."""
-        from .meshes import grid_of
         return grid_of(self, point_data, cell_data).to_vtk()
 
     def to_pyvista(self, point_data: Mapping[str, ArrayLike] | None = None,
                    cell_data: Mapping[str, ArrayLike] | None = None) -> Any:
         """The same as a pyvista.UnstructuredGrid. ImportError: PyVista is not installed."""
-        from .meshes import grid_of
         return grid_of(self, point_data, cell_data).to_pyvista()
 
     def to_meshio(self, point_data: Mapping[str, ArrayLike] | None = None,
                   cell_data: Mapping[str, ArrayLike] | None = None) -> meshio.Mesh:
         """A meshio.Mesh with the same nodes and cells, to be written in any of meshio's formats; see
         delam.meshes.write. ArgumentError: data with another number of rows than there are nodes or cells."""
-        from .meshes import write
         return write(self, point_data, cell_data)
 
     def _create(self, function: Any, *arguments: Any) -> None:
         context = Context()
-        self._make(context, _raw.delam_mesh, library.delam_mesh_destroy, function, context.handle, *arguments,
+        self._make(context, raw.delam_mesh, library.delam_mesh_destroy, function, context.handle, *arguments,
                    long=True)
         self.body_names = {}
         self._bodies: list[int] = []  # their labels, as far as they have been asked for
@@ -546,3 +475,41 @@ class Mesh(Object):
         nodes, weights = np.empty(count.value, np.int64), np.empty(count.value)
         self._call(library.delam_mesh_find_patch, *box, nodes.size, pointer(nodes), pointer(weights), count, long=True)
         return nodes, weights
+
+
+def _made(source: Source, interfaces: bool) -> Mesh:
+    mesh = Mesh(source.points)
+    for kind, cells, labels in source.blocks:
+        mesh.add_conforming_cells(kind, cells, labels)
+    mesh.body_names = source.names
+    if interfaces and mesh.body_count > 1:
+        mesh.add_all_interfaces()
+        _warn_of_lone_bodies(mesh)
+    return mesh
+
+
+def _distance(one: FloatArray, other: FloatArray) -> float:
+    """Of the nearest nodes; of large bodies an upper bound, from some nodes and their nearest ones in turn."""
+    few, many = (one, other) if len(one) < len(other) else (other, one)
+    step = 1 + int(len(few) * len(many) / 2e7)
+    best, at = min((float(np.linalg.norm(many - place, axis=1).min()), i) for i, place in enumerate(few[::step]))
+    place = few[at * step]
+    for nodes in (many, few) * 3:
+        distances = np.linalg.norm(nodes - place, axis=1)
+        best, place = min(best, float(distances.min())), nodes[distances.argmin()]
+    return best
+
+
+def _warn_of_lone_bodies(mesh: Mesh) -> None:
+    """Those that share no face with another."""
+    joined = {body for interface in mesh.interfaces for body in (interface.body_a, interface.body_b)}
+    lone = [body for body in mesh._labels() if body not in joined]
+    if not lone:
+        return
+    nodes, bodies = mesh.nodes, mesh.node_bodies
+    first = lone[0]
+    distance = _distance(nodes[bodies == first], nodes[(bodies != first) & (bodies >= 0)])
+    logger.warning("no interface was made for %s %s, whose faces coincide with none of another body; the nearest nodes "
+                   "of body %s and of others are %.3g apart. Mesh.add_interface(tolerance=..) or, where meshes do not "
+                   "match, Mesh.add_projected_interface(gap=..) joins faces at a distance",
+                   "bodies" if len(lone) > 1 else "body", listing(lone), first, distance)

@@ -6,15 +6,14 @@ import collections.abc
 import ctypes
 import functools
 from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from ._call import number, text
-from ._library import library
-from ._words import listing, meant
-from .law import Bounds, Parameter, described
-
-if TYPE_CHECKING:
-    from .problem import Problem
+from ._base.call import number, text
+from ._base.library import library
+from ._base.protocols import Problem
+from ._base.records import Bounds, Parameter
+from ._base.words import listing, meant
+from .law import described
 
 # The value of an option.
 Value = str | int | float

@@ -30,10 +30,11 @@ from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _library, _raw
-from ._arrays import floats, gate, indices, pointer
-from ._call import integer, text
-from .errors import ArgumentError, DelamError, HandleError, StateError, error_of
+from ._base import library as _library
+from ._base import raw
+from ._base.arrays import floats, gate, indices, pointer
+from ._base.call import integer, text
+from ._base.errors import ArgumentError, DelamError, HandleError, StateError, error_of
 from .mesh import Mesh
 from .problem import Problem, _rows_of
 from .solver import Solver
@@ -41,7 +42,7 @@ from .solver import Solver
 if TYPE_CHECKING:
     from mpi4py import MPI
 
-SONAME = f"libdelam-petsc.so.{_raw.DELAM_ABI}"
+SONAME = f"libdelam-petsc.so.{raw.DELAM_ABI}"
 VARIABLE = "DELAM_PETSC_LIBRARY"
 _Result = TypeVar("_Result")
 _WORK = ctypes.CFUNCTYPE(c_int32, c_void_p)
@@ -122,7 +123,7 @@ class Ranks:
         create.restype, create.argtypes = c_int32, (kind, POINTER(c_void_p))
         handle = c_void_p()
         status = create(kind.from_address(MPI._addressof(comm)), ctypes.byref(handle))
-        if status != _raw.DELAM_OK:
+        if status != raw.DELAM_OK:
             raise error_of(status, "PETSc could not be initialised on these ranks")
         self._pointer = handle
         self._comm = comm.Dup()
@@ -184,7 +185,7 @@ class Ranks:
             status, told = function(self._handle, *arguments), ""
         else:
             status, told = problem.context.beside(function, self._handle, *arguments, other=problem.mesh.context)
-        if status != _raw.DELAM_OK:
+        if status != raw.DELAM_OK:
             message = self._message()
             told = next(filter(None, self._comm.allgather(told)), "")
             self._raise(error_of(status, f"{message}: {told}" if told else message))
@@ -193,7 +194,7 @@ class Ranks:
         """A call of this rank alone, which may be inside `run`."""
         self._check_open()
         status = function(self._pointer, *arguments)
-        if status != _raw.DELAM_OK:
+        if status != raw.DELAM_OK:
             raise error_of(status, self._message())
 
     def _message(self) -> str:
@@ -340,15 +341,15 @@ class Ranks:
             except BaseException as exception:
                 failures.append(exception)
                 status = exception.status if isinstance(exception, DelamError) else 0
-                return status or _raw.DELAM_ERROR_INTERNAL
-            return _raw.DELAM_OK
+                return status or raw.DELAM_ERROR_INTERNAL
+            return raw.DELAM_OK
 
         self._running = True
         try:
             status = self._library.delam_petsc_run(handle, work, None)
         finally:
             self._running = False
-        if status == _raw.DELAM_OK:
+        if status == raw.DELAM_OK:
             return results[0] if self.rank == 0 else None
         failure = failures[0] if failures else None
         told = None
@@ -389,8 +390,8 @@ class Ranks:
                 ours = isinstance(exception, DelamError)
                 told = str(exception) if ours else f"{type(exception).__name__}: {exception}"
                 self._library.delam_petsc_explain(self._pointer, told.encode())
-                return int(getattr(exception, "status") if ours else 0) or _raw.DELAM_ERROR_INTERNAL
-            return _raw.DELAM_OK
+                return int(getattr(exception, "status") if ours else 0) or raw.DELAM_ERROR_INTERNAL
+            return raw.DELAM_OK
 
         self._call(self._library.delam_petsc_set_task, task, None)
         self._task = task
@@ -409,9 +410,9 @@ class Ranks:
         own = self._raised
         if own is not None and (isinstance(own, DelamError) or not isinstance(own, Exception)):
             raise own
-        if status != _raw.DELAM_OK:
+        if status != raw.DELAM_OK:
             message = self._message()
-            error = WorkError(message) if status == _raw.DELAM_ERROR_INTERNAL else error_of(status, message)
+            error = WorkError(message) if status == raw.DELAM_ERROR_INTERNAL else error_of(status, message)
             error._task = self._tasks  # type: ignore[attr-defined]
             raise error from own
 
@@ -424,7 +425,7 @@ class Ranks:
         self._check_open()
         status, told = solver.context.beside(self._library.delam_petsc_recover, self._pointer,
                                              ctypes.cast(solver._handle, c_void_p))
-        if status != _raw.DELAM_OK:
+        if status != raw.DELAM_OK:
             message = self._message()
             raise error_of(status, f"{message}: {told}" if told else message)
 

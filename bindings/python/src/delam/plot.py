@@ -8,45 +8,23 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ._arrays import FloatArray, IntArray
+from ._base.arrays import FloatArray, IntArray
+from ._exchange.bodies import adhesion_colours, axes_of, bodies
 from .history import History
-from .mesh import CELL_TYPES, Interface
+from .mesh import Interface
+from .solver import Solver
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.colors import Colormap
 
-    from .solver import Solver
-
-# Corners of plane cells, in order around.
-_BODIES = ("#f4f1e8", "#dde5ee", "#e6ebdf")
-_DAMAGE = ("#b3122a", "#f2a541", "#f5e9b8", "#2b6cb0", "#0b2e59")  # adhesion 0 ... 1
-
-
-def _pyplot() -> Any:
-    try:
-        import matplotlib.pyplot
-    except ImportError:
-        raise ImportError("drawing needs matplotlib (Debian: python3-matplotlib)") from None
-    return matplotlib.pyplot
-
-
-def _axes(ax: Axes | None, **options: object) -> Axes:
-    if ax is not None:
-        return ax
-    return _pyplot().subplots(layout="constrained", subplot_kw=options)[1]
-
-
-def _adhesion_colours() -> Colormap:
-    from matplotlib.colors import LinearSegmentedColormap
-    return LinearSegmentedColormap.from_list("adhesion", _DAMAGE)
+__all__ = ["bodies", "history", "interface"]
 
 
 def history(history: History | Mapping[str, FloatArray], y: str | Iterable[str], x: str = "time",
             ax: Axes | None = None, **style: Any) -> Axes:
     """Plots values against each other: y is one name or several. `history`: a History, or any mapping of arrays; style:
     for matplotlib's plot. KeyError: there is no such value."""
-    ax = _axes(ax)
+    ax = axes_of(ax)
     names = [y] if isinstance(y, str) else list(y)
     for name in names:
         ax.plot(history[x], history[name], label=name, **style)
@@ -69,7 +47,7 @@ def interface(solver: Solver, field: str = "adhesion", interface: int | Interfac
     if solver.problem.dimension == 3:
         return _faces(view, values, field, ax, style)
     places, faces = view.places, view.faces
-    ax = _axes(ax)
+    ax = axes_of(ax)
     for line in _chains(faces[:, :2], len(values)):
         along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(places[line], axis=0), axis=1))])
         # Straight along x: use the coordinate itself.
@@ -104,11 +82,11 @@ def _chains(edges: IntArray, count: int) -> list[IntArray]:
 
 def _faces(view: Interface, values: FloatArray, field: str, ax: Axes | None, style: dict[str, Any]) -> Axes:
     from mpl_toolkits.mplot3d.art3d import Poly3DCollection
-    ax = _axes(ax, projection="3d")
+    ax = axes_of(ax, projection="3d")
     places, faces = view.places, view.faces
     corners = faces[:, :{3: 3, 6: 3}.get(faces.shape[1], 4)]
     if field == "adhesion":
-        style = {"cmap": _adhesion_colours(), "clim": (0.0, 1.0), **style}
+        style = {"cmap": adhesion_colours(), "clim": (0.0, 1.0), **style}
     collection = Poly3DCollection(places[corners], array=values[corners].mean(axis=1), **style)
     ax.add_collection3d(collection)
     for axis, low, high in zip("xyz", places.min(axis=0), places.max(axis=0)):
@@ -116,35 +94,4 @@ def _faces(view: Interface, values: FloatArray, field: str, ax: Axes | None, sty
         getattr(ax, f"set_{axis}lim")(low - room, high + room)
         getattr(ax, f"set_{axis}label")(axis)
     ax.figure.colorbar(collection, ax=ax, label=field)
-    return ax
-
-
-def bodies(solver: Solver, scale: float = 1.0, ax: Axes | None = None) -> Axes:
-    """Deformed plane bodies, displacements times `scale`, with the adhesion of interfaces in colour. ValueError: the
-    scene is one in space."""
-    from matplotlib.collections import LineCollection, PolyCollection
-    mesh = solver.problem.mesh
-    if solver.problem.dimension != 2:
-        raise ValueError("bodies are drawn in 2D alone; write those in space with Mesh.to_meshio for ParaView")
-    ax = _axes(ax)
-    places = mesh.nodes[:len(solver.field("displacement"))] + scale * solver.field("displacement")
-    cells = mesh.cells
-    labels = sorted(set(cells.bodies.tolist()))
-    for name in cells.names():
-        corners = cells.of(name)[:, :CELL_TYPES[name].corners]
-        body = cells.bodies[cells.types == CELL_TYPES[name].number]
-        colours = [_BODIES[labels.index(label) % len(_BODIES)] for label in body.tolist()]
-        ax.add_collection(PolyCollection(places[corners], facecolors=colours, edgecolors="#00000022", linewidths=0.3))
-    lines = None
-    for view in mesh.interfaces:
-        adhesion = solver.field("adhesion", view)
-        faces = view.faces[:, :2]
-        lines = LineCollection(places[view.nodes_b][faces], array=adhesion[faces].mean(axis=1),
-                               cmap=_adhesion_colours(), linewidths=2)
-        lines.set_clim(0.0, 1.0)
-        ax.add_collection(lines)
-    if lines is not None:
-        ax.figure.colorbar(lines, ax=ax, label="adhesion")
-    ax.set_aspect("equal")
-    ax.autoscale_view()
     return ax

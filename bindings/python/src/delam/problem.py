@@ -6,58 +6,24 @@ import collections.abc
 import ctypes
 import weakref
 from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import _raw
-from ._arrays import direction as axis
-from ._arrays import FloatArray, IntArray, floats, indices, listed, ndim, pointer, spread
-from ._call import Context, Object, integer, number, text
-from ._library import library
-from ._words import meant
-from .errors import ArgumentError, DelamError
+from ._base import raw
+from ._base.arrays import direction as axis
+from ._base.arrays import FloatArray, IntArray, floats, indices, listed, ndim, pointer, spread
+from ._base.call import Context, Object, integer, number, text
+from ._base.errors import ArgumentError, DelamError
+from ._base.library import library
+from ._base.records import Forecast, Proposal, Sparse
+from ._base.words import meant
 from .law import Law
-from .mesh import Body, Mesh, interface_index, place_text
+from .mesh import Body, Interface, Mesh, interface_index, place_text
 from .options import Options, initial_values
 
-if TYPE_CHECKING:
-    from .mesh import Interface
-
-
-class Forecast(NamedTuple):
-    """Of an analysis that has not begun: setup in s at a nominal rate, memory in bytes."""
-
-    plan: str
-    setup: float
-    memory: float
-
-
-class Proposal(NamedTuple):
-    """Numbers for the law of an interface; 0: unknown or none."""
-
-    stiffness: float  #: the least, 50 E3/t of the adjacent layer
-    share: float  #: of that layer's stiffness, what the present normal stiffness leaves
-    normal_strength: float  #: the largest with which the process zone has enough pairs
-    tangential_strength: float
-
-
-class Sparse(NamedTuple):
-    """A matrix by rows: the entries of row i are row_starts[i] .. row_starts[i+1]-1 of columns and values. For SciPy:
-    csr_matrix((m.values, m.columns, m.row_starts), m.shape)."""
-
-    shape: tuple[int, int]
-    row_starts: IntArray
-    columns: IntArray
-    values: FloatArray
-
-    def toarray(self) -> FloatArray:
-        """The matrix in full, [rows][columns]; entries at the same place are summed."""
-        out = np.zeros(self.shape)
-        rows = np.repeat(np.arange(self.shape[0]), np.diff(self.row_starts))
-        np.add.at(out, (rows, self.columns), self.values)
-        return out
+__all__ = ["Drive", "Forecast", "Pattern", "Problem", "Proposal", "Sparse", "pattern_index"]
 
 
 def _rows_of(matrix: Any) -> tuple[Any, Any, Any]:
@@ -137,7 +103,7 @@ class Problem(Object):
             raise ArgumentError(f"mesh = {mesh!r}, expected a Mesh")
         context = Context()
         self._keep: list[Any] = []
-        self._make(context, _raw.delam_problem, library.delam_problem_destroy, library.delam_problem_create,
+        self._make(context, raw.delam_problem, library.delam_problem_destroy, library.delam_problem_create,
                    context.handle, mesh._handle, keep=self._keep, other=mesh.context)
         self.mesh = mesh
         self.dimension, self._node_count, self._cell_count = mesh._size()[:3]

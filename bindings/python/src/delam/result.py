@@ -11,43 +11,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ._arrays import FloatArray, IntArray
+from ._base.arrays import FloatArray, IntArray
+from ._exchange.figures import result_figure
+from ._exchange.frames import as_frame
+from ._exchange.grids import result_grid
 from ._pictures.input_file import MOST_RESULT, fields_file, read_columns, read_json
-from .errors import ArgumentError
 
 if TYPE_CHECKING:
     import meshio
     import pandas
     from matplotlib.figure import Figure
-
-# What Result.plot draws: {kind: (module, function)}.
-_CURVES = "._pictures.curves"
-_KINDS = {"load": (_CURVES, "load_figure"), "energies": (_CURVES, "energies_figure"),
-          "averages": (_CURVES, "averages_figure"), "snapshots": ("._pictures.snapshots", "snapshots_figure"),
-          "stresses": ("._pictures.stresses", "stresses_figure"), "fronts": ("._pictures.fronts", "fronts_figure"),
-          "cut": ("._pictures.cut", "cut_figure")}
-
-
-def picture(shown: Any, kind: str, kinds: Mapping[str, tuple[str, str]], *arguments: Any) -> Figure:
-    """A figure of one kind; ArgumentError says which kinds there are, ValueError why there is no picture."""
-    if kind not in kinds:
-        raise ArgumentError(f"kind = {kind!r} is no picture; known are {', '.join(kinds)}")
-    module, function = kinds[kind]
-    try:
-        style = importlib.import_module("._pictures.result", __package__)
-        drawing = importlib.import_module(module, __package__)
-    except ModuleNotFoundError as error:
-        if error.name not in ("matplotlib", "h5py"):
-            raise
-        raise ImportError(f"this picture needs {error.name} (Debian: python3-{error.name})") from None
-    with style.styled():
-        try:
-            figure: Figure = getattr(drawing, function)(shown() if callable(shown) else shown, *arguments)
-        except style.Nothing as reason:
-            raise ValueError(f"no picture of {kind}: {reason}") from None
-    if "inline" in style.matplotlib.get_backend():
-        style.plt.close(figure)  # a notebook would show it twice: as the cell's value, and again because it is open
-    return figure
 
 
 def _table(path: pathlib.Path) -> NDArray[np.void]:
@@ -58,15 +31,6 @@ def _table(path: pathlib.Path) -> NDArray[np.void]:
     for title, column in columns.items():
         table[title] = column
     return table
-
-
-def as_frame(table: NDArray[np.void]) -> pandas.DataFrame:
-    """A structured array as a pandas.DataFrame, a column each."""
-    try:
-        import pandas
-    except ImportError:
-        raise ImportError("to_pandas needs pandas (Debian: python3-pandas)") from None
-    return pandas.DataFrame({name: table[name] for name in table.dtype.names or ()})
 
 
 class Fields(Mapping[str, Any]):
@@ -210,19 +174,7 @@ class Result:
 
         ArgumentError: there is no such kind or cut; ValueError: this result has nothing to draw of it; ImportError:
         matplotlib or h5py is not installed."""
-        arguments: list[Any] = []
-        if cut is not None:
-            if kind != "cut":
-                raise ArgumentError(f"cut = {cut!r} belongs to kind 'cut', not to {kind!r}")
-            try:
-                arguments = [importlib.import_module("._pictures.cut", __package__).plane_of(cut)]
-            except ValueError:
-                raise ArgumentError(f"cut = {cut!r}: it takes x, y or z, =, and a number, like y=0.01") from None
-
-        def shown() -> Any:
-            return importlib.import_module("._pictures.result", __package__).Result(str(self.folder))
-
-        return picture(shown, kind, _KINDS, *arguments)
+        return result_figure(str(self.folder), kind, cut)
 
     def _interface(self, name: str) -> tuple[FloatArray, IntArray]:
         """Points [pairs][3] and faces of an interface."""
@@ -237,17 +189,14 @@ class Result:
         numbers of the bodies as cell data: to_meshio().write("last.vtu"). With the number of an interface: its faces,
         with adhesion (zeta), jump, traction and contact as point data. KeyError: the step has no fields, or there is no
         such interface."""
-        from .meshes import result_grid
         return result_grid(self, step, interface).to_meshio()
 
     def to_vtk(self, step: int = -1, interface: int | None = None) -> Any:
         """The same as a vtkUnstructuredGrid; to_pyvista() gives one of PyVista. ImportError: VTK is not installed."""
-        from .meshes import result_grid
         return result_grid(self, step, interface).to_vtk()
 
     def to_pyvista(self, step: int = -1, interface: int | None = None) -> Any:
         """The same as a pyvista.UnstructuredGrid. ImportError: PyVista is not installed."""
-        from .meshes import result_grid
         return result_grid(self, step, interface).to_pyvista()
 
 

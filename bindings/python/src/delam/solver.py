@@ -7,131 +7,34 @@ import ctypes
 import os
 import warnings
 from collections.abc import Iterable, Iterator, Mapping
-from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn, overload
+from typing import TYPE_CHECKING, Any, NoReturn, overload
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from . import _raw
-from ._arrays import FloatArray, IntArray, floats, listed, pointer
-from ._call import Object, integer, logger, number, text
-from ._library import library
-from ._words import in_python, meant
-from .errors import ArgumentError, DelamError, NotConverged, NotConvergedWarning
+from ._base import raw
+from ._base.arrays import FloatArray, floats, listed, pointer
+from ._base.call import Object, integer, logger, number, text
+from ._base.errors import ArgumentError, DelamError, NotConverged, NotConvergedWarning
+from ._base.library import library
+from ._base.records import Average, Condensed, Fronts, Jump, PlanItem, Sparse, ValueInfo
+from ._base.words import in_python, meant
+from ._exchange.grids import solver_grid
 from .history import History, steps_of
-from .mesh import Body, interface_index
+from .mesh import Body, Interface, interface_index
 from .options import unknown
-from .problem import Problem, Sparse, pattern_index
+from .problem import Pattern, Problem, pattern_index
 
 if TYPE_CHECKING:
     import meshio
 
-    from .mesh import Interface
-    from .problem import Pattern
-
+__all__ = ["Average", "Condensed", "FIELDS", "Fronts", "Jump", "PlanItem", "Solver", "ValueInfo", "Values"]
 
 # Fields of a state and what they are over.
 FIELDS = {"displacement": "nodes", "stress": "cells", "rotation": "cells", "jump": "pairs", "traction": "pairs",
           "adhesion": "pairs", "mixity": "pairs", "contact": "pairs", "reaction": "constraints"}
 # What others call a field.
 _SYNONYMS = {"damage": "'adhesion', which is 1 - damage", "zeta": "'adhesion'", "opening": "'jump'"}
-
-
-class ValueInfo(NamedTuple):
-    """What the library says of a value. cost: "free", "reads" (goes over pairs or fronts) or "recovers" (recovers the
-    displacements, a sparse solve); scope: "whole", "interface" or "pattern"; alias: another name for it, or "";
-    recorded: Solver.record takes it."""
-
-    alias: str
-    unit: str
-    cost: str
-    scope: str
-    meaning: str
-    recorded: bool
-
-
-class Average(NamedTuple):
-    """Over the volume of a body (in 2D its area): strain [6] and stress [6], xx, yy, zz, xy, yz, zx, shear strains
-    doubled."""
-
-    volume: float
-    strain: FloatArray
-    stress: FloatArray
-
-
-class Condensed(NamedTuple):
-    """All bodies condensed onto the interfaces, and the loads with them: at the factors theta the energy of bodies and
-    dead forces is 1/2 x.S x - theta.L x + 1/2 theta.A theta, and the local jumps of all pairs, component by component,
-    are N x + O theta. The energy stored in the interfaces is not included.
-
-    stiffness  S [unknowns][unknowns], symmetric
-    load       L [patterns][unknowns]
-    constant   A [patterns][patterns]
-    jump       N [dimension * pairs][unknowns]
-    offset     O [dimension * pairs][patterns]"""
-
-    stiffness: FloatArray
-    load: FloatArray
-    constant: FloatArray
-    jump: Sparse
-    offset: FloatArray
-
-
-class Fronts(NamedTuple):
-    """Crack fronts of an interface; front f has the points starts[f] .. starts[f+1]-1.
-
-    starts        [fronts + 1]
-    closed        [fronts] of bool: a loop
-    places        [points][dimension]
-    directions    [points][dimension], unit vectors along the interface, into the adhering part
-    lengths       [points], 2D: length of the crack, 3D: length of front that belongs to a point
-    rates         [points][3], energy release rates (energy per area) in modes I, II, III
-    zone_lengths  [points], of the process zone
-    zone_pairs    [points], pairs in the process zone"""
-
-    starts: IntArray
-    closed: NDArray[np.bool_]
-    places: FloatArray
-    directions: FloatArray
-    lengths: FloatArray
-    rates: FloatArray
-    zone_lengths: FloatArray
-    zone_pairs: FloatArray
-
-    def lines(self) -> list[FloatArray]:
-        """Positions [points of the front][dimension] of each front."""
-        return [self.places[begin:end] for begin, end in zip(self.starts[:-1], self.starts[1:])]
-
-
-class Jump(NamedTuple):
-    """A jump of the state between the times `before` and `time` of a step: energies that are stored, dissipated and
-    released by it (in 2D per unit of width), the area (in 2D length) that it debonded, the interface and the pairs
-    where, and the reactions [patterns] before and after."""
-
-    step: int
-    before: float
-    time: float
-    stored: float
-    dissipated: float
-    released: float
-    debonded: float
-    interface: int
-    first_pair: int
-    last_pair: int
-    reaction_before: FloatArray
-    reaction_after: FloatArray
-
-
-class PlanItem(NamedTuple):
-    """A part of the method that the scene needs or that was left out, and why; cost and saving are predicted numbers of
-    `unit`."""
-
-    subject: str
-    decision: str
-    reason: str
-    cost: float
-    saving: float
-    unit: str
 
 
 def _encoded(path: str | os.PathLike[str]) -> bytes:
@@ -204,9 +107,9 @@ class Solver(Object):
         if not isinstance(problem, Problem):
             raise ArgumentError(f"problem = {problem!r}, expected a Problem")
         self.not_converged = not_converged
-        outcome = self._make(problem.context, _raw.delam_solver, library.delam_solver_destroy,
+        outcome = self._make(problem.context, raw.delam_solver, library.delam_solver_destroy,
                              library.delam_solver_create, problem._handle, number("time", time),
-                             keep=problem._keep, long=True, outcomes=(_raw.DELAM_NOT_CONVERGED,))
+                             keep=problem._keep, long=True, outcomes=(raw.DELAM_NOT_CONVERGED,))
         self.problem = problem
         self._patterns = problem.patterns  # at creation: the solver stays usable when the problem is closed
         count = ctypes.c_int64()
@@ -260,7 +163,7 @@ class Solver(Object):
 
     def _outcome(self, outcome: tuple[int, str], level: int) -> None:
         status, message = outcome
-        if status == _raw.DELAM_NOT_CONVERGED:
+        if status == raw.DELAM_NOT_CONVERGED:
             if self.not_converged == "raise":
                 raise NotConverged(message)
             if self.not_converged == "warn":
@@ -288,7 +191,7 @@ class Solver(Object):
     def _whole(self, function: Any, *arguments: Any, long: bool = True) -> tuple[int, str]:
         """Calls a function that changes the state; Ctrl-C is raised after it."""
         return self.context.call(function, self._handle, *arguments, whole=True, long=long,
-                                 outcomes=(_raw.DELAM_NOT_CONVERGED,))
+                                 outcomes=(raw.DELAM_NOT_CONVERGED,))
 
     def _step(self, function: Any, *arguments: Any) -> None:
         already = self.pending
@@ -544,17 +447,14 @@ class Solver(Object):
     def to_meshio(self) -> meshio.Mesh:
         """The bodies of the state described (Values) as a meshio.Mesh: displacement [nodes][3] as point data, stress
         [cells][6] and bodies as cell data; to_meshio().write("now.vtu") is for ParaView."""
-        from .meshes import solver_grid
         return solver_grid(self).to_meshio()
 
     def to_vtk(self) -> Any:
         """The same as a vtkUnstructuredGrid. ImportError: VTK is not installed."""
-        from .meshes import solver_grid
         return solver_grid(self).to_vtk()
 
     def to_pyvista(self) -> Any:
         """The same as a pyvista.UnstructuredGrid. ImportError: PyVista is not installed."""
-        from .meshes import solver_grid
         return solver_grid(self).to_pyvista()
 
     # ---- reports

@@ -15,9 +15,9 @@ import pathlib
 import subprocess
 from collections.abc import Iterator
 
-from . import _raw
+from . import raw
 
-SONAME = f"libdelam.so.{_raw.DELAM_ABI}"
+SONAME = f"libdelam.so.{raw.DELAM_ABI}"
 VARIABLE = "DELAM_LIBRARY"
 
 
@@ -40,7 +40,7 @@ def _pkg_config() -> str | None:
 
 def _candidates() -> Iterator[tuple[str, str]]:
     """Names to try, each with a description of its origin."""
-    package = pathlib.Path(__file__).resolve().parent
+    package = pathlib.Path(__file__).resolve().parents[1]
     for beside in (package / SONAME, package / "lib" / SONAME):
         if beside.exists():
             yield str(beside), "next to the package"
@@ -73,12 +73,12 @@ def load() -> tuple[ctypes.CDLL, str]:
 
 
 def _checked(library: ctypes.CDLL, path: str) -> ctypes.CDLL:
-    missing = _raw.bind(library)
+    missing = raw.bind(library)
     if "delam_abi" in missing:
         raise ImportError(f"{path} is no libdelam: it has no function delam_abi")
     abi = library.delam_abi()
-    if abi != _raw.DELAM_ABI:
-        raise ImportError(f"{path} has ABI {abi}, this package needs {_raw.DELAM_ABI}: install matching versions")
+    if abi != raw.DELAM_ABI:
+        raise ImportError(f"{path} has ABI {abi}, this package needs {raw.DELAM_ABI}: install matching versions")
     if missing:
         version = library.delam_version().decode()
         raise ImportError(f"{path} is libdelam {version} without {', '.join(missing)}: it is older than this package")

@@ -23,9 +23,9 @@ import weakref
 from collections.abc import Callable
 from typing import Any, NoReturn, TypeVar
 
-from . import _raw
-from ._library import library
-from ._words import in_python
+from . import raw
+from .library import library
+from .words import in_python
 from .errors import ArgumentError, HandleError, StateError, error_of
 
 Self = TypeVar("Self", bound="Object")
@@ -58,7 +58,7 @@ def stopped() -> bool:
     return bool(_thread.call.exception is not None)
 
 
-@_raw.delam_progress_callback  # type: ignore[misc]
+@raw.delam_progress_callback  # type: ignore[misc]
 def _on_progress(stage: bytes, done: int, total: int, _: object) -> int:
     call = _thread.call
     try:
@@ -74,12 +74,12 @@ def _on_progress(stage: bytes, done: int, total: int, _: object) -> int:
     return 1
 
 
-@_raw.delam_log_callback  # type: ignore[misc]
+@raw.delam_log_callback  # type: ignore[misc]
 def _on_log(level: int, text: bytes, _: object) -> None:
     _thread.call.lines.append((level, text))
 
 
-_NO_PROGRESS: Any = _raw.delam_progress_callback()  # type: ignore[call-overload]
+_NO_PROGRESS: Any = raw.delam_progress_callback()  # type: ignore[call-overload]
 
 
 class Interrupt:
@@ -128,9 +128,9 @@ class Context:
     """Messages, log, progress, cancel of the objects made with it, and their lock."""
 
     def __init__(self) -> None:
-        handle = ctypes.POINTER(_raw.delam_context)()
+        handle = ctypes.POINTER(raw.delam_context)()
         status = library.delam_context_create(ctypes.byref(handle))
-        if status != _raw.DELAM_OK:
+        if status != raw.DELAM_OK:
             raise error_of(status, "no context: out of memory")
         self.handle = handle
         # Called with (stage, done, total) inside long work; a true result cancels.
@@ -166,7 +166,7 @@ class Context:
                 raise exception
             finally:
                 del exception
-        if status != _raw.DELAM_OK and status not in outcomes:
+        if status != raw.DELAM_OK and status not in outcomes:
             raise error_of(status, message)
         return status, in_python(message)
 
@@ -214,7 +214,7 @@ class Context:
                 if watched:
                     library.delam_context_set_progress(self.handle, _NO_PROGRESS, None)
             message = ""
-            if status != _raw.DELAM_OK:
+            if status != raw.DELAM_OK:
                 message = library.delam_context_message(self.handle).decode(errors="replace")
         finally:
             if interrupt is not None:

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-from ._arrays import FloatArray
-
-if TYPE_CHECKING:
-    from .solver import Jump
+from .arrays import FloatArray
+from .records import Jump
 
 _ROUNDING = 1e-9  # of the energy
 _NOTICEABLE = 0.01  # of the work

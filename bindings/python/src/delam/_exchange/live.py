@@ -4,26 +4,31 @@ from __future__ import annotations
 
 import functools
 import importlib
-from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping, Sequence
+from typing import Any
 
-if TYPE_CHECKING:
-    from .history import History
+from .._base.arrays import FloatArray
+from .._base.errors import ArgumentError
+from .._base.protocols import Solver
+from .._base.records import Jump
+from .._base.words import listing, meant
+from .bodies import bodies
 
 
 @functools.cache
 def _kind() -> Any:
-    base = importlib.import_module("._pictures.result", __package__).Result
+    base = importlib.import_module(".._pictures.result", __package__).Result
 
     class OfSolver(base):  # type: ignore[misc, valid-type]
         """Without files. Names are those of history.csv: load and reaction of a single pattern."""
 
-        def __init__(self, history: History, units: Mapping[str, str], title: str) -> None:
+        def __init__(self, columns: Mapping[str, FloatArray], jumps: Sequence[Jump], about: Mapping[str, Any],
+                     solver: Solver | None, title: str) -> None:
             self.folder, self.cell, self._title = "", None, title
-            self._solver, self._jumps = history._solver, history._jumps
-            self.history = _columns(history)
-            self.about: dict[str, Any] = {**history._about, "units": units, "status": "complete",
-                                          "steps": len(history) - 1, "estimate_violated": None}
+            self._solver, self._jumps = solver, jumps
+            self.history = _columns(columns, about["patterns"])
+            self.about: dict[str, Any] = {**about, "status": "complete", "steps": len(columns["step"]) - 1,
+                                          "estimate_violated": None}
             self.name_units()
 
         def name(self) -> str:
@@ -45,11 +50,10 @@ def _kind() -> Any:
     return OfSolver
 
 
-def _columns(history: History) -> dict[str, Any]:
+def _columns(values: Mapping[str, FloatArray], patterns: Sequence[Mapping[str, str]]) -> dict[str, Any]:
     """Columns of a history by the names of history.csv, which has a load_potential only where there are dead forces."""
-    patterns = history._about["patterns"]
     dead = any(pattern["drives"] == "force" for pattern in patterns)
-    columns = {name: history._column(name) for name in history._columns if dead or name != "load_potential"}
+    columns = {name: column for name, column in values.items() if dead or name != "load_potential"}
     for pattern in patterns:
         for kind in ("load", "reaction"):
             title = kind if len(patterns) == 1 else f"{kind}_{pattern['name']}"
@@ -61,12 +65,11 @@ def load_figure(result: Any) -> Any:
     """Of the load curves, where there are any."""
     if not result.about["patterns"]:
         raise ValueError("no picture of load: the problem has no load pattern")
-    return importlib.import_module("._pictures.curves", __package__).load_figure(result)
+    return importlib.import_module(".._pictures.curves", __package__).load_figure(result)
 
 
 def bodies_figure(result: Any) -> Any:
     """The bodies at the present state of the solver."""
-    from .plot import bodies
     solver = result._solver
     if solver is None or solver.closed:
         raise ValueError("no picture of bodies: it shows the present state of the solver, which is closed or was left "
@@ -77,6 +80,24 @@ def bodies_figure(result: Any) -> Any:
     return axes.figure
 
 
-def shown(history: History, units: Mapping[str, str], title: str) -> Any:
-    """A History for the pictures. units: names of those of length, force and time, "" where they have none."""
-    return _kind()(history, units, title)
+def shown(columns: Mapping[str, FloatArray], jumps: Sequence[Jump], about: Mapping[str, Any], solver: Solver | None,
+          title: str) -> Any:
+    """A History for the pictures. columns: by the names of values; about: what result.json would say, with units."""
+    return _kind()(columns, jumps, about, solver, title)
+
+
+def units_of(units: Mapping[str, str] | None) -> dict[str, str]:
+    """Names of the units of length, force and time, "" where they have none."""
+    named = {"length": "", "force": "", "time": ""}
+    if units is None:
+        return named
+    if not isinstance(units, Mapping):
+        raise TypeError(f"units = {units!r} is a {type(units).__name__}, expected a mapping such as "
+                        f"{{'length': 'mm', 'force': 'N', 'time': 's'}}")
+    for key, name in units.items():
+        if key not in named:
+            raise ArgumentError(f"units: {key!r} is no quantity{meant(key, named)}; these are {listing(named)}")
+        if not isinstance(name, str):
+            raise TypeError(f"units[{key!r}] = {name!r} is a {type(name).__name__}, expected a str")
+        named[key] = name
+    return named
