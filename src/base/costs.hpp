@@ -6,7 +6,5 @@ namespace delam {
 
 // A triangular solve waits for memory: its operations take this many times as long as those of a factorisation.
 inline constexpr double triangular_slowdown = 20.0;
-// Patches of more than this share of all variables cost as much as a new factor of the whole.
-inline constexpr double largest_patch = 0.25;
 
 }  // namespace delam

@@ -13,6 +13,7 @@
 #include "capi/handle/handles.hpp"
 #include "law/admissible.hpp"
 #include "mesh/selection.hpp"
+#include "scene/check/validate.hpp"
 #include "scene/given_stiffness.hpp"
 
 namespace {

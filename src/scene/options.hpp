@@ -9,6 +9,8 @@
 #include <variant>
 #include <vector>
 
+#include "scene/limits.hpp"
+
 namespace delam {
 
 // A member for each row, with its default: options.threads, options.solution, ...
@@ -17,6 +19,8 @@ struct Options {
 #define DELAM_WHOLE(key, alias, unit, initial, lower, upper, hashed, meaning) std::int64_t key = initial;
 #define DELAM_TEXT(key, alias, initial, words, hashed, meaning) std::string key = #initial;
 #include "scene/options.inc"
+
+    Limits limits{};  // no options: for tests
 
     // Both take the key or its alias, and throw Error(DELAM_ERROR_ARGUMENT) for what its row does not allow.
     void set_number(const std::string& key, double value);

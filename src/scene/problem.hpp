@@ -99,10 +99,6 @@ struct Problem {
     mutable std::shared_ptr<const KnownPieces> known_pieces;
 };
 
-// Throws Error(DELAM_ERROR_PROBLEM) for the first thing that is missing or contradictory, including supports: every
-// part connected through bonded or adhering pairs must be held against all its rigid motions.
-void validate(const Problem& problem, const Poll& poll = {});
-
 // Error(DELAM_ERROR_PROBLEM) where a body has no material.
 void require_material(const Problem& problem, std::int32_t body);
 

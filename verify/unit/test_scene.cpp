@@ -9,6 +9,7 @@
 #include "delam/delam.h"
 #include "law/law_parameters.hpp"
 #include "mesh/layers.hpp"
+#include "scene/check/validate.hpp"
 #include "scene/problem.hpp"
 
 // Last: its macro fail() would break delam::fail().

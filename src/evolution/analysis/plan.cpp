@@ -9,6 +9,7 @@
 #include "base/team.hpp"
 #include "evolution/analysis/solver.hpp"
 #include "scene/advice/scene_warnings.hpp"
+#include "scene/check/validate.hpp"
 
 namespace delam {
 

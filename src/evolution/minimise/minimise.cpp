@@ -15,9 +15,6 @@ namespace delam {
 
 namespace {
 
-constexpr std::int64_t newton_steps = 1000;  // within the zone before the plain step sees all pairs again
-constexpr double rounding = 1e-11;           // of an energy of the whole scene, a sum of large terms
-
 // Newton's method runs in the zone as long as each round brings the bodies nearer to their fixed point. Where a round
 // does not, and the change of the adhesion is within the rounding of the zone, alternations with the bodies go on.
 class ZoneProgress {
@@ -43,16 +40,17 @@ private:
 // its next one differs by rounding. With a tolerance below that, the scheme would end by chance.)
 class AtRest {
 public:
-    explicit AtRest(double tolerance) : tolerance_(tolerance) {}
+    // most_idle: rounds that do not halve the least change.
+    AtRest(double tolerance, std::int64_t most_idle) : tolerance_(tolerance), most_idle_(most_idle) {}
     bool operator()(double change, double blur) {
         idle_ = change < 0.5 * least_ ? 0 : idle_ + 1;
         least_ = std::min(least_, change);
-        return change <= tolerance_ || (idle_ >= most_idle && change <= blur);
+        return change <= tolerance_ || (idle_ >= most_idle_ && change <= blur);
     }
 
 private:
-    static constexpr std::int64_t most_idle = 2;  // rounds that do not halve the least change
     double tolerance_;
+    std::int64_t most_idle_;
     double least_ = INFINITY;
     std::int64_t idle_ = 0;
 };
@@ -83,7 +81,7 @@ bool Minimiser::end(State& state, const StepRule& increment, bool converged) con
 
 bool Minimiser::alternate(State& state, StepRule& increment, bool displaced) const {
     const std::int64_t last = state.effort.am_iterations + limit;
-    AtRest at_rest(tolerance);
+    AtRest at_rest(tolerance, limits.minimise_most_idle);
     while (true) {
         monitor.progress("minimise", state.effort.am_iterations, 0);
         const bool converged = std::exchange(displaced, false) || displace(state, increment);
@@ -127,9 +125,10 @@ bool Minimiser::accelerate(State& state, StepRule& increment, bool displaced) co
     const std::int64_t last = state.effort.am_iterations + limit;
     // Newton's method eliminates the damage pair by pair, which a gradient term forbids.
     Zones* const zones = increment.pairs().gradient.empty() ? op.zones() : nullptr;
-    const ZoneNewton newton{op, zones, contact, monitor, tolerance, std::min(newton_steps, limit)};
+    const ZoneNewton newton{
+        op, zones, contact, monitor, limits, tolerance, std::min(limits.minimise_newton_steps, limit)};
     ZoneProgress progress(zones != nullptr ? zones->zone_traits().rounding : 0.0);
-    AtRest at_rest(tolerance);
+    AtRest at_rest(tolerance, limits.minimise_most_idle);
     bool ahead = false;
     std::optional<State> before;
     std::optional<StepMixities::Memory> mixity_before;
@@ -141,7 +140,7 @@ bool Minimiser::accelerate(State& state, StepRule& increment, bool displaced) co
         const bool converged = std::exchange(displaced, false) || displace(state, increment);
         const double reached = energy(state, increment);
         if (!std::isfinite(reached)) fail(DELAM_ERROR_NUMERICAL, "the energy of a displacement step is not finite");
-        if (ahead && reached > level + rounding * std::abs(level)) {
+        if (ahead && reached > level + limits.minimise_energy_rounding * std::abs(level)) {
             const Effort effort = state.effort;
             state = std::move(*before);
             state.effort = effort;

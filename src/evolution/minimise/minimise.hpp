@@ -10,6 +10,7 @@
 #include "base/monitor.hpp"
 #include "evolution/contact/contact.hpp"
 #include "evolution/increment/rule/step_rule.hpp"
+#include "scene/limits.hpp"
 
 namespace delam {
 
@@ -19,6 +20,7 @@ struct Minimiser {
     JumpOperator& op;
     const ContactScene& contact;
     Monitor& monitor;
+    const Limits& limits;
     double tolerance;    // of the tractions (Increment::change)
     std::int64_t limit;  // of alternations
 

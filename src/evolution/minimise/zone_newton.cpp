@@ -12,47 +12,23 @@ namespace delam {
 
 namespace {
 
-// Relative change of the zone's energy between jumps computed from all bodies and within the zone. A plain step never
-// adds energy, but on a stiff interface an avalanche begins with steps that release less than this. Increases cannot
-// accumulate, because the caller compares the total energy before and after.
-constexpr double energy_rounding = 1e-11;
-constexpr std::int64_t longest_wait = 8;           // plain steps between two attempts of a failed method
-constexpr std::int64_t newton_contact_steps = 30;  // of the active set in one Newton step; beyond them it is rejected
-constexpr std::int64_t halvings = 7;               // of a line search, including the full step
-// A solve that leaves more than this of its residual has met rounding; so have that many steps that do not halve the
-// least change.
-constexpr double met_rounding = 0.5;
-constexpr std::int64_t most_idle = 5;
-// A part of the bodies is brought to its end this much more finely than the whole has changed.
-constexpr double part_of_change = 1e-3;
-constexpr std::int64_t steps_in_part = 50;
-// A damped step goes this many times as far along the softest mode as a staggered one; more after each that succeeds.
-// Only after so many staggered steps: where pairs break at once, the softest mode is not worth its price.
-constexpr std::int64_t creeping = 2;
-constexpr double least_growth = 16.0, most_growth = 1024.0, growth_rate = 8.0;
-// From this softening on, a pair leaves for its debonded branch of its own.
-constexpr double violent = 1.5;
-// Of the power method for the softest mode.
-constexpr std::int64_t power_steps = 50;
-constexpr double power_tolerance = 1e-4;
-// A pair joins the zone if its driving energy exceeds this fraction of the one that damages it.
-constexpr double nearly_loaded = 0.7;
-
 // A failed method is tried again after 1, 2, 4, 8, 8 ... steps.
 class Patience {
 public:
+    explicit Patience(std::int64_t longest) : longest_(longest) {}
     bool try_now() {
         if (wait_ == 0) return true;
         --wait_;
         return false;
     }
     bool report(bool success) {
-        next_ = success ? 1 : std::min(2 * next_, longest_wait);
+        next_ = success ? 1 : std::min(2 * next_, longest_);
         wait_ = success ? 0 : next_;
         return success;
     }
 
 private:
+    std::int64_t longest_;
     std::int64_t next_ = 1;
     std::int64_t wait_ = 0;
 };
@@ -116,6 +92,7 @@ private:
     void hand_over(const Point& at);
 
     const ZoneNewton& newton_;
+    const Limits& limits_;
     State& state_;
     const Increment& increment_;
     StepMixities& mixities_;
@@ -131,16 +108,17 @@ private:
     bool halved_ = false;  // descend() has gone a part of the way only
     Extrapolation extrapolation_;
     std::vector<double> used_;  // adhesions from which the last extrapolation started
-    Patience newton_patience_, move_patience_;
-    bool indefinite_ = false;       // the last model had no minimum
-    bool softens_ = false;          // the last tangents were indefinite
-    std::int64_t staggered_ = 0;    // staggered steps since Newton's method has succeeded
-    double growth_ = least_growth;  // by which damped steps exceed staggered ones along the softest mode
+    Patience newton_patience_{limits_.newton_longest_wait}, move_patience_{limits_.newton_longest_wait};
+    bool indefinite_ = false;                      // the last model had no minimum
+    bool softens_ = false;                         // the last tangents were indefinite
+    std::int64_t staggered_ = 0;                   // staggered steps since Newton's method has succeeded
+    double growth_ = limits_.newton_least_growth;  // by which damped steps exceed staggered ones along the softest mode
 };
 
 Descent::Descent(const ZoneNewton& newton, State& state, const Increment& increment, StepMixities& mixities,
                  const Springs& springs, Zone& zone)
     : newton_(newton),
+      limits_(newton.limits),
       state_(state),
       increment_(increment),
       mixities_(mixities),
@@ -209,7 +187,8 @@ bool Descent::minimise(const Point& at, std::span<const double> adhesion, double
                        Point& out) {
     model(at, adhesion, fraction, debonded);
     std::vector<std::uint8_t> closed = closed_;
-    const ActiveSet found = find_active_set(system_, system_.contact_rows(), closed, newton_contact_steps, false);
+    const ActiveSet found =
+        find_active_set(system_, system_.contact_rows(), closed, limits_.newton_contact_steps, false);
     state_.effort.newton_solves += found.solves;
     indefinite_ = found.last == ContactSolve::failed;
     if (!found.settled) return false;
@@ -230,7 +209,7 @@ bool Descent::one_by_one(const Point& from, const Point& to) const {
 
 bool Descent::descend(const Point& at, Point& to, bool singly) {
     const double rounding = zone_.energy_rounding() * (std::abs(at.energy) + std::abs(to.energy));
-    for (std::int64_t n = 0; n < halvings; ++n) {
+    for (std::int64_t n = 0; n < limits_.newton_halvings; ++n) {
         halved_ = n > 0;
         if (n > 0) to = halfway(at, to);
         if (to.energy <= at.energy + rounding && (!singly || one_by_one(at, to))) return true;
@@ -263,7 +242,7 @@ Descent::Move Descent::step(const Point& at) {
     if (!softens_ && newton_patience_.try_now()) {
         const bool found = minimise(at, at.adhesion, 1.0, -1, move.to);
         move.newton = found && descend(at, move.to, false);
-        if (!move.newton && indefinite_ && staggered_ >= creeping) {
+        if (!move.newton && indefinite_ && staggered_ >= limits_.newton_staggered) {
             closed_ = before;
             if (!soft) soft = softening(at);
             softens_ = soft.has_value();
@@ -272,7 +251,7 @@ Descent::Move Descent::step(const Point& at) {
         if (!softens_) newton_patience_.report(move.newton);
     }
     move.taken = move.newton;
-    if (!move.taken && !(soft && *soft < violent) && move_patience_.try_now()) {
+    if (!move.taken && !(soft && *soft < limits_.newton_own_branch) && move_patience_.try_now()) {
         closed_ = before;
         const std::int64_t pair = weakest(at);
         move.taken = move_patience_.report(pair >= 0 && minimise(at, at.adhesion, 0.0, pair, move.to) &&
@@ -323,14 +302,14 @@ std::optional<double> Descent::softening(const Point& at) {
     if (!work) return {};
     std::vector<double> mode(forces.size(), 1.0), image(mode.size());
     double value = 0.0;
-    for (std::int64_t n = 0; n < power_steps; ++n) {
+    for (std::int64_t n = 0; n < limits_.newton_power_steps; ++n) {
         multiply(*work, mode, image);
         const double before = value;
         value = dot(mode, image) / dot(mode, mode);
         const double size = std::sqrt(dot(image, image));
         if (!(size > 0.0)) break;
         for (std::size_t i = 0; i < mode.size(); ++i) mode[i] = image[i] / size;
-        if (std::abs(value - before) <= power_tolerance * value) break;
+        if (std::abs(value - before) <= limits_.newton_power_tolerance * value) break;
     }
     return value;
 }
@@ -344,14 +323,14 @@ Descent::Move Descent::damped_step(const Point& at, double softening, const std:
     const double fraction = (1.0 - 1.0 / growth_) / softening;
     move.taken =
         minimise(at, at.adhesion, fraction, -1, move.to) && descend(at, move.to, true) && move.to.energy < at.energy;
-    for (std::int64_t n = 0; n < halvings && move.taken; ++n) {
+    for (std::int64_t n = 0; n < limits_.newton_halvings && move.taken; ++n) {
         Point nearer = halfway(at, move.to);
         if (!(nearer.energy < move.to.energy)) break;
         move.to = std::move(nearer);
         halved_ = true;
     }
-    growth_ = move.taken && !halved_ ? std::min(growth_rate * growth_, most_growth)
-                                     : std::max(growth_ / growth_rate, least_growth);
+    growth_ = move.taken && !halved_ ? std::min(limits_.newton_growth_rate * growth_, limits_.newton_most_growth)
+                                     : std::max(growth_ / limits_.newton_growth_rate, limits_.newton_least_growth);
     return move;
 }
 
@@ -369,8 +348,8 @@ Descent::Move Descent::staggered_step(const Point& at, const std::vector<std::ui
     closed_ = closed;
     extrapolation_.forget();
     used_ = at.adhesion;
-    move.taken =
-        minimise(at, at.adhesion, 0.0, -1, move.to) && !(move.to.energy > at.energy + energy_rounding * at.size);
+    move.taken = minimise(at, at.adhesion, 0.0, -1, move.to) &&
+                 !(move.to.energy > at.energy + limits_.newton_energy_rounding * at.size);
     if (!move.taken) closed_ = closed;
     return move;
 }
@@ -430,8 +409,8 @@ double Descent::run(std::int64_t limit, double tolerance) {
         const bool squared = move.newton && !renewed;
         ended_ = squared ? change * std::max(100.0 * change, system_.left()) <= tolerance : change <= tolerance;
         // Nothing is left but the rounding of the solves.
-        ended_ = ended_ || (squared && 100.0 * change * change <= tolerance && idle >= most_idle &&
-                            system_.left() > met_rounding);
+        ended_ = ended_ || (squared && 100.0 * change * change <= tolerance && idle >= limits_.newton_most_idle &&
+                            system_.left() > limits_.newton_met_rounding);
     }
     hand_over(at);
     state_.effort.linear_iterations += system_.iterations();
@@ -446,7 +425,7 @@ std::vector<std::uint8_t> loaded_rows(const ZoneNewton& newton, const State& sta
     for (std::size_t p = 0; p < state.adhesion.size(); ++p) {
         if (newton.contact.bonded[p] != 0 || pairs.law[p] == nullptr || increment.adhesion_before()[p] <= 0.0) continue;
         const auto jump = std::span<const double>(state.response.jump).subspan(p * dim, dim);
-        if (!increment.damages(p, state.adhesion[p], jump, nearly_loaded)) continue;
+        if (!increment.damages(p, state.adhesion[p], jump, newton.limits.newton_nearly_loaded)) continue;
         std::fill_n(wanted.begin() + static_cast<std::ptrdiff_t>(p * dim), dim, std::uint8_t{1});
     }
     return wanted;
@@ -466,8 +445,8 @@ std::optional<double> ZoneNewton::run(State& state, const Increment& increment, 
         Zone* part = zones->part(state.theta, state.response, wanted);
         if (part != nullptr) {
             Descent descent(*this, state, increment, mixities, springs(), *part);
-            added += descent.run(std::min(limit, steps_in_part),
-                                 std::max(tolerance, part_of_change * std::min(1.0, last_change)));
+            added += descent.run(std::min(limit, limits.newton_steps_in_part),
+                                 std::max(tolerance, limits.newton_part_of_change * std::min(1.0, last_change)));
             // Nothing is left of a step of Newton's method but what it has linearised.
             if (newton && descent.ended() && descent.first_change() <= tolerance) break;
         }

@@ -18,6 +18,7 @@
 #include "evolution/contact/contact.hpp"
 #include "evolution/increment/increment.hpp"
 #include "evolution/increment/step_mixities.hpp"
+#include "scene/limits.hpp"
 
 namespace delam {
 
@@ -26,6 +27,7 @@ struct ZoneNewton {
     Zones* zones;  // of the operator
     const ContactScene& contact;
     Monitor& monitor;
+    const Limits& limits;
     double tolerance;  // of the adhesion
     std::int64_t limit;
 

@@ -10,6 +10,7 @@
 #include "delam/delam.h"
 #include "evolution/contact/contact_levels.hpp"
 #include "evolution/derivative/step_tangent.hpp"
+#include "scene/check/validate.hpp"
 #include "scene/strain_loads.hpp"
 
 namespace delam {
@@ -116,7 +117,8 @@ Stepper::Stepper(const Problem& problem, Monitor& monitor) : problem_(problem), 
 }
 
 Minimiser Stepper::minimiser() {
-    return {*operator_, contact_, monitor_, problem_.options.damage_tolerance, problem_.options.minimisation_limit};
+    const Options& options = problem_.options;
+    return {*operator_, contact_, monitor_, options.limits, options.damage_tolerance, options.minimisation_limit};
 }
 
 std::unique_ptr<StepRule> Stepper::increment(const State& before, std::span<const double> mixity) const {

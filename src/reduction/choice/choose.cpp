@@ -8,7 +8,6 @@
 #include <set>
 #include <utility>
 
-#include "base/costs.hpp"
 #include "base/error.hpp"
 #include "base/numbers.hpp"
 #include "delam/delam.h"
@@ -122,7 +121,7 @@ ReductionCost predict_iterated(const IteratedSize& size) {
                  8.0 * (iterated_vectors + size.columns) * size.variables;
     cost.least = 16.0 * (size.stiffness + size.transformed) + factors + 8.0 * size.columns * size.variables;
     cost.most = cost.bytes + 8.0 * (most_vectors - iterated_vectors) * size.variables +
-                2.0 * largest_patch * (16.0 * size.transformed + 8.0 * size.stored);
+                2.0 * Limits{}.patch_largest * (16.0 * size.transformed + 8.0 * size.stored);
     return cost;
 }
 

@@ -13,11 +13,6 @@ namespace delam {
 
 namespace {
 
-// So many times faster than the small fronts of a tree is one factor of the same operations.
-constexpr double one_factor = 3.0;
-// Unknowns of a zone in which a solve costs less than the choice of a smaller zone.
-constexpr std::size_t small = 128;
-
 std::size_t count(const std::vector<std::uint8_t>& set) {
     return static_cast<std::size_t>(std::count_if(set.begin(), set.end(), [](std::uint8_t v) { return v != 0; }));
 }
@@ -71,7 +66,7 @@ Condensed::Condensed(std::shared_ptr<Bulk> bulk, const Problem& problem, Monitor
         from_triplets(static_cast<std::int64_t>(unknowns), static_cast<std::int64_t>(unknowns), std::move(links));
     neighbour_start_ = std::move(graph.start);
     neighbour_.assign(graph.column.begin(), graph.column.end());
-    age_.assign(unknowns, forgotten);
+    age_.assign(unknowns, forgotten());
     inside_.assign(unknowns, 1);
     last_.assign(unknowns, 0.0);
 }
@@ -124,14 +119,14 @@ void Condensed::choose(const Springs& springs, std::span<const std::uint8_t> wan
     for (std::size_t i = 0; i < unknowns; ++i) {
         now[i] = spring_of(springs, i);
         age_[i] = wanted[i] != 0 ? std::uint8_t{0}
-                                 : std::min<std::uint8_t>(forgotten, static_cast<std::uint8_t>(age_[i] + 1));
+                                 : std::min<std::uint8_t>(forgotten(), static_cast<std::uint8_t>(age_[i] + 1));
         const double body = bulk_->diagonal(static_cast<std::int64_t>(i));
-        const bool kept = age_[i] < forgotten && (!tight || wanted[i] != 0);
+        const bool kept = age_[i] < forgotten() && (!tight || wanted[i] != 0);
         if (kept || (now[i] > 0.0 && now[i] < weakest_hold * body)) set[i] = 1;
     }
     if (!expected_.empty() && floats_unless_held(expected_, now)) expected_.clear();
     const std::size_t needed = count(set);
-    if (expected_.empty() && (!tight || needed <= small))
+    if (expected_.empty() && (!tight || needed <= index(limits().zone_small)))
         set = grown(std::move(set), needed + std::max<std::size_t>(16, needed / 5));
     for (std::size_t i = 0; i < expected_.size(); ++i)
         if (expected_[i] != 0) set[i] = 1;
@@ -210,8 +205,8 @@ DenseZone* Condensed::zone(const Springs& springs, std::span<const std::uint8_t>
     std::vector<std::uint8_t> unknowns(always_.size(), 0);
     bool inside = covers(springs);
     const auto rows = static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), std::uint8_t{1}));
-    if (tight && inside && energy_->unknowns().size() > 2 * rows + small) {
-        age_.assign(age_.size(), forgotten);
+    if (tight && inside && energy_->unknowns().size() > 2 * rows + index(limits().zone_small)) {
+        age_.assign(age_.size(), forgotten());
         inside = false;
     }
     for (std::size_t r = 0; r < wanted.size(); ++r) {
@@ -240,7 +235,8 @@ void Condensed::expect_changes(std::span<const std::size_t> rows) {
     for (const std::size_t r : rows)
         for (const auto& [i, n] : bulk_->rows()[r].unknowns) expected_[index(i)] = 1;
     const auto n = static_cast<double>(count(expected_));
-    if (n * n * n / 3.0 > one_factor * bulk_->superelements().condensation().operations) expected_.clear();
+    if (n * n * n / 3.0 > limits().zone_one_factor * bulk_->superelements().condensation().operations)
+        expected_.clear();
     unmet_ = !expected_.empty();
 }
 

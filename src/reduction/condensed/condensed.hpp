@@ -51,7 +51,8 @@ private:
     // The content of memory().
     std::vector<double> choice() const;
     // An unknown that has not changed may leave the zone so many choices later.
-    static constexpr std::uint8_t forgotten = 3;
+    std::uint8_t forgotten() const { return static_cast<std::uint8_t>(limits().zone_forgotten); }
+    const Limits& limits() const { return problem_.options.limits; }
     // The same, read.
     struct Choice {
         std::vector<std::uint8_t> age, inside;

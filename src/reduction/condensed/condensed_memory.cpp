@@ -51,7 +51,7 @@ void Condensed::recall(std::span<const double> memory) {
     const std::size_t unknowns = always_.size();
     expect_changes({});
     if (memory.empty()) {  // before the first zone was chosen
-        age_.assign(unknowns, forgotten);
+        age_.assign(unknowns, forgotten());
         inside_.assign(unknowns, 1);
         spring_.clear();
         last_.assign(unknowns, 0.0);

@@ -12,24 +12,11 @@
 
 namespace delam {
 
-namespace {
-
-// Relative residual of a solve within the zone, as a part of the tolerance of a minimiser's end, which the operator
-// itself checks. (Measured on an ENF in space at a damage tolerance of 1e-6: 37, 120 and 1251 alternations with
-// residuals of 1e-9, 1e-6 and 1e-3; 39 with a dense zone.)
-constexpr double part_of_tolerance = 1e-3;
-// Of the residual with which a model begins: what its solution may leave at most and at least, because the next model
-// starts from there.
-constexpr double most_of_model = 0.1, least_of_model = 1e-4;
-constexpr double coarsest = 1e-6, finest_in_zone = 1e-11;
-// Of the energy that a solution may miss: what the preconditioner may say that it misses.
-constexpr double foreseen = 0.1;
-
-}  // namespace
-
 IteratedZone::IteratedZone(BodySolver& solver, const Options& options)
     : solver_(solver),
-      tolerance_(std::clamp(part_of_tolerance * options.damage_tolerance, finest_in_zone, coarsest)),
+      limits_(options.limits),
+      tolerance_(std::clamp(limits_.sparse_part_of_tolerance * options.damage_tolerance, limits_.sparse_finest,
+                            limits_.sparse_coarsest)),
       jump_rows_(solver.system().rows().size()) {
     std::iota(jump_rows_.begin(), jump_rows_.end(), std::int64_t{0});
 }
@@ -61,11 +48,12 @@ Zone::Solution IteratedZone::solve(std::span<const double> theta, std::span<cons
     // As much as the model before has missed of the bodies' answer (S. Eisenstat, H. Walker, SIAM J. Sci. Comput. 17,
     // 1996, choice 1).
     const BodySolver::Forcing forcing = [this](double first) {
-        if (model_.begun == 0.0) return std::sqrt(2.0 * foreseen * allowed_);
+        if (model_.begun == 0.0) return std::sqrt(2.0 * limits_.sparse_foreseen * allowed_);
         if (model_.begun < 0.0) {
             model_.begun = first;
-            const double missed = before_.begun > 0.0 ? std::abs(first - before_.left) / before_.begun : most_of_model;
-            part_ = std::clamp(missed, least_of_model, most_of_model);
+            const double missed =
+                before_.begun > 0.0 ? std::abs(first - before_.left) / before_.begun : limits_.sparse_most_of_model;
+            part_ = std::clamp(missed, limits_.sparse_least_of_model, limits_.sparse_most_of_model);
         }
         return part_ * model_.begun;
     };

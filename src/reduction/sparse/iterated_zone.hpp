@@ -33,6 +33,7 @@ public:
 
 private:
     BodySolver& solver_;
+    Limits limits_;
     double tolerance_;  // of the relative residual
     // Norms of residuals, of the present model and the one before: with which it began, and what its last solve left.
     struct Model {

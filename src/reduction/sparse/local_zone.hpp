@@ -17,13 +17,14 @@
 #include "linalg/sparse/cholesky.hpp"
 #include "reduction/operator/zone.hpp"
 #include "reduction/sparse/jump_system.hpp"
+#include "scene/limits.hpp"
 
 namespace delam {
 
 class LocalZone final : public Zone {
 public:
     // dimension: rows of a pair.
-    LocalZone(const JumpSystem& system, std::int64_t dimension);
+    LocalZone(const JumpSystem& system, std::int64_t dimension, const Limits& limits);
 
     // The bodies about the wanted rows [rows] at this state, under the loads g and theta. False: they are no small
     // part.
@@ -49,6 +50,7 @@ private:
     double change(std::size_t z, std::span<const double> unknowns) const;  // N d
 
     const JumpSystem& system_;
+    const Limits& limits_;
     std::size_t dim_;
     std::vector<std::uint8_t> barred_;     // [variables] of constraints on many variables
     std::vector<std::int64_t> variables_;  // ascending

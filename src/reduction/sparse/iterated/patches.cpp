@@ -17,8 +17,6 @@ namespace {
 
 // Operations of the symbolic analysis per entry of a patch's matrix (an ordering takes that long).
 constexpr double analysis_operations = 300.0;
-// A variable with so many times the entries of others acts on a large part of the bodies, not on its neighbours.
-constexpr double crowded = 10.0;
 
 // Springs that are nowhere softer than these and pull nothing apart: negative ones are left out, and what couples two
 // variables stiffens both.
@@ -34,10 +32,10 @@ std::vector<Triplet> stiffened(std::span<const Triplet> springs) {
 
 }  // namespace
 
-Patches::Patches(const JumpSystem& system, std::int64_t margin, double share)
+Patches::Patches(const JumpSystem& system, const Limits& limits)
     : system_(system),
-      margin_(margin),
-      share_(share),
+      margin_(limits.patch_margin),
+      share_(limits.patch_largest),
       barred_(index(system.count()), 0),
       inner_(barred_),
       member_(barred_) {
@@ -45,8 +43,9 @@ Patches::Patches(const JumpSystem& system, std::int64_t margin, double share)
     const double mean = static_cast<double>(a.entries()) / static_cast<double>(std::max<std::int64_t>(1, a.rows));
     for (const SparseVector& equation : system.equations())
         for (const auto& [i, c] : equation)
-            barred_[index(i)] = !(system.diagonal()[index(i)] > 0.0) ||
-                                static_cast<double>(a.start[index(i) + 1] - a.start[index(i)]) > crowded * mean;
+            barred_[index(i)] =
+                !(system.diagonal()[index(i)] > 0.0) ||
+                static_cast<double>(a.start[index(i) + 1] - a.start[index(i)]) > limits.patch_crowded * mean;
 }
 
 // The widest margin, of 5, 2 and 1 rings, whose patches have no more than the share; 0: none.

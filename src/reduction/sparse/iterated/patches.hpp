@@ -20,7 +20,7 @@ class Patches {
 public:
     // margin: rings of elements about the variables that differ, fewer where the patches would otherwise have more than
     // `share` of all variables.
-    Patches(const JumpSystem& system, std::int64_t margin, double share);
+    Patches(const JumpSystem& system, const Limits& limits);
 
     // Chooses patches where those at hand do not cover the seeds, variables whose springs differ, ascending. False:
     // they would have more than that share with a single ring, and are only chosen if any size will do.

@@ -17,8 +17,6 @@ namespace delam {
 
 namespace {
 
-// Iterations, before a factor is given up for a new one.
-constexpr std::int64_t least_attempt = 8, longest_attempt = 16;
 // Of the work of all tangents along a rigid motion: what may be rounding of a sum that cancels.
 constexpr double cancelled = 1e-13;
 
@@ -31,7 +29,7 @@ Reanalysis::Reanalysis(const BodySystem& bodies, SparseMatrix transformed, Monit
       monitor_(monitor),
       system_(bodies, std::move(transformed), [&monitor] { monitor.progress("assemble", 0, 0); }),
       floating_(bodies, system_),
-      patches_(system_, 5, largest_patch),
+      patches_(system_, bodies.problem().options.limits),
       comes_back_(keeps_two_factors(bodies.problem())) {
     const std::size_t patterns = bodies_.problem().patterns.size();
     std::vector<double> nodal(index(bodies_.dofs()));
@@ -75,8 +73,9 @@ double Reanalysis::iteration_cost() const {
 }
 
 std::int64_t Reanalysis::affordable() const {
+    const Limits& limits = bodies_.problem().options.limits;
     const double worth = (whole_->size().flops - renewal_.excess()) / iteration_cost();
-    return std::clamp(static_cast<std::int64_t>(worth), least_attempt, longest_attempt);
+    return std::clamp(static_cast<std::int64_t>(worth), limits.patch_least_attempt, limits.patch_longest_attempt);
 }
 
 void Reanalysis::factorise_whole() {

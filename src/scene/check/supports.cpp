@@ -4,7 +4,7 @@
 // control nodes, which move by translations, and rows: constraints, pairs with control nodes, and the motions resisted
 // by the host's own supports. Rows act on three or six motions per piece, and the null space of their small Gram matrix
 // contains the motions that nothing resists.
-#include "scene/supports.hpp"
+#include "scene/check/supports.hpp"
 
 #include <algorithm>
 #include <array>

@@ -14,8 +14,8 @@
 #include "delam/delam.h"
 #include "law/admissible.hpp"
 #include "linalg/sparse/sparse_elimination.hpp"
-#include "scene/problem.hpp"
-#include "scene/supports.hpp"
+#include "scene/check/supports.hpp"
+#include "scene/check/validate.hpp"
 
 namespace delam {
 namespace {
