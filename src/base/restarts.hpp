@@ -18,15 +18,9 @@ namespace delam {
 inline constexpr double finest_tolerance = 1e-12;
 
 struct RestartLimits {
-    int rounds = 8;
-    double recursion_goal = 0.3;      // of the target, so that the true residual meets it too
-    double gained = 0.5;              // a round that leaves more of the residual has met rounding
-    double largest_residual = 1e-5;   // that rounding may excuse: an error of 1e-10 of the energy
-    double rounding_slack = 30.0;     // the estimate of rounding is one of its size, not a bound
-    double far_from_rounding = 1e-8;  // a residual of which rounding need not be known
-    double at_rounding = 3.0;         // times that estimate: another round would gain nothing
-    double rounding_units = 16.0;     // by which a component of a recursion's residual may differ from the true one
-    double flat = 1e-13;              // of r^T z: a curvature below it is zero but for rounding
+#define DELAM_STEERING(type, name, value, reason) type name = value;
+#include "base/restarts.inc"
+#undef DELAM_STEERING
 };
 
 class Restarts {
@@ -55,23 +49,25 @@ public:
     void set_rounded(double rounded) { rounded_ = rounded; }
     // True if the residual is within the tolerance, or within what rounding leaves.
     bool reached() const {
-        const double excused = (round_ == 0 ? limits_.recursion_goal : limits_.at_rounding) * rounded_;
-        return relative_ <= tolerance_ || relative_ <= std::min(limits_.largest_residual, excused);
+        const double excused = (round_ == 0 ? limits_.restart_goal : limits_.restart_at_rounding) * rounded_;
+        return relative_ <= tolerance_ || relative_ <= std::min(limits_.restart_largest_residual, excused);
     }
     // True if no earlier round had a smaller residual.
     bool best() const { return best_; }
     // True if another round would gain nothing.
-    bool over() const { return !(norm_ <= limits_.gained * before_) || round_ == limits_.rounds; }
+    bool over() const { return !(norm_ <= limits_.restart_gained * before_) || round_ == limits_.restart_rounds; }
     // True if rounding explains the smallest residual of all rounds.
-    bool excused() const { return least_ <= std::min(limits_.largest_residual, limits_.rounding_slack * rounded_); }
+    bool excused() const {
+        return least_ <= std::min(limits_.restart_largest_residual, limits_.restart_slack * rounded_);
+    }
     // Returns the norm at which the recursion may stop.
-    double goal() const { return limits_.recursion_goal * std::max(tolerance_, rounded_) * std::max(size_, norm_); }
+    double goal() const { return limits_.restart_goal * std::max(tolerance_, rounded_) * std::max(size_, norm_); }
     // True if a recursion that has reached its goal may end the solve without another true residual.
-    bool may_end() const { return rounded_ > 0.0 || !(tolerance_ < limits_.far_from_rounding); }
+    bool may_end() const { return rounded_ > 0.0 || !(tolerance_ < limits_.restart_far_from_rounding); }
     // Returns the norm that a recursion's residual and rounding leave together of a state of this size.
     double left(double norm, double size) const { return std::hypot(norm, rounded_ * size); }
     bool accepts(double left, double size) const {
-        return left <= std::max(tolerance_, limits_.at_rounding * rounded_) * size;
+        return left <= std::max(tolerance_, limits_.restart_at_rounding * rounded_) * size;
     }
 
     double norm() const { return norm_; }

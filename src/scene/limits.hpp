@@ -5,9 +5,11 @@
 
 #include <cstdint>
 
+#include "base/restarts.hpp"
+
 namespace delam {
 
-struct Limits {
+struct Limits : RestartLimits {
 #define DELAM_STEERING(type, name, value, reason) type name = value;
 #include "scene/limits.inc"
 #undef DELAM_STEERING

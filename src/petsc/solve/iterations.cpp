@@ -148,7 +148,8 @@ Iterations::Outcome Iterations::run(Vec r, Vec z, Vec x, const Limits& limits) {
     // The preconditioner is definite: if r.M r is not positive, that is rounding, and the run is over. Beyond the
     // target, a curvature is rounding, too.
     if (reason == KSP_DIVERGED_INDEFINITE_MAT && met_ < 0)
-        outcome_.definite = !(operator_.last_curvature() <= -RestartLimits{}.flat * outcome_.norm * outcome_.norm);
+        outcome_.definite =
+            !(operator_.last_curvature() <= -RestartLimits{}.restart_flat * outcome_.norm * outcome_.norm);
     if (reason == KSP_DIVERGED_PC_FAILED) fail(DELAM_ERROR_NUMERICAL, "the preconditioner has failed");
     PetscReal greatest = 0.0, least = 0.0;
     if (count > 0) check(KSPComputeExtremeSingularValues(ksp_, &greatest, &least));

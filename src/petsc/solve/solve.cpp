@@ -9,7 +9,7 @@ namespace delam::petsc {
 
 namespace {
 
-constexpr double rounding_bound = RestartLimits{}.rounding_units * std::numeric_limits<double>::epsilon();
+constexpr double rounding_bound = RestartLimits{}.restart_rounding_units * std::numeric_limits<double>::epsilon();
 
 }  // namespace
 

@@ -5,31 +5,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "scene/limits.hpp"
 
 namespace delam {
 
-struct RenewalLimits {
-    // Iterations of the first solve with a new preconditioner: those of later solves count as excess beyond them.
-    double fewest_first = 4.0;  // so many are blamed on no preconditioner
-    double most_first = std::numeric_limits<double>::infinity();
-    // Of the tolerance, where the preconditioner takes springs for stiffer than they are and a residual weighs little.
-    double cautious = 1e-3;
-    // Multiple of the estimated error below which a jump or force is in doubt, and the least eigenvalue of M A that the
-    // estimate takes for true.
-    double in_doubt = 10.0, softest = 0.01;
-};
-
 class Renewal {
 public:
-    explicit Renewal(const RenewalLimits& limits = {}) : limits_(limits) {}
+    // most_first: iterations of a first solve that count at most.
+    Renewal(const Limits& limits, double most_first) : limits_(limits), most_first_(most_first) {}
 
-    const RenewalLimits& limits() const { return limits_; }
+    const Limits& limits() const { return limits_; }
     // The preconditioner is new.
     void renewed() { excess_ = first_ = 0.0; }
     // A solve took so many iterations, each of this cost.
     void solved(double iterations, double cost) {
-        if (first_ == 0.0) first_ = std::clamp(iterations, limits_.fewest_first, limits_.most_first);
+        if (first_ == 0.0) first_ = std::clamp(iterations, limits_.renewal_fewest_first, most_first_);
         excess_ += cost * std::max(0.0, iterations - first_);
     }
     // Work that a new preconditioner would have spared.
@@ -41,7 +32,9 @@ public:
     double excess() const { return excess_; }
     double first() const { return first_; }
     // Returns the factor from a correction M r to what may be missing: A^-1 r, for the least eigenvalue that was met.
-    double doubt(double least) const { return limits_.in_doubt / std::sqrt(std::max(least, limits_.softest)); }
+    double doubt(double least) const {
+        return limits_.renewal_in_doubt / std::sqrt(std::max(least, limits_.renewal_softest));
+    }
 
     void restore(double excess, double first) {
         excess_ = excess + 0.0;  // a negative zero would be saved with its sign
@@ -50,11 +43,12 @@ public:
     // True if numbers of a saved state can be those of restore().
     bool allows(double excess, double first) const {
         return excess >= 0.0 && std::isfinite(excess) &&
-               (first == 0.0 || (first >= limits_.fewest_first && first <= limits_.most_first));
+               (first == 0.0 || (first >= limits_.renewal_fewest_first && first <= most_first_));
     }
 
 private:
-    RenewalLimits limits_;
+    const Limits& limits_;
+    double most_first_;
     double excess_ = 0.0;  // in the unit of the price
     double first_ = 0.0;   // iterations of the first solve; 0: there was none
 };

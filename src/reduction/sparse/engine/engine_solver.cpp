@@ -87,7 +87,8 @@ EngineSolver::EngineSolver(const BodySystem& bodies, std::shared_ptr<Engine> eng
       monitor_(monitor),
       system_(bodies),
       floating_(bodies, system_),
-      products_(Engine::kept, Engine::kept) {
+      products_(Engine::kept, Engine::kept),
+      renewal_(bodies.problem().options.limits, infinite) {
     const std::size_t n = index(system_.count()), patterns = bodies.problem().patterns.size();
     at_.variables = 0;
     at_.balance = n;
@@ -342,7 +343,7 @@ BodySolver::Answer EngineSolver::solve(std::span<const double> theta, std::span<
             start[newest_] = 1.0;
         }
     }
-    const double careful = any_softer(system_, lagged_) ? renewal_.limits().cautious : 1.0;
+    const double careful = any_softer(system_, lagged_) ? renewal_.limits().renewal_cautious : 1.0;
     const double target = std::max(finest, careful * tolerance);
     double enough = 0.0;
     const Forcing carefully = [&](double first) { return careful * (enough = forcing(first)); };
@@ -358,7 +359,7 @@ BodySolver::Answer EngineSolver::solve(std::span<const double> theta, std::span<
         renew_now();
         start.assign(kept_.size(), 0.0);
         start[newest_] = 1.0;
-        const double again = any_softer(system_, lagged_) ? renewal_.limits().cautious : 1.0;
+        const double again = any_softer(system_, lagged_) ? renewal_.limits().renewal_cautious : 1.0;
         const Forcing as_before = [&](double) { return again * enough; };
         raw = ask(theta, force, right, start, std::max(finest, again * tolerance), most,
                   forcing ? as_before : Forcing{}, x);
@@ -376,7 +377,8 @@ BodySolver::Answer EngineSolver::solve(std::span<const double> theta, std::span<
     answer.first = raw.answer.first;
     answer.norm = raw.answer.norm;
     answer.residual = raw.answer.norm == 0.0 ? 0.0 : raw.answer.norm / std::max(raw.answer.size, raw.answer.norm);
-    answer.energy_error = 0.5 * answer.norm * answer.norm / std::max(raw.answer.least, renewal_.limits().softest);
+    answer.energy_error =
+        0.5 * answer.norm * answer.norm / std::max(raw.answer.least, renewal_.limits().renewal_softest);
     answer.error = error_of(raw);
     return answer;
 }

@@ -72,7 +72,8 @@ bool descend(const CgSystem& system, std::span<double> x, std::vector<double>& r
         }
         system.apply(z, ap);
         const double pap = dot(z, ap);
-        if (!(pap > 0.0)) return !(pap <= -RestartLimits{}.flat * std::abs(rz));  // what is not finite has no sign
+        if (!(pap > 0.0))
+            return !(pap <= -system.limits.restart_flat * std::abs(rz));  // what is not finite has no sign
         const double step = rz / pap;
         steps.push_back(step);
         add_scaled(step, z, x);
@@ -88,7 +89,7 @@ bool descend(const CgSystem& system, std::span<double> x, std::vector<double>& r
 
 CgOutcome conjugate_gradients(const CgSystem& system, std::span<double> x, double tolerance, std::int64_t limit) {
     CgOutcome outcome;
-    Restarts restarts(tolerance, system.rounded);
+    Restarts restarts(tolerance, system.rounded, system.limits);
     std::vector<double> r(x.size()), z(x.size()), best;
     while (true) {
         system.restart(x, r);  // r = b - A x

@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "base/restarts.hpp"
+
 namespace delam {
 
 struct Direction {
@@ -31,6 +33,7 @@ struct CgSystem {
     std::function<void(std::int64_t)> each_iteration;
     // Given the norm of the first residual: a norm that may stay, where it is more than what the tolerance allows.
     std::function<double(double first)> enough;  // or none
+    RestartLimits limits{};
     bool attempt = false;          // the limit is how many iterations are worth while: ends as soon as they will not do
     std::vector<Direction> given;  // conjugate to each other; the residual of restart() is orthogonal to them
 };

@@ -30,6 +30,7 @@ Reanalysis::Reanalysis(const BodySystem& bodies, SparseMatrix transformed, Monit
       system_(bodies, std::move(transformed), [&monitor] { monitor.progress("assemble", 0, 0); }),
       floating_(bodies, system_),
       patches_(system_, bodies.problem().options.limits),
+      renewal_(bodies.problem().options.limits, bodies.problem().options.limits.renewal_most_first),
       comes_back_(keeps_two_factors(bodies.problem())) {
     const std::size_t patterns = bodies_.problem().patterns.size();
     std::vector<double> nodal(index(bodies_.dofs()));
@@ -236,8 +237,8 @@ bool Reanalysis::confirm(std::span<const double> right, std::span<const double> 
     system_.gather(r);
     system_.gather_sizes(sizes);
     for (std::size_t i = 0; i < r.size(); ++i)
-        if (!(std::abs(r[i] - residual[i]) <=
-              RestartLimits{}.rounding_units * std::numeric_limits<double>::epsilon() * sizes[i]))
+        if (!(std::abs(r[i] - residual[i]) <= bodies_.problem().options.limits.restart_rounding_units *
+                                                  std::numeric_limits<double>::epsilon() * sizes[i]))
             return false;
     return true;
 }
@@ -345,9 +346,10 @@ bool Reanalysis::weak_directions(std::vector<Direction>& given) const {
 CgOutcome Reanalysis::iterate(CgSystem& cg, double tolerance, std::span<double> x) {
     const std::int64_t limit = bodies_.problem().options.linear_limit;
     cg.rounded = rounded_;
+    cg.limits = bodies_.problem().options.limits;
     cg.attempt = attempt_;
     // Residuals weigh less what the factor takes for stiffer than it is.
-    const double careful = attempt_ ? renewal_.limits().cautious : 1.0;
+    const double careful = attempt_ ? renewal_.limits().renewal_cautious : 1.0;
     const double target = std::max(finest, careful * tolerance);
     double enough = 0.0;
     if (const Forcing forcing = cg.enough)
@@ -440,7 +442,8 @@ Reanalysis::Answer Reanalysis::solve(std::span<const double> theta, std::span<co
     answer.residual = outcome.residual;
     answer.first = outcome.first;
     answer.norm = outcome.norm;
-    answer.energy_error = 0.5 * outcome.norm * outcome.norm / std::max(outcome.least, renewal_.limits().softest);
+    answer.energy_error =
+        0.5 * outcome.norm * outcome.norm / std::max(outcome.least, renewal_.limits().renewal_softest);
     if (!outcome.correction.empty()) answer.error = error_of(outcome.correction, outcome.least);
     answer.converged = outcome.converged;
     answer.definite = outcome.definite;

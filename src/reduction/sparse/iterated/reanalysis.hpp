@@ -93,10 +93,10 @@ private:
     Patches patches_;
     std::vector<std::vector<double>> load_;  // [patterns][variables]
     std::unique_ptr<WholeFactor> whole_;
-    std::vector<double> lagged_;             // [rows] springs of the factor; held ones as springs. Empty: there is none
-    Renewal renewal_{{.most_first = 12.0}};  // its price and excess in operations
-    bool attempt_ = false;  // too much differs for wide patches, but the factor is still the one before
-    double rounded_ = 0.0;  // what rounding leaves of a residual, relative; 0: not yet met with this factor
+    std::vector<double> lagged_;  // [rows] springs of the factor; held ones as springs. Empty: there is none
+    Renewal renewal_;             // its price and excess in operations
+    bool attempt_ = false;        // too much differs for wide patches, but the factor is still the one before
+    double rounded_ = 0.0;        // what rounding leaves of a residual, relative; 0: not yet met with this factor
     // A search looks at other states and comes back: the factor to come back to is kept beside the one in use.
     bool comes_back_;
     bool remembered_ = false;  // memory() has told of the factor in use
