@@ -17,7 +17,7 @@ None may go, change its type, unit or shape, or be recorded no more. Ranges may 
 named, and passes once the baseline has it (update.sh). New keys are free; those that the baseline does not have yet are
 listed.
 
-The tables of the header are held to the library by two small marches, in the plane and in space, each once more with
+The tables of the header are held to the library by two small analyses, in the plane and in space, each once more with
 other units of length, force and time: values and fields are there, have their shape, and scale as their unit says
 (zeros aside). Each text is taken.
 """
@@ -123,22 +123,16 @@ def kinds_of(header):
 
 def values_of(header):
     """key -> unit. Names behind a colon stand for any: crack_length:I, load:NAME."""
-    comment = header.functions["delam_solver_value"].comment
-    # A list of names that ends with a comma goes on in the next line.
-    comment = re.sub(r"^( {2}\w+(?:, \w+)*,)\n {2}(?=\w)", r"\1 ", comment, flags=re.M)
     found, behind = {}, ""
-    for line in comment.split("\n"):
-        if line.startswith("of the fronts of all interfaces"):
-            behind = "I"
-        elif line.startswith("and per pattern"):
-            behind = ""
-        match = re.match(r" {2}([a-z_]+(?::NAME)?(?:, [a-z_]+)*) {2,}(.*)", line)
+    for line in header.functions["delam_solver_value"].comment.split("\n"):
+        if line.startswith("Values of "):
+            behind = "I" if line.startswith("Values of the fronts") else ""
+        match = re.match(rf" {{2}}([a-z_]+(?::NAME)?) {{2,}}({UNIT}) {{2,}}", line)
         if match:
-            unit = re.match(rf"({UNIT}):", match.group(2))
-            for name in match.group(1).split(", "):
-                found[name] = unit.group(1) if unit else "1"
-                if behind:
-                    found[f"{name}:{behind}"] = found[name]
+            name = match.group(1)
+            found[name] = match.group(2).replace("-", "1")
+            if behind:
+                found[f"{name}:{behind}"] = found[name]
     return found
 
 

@@ -676,12 +676,12 @@ table() {
 }
 table '/^ \*   released  /d' '^value released: in the baseline, gone'
 table '/^ \*   released  /d' '^value released: delam_solver_value_name gives it, the table'
-table 's/^( \*   rotation_max +)rad:/\1the/' '^value rotation_max: unit 1, in the baseline rad'
+table 's/^( \*   rotation_max +)rad/\1-  /' '^value rotation_max: unit 1, in the baseline rad'
 table 's/^( \*   stress +)\[cells\]\[4 or 6\]/\1[cells][6]/' '^field stress: shape \[cells\]\[6\], in the baseline'
 table '/^ \*   traction +\[pairs\]/d' '^field traction: in the baseline, gone'
-table 's/^( \*   energy_release_rate +)F\/L:/\1F:/' \
+table 's/^( \*   energy_release_rate +)F\/L /\1F   /' \
     "^value energy_release_rate:I: is .*: not the unit 'F' of the header"
-table 's/^( \*   jump +\[pairs\]\[dimension\] +)L,/\1F,/' "^field jump: is .*: not the unit 'F' of the header"
+table 's/^( \*   jump +\[pairs\]\[dimension\] +)L /\1F /' "^field jump: is .*: not the unit 'F' of the header"
 table 's/"mean-dilatation"/"mean-pressure"/' "^text delam_problem_set_formulation: range .* does not allow all of"
 table 's/"mean-dilatation"/"mean-pressure"/' \
     "^text delam_problem_set_formulation: 'mean-pressure' of the header is refused"

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tests the scanner of functions on code whose lengths are known, and plants what sizes.py, words.py,
-readmes.py and arrows.py must refuse."""
+readmes.py, arrows.py and sentences.py must refuse."""
 
 import pathlib
 import sys
@@ -9,6 +9,7 @@ import tempfile
 import arrows
 import readmes
 import scanner
+import sentences
 import sizes
 import words
 
@@ -121,6 +122,37 @@ def planted_arrows():
     return len(faults) + 1
 
 
+def header(comment, behind="stop"):
+    return (f"/* {comment}\n * [status -; since 0.1] */\nDELAM_API int32_t delam_f(void);\n"
+            f"#define DELAM_STOP 1 /* {behind} */\n")
+
+
+def planted_sentences():
+    """Plants a fault of each kind in the comment of a function; returns how many."""
+    full = "Returns " + "one " * (sentences.LONGEST - 1)
+    short = " It stops." * sentences.LONGEST
+    table = f"\n *   row  {'one ' * (sentences.LONGEST - 3)}\n *        and.\n *   row  two"
+    fine = (full.strip() + "." + short, "Returns rows:" + table, "Selects as delam_solver_look does.")
+    for comment in fine:
+        assert not list(sentences.problems("a.h", header(comment))), f"{comment} was refused"
+    faults = {
+        f"{sentences.LONGEST + 1} words": full + "more." + short,
+        "words, at most": full.replace("one one one", "one, e.g. one") + "more." + short,
+        "row": "Returns rows:" + table.replace("and.", "and more, " + "one " * 3),
+        "on average": (full.strip() + ". ") * 2,
+        "does not begin with a verb": "The number of steps.",
+        "does not begin with a verb such": "One of the ranks alone: returns it.",
+        "'marches' is a word of the house": "Returns how many marches there are.",
+        "'Aside' is a word of the house": "Returns it. Aside from that, nothing.",
+    }
+    for words_of_it, comment in faults.items():
+        found = list(sentences.problems("a.h", header(comment)))
+        assert len(found) == 1 and words_of_it in found[0], f"{words_of_it}: {found}"
+    found = list(sentences.problems("a.h", header("Returns it.", "one " * (sentences.LONGEST + 1))))
+    assert len(found) == 1, f"a comment behind a constant: {found}"
+    return len(faults) + 1
+
+
 def main():
     found = list(scanner.functions(CODE))
     assert found == EXPECTED, f"found {found}, expected {EXPECTED}"
@@ -171,7 +203,7 @@ def main():
         assert list(readmes.problems(src)) == [f"src/law/law_kind: {missing}"]
         (src / "law" / "README.md").write_text("- `mixity`, `law_kind`, `linear`\n", encoding="utf-8")
         assert not list(readmes.problems(src))
-    houses = planted_arrows() + planted_imports()
+    houses = planted_arrows() + planted_imports() + planted_sentences()
     print(f"{len(EXPECTED)} functions, {len(refused) + len(planted) + 2 + houses} planted")
     return 0
 
