@@ -39,43 +39,45 @@
  *              `solution = energetic`.
  *
  * Names that recur
- *   out        receives the new handle
+ *   out                       receives the new handle
  *   interface_index, pattern  as returned by the function that added the interface or pattern
- *   index      place in a list, from 0 to its count - 1
- *   body       label of a body; -1 means all bodies where the function allows it
- *   capacity   number of entries that the array can hold. A negative capacity gives DELAM_ERROR_ARGUMENT. So does one
- *              that is too small, unless the function says that it writes as many entries as fit
- *   user       passed to the callback unchanged
- *   lower, upper  of a box, [dimension] each: its corners with the smallest and with the largest coordinates. Of a
- *                 parameter or an option, they are the ends of its range. The values `lower` and `upper` of
- *                 delam_solver_value are something else: bounds of what a step adds to the energy
+ *   index                     place in a list, from 0 to its count - 1
+ *   body                      label of a body; -1 means all bodies where the function allows it
+ *   capacity                  number of entries that the array can hold. A negative capacity gives
+ *                             DELAM_ERROR_ARGUMENT. So does one that is too small, unless the function says that it
+ *                             writes as many entries as fit
+ *   user                      passed to the callback unchanged
+ *   lower, upper              of a box, [dimension] each: its corners with the smallest and with the largest
+ *                             coordinates. Of a parameter or an option, they are the ends of its range. The values
+ *                             `lower` and `upper` of delam_solver_value are something else: bounds of what a step adds
+ *                             to the energy
  *
  * The line in brackets
  * The comment of every function and callback ends with a line in brackets. It states the rest of the contract in fixed
  * words. Where a field is absent, only the rules above apply. The fields, in their order, are:
- *   unit       name, unit and range of every parameter of type double. Inputs always have a range; "finite" means any
- *              finite number. A condition in parentheses applies to the array as a whole or to each vector in it. The
- *              unit is 1 for dimensionless numbers and t for the time of the load histories. Where it depends on the
- *              key, on the factors of the patterns or on a text in `unit`, it is "of key", "of factors" or "of unit"
- *   null       pointers that may be NULL. "result": the function may return NULL
- *   owns       pointers that outlive the call, and who frees or keeps them. "out caller": the caller frees *out with
- *              the object's destroy function. "static": valid as long as the library is loaded. "the problem", "the
- *              solver": valid as long as that object exists
- *   status     statuses that the function may return besides DELAM_OK. Four statuses are understood and not listed,
- *              because every function with a handle may return them. They are DELAM_ERROR_HANDLE, DELAM_ERROR_MEMORY,
- *              DELAM_ERROR_INTERNAL and, inside a callback, DELAM_ERROR_STATE. "usual": the function returns these four
- *              and no other. "only" before a list: it returns those listed, and not these four. "-": it returns no
- *              status. A function that returns a text cannot return a status: its list says why it may return NULL.
- *              delam_context_message() then has the text of the error
- *   thread     "any": any thread may call at any time. If absent, the rule for threads above applies
- *   source     publication or document that describes the method. "none": the function computes no new result; it
- *              returns inputs, counts or results of other functions
- *   since      version of the library that introduced the function
+ *   unit    name, unit and range of every parameter of type double. Inputs always have a range; "finite" means any
+ *           finite number. A condition in parentheses applies to the array as a whole or to each vector in it. The unit
+ *           is 1 for dimensionless numbers and t for the time of the load histories. Where it depends on the key, on
+ *           the factors of the patterns or on a text in `unit`, it is "of key", "of factors" or "of unit"
+ *   null    pointers that may be NULL. "result": the function may return NULL
+ *   owns    pointers that outlive the call, and who frees or keeps them. "out caller": the caller frees *out with the
+ *           object's destroy function. "static": valid as long as the library is loaded. "the problem", "the solver":
+ *           valid as long as that object exists
+ *   status  statuses that the function may return besides DELAM_OK. Four statuses are understood and not listed,
+ *           because every function with a handle may return them. They are DELAM_ERROR_HANDLE, DELAM_ERROR_MEMORY,
+ *           DELAM_ERROR_INTERNAL and, inside a callback, DELAM_ERROR_STATE. "usual": the function returns these four
+ *           and no other. "only" before a list: it returns those listed, and not these four. "-": it returns no status.
+ *           A function that returns a text cannot return a status: its list says why it may return NULL.
+ *           delam_context_message() then has the text of the error
+ *   thread  "any": any thread may call at any time. If absent, the rule for threads above applies
+ *   source  publication or document that describes the method. "none": the function computes no new result; it returns
+ *           inputs, counts or results of other functions
+ *   since   version of the library that introduced the function
  * In the line of a callback, some fields differ:
- *   null       arguments that the library may pass as NULL
- *   owns       how long the arguments stay valid
- *   status     how the running call ends if the callback returns a value other than 0
- *   thread     "call's" means the thread of the running call */
+ *   null    arguments that the library may pass as NULL
+ *   owns    how long the arguments stay valid
+ *   status  how the running call ends if the callback returns a value other than 0
+ *   thread  "call's" means the thread of the running call */
 #ifndef DELAM_DELAM_H
 #define DELAM_DELAM_H
 
@@ -209,11 +211,11 @@ DELAM_API int32_t delam_context_cancel(delam_context *context);
  * [status -; thread any; since 0.1] */
 DELAM_API int64_t delam_cell_type_count(void);
 /* Describes a cell type, by index from 0.
- *   *name                "tri3" for DELAM_TRI3, and so on
- *   *cell_type           the constant
- *   *dimension           2 or 3
- *   *nodes, *corners     number of nodes, the first *corners of which are corners
- *   *faces               number of faces (2D: edges)
+ *   *name                       "tri3" for DELAM_TRI3, and so on
+ *   *cell_type                  the constant
+ *   *dimension                  2 or 3
+ *   *nodes, *corners            number of nodes, the first *corners of which are corners
+ *   *faces                      number of faces (2D: edges)
  *   *face_nodes, *face_corners  number of nodes of every face, the first *face_corners of which are corners
  * [null name, cell_type, dimension, nodes, corners, faces, face_nodes, face_corners; owns texts static; status only
  * argument; thread any; since 0.1] */
@@ -438,12 +440,12 @@ DELAM_API int32_t delam_mesh_find_patch(const delam_mesh *mesh, int32_t body, co
 /* ---- interface law ----------------------------------------------------------------------------------------------- */
 
 /* Creates a traction-separation law of a kind. These are its quantities:
- *   Y          driving energy, Y = Y_n + Y_t, of the components Y_c = k_c [u]_c^2 / 2 (c is n or t)
- *   B          mode mixity Y_t/Y
- *   zeta       adhesion, which minimises zeta Y + g(B, zeta) over 0 <= zeta <= old adhesion
+ *   Y           driving energy, Y = Y_n + Y_t, of the components Y_c = k_c [u]_c^2 / 2 (c is n or t)
+ *   B           mode mixity Y_t/Y
+ *   zeta        adhesion, which minimises zeta Y + g(B, zeta) over 0 <= zeta <= old adhesion
  *   g(B, zeta)  dissipated energy, convex in zeta; it decreases from g(B, 0) = Gc(B) to g(B, 1) = 0
- *   Gc(B)      toughness
- *   Go(B)      onset; -Go(B) is the slope of g at zeta = 1
+ *   Gc(B)       toughness
+ *   Go(B)       onset; -Go(B) is the slope of g at zeta = 1
  * On first loading at fixed mixity the traction peaks at sqrt(2 k Go) with k = (1-B) k_n + B k_t. The area under the
  * traction-separation curve is Gc. The list has the values of kind:
  *   piecewise-linear  the bilinear law: the traction falls linearly (Valoroso and Champaney 2006)
@@ -823,8 +825,9 @@ DELAM_API int32_t delam_problem_dofs(const delam_problem *problem, int64_t *prim
 DELAM_API int32_t delam_problem_process_zone(const delam_problem *problem, int64_t interface_index, double *length,
                                              double *spacing);
 /* Proposes numbers for the law of an interface (delam_law_set).
- *   *stiffness            50 E3/t, the least stiffness that adds little compliance
- *   *share                1/(1 + E3/(k t)), what the law's present normal stiffness k leaves of that body's stiffness
+ *   *stiffness                              50 E3/t, the least stiffness that adds little compliance
+ *   *share                                  1/(1 + E3/(k t)), what the law's present normal stiffness k leaves of that
+ *                                           body's stiffness
  *   *normal_strength, *tangential_strength  largest strengths with which the process zone of that mode is predicted to
  *                                           have `pairs` pairs of the present spacing (3 is enough)
  * E3 is the modulus of an adjacent body along the normal and t its extent along the normal. The body with the larger
@@ -1345,11 +1348,11 @@ DELAM_API int32_t delam_solver_look(delam_solver *solver, int64_t step);
 DELAM_API int32_t delam_solver_jump_count(const delam_solver *solver, int64_t *count);
 /* Returns one jump of the state, in step *step. It lies between *before and *time: in the interval that bisection has
  * found (option `jump_tolerance`), or else in the whole step or substep.
- *   *stored           change of stored energy and load potential
- *   *dissipated       energy dissipated
- *   *released         energy that is neither stored nor dissipated; in reality, waves would carry it away
- *   *debonded         change of the sum of weight (1 - zeta)
- *   *interface_index  the interface that changed most
+ *   *stored                  change of stored energy and load potential
+ *   *dissipated              energy dissipated
+ *   *released                energy that is neither stored nor dissipated; in reality, waves would carry it away
+ *   *debonded                change of the sum of weight (1 - zeta)
+ *   *interface_index         the interface that changed most
  *   *first_pair, *last_pair  the first and last of its pairs whose adhesion changed (-1: none)
  * Where the instant follows from the parts of the step (`mixity_rule = converged`, loads in proportion), *before and
  * *time are both this instant. *released is then what this jump alone releases, while the other energies and *debonded

@@ -29,15 +29,15 @@ extern "C" {
 /* The struct describes the variables of a problem. Variable i < dofs is the displacement of DOF i of the mesh
  * (dimension*node + component). Variable dofs + k is the jump k. Every DOF that is not in `replaced` is a variable of
  * its own.
- *   replaced     [replaced_count]  DOFs that are no variables
- *   row_starts   [replaced_count + 1]  row r of T says u[replaced[r]] = sum over e in [row_starts[r], row_starts[r+1])
- *                                      of coefficients[e] * v[columns[e]]
- *   homes        [jump_count]      for each jump a replaced DOF that depends on it, a different one for each
- *   lift_starts  [pattern_count + 1]  lift_dofs and lift_values in [lift_starts[p], lift_starts[p+1]) are U of pattern
- *                                     p
- *   force_starts [pattern_count + 1]  force_dofs and force_values in [force_starts[p], force_starts[p+1]) are f of
- *                                     pattern p
- *   visible      [visible_count]   variables that the library reads
+ *   replaced      [replaced_count]      DOFs that are no variables
+ *   row_starts    [replaced_count + 1]  row r of T says u[replaced[r]] = sum over e in [row_starts[r], row_starts[r+1])
+ *                                       of coefficients[e] * v[columns[e]]
+ *   homes         [jump_count]          for each jump a replaced DOF that depends on it, a different one for each
+ *   lift_starts   [pattern_count + 1]   lift_dofs and lift_values in [lift_starts[p], lift_starts[p+1]) are U of
+ *                                       pattern p
+ *   force_starts  [pattern_count + 1]   force_dofs and force_values in [force_starts[p], force_starts[p+1]) are f of
+ *                                       pattern p
+ *   visible       [visible_count]       variables that the library reads
  * The displacements at `homes` could be the variables in the place of the jumps. */
 typedef struct delam_experimental_variables {
     int64_t dimension;
@@ -69,11 +69,11 @@ typedef struct delam_experimental_entries {
 } delam_experimental_entries;
 
 /* The struct says what the library asks of a solve.
- *   theta      [pattern_count]  factors of the load patterns
- *   force      [visible_count]  h
- *   right      [pivot_count]    what the expressed variables have besides their masters
+ *   theta      [pattern_count] factors of the load patterns
+ *   force      [visible_count] h
+ *   right      [pivot_count] what the expressed variables have besides their masters
  *   place      where to keep this answer
- *   start      [kept]           combination of the kept answers from which to begin; NULL: from nothing
+ *   start      [kept] combination of the kept answers from which to begin; NULL: from nothing
  *   tolerance  relative to the size of the state, sqrt(|u.K u| + sum of |v_i C_ij v_j|)
  *   enough     enough(first, user) returns an absolute bound for the norm `first` at the start; may be NULL
  *   limit      largest number of iterations of the solve
@@ -97,20 +97,20 @@ typedef struct delam_experimental_request {
 } delam_experimental_request;
 
 /* The struct has what a solve answers; the arrays are the library's, and the engine fills them.
- *   values      [visible_count]  v
- *   balance     [visible_count]  T^T (f - K u), in equilibrium C v - h but for expressed variables
- *   correction  [visible_count]  M r, with the true residual r at the end
- *   correction_balance  [visible_count]  T^T K T M r
- *   products    [kept]           u.K u_s with the answer in each place s, 0 for empty ones, and with itself in its own
- *   work        [pattern_count]  f_p.u
- *   lifted      [pattern_count]  U_p.(K u)
- *   first, norm  sqrt(r.M r) at the start and at the end
- *   size        that of the state
- *   least       about the least eigenvalue of M A that the iteration has met, 1 if it has met none
- *   rounding    relative, of u.K u, about the unit of rounding times sqrt(sum of (d_i v_i^2)^2) / u.K u
- *   iterations  number of iterations
- *   converged   0 if neither the tolerance nor what rounding allows was reached
- *   definite    0 if the matrix turned out to be indefinite
+ *   values              [visible_count] v
+ *   balance             [visible_count] T^T (f - K u), in equilibrium C v - h but for expressed variables
+ *   correction          [visible_count] M r, with the true residual r at the end
+ *   correction_balance  [visible_count] T^T K T M r
+ *   products            [kept] u.K u_s with the answer in each place s, 0 for empty ones, and with itself in its own
+ *   work                [pattern_count] f_p.u
+ *   lifted              [pattern_count] U_p.(K u)
+ *   first, norm         sqrt(r.M r) at the start and at the end
+ *   size                that of the state
+ *   least               about the least eigenvalue of M A that the iteration has met, 1 if it has met none
+ *   rounding            relative, of u.K u, about the unit of rounding times sqrt(sum of (d_i v_i^2)^2) / u.K u
+ *   iterations          number of iterations
+ *   converged           0 if neither the tolerance nor what rounding allows was reached
+ *   definite            0 if the matrix turned out to be indefinite
  * In rounding, d is the diagonal of T^T K T. If definite is 0, the engine does not set the other members, and the place
  * is empty. */
 typedef struct delam_experimental_answer {
@@ -139,20 +139,19 @@ typedef struct delam_experimental_answer {
  * its line in brackets lists it, else DELAM_ERROR_NUMERICAL. If the line does not list this either, delam_solver_value
  * returns DELAM_ERROR_PROBLEM. delam_solver_field and delam_solver_average then return DELAM_ERROR_INTERNAL. If the
  * running call returns another number than the engine, the message tells which it was.
- *   prepare   takes the variables from now on, valid until it returns; all places are empty. Fills diagonal
- *             [visible_count], of T^T K T, and load_sizes [pattern_count], the largest component of |T^T (f_p - K
- *             U_p)|.
- *   set       takes what acts from now on. couplings are the entries of C. fixed [fixed_count] are variables that are
- *             zero (places in `visible`). pivots [pivot_count] are places of expressed variables. Each is the sum of
- *             values times columns of `masters`, whose rows are places in `pivots`, plus what a request has for it. No
- *             pivot is a master or zero.
- *   renew     makes a new preconditioner, of T^T K T with these entries added, which make it positive definite. Stores
- *             in *cost how many iterations it is worth.
- *   solve     answers a request.
- *   recover   computes the displacements of a combination of kept answers, weights [kept]: u in displacement [dofs],
- *             and K u in force [dofs].
- *   release   frees the engine: called once, when the last problem or solver that holds it is gone. May be NULL.
- *   message   says why the last call failed.
+ *   prepare  takes the variables from now on, valid until it returns; all places are empty. Fills diagonal
+ *            [visible_count], of T^T K T, and load_sizes [pattern_count], the largest component of |T^T (f_p - K U_p)|.
+ *   set      takes what acts from now on. couplings are the entries of C. fixed [fixed_count] are variables that are
+ *            zero (places in `visible`). pivots [pivot_count] are places of expressed variables. Each is the sum of
+ *            values times columns of `masters`, whose rows are places in `pivots`, plus what a request has for it. No
+ *            pivot is a master or zero.
+ *   renew    makes a new preconditioner, of T^T K T with these entries added, which make it positive definite. Stores
+ *            in *cost how many iterations it is worth.
+ *   solve    answers a request.
+ *   recover  computes the displacements of a combination of kept answers, weights [kept]: u in displacement [dofs], and
+ *            K u in force [dofs].
+ *   release  frees the engine: called once, when the last problem or solver that holds it is gone. May be NULL.
+ *   message  says why the last call failed.
  * In delam_experimental_solver_recover, force of recover is NULL, and the engine keeps the displacements for itself.
  * displacement is then NULL as well, or has rigid motions of bodies, which the engine adds to u; K u stays. An engine
  * with nodes that the mesh lacks does not know how these move. It returns DELAM_ERROR_PROBLEM and keeps nothing, and

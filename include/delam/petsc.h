@@ -17,17 +17,17 @@
  *   delam_petsc_set_rows   the rank's rows of the stiffness
  *
  * The rules at the head of delam.h apply here as well, with these in addition:
- *   ranks      Calls are collective: all ranks of the communicator make the same calls in the same order, and get the
- *              same status. Only the arrays may differ, as each function says. Not collective are delam_petsc_message
- *              and the functions that say "one rank alone" or "rank 0 alone".
- *   options    PETSc's options with the prefix delam_ choose the solver, e.g. in the variable PETSC_OPTIONS:
- *              -delam_pc_type bddc, -delam_ksp_monitor. The default is a Cholesky factorisation by MUMPS. PETSc must
- *              compute with real numbers in double precision. The number of DOFs must fit into its integers.
- *   threads    All calls of a rank come from a thread that may call MPI ("MPI's" in the brackets), one at a time.
- *   errors     A rank may fail where the others cannot know, in the middle of a step of PETSc or MPI that all of them
- *              share. It then waits eight seconds for them, writes a line to PETSC_STDERR and calls MPI_Abort. In tasks
- *              (delam_petsc_everywhere) it waits as long as the others work.
- *   memory     A problem that has the engine may outlive the delam_petsc; its solvers then return DELAM_ERROR_STATE. */
+ *   ranks    Calls are collective: all ranks of the communicator make the same calls in the same order, and get the
+ *            same status. Only the arrays may differ, as each function says. Not collective are delam_petsc_message and
+ *            the functions that say "one rank alone" or "rank 0 alone".
+ *   options  PETSc's options with the prefix delam_ choose the solver, e.g. in the variable PETSC_OPTIONS:
+ *            -delam_pc_type bddc, -delam_ksp_monitor. The default is a Cholesky factorisation by MUMPS. PETSc must
+ *            compute with real numbers in double precision. The number of DOFs must fit into its integers.
+ *   threads  All calls of a rank come from a thread that may call MPI ("MPI's" in the brackets), one at a time.
+ *   errors   A rank may fail where the others cannot know, in the middle of a step of PETSc or MPI that all of them
+ *            share. It then waits eight seconds for them, writes a line to PETSC_STDERR and calls MPI_Abort. In tasks
+ *            (delam_petsc_everywhere) it waits as long as the others work.
+ *   memory   A problem that has the engine may outlive the delam_petsc; its solvers then return DELAM_ERROR_STATE. */
 #ifndef DELAM_PETSC_H
 #define DELAM_PETSC_H
 
