@@ -592,12 +592,13 @@ DELAM_API int32_t delam_problem_set_plane(delam_problem *problem, const char *as
  * [unit young F/L2 > 0, poisson 1 in (-1, 0.5); status argument; since 0.1] */
 DELAM_API int32_t delam_problem_set_elastic(delam_problem *problem, int32_t body, double young, double poisson);
 /* Sets orthotropic elasticity for a body (-1: for all) in its material axes 1, 2, 3. constants [9] are E1 E2 E3 nu12
- * nu13 nu23 G12 G13 G23 (moduli F/L2 > 0). nu_ij is the contraction along j under tension along i: nu_ij/E_i =
- * nu_ji/E_j. A material that is transversely isotropic about axis 1 has E3 = E2, nu13 = nu12, G13 = G12, G23 = E2/(2(1
- * + nu23)). The material axes are the coordinate axes unless delam_problem_set_orientation sets others. In 2D, plane
- * strain takes the rows xx, yy, xy of the three-dimensional elasticity; plane stress makes the stresses zz, yz, zx
- * zero. The last call of this function or of delam_problem_set_elastic determines the material. DELAM_ERROR_ARGUMENT:
- * the elasticity is not positive definite; the message names the constant responsible and its bound.
+ * nu13 nu23 G12 G13 G23 (moduli F/L2 > 0). nu_ij is the contraction along j under tension along i:
+ * nu_ij/E_i = nu_ji/E_j. A material that is transversely isotropic about axis 1 has E3 = E2, nu13 = nu12, G13 = G12,
+ * G23 = E2/(2(1 + nu23)). The material axes are the coordinate axes unless delam_problem_set_orientation sets others.
+ * In 2D, plane strain takes the rows xx, yy, xy of the three-dimensional elasticity; plane stress makes the stresses
+ * zz, yz, zx zero. The last call of this function or of delam_problem_set_elastic determines the material.
+ * DELAM_ERROR_ARGUMENT: the elasticity is not positive definite; the message names the constant responsible and its
+ * bound.
  * [unit constants F/L2 or 1 finite (definite); null none; status argument; source S. W. Tsai, H. T. Hahn, Introduction
  * to Composite Materials (1980); since 0.1] */
 DELAM_API int32_t delam_problem_set_orthotropic(delam_problem *problem, int32_t body, const double *constants);
@@ -605,8 +606,8 @@ DELAM_API int32_t delam_problem_set_orthotropic(delam_problem *problem, int32_t 
  *   axes   [count][2][3]  directions of axes 1 and 2, with three components also in 2D (z points out of the plane)
  *   cells  [count]        cells of the mesh, all in `body` (-1: in any body); NULL with count 1 selects all cells of
  *                         the body
- * The axes may have any length > 0 but must not be parallel. The function makes axis 2 normal to axis 1 and sets axis 3
- * = 1 x 2. Later calls overwrite earlier ones. Cells with equal axes share their storage.
+ * The axes may have any length > 0 but must not be parallel. The function makes axis 2 normal to axis 1 and sets axis
+ * 3 = 1 x 2. Later calls overwrite earlier ones. Cells with equal axes share their storage.
  * [unit axes 1 finite (not parallel); null cells; status cancelled, argument; since 0.1] */
 DELAM_API int32_t delam_problem_set_orientation(delam_problem *problem, int32_t body, int64_t count,
                                                 const int64_t *cells, const double *axes, int32_t index_base);
@@ -1044,8 +1045,8 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  * from the start. `lower`, `increment`, `upper` and `increment_lower` belong to the step. A step adds the sum of w
  * (g(B, zeta) - g(B, zeta_old)) to `dissipated`, with `mixity_rule = converged` as an integral along the jumps of each
  * pair. The _linear split divides stored from dissipated energy as in Zeman, Kruzik and Gruber (PANM 15, 2010). The sum
- * of w f(B, zeta), f = g - Gc (1 - zeta), belongs to the stored energy. A step dissipates the sum of w Gc(B) (zeta_old
- * - zeta).
+ * of w f(B, zeta), f = g - Gc (1 - zeta), belongs to the stored energy. A step dissipates the sum of w
+ * Gc(B) (zeta_old - zeta).
  * Each step adds to `work` the mean of the reactions before and after it, times the changes of the factors. A jump that
  * bisection has located adds `upper` instead. A step that was followed in parts (`mixity_rule = converged`, loads in
  * proportion) adds the work along these parts. Each part happens at the load within the step that first drives it.
@@ -1201,9 +1202,9 @@ DELAM_API int32_t delam_solver_front_count(const delam_solver *solver, int64_t i
  *                                      (along the front)
  *   zone_lengths  [points]             L, length of the process zone along the direction
  *   zone_pairs    [points]             number of pairs in the process zone
- * places, 2D: the place is the tip of the notch (the first pair with initial adhesion > 0), moved ahead by the sum of
- * weight (1 - zeta). A crack that began inside the bond extends by half that sum to either side. 3D: the place is where
- * the adhesion, interpolated linearly between pairs, is 1/2. At a sharp front, this is half a cell behind the 2D
+ * places: in 2D, the place is the tip of the notch (the first pair with initial adhesion > 0), moved ahead by the sum
+ * of weight (1 - zeta). A crack that began inside the bond extends by half that sum to either side. In 3D, the place is
+ * where the adhesion, interpolated linearly between pairs, is 1/2. At a sharp front, this is half a cell behind the 2D
  * definition.
  * rates: J = - int t . d[u]/dx dx over the interface, plus the energy stored in the interface at the end of the path
  * (Rice 1968). The path goes from the open crack to beyond the process zone. The total is int Y dzeta/dx dx. It equals
