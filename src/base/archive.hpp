@@ -96,7 +96,7 @@ private:
     const char* what_;
 };
 
-// What a saved member may be besides the rule: an array of the size that the reader's own has, of finite numbers.
+// Exceptions to the rule for a saved member, which is an array of finite numbers of the size that the reader's own has.
 struct Allowed {
     bool any_size = false;
     bool infinite = false;
@@ -194,7 +194,8 @@ void walk(Walker& walker, Object& object, const Table& table) {
     std::apply([&](const auto&... rows) { (visit(rows), ...); }, table);
 }
 
-// Whether the members that a format has keep the rule of their rows, beside an object whose arrays have their sizes.
+// Checks that the members of this version of the format keep the rules of their rows. The arrays of the object that is
+// compared with have the right sizes.
 class Sound {
 public:
     explicit Sound(std::uint32_t version) : version_(version) {}

@@ -9,10 +9,10 @@
 
 namespace delam {
 
-// While it lives, the loops of this thread poll the monitor.
+// The loops of this thread poll the monitor while this object exists.
 class CancelScope {
 public:
-    // What may stop the call.
+    // The requests that may stop the call.
     // solves: the answer of the progress callback, and any cancel request, including one made before the call.
     // builds: the answer of the callback, and a cancel request made during the call.
     // reads: only a cancel request made during the call. A host that has stopped the analysis keeps answering "stop"
@@ -58,8 +58,8 @@ private:
     CancelScope* outer_;
 };
 
-// To be called once for each cell, face or node of a loop; may throw Error(DELAM_CANCELLED). work: cost of the item, in
-// cells of a light loop (a microsecond or less). Does nothing where no scope is open: in the library's other threads
+// Polls; a loop calls this once for each cell, face or node. May throw Error(DELAM_CANCELLED). work: cost of the item,
+// in cells of a light loop (a microsecond or less). Does nothing where no scope is open: in the library's other threads
 // and in calls that cannot be cancelled.
 inline void poll_cancel(const char* stage, std::int64_t work = 1) {
     if (cancel_scope != nullptr) cancel_scope->pass(stage, work);

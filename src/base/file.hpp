@@ -21,7 +21,7 @@ public:
     InputFile(const InputFile&) = delete;
     InputFile& operator=(const InputFile&) = delete;
     std::uint64_t size() const { return size_; }
-    // Up to `count` bytes from `first` on; fewer at the end of the file.
+    // Reads up to `count` bytes, beginning with byte `first`; returns fewer at the end of the file.
     std::vector<std::uint8_t> read(std::uint64_t first, std::uint64_t count) const;
 
 private:

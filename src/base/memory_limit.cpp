@@ -34,7 +34,7 @@ double number_in(const std::string& path) {
     return file >> bytes ? bytes : unlimited;
 }
 
-// Of a group and of those around it; a container may see its own group as the root.
+// Returns the lowest limit of a group and of the groups around it; a container may see its own group as the root.
 double limit_of_group(const std::string& root, std::string group, const std::string& name) {
     double least = number_in(root + name);
     while (group.size() > 1 && group.front() == '/') {

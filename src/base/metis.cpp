@@ -69,7 +69,7 @@ std::array<idx_t, METIS_NOPTIONS> options_of_metis() {
     return options;
 }
 
-// Without memory in its innermost stage METIS reports a general error, which nothing else here causes.
+// METIS reports a general error if its innermost stage lacks memory; nothing else here causes that error.
 void check_metis(int status, const char* function) {
     if (status == METIS_ERROR_MEMORY || status == METIS_ERROR) throw std::bad_alloc();
     if (status != METIS_OK) fail(DELAM_ERROR_INTERNAL, function, ": status ", status);

@@ -11,7 +11,7 @@ void stop(const char* stage) { fail(DELAM_CANCELLED, "cancelled by the host duri
 
 void Monitor::progress(const char* stage, std::int64_t done, std::int64_t total) {
     bool wanted = progress_callback != nullptr && progress_callback(stage, done, total, progress_user) != 0;
-    // After the callback, which may itself have made a request.
+    // The requests are taken after the callback, which may itself have made one.
     if (take_requests()) wanted = true;
     if (wanted) stop(stage);
 }

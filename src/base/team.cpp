@@ -15,7 +15,7 @@ namespace delam {
 
 namespace {
 
-// In the static TLS block, as cancel_scope is: reading them cannot fail.
+// Both are in the static TLS block, as cancel_scope is: reading them cannot fail.
 constinit thread_local TeamScope* team_scope __attribute__((tls_model("initial-exec"))) = nullptr;
 constinit thread_local bool at_a_piece __attribute__((tls_model("initial-exec"))) = false;
 

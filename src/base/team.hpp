@@ -15,7 +15,7 @@
 
 namespace delam {
 
-// As many as are of use: the processors that this process may use bound what a host asks for.
+// Returns the number of threads that are of use: that which the host asks for, at most the processors of this process.
 std::int64_t useful_threads(std::int64_t asked);
 std::int64_t processors();
 
@@ -47,10 +47,11 @@ private:
     bool leaving_ = false;
 };
 
-// Whether this thread works on a piece for a team, of one thread or more: the others are busy with such pieces, too.
+// True if this thread works on a piece for a team, also a team of one thread: the others are busy with such pieces,
+// too.
 bool in_a_piece();
 
-// While it lives, share() of this thread has so many threads. They start with the first work that is shared.
+// share() of this thread has so many threads while this object exists. They start with the first work that is shared.
 class TeamScope {
 public:
     explicit TeamScope(std::int64_t threads);
@@ -65,8 +66,8 @@ private:
     TeamScope* outer_;
 };
 
-// As Team::run(), with the team of the scope that this thread has opened; one after another where there is none, and
-// within a piece. A single piece is none: it may share its own work.
+// Does the work as Team::run() does, with the team of the scope that this thread has opened. Without a scope, and
+// within a piece, the items follow one another. A single item does not count as a piece: it may share its own work.
 void share(std::int64_t count, const std::function<void(std::int64_t)>& work,
            const std::function<void(std::int64_t done)>& before = {});
 

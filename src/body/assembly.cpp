@@ -60,7 +60,7 @@ LocalCells local_cells(const Mesh& mesh, std::span<const std::int64_t> cells, st
     return local;
 }
 
-// Which nodes share a cell: compressed rows over the local nodes, each with its neighbours (including itself)
+// The nodes that share a cell: compressed rows over the local nodes, each with its neighbours (including itself)
 // ascending. Node b of a cell is neighbour number place[a*n + b] of node a; place starts at the cell's own offset.
 struct NodeGraph {
     std::vector<std::size_t> start;

@@ -18,10 +18,10 @@ struct VolumeAverage {
     std::array<double, 6> strain{};
     std::array<double, 6> stress{};
 };
-// For the cells of a body (-1: of all). Exact, because the quadrature gives a cell's mean gradient exactly, internal
-// modes do not contribute to it, and the elasticity is constant in a cell. Out of the plane: no strain, or in plane
-// stress no stress. models by body index; displacement: [mesh nodes][dimension]; eigenstrain by body index, in material
-// axes, or empty: stresses are C (eps - e*), strains the whole eps.
+// Integrates over the cells of a body (-1: of all). Exact, because the quadrature gives a cell's mean gradient exactly,
+// internal modes do not contribute to it, and the elasticity is constant in a cell. Out of the plane: no strain, or in
+// plane stress no stress. models by body index; displacement: [mesh nodes][dimension]; eigenstrain by body index, in
+// material axes, or empty: stresses are C (eps - e*), strains the whole eps.
 VolumeAverage volume_average(const Mesh& mesh, std::span<const BodyModel> models, std::span<const double> displacement,
                              std::span<const Strain> eigenstrain, std::int32_t body);
 

@@ -22,8 +22,8 @@ struct EigenstrainLoads {
     std::vector<double> energy;              // [strains][strains]: int e*_i : C : e*_j
 };
 
-// For some cells of one body, over the DOFs of `nodes` (assembly.hpp), for each of the strains (in material axes)
-// separately. Plane stress: an out-of-plane strain is free and causes no load.
+// Returns the loads of some cells of one body, over the DOFs of `nodes` (assembly.hpp), for each of the strains (in
+// material axes) separately. Plane stress: an out-of-plane strain is free and causes no load.
 EigenstrainLoads eigenstrain_loads(const Mesh& mesh, std::span<const std::int64_t> cells,
                                    std::span<const std::int64_t> nodes, const BodyModel& model,
                                    std::span<const Strain> strains);

@@ -91,8 +91,8 @@ void gradient_products(CellType type, const double* coordinates, Products<nodes 
     }
 }
 
-// Whether normal strains cause shear stresses or one shear strain causes another's stress, which isotropic materials
-// exclude.
+// True if normal strains cause shear stresses, or one shear strain the stress of another; isotropic materials do
+// neither.
 template <std::size_t dim>
 bool coupled(const double* elasticity) {
     constexpr std::size_t strains = strain_count(dim);
@@ -208,7 +208,7 @@ struct Projection {
         }
     }
 
-    // Of a displacement, at x_0, where p = 1, 0, 0(, 0):  p^T L^-T V u.
+    // Returns the function that approximates the displacement u, at x_0, where p = 1, 0, 0(, 0):  p^T L^-T V u.
     double at_centre(const double* u) const {
         double c[functions];  // L^-1 p
         for (std::size_t m = 0; m < functions; ++m) {
@@ -319,7 +319,7 @@ void incompatible(CellType type, const double* x, const double* elasticity, doub
     condense<(nodes + dim) * dim, dim * dim>(full, k);
 }
 
-// What the kernels above need of a row of cell_rows, known at compile time.
+// The numbers of a row of cell_rows that the kernels above need at compile time.
 template <std::size_t place>
 struct Sizes {
     static constexpr const CellRow& row = cell_rows[place];

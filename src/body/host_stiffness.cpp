@@ -190,7 +190,7 @@ struct Split {
     std::int64_t free_count = 0;
 };
 
-// From vectors that span the free motions; vectors shorter than told_tolerance times the others span nothing.
+// Splits by vectors that span the free motions; vectors shorter than told_tolerance times the others span nothing.
 Split split_by(const DenseMatrix& free) {
     DenseMatrix span(free.rows, free.rows);  // negative definite on their span, so that its eigenvectors come first
     for (std::int64_t c = 0; c < free.columns; ++c) {
@@ -207,7 +207,8 @@ Split split_by(const DenseMatrix& free) {
     return split;
 }
 
-// By their energy relative to that of the diagonal alone: x.A x / x.B x, A = Q^T K Q, B = Q^T D Q = L L^T.
+// Splits by the energy of the motions relative to that of the diagonal alone: x.A x / x.B x, A = Q^T K Q, B = Q^T D Q =
+// L L^T.
 Split found_split(const SparseMatrix& k, std::span<const std::int64_t> local, std::int64_t dim, const DenseMatrix& q,
                   const std::string& where) {
     DenseMatrix energy = multiply_transposed(q, forces(k, local, dim, q)),
@@ -243,7 +244,7 @@ Split found_split(const SparseMatrix& k, std::span<const std::int64_t> local, st
     return split_by(free);
 }
 
-// By the motions that the host declares, as far as they move the piece.
+// Splits by the motions that the host declares, as far as they move the piece.
 Split told_split(const SparseMatrix& k, std::span<const std::int64_t> local, std::int64_t dim, const DenseMatrix& q,
                  const DenseMatrix& told, const std::string& where) {
     DenseMatrix own(q.rows, told.columns);

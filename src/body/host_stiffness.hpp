@@ -35,7 +35,8 @@ struct ToldKernel {
     DenseMatrix motions;
 };
 
-// For one body. matrix: symmetric, both triangles. Error(DELAM_ERROR_ARGUMENT) names the node where something is wrong.
+// Checks the stiffness that the host gives for one body, and finds its rigid motions. matrix: symmetric, both
+// triangles. Error(DELAM_ERROR_ARGUMENT) names the node where something is wrong.
 HostStiffness host_stiffness(const Mesh& mesh, std::int32_t body, SparseMatrix matrix, const ToldKernel& kernel,
                              Monitor& monitor);
 

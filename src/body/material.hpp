@@ -36,7 +36,7 @@ using SpaceElasticity = std::array<double, 36>;
 // Row-major: 2D 3x3 over (xx, yy, 2xy), plane strain or stress; 3D 6x6.
 std::vector<double> elasticity_matrix(const Elastic& material, int dimension, Plane plane);
 
-// In material axes. The material must be positive definite.
+// Returns the elasticity in material axes. The material must be positive definite.
 SpaceElasticity space_elasticity(const Material& material);
 // The constant that makes the elasticity indefinite, its value and its bound; "": none.
 std::string indefinite_constant(const Orthotropic& material);

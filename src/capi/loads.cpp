@@ -154,7 +154,7 @@ std::unordered_map<std::int64_t, std::vector<Direction>> held_directions(const P
 
 double dot(const Direction& a, const Direction& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-// Whether `direction` is a combination of the others, which are linearly independent (Gram-Schmidt).
+// True if `direction` is a combination of the others, which are linearly independent (Gram-Schmidt).
 bool depends(std::vector<Direction> others, Direction direction) {
     std::vector<Direction> basis;
     others.push_back(direction);

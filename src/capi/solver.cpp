@@ -38,7 +38,7 @@ const std::vector<CrackFront>& fronts_of(const delam_solver& solver, std::int64_
     return solver.core->observer().crack_fronts(require_index(interface_index, count, 0, "interface_index"));
 }
 
-// As guard_solve(), with the library's threads that the options of the scene ask for.
+// Does what guard_solve() does, with as many threads of the library as the options of the scene ask for.
 template <class Body>
 std::int32_t guard_step(delam_solver* solver, Listed listed, Body&& body) noexcept {
     return guard_solve(solver, listed, [&] {

@@ -11,14 +11,15 @@ constexpr double growth = 4.0;      // of the driving energy, to bracket the ans
 constexpr int most_growths = 1000;  // beyond all numbers
 constexpr int most_halvings = 100;  // of the bracket
 constexpr double accurate = 1e-10;  // width of the bracket, relative
-// Of the share: where less is left after it, nothing is, for a pair with a billionth of its adhesion only makes the
-// displacement step ill-conditioned.
+// Relative to the share: if less than this is left to dissipate after the share, the pair breaks. A pair with a
+// billionth of its adhesion only makes the displacement step ill-conditioned.
 constexpr double sliver = 1e-2;
 
 }  // namespace
 
-// What is dissipated grows with the driving energy Y, whose range of many decades is halved in its logarithm. The
-// adhesion itself is no good unknown: that of a softening point of a stiff interface is of the order of Go/Gc.
+// The unknown is the logarithm of the driving energy Y, because Y covers many decades and the dissipated energy grows
+// with it. The adhesion itself is a bad unknown: that of a softening point of a stiff interface is of the order of
+// Go/Gc.
 double adhesion_after(const Law& law, const Toughness& t, double zeta_old, double share) {
     const double wanted = law.dissipated(t, zeta_old) + share * t.total;
     if (!(zeta_old > 0.0) || !(wanted < (1.0 - sliver * share) * t.total)) return 0.0;

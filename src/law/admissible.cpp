@@ -27,7 +27,8 @@ double excess(const Law& law, double x) {
     return std::log(toughness_at(law.criterion, law.total_modes(), b) / onset);
 }
 
-// Where a toughness changes from one of its modes to the other: for Benzeggagh and Kenane B^eta |G_t/G_n - 1| = 1.
+// Returns where a toughness changes from one of its modes to the other: for Benzeggagh and Kenane B^eta |G_t/G_n - 1| =
+// 1.
 double crossing(Criterion criterion, const Modes& modes) {
     const double ratio = modes.tangential / modes.normal;
     if (criterion != Criterion::benzeggagh_kenane) return std::log(ratio);

@@ -17,11 +17,11 @@ struct Driving {
 // local_jump: [dimension], the normal part first.
 Driving driving_energy(const Law& law, std::span<const double> local_jump);
 
-// Whether the jump that causes Y is larger than rounding, so that it defines a mixity. largest: the largest Y of all
+// True if the jump that causes Y is larger than rounding, so that it defines a mixity. largest: the largest Y of all
 // pairs.
 bool tells_mixity(const Law& law, const Driving& y, double largest);
 
-// Of an energy: the square of 1e-10 of a jump.
+// Relative rounding of an energy: the square of 1e-10 of a jump.
 inline constexpr double driving_rounding = 1e-20;
 
 }  // namespace delam

@@ -40,7 +40,7 @@ constexpr LawParameter of_onset(LawParameter row) {
     return row;
 }
 
-// Of all shapes. The last row stands behind what the shapes add.
+// Parameters of all shapes. The last row stands behind the rows that the shapes add.
 constexpr LawParameter common[] = {
     {"criterion",
      "text",

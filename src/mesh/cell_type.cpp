@@ -10,7 +10,7 @@ namespace delam {
 
 namespace {
 
-// What the rows have to agree on is checked when the library is compiled.
+// The compiler checks that the rows agree with one another.
 
 constexpr bool on_face(const CellTopology& cell, int face, int node) {
     for (int k = 0; k < cell.face_nodes; ++k)

@@ -61,7 +61,7 @@ struct CellRow {
     constexpr bool simplex() const { return reference == ReferenceCell::simplex; }
 };
 
-// In the order of their numbers, 1, 2, ... The centre of quad9 counts as midway of a diagonal.
+// The rows stand in the order of their numbers, 1, 2, ... The centre of quad9 counts as midway of a diagonal.
 // clang-format off
 inline constexpr std::array cell_rows{
     CellRow{CellType::tri3, {"tri3", 2, 3, 3, 3, 2, 2, {{{0, 1}, {1, 2}, {2, 0}}}, {}},

@@ -105,7 +105,8 @@ private:
     std::vector<Point> node_;
 };
 
-// Along the straight line from one point of the reference cell to another: the nearest of three starting points.
+// Returns the closest point of the straight line between two points of the reference cell: the best of three starting
+// points.
 Parameters closest_on_line(const Chart& chart, const Parameters& from, const Parameters& to, const Point& x) {
     const Parameters along{to[0] - from[0], to[1] - from[1]};
     const auto on = [&](double t) { return Parameters{from[0] + t * along[0], from[1] + t * along[1]}; };

@@ -34,8 +34,8 @@ struct FaceTable {
     static constexpr std::int64_t stride = 6;
     std::vector<std::int64_t> neighbour;
 };
-// At most two cells may share the corners of a face. They must lie on both sides of it and share its mid-side nodes
-// too; otherwise Error(DELAM_ERROR_MESH).
+// Finds the faces that cells share. At most two cells may share the corners of a face. They must lie on both sides of
+// it and share its mid-side nodes too; otherwise Error(DELAM_ERROR_MESH).
 FaceTable match_faces(const Mesh& mesh, std::span<const std::int64_t> cells);
 
 // Mesh nodes of a local face in the order of its topology; the first topology(type).face_nodes entries are used.

@@ -31,8 +31,8 @@ public:
                               std::span<const std::int32_t> labels);
     // Pairs matching boundary faces of two bodies (pairing.cpp); returns the index of the interface.
     std::int64_t add_interface(std::int32_t label_a, std::int32_t label_b, double tolerance);
-    // Of every two bodies that share matching faces and have no interface yet, in the order of their labels; returns
-    // how many were added.
+    // Adds an interface between every two bodies that share matching faces and have none yet, in the order of their
+    // labels; returns how many it has added.
     std::int64_t add_all_interfaces(double tolerance);
     // Ties the nodes of b's faces to their projections on a's faces, within `gap`; appends a tied node for each
     // (projected_interface.cpp).
@@ -97,8 +97,8 @@ private:
     void require_cells(std::int32_t body) const;
     // Labels of the bodies that have an interface, ascending.
     std::vector<std::int32_t> joined_labels() const;
-    // For cell `number`: refuses a label that takes no more cells, and a node that the label cannot have; take_node
-    // lists in `taken` the nodes that had no body.
+    // Check cell `number`: check_label refuses a label that takes no more cells; take_node refuses a node that the
+    // label cannot have, and lists in `taken` the nodes that had no body.
     void check_label(std::int32_t label, std::span<const std::int32_t> joined, std::size_t number) const;
     void take_node(std::int64_t node, std::int32_t label, std::size_t number, std::vector<std::int64_t>& taken);
     // Room for a label in labels_: indices of bodies above it move up by one.

@@ -16,7 +16,7 @@ struct Partition {
     std::vector<std::int32_t> subdomain_body;  // [subdomains] body index, ascending
 };
 
-// At least one subdomain for each face-connected part of each body, or `subdomains` in total if that is more,
+// Returns at least one subdomain for each face-connected part of each body, or `subdomains` in total if that is more,
 // distributed by the number of cells. The same input gives the same partition. A body whose cells are connected only by
 // a node or an edge is cut there. left_out: [bodies] 1 for bodies that are not cut (empty: none).
 Partition partition(const Mesh& mesh, std::int64_t subdomains, std::span<const std::uint8_t> left_out = {});

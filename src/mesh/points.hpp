@@ -25,7 +25,7 @@ inline Point position(const Mesh& mesh, std::int64_t node) {
     return p;
 }
 
-// For messages.
+// Returns the coordinates as text for messages.
 inline std::string place(int dimension, const Point& p) {
     return dimension == 2 ? text("(", p[0], ", ", p[1], ")") : text("(", p[0], ", ", p[1], ", ", p[2], ")");
 }

@@ -26,7 +26,7 @@ struct Quadrature {
 };
 const Quadrature& quadrature(CellType type);
 
-// Where the nodes of a cell sit on its reference cell.
+// Returns the places of the nodes of a cell on its reference cell.
 std::span<const ReferencePoint> reference_nodes(CellType type);
 const ReferencePoint& centre(CellType type);
 const ShapeGradient& centre_gradient(CellType type);  // dN/dxi there

@@ -37,7 +37,7 @@ using delam::petsc::Session;
 
 bool alive(const delam_petsc* petsc) { return petsc != nullptr && petsc->kind == magic; }
 
-// Whether MPI can be called, and PETSc, which ends with MPI.
+// True if MPI can be called. PETSc can be called then, too, because it ends with MPI.
 bool mpi_runs() {
     int begun = 0, ended = 0;
     MPI_Initialized(&begun);
@@ -45,8 +45,9 @@ bool mpi_runs() {
     return begun != 0 && ended == 0;
 }
 
-// What a function returns in the place of a status that its line in brackets does not list; three statuses are
-// understood everywhere. listed: in the order of the line. The test abi/petsc_contract compares it with the header.
+// Returns the status that a function may return in the place of one that its line in brackets does not list; every
+// function may return three of them. listed: in the order of the line. The test abi/petsc_contract compares it with the
+// header.
 using Listed = std::initializer_list<int32_t>;
 int32_t in_place_of(int32_t status, Listed listed) {
     for (const int32_t understood : {DELAM_OK, DELAM_ERROR_HANDLE, DELAM_ERROR_MEMORY})

@@ -5,7 +5,7 @@
 
 namespace delam::petsc {
 
-// What delam_petsc_value knows: numbers of this handle since it was made.
+// Values of delam_petsc_value: numbers of this handle since it was made.
 class Counters {
 public:
     explicit Counters(const Communicator& comm);

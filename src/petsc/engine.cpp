@@ -151,7 +151,7 @@ void Engine::answer(const Question& question, delam_experimental_answer* out) {
     out->rounding = rounding;
 }
 
-// Of u.K u, a sum of d_i v_i^2 that cancel.
+// Returns the rounding of u.K u, a sum of d_i v_i^2 that cancel.
 double Engine::relative_rounding(const BodyState& state, Vec v, Vec work) const {
     PetscReal terms = 0.0;
     check(VecPointwiseMult(work, v, v));
@@ -199,7 +199,7 @@ bool Engine::has_other_nodes() const {
     return comm_.largest(std::int64_t{has ? 1 : 0}) != 0;
 }
 
-// Of rank 0's field over the mesh, the rows of this rank's nodes.
+// Returns the rows of this rank's nodes of rank 0's field over the mesh.
 std::vector<double> Engine::here(const double* field) const {
     const LocalVariables& local = bodies_.local();
     std::vector<std::vector<std::int64_t>> asked;

@@ -13,7 +13,7 @@ namespace delam::petsc {
 
 enum class Recovered : std::int32_t { nothing, on_root, on_ranks };
 
-// What delam_experimental_engine asks for, as the ranks do it together: one object from `prepare` to the next. All
+// The functions of delam_experimental_engine, as the ranks do them together: one object from `prepare` to the next. All
 // functions are collective; their pointers are those of rank 0, and NULL elsewhere.
 class Engine {
 public:
@@ -29,11 +29,11 @@ public:
     void set(const delam_experimental_entries* couplings, std::int64_t fixed_count, const std::int64_t* fixed,
              std::int64_t pivot_count, const std::int64_t* pivots, const delam_experimental_entries* masters);
     void renew(const delam_experimental_entries* entries, double* cost);
-    // Whether it was not given up.
+    // Returns true unless the solve was given up.
     bool solve(const delam_experimental_request* request, delam_experimental_answer* answer);
-    // Where rank 0 has no force to fill, each rank keeps the fields of its part, in `kept`, with rank 0's eigenstrains.
-    // displacement then has rigid motions, which are added, or is NULL. Nothing: the ranks have nodes that the mesh
-    // lacks, whose motions are not known.
+    // Recovers fields. Where rank 0 has no force to fill, each rank keeps the fields of its part, in `kept`, with rank
+    // 0's eigenstrains; displacement then has rigid motions, which are added, or is NULL. Nothing: the ranks have nodes
+    // that the mesh lacks, whose motions are not known.
     Recovered recover(const double* weights, double* displacement, double* force,
                       const PartState::Eigenstrains& eigenstrains, PartState& kept);
     const Preconditioner& preconditioner() const { return preconditioner_; }

@@ -90,7 +90,7 @@ std::int32_t Session::run(std::int32_t (*work)(void* user), void* user) {
     return status;
 }
 
-// What fails has been agreed upon, and is rank 0's to deal with.
+// Failures are ignored here: the ranks have agreed on them, and rank 0 deals with them.
 void Session::serve() {
     while (true) {
         Command next = Command::stop;

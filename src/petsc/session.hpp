@@ -13,7 +13,7 @@ namespace delam::petsc {
 
 class Session;
 
-// What an engine's callbacks are called with. The problem may outlive the handle.
+// Argument of an engine's callbacks. The problem may outlive the handle.
 struct Link {
     Session* session = nullptr;
 };
@@ -49,12 +49,12 @@ public:
     using Task = std::int32_t (*)(std::int64_t size, const std::uint8_t* bytes, void* user);
     void set_task(Task task, void* user);
     std::int32_t run(std::int32_t (*work)(void* user), void* user);
-    // On rank 0, in its work.
+    // Rank 0 alone calls these, in its work.
     std::int32_t everywhere(std::int64_t size, const std::uint8_t* bytes);
     std::int32_t recover_parts(delam_solver* solver);
     double value(const char* key) const;
     bool running() const { return running_; }
-    // On this rank alone.
+    // Sets the explanation on this rank alone.
     void explain(const char* text) { explained_ = text; }
     const PartState& part_state() const;
     const PartCells& part_cells() const { return cells_; }
@@ -83,7 +83,7 @@ private:
     enum class Command : std::int32_t { stop, prepare, set, renew, solve, recover, task };
 
     std::int32_t failed();
-    // On rank 0: tells the others what to do, and does it with them.
+    // Rank 0 tells the others what to do, and does it with them.
     template <class Work>
     std::int32_t command(Command which, Work&& work) {
         if (comm_.root()) {

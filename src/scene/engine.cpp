@@ -7,7 +7,7 @@ namespace delam {
 
 namespace {
 
-// Of a host that was compiled with another header, nothing but the size is there for certain.
+// The size alone is certain if another header was used to compile the host.
 delam_experimental_engine copied(const delam_experimental_engine& functions) {
     const auto size = static_cast<std::int64_t>(sizeof(delam_experimental_engine));
     if (functions.size != size)

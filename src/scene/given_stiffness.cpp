@@ -57,7 +57,7 @@ SparseMatrix symmetric(const Mesh& mesh, std::int32_t body, std::int64_t rows, s
                 fail(DELAM_ERROR_ARGUMENT, "the stiffness of body ", mesh.body_label(body), " is not symmetric: ", a,
                      " and ", b, " between ", name(r), " and ", name(column), ", allowed difference ",
                      asymmetry * scale);
-            // In a matrix without negative energies no entry exceeds the mean of its diagonal entries; twice that is no
+            // No entry of a matrix without negative energies exceeds the mean of its diagonal entries; twice that is no
             // rounding.
             if (!(std::abs(a) <= 2.0 * scale))
                 fail(DELAM_ERROR_ARGUMENT, "the stiffness of body ", mesh.body_label(body), " has ", a, " between ",

@@ -111,7 +111,8 @@ void add_law(Fnv& fnv, const Law& law) {
         fnv.add(law.*member);
     };
     for (const LawParameter& parameter : law_parameters()) {
-        // Of an onset and a strength, the one that is given; laws by onsets have the hashes that they had before.
+        // An onset and a strength exclude each other, and the hash takes the given one; laws by onsets keep their old
+        // hashes.
         const bool strength = parameter.instead_of != nullptr && *parameter.initial != '\0';
         const bool other = parameter.instead_of != nullptr && law.*parameter.instead_of > 0.0;
         if ((strength || other) && !(law.*parameter.value > 0.0)) continue;

@@ -25,11 +25,11 @@ struct Options {
     // Both take the key or its alias, and throw Error(DELAM_ERROR_ARGUMENT) for what its row does not allow.
     void set_number(const std::string& key, double value);
     void set_text(const std::string& key, const std::string& value);
-    // As people write it.
+    // Returns the value as people write it.
     std::string value_of(const std::string& key) const;
 };
 
-// How an option enters the hash of a scene.
+// The ways in which an option enters the hash of a scene.
 enum class Hashed {
     always,     // its value, in the order of the rows
     where_set,  // key and value where it is not the default, so that scenes without it hash as they did before it came

@@ -129,7 +129,7 @@ void check_arrays(const Part& part) {
     require_range(part.axes_of_cell, -1, axes, "axes_of_cell");
 }
 
-// What a mesh or a model refuses is damage here.
+// Reports what a mesh or a model refuses as damage of the part: the scene that the part comes from was valid.
 template <class Body>
 auto refusing(Body&& body) {
     try {

@@ -55,8 +55,8 @@ public:
     SparseMatrix stiffness(const Poll& poll = {}) const;
     std::int64_t entries() const;  // of the stiffness
 
-    // At the centres of the cells, in the order of the part (centre_stress, centre_rotation). displacement: [nodes of
-    // the part][dimension]; strain: eigenstrains by body of the part, or none at all.
+    // Return the fields at the centres of the cells, in the order of the part (centre_stress, centre_rotation).
+    // displacement: [nodes of the part][dimension]; strain: eigenstrains by body of the part, or none at all.
     std::vector<double> stress(std::span<const double> displacement, std::span<const Strain> strain) const;
     std::vector<double> rotation(std::span<const double> displacement) const;
 

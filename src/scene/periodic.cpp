@@ -119,7 +119,7 @@ public:
 
 private:
     using Nodes = std::vector<std::int64_t>;
-    // By the upper faces that nodes lie on, as bits, and the lower nodes at their shifted place.
+    // Nodes by the upper faces on which they lie, as bits, and by the lower nodes at their shifted place.
     using Gathered = std::map<std::pair<unsigned, Nodes>, Nodes>;
 
     const Mesh& mesh_;

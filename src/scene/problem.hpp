@@ -45,7 +45,7 @@ struct NodalForce {
     double value;
 };
 
-// In the material axes of a body: strain per unit factor.
+// Strain per unit factor, in the material axes of a body.
 struct Eigenstrain {
     std::int64_t pattern;
     std::int32_t body;
@@ -81,7 +81,8 @@ struct Problem {
 
     // DOFs of all pairs: rows of the jump, interface after interface, pair after pair, normal first.
     std::int64_t pair_count() const;
-    // For a body whose material is set. Error(DELAM_ERROR_PROBLEM) if the plane does not fit the formulation.
+    // Returns the model of a body whose material is set. Error(DELAM_ERROR_PROBLEM) if the plane does not fit the
+    // formulation.
     BodyModel model(std::int32_t body) const;
     // K of a body over its nodes in ascending order, both triangles.
     SparseMatrix body_stiffness(std::int32_t body, const Poll& poll = {}) const;
@@ -95,7 +96,7 @@ struct Problem {
     // Right-hand side coefficients [constraints][patterns], row-major.
     std::vector<double> prescribed_matrix() const;
 
-    // What pieces.hpp has found, for the thread that uses the problem.
+    // Results of pieces.hpp, for the thread that uses the problem.
     mutable std::shared_ptr<const KnownPieces> known_pieces;
 };
 

@@ -17,7 +17,7 @@ struct StrainLoads {
 
 // Over all mesh DOFs.
 StrainLoads strain_loads(const Problem& problem);
-// For some cells of a body, over the DOFs of `nodes` (ascending).
+// Returns the loads of some cells of a body, over the DOFs of `nodes` (ascending).
 StrainLoads strain_loads(const Problem& problem, std::int32_t body, std::span<const std::int64_t> cells,
                          std::span<const std::int64_t> nodes);
 // Scales of the eigenstrains' effect without cancellation, per pattern at factor 1: strain times the extent of the mesh

@@ -69,15 +69,15 @@ void one_blas_thread() {
     if (void* set = dlsym(RTLD_DEFAULT, "openblas_set_num_threads")) reinterpret_cast<void (*)(int)>(set)(1);
 }
 
-// What is asked of the other ranks next: to solve cells that the library divides, or those of the partition that their
-// mesh file has.
+// The next task of the other ranks: to solve cells that the library divides, or those of the partition that their mesh
+// file has.
 enum Next { leave, solve_divided, solve_partitions };
 
 class Ranks {
 public:
     Ranks(delam_petsc* petsc, bool divide) : petsc_(petsc), divide_(divide) {}
 
-    // On rank 0: the bodies go to all ranks, which then serve `rest`.
+    // Rank 0 gives the bodies to all ranks, which then serve `rest`.
     int around(const cli::Model& model, const std::function<int()>& rest) {
         const std::vector<std::int32_t> rank = ranks_of(model);
         (void)Processes::shared(rank.empty() ? solve_divided : solve_partitions);
@@ -92,7 +92,7 @@ public:
         call(status, model);
         return work.code;
     }
-    // On the others: until rank 0 has come to its end.
+    // The other ranks serve until rank 0 has come to its end.
     void serve() {
         for (int next = Processes::shared(leave); next != leave; next = Processes::shared(leave)) {
             const std::int32_t taken = next == solve_divided
@@ -175,7 +175,7 @@ bool take_options(int& argc, char** argv, bool& counts, bool& divide) {
     return true;
 }
 
-// On all ranks.
+// Prints the counts; all ranks call it.
 void say_counts(const Processes& processes, delam_petsc* petsc) {
     std::string line = "counts:";
     for (const char* key :

@@ -28,18 +28,18 @@ namespace delam {
 
 namespace {
 
-// Of a block, in OpenBLAS 0.3.21 on x86-64 (measured); smaller on other processors.
+// Size of a block in OpenBLAS 0.3.21 on x86-64 (measured); it is smaller on other processors.
 constexpr std::size_t block = std::size_t{128} << 20;
-// From this size on, daxpy gives each thread a part (OpenBLAS: above 10000).
+// Size of a daxpy that makes OpenBLAS give each thread a part (it does above 10000).
 constexpr std::size_t shared_work = 20000;
-// For threads of the BLAS that the system has started but not yet run.
+// Time to wait for threads of the BLAS that the system has started but not yet run.
 constexpr std::chrono::milliseconds patience{200};
 
 std::mutex mutex;
 int prepared = 0;          // threads of the BLAS that have their blocks, 0: not even the caller's is mapped
 std::int64_t callers = 0;  // callers for which blocks are mapped
 
-// How many blocks the system would grant now, up to `wanted`.
+// Returns the number of blocks that the system would grant now, up to `wanted`.
 std::int64_t granted(std::int64_t wanted) {
     std::vector<void*> probe;
     probe.reserve(static_cast<std::size_t>(wanted));

@@ -8,8 +8,9 @@
 
 namespace delam {
 
-// For one caller and the threads of the BLAS. Where there may be no room for all of them, the BLAS computes with one
-// thread from then on; std::bad_alloc if there is none even for one. Other libraries than OpenBLAS: does nothing.
+// Reserves the memory of the BLAS for one caller and its threads. Where there may be no room for all of them, the BLAS
+// computes with one thread from then on; throws std::bad_alloc if there is none even for one. Does nothing with
+// libraries other than OpenBLAS.
 void prepare_blas();
 
 // The number of callers, from 1 to `wanted`, for which there is memory when they use the BLAS at the same time.

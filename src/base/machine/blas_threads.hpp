@@ -11,9 +11,9 @@ namespace delam {
 // Number of threads of the BLAS loaded by this process (OpenBLAS, BLIS or MKL); 0: another BLAS, which cannot tell.
 std::int32_t blas_threads();
 
-// While it lives, BLAS calls of this thread use one thread. OpenBLAS and BLIS know one number for the whole process:
-// calls of BLAS that the host makes in other threads meanwhile may have one thread, too. The host's number is restored
-// once no thread of the library needs it to be one.
+// BLAS calls of this thread use one thread while this object exists. OpenBLAS and BLIS have one number of threads for
+// the whole process: BLAS calls that the host makes in other threads meanwhile may have one thread, too. The host's
+// number is restored once no thread of the library needs it to be one.
 class BlasThreads {
 public:
     BlasThreads();

@@ -13,10 +13,11 @@
 
 namespace delam {
 
-// Before the first write. Does nothing for small blocks, or where the system has no such pages.
+// Asks for large pages; to be called before the first write. Does nothing for small blocks, or where the system has no
+// such pages.
 void prefer_large_pages(void* memory, std::size_t bytes) noexcept;
-// Before all of a new block is written. (Measured in a virtual machine: 3 us a page, 13 us one by one.) Does nothing
-// for small blocks, or where the system cannot.
+// Takes all pages of a new block at once, before the block is written as a whole. (Measured in a virtual machine: 3 us
+// a page, 13 us one by one.) Does nothing for small blocks, or where the system cannot.
 void take_pages(void* memory, std::size_t bytes) noexcept;
 
 template <class T>

@@ -174,7 +174,8 @@ std::int32_t guard(const H* self, Body&& body) noexcept {
     return guard(self, Listed::everything(), body);
 }
 
-// As guard(), for calls whose contract lists `cancelled`. CancelScope::Call says what may stop each of the three.
+// Does what guard() does, for calls whose contract lists `cancelled`. CancelScope::Call says what may stop each of the
+// three.
 template <class H, class Body>
 std::int32_t guard_cancellable(const H* self, Listed listed, CancelScope::Call call, Body&& body) noexcept {
     return guard(self, listed, [&] {
@@ -228,7 +229,7 @@ void destroy(H** handle) noexcept {
 // Argument checks; each throws Error(DELAM_ERROR_ARGUMENT) naming the argument, its value and its range.
 void require_pointer(const void* pointer, const char* name);
 void require_count(std::int64_t count, const char* name, std::int64_t smallest = 0);
-// Of entries that are each one of `largest` things, each once.
+// Requires a count of entries, each of which is another one of `largest` things.
 void require_count_up_to(std::int64_t count, const char* name, std::int64_t smallest, std::int64_t largest);
 void require_array(const void* pointer, std::int64_t count, const char* name);
 void require_finite(const double* values, std::int64_t count, const char* name);

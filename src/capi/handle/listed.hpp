@@ -18,12 +18,13 @@ public:
     static constexpr Listed of(Status... statuses) {
         return Listed((0U | ... | bit(statuses)));
     }
-    // For functions in which no callback runs that has a status.
+    // The list of functions that run no callback with a status.
     static constexpr Listed everything() { return Listed(~0U); }
 
-    // What a function returns in the place of a status. Three are understood everywhere. What the function does not
-    // list becomes a number that cannot be had, or else a scene that is bad (as a law whose callback fails is); where
-    // neither is listed, DELAM_ERROR_INTERNAL is left.
+    // Returns the status that a function may return in the place of this one. Every function may return three of them.
+    // If the function does not list the status, it reports an unavailable number (DELAM_ERROR_NUMERICAL), or else a bad
+    // scene (DELAM_ERROR_PROBLEM), as for a law whose callback fails; where it lists neither, DELAM_ERROR_INTERNAL is
+    // left.
     [[nodiscard]] std::int32_t in_place_of(std::int32_t status) const {
         const bool known = status >= DELAM_ERROR_FILE && status <= DELAM_LIMIT;
         if (status == DELAM_ERROR_HANDLE || status == DELAM_ERROR_MEMORY || status == DELAM_ERROR_INTERNAL)

@@ -69,8 +69,9 @@ concept InexactSystem = requires(S system) {
     { S::guesses } -> std::convertible_to<std::int64_t>;
 };
 
-// What a solve has left open says nothing about contact. (Measured on an ENF in space with answers off by 1e-6: 153,000
-// active-set steps in the first five load steps where it was taken to say something, one for each solve otherwise.)
+// Returns the error of a solve, within which its answer says nothing about contact. (Measured on an ENF in space with
+// answers off by 1e-6: 153,000 active-set steps in the first five load steps where it was taken to say something, one
+// for each solve otherwise.)
 template <ContactSystem S>
 SolveError left_open(const S& system) {
     if constexpr (InexactSystem<S>)
@@ -111,7 +112,7 @@ concept SofteningSystem = requires(const S& system) {
 // iteration does not see that if its preconditioner is as indefinite.
 class Curvature {
 public:
-    // Whether this equilibrium and the one seen before say that A is indefinite, by more than is left open of either.
+    // True if this equilibrium and the one before show, beyond the errors of both, that A is indefinite.
     template <ContactSystem S>
     bool negative(const S& system, const ContactRows& rows, const std::vector<std::uint8_t>& closed,
                   const SolveError& open) {

@@ -55,7 +55,7 @@ public:
           theta_(theta),
           response_(response),
           result_(result) {
-        // From one of the first sets to the next, hundreds of rows change: rough answers tell which.
+        // Hundreds of rows change from one of the first sets to the next: rough answers tell which.
         if (rows.first > rows.least && op_.aim(Accuracy::rough)) accuracy_ = Accuracy::rough;
         if (cold) op_.expect_changes(rows.row);
     }

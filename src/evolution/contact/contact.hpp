@@ -34,7 +34,7 @@ struct ContactScene {
     // are free, jumps and forces are only the rounding of these numbers and say nothing about contact. Empty: no
     // eigenstrains.
     std::vector<double> strain_jump{}, strain_force{};
-    // Of a pair neither bonded nor prescribed in its normal row. prescribed: [rows].
+    // True if the pair is neither bonded nor prescribed in its normal row. prescribed: [rows].
     bool may_close(std::size_t pair, std::span<const std::uint8_t> prescribed) const {
         return bonded[pair] == 0 && prescribed[pair * static_cast<std::size_t>(dimension)] == 0;
     }

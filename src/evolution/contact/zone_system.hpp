@@ -36,7 +36,7 @@ public:
     };
     const std::vector<Pair>& pairs() const { return pairs_; }
 
-    // What acts on the rows from now on: the force of a row is sum_q C_rq j_q - h_r. row_force: h, [zone rows] or
+    // Sets what acts on the rows from now on: the force of a row is sum_q C_rq j_q - h_r. row_force: h, [zone rows] or
     // empty.
     void load(std::vector<Zone::Coupling> couplings, std::vector<double> row_force);
     // The same about an iterate of Newton's method.
@@ -47,13 +47,13 @@ public:
     std::optional<DenseMatrix> flexibility(const std::vector<std::uint8_t>& closed,
                                            std::span<const std::vector<Zone::RowForce>> forces);
     std::span<const double> jump() const { return jump_; }
-    // Of a closed contact row that of contact alone: where a model of a softening pair pulls at a jump of zero, the
-    // force of the pair would open it, and open it would penetrate.
+    // Forces on the rows; that of a closed contact row is the force of contact alone. Where a model of a softening pair
+    // pulls at a jump of zero, the force of the pair would open the row, and the open row would penetrate.
     std::span<const double> force() const { return force_; }
     double jump_floor() const { return scene_.jump_floor(theta_); }
     double force_floor() const { return scene_.force_floor(theta_); }
     bool softens() const;
-    // Only energies are wanted, within so much, F L: contact may then be left undecided where it matters less.
+    // Asks for energies only, within so much, F L: contact may then be left undecided where it matters less.
     void ask_for_energies(double allowed) { allowed_ = allowed; }
     bool negligible(const std::vector<std::uint8_t>& closed, std::span<const std::size_t> wrong);
     // The energy with contact lies above that of the last solve by at most `above`, below it by at most `below`, F L.
@@ -64,13 +64,13 @@ public:
     SolveError error() const { return solution_.error; }
     double energy_error() const { return solution_.energy_error; }
     bool rough() const { return false; }
-    // What is in doubt here is decided by the operator, which checks the end of a minimiser.
+    // The operator, which checks the end of a minimiser, decides what is in doubt here.
     static constexpr std::int64_t guesses = 0;
     bool tighten() { return false; }
     // The last solve.
     const Zone::Solution& solution() const { return solution_; }
     const std::vector<double>& unknowns() const { return solution_.unknowns; }
-    // What it has left of the residual with which this load began, as a part of it.
+    // The residual that the last solve has left, as a fraction of the residual with which this load began.
     double left() const { return solution_.left; }
     // Krylov iterations of all solves.
     std::int64_t iterations() const { return iterations_; }

@@ -36,7 +36,7 @@ Law changed(const Law& law, const std::string& key, double value) {
     return out;
 }
 
-// What the law says of one pair; its derivative by p is (of(more) - of(less)) / difference.
+// The law at one pair; its derivative by p is (of(more) - of(less)) / difference.
 struct AtPair {
     std::span<const double> jump;
     double zeta, mixity;
@@ -103,7 +103,7 @@ private:
         const Law& law = *pairs_.law[pair];
         return pairs_.mixed(pair) && tells_mixity(law, driving_energy(law, local(pair)), largest_);
     }
-    // Of what the law says at a pair, by the parameter.
+    // Returns the derivative by the parameter of a quantity `of` of the law, at a pair.
     template <class Of>
     double by_parameter(std::size_t pair, Of&& of) const {
         const std::int64_t law = parameter_.law[pair];

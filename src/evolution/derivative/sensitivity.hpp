@@ -41,8 +41,8 @@ struct FollowedParameter {
 FollowedParameter followed_parameter(const Problem& problem, std::span<const std::int64_t> interfaces,
                                      const std::string& key);
 
-// Of the state that the tangent has been made for. step: the increment that ended in it; null: it is the initial state,
-// without any damage.
+// Returns the derivatives of the state that the tangent has been made for. step: the increment that ended in it; null:
+// it is the initial state, without any damage.
 Sensitivity sensitivity(Linearised linearised, std::span<const FollowedParameter> parameters,
                         std::span<const Pattern> patterns, const StepRule* step);
 

@@ -26,23 +26,24 @@ namespace delam {
 class Linearised {
 public:
     Linearised(JumpOperator& op, const PairLaws& pairs, const ContactScene& contact, const State& state);
-    // From the state's own memory, so that the last digits depend on the state alone; every other call that solves
-    // recalls the memory of its state too.
+    // Solves with the state's own memory, so that the last digits depend on the state alone; every other call that
+    // solves recalls the memory of its state too.
 
-    // At the adhesion of the state, [patterns][patterns]. Error(DELAM_ERROR_STATE): a pattern acts along a motion that
-    // nothing holds.
+    // Returns the tangent at the adhesion of the state, [patterns][patterns]. Error(DELAM_ERROR_STATE): a pattern acts
+    // along a motion that nothing holds.
     std::vector<double> tangent(std::span<const Pattern> patterns);
-    // For the step of `increment`.
+    // Returns the tangent of the step of `increment`.
     std::vector<double> step_tangent(std::span<const Pattern> patterns, const Increment& increment);
 
-    // How the pairs that damage in a step respond: own + omega U, and the answers U to v. Without the gradient term.
+    // The response of the pairs that damage in a step: own + omega U, and the answers U to v. Without the gradient
+    // term.
     struct Damaging {
         std::vector<PairDirection> directions;
         std::vector<Response> answers;
         DenseMatrix system;
     };
     Damaging damaging(std::size_t patterns, const Increment& increment);
-    // Of forces on the rows, without loads.
+    // Returns the response to forces on the rows, without loads.
     Response answer(std::size_t patterns, const std::vector<double>& force);
     double along(const PairDirection& direction, std::span<const double> jump) const;
     const State& state() const { return state_; }

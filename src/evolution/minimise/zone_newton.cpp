@@ -76,7 +76,7 @@ private:
                   Point& out);
     // A point between `at` and `to` with less energy, at which pairs change one by one if asked for; false: none.
     bool descend(const Point& at, Point& to, bool singly);
-    // Between the points at most one pair breaks, and if one does, none that was at rest begins to soften.
+    // True if at most one pair breaks between the points and, if one does, no pair that was at rest begins to soften.
     bool one_by_one(const Point& from, const Point& to) const;
     std::int64_t weakest(const Point& at) const;
     Move step(const Point& at);
@@ -441,7 +441,8 @@ std::optional<double> ZoneNewton::run(State& state, const Increment& increment, 
     bool newton = false;
     for (std::int64_t n = 0; n < limit; ++n) {
         const std::vector<std::uint8_t> wanted = loaded_rows(*this, state, increment);
-        // What softens is brought to its end with the rest of the bodies at rest, before these all move by a step.
+        // The softening part is minimised to its end with the rest of the bodies at rest, before all of them move by a
+        // step.
         Zone* part = zones->part(state.theta, state.response, wanted);
         if (part != nullptr) {
             Descent descent(*this, state, increment, mixities, springs(), *part);

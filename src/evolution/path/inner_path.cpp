@@ -76,8 +76,8 @@ void InnerPath::book(const State& at, const State& next) {
     }
 }
 
-// Where the process zone has few pairs, each of them softens while the others wait, and the path would be long. There
-// the mesh decides about the growth, and the share is so large that a front needs no more than two parts for a pair.
+// A path is long where the process zone has few pairs, because each of them softens while the others wait. There the
+// mesh decides about the growth, and the share is so large that a front needs no more than two parts for a pair.
 double InnerPath::bound(const State& at, std::span<const double> mixity) const {
     std::vector<std::uint8_t> softening_pair(at.adhesion.size(), 0), broken(at.adhesion.size(), 0);
     std::int64_t interfaces = 0;
@@ -89,7 +89,7 @@ double InnerPath::bound(const State& at, std::span<const double> mixity) const {
         broken[p] = share >= 1.0 - softening ? 1 : 0;
         softening_pair[p] = share > softening && broken[p] == 0 ? 1 : 0;
     }
-    // Of the zones of all interfaces, the one with the most pairs in the direction of its growth.
+    // The interface whose zone has the most pairs in the direction of its growth decides.
     std::vector<double> zone(index(interfaces), 0.0), front(index(interfaces), 0.0);
     for (std::size_t p = 0; p < at.adhesion.size(); ++p) {
         if (softening_pair[p] == 0) continue;

@@ -38,20 +38,20 @@ public:
     InnerPath(const PairLaws& pairs, const PairGraph& graph, double stride, Make make, Minimise minimise)
         : pairs_(pairs), graph_(graph), stride_(stride), make_(std::move(make)), minimise_(std::move(minimise)) {}
 
-    // From the adhesion and mixity of `next`, which has the load of the end of the step; `step` begins at the state
-    // before. begun: what it has dissipated down to this adhesion; none: at these mixities. displaced: the
-    // displacements of `next` are those of its adhesion. False: a part did not converge.
+    // Follows the step in parts, from the adhesion and mixity of `next`, which has the load of the end of the step;
+    // `step` begins at the state before. begun: what the step has dissipated down to this adhesion; none: at these
+    // mixities. displaced: the displacements of `next` are those of its adhesion. False: a part did not converge.
     bool follow(State& next, const StepRule& step, const Dissipation* begun = nullptr, const Watch& watch = {},
                 bool displaced = false);
     // Do all pairs that are damaged in part, or nearly loaded to their onset, have the same toughness at these
     // mixities? before: and those that were damaged since then, at the mixities that they show now, too. Without such
     // pairs: yes.
     bool one_mode(const State& at, std::span<const double> mixity, const State* before) const;
-    // In one part, without its bound.
+    // Minimises in one part, without the bound of a part.
     bool minimise(State& next, StepRule& increment, bool displaced) const {
         return minimise_(next, increment, displaced);
     }
-    // What the step has dissipated in all parts, with that of its start, F L.
+    // The energy that the step has dissipated in all parts, including that of its start, F L.
     const Dissipation& dissipated() const { return dissipated_; }
     // Did the path begin at a state that is not the one before the step?
     bool started_elsewhere() const { return started_elsewhere_; }

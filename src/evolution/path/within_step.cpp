@@ -9,7 +9,8 @@ namespace delam {
 
 namespace {
 
-// Of what is dissipated: a part of the path that releases less may be steady growth.
+// Least release of unstable growth, relative to the dissipated energy; a part of the path that releases less may be
+// steady growth.
 constexpr double unstable = 1e-3;
 
 // Energy per square of the load.
@@ -28,7 +29,7 @@ std::vector<double> at_load(double load, std::vector<double> conjugate) {
     return conjugate;
 }
 
-// What interfaces have debonded between two states.
+// Sets how much the interfaces have debonded between two states.
 void compare(JumpWithin& jump, const PathPoint& from, const PathPoint& to) {
     jump.debonded = 0.0;
     double longest = 0.0;

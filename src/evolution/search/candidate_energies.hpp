@@ -46,7 +46,7 @@ public:
         focused_ = false;
         wanted_.clear();
     }
-    // Without another focus: what comes next differs from the step's own state elsewhere.
+    // Keeps the focus, but checks contact outside anew: the next candidates differ from the step's own state elsewhere.
     void look_anew() {
         if (focused_) zone_->look_anew();
     }
@@ -55,8 +55,8 @@ public:
                               std::span<const double> known, std::int64_t candidates);
 
 private:
-    // Of a pair that would break next, whose jump is then that of a broken neighbour. jump: of a pair, empty where it
-    // is not known.
+    // Returns B of a pair that would break next, whose jump is then that of a broken neighbour. jump: of a pair, empty
+    // where it is not known.
     double breaking_mixity(std::size_t pair, std::span<const double> adhesion, double known,
                            const std::function<std::span<const double>(std::size_t)>& jump) const;
     bool within_zone(std::span<const double> adhesion, std::span<const std::int64_t> next) const;

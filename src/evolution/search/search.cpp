@@ -149,7 +149,7 @@ void Trials::debond_interfaces() {
 void Trials::run() {
     const std::vector<Front> all = fronts(start_, seeds);
     search_.new_cracks = reach_of_new_cracks(search_, all, start_);
-    // Of new cracks those inside before those at ends, which often reach over a part of them.
+    // New cracks inside come before those at ends, which often reach over a part of them.
     for (const Front& front : all)
         if (!front.nucleation) sweep(front, start_, "");
     for (auto front = all.rbegin(); front != all.rend(); ++front)

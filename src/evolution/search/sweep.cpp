@@ -144,8 +144,8 @@ void Sweep::sample(std::size_t n) {
 
 std::size_t Sweep::place(std::size_t n) const { return ring_[n - 1].size() == 1 ? index(ring_[n - 1].front()) : n; }
 
-// In the middle half the place that is the multiple of the highest power of two: the energies of steps between which
-// the front has moved are then of the same states.
+// Returns the place in the middle half that is the multiple of the highest power of two: the energies of steps between
+// which the front has moved are then of the same states.
 std::size_t Sweep::middle(std::size_t low, std::size_t high) const {
     const std::size_t quarter = (high - low) / 4;
     std::size_t best = low + (high - low) / 2;

@@ -42,7 +42,7 @@ struct SearchRun {
     // I of a candidate; counts it. next_mixity: B that the pairs `next` show, where the mixity follows the iterates.
     double compare(Candidate& candidate, std::span<const std::int64_t> next, std::vector<double>* next_mixity);
 
-    // What adhering() has answered last.
+    // The last answer of adhering().
     Candidate last_base{};
     std::vector<std::uint8_t> last_adhering{};
 };
@@ -72,12 +72,12 @@ private:
     void sample(std::size_t n);
     // A place of ring n that does not move with the front, where rings are single pairs.
     std::size_t place(std::size_t n) const;
-    // Between two samples, about in the middle.
+    // Returns a place between two samples, about in the middle.
     std::size_t middle(std::size_t low, std::size_t high) const;
     void sample_coarsely();
     void sample_new_crack();
     std::vector<std::int64_t> pairs_within(std::size_t n) const;
-    // Whether a crack with this energy, and each smaller one, lies too high.
+    // True if a crack with this energy, and each smaller one, lies too high.
     bool not_promising(double energy) const;
     // Says a larger crack, of this sweep or another one, that one of n rings is not promising?
     bool settled_by_a_larger_one(std::size_t n) const;

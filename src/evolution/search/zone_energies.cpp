@@ -10,7 +10,7 @@ namespace delam {
 namespace {
 
 constexpr std::int64_t energy_contact_steps = 200;  // beyond them the energy is not known
-// Of the error that is allowed: what is left undecided of contact.
+// Share of the allowed error within which contact is left undecided.
 constexpr double undecided = 1e-3;
 constexpr std::size_t most_solved = 64;  // contact sets that are remembered
 // Contact outside is looked at again in states that differ in so many times as many pairs; then so many zones at most.

@@ -33,22 +33,22 @@ public:
     // contact must not be left undecided for. False: there is no zone for them, or no equilibrium under the known load
     // in it.
     bool focus(const State& known, std::span<const std::uint8_t> wanted, double allowed, bool with_jumps);
-    // What earlier energies have shown of contact; a search begins without it.
+    // Discards what earlier energies have shown of contact; a search begins without it.
     void forget() {
         solved_.clear();
         joined_.clear();
     }
-    // Whether this pair may differ.
+    // True if this pair may differ.
     bool inside(std::size_t pair) const { return place_[pair] >= 0; }
-    // Whether the zone in use has all of these pairs, [pairs], and is not much larger than one of their own.
+    // True if the zone in use has all of these pairs, [pairs], and is not much larger than a zone of these pairs alone.
     bool serves(std::span<const std::uint8_t> wanted) const;
-    // What comes next differs from the known state elsewhere.
+    // Checks contact outside anew: the next states differ from the known one elsewhere.
     void look_anew() { looked_at_ = 0; }
     // E at the known state's load and another adhesion; none: no equilibrium.
     std::optional<double> energy(std::span<const double> adhesion);
-    // Whether contact outside the zone has settled in the last energy(), as far as it was looked at.
+    // True if contact outside the zone had settled in the last energy(), as far as it was checked.
     bool settled() const { return settled_; }
-    // By how much the last energy() may be too high, F L.
+    // Returns the largest amount by which the last energy() may be too high, F L.
     double error() const { return system_->energy_error() + system_->doubt().above + system_->doubt().below; }
     // Local jump of a pair inside the zone, in the last energy().
     std::span<const double> jump(std::size_t pair) const {
@@ -72,7 +72,7 @@ private:
     const PairLaws& pairs_;
     const ContactScene& contact_;
     std::optional<ZoneSystem> system_;
-    // What has been solved since forget(): the next contact set is searched from the nearest one.
+    // The states solved since forget(): the next contact set is searched from the nearest one.
     struct Solved {
         std::vector<double> adhesion;      // [pairs]
         std::vector<std::uint8_t> closed;  // [pairs]
@@ -80,7 +80,7 @@ private:
     std::vector<Solved> solved_;
     std::vector<std::int64_t> place_;  // [pairs] first row within the zone, -1: outside
     double offset_ = 0.0;              // absolute energy less the zone's
-    // Of the last focus().
+    // Arguments of the last focus().
     const State* known_ = nullptr;
     std::vector<std::uint8_t> wanted_;  // [pairs]
     double allowed_ = 0.0;

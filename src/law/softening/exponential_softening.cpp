@@ -11,7 +11,8 @@ namespace {
 
 double decay_length(const Toughness& t) { return 0.5 * ((t.total - t.onset) / t.onset); }
 
-// Where on the curve the adhesion is zeta: x - 1, and its share w = (x-1)/lambda of the decay length, s = exp(-w).
+// Place on the curve at which the adhesion is zeta: x - 1, and its share w = (x-1)/lambda of the decay length, s =
+// exp(-w).
 struct Place {
     double beyond;
     double decays;

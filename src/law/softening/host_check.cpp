@@ -74,7 +74,8 @@ private:
         }
     }
 
-    // From below the onset to beyond the end: Y(0), or the driving energy at which the adhesion is a thousandth.
+    // Checks minimisers from below the onset to beyond the end: Y(0), or the driving energy at which the adhesion is a
+    // thousandth.
     void minimisers() const {
         const double last = std::isfinite(at(0.0).slope) ? -at(0.0).slope : -at(1e-3).slope;
         const double ratio = 2.0 * std::max(1.0, last / onset_);

@@ -22,7 +22,7 @@ struct HostSoftening {
     // Relative tolerance for energies and driving energies that the callbacks return.
     static constexpr double close_enough = 1e-6;
 
-    // What the callbacks say. A failure, or a value that no law can have, throws Error(DELAM_ERROR_PROBLEM) with the
+    // Results of the callbacks. A failure, or a value that no law can have, throws Error(DELAM_ERROR_PROBLEM) with the
     // name, the place and the value.
     struct Adhesion {
         double value;  // zeta*, in [0,1]

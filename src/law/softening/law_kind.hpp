@@ -28,7 +28,7 @@ inline constexpr ParameterRange positive{"finite and > 0", 0.0, no_bound, true, 
 inline constexpr ParameterRange not_negative{"finite and >= 0", 0.0, no_bound, false, true};
 inline constexpr ParameterRange below_one{">= 0 and < 1", 0.0, 1.0, false, true};
 
-// Which toughnesses a kind of law takes, by mode and with their exponents.
+// Toughnesses that a kind of law takes, by mode and with their exponents.
 enum class Toughnesses {
     none,            // the callbacks of the host give them
     total,           // G^c alone: onset and end are one

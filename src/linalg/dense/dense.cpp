@@ -17,8 +17,8 @@ namespace {
 
 constexpr int one = 1;
 
-// Up to `small` rows LAPACK runs without a poll in between; larger matrices are treated in panels of `width` columns
-// (README.md has the times).
+// LAPACK factorises up to `small` rows without a poll in between; larger matrices are treated in panels of `width`
+// columns (README.md has the times).
 constexpr std::int64_t small = 384, width = 96;
 // Inverses: from these on.
 constexpr std::int64_t small_inverse = 1024, wide = 256;
@@ -63,8 +63,8 @@ int leading(const DenseMatrix& a) {
 
 }  // namespace
 
-// In four sums, because each addition waits for the one before in the same sum. Not the BLAS's, whose digits may depend
-// on its threads.
+// Adds in four sums, because each addition waits for the one before in the same sum. The BLAS has such a function, too,
+// but its digits may depend on its threads.
 double dot(std::span<const double> x, std::span<const double> y) {
     const std::size_t n = x.size(), whole = n - n % 4;
     const double *a = x.data(), *b = y.data();
@@ -130,7 +130,7 @@ void mirror_lower(DenseMatrix& a) {
                 for (std::int64_t i = std::max(bi, j + 1); i < std::min(bi + block, a.rows); ++i) a(j, i) = a(i, j);
 }
 
-// By column panels of the product: rows behind a panel have L's columns up to its end in common with it.
+// Multiplies by column panels of the product: rows behind a panel have L's columns up to its end in common with it.
 DenseMatrix lower_times_transpose(const DenseMatrix& lower, const Poll& poll) {
     DenseMatrix product;
     make_room(product.value, static_cast<std::size_t>(lower.rows * lower.rows));
@@ -172,8 +172,8 @@ void multiply_transposed(const DenseMatrix& a, std::span<const double> x, std::s
         std::fill(y.begin(), y.end(), 0.0);
 }
 
-// Beyond `small` rows, panel by panel: the panel's own triangle, the rows below it, then its contribution to the
-// columns behind it.
+// Factorises more than `small` rows panel by panel: the panel's own triangle, the rows below it, then its contribution
+// to the columns behind it.
 bool factor_definite(DenseMatrix& a, const Poll& poll) {
     const int n = blas_size(a.rows), lda = leading(a);
     int info = 0;

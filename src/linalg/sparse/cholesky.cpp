@@ -221,7 +221,7 @@ bool SparseCholesky::factorise(const SparseMatrix& matrix) {
 
 namespace {
 
-// Of a pivot to the largest: solutions in single precision then stay far below 1e38.
+// Least ratio of a pivot to the largest: solutions in single precision then stay far below 1e38.
 constexpr double single_range = 1e-24;
 // Powers of two by which a double can be scaled and stay one.
 constexpr int scalable = 1000;

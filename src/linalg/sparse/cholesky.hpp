@@ -40,8 +40,9 @@ public:
     void solve_leading(std::span<const double> b, std::span<double> x) const;
     // Lower factor L_tt of the trailing variables: L_tt L_tt^T is the Schur complement onto them.
     DenseMatrix trailing_factor() const;
-    // After factorise(), whether it succeeded or not: the variable with the smallest pivot, and the ratio of that pivot
-    // to the largest; 0 if the factorisation broke down. largest: the root of the largest, a diagonal entry of L.
+    // Result of the last factorise(), whether it succeeded or not: the variable with the smallest pivot, and the ratio
+    // of that pivot to the largest; 0 if the factorisation broke down. largest: the root of the largest, a diagonal
+    // entry of L.
     struct Pivot {
         std::int64_t variable = -1;
         double ratio = 1.0;

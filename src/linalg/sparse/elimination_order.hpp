@@ -11,9 +11,10 @@
 
 namespace delam {
 
-// Of a symmetric matrix (both triangles stored), all variables. The last `trailing` of them keep their place. The
-// others are ordered by constrained minimum degree, or by nested dissection where this is estimated to need fewer
-// operations; those of a matrix that is nearly full, shortest rows first. poll: called between orders.
+// Returns an order of all variables of a symmetric matrix (both triangles stored). The last `trailing` of them keep
+// their place. The others are ordered by constrained minimum degree, or by nested dissection where this is estimated to
+// need fewer operations. The variables of a matrix that is nearly full have the shortest rows first. poll: called
+// between orders.
 std::vector<std::int64_t> elimination_order(const SparseMatrix& matrix, std::int64_t trailing, const Poll& poll);
 
 // The sum of the squares of the columns of the factor in this order, in which members of a group follow one another:

@@ -11,7 +11,7 @@
 
 namespace delam {
 
-// In the order of their first members.
+// Groups of equal rows, in the order of their first members.
 struct EqualRows {
     std::vector<std::int64_t> of;      // group of each variable
     std::vector<std::int64_t> member;  // variables, group by group
@@ -25,7 +25,7 @@ struct EqualRows {
 // order, not a wrong one.
 EqualRows equal_rows(const SparseMatrix& m, std::int64_t variables, std::int64_t leading);
 
-// Which groups the rows connect: the pattern of a matrix [groups][groups], both triangles, columns not sorted.
+// Returns which groups the rows connect: the pattern of a matrix [groups][groups], both triangles, columns not sorted.
 SparseMatrix pattern_of_groups(const SparseMatrix& m, const EqualRows& groups);
 
 }  // namespace delam

@@ -93,7 +93,7 @@ public:
         end_.assign(start_.begin(), start_.end() - 1);
     }
 
-    // Whether row k is independent of those before it. To be called for each row in turn.
+    // True if row k is independent of those before it. To be called for each row in turn.
     bool add(std::int64_t k, double tolerance) {
         double pivot = 0.0;  // stays 0 if no column of the row carries
         for (std::int64_t e = gram_.start[index(k)]; e < gram_.start[index(k) + 1]; ++e) {

@@ -9,8 +9,8 @@
 
 namespace delam {
 
-// Where a supernodal factor L, P A P^T = L L^T, has its columns. Those of a supernode are one dense block over its
-// rows, column-major, the rows of its own triangle first. All arrays belong to the factor.
+// Places of the columns of a supernodal factor L, P A P^T = L L^T. The columns of a supernode are one dense block over
+// its rows, column-major, the rows of its own triangle first. All arrays belong to the factor.
 struct Supernodes {
     std::span<const std::int64_t> first;        // [supernodes + 1] columns
     std::span<const std::int64_t> row_start;    // [supernodes + 1] in `row`

@@ -30,7 +30,7 @@ public:
     double reduce(Row& row) const;
     // Solves a reduced row for one of its variables.
     void solve(const Row& row, std::int64_t pivot);
-    // After the last row: expresses all solutions in free variables.
+    // Expresses all solutions in free variables; to be called after the last row.
     void close();
 
     bool solved(std::int64_t variable) const { return place_.contains(variable); }

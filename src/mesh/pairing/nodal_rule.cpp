@@ -16,9 +16,9 @@ namespace delam {
 
 namespace {
 
-// Of linear faces: the trapezoid on edges, a third each on triangles; on quadrilaterals, by 2 x 2 Gauss points at which
-// all N_a are positive,
-//     w_a = int N_a |x_xi x x_eta| dxi deta.
+// Returns the weights of the nodes of a linear face: the trapezoid on edges, a third each on triangles; on
+// quadrilaterals, by 2 x 2 Gauss points at which all N_a are positive,
+// w_a = int N_a |x_xi x x_eta| dxi deta.
 std::array<double, 4> linear_weights(const Mesh& mesh, std::span<const std::int64_t> nodes) {
     std::array<double, 4> weights{};
     if (nodes.size() != 4) {

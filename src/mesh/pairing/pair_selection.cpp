@@ -53,7 +53,7 @@ public:
 private:
     // Node b of a pair always lies on the interface; node a may be a control node elsewhere.
     double at(std::int64_t pair, std::size_t axis) const { return mesh_.node(interface_.node_b[index(pair)])[axis]; }
-    // How far the pair lies beyond a side of the box; < 0: inside of it.
+    // Returns how far the pair lies beyond a side of the box; < 0: inside of it.
     double beyond(std::int64_t pair, std::size_t axis, bool upper) const {
         return upper ? at(pair, axis) - upper_[axis] : lower_[axis] - at(pair, axis);
     }
@@ -70,7 +70,7 @@ private:
             if (beyond(pair, axis, false) > slack_ || beyond(pair, axis, true) > slack_) return true;
         return false;
     }
-    // Of pairs that belong together, those on a side of the box beyond which others lie.
+    // Marks, of pairs that belong together, those on a side of the box beyond which others lie.
     void mark_tips(std::span<const std::int64_t> together, std::vector<bool>& tip) const {
         for (std::size_t axis = 0; axis < axes_; ++axis)
             for (const bool upper : {false, true}) {

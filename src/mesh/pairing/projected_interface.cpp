@@ -118,7 +118,7 @@ public:
         return faces;
     }
 
-    // In the other direction: no face of a may lie on faces of b that were left out.
+    // Checks the other direction: no face of a may lie on faces of b that were left out.
     void refuse_covered(const std::vector<BoundaryFace>& off) const {
         const Ground apart(mesh_, off, reach_, rim_);
         for (const BoundaryFace& face : faces_a_) {

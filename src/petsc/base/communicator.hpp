@@ -96,7 +96,7 @@ public:
     double messages_sent() const { return messages_; }
 
 private:
-    // What a rank that has failed does until the others agree.
+    // Behaviour of a rank that has failed, until the others agree.
     enum class Waits { long_as_it_takes, then_says_so, then_aborts };
     template <class Work>
     void agree(Work&& work, Waits waits) const {

@@ -12,7 +12,7 @@
 
 namespace delam::petsc {
 
-// What a call ends with if it cannot do its work: a status of delam.h and why.
+// Ends a call that cannot do its work: a status of delam.h and the reason.
 struct Failure : std::runtime_error {
     Failure(std::int32_t which, const std::string& text) : std::runtime_error(text), status(which) {}
     std::int32_t status;
@@ -25,7 +25,7 @@ template <class... Parts>
     throw Failure(status, text.str());
 }
 
-// While it lives, PETSc's errors are recorded instead of printed.
+// PETSc's errors are recorded instead of printed while this object exists.
 class ErrorRecord {
 public:
     ErrorRecord();

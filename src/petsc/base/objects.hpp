@@ -26,7 +26,7 @@ public:
     Owned& operator=(const Owned&) = delete;
 
     operator Handle() const { return value_; }
-    // Where a create function stores a new one.
+    // Returns the place where a create function stores a new object.
     Handle* out() {
         reset();
         return &value_;

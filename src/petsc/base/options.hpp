@@ -5,7 +5,7 @@
 
 namespace delam::petsc {
 
-// Of all our objects in PETSc's database.
+// Prefix of all our objects in PETSc's database.
 inline constexpr const char* options_prefix = "delam_";
 
 // Initialises PETSc if nobody has; it is then finalised with MPI.

@@ -46,7 +46,7 @@ OwnedVec Bodies::vector() const {
     return v;
 }
 
-// Of T^T K T, without forming it: sum over the DOFs r, s of T_rc K_rs T_sc.
+// Computes the diagonal of T^T K T without forming the product: sum over the DOFs r, s of T_rc K_rs T_sc.
 void Bodies::make_diagonal() {
     std::vector<double> sums;
     comm_.together([&] {

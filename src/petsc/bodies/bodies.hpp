@@ -9,7 +9,7 @@
 
 namespace delam::petsc {
 
-// What the bodies do in a state u = T v + U theta.
+// Response of the bodies in a state u = T v + U theta.
 struct BodyState {
     std::vector<double> displacement;  // u at the rows of T
     std::vector<double> force;         // this rank's share of K u there
@@ -46,7 +46,7 @@ public:
     void add_nodal_forces(std::span<const double> theta, Vec out) const;
     // out = |T|^T |K| |u|, the sizes of the terms of T^T K u.
     void sizes(const BodyState& state, Vec out) const;
-    // Between this rank's places and a vector of all: what the ranks have is summed.
+    // Both copy between this rank's places and a vector of all; assemble() sums what the ranks have.
     void assemble(std::span<const double> places, Vec out) const;
     void fetch(Vec from, std::vector<double>& places) const;
 

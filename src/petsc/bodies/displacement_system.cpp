@@ -12,7 +12,7 @@ namespace delam::petsc {
 
 namespace {
 
-// Of the largest stiffness: what a place has on its diagonal to which this rank adds nothing.
+// Diagonal entry, relative to the largest stiffness, of a place to which this rank adds nothing.
 constexpr double nothing = 1e-6;
 
 using Springs = std::map<std::pair<PetscInt, PetscInt>, double>;
@@ -94,7 +94,7 @@ void DisplacementSystem::make_transform(const SceneVariables& scene) {
     transform.sort_rows();
 }
 
-// Of one rank: its caller agrees with the others.
+// Returns the matrix of this rank alone: the caller agrees with the other ranks.
 LocalMatrix DisplacementSystem::stiffness() const {
     // PETSc's arrays have no const.
     LocalMatrix &part = const_cast<LocalMatrix&>(bodies_.part().stiffness),

@@ -24,7 +24,7 @@ public:
     ISLocalToGlobalMapping mapping() const { return mapping_; }
     // P^-1 in PETSc's numbers: v = P^-1 w.
     Mat expansion() const { return expansion_; }
-    // Whether all components of a node are variables.
+    // True if all components of a node are variables.
     bool is_whole(std::size_t node) const;
     // Places without a variable.
     OwnedIs empty_places() const;

@@ -38,7 +38,7 @@ void fill_transform(const SceneVariables& scene, Places& places, LocalVariables&
     }
 }
 
-// Those at the rows of T; of them, if only_owned, those that no other rank takes.
+// Returns the terms at the rows of T; if only_owned, only those that no other rank takes.
 LocalVariables::Terms local_terms(const SceneVariables::Terms& all, const LocalVariables& local, Places& places,
                                   bool only_owned) {
     LocalVariables::Terms kept;

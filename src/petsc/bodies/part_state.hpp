@@ -9,8 +9,7 @@
 
 namespace delam::petsc {
 
-// What a part was made from, where it came from rank 0's scene: its cells, and their bytes for
-// delam_experimental_part_fields.
+// Source of a part that came from rank 0's scene: its cells, and their bytes for delam_experimental_part_fields.
 struct PartCells {
     std::vector<std::int64_t> cells;
     std::vector<std::uint8_t> bytes;
@@ -26,7 +25,8 @@ public:
         std::int64_t columns;
     };
 
-    // Of bodies, by label, at a state; unknown where a host has had it recovered by the library's own function.
+    // Eigenstrains of bodies, by label, at a state; unknown where the host's own call of the library's function has
+    // recovered it.
     struct Eigenstrains {
         bool known = false;
         std::vector<std::int32_t> bodies;
@@ -36,7 +36,7 @@ public:
     void clear() { *this = {}; }
 
     bool known() const { return known_; }
-    // Those of the part, then, on rank 0, those of the mesh that no part has.
+    // Nodes of the part, then, on rank 0, the nodes of the mesh that no part has.
     const std::vector<std::int64_t>& nodes() const { return nodes_; }
     // 1: no lower rank has the node.
     const std::vector<std::int32_t>& owned() const { return owned_; }

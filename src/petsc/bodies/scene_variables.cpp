@@ -15,7 +15,7 @@ std::int64_t home_of(const delam_experimental_variables& v, std::int64_t variabl
     return variable < v.dofs ? variable : v.homes[variable - v.dofs];
 }
 
-// In the order of the DOFs, with homes in the place of variables.
+// Copies the variables in the order of the DOFs, with homes in the place of variables.
 void translate(const delam_experimental_variables& v, SceneVariables& scene) {
     scene.dimension = v.dimension;
     scene.dofs = v.dofs;

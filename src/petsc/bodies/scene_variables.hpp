@@ -9,9 +9,9 @@
 
 namespace delam::petsc {
 
-// What all ranks know of delam_experimental_variables. Each variable is called by the DOF whose place it has, its
-// "home": a DOF that is a variable is its own home, a jump has a replaced DOF. A replaced DOF that is nobody's home has
-// no variable.
+// The data of delam_experimental_variables that all ranks know. Each variable is called by the DOF whose place it has,
+// its "home": a DOF that is a variable is its own home, a jump has a replaced DOF. A replaced DOF that is nobody's home
+// has no variable.
 struct SceneVariables {
     struct Terms {  // of a load pattern
         std::vector<std::int64_t> dof;

@@ -30,7 +30,7 @@ private:
 // A matrix of a few entries, which rank 0 gives: places in PETSc's numbers, entries at the same place are summed.
 class SparseEntries {
 public:
-    // Whether the places are others than those of the last call.
+    // True if the places differ from those of the last call.
     bool set(const Bodies& bodies, const std::vector<PetscInt>& rows, const std::vector<PetscInt>& columns,
              const std::vector<double>& values);
     Mat matrix() const { return matrix_; }

@@ -9,8 +9,8 @@
 
 namespace delam::petsc {
 
-// Of a problem's cells, as bytes, what their stiffness follows from; none for no cells. rank: whose problem it is, for
-// messages.
+// Returns, as bytes, what determines the stiffness of a problem's cells; none for no cells. rank: whose problem it is,
+// for messages.
 std::vector<std::uint8_t> part_bytes(const delam_problem* problem, const std::vector<std::int64_t>& cells, int rank);
 // Their stiffness, over the numbers of the problem's mesh. dimension: of a part without cells.
 Part part_of_bytes(std::int32_t dimension, const std::vector<std::uint8_t>& bytes);

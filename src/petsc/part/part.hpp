@@ -11,7 +11,7 @@
 
 namespace delam::petsc {
 
-// What this rank adds to the stiffness of the bodies: over the DOFs of its nodes, dimension*i + component.
+// The part of the bodies' stiffness that this rank adds: over the DOFs of its nodes, dimension*i + component.
 struct Part {
     std::int32_t dimension = 0;
     std::vector<std::int64_t> nodes;  // in the numbers of the mesh, or beyond; each once

@@ -17,11 +17,11 @@ namespace delam::petsc {
 
 namespace {
 
-// As for a stiffness in one process (delam_problem_set_stiffness), relative to sqrt(k_rr k_cc): by Cauchy and Schwarz
-// no entry of a positive semidefinite matrix is larger, nor are the terms that a host has added up to it.
+// The bound is that of a stiffness in one process (delam_problem_set_stiffness), relative to sqrt(k_rr k_cc): by Cauchy
+// and Schwarz no entry of a positive semidefinite matrix is larger, nor are the terms that a host has added up to it.
 constexpr double allowed_asymmetry = 1e-9;
 
-// Which rank has the rows of a node: written down on rank node mod size, whom the others ask.
+// The ranks that have the rows of the nodes: rank node mod size keeps the entry of a node, and the others ask it.
 class Owners {
 public:
     Owners(const Communicator& comm, std::span<const std::int64_t> nodes) : comm_(comm) {

@@ -8,9 +8,9 @@ namespace delam::petsc {
 
 namespace {
 
-// What stands on the diagonal where the congruence leaves nothing: places without a variable, which no vector ever
-// uses, get the stiffness of their DOF, so that the matrix is definite and its entries are of one size; variables of
-// other ranks a zero.
+// Returns the diagonal where the congruence leaves nothing. Places without a variable, which no vector ever uses, get
+// the stiffness of their DOF, so that the matrix is definite and its entries are of one size; variables of other ranks
+// get a zero.
 std::vector<double> missing_diagonal(const LocalMatrix& stiffness, const LocalVariables& local) {
     std::vector<double> own(index(local.places()), 0.0);
     double typical = 0.0;

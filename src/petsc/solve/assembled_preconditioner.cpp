@@ -36,8 +36,8 @@ void AssembledPreconditioner::create() {
     if (!is_direct()) give_rigid_motions();
 }
 
-// What multigrid takes to its coarser levels: v of the bodies that move as one rigid body, u = T v. Jumps are zero
-// then.
+// Gives multigrid the motions for its coarser levels: v of the bodies that move as one rigid body, u = T v. Jumps are
+// zero then.
 void AssembledPreconditioner::give_rigid_motions() {
     const LocalVariables& local = bodies_.local();
     const std::vector<double>& x = bodies_.part().coordinates;

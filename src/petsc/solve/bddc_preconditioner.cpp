@@ -42,7 +42,7 @@ BddcPreconditioner::BddcPreconditioner(const Bodies& bodies, const Visible& visi
     }
 }
 
-// What springs connect decides on the constraints: BDDC begins anew each time.
+// Makes BDDC anew each time, because its constraints depend on what springs connect.
 double BddcPreconditioner::renew(const Operator::Entries& entries) {
     const LocalVariables& local = bodies_.local();
     bddc_.reset();

@@ -11,7 +11,7 @@ namespace delam::petsc {
 
 namespace {
 
-// Which of the first `count` nodes the stiffness connects: for each the lowest of its body.
+// Finds which of the first `count` nodes the stiffness connects: returns for each the lowest node of its body.
 std::vector<std::size_t> bodies_of(const LocalMatrix& stiffness, std::size_t count, std::size_t dimension) {
     std::vector<std::size_t> parent(count);
     std::iota(parent.begin(), parent.end(), std::size_t{0});
@@ -51,13 +51,13 @@ private:
     std::size_t d_;
 };
 
-// Of these nodes, in an order that all ranks agree on: the one farthest from the first, the one farthest from that and,
-// in space, the one that makes the largest triangle with these.
+// Returns three of these nodes (two in the plane), in an order that all ranks agree on: the one farthest from the
+// first, the one farthest from that and, in space, the one that makes the largest triangle with these.
 std::vector<std::size_t> spread_out(const std::vector<std::size_t>& nodes, const Points& points,
                                     std::size_t dimension) {
     const auto most = [&](const auto& measure) {
         return *std::max_element(nodes.begin(), nodes.end(), [&](std::size_t i, std::size_t k) {
-            // What differs by rounding is the same.
+            // Measures that differ by rounding count as equal.
             return measure(i) < measure(k) * (1.0 - 1e-9);
         });
     };

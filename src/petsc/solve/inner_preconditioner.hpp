@@ -22,7 +22,7 @@ public:
 
 // Sets the preconditioner up, and fails if PETSc says that it cannot.
 void set_up(PC pc);
-// What a renewal is worth where nothing tells; -delam_renewal_worth.
+// Returns the worth of a renewal where nothing tells; -delam_renewal_worth.
 double usual_worth();
 
 }  // namespace delam::petsc

@@ -14,7 +14,8 @@ namespace {
 
 constexpr PetscInt longest_run = 10000;  // KSP keeps some numbers of each iteration
 constexpr int most_idle = 20;            // iterations without gain: rounding
-// Beyond the target, for the components that it hides: at least, and of those before.
+// Iterations beyond the target, for the components that it hides: this number at least, and one for so many of those
+// before.
 constexpr PetscInt most_beyond = 5;
 constexpr PetscInt beyond_of = 2;
 
@@ -120,7 +121,7 @@ KSPConvergedReason Iterations::decide(PetscInt iteration, double norm) {
     return static_cast<KSPConvergedReason>(decision);
 }
 
-// What an error leaves of a KSP is of no use.
+// A KSP is discarded after an error, because its state is then of no use.
 void Iterations::iterate(Vec r, Vec x) {
     try {
         if (ksp_ == nullptr) create();

@@ -20,7 +20,7 @@ public:
     void apply(Vec residual, Vec z) const;
     // The next residual that apply gets has this z, which is known.
     void expect(Vec z) const { expected_ = z; }
-    // What apply has been given last, and its answer; valid until their owner, the KSP, goes on.
+    // The last argument of apply and its answer; valid until their owner, the KSP, goes on.
     Vec last_residual() const { return last_residual_; }
     Vec last_z() const { return last_z_; }
     double factor_entries() const { return inner_->factor_entries(); }

@@ -26,7 +26,7 @@ Solve::Solve(const Bodies& bodies, const Visible& visible, const Constraints& co
         *vector = bodies.vector();
 }
 
-// From known answers, times the factor that has the least energy: a load that has only grown needs nothing else.
+// Begins with known answers, times the factor that has the least energy: a load that has only grown needs nothing else.
 // With v = s S y + r0:  s = y.S^T(b - A r0) / y.S^T A S y.
 void Solve::begin(const Question& question, const KeptStates& kept) {
     visible_.write(question.force, right_);
@@ -114,7 +114,7 @@ bool Solve::asks_for_all(const Restarts& restarts) {
     return restarts.tolerance() <= std::max(finest_tolerance, restarts.rounded());
 }
 
-// Whether the true residual r is that of the recursion, but for what rounding does to each component.
+// True if the true residual r is that of the recursion, but for what rounding does to each component.
 bool Solve::confirms(const Question& question, Vec recursion) {
     if (constraints_.has_pivots()) return false;
     residual_sizes(question);

@@ -9,7 +9,7 @@
 
 namespace delam::petsc {
 
-// What rank 0 has been asked for; the other ranks get theta from it.
+// The question that rank 0 has been asked; the other ranks get theta from it.
 struct Question {
     std::vector<double> theta;  // on all ranks
     std::vector<double> start;  // likewise: weights of kept answers, or empty

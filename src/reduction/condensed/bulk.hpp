@@ -32,7 +32,7 @@ public:
     // Assembles and analyses; condense() computes the numbers.
     Bulk(const Problem& problem, Monitor& monitor);
     void condense(Monitor& monitor);
-    // Before condense(): what another realisation can go on with.
+    // Gives the assembled bodies to another realisation of the operator, before condense().
     AssembledBodies release() &&;
 
     const std::vector<JumpRow>& rows() const { return rows_; }
@@ -52,7 +52,7 @@ public:
     Elimination elimination() const { return {*superelements_, trailing_load_}; }
     std::vector<double> states(std::span<const double> of_unknowns) const;
 
-    // What the equations leave of an elimination's energy; without any, that energy itself.
+    // The energy of an elimination after the equations are used; without equations, that energy itself.
     struct Reduced {
         DenseEnergy energy;                      // of [kept displacements | unknown jumps]
         std::vector<std::int64_t> rest, pivot;   // rows of the elimination's energy: those of this one, and the others
@@ -86,7 +86,7 @@ public:
     // L theta - S x of the wanted unknowns at a point of the skeleton; 0 for the others.
     std::vector<double> residual(std::span<const double> theta, std::span<const double> skeleton,
                                  std::span<const std::uint8_t> wanted) const;
-    // From the unknowns alone.
+    // Returns the displacements from the unknowns alone.
     std::vector<double> displacement(std::span<const double> theta, std::span<const double> unknowns) const;
     // Reactions and unbalanced forces.
     const BodySystem& system() const { return *system_; }
@@ -99,7 +99,7 @@ public:
 
     std::int64_t dofs() const { return system_->dofs(); }
     const Superelements& superelements() const { return *superelements_; }
-    // Before condense(): number of jumps and kept displacements, entries of K and T^T K T.
+    // Sizes before condense(): number of jumps and kept displacements, entries of K and T^T K T.
     std::int64_t trailing() const { return variables().trailing(); }
     std::int64_t stiffness_entries() const { return stiffness().entries(); }
     std::int64_t transformed_entries() const { return transformed_.entries(); }

@@ -91,8 +91,8 @@ double Bulk::on_rest(std::span<const double> carried, std::int64_t rest) const {
     return force;
 }
 
-// Of the energy in all trailing variables, t_pivot = M r + d theta leaves
-//   S_rr + S_rp M + M^T S_pr + M^T S_pp M   and   L_r + M^T L_p - (S_rp + M^T S_pp) d.
+// The equations t_pivot = M r + d theta reduce the energy in all trailing variables to
+// S_rr + S_rp M + M^T S_pr + M^T S_pp M   and   L_r + M^T L_p - (S_rp + M^T S_pp) d.
 Bulk::Reduced Bulk::reduce(const Elimination& elimination) const {
     Reduced r;
     const DenseEnergy& energy = elimination.energy();

@@ -130,7 +130,8 @@ void Condensed::choose(const Springs& springs, std::span<const std::uint8_t> wan
         set = grown(std::move(set), needed + std::max<std::size_t>(16, needed / 5));
     for (std::size_t i = 0; i < expected_.size(); ++i)
         if (expected_[i] != 0) set[i] = 1;
-    // From here to the end of condense() there is no zone: an interrupted choice is never taken for a valid one.
+    // The zone is missing from here to the end of condense(), so that an interrupted choice is never taken for a valid
+    // one.
     zone_.reset();
     spring_ = std::move(now);
     inside_ = std::move(set);

@@ -10,7 +10,8 @@
 
 namespace delam {
 
-// Per unknown: a code of age and inside, the spring at which it is minimised out, that of the last solve.
+// Saves three numbers for each unknown: a code of age and inside, the spring at which it is minimised out, and that of
+// the last solve.
 std::vector<double> Condensed::choice() const {
     if (zone_ == nullptr) return {};
     zone_->forget();  // the factor that earlier solves have left is not saved

@@ -11,7 +11,7 @@ namespace delam {
 
 namespace {
 
-// In the memory of what was there, without values.
+// Resizes without values, in the memory that the matrix has.
 void resize(DenseMatrix& a, std::int64_t rows, std::int64_t columns) {
     a.rows = rows;
     a.columns = columns;
@@ -115,7 +115,7 @@ bool Elimination::older(const Front& front, std::span<const std::int64_t> own,
     return std::any_of(inputs.begin(), inputs.end(), [&](const Front* input) { return input->made > front.made; });
 }
 
-// What a subtree leaves of itself.
+// Renews the contribution of a subtree to the rest.
 void Elimination::refresh_below(std::int64_t number, const Poll& poll) {
     const Superelements::Node& node = bodies_.nodes()[index(number)];
     for (const std::int64_t child : node.children) refresh_below(child, poll);
@@ -132,8 +132,8 @@ void Elimination::refresh_below(std::int64_t number, const Poll& poll) {
     eliminate(front, poll);
 }
 
-// What all that is not below a node leaves of itself, on the border of that node: the parent's own, the sibling's
-// subtree, and what is outside of the parent's subtree. None of it is in the zone.
+// Renews the contribution of all that is not below a node, on the border of that node: the parent's own, the sibling's
+// subtree, and all outside of the parent's subtree. None of it is in the zone.
 void Elimination::refresh_outside(std::int64_t number, const Poll& poll) {
     const std::int64_t parent = parent_[index(number)];
     if (parent < 0) return;
@@ -154,8 +154,9 @@ void Elimination::refresh_outside(std::int64_t number, const Poll& poll) {
     eliminate(front, poll);
 }
 
-// What a node eliminates, and what it leaves: the border, kept displacements last, then the zone; all ascending. With
-// all that is outside at hand, nothing but kept displacements and the zone.
+// Divides the variables of a node into those that it eliminates and those that it leaves: the border, kept
+// displacements last, then the zone; all ascending. If `outside` is given, only kept displacements and the zone are
+// left.
 void Elimination::divide_node(Front& front, const Superelements::Node& node, const Front* outside) const {
     std::vector<std::int64_t> zone;
     front.left.clear();
@@ -305,7 +306,7 @@ void Elimination::add(Front& front, const Front& other) {
         for (std::int64_t k = 0; k < column.length; ++k) {
             double* sums = front.coupling.value.data() + (column.to + k) * e;
             for (const Run& row : out) {
-                // Of the two entries that are equal, the one in the lower triangle.
+                // The matrix stores the lower triangle: of two equal entries the one there is read.
                 const bool below = column.from > row.from;
                 const double* values = s.value.data() + (below ? row.from * s.rows + column.from + k
                                                                : (column.from + k) * s.rows + row.from);

@@ -34,7 +34,7 @@ struct SuperelementTree {
     std::vector<std::int64_t> position;  // [variables] in the order of elimination, kept displacements last
 };
 
-// Where the variables are, L.
+// Positions of the variables, L.
 struct VariablePoints {
     std::int64_t dimension = 0;
     std::vector<double> at;  // [variables][dimension]

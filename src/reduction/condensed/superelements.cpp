@@ -13,8 +13,8 @@ namespace delam {
 
 namespace {
 
-// Of the root of the two diagonal entries. Coordinates that are rounded change a stiffness by about as much, so that
-// pieces of a mesh that are copies of each other agree to 1e-13 or better.
+// Allowed difference of equal entries, relative to the root of the two diagonal entries. Rounded coordinates change a
+// stiffness by about as much, so that pieces of a mesh that are copies of each other agree to 1e-13 or better.
 constexpr double alike = 1e-11;
 
 bool same_pattern(const SparseMatrix& a, const SparseMatrix& b) {

@@ -20,7 +20,7 @@
 
 namespace delam {
 
-// To minimise out all of the skeleton, once.
+// Cost of minimising out all of the skeleton once.
 struct CondensationSize {
     double operations = 0.0;
     double numbers = 0.0;  // that its dense matrices store
@@ -43,18 +43,18 @@ public:
 
     struct Node {
         std::vector<std::int64_t> children;
-        // In places of the skeleton, ascending.
+        // Lists of places of the skeleton, ascending.
         std::vector<std::int64_t> cut;  // displacements that this node owns
         std::vector<std::int64_t> jumps;
         std::vector<std::int64_t> border;
         std::vector<std::int64_t> kept;  // all kept displacements: at the root, which leaves them on its border
-        // Of T^T K T in rows that an inner node owns or has kept: the lower triangle, column <= row.
+        // Entries of T^T K T in rows that an inner node owns or has kept: the lower triangle, column <= row.
         std::vector<Triplet> entries;
         std::int64_t leaf = -1;  // its number among the leaves
     };
     const std::vector<Node>& nodes() const { return nodes_; }
 
-    // Of a leaf, full symmetric, and the places of its rows: jumps, then border.
+    // Stiffness of a leaf, full symmetric, and the places of its rows: jumps, then border.
     const DenseMatrix& stiffness(std::int64_t leaf) const { return piece_of(leaves_[index(leaf)]).stiffness; }
     const std::vector<std::int64_t>& rows(std::int64_t leaf) const { return leaves_[index(leaf)].rows; }
     // x_l = A_ll^-1 (b_l - A_lt x_t) for the displacements l inside the leaves; b, x: [variables].
@@ -77,7 +77,7 @@ public:
     double entries_in_order() const;      // of a factor of T^T K T in the order of the tree
 
 private:
-    // What leaves that are alike have in common: [inside | jumps | border].
+    // Data that equal leaves share: [inside | jumps | border].
     struct Piece {
         std::int64_t inside = 0, jumps = 0, border = 0;
         std::int64_t trailing() const { return jumps + border; }

@@ -154,7 +154,7 @@ bool DenseZone::factor(std::span<const Coupling> couplings, std::span<const std:
     return factor_free() && (rigid_.columns == 0 || factor_motions());
 }
 
-// From a factor in which nothing is bound, or where that is not positive definite, from one of its own.
+// Uses a factor in which nothing is bound or, where that is not positive definite, one of this problem's own.
 bool DenseZone::factor_free() {
     const BoundUnknowns unknowns{free_, bound_, binding_};
     by_updates_ = true;
@@ -188,7 +188,7 @@ void DenseZone::solve_free(std::span<double> x, bool again) {
     solve_lower_transposed(factor_, x);
 }
 
-// Into factor_: the lower triangle of A_ff + A_fb M + M^T A_bf + M^T A_bb M, where A = S + C and bound = M free.
+// Writes into factor_ the lower triangle of A_ff + A_fb M + M^T A_bf + M^T A_bb M, where A = S + C and bound = M free.
 void DenseZone::assemble(const BoundUnknowns& unknowns) {
     const DenseMatrix& s = matrix();
     const std::span<const std::int64_t> free_of = unknowns.free, bound_of = unknowns.bound;

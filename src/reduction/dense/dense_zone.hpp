@@ -45,7 +45,7 @@ public:
     double energy_rounding() const override { return 1e-14; }
 
     const DenseEnergy& energy() const { return *energy_; }
-    // What earlier solves have left, on which the last digits of the next one depend.
+    // Discards the results of earlier solves, on which the last digits of the next one depend.
     void forget() {
         updated_.forget();
         refine_ = true;
@@ -81,7 +81,7 @@ private:
 
     Poll poll_;
     bool refine_ = true;  // solutions of updated factors
-    // Of the last factor():
+    // State of the last factor():
     std::vector<std::uint8_t> held_;
     std::vector<Triplet> springs_;  // C in unknowns, sum N^T C N
     std::vector<Coupling> couplings_;

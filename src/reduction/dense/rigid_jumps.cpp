@@ -110,7 +110,7 @@ public:
             if (!(piece.size > 0.0)) piece.size = 1.0;
     }
 
-    // For the pieces, then the translations of each control node.
+    // The motions of the pieces come first, then the translations of each control node.
     std::int64_t first_control() const { return static_cast<std::int64_t>(pieces_.size()) * modes_; }
     std::int64_t count() const {
         return first_control() + static_cast<std::int64_t>(carriers_.controls().size()) * dim_;

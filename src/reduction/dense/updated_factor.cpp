@@ -13,7 +13,7 @@ namespace {
 
 // A spring of the reference that is stiffer than this multiple of the bodies' own stiffness is not subtracted.
 constexpr double hidden = 1e3;
-// What an update costs beside its multiplications, in those of a full factor: it handles a dozen small matrices.
+// Cost of an update beside its multiplications, in multiplications of a full factor: it handles a dozen small matrices.
 constexpr double handling = 3e5;
 // Multiplications from which on a poll is worth it.
 constexpr double long_enough = 1e8;
@@ -242,7 +242,7 @@ void UpdatedFactor::bind(const BoundUnknowns& unknowns, std::span<const std::int
             small_(i, j) = all(small_free_[index(i)], small_free_[index(j)]) + product(i, j) + product(j, i);
 }
 
-// Of U alone: u n^2 / 2 for its columns, u^2 n / 2 for their products, and some u^3; a quarter of n leaves room for
+// Counts U alone: u n^2 / 2 for its columns, u^2 n / 2 for their products, and some u^3; a quarter of n leaves room for
 // more.
 bool UpdatedFactor::pays(std::size_t unknowns, std::size_t touched) {
     const auto n = static_cast<double>(unknowns);
@@ -286,7 +286,7 @@ void UpdatedFactor::solve_small(std::vector<double>& small) const {
     for (std::size_t i = 0; i < bound.size(); ++i) small[index(small_bound_[i])] = bound[i];
 }
 
-// With x_K - x_K* + H x_B = G mu:   L^T x_0 = L^-1 g - Y_B x_B + Y_K mu.
+// Uses x_K - x_K* + H x_B = G mu:   L^T x_0 = L^-1 g - Y_B x_B + Y_K mu.
 void UpdatedFactor::solve(std::span<double> x, bool again) {
     const std::size_t n = unknowns_.size(), k = k_.size(), b = b_.size(), u = index(touched_);
     std::vector<double> w(n, 0.0), other(place_.size(), 0.0);

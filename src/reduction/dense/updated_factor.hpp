@@ -51,9 +51,9 @@ public:
     bool renew(DenseMatrix& a, const std::vector<Triplet>& springs, std::span<const std::int64_t> free,
                std::int64_t all, const Poll& poll);
     void forget() { valid_ = false; }
-    // Of the last successful update or renewal.
+    // True if the last successful update or renewal found the matrix positive definite.
     bool definite() const { return definite_; }
-    // Whether the matrix differs from the reference.
+    // True if the matrix differs from the reference.
     bool changed() const { return !k_.empty() || !b_.empty(); }
     // A^-1 x in place, [free]. again: this load may come back after the next update.
     void solve(std::span<double> x, bool again);
@@ -61,7 +61,7 @@ public:
     std::int64_t renewals() const { return renewals_; }
 
 private:
-    // What differs from the reference.
+    // Differences from the reference.
     struct Change {
         std::vector<std::int64_t> touched, held, fresh;  // U, R, B
         std::vector<Triplet> spring;                     // among U and B

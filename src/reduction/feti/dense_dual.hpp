@@ -11,9 +11,11 @@ namespace delam {
 
 class DenseDual {
 public:
-    // At the springs that `op` has. Where F + C is singular (redundant gluing, control nodes) there is no factor.
+    // Factorises F + C with the springs that `op` has. Where F + C is singular (redundant gluing, control nodes) there
+    // is no factor.
     DenseDual(const DualOperator& op, const std::vector<Subdomain>& subdomains, const Poll& poll);
-    // What the factor makes of it; zero where there is none. Accurate to rounding unless F + C is close to singular.
+    // Returns the forces by the factor; zero where there is none. Accurate to rounding unless F + C is close to
+    // singular.
     DenseMatrix solve(const DenseMatrix& right, const DenseMatrix& resultant) const;
 
 private:

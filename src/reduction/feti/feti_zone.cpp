@@ -116,7 +116,7 @@ FetiZone::Split FetiZone::split(const Springs& springs, std::span<const std::uin
     return result;
 }
 
-// What the constraints make of a row that they prescribe.
+// Returns the jump that the constraints prescribe on a row, [patterns].
 std::vector<double> FetiZone::driven(std::size_t row) const {
     const std::size_t patterns = problem_.patterns.size(),
                       first = index(dual_.rows().count() - dual_.rows().constraint_count);

@@ -122,7 +122,7 @@ bool JumpColumns::find_loads() {
         std::copy(load.jump.begin(), load.jump.end(), column(right, p).begin());
         std::copy(load.resultant.begin(), load.resultant.end(), column(resultant, p).begin());
     }
-    // As in Feti::solve: loads of size 1, whatever the units of a pattern.
+    // Loads are scaled to size 1, whatever the units of a pattern, as in Feti::solve.
     std::vector<int> size;
     for (std::int64_t p = 0; p < patterns; ++p) {
         size.push_back(exponent(std::max(max_abs(column(right, p)), max_abs(column(resultant, p)))));

@@ -17,7 +17,7 @@ constexpr std::int64_t limit = 400;  // iterations of a descent
 constexpr int idle_iterations = 25;  // iterations without a lower residual
 constexpr double slack = 100.0;      // times the tolerance: what a column that rounding has ended may have left
 
-// Of one column in a descent.
+// State of one column in a descent.
 struct Column {
     double rz = 0.0;
     double lowest = INFINITY;

@@ -10,10 +10,11 @@
 
 namespace delam {
 
-// With peak traction s = sqrt(2 k Go) and toughness Gc of a pure mode, l = E' Gc / s^2 in a thick body; in slender arms
-// of thickness h < l it is l^(1/4) h^(3/4) in mode I and (l h)^(1/2) in mode II (Yang and Cox, Int. J. Fract. 133,
-// 2005). The shorter mode counts, in the body where it is shorter. E': E/(1 - nu^2), in plane stress E, for an
-// orthotropic body its smallest Young's modulus; h: volume of the body over area of the interface.
+// The process zone of an interface. Its length at a peak traction s = sqrt(2 k Go) and a toughness Gc of a pure mode is
+// l = E' Gc / s^2 in a thick body; in slender arms of thickness h < l it is l^(1/4) h^(3/4) in mode I and (l h)^(1/2)
+// in mode II (Yang and Cox, Int. J. Fract. 133, 2005). The shorter mode counts, in the body where it is shorter. E':
+// E/(1 - nu^2), in plane stress E, for an orthotropic body its smallest Young's modulus; h: volume of the body over
+// area of the interface.
 struct ProcessZone {
     double length = 0.0;   // 0: no softening law
     double spacing = 0.0;  // mean distance of its initially adhering pairs
@@ -29,7 +30,7 @@ std::array<double, 2> resolved_strengths(const Problem& problem, std::int64_t in
 
 // The least thickness of the bodies beside an interface, as ProcessZone has it; 0: none has cells and a material.
 double arm_thickness(const Problem& problem, std::int64_t interface);
-// Those bodies beside an interface that have cells and a material.
+// Returns those bodies beside an interface that have cells and a material.
 std::vector<std::int32_t> elastic_bodies(const Problem& problem, std::int64_t interface);
 
 }  // namespace delam

@@ -255,7 +255,7 @@ void MotionFinder::measure() {
     }
 }
 
-// Whether ties at these positions leave no relative motion.
+// True if ties at these positions leave no relative motion.
 bool MotionFinder::rigid(const std::vector<Point>& places, double length) const {
     Frame f;
     f.length = length;

@@ -12,8 +12,8 @@ namespace cli {
 class Bulk;
 struct Model;
 
-// What solvers of the model are made and used in: calls the rest of the command and returns its exit code. Empty: the
-// command calls it itself. For programs that solve the bodies elsewhere.
+// Called around everything for which solvers of the model exist: it calls the rest of the command and returns its exit
+// code. Empty: the command calls the rest itself. For programs that solve the bodies elsewhere.
 using Around = std::function<int(const Model& model, const std::function<int()>& rest)>;
 // The program whose commands these are: how people call it, what it does around solvers, and where the fields of nodes
 // and cells are; null: here.
@@ -43,10 +43,10 @@ struct Study {
     double scale = 1.0, confidence = 0.95;
 };
 int study(const Study& study);
-// For the studies: marks a folder as theirs (file/own_files.hpp), unless one of the names is there and is not. known:
-// an older study, which wrote no marker, is recognised.
+// Marks a folder as one of the studies (file/own_files.hpp); refuses if one of the names is there, but no marker.
+// known: a folder of an older study, which wrote no marker, is recognised.
 int claim(const std::string& folder, const std::vector<std::string>& names, bool known);
-// For the studies: removes folders of results; none of them if one holds anything else.
+// Removes folders of results of a study; removes none of them if one holds anything else.
 int discard(const std::vector<std::string>& folders);
 // Lists the options of [solver] and the parameters of the laws.
 int options(bool json);

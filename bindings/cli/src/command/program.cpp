@@ -46,7 +46,7 @@ std::string joined(int count, char** words) {
     return out;
 }
 
-// What the command line holds.
+// The values of the command line.
 struct Arguments {
     std::string scene, deck, folder, page, shell, progress = "text";
     std::vector<std::string> settings;

@@ -15,7 +15,7 @@ public:
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    // What was done before the steps is over: the bar is gone until the next stage.
+    // Ends what was done before the steps: the bar is gone until the next stage.
     void clear();
     // So many steps were done before; the time that is left is that of the others.
     void begin_after(std::int64_t first);

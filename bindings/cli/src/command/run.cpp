@@ -285,7 +285,7 @@ std::string command_again(const Caller& caller, const Scene& scene, const std::s
     return out;
 }
 
-// What to type once files can be written again.
+// Returns the command to type once files can be written again.
 std::string way_on(const Run& work, const OutputFolder& folder, const std::string& again) {
     const std::optional<std::int64_t> saved = work.saved_step();
     if (!saved) return "nothing is saved yet; once there is room, start again with: " + again;

@@ -31,7 +31,7 @@ void sort_once(std::vector<std::int32_t>& bodies) {
 
 }  // namespace
 
-// Of nodes that coincide, the first.
+// Finds the first of the nodes that coincide.
 class Coincidence {
 public:
     Coincidence(const MeshData& mesh, double tolerance)

@@ -117,7 +117,7 @@ private:
         return std::sqrt(square);
     }
 
-    // Of the nodes of a cohesive element; in the plane they go round.
+    // Returns the distance of the faces of a cohesive element at its nodes; in the plane the nodes go round.
     [[nodiscard]] double gap_of(const Face& lower, const Face& upper) const {
         const auto count = static_cast<std::size_t>(std::find(lower.begin(), lower.end(), -1) - lower.begin());
         double out = 0;
@@ -251,7 +251,7 @@ private:
                 pair.place, fmt::format("no body of \"{}\" touches one of \"{}\"", pair.slave.text, pair.master.text));
     }
 
-    // What adheres is what the slave surface has, or its bonded nodes; the master must not say less.
+    // The slave surface, or its bonded nodes, determine what adheres; the master must not say less.
     void require_extent(const ContactPair& pair, const InteractionCards& interaction, const std::string& slave,
                         const std::string& master) {
         const bool specified = interaction.eligibility == "SPECIFIED CONTACTS";

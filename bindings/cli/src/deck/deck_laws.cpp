@@ -15,7 +15,7 @@ namespace {
 // max((t_n/s_n)^2, (t_t/s_t)^2) = 1 is the limit of a power law whose exponent grows.
 constexpr double maximum_exponent = 100;
 
-// In the plane Ktt, T and Gt play no part; in space the law is the same in both directions of sliding.
+// Ktt, T and Gt play no part in the plane; in space the law is the same in both directions of sliding.
 void require_isotropic(const Numbers& values, const char* what, std::int32_t dimension, const Place& place) {
     if (dimension == 3 && values.size() > 2 && std::abs(values[1] - values[2]) > 1e-9 * std::abs(values[1]))
         throw SceneFailure(place, fmt::format("{}: {} and {} in the two directions of sliding: the law of an interface "
@@ -37,7 +37,8 @@ struct Mode {
 
 using Curve = std::vector<std::array<double, 2>>;
 
-// Between two points D is straight in Abaqus, and the traction, (1 - D) times a straight line, may rise far above both.
+// Abaqus interpolates D linearly between two points, and the traction, (1 - D) times a straight line, may rise far
+// above both.
 void require_no_hump(const DamageCards& damage, const Mode& mode) {
     constexpr double allowed = 0.05;  // of the peak
     for (std::size_t i = 1; i < damage.values.size(); ++i) {

@@ -177,8 +177,8 @@ private:
         return &found->second;
     }
 
-    // Whether something moves with this degree of freedom of reference nodes. Where it does not, a support has no
-    // effect, and all else is a mistake.
+    // True if something moves with this degree of freedom of reference nodes. If nothing does, a support has no effect,
+    // and all else is a mistake.
     [[nodiscard]] bool moves(const LoadLine& line, bool force, int dof, const std::vector<std::int64_t>& nodes) const {
         const auto moved = std::count_if(nodes.begin(), nodes.end(), [&](std::int64_t node) {
             return references_.component(node, dof).has_value();
@@ -209,7 +209,7 @@ private:
                                            "TRVEC in another direction than before is not imported: "
                                            "give the surface another name");
                     history->follows = &line;
-                    // Of several lines of a step for the same place, the last one counts.
+                    // The last of several lines of a step for the same place counts.
                     if (history->given == step_) {
                         history->points.resize(history->before);
                     } else {
@@ -353,7 +353,7 @@ private:
         return {pattern.name, peak / unit};
     }
 
-    // Of an entry that is a number.
+    // Returns the node of an entry that is a number.
     [[nodiscard]] std::optional<std::int64_t> node_of(const Entry& raw) const {
         const Entry entry = model_.resolved_scope(raw);
         const auto id = inp_whole(entry.text);
@@ -361,7 +361,8 @@ private:
         return node_number(*entry.scope, *id, entry.place);
     }
 
-    // Where a degree of freedom of an entry is in the scene; that of a node of several bodies is in each of them.
+    // Returns the places of a degree of freedom of an entry in the scene; that of a node of several bodies is in each
+    // of them.
     [[nodiscard]] std::vector<SceneComponent> components(const Entry& raw, int dof) const {
         std::vector<SceneComponent> out;
         const auto axis = static_cast<std::size_t>(dof - 1);
@@ -471,7 +472,7 @@ private:
     std::set<std::pair<std::int64_t, int>> loaded_;         // nodes and degrees of freedom with a force of their own
     std::map<Points, Pattern> made_[2];                     // of displacements, of forces
     std::map<const Amplitude*, Points> lines_;
-    // By their numbers: those that steps prescribe, by kind_of(), and those of them that go on by themselves.
+    // Histories by number: those that steps prescribe, by kind_of(), and those of them that go on by themselves.
     std::array<std::map<std::size_t, History*>, 3> acting_;
     std::map<std::size_t, History*> in_total_time_;
     std::size_t step_ = 0, points_ = 0;

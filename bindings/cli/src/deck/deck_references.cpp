@@ -26,7 +26,7 @@ Row axis_row(std::size_t axis) {
     return out;
 }
 
-// What is left of a row of length 1 across an orthonormal basis.
+// Returns the part of a row of length 1 that is orthogonal to an orthonormal basis.
 Row across(const std::vector<Row>& basis, Row row) {
     for (const Row& b : basis) {
         const double share = dot(row, b);
@@ -121,7 +121,7 @@ std::pair<std::size_t, std::int64_t> References::label_of(std::int64_t node) con
     return {scope->order, id};
 }
 
-// That of a set which consists of it, or its number; no other control node has it.
+// Returns the name of a set that consists of the node, or the number of the node; no other control node has this name.
 std::string References::new_name(std::int64_t node, const std::string& ending) {
     const auto [scope, id] = owner_of(node);
     const auto set = set_of_.find(node);
@@ -165,7 +165,7 @@ std::optional<SceneComponent> References::component(std::int64_t node, int dof) 
     const bool plane = mesh_.dimension == 2;
     const auto control = rotations_.find(node);
     if (dof <= 3 || control == rotations_.end() || (plane && dof != 6)) return std::nullopt;
-    // In the plane the rotation about z is the first component.
+    // The rotation about z is the first component in the plane.
     return of_control(control->second, plane ? 0 : static_cast<std::size_t>(dof - 4));
 }
 

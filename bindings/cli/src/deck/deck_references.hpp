@@ -36,14 +36,14 @@ public:
     [[nodiscard]] const std::vector<std::int64_t>& of(const Entry& where) const;
     // The bodies that a node belongs to.
     [[nodiscard]] const std::vector<std::int32_t>& bodies_at(std::int64_t node) const { return bodies_.of(node); }
-    // Of a node that of() has given. nullopt: nothing moves with this degree of freedom.
+    // Returns the component of a node that of() has given. nullopt: nothing moves with this degree of freedom.
     [[nodiscard]] std::optional<SceneComponent> component(std::int64_t node, int dof) const;
     // A load prescribes what component() has given.
     void prescribe(const SceneComponent& component);
     // A force acts there: something else must determine it.
     void push(const SceneComponent& component, const Place& place);
 
-    // At the end, because supports hold what nothing else determines.
+    // Returns the text of the references; to be called at the end, because supports hold what nothing else determines.
     std::string text();
 
 private:

@@ -95,7 +95,7 @@ private:
     std::string bodies_and_materials() {
         std::string bodies;
         std::set<std::string> used;
-        // In a plane mesh, cohesive elements have a width too.
+        // Cohesive elements have a width in a plane mesh, too.
         for (const Section& section : deck_.sections)
             if (!section.thickness.empty()) require_width(section);
         const SectionIndex sections(deck_, model_, &Part::sections);

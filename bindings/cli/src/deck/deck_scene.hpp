@@ -25,7 +25,7 @@ ImportedScene import_deck(const std::string& deck, const std::string& mesh_name)
 // True if a text is a scene that delam import has written, whatever was changed in it since.
 bool is_imported(std::string_view text);
 
-// What was taken, changed and left out, for people.
+// Returns lines for people that say what was taken, changed and left out.
 std::vector<std::string> import_lines(const ImportedScene& scene);
 
 }  // namespace cli

@@ -15,12 +15,12 @@ void write_atomic(const std::string& path, std::string_view bytes);
 // True for the names of files that are written beside the file `of`, and which a process that was killed leaves there.
 bool is_beside(std::string_view name, std::string_view of);
 
-// Behind the name of a file of a run whose content a step has revised, until the state is saved that counts on it: the
-// state saved before counts on what the file held.
+// Suffix of a file of a run whose content a step has revised. The suffix stays until a state is saved that needs the
+// new content; the state saved before needs the old one.
 inline constexpr std::string_view revised_suffix = ".revised";
 
-// After a run was ended: a revised file beside PATH takes its place if `counts` says of it that the saved state counts
-// on it, else it goes.
+// Decides on a revised file beside PATH after a run has ended: it replaces PATH if `counts` says that the saved state
+// needs its content; otherwise it is removed.
 void take_revised(const std::string& path, const std::function<bool(const std::string& revised)>& counts);
 
 // Throws Failure where a file that a person named is there already, unless `replace` is set and `own` says of its bytes

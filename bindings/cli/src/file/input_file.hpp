@@ -17,7 +17,7 @@ public:
     InputFile(const InputFile&) = delete;
     InputFile& operator=(const InputFile&) = delete;
 
-    // In bytes, when it was opened. What is added later is not read.
+    // Size in bytes when the file was opened. Bytes added later are not read.
     [[nodiscard]] std::int64_t size() const { return size_; }
     // The next bytes, `count` of them or as many as there are.
     std::string read(std::int64_t count);

@@ -62,7 +62,7 @@ void refuse_strange_files(const std::string& folder, const std::string& running)
     for (const std::string& name : result_names()) {
         const std::string file = folder + "/" + name;
         if (!is_there(file)) continue;
-        // While a result is moved in, its result.json is not there, but `running` is, and marked.
+        // The folder has no result.json while a result is moved in, but it has `running`, and that is marked.
         if (!known && !marked)
             throw OutputFailure(folder, "there is " + file +
                                             ", which would be replaced, and no result.json of delam beside it: "

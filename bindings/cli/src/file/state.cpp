@@ -19,7 +19,8 @@ namespace {
 
 constexpr std::string_view begins = R"({"kind":"delam state )";
 constexpr std::int64_t format = 4;
-// With the numbers of all steps that did not converge, and the hashes of those with fields; five million of them fit.
+// The head has the numbers of all steps that did not converge, and the hashes of those with fields; five million of
+// them fit.
 constexpr std::size_t most_head_bytes = std::size_t{128} << 20;
 
 // The line of JSON, and the bytes behind it that were read with it.

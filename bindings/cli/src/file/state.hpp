@@ -35,7 +35,7 @@ struct StateFile {
     std::optional<Origin> origin;  // format 2 kept it here
 };
 
-// Before this format, no seal covered the line of JSON, the history and the fields.
+// Formats before this one had no seal over the line of JSON, the history and the fields.
 constexpr std::int64_t first_sealed_format = 4;
 
 std::string pack(const State& state);

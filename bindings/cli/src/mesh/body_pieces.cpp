@@ -50,7 +50,7 @@ std::vector<std::size_t> split_into_pieces(MeshData& mesh) {
                 if (!fresh) pieces.join(at->second, cell);
             }
     }
-    // Of each body, the first cells of its pieces.
+    // The first cells of the pieces of each body.
     std::vector<std::vector<std::size_t>> found(mesh.body_names.size());
     cell = 0;
     for (const CellBlock& block : mesh.blocks)

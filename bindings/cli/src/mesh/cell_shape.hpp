@@ -31,7 +31,7 @@ const CellShape& shape_named(const std::string& name);
 std::span<const CellShape> all_shapes();
 std::vector<std::string> shape_names(bool (*wanted)(const CellShape&));
 std::vector<std::string> shape_names(std::int32_t dimension);
-// Those that the generators make.
+// Return the names of the shapes that the generators make.
 std::vector<std::string> fibre_cell_shapes();
 std::vector<std::string> weave_shapes();
 

@@ -16,11 +16,11 @@ struct MeshFile {
     std::string hash;  // of the bytes of the file and of its includes
 };
 
-// Of all files of a mesh together. Throws SceneFailure at `place`, which names the last of them.
+// Limit of all files of a mesh together. Throws SceneFailure at `place`, which names the last of them.
 constexpr std::int64_t most_mesh_bytes = std::int64_t{1} << 30;
 void require_mesh_size(const std::string& path, std::int64_t bytes, const Place& place);
 
-// From corner to corner, along the sides of cells.
+// Returns the shortest distance of neighbouring corners, along the sides of cells.
 double shortest_edge(const MeshData& mesh);
 
 // Drops nodes that belong to no cell and no set; reverses clockwise plane cells and notes how many.

@@ -101,7 +101,7 @@ private:
         block.connectivity = std::move(connectivity);
     }
 
-    // With all sides straight every cell is as good as the linear one was, so this terminates.
+    // Every cell with straight sides only is as good as the linear one was, so this terminates.
     void straighten() {
         PointTable places(1e-9 * extent());
         for (std::size_t e = 0; e < edges_.size(); ++e)

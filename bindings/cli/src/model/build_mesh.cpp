@@ -57,7 +57,7 @@ void add_obstacles(Model& model, const Scene& scene) {
     for (const ObstacleData& data : scene.obstacles) {
         const Selected at = select(model.context.get(), model.mesh.get(), scene, data.where, true);
         if (at.weights.empty()) throw SceneFailure(data.place, "a patch, or a set of faces, is needed");
-        // Into the body, against the outward normal.
+        // The direction points into the body, against the outward normal.
         std::vector<std::int64_t> nodes;
         std::vector<double> normals;
         const auto* patch = std::get_if<Patch>(&data.where.shape);
@@ -238,7 +238,7 @@ public:
         call(context, delam_mesh_node_origins(mesh, nodes, origins_.data()), place);
     }
 
-    // Of a set: the pairs all of whose faces lie in it, or those without a face in it.
+    // Returns the pairs of a set: those all of whose faces lie in it, or those without a face in it.
     [[nodiscard]] std::vector<std::int64_t> in(const Region& region) const {
         if (region.outside) return outside(region.set);
         const std::vector<std::int64_t>& set = mesh_.node_sets.at(region.set);

@@ -32,7 +32,7 @@ inline void call(const delam_context* context, std::int32_t status, const Place&
     throw Failure(code, place, code == exit_scene ? text : text + " (" + delam_status_name(status) + ")");
 }
 
-// For calls that, once the scene is accepted, can only fail by a defect or for lack of memory.
+// Checks the status of a call that, once the scene is accepted, can only fail by a defect or for lack of memory.
 inline void call(const delam_context* context, std::int32_t status, const std::string& what) {
     if (status == DELAM_OK) return;
     if (status == DELAM_CANCELLED) throw Failure(exit_interrupted, "interrupted");

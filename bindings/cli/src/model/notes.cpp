@@ -103,7 +103,7 @@ std::vector<std::string> notes_of(const Scene& scene) {
     const CellShape* cell = scene.mesh ? nullptr : &shape_of(geometry.cell_type);
     for (const Layer& layer : scene.layers) {
         const Material& material = scene.materials[layer.material];
-        // In plane stress the thickness can change freely, so nothing locks.
+        // Nothing locks in plane stress, because the thickness can change freely.
         const auto* isotropic = std::get_if<Isotropic>(&material.elastic);
         if (isotropic != nullptr && isotropic->poisson > 0.49 && material.formulation != "mean-dilatation" &&
             geometry.plane != "plane-stress")

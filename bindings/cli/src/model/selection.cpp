@@ -102,7 +102,7 @@ Selected select_box(const delam_context* context, const delam_mesh* mesh, const 
     return out;
 }
 
-// Without a body, of all: what they have there side by side acts as one.
+// Selects from all bodies if none is named: what they have there side by side acts as one.
 Selected select_patch(const delam_context* context, const delam_mesh* mesh, const Scene& scene,
                       const Selection& selection, const Patch& patch) {
     Selected out;

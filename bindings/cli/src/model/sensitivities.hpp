@@ -19,9 +19,10 @@ struct LawNumber {
 
 // Throws SceneFailure where a path is no number of a law, or no interface has the law.
 std::vector<LawNumber> sensitivities_of(const Model& model, const Scene& scene);
-// From the initial state of the solver on. Throws SceneFailure where the library cannot follow one.
+// Follows the sensitivities from the initial state of the solver on. Throws SceneFailure where the library cannot
+// follow one.
 void follow_sensitivities(const Model& model, const Scene& scene, delam_solver* solver);
-// Of the state described by the solver, with so many numbers followed.
+// Sensitivities of the state described by the solver, with so many numbers followed.
 struct Sensitivities {
     std::vector<double> matrix;  // [patterns][numbers] of the reactions
     std::int64_t unknown = 0;    // pairs whose adhesion was taken as constant so far

@@ -56,7 +56,7 @@ MeshArrays arrays_of(const delam_context* context, const delam_mesh* mesh, const
     return out;
 }
 
-// Of a side of which the number of nodes is known: in space it is a plane cell.
+// Returns the number of corners of a side by its number of nodes: in space it is a plane cell.
 std::size_t corner_count(std::size_t dimension, std::size_t nodes) {
     if (dimension == 2) return 2;
     for (const CellShape& shape : all_shapes())

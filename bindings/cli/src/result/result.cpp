@@ -91,8 +91,8 @@ Json search_json(const SearchLimits& limits) {
             {"largest_margin", margin}};
 }
 
-// For a periodic cell: its volume, and d2 E / d factor2 divided by it at the last state, at fixed adhesion and contact.
-// If each pattern drives one strain with coefficient 1, these are the moduli.
+// Returns, for a periodic cell, its volume, and d2 E / d factor2 divided by it at the last state, at fixed adhesion and
+// contact. If each pattern drives one strain with coefficient 1, these are the moduli.
 Json cell_of(const Model& model, delam_solver* solver, const Scene& scene, bool complete) {
     if (!scene.cell) return nullptr;
     const double volume = cell_volume(model, scene);

@@ -31,7 +31,7 @@ struct Layer {
     Place place;
 };
 
-// For the block of layers; a mesh has only `dimension`, `plane` and `smallest_edge`.
+// The block of layers; a mesh has only `dimension`, `plane` and `smallest_edge`.
 struct Geometry {
     std::int32_t dimension = 2;
     std::int32_t cell_type = 0;
@@ -232,7 +232,7 @@ struct Output {
     Place place;
 };
 
-// For labels only: the program does not convert units.
+// Labels only: the program does not convert units.
 struct Units {
     std::string length;
     std::string force;
@@ -269,7 +269,7 @@ struct Scene {
     [[nodiscard]] std::size_t step_count() const { return times.size() - 1; }
 };
 
-// Per pattern: whether it drives forces, from [[forces]] or as a stress of the cell.
+// Returns, for each pattern, whether it drives forces, from [[forces]] or as a stress of the cell.
 std::vector<bool> force_patterns(const Scene& scene);
 
 }  // namespace cli

@@ -12,8 +12,8 @@ namespace cli {
 
 namespace {
 
-// Where nothing rotates about it, the position of a control node does not affect the solution, and it must not enlarge
-// pictures.
+// Returns a position for control nodes about which nothing rotates: it does not affect the solution, and must not
+// enlarge pictures.
 std::vector<double> lower_corner(const Scene& scene) {
     const auto dimension = static_cast<std::size_t>(scene.geometry.dimension);
     std::vector<double> corner(dimension, 0.0);
@@ -45,7 +45,7 @@ EquationTerm read_left(const Table& table, const Scene& scene) {
     if (directions.size() != 1)
         table.fail("component", fmt::format("has {} entries: 1 is expected", directions.size()));
     term.direction = directions.front();
-    // As everywhere in a scene, directions have length 1.
+    // Directions have length 1, as everywhere in a scene.
     double square = 0;
     for (const double d : term.direction) square += d * d;
     for (double& d : term.direction) d /= std::sqrt(square);

@@ -13,7 +13,7 @@ const Places any_place{"point", "box", "patch", "set", "body", "control"};
 
 namespace {
 
-// Those that a scene with layers, or with a mesh, can have.
+// Returns those places that a scene with layers, or with a mesh, can have.
 Places places_of(const Scene& scene, const Places& places) {
     Places out;
     for (const std::string& place : places)

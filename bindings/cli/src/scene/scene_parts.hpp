@@ -11,7 +11,8 @@ namespace cli {
 void read_materials(const Table& root, Scene& scene);
 // Material axes by `angle` or `axes` of a layer.
 std::optional<std::array<double, 6>> read_axes(const Table& table, std::int32_t dimension);
-// Those of the plies of a layer (`angles`), from the bottom up; empty without this key. divisions: cells of the layer.
+// Reads the axes of the plies of a layer (`angles`), from the bottom up; empty without this key. divisions: cells of
+// the layer.
 std::vector<std::array<double, 6>> read_plies(const Table& table, std::int32_t dimension, std::int64_t divisions);
 // [mesh], [[bodies]] and the [[interfaces]] of a mesh. The mesh's hash becomes part of that of the scene's content.
 void read_mesh_table(const Table& root, Scene& scene);

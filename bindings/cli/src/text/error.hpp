@@ -37,7 +37,7 @@ public:
     Failure(Exit code, Place place, const std::string& text)
         : std::runtime_error(place.text() + ": " + text), code_(code), place_(std::move(place)), text_(text) {}
     [[nodiscard]] Exit code() const noexcept { return code_; }
-    // Where in the scene, if it is known, and what is wrong there.
+    // Place in the scene, if it is known, and what is wrong there.
     [[nodiscard]] const Place& place() const noexcept { return place_; }
     [[nodiscard]] const std::string& text() const noexcept { return text_; }
 

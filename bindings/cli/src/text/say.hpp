@@ -14,8 +14,8 @@
 
 namespace cli {
 
-// From now on each line of standard output is an object with an "event"; a line that is said as text is
-// {"event": "line", "text": ..}.
+// Makes each further line of standard output an object with an "event"; a line that is said as text is {"event":
+// "line", "text": ..}.
 void say_json_lines(bool yes);
 bool says_json_lines();
 

@@ -7,7 +7,7 @@
 
 namespace cli {
 
-// In quotes, with what TOML needs escaped.
+// Returns the text in quotes, with what TOML needs escaped.
 std::string toml_text(const std::string& text);
 // The same; a text that is not UTF-8 is taken for Latin-1.
 std::string as_utf8(const std::string& text);

@@ -8,7 +8,7 @@
 
 namespace cli {
 
-// Whether a name matches a pattern in which * stands for any characters or none.
+// True if a name matches a pattern in which * stands for any characters or none.
 inline bool fits(std::string_view pattern, std::string_view name) {
     std::size_t star = pattern.find('*');
     if (star == std::string_view::npos) return pattern == name;
@@ -25,7 +25,7 @@ inline bool fits(std::string_view pattern, std::string_view name) {
     }
 }
 
-// How many of the names, which are sorted, begin with a text.
+// Returns how many of the names, which are sorted, begin with a text.
 inline std::size_t number_beginning_with(const std::vector<std::string>& sorted, const std::string& text) {
     const auto first = std::lower_bound(sorted.begin(), sorted.end(), text);
     const auto last =

@@ -7,7 +7,7 @@
 
 namespace cli {
 
-// With what would end a text or an attribute escaped.
+// Returns the text with everything escaped that would end a text or an attribute.
 std::string xml_text(std::string_view text);
 
 }  // namespace cli

@@ -39,7 +39,7 @@ std::vector<ViewStep> every_nth(const std::vector<ViewStep>& steps, std::size_t 
     return out;
 }
 
-// How many of the steps a page can hold: 1 is each.
+// Returns the stride of the steps that a page can hold; 1 is each step.
 std::size_t affordable(const Seen& seen, std::size_t steps) {
     double values =
         3.0 * static_cast<double>(seen.nodes.size()) + static_cast<double>(stress_components * seen.cells.size());
@@ -151,7 +151,7 @@ private:
 
 constexpr const char* begin_of_data = "<script type=\"application/json\" id=\"delam-data\">";
 
-// Within an element of a page nothing may look like its end.
+// Escapes <, because nothing in an element of a page may look like its end.
 std::string json_element(const json& value) {
     std::string text = value.dump(-1, ' ', false, json::error_handler_t::replace);
     for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at))

@@ -7,7 +7,7 @@
 
 namespace cli {
 
-// How `delam view` writes its page.
+// Requests of a person for the page of `delam view`.
 struct ViewWishes {
     std::string page;           // "": view.html in the folder of the result, where an earlier one is replaced
     std::string page_template;  // "": the installed one

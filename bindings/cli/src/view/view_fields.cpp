@@ -58,7 +58,7 @@ struct DataShape {
     std::size_t rows = 0, columns = 0;  // columns 0: a vector
 };
 
-// What a byte of deflated data stands for at most (https://zlib.net/zlib_tech.html).
+// Largest number of bytes for which a byte of deflated data can stand (https://zlib.net/zlib_tech.html).
 constexpr std::uint64_t most_inflated = 1032;
 
 template <class T>
@@ -79,7 +79,7 @@ std::pair<std::vector<T>, DataShape> read_data(hid_t file, const std::string& pa
     if (H5Pget_external_count(made.get()) != 0 || H5Pget_layout(made.get()) == H5D_VIRTUAL)
         wrong_fields(path, item + " lies in another file, where delam writes none");
     const std::uint64_t stored = H5Dget_storage_size(data.get()), columns = rank == 2 ? shape[1] : 1;
-    // Before there is room for it.
+    // Checked before memory is taken for the numbers.
     if (columns > 0 && shape[0] > most_inflated * stored / sizeof(T) / columns)
         wrong_fields(path,
                      fmt::format("{} claims {} x {} numbers, and the {} bytes that are stored cannot stand for so "

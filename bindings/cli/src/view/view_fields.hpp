@@ -45,10 +45,11 @@ public:
 
     // A text that the file says of itself, "" if it does not.
     [[nodiscard]] std::string text(const std::string& name) const;
-    // As result.json says: the dimension, the names of the bodies, the shortest edge.
+    // Returns the mesh with the dimension, the names of the bodies and the shortest edge of result.json.
     [[nodiscard]] ViewMesh mesh(const ViewAbout& about) const;
     [[nodiscard]] std::vector<ViewInterface> interfaces(const ViewMesh& mesh) const;
-    // Those whose fields were written, ascending. times: of the history, by step. interfaces: how many there are.
+    // Returns the steps whose fields were written, ascending. times: of the history, by step. interfaces: how many
+    // there are.
     [[nodiscard]] std::vector<ViewStep> steps(const std::vector<double>& times, std::size_t interfaces) const;
     // A field of a step, [rows][columns]. name: as in the file, with "interface_I/" before that of an interface.
     [[nodiscard]] std::vector<double> field(const ViewStep& step, const std::string& name, std::size_t rows,

@@ -169,7 +169,7 @@ private:
             if (to - from == 1 && !std::binary_search(covered.begin(), covered.end(), from->key)) kept.push_back(*from);
             from = to;
         }
-        // In the order of the cells, neighbours have like numbers, which pack better.
+        // Sorted by cell, neighbours have similar numbers, which compress better.
         std::sort(kept.begin(), kept.end(), [](const CellSide& x, const CellSide& y) {
             return std::tie(x.cell, x.side) < std::tie(y.cell, y.side);
         });

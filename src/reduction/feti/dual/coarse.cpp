@@ -32,8 +32,8 @@ CoarseProblem::CoarseProblem(const DualRows& rows, std::span<const Subdomain> su
     gt_ = from_triplets(rows.count(), size, std::move(backward));
 }
 
-// With springs of every stiffness the pivots of G Q G^T fall over many decades, and a soft hold cannot be told from
-// none by their size. Which motions are held at all is decided by G over the rows that carry force, whatever their
+// The pivots of G Q G^T fall over many decades if springs have every stiffness, and their size does not distinguish a
+// soft spring from none. Which motions are held at all is decided by G over the rows that carry force, whatever their
 // stiffness.
 void CoarseProblem::set_weights(std::span<const double> weight) {
     if (std::equal(weight.begin(), weight.end(), weight_.begin(), weight_.end())) return;

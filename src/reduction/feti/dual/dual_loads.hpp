@@ -14,7 +14,7 @@ namespace delam {
 struct DualLoads {
     DualLoads(const Problem& problem, const FetiParts& parts, const DualOperator& op, const Poll& poll);
 
-    // At given factors.
+    // The loads at given factors of the patterns.
     struct Sum {
         std::vector<double> jump;        // [rows] B K^+ f - c
         std::vector<double> resultant;   // [coarse] R^T f
@@ -32,7 +32,7 @@ struct DualLoads {
 
 private:
     void collect(const Problem& problem, const FetiParts& parts);
-    // Of one pattern; strained: its forces are those of eigenstrains, which have no resultant.
+    // Adds the loads of one pattern; strained: its forces are those of eigenstrains, which have no resultant.
     void carry(std::size_t pattern, bool strained, const FetiParts& parts, const DualOperator& op, const Poll& poll);
 
     std::size_t rows_, coarse_, constraints_;

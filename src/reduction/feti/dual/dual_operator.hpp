@@ -24,16 +24,16 @@ public:
     DualOperator(const DualOperator&) = delete;
     DualOperator& operator=(const DualOperator&) = delete;
 
-    // What is set does not depend on what was set before. Rows whose jump is prescribed count as debonded.
+    // Sets the springs; the result does not depend on earlier calls. Rows whose jump is prescribed count as debonded.
     void set(const Springs& springs);
 
     const DualRows& rows() const { return rows_; }
     const SparseMatrix& b_transposed() const { return b_transposed_; }
     const Scaling& scaling() const { return scaling_; }
     const CoarseProblem& coarse() const { return *coarse_; }
-    // Of F, [rows]; the mean of the others where a row knows no flexibility.
+    // Diagonal of F, [rows]; the mean of the others where the flexibility of a row is not known.
     std::span<const double> flexibility_diagonal() const { return flexibility_diagonal_; }
-    // Of the springs that are set, [rows].
+    // Compliance of the springs that are set, [rows].
     std::span<const double> compliance() const { return compliance_; }
     std::span<const double> weight() const { return weight_; }  // 1 / (F_ii + C_ii), 0 for rows without force
     bool active(std::size_t row) const { return active_[row] != 0; }
@@ -51,7 +51,7 @@ public:
 
 private:
     void find_diagonal(const Poll& poll);
-    // In units of a stiffness even where there is no preconditioner.
+    // Returns a stiffness that gives the scale of the preconditioner, also where there is none.
     double unit() const;
 
     DualRows rows_;

@@ -11,7 +11,7 @@
 
 namespace delam {
 
-// How many subdomains the scene is cut into: what the options ask for, or chosen by size.
+// Returns the number of subdomains into which the scene is cut: that of the options, or one chosen by size.
 std::int64_t feti_subdomains(const Problem& problem);
 
 struct FetiParts {

@@ -136,8 +136,8 @@ void FetiPreconditioner::update(const Springs& springs) {
     in_e_.assign(index(rows_.jump_count), 0);
     for (std::int64_t r = 0; r < rows_.jump_count; ++r) in_e_[index(r)] = springs.held[index(r)] == 0 ? 1 : 0;
 
-    // On a dependent direction z (B^T z = 0) the bodies are rigid, and springs alone decide: z^T C z. In the series
-    // form S~^-1 -> 0 there: S~ gets z z^T / delta with a delta well below the compliance of springs and bodies. The
+    // The bodies are rigid on a dependent direction z (B^T z = 0), and springs alone decide: z^T C z. The series form
+    // has S~^-1 -> 0 there: S~ gets z z^T / delta with a delta well below the compliance of springs and bodies. The
     // others get z z^T / (z^T C z) itself.
     dependency_weight_.assign(scaling_.dependencies.size(), 0.0);
     for (std::size_t k = 0; k < scaling_.dependencies.size(); ++k) {

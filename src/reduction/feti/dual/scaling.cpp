@@ -97,7 +97,7 @@ DenseMatrix pseudo_inverse(const Eigen& eigen) {
     return multiply(scaled, transposed(eigen.vector));
 }
 
-// Which of the jump rows (they come first in a cluster) lie in the span of the other kinds of rows?
+// Finds the jump rows (they come first in a cluster) that lie in the span of the other kinds of rows.
 void find_prescribed(const std::vector<std::int64_t>& rows, std::int64_t jump_count, const ClusterBlock& block,
                      Scaling& scaling) {
     const auto jumps = std::count_if(rows.begin(), rows.end(), [&](std::int64_t r) { return r < jump_count; });

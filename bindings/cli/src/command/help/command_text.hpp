@@ -29,7 +29,7 @@ struct ProgramText {
     std::vector<CommandText> commands;
 };
 
-// What values stand for; completion offers such files.
+// The kinds of values; completion offers such files.
 inline constexpr const char* scene_value = "SCENE";
 inline constexpr const char* deck_value = "DECK";
 inline constexpr const char* folder_value = "FOLDER";

@@ -59,7 +59,7 @@ bool is_file(const OptionText& option) {
     return option.value == scene_value || option.value == deck_value || option.value == file_value;
 }
 
-// What bash offers for a value; only names of files are quoted.
+// Returns the proposals of bash for a value; only names of files are quoted.
 std::string bash_reply(const OptionText& option) {
     if (!option.choices.empty()) return fmt::format("compgen -W {} -- \"$word\"", quoted(words(option.choices)));
     if (option.value == setting_value) return "compgen -W \"$settings\" -- \"$word\"";
@@ -119,7 +119,7 @@ std::string bash(const ProgramText& program) {
 
 std::string zsh_values(const OptionText& option) {
     if (!option.choices.empty()) return "(" + words(option.choices) + ")";
-    // Behind the sign of KEY= a value follows at once.
+    // A value follows the sign of KEY= without a space.
     if (option.value == setting_value) return "{compadd -S \"\" -a open; compadd -a whole}";
     if (option.value != folder_value && !is_file(option)) return " ";
     if (option.value == folder_value) return "_files -/";

@@ -199,7 +199,7 @@ SchemaJson table_schema(const KeyTable& table, Scenes scenes) {
     return out;
 }
 
-// What a scene with one of the two tables allows beyond the definitions of all scenes.
+// Returns what a scene with one of the two tables allows beyond the definitions of all scenes.
 SchemaJson narrowed(const KeyTable& root, Scenes scenes) {
     SchemaJson properties = SchemaJson::object();
     for (const KeyRow& row : root.rows) {

@@ -175,7 +175,7 @@ private:
         model_.instance_of.emplace(upper(name), &instance);
         instance.name = name;
         instance.order = model_.instances.size();
-        // What the part defines now belongs to the instance.
+        // Definitions of the part now belong to the instance.
         const auto renew = [&](Entry& entry) {
             if (entry.scope == part) entry.scope = &instance;
         };
@@ -207,7 +207,7 @@ private:
         open_ = &instance;
     }
 
-    // Before they are made: a line stands for a part of any size.
+    // Counts the copies before they are made: one line may copy a part of any size.
     void count_copies(const Part& part, const Place& place) {
         std::size_t count = 1 + part.nodes.size() + part.elements.size() + part.sections.size();
         for (const auto* sets : {&part.node_sets, &part.element_sets})
@@ -310,7 +310,7 @@ private:
         const std::int64_t first = inp_whole(line.fields[0], line.place);
         const std::int64_t last = inp_whole(line.fields[1], line.place);
         const std::int64_t by = line.fields.size() == 3 ? inp_whole(line.fields[2], line.place) : 1;
-        // Without a sign, because the difference of two numbers may exceed the largest that has one.
+        // Unsigned, because the difference of two numbers may exceed the largest signed one.
         const auto step = static_cast<std::uint64_t>(by);
         const std::uint64_t span = static_cast<std::uint64_t>(last) - static_cast<std::uint64_t>(first);
         if (by <= 0 || last < first || span % step != 0)

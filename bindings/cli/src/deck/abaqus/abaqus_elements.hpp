@@ -24,7 +24,7 @@ struct ElementType {
     [[nodiscard]] std::int32_t dimension() const;
 };
 
-// By the TYPE of an *ELEMENT card.
+// Returns the type that the TYPE of an *ELEMENT card names.
 const ElementType& type_named(const InpCard& card);
 
 }  // namespace cli::abaqus

@@ -38,8 +38,8 @@ struct Entry {
     const Part* scope;
     std::string text;
     Place place;
-    // With by > 0: the number and all up to `last` in increments. A line may stand for more than memory can hold, but
-    // its first number that is not there ends the reading.
+    // The entry stands for the number and, if by > 0, for all up to `last` in increments. A line may stand for more
+    // numbers than memory can hold, but the first one that does not exist ends the reading.
     std::int64_t last = 0;
     std::int64_t by = 0;
 };
@@ -95,7 +95,7 @@ struct ElementAt {
 // The sets met while one is collected: each is followed once, however often others name it.
 class Trail {
 public:
-    // Whether the set is new. Throws SceneFailure at `place` if it contains itself or is nested too deeply.
+    // Returns true if the set is new. Throws SceneFailure at `place` if it contains itself or is nested too deeply.
     bool enter(const Set& set, const Place& place, const char* what);
     void leave(const Set& set);
 
@@ -115,7 +115,7 @@ struct Model {
 
     // The parts and instances that make up the mesh.
     [[nodiscard]] std::vector<const Part*> scopes() const;
-    // That which has a node, by its number in the mesh; requires Part::first_node.
+    // Returns the part that has a node, by its number in the mesh; requires Part::first_node.
     [[nodiscard]] const Part& owner_of(std::int64_t node) const;
     [[nodiscard]] const Part* instance_named(const std::string& name, const Place& place) const;
     // Splits off the instance of "instance.rest".

@@ -29,7 +29,7 @@ std::string trimmed(std::string_view text) {
     return std::string(text);
 }
 
-// In place, so that a line that goes on in many others is not copied for each.
+// Trims in place, so that a line that goes on in many others is not copied for each.
 void trim_end(std::string& text) {
     while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back())) != 0) text.pop_back();
 }
@@ -124,7 +124,8 @@ public:
 private:
     std::size_t files_ = 0;
 
-    // What files include may repeat, so that a small one could stand for more than any machine can read.
+    // Included files may be included again, so that a small file could stand for more than any machine can read: the
+    // number of files and their size are limited.
     std::string text_of(const std::string& path, const Place& from) {
         if (++files_ > most_files)
             throw SceneFailure(from, fmt::format("{}: is file {} of this mesh, and at most {} are read, one that is "

@@ -6,7 +6,7 @@
 
 namespace cli {
 
-// By the ending of its name.
+// Decides by the ending of the name.
 bool is_abaqus_file(const std::string& path);
 
 // bodies: the element sets that are the bodies, under their names in the scene; if empty, those of the *SOLID SECTIONs;

@@ -96,15 +96,15 @@ struct Yarn {
     [[nodiscard]] double slope(double along) const { return amplitude * pi * std::cos(pi * along); }
 };
 
-// At every crossing one yarn is up and the other down.
+// One yarn is up and the other down at every crossing.
 std::array<Yarn, yarns> weave(double amplitude) {
     return {{{true, 0.5, amplitude}, {true, 1.5, -amplitude}, {false, 0.5, -amplitude}, {false, 1.5, amplitude}}};
 }
 
 constexpr std::array<const char*, yarns> yarn_names{"warp-1", "warp-2", "weft-1", "weft-2"};
 
-// At the distances d and e from their centre lines, crossing yarns are A (cos pi d + cos pi e) - t(d) - t(e) apart.
-// That is at least the gap if A cos pi d - t(d) is half of it for every d up to the half width.
+// Crossing yarns are A (cos pi d + cos pi e) - t(d) - t(e) apart at the distances d and e from their centre lines. That
+// is at least the gap if A cos pi d - t(d) is half of it for every d up to the half width.
 double amplitude_of(const Section& section, double gap) {
     double amplitude = 0;
     constexpr int samples = 4000;

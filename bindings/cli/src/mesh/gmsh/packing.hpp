@@ -18,7 +18,7 @@ struct PackingRequest {
     std::uint64_t seed = 1;
 };
 
-// In radii of the discs. The rectangle has one corner in the origin and repeats itself in both directions.
+// Lengths are in radii of the discs. The rectangle has one corner in the origin and repeats itself in both directions.
 struct Packing {
     double width = 0;
     double height = 0;

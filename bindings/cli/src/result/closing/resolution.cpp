@@ -32,7 +32,7 @@ Prediction prediction(const Model& model, std::size_t index) {
     return out;
 }
 
-// Without an onset of its own a law has no process zone.
+// A law without an onset of its own has no process zone.
 bool has_onset(const std::string& kind) {
     const std::int64_t count = delam_law_parameter_count(kind.c_str());
     for (std::int64_t i = 0; i < count; ++i) {
@@ -43,7 +43,7 @@ bool has_onset(const std::string& kind) {
     return false;
 }
 
-// To three digits, so that a proposal still holds when it is pasted.
+// Rounds to three digits, so that a proposal still holds when it is pasted.
 double rounded(double value, double (*towards)(double)) {
     const double unit = std::pow(10.0, std::floor(std::log10(value)) - 2.0);
     return towards(value / unit) * unit;
@@ -89,7 +89,7 @@ std::vector<std::string> process_zones(const Model& model) {
 
 namespace {
 
-// What the interfaces of a law need together.
+// The requirements of all interfaces of a law together.
 struct Needs {
     std::vector<std::string> interfaces;
     double stiffness = 0, share = 1;

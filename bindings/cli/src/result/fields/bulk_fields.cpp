@@ -27,7 +27,7 @@ std::vector<BulkField> bulk_fields(const Scene& scene) {
 
 Field stored(const BulkField& field, const Field& rows) {
     if (field.name != "rotation" || rows.columns != 1) return padded(rows, field.columns);
-    // In the plane the rotation is about z.
+    // The rotation in the plane is about z.
     Field about_z{std::vector<double>(rows.rows * 3, 0.0), rows.rows, 3};
     for (std::size_t i = 0; i < rows.rows; ++i) about_z.values[3 * i + 2] = rows.values[i];
     return about_z;

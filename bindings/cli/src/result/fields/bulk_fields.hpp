@@ -29,7 +29,7 @@ struct BulkField {
     std::size_t columns = 3;  // in a file
 };
 bool wants(const Scene& scene, const std::string& name);
-// Those that the scene wants, in the order of a file.
+// Returns the fields that the scene wants, in the order of a file.
 std::vector<BulkField> bulk_fields(const Scene& scene);
 // Rows of the library in the columns of a file.
 Field stored(const BulkField& field, const Field& rows);
@@ -47,7 +47,7 @@ struct FileRange {
     std::int64_t to = 0;  // offset
 };
 
-// Where the fields are on many processes, none of which has all of them. Failures are those of the program.
+// Fields that are on many processes, none of which has all of them. Failures are those of the program.
 class Bulk {
 public:
     virtual ~Bulk() = default;

@@ -59,7 +59,7 @@ using Attribute = Id<H5Aclose>;
 using Properties = Id<H5Pclose>;
 using Type = Id<H5Tclose>;
 
-// In a folder or, with access, in memory; an earlier file is replaced.
+// Creates the file in a folder or, with access, in memory; replaces an earlier file.
 inline hid_t create(const std::string& path, hid_t access = driver_access()) {
     (void)take_trouble();
     return H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
@@ -135,7 +135,7 @@ inline std::int64_t reserve(hid_t parent, const std::string& name, std::int64_t 
     return static_cast<std::int64_t>(offset);
 }
 
-// Where such a matrix lies; offset -1: its bytes do not lie one behind the other.
+// Place of such a matrix in the file; offset -1: its bytes do not lie one behind the other.
 struct Extent {
     std::int64_t offset = -1, rows = 0, columns = 0;
 };

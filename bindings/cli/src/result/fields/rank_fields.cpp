@@ -23,7 +23,7 @@ enum class Job : std::int32_t { gather, write, copy };
 // Bytes that are copied at a time.
 constexpr std::int64_t piece = std::int64_t{1} << 26;
 
-// What rank 0 tells the others.
+// Message of rank 0 to the others.
 class Telling {
 public:
     explicit Telling(Job job) { put(job); }
@@ -83,7 +83,7 @@ private:
     MPI_Datatype type_ = MPI_DATATYPE_NULL;
 };
 
-// Of ranges that lie one behind the other, the bytes from first to last.
+// Copies the bytes from first to last of ranges that lie one behind the other.
 void copy_share(const std::string& path, const std::vector<FileRange>& ranges, std::int64_t first, std::int64_t last) {
     std::vector<char> bytes(static_cast<std::size_t>(std::min(piece, last - first)));
     RangedFile to(path, RangedFile::Mode::write);
@@ -114,7 +114,7 @@ std::vector<int> begins_of(const std::vector<int>& counts) {
 
 }  // namespace
 
-// What rank 0 has told, read in the same order.
+// Message from rank 0, read in the order in which it was written.
 class RankFields::Told {
 public:
     Told(std::int64_t size, const std::uint8_t* bytes) : at_(bytes), end_(bytes + size) {}
@@ -196,7 +196,7 @@ void RankFields::together(Work&& work) const {
     throw own;
 }
 
-// Of calls of one rank alone.
+// Checks the status of a call that one rank makes alone.
 void RankFields::call(std::int32_t status) const {
     if (status != DELAM_OK) throw Trouble(status, delam_petsc_message(petsc_));
 }

@@ -16,7 +16,7 @@ namespace cli {
 
 class RankFields final : public Bulk {
 public:
-    // On all ranks; the functions of Bulk are for rank 0, in the work of delam_petsc_run.
+    // All ranks construct it; rank 0 calls the functions of Bulk, in the work of delam_petsc_run.
     explicit RankFields(delam_petsc* petsc);
     ~RankFields() override;
     RankFields(const RankFields&) = delete;
@@ -31,7 +31,7 @@ public:
 private:
     class Told;
     static std::int32_t task(std::int64_t size, const std::uint8_t* bytes, void* user);
-    // What each rank does.
+    // Tasks of each rank.
     void gather(Told& told);
     void write_rows(Told& told);
     void copy_ranges(Told& told);

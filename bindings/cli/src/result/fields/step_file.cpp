@@ -72,7 +72,7 @@ Pairs pairs_of(const Model& model, std::int64_t index) {
     return out;
 }
 
-// Where the displacement of a node stands, [3]; empty: it is not wanted.
+// Returns the place of the displacement of a node, [3]; empty: it is not wanted.
 using DisplacementOf = std::function<const double*(std::int64_t node)>;
 
 void write_interface(const Model& model, delam_solver* solver, const Scene& scene, hid_t parent, std::int64_t index,

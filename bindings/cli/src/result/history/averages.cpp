@@ -11,7 +11,7 @@ namespace cli {
 
 namespace {
 
-// Without a period along an axis the strain there is undefined, but the average of a stress is not.
+// The strain along an axis without a period is undefined, but the average of a stress is not.
 bool of_cell(const CellData& cell, std::size_t component, bool stress) {
     constexpr std::array<std::array<std::size_t, 2>, 6> axes{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
     return stress || std::all_of(axes[component].begin(), axes[component].end(), [&](std::size_t axis) {

@@ -19,7 +19,7 @@ constexpr const char* where_known[] = {"revisions",   "search_candidates", "sear
                                        "jumps",       "released",          "defect",        "defect_slides",
                                        "mixity_error"};
 
-// For scenes in which an interface may break.
+// Columns of scenes in which an interface may break.
 constexpr const char* of_cracks[] = {"crack_length", "energy_release_rate", "front_mixity", "process_zone_pairs"};
 
 constexpr const char* unknown_title = "sensitivities_unknown";

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t most_lines = 10;
 
-// As the library has it: linear between the times, constant before the first and after the last.
+// Returns the factor as the library does: linear between the times, constant before the first and after the last.
 double factor_at(const PatternData& pattern, double time) {
     const auto after = std::upper_bound(pattern.times.begin(), pattern.times.end(), time);
     if (after == pattern.times.begin()) return pattern.values.front();

@@ -26,9 +26,10 @@ struct Jump {
     std::string name;  // of the interface
 };
 
-// Up to the present state, ordered by time; with the state a resumed run loads those before it.
+// Returns the jumps up to the present state, ordered by time. The state that a resumed run loads contains those before
+// it.
 std::vector<Jump> jumps_of(const Model& model, const delam_solver* solver, const Scene& scene);
-// Whether jumps.csv is written: if there is a jump, or if jumps are located (option jump_tolerance > 0).
+// True if jumps.csv is written: there is a jump, or jumps are located (option jump_tolerance > 0).
 bool writes_jumps(const std::vector<Jump>& jumps, const delam_solver* solver);
 // Header and rows. The columns of the loads have the names of those of history.csv.
 std::string jumps_text(const std::vector<Jump>& jumps, const Scene& scene);

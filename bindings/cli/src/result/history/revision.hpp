@@ -11,7 +11,7 @@ namespace cli {
 // The first step whose row is invalid after the step just committed; `step` itself if no step was revised.
 std::int64_t revised_from(const Model& model, delam_solver* solver, std::int64_t step);
 
-// While it lives, the solver's values and fields are those of an earlier step that it keeps.
+// The solver's values and fields are those of an earlier step, which it keeps, while this object exists.
 class Look {
 public:
     Look(const Model& model, delam_solver* solver, std::int64_t step);

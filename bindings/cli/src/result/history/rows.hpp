@@ -17,7 +17,8 @@ using Rows = std::vector<Row>;
 Rows rows_of(std::string_view history);
 // 0 if there is no such column: load_potential exists only with dead loads.
 double number_of(const Row& row, std::string_view column);
-// What differences of energies are compared with: max(|stored energy|, |work|), stored energy with load_potential.
+// Returns the scale with which differences of energies are compared: max(|stored energy|, |work|), stored energy with
+// load_potential.
 double energy_scale(const Row& row);
 
 }  // namespace cli

@@ -29,7 +29,7 @@ enum class KeyKind {
 // The scenes that have a key.
 enum class Scenes { any, layers, mesh };
 
-// How many entries a list may have; the reader knows more where this depends on other keys.
+// Allowed number of entries of a list; the reader knows more where this depends on other keys.
 struct Count {
     std::size_t least = 1;
     std::size_t most = 0;  // 0: without limit

@@ -58,7 +58,7 @@ double checked_number(const toml::node& node, const Place& where, const Range& r
     return value;
 }
 
-// What is allowed, in words.
+// Returns what is allowed, in words.
 std::string whole_words(const KeyRow& row) {
     if (row.most == INT64_MAX) return fmt::format(">= {}", row.least);
     if (row.least == row.most) return fmt::format("{}", row.least);
@@ -210,7 +210,7 @@ void Table::fail(std::string_view key, const std::string& text) const { throw Sc
 
 namespace {
 
-// What a missing key with this row would have to be.
+// Returns the type that a missing key with this row would need to have.
 std::string expected_words(const KeyRow& row) {
     switch (row.kind) {
         case KeyKind::number:
@@ -316,7 +316,7 @@ Table Table::table_or_empty(std::string_view key) const {
     return has(key) ? table(key) : Table(none, place(key), scene_table(row(key).content), scenes_);
 }
 
-// Whether it is read later or not.
+// Checks the value, also if nothing reads it later.
 void Table::check_value(const KeyRow& of) const {
     const bool alone = of.or_one && !is_list(of.key);
     switch (of.kind) {

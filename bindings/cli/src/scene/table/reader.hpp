@@ -25,7 +25,7 @@ public:
     [[nodiscard]] Place place(std::string_view key) const;
     [[noreturn]] void fail(std::string_view key, const std::string& text) const;
 
-    // Without `otherwise`, the default of the row counts; if it has none, the key is needed.
+    // The default of the row counts if `otherwise` is not given; if the row has none, the key is needed.
     [[nodiscard]] double number(std::string_view key) const;
     [[nodiscard]] double number(std::string_view key, double otherwise) const;
     [[nodiscard]] std::int64_t whole(std::string_view key) const;
@@ -33,7 +33,7 @@ public:
     [[nodiscard]] bool flag(std::string_view key) const;
     [[nodiscard]] std::string text(std::string_view key) const;
     [[nodiscard]] std::string text(std::string_view key, const std::string& otherwise) const;
-    // Where less is allowed than the row says.
+    // Reads a word where fewer words are allowed than the row says.
     [[nodiscard]] std::string choice(std::string_view key, const std::vector<std::string>& known,
                                      std::string_view otherwise) const;
     // count 0: as many as the row allows.
@@ -43,7 +43,7 @@ public:
     [[nodiscard]] std::vector<std::int64_t> wholes(std::string_view key, std::size_t count) const;
     [[nodiscard]] std::vector<std::string> texts(std::string_view key) const;
     [[nodiscard]] Table table(std::string_view key) const;
-    // Without entries if the key is missing.
+    // Returns a table without entries if the key is missing.
     [[nodiscard]] Table table_or_empty(std::string_view key) const;
     // Empty if the key is missing.
     [[nodiscard]] std::vector<Table> tables(std::string_view key) const;

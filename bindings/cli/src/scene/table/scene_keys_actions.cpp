@@ -15,7 +15,7 @@ namespace {
 
 using Kind = KeyRule::Kind;
 
-// Which places a table takes: "point", "box", "patch", "set", "control", and "body" alone.
+// The places that a table takes: "point", "box", "patch", "set", "control", and "body" alone.
 using Places = std::vector<std::string>;
 
 bool has(const Places& places, const char* place) {
