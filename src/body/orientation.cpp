@@ -57,8 +57,8 @@ Orientation oriented(const Orientation& before, std::int64_t mesh_cells, std::sp
         if (cell < 0) continue;
         const auto k = static_cast<std::size_t>(cell);
         const Axes& own = cell < old ? before.axes[k] : chosen[k - before.axes.size()];
-        const auto [found, fresh] = number.try_emplace(own, static_cast<std::int32_t>(after.axes.size()));
-        if (fresh) after.axes.push_back(own);
+        const auto [found, inserted] = number.try_emplace(own, static_cast<std::int32_t>(after.axes.size()));
+        if (inserted) after.axes.push_back(own);
         cell = found->second;
     }
     after.of_cell = std::move(of_cell);

@@ -99,8 +99,8 @@ Tree breadth_first(const Graph& graph, const Parts& part, std::size_t root) {
 }
 
 // Cuts a connected part into two connected ones: the branch of a breadth-first tree closest to half of it becomes
-// `fresh`. The tree starts from a vertex far out, so that its branches are long.
-void halve(const Graph& graph, Parts& part, std::int32_t old, std::int32_t fresh) {
+// `added`. The tree starts from a vertex far out, so that its branches are long.
+void halve(const Graph& graph, Parts& part, std::int32_t old, std::int32_t added) {
     const auto first = static_cast<std::size_t>(std::find(part.begin(), part.end(), old) - part.begin());
     const std::size_t far = breadth_first(graph, part, first).order.back();
     const Tree tree = breadth_first(graph, part, far);
@@ -113,9 +113,9 @@ void halve(const Graph& graph, Parts& part, std::int32_t old, std::int32_t fresh
     const std::size_t branch =
         *std::min_element(tree.order.begin() + 1, tree.order.end(),
                           [&](std::size_t i, std::size_t j) { return off_half(i) < off_half(j); });
-    part[branch] = fresh;
+    part[branch] = added;
     for (const std::size_t i : tree.order)  // parents come before their children
-        if (i != far && part[tree.parent[i]] == fresh) part[i] = fresh;
+        if (i != far && part[tree.parent[i]] == added) part[i] = added;
 }
 
 // Parts 0 .. parts-1 of a connected graph, each non-empty and connected. With few vertices per part METIS is not used:

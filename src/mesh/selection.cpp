@@ -65,9 +65,10 @@ public:
     Window(const Mesh& mesh, std::span<const double> lower, std::span<const double> upper)
         : mesh_(mesh), lower_(lower), upper_(upper), slack_(widening * mesh.size()) {}
 
-    // Axes along which the box cuts this face. A face that is flat along an axis is never cut there: it is in or out,
-    // with the slack; so a box may be a mere plane, and slack adds nothing to a patch. False: the face is outside.
-    bool look_at(std::span<const std::int64_t> nodes) {
+    // Finds the axes along which the box cuts this face. A face that is flat along an axis is never cut there: it is in
+    // or out, with the slack; so a box may be a mere plane, and slack adds nothing to a patch. False: the face is
+    // outside.
+    bool cut_face(std::span<const std::int64_t> nodes) {
         cut_.fill(false);
         for (std::size_t i = 0; i < index(mesh_.dimension()); ++i) {
             double low = mesh_.node(nodes[0])[i];
@@ -276,7 +277,7 @@ Patch find_patch(const Mesh& mesh, std::int32_t body, std::span<const double> lo
         for (const BoundaryFace& face : boundary_faces(mesh, b)) {
             poll_cancel("mesh", 2);
             const auto nodes = face.all();
-            if (!window.look_at(nodes)) continue;
+            if (!window.cut_face(nodes)) continue;
             const auto area = area_vector(mesh, nodes);
             double along = 0.0;
             for (std::size_t i = 0; i < direction.size(); ++i) along += area[i] * (direction[i] / length);

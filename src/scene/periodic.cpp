@@ -90,7 +90,7 @@ private:
     std::map<Key, std::vector<std::pair<std::int64_t, Point>>> cells_;
 };
 
-// The search for partners, face by face: nodes on the upper faces look for those one period below.
+// Finds partners face by face: a node on an upper face pairs with the node one period below.
 class Matching {
 public:
     Matching(const Mesh& mesh, std::span<const double> given, double tolerance)

@@ -171,12 +171,12 @@ void estimate() {
     const cli::Rows rows = cli::rows_of(
         "step,stored_bulk,stored_interface,load_potential,work,lower,increment,upper\n0,0,0,0,0,0,0,0\n"
         "1,1,0,0,1,1,1,1\n2,2,0,0,2,-20,1,21\n3,2,0,0,2,0,0,1e-12\n");
-    expect(cli::hollow_steps(rows) == std::vector<std::int64_t>{2}, "a hollow estimate");
+    expect(cli::inconclusive_steps(rows) == std::vector<std::int64_t>{2}, "an inconclusive estimate");
     expect_line(
-        cli::hollow_line({2}),
+        cli::inconclusive_line({2}),
         "two-sided estimate says nothing in 1 step (the first is step 2): its bounds lie farther apart than the "
         "work of the step");
-    expect(cli::hollow_line({}).empty() && cli::violated_steps(rows, 1e-3).empty(), "and holds");
+    expect(cli::inconclusive_line({}).empty() && cli::violated_steps(rows, 1e-3).empty(), "and holds");
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ constexpr std::size_t block = std::size_t{128} << 20;
 // Size of a daxpy that makes OpenBLAS give each thread a part (it does above 10000).
 constexpr std::size_t shared_work = 20000;
 // Time to wait for threads of the BLAS that the system has started but not yet run.
-constexpr std::chrono::milliseconds patience{200};
+constexpr std::chrono::milliseconds start_wait{200};
 
 std::mutex mutex;
 int prepared = 0;          // threads of the BLAS that have their blocks, 0: not even the caller's is mapped
@@ -90,7 +90,7 @@ void prepare_blas() {
     }
     // Room for fewer belongs to the others first: one that never gets its block never ends either.
     if (callers == 0) {
-        if (threads > 1) std::this_thread::sleep_for(patience);
+        if (threads > 1) std::this_thread::sleep_for(start_wait);
         if (granted(1) == 0) throw std::bad_alloc();
         map_blocks(1);
     }

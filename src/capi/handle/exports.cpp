@@ -136,7 +136,7 @@ int32_t delam_problem_process_zone(const delam_problem* problem, int64_t interfa
     return guard_read(problem, [&] {
         const auto count = static_cast<std::int64_t>(problem->core->interfaces.size());
         const std::int64_t interface = require_index(interface_index, count, 0, "interface_index");
-        if (length == nullptr) {  // the spacing alone needs no look at the bodies
+        if (length == nullptr) {  // the spacing alone does not depend on the bodies
             if (spacing != nullptr) *spacing = pair_spacing(*problem->core, interface);
             return;
         }

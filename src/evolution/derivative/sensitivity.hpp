@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Derivatives of a march by parameters of the laws, followed step by step.
+// Derivatives of an analysis by parameters of the laws, followed step by step.
 //
 // At the end of a step the bodies and springs are at rest, and each pair that damages satisfies Y(j) = D(B, zeta)
 // (step_tangent.hpp). Both depend on a parameter p by the stiffness and the toughness of the law. With dzeta given for
@@ -12,8 +12,7 @@
 //   own dzeta = omega . dj + r,     r = d(Y - D)/dp at fixed jump and adhesion
 //
 // which is the system of the step tangent with another right-hand side: one solve for each parameter beside one for
-// each damaging pair. The derivatives belong to the branch on which the march is: they are those of the march as long
-// as no pair, contact or jump changes its branch.
+// each damaging pair. They are the derivatives of the analysis as long as no pair, contact or jump changes its branch.
 // Source: the direct differentiation method, P. Michaleris, D. Tortorelli, C. Vidal, Int. J. Numer. Meth. Engng 37
 // (1994) 2471-2499.
 #pragma once

@@ -13,7 +13,7 @@ namespace delam {
 namespace {
 
 // A failed method is tried again after 1, 2, 4, 8, 8 ... steps.
-class Patience {
+class Backoff {
 public:
     explicit Patience(std::int64_t longest) : longest_(longest) {}
     bool try_now() {
@@ -239,7 +239,7 @@ Descent::Move Descent::step(const Point& at) {
     std::optional<double> soft;
     if (softens_) soft = softening(at);
     softens_ = soft && *soft >= 1.0;
-    if (!softens_ && newton_patience_.try_now()) {
+    if (!softens_ && newton_backoff_.try_now()) {
         const bool found = minimise(at, at.adhesion, 1.0, -1, move.to);
         move.newton = found && descend(at, move.to, false);
         if (!move.newton && indefinite_ && staggered_ >= limits_.newton_staggered) {
@@ -248,13 +248,13 @@ Descent::Move Descent::step(const Point& at) {
             softens_ = soft.has_value();
             if (soft) soft = std::max(*soft, 1.0);
         }
-        if (!softens_) newton_patience_.report(move.newton);
+        if (!softens_) newton_backoff_.report(move.newton);
     }
     move.taken = move.newton;
     if (!move.taken && !(soft && *soft < limits_.newton_own_branch) && move_patience_.try_now()) {
         closed_ = before;
         const std::int64_t pair = weakest(at);
-        move.taken = move_patience_.report(pair >= 0 && minimise(at, at.adhesion, 0.0, pair, move.to) &&
+        move.taken = move_backoff_.report(pair >= 0 && minimise(at, at.adhesion, 0.0, pair, move.to) &&
                                            move.to.energy < at.energy);
         if (move.taken) {
             ++state_.effort.debond_moves;

@@ -66,7 +66,7 @@ void CandidateEnergies::focus(std::span<const std::uint8_t> wanted) {
     for (std::size_t p = 0; p < pairs.size(); ++p)
         if (from_.adhesion[p] != increment_.adhesion_before()[p]) pairs[p] = 1;
     if (focused_ && zone_->serves(pairs)) {
-        zone_->look_anew();
+        zone_->recheck_contact();
         return;
     }
     lose_focus();

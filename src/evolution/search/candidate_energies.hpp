@@ -47,8 +47,8 @@ public:
         wanted_.clear();
     }
     // Keeps the focus, but checks contact outside anew: the next candidates differ from the step's own state elsewhere.
-    void look_anew() {
-        if (focused_) zone_->look_anew();
+    void recheck_contact() {
+        if (focused_) zone_->recheck_contact();
     }
     // known: B of the pairs. candidates: number compared so far (progress).
     const CandidateEnergy& at(const std::vector<double>& adhesion, std::span<const std::int64_t> next,

@@ -89,7 +89,7 @@ void Trials::advance_together(std::span<const Front> fronts) {
             longest = std::max(longest, ring.back().size());
         }
     if (ring.size() < 2) return;
-    search_.energies.look_anew();
+    search_.energies.recheck_contact();
     std::optional<Candidate> lowest;
     Candidate joint = start_;
     std::size_t reached = 0;

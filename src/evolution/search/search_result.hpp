@@ -14,7 +14,7 @@ inline constexpr double promising = 0.5;
 
 struct Candidate {
     std::vector<double> adhesion;  // [pairs]
-    std::vector<double> mixity;    // [pairs] with which it was booked
+    std::vector<double> mixity;    // [pairs] with which it was recorded
     double incremental = 0.0;      // I, F L
 };
 

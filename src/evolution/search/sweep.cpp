@@ -240,7 +240,7 @@ void Sweep::sample_new_crack() {
         if (!from_below && settled_by_a_larger_one(n)) return;
         sample(n);
         if (from_below && search_.floor + cost_.at(n) >= search_.best) return;
-        if (!from_below) note_beneath(n);
+        if (!from_below) bound_smaller_cracks(n);
     }
 }
 
@@ -253,14 +253,14 @@ std::vector<std::int64_t> Sweep::pairs_within(std::size_t n) const {
 
 bool Sweep::not_promising(double energy) const { return energy + (1.0 - promising) * cost_of(1) >= search_.level; }
 
-void Sweep::note_beneath(std::size_t n) {
+void Sweep::bound_smaller_cracks(std::size_t n) {
     if (!search_.pairs().gradient.empty() || !std::isfinite(value_.at(n).incremental)) return;
-    search_.beneath.push_back({pairs_within(n), value_.at(n).incremental - search_.result.error - cost_.at(n)});
+    search_.smaller_cracks.push_back({pairs_within(n), value_.at(n).incremental - search_.result.error - cost_.at(n)});
 }
 
 bool Sweep::settled_by_a_larger_one(std::size_t n) const {
     const std::vector<std::int64_t> pairs = pairs_within(n);
-    return std::any_of(search_.beneath.begin(), search_.beneath.end(), [&](const SearchRun::Beneath& b) {
+    return std::any_of(search_.smaller_cracks.begin(), search_.smaller_cracks.end(), [&](const SearchRun::SmallerCracks& b) {
         return not_promising(b.energy) && std::includes(b.pairs.begin(), b.pairs.end(), pairs.begin(), pairs.end());
     });
 }

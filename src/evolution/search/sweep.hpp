@@ -25,12 +25,13 @@ struct SearchRun {
     double best;        // lowest I so far, of the step or a candidate
     double tolerance;   // of energies
     std::int64_t left;  // candidates until the limit
-    // Pairs of cracks, ascending, and less than the energy with them debonded: with fewer of them there is no less.
-    struct Beneath {
+    // Pairs of cracks, ascending, and a lower bound of the energy with them debonded, which also holds for every crack
+    // with fewer of these pairs.
+    struct SmallerCracks {
         std::vector<std::int64_t> pairs;
         double energy;  // E less the energy before, F L
     };
-    std::vector<Beneath> beneath{};
+    std::vector<SmallerCracks> smaller_cracks{};
     // [pairs] that the new cracks of this search may reach, if one zone serves them all; empty: a zone for each.
     std::vector<std::uint8_t> new_cracks{};
 
@@ -82,7 +83,7 @@ private:
     // Says a larger crack, of this sweep or another one, that one of n rings is not promising?
     bool settled_by_a_larger_one(std::size_t n) const;
     // Keeps what the sample says about smaller cracks.
-    void note_beneath(std::size_t n);
+    void bound_smaller_cracks(std::size_t n);
     void refine_minimum();
     void close_gap();
     // Lower bound of what lies strictly between two samples.

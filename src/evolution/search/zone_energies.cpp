@@ -13,8 +13,8 @@ constexpr std::int64_t energy_contact_steps = 200;  // beyond them the energy is
 // Share of the allowed error within which contact is left undecided.
 constexpr double undecided = 1e-3;
 constexpr std::size_t most_solved = 64;  // contact sets that are remembered
-// Contact outside is looked at again in states that differ in so many times as many pairs; then so many zones at most.
-constexpr std::size_t look_again = 2;
+// Contact outside is checked again in states that differ in so many times as many pairs; then so many zones at most.
+constexpr std::size_t recheck_factor = 2;
 constexpr int rounds_outside = 5;
 
 }  // namespace
@@ -24,7 +24,7 @@ bool ZoneEnergies::focus(const State& known, std::span<const std::uint8_t> wante
     wanted_.assign(wanted.begin(), wanted.end());
     allowed_ = allowed;
     with_jumps_ = with_jumps;
-    looked_at_ = 0;
+    checked_ = 0;
     return choose();
 }
 
@@ -59,7 +59,7 @@ std::optional<double> ZoneEnergies::energy(std::span<const double> adhesion) {
         const std::vector<std::size_t> wrong = wrong_outside();
         settled_ = wrong.empty();
         if (settled_) {
-            looked_at_ = differ;
+            checked_ = differ;
             break;
         }
         if (joined_.empty()) joined_.assign(adhesion.size(), 0);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Energies of many states that differ from one known state in a few pairs, where the operator offers a zone: the other
 // pairs and their contact stay as they are in the known state, so that each energy is a small dense solve with contact
-// inside the zone. Contact outside is looked at where a state differs from the known one in twice as many pairs as any
+// inside the zone. Contact outside is checked where a state differs from the known one in twice as many pairs as any
 // state before it; pairs that are then on the wrong side join the zone. (FETI cannot tell without another solve: there
 // it stays as it is.)
 #pragma once
@@ -43,7 +43,7 @@ public:
     // True if the zone in use has all of these pairs, [pairs], and is not much larger than a zone of these pairs alone.
     bool serves(std::span<const std::uint8_t> wanted) const;
     // Checks contact outside anew: the next states differ from the known one elsewhere.
-    void look_anew() { looked_at_ = 0; }
+    void recheck_contact() { checked_ = 0; }
     // E at the known state's load and another adhesion; none: no equilibrium.
     std::optional<double> energy(std::span<const double> adhesion);
     // True if contact outside the zone had settled in the last energy(), as far as it was checked.
@@ -85,7 +85,7 @@ private:
     std::vector<std::uint8_t> wanted_;  // [pairs]
     double allowed_ = 0.0;
     bool with_jumps_ = false;
-    std::size_t looked_at_ = 0;         // most pairs by which a state with settled contact outside differs
+    std::size_t checked_ = 0;         // most pairs by which a state with settled contact outside differs
     std::vector<std::uint8_t> joined_;  // [pairs] wanted since forget() for their contact; empty: none
     bool settled_ = true;
 };

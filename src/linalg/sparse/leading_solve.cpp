@@ -13,7 +13,7 @@ namespace delam {
 namespace {
 
 constexpr int each = 1;
-constexpr double once = 1.0, taken = -1.0, fresh = 0.0;
+constexpr double once = 1.0, taken = -1.0, overwrite = 0.0;
 
 // The leading part of a supernode: its columns, with `below` further rows, `rows` apart in memory.
 struct Part {
@@ -51,7 +51,7 @@ void solve_leading_block(const Supernodes& nodes, const double* values, std::int
         blas::trsv("L", "N", "N", &p.columns, p.value, &p.rows, y.data() + p.first, &each);
         if (p.below == 0) continue;
         below.resize(std::max(below.size(), index(p.below)));
-        blas::gemv("N", &p.below, &p.columns, &once, below_of(p), &p.rows, y.data() + p.first, &each, &fresh,
+        blas::gemv("N", &p.below, &p.columns, &once, below_of(p), &p.rows, y.data() + p.first, &each, &overwrite,
                    below.data(), &each);
         for (std::size_t i = 0; i < index(p.below); ++i) y[index(p.others[i])] -= below[i];
     }

@@ -46,8 +46,8 @@ public:
             const Point off = x - p.place;
             const double distance = length(off);
             const double along = std::abs(dot(off, p.normal));
-            const double aside = std::sqrt(std::max(0.0, distance * distance - along * along));
-            if (!(distance <= reach_) || dot(p.normal, normal) > -0.5 || aside > rim_ + 0.5 * along) return;
+            const double lateral = std::sqrt(std::max(0.0, distance * distance - along * along));
+            if (!(distance <= reach_) || dot(p.normal, normal) > -0.5 || lateral > rim_ + 0.5 * along) return;
             if (std::pair(distance, index(f)) < std::pair(nearest, best ? best->face : index(f) + 1)) {
                 nearest = distance;
                 best = Found{index(f), p};

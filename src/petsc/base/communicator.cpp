@@ -14,7 +14,7 @@ namespace {
 constexpr std::int64_t piece = std::int64_t{1} << 30;  // bytes of one message: MPI counts in int
 constexpr int tag = 7;
 // A rank that has failed waits that long for the others to notice. If they wait for this rank, they never come.
-constexpr std::chrono::seconds patience{8};
+constexpr std::chrono::seconds longest_wait{8};
 
 // No other rank can be told any more. PETSc's error stream is the host's to redirect (PETSC_STDERR, PetscVFPrintf).
 void say(const std::string& text) { PetscFPrintf(PETSC_COMM_SELF, PETSC_STDERR, "%s\n", text.c_str()); }
@@ -34,7 +34,7 @@ Communicator::~Communicator() {
 }
 
 bool Communicator::come_in_time(MPI_Request& request) {
-    const auto until = std::chrono::steady_clock::now() + patience;
+    const auto until = std::chrono::steady_clock::now() + longest_wait;
     int done = 0;
     while (true) {
         MPI_Test(&request, &done, MPI_STATUS_IGNORE);

@@ -81,9 +81,9 @@ UpdatedFactor::Change UpdatedFactor::compare(const std::vector<Triplet>& springs
     for (const auto& set : {unknowns.free, unknowns.bound})
         for (const std::int64_t i : set) {
             now[index(i)] = 1;
-            if (place_[index(i)] < 0) change.fresh.push_back(i);
+            if (place_[index(i)] < 0) change.added.push_back(i);
         }
-    std::sort(change.fresh.begin(), change.fresh.end());
+    std::sort(change.added.begin(), change.added.end());
     for (const std::int64_t i : unknowns.bound) marked[index(i)] = 1;
     for (std::size_t j = 0; j < unknowns.free.size() && !unknowns.bound.empty(); ++j)
         if (unknowns.binds(j)) marked[index(unknowns.free[j])] = 1;
@@ -124,13 +124,13 @@ double UpdatedFactor::cost(const Change& change) const {
             columns += 0.5 * tail * tail;
             missing += 1.0;
         }
-    for (const std::int64_t i : change.fresh) {
+    for (const std::int64_t i : change.added) {
         if (column_of_[index(i)] >= 0) continue;
         columns += 0.5 * n * n;
         missing += 1.0;
     }
     const auto u = static_cast<double>(change.touched.size()), k = u + static_cast<double>(change.held.size()),
-               b = static_cast<double>(change.fresh.size());
+               b = static_cast<double>(change.added.size());
     const double products = missing * n * (static_cast<double>(columns_.columns) + 0.5 * missing);
     const double small = k * k * (k + b) + (u + b) * (u + b) * (u + b) / 3.0;
     return columns + products + small + 2.0 * n * (static_cast<double>(columns_.columns) + missing);
@@ -138,7 +138,7 @@ double UpdatedFactor::cost(const Change& change) const {
 
 void UpdatedFactor::add_columns(const DenseMatrix& stiffness, const Change& change, const Poll& poll) {
     std::vector<std::int64_t> missing;
-    for (const auto* set : {&change.touched, &change.held, &change.fresh})
+    for (const auto* set : {&change.touched, &change.held, &change.added})
         for (const std::int64_t i : *set)
             if (column_of_[index(i)] < 0) missing.push_back(i);
     if (missing.empty()) return;
@@ -262,7 +262,7 @@ bool UpdatedFactor::update(const DenseMatrix& stiffness, const std::vector<Tripl
     free_.assign(unknowns.free.begin(), unknowns.free.end());
     k_ = change.touched;
     k_.insert(k_.end(), change.held.begin(), change.held.end());
-    b_ = change.fresh;
+    b_ = change.added;
     touched_ = static_cast<std::int64_t>(change.touched.size());
     const bool has_digits = condense(stiffness, change, unknowns);
     valid_ = true;
@@ -312,7 +312,7 @@ void UpdatedFactor::solve(std::span<double> x, bool again) {
     std::vector<double> on(index(columns_.columns)), along(on.size(), 0.0);
     if (k + b > 0) {
         multiply_transposed(columns_, w, on);
-        std::vector<double> star(k), q(k), carried(b), small(u + b), fresh(b), moved(k);
+        std::vector<double> star(k), q(k), carried(b), small(u + b), added(b), moved(k);
         for (std::size_t i = 0; i < k; ++i) star[i] = on[index(column_of_[index(k_[i])])];
         multiply(inverse_, star, q);
         multiply_transposed(through_, q, carried);
@@ -320,16 +320,16 @@ void UpdatedFactor::solve(std::span<double> x, bool again) {
         for (std::size_t i = 0; i < b; ++i)
             small[u + i] = other[index(b_[i])] - on[index(column_of_[index(b_[i])])] + carried[i];
         solve_small(small);
-        std::copy_n(small.begin() + static_cast<std::ptrdiff_t>(u), b, fresh.begin());
-        multiply(through_, fresh, moved);
+        std::copy_n(small.begin() + static_cast<std::ptrdiff_t>(u), b, added.begin());
+        multiply(through_, added, moved);
         for (std::size_t i = 0; i < k; ++i) moved[i] += (i < u ? small[i] : 0.0) - star[i];
         multiply(inverse_, moved, q);
         for (std::size_t i = 0; i < k; ++i) along[index(column_of_[index(k_[i])])] = q[i];
-        for (std::size_t i = 0; i < b; ++i) along[index(column_of_[index(b_[i])])] = -fresh[i];
+        for (std::size_t i = 0; i < b; ++i) along[index(column_of_[index(b_[i])])] = -added[i];
         std::vector<double> more(n);
         multiply(columns_, along, more);
         for (std::size_t i = 0; i < n; ++i) w[i] += more[i];
-        for (std::size_t i = 0; i < b; ++i) other[index(b_[i])] = fresh[i];
+        for (std::size_t i = 0; i < b; ++i) other[index(b_[i])] = added[i];
     }
     solve_lower_transposed(factor_, w);
     for (std::size_t i = 0; i < free_.size(); ++i) {

@@ -63,7 +63,7 @@ public:
 private:
     // Differences from the reference.
     struct Change {
-        std::vector<std::int64_t> touched, held, fresh;  // U, R, B
+        std::vector<std::int64_t> touched, held, added;  // U, R, B
         std::vector<Triplet> spring;                     // among U and B
     };
     Change compare(const std::vector<Triplet>& springs, const BoundUnknowns& unknowns);

@@ -12,7 +12,7 @@ namespace delam {
 
 namespace {
 
-constexpr int descents = 4;          // descents, each from a freshly computed residual
+constexpr int descents = 4;          // descents, each from a newly computed residual
 constexpr std::int64_t limit = 400;  // iterations of a descent
 constexpr int idle_iterations = 25;  // iterations without a lower residual
 constexpr double slack = 100.0;      // times the tolerance: what a column that rounding has ended may have left

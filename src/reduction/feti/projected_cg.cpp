@@ -18,7 +18,7 @@ struct Direction {
 
 constexpr std::size_t kept_directions = 400;  // beyond that the memory is better used elsewhere
 constexpr int rounds = 6;
-// Close to rounding the kept directions lose their conjugacy: the residual stops, then grows. A fresh start from there
+// Close to rounding the kept directions lose their conjugacy: the residual stops, then grows. A restart from there
 // converges again.
 constexpr int idle_limit = 100;
 constexpr double growth_limit = 1e3;

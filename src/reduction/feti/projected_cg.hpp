@@ -28,7 +28,7 @@ struct CgResult {
 };
 
 // lambda: start in, balanced solution out. Stops at sqrt(r^T z) <= tolerance * sqrt(lambda^T A lambda) for the true
-// residual: the recursion is restarted until a freshly computed residual agrees. Where rounding (sqrt(r^T z) <= floor)
+// residual: the recursion is restarted until a newly computed residual agrees. Where rounding (sqrt(r^T z) <= floor)
 // ends the descent first, that is the solution: a structure in pieces moves without any force, and no relative measure
 // of forces applies. A descent that rounding ends within 100 times either bound counts as converged too; the residual
 // says so.

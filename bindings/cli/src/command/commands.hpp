@@ -28,7 +28,7 @@ int run(const std::string& scene_file, const std::vector<std::string>& settings,
         const std::string& command, const Caller& caller);
 // Writes the scene of an Abaqus input file; scene_file "": to standard output. replace: also where there is a file.
 int import(const std::string& deck, const std::string& scene_file, bool replace);
-// A study is a Python script of share/delam/study, which runs the program again for each march.
+// A study is a Python script of share/delam/study, which runs the program again for each analysis.
 struct Study {
     std::string name;  // "sweep" or "fit"
     std::vector<std::string> scenes;

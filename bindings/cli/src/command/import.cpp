@@ -30,7 +30,7 @@ int import(const std::string& deck, const std::string& scene_file, bool replace)
     require_replaceable(scene_file, replace, "a scene of delam import", is_imported);
     write_atomic(scene_file, scene.text);
     for (const std::string& line : import_lines(scene)) say("{}\n", line);
-    say("wrote     {}: look at it, then delam check {}\n", scene_file, scene_file);
+    say("wrote     {}: read it, then run delam check {}\n", scene_file, scene_file);
     return exit_done;
 }
 

@@ -118,7 +118,7 @@ public:
     }
 
     // Returns the exit code of the analysis; outcome.reason is the reason why it stopped early.
-    Exit march(Progress& progress, Outcome& outcome) {
+    Exit analyse(Progress& progress, Outcome& outcome) {
         const auto total = static_cast<std::int64_t>(scene_.step_count());
         bool first = true;
         while (state_.step < total) {
@@ -187,7 +187,7 @@ private:
         const std::int64_t first = state_.step > 0 ? revised_from(model_, solver_.get(), state_.step) : state_.step;
         std::vector<std::string> rows;
         for (std::int64_t step = first; step < state_.step; ++step) {
-            const Look look(model_, solver_.get(), step);
+            const SelectedStep selected(model_, solver_.get(), step);
             rows.push_back(step_row(step));
         }
         rows.push_back(step_row(state_.step));
@@ -342,7 +342,7 @@ int analyse(const Analysis& of) {
             work.resume(*state);
         else
             work.begin();
-        code = work.march(progress, outcome);
+        code = work.analyse(progress, outcome);
         progress.finish();
         to_the_end([&] { work.publish(outcome); });
     } catch (const OutputFailure& failure) {

@@ -87,8 +87,8 @@ FaceBodies::FaceBodies(const MeshData& mesh) : dimension_(mesh.dimension) {
                 for (std::size_t i = 0; i < shape.side_corners; ++i)
                     key.push_back(block.connectivity[c * shape.nodes + side[i]]);
                 std::sort(key.begin(), key.end());
-                const auto [at, fresh] = bodies_.emplace(std::move(key), std::vector{block.bodies[c]});
-                if (!fresh) at->second.push_back(block.bodies[c]);
+                const auto [at, inserted] = bodies_.emplace(std::move(key), std::vector{block.bodies[c]});
+                if (!inserted) at->second.push_back(block.bodies[c]);
             }
     }
     for (auto& [key, bodies] : bodies_) sort_once(bodies);
@@ -103,8 +103,8 @@ std::vector<BodyPair> pairs_of_bodies(const MeshData& mesh, const FaceBodies& fa
                                       const Place& place) {
     std::map<std::pair<std::int32_t, std::int32_t>, BodyPair> out;
     const auto pair = [&](std::int32_t a, std::int32_t b) -> BodyPair& {
-        const auto [at, fresh] = out.emplace(std::minmax(a, b), BodyPair{});
-        if (fresh) std::tie(at->second.a, at->second.b) = std::minmax(a, b);
+        const auto [at, inserted] = out.emplace(std::minmax(a, b), BodyPair{});
+        if (inserted) std::tie(at->second.a, at->second.b) = std::minmax(a, b);
         // Each has an interface of its own. Where bodies lie in one place, all pairs of them touch.
         if (out.size() > most_pairs)
             throw SceneFailure(place,
@@ -142,8 +142,8 @@ struct FacePlaces::Known {
     std::map<std::pair<std::string, std::string>, std::int64_t> coinciding;
 
     const std::map<FaceKey, std::int64_t>& of(const std::string& set) {
-        const auto [at, fresh] = places.try_emplace(set);
-        if (!fresh) return at->second;
+        const auto [at, inserted] = places.try_emplace(set);
+        if (!inserted) return at->second;
         for (const Face& face : mesh.face_sets.at(set)) {
             FaceKey place = key_of(face, mesh.dimension);
             for (std::int64_t& node : place) node = coincidence.first(node);
@@ -159,8 +159,8 @@ FacePlaces::FacePlaces(const MeshData& mesh, double shortest_edge)
 FacePlaces::~FacePlaces() = default;
 
 std::int64_t FacePlaces::coinciding(const std::string& set, const std::string& other) {
-    const auto [at, fresh] = known_->coinciding.try_emplace({set, other}, 0);
-    if (!fresh) return at->second;
+    const auto [at, inserted] = known_->coinciding.try_emplace({set, other}, 0);
+    if (!inserted) return at->second;
     const auto &faces = known_->of(set), &others = known_->of(other);
     // Goes through the smaller one: the other may be that of many pairs.
     const bool turned = others.size() < faces.size();

@@ -194,8 +194,8 @@ private:
     // The law of this name and thickness, made where it is new.
     std::string new_law(const std::string& of, const std::string& name, const Numbers& stiffness, double thickness,
                         const DamageCards& damage, const Place& place) {
-        const auto [known, fresh] = law_names_.emplace(std::pair(of + " " + name, thickness), name);
-        if (!fresh) return known->second;
+        const auto [known, inserted] = law_names_.emplace(std::pair(of + " " + name, thickness), name);
+        if (!inserted) return known->second;
         const std::size_t alike = ++laws_of_name_[name];
         if (alike > 1) known->second = fmt::format("{} ({})", name, alike);
         laws_ += law_text(known->second, stiffness, thickness, damage, mesh_.dimension, place, deck_.changed) + "\n";
@@ -210,8 +210,8 @@ private:
     }
 
     const std::set<std::int32_t>& bodies_of(const std::string& surface) {
-        const auto [at, fresh] = bodies_of_.try_emplace(surface);
-        if (!fresh) return at->second;
+        const auto [at, inserted] = bodies_of_.try_emplace(surface);
+        if (!inserted) return at->second;
         for (const Face& face : mesh_.face_sets.at(surface))
             for (const std::int32_t each : faces_.of(face)) at->second.insert(each);
         return at->second;

@@ -90,7 +90,7 @@ public:
     std::string text() {
         for (const LoadLine& line : deck_.held)
             for (int dof = line.first; dof <= line.last; ++dof) at_one(line, false, dof);
-        for (const Step& step : deck_.steps) march(step);
+        for (const Step& step : deck_.steps) add_step(step);
         for (auto& [key, history] : histories_) history.hold_until(time_);
         say_width();
         std::string out = time_text();
@@ -166,8 +166,8 @@ private:
             return nullptr;
         }
         const Key key{(force ? "force " : "") + upper(line.where.text), dof, line.distributed};
-        const auto [found, fresh] = histories_.emplace(key, History{line, dof, force, histories_.size()});
-        if (fresh) {
+        const auto [found, inserted] = histories_.emplace(key, History{line, dof, force, histories_.size()});
+        if (inserted) {
             keys_.push_back(key);
             if (time_ > 0 && !force)
                 throw SceneFailure(line.where.place,
@@ -191,7 +191,7 @@ private:
         return moved > 0;
     }
 
-    void march(const Step& step) {
+    void add_step(const Step& step) {
         const double end = time_ + step.period;
         ++step_;
         // Each of these ends unless this step gives it again.
@@ -272,8 +272,8 @@ private:
         } else {
             const double origin = amplitude->total_time ? 0.0 : time_;
             const double factor = amplitude->absolute ? 1.0 : line.magnitude;
-            const auto [known, fresh] = lines_.try_emplace(amplitude);
-            if (fresh) known->second = lines_of(*amplitude);
+            const auto [known, inserted] = lines_.try_emplace(amplitude);
+            if (inserted) known->second = lines_of(*amplitude);
             const Points& lines = known->second;
             next.emplace_back(time_, factor * between(lines, time_ - origin));
             const auto within = [&](const auto& point) { return point.first + origin <= time_; };

@@ -94,8 +94,8 @@ std::vector<std::int64_t> References::nodes_of(const Entry& where) const {
 
 const std::vector<std::int64_t>& References::of(const Entry& where) const {
     // Entries of loads and constraints stand outside of parts: their text says all.
-    const auto [at, fresh] = of_.try_emplace(where.text);
-    if (!fresh) return at->second;
+    const auto [at, inserted] = of_.try_emplace(where.text);
+    if (!inserted) return at->second;
     std::vector<std::int64_t> nodes = nodes_of(where);
     const auto loose = std::count_if(nodes.begin(), nodes.end(), [&](std::int64_t node) { return of_no_body(node); });
     if (loose == 0) return at->second;
@@ -137,14 +137,14 @@ std::string References::place_of(const Control& control) {
 }
 
 std::size_t References::control_of(std::int64_t node) {
-    const auto [at, fresh] = translations_.emplace(node, controls_.size());
-    if (fresh) controls_.push_back({new_name(node, ""), position(node), {}, {}});
+    const auto [at, inserted] = translations_.emplace(node, controls_.size());
+    if (inserted) controls_.push_back({new_name(node, ""), position(node), {}, {}});
     return at->second;
 }
 
 std::size_t References::rotation_of(std::int64_t node) {
-    const auto [at, fresh] = rotations_.emplace(node, controls_.size());
-    if (fresh) controls_.push_back({new_name(node, "-rotation"), position(node), {}, {}});
+    const auto [at, inserted] = rotations_.emplace(node, controls_.size());
+    if (inserted) controls_.push_back({new_name(node, "-rotation"), position(node), {}, {}});
     return at->second;
 }
 
@@ -192,8 +192,8 @@ void References::couple(const Coupling& coupling) {
             throw SceneFailure(coupling.place, fmt::format("ROT NODE={}: one further node that belongs to no body is "
                                                            "expected",
                                                            coupling.rotation_node->text));
-        const bool fresh = rotation_nodes_.emplace(turned.front(), reference).second;
-        if (!fresh || translations_.contains(turned.front()))
+        const bool inserted = rotation_nodes_.emplace(turned.front(), reference).second;
+        if (!inserted || translations_.contains(turned.front()))
             throw SceneFailure(coupling.place,
                                fmt::format("ROT NODE={}: another card uses this node too: each rotation "
                                            "has a node of its own",

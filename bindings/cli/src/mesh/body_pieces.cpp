@@ -45,9 +45,9 @@ std::vector<std::size_t> split_into_pieces(MeshData& mesh) {
         const std::size_t nodes = shape_of(block.type).nodes;
         for (std::size_t c = 0; c < block.bodies.size(); ++c, ++cell)
             for (std::size_t k = 0; k < nodes; ++k) {
-                const auto [at, fresh] =
+                const auto [at, inserted] =
                     cell_at.emplace(std::pair(block.bodies[c], block.connectivity[c * nodes + k]), cell);
-                if (!fresh) pieces.join(at->second, cell);
+                if (!inserted) pieces.join(at->second, cell);
             }
     }
     // The first cells of the pieces of each body.

@@ -169,7 +169,7 @@ std::string result_text(const Model& model, delam_solver* solver, const Scene& s
         {"load_drops", load_drops_json(outcome.closing.load_drops)},
         {"search", search_json(outcome.closing.search)},
         {"estimate_violated", outcome.closing.estimate_violated},
-        {"estimate_hollow", outcome.closing.estimate_hollow},
+        {"estimate_hollow", outcome.closing.estimate_inconclusive},
         {"front_unresolved", outcome.closing.front_unresolved},
         {"rotation_max", outcome.closing.rotation_max},
         {"scene",

@@ -151,7 +151,7 @@ private:
 
 constexpr const char* begin_of_data = "<script type=\"application/json\" id=\"delam-data\">";
 
-// Escapes <, because nothing in an element of a page may look like its end.
+// Escapes <, because an element of a page ends at the first text like its closing tag.
 std::string json_element(const json& value) {
     std::string text = value.dump(-1, ' ', false, json::error_handler_t::replace);
     for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at))

@@ -328,7 +328,7 @@ json view_jumps(const std::string& folder, const ViewAbout& about, const ViewHis
     if (!is_there(path)) return out;
     const std::string text = read_bytes(path, most_table_bytes);
     if (text.empty()) wrong_result(path, "it is empty");
-    if (text.find('\n') + 1 == text.size()) return out;  // jumps were looked for, and there is none
+    if (text.find('\n') + 1 == text.size()) return out;  // jumps were located, and there is none
     const CommaTable table = table_of(path);
     require_columns(table, {"step", "time", "released", "debonded", "interface", "name"}, path);
     for (std::size_t r = 0; r < table.rows.size(); ++r) {

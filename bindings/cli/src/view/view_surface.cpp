@@ -103,12 +103,12 @@ void add_face(Polygons& faces, std::span<const std::int64_t> face, std::int32_t 
     faces.offsets.push_back(static_cast<std::int32_t>(faces.nodes.size()));
 }
 
-class Looking {
+class SurfaceCollector {
 public:
-    Looking(const ViewMesh& mesh, const std::vector<ViewInterface>& interfaces, std::string path)
+    SurfaceCollector(const ViewMesh& mesh, const std::vector<ViewInterface>& interfaces, std::string path)
         : mesh_(mesh), interfaces_(interfaces), path_(std::move(path)), shapes_(view_shapes(mesh.dimension)) {}
 
-    Seen seen() {
+    Seen collect() {
         if (mesh_.dimension == 2)
             for (std::size_t c = 0; c < mesh_.cell_count(); ++c) add_polygon(c, 0);
         else
@@ -215,7 +215,7 @@ private:
 }  // namespace
 
 Seen seen_of(const ViewMesh& mesh, const std::vector<ViewInterface>& interfaces, const std::string& path) {
-    return Looking(mesh, interfaces, path).seen();
+    return SurfaceCollector(mesh, interfaces, path).collect();
 }
 
 }  // namespace cli

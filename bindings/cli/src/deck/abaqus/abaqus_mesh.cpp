@@ -87,8 +87,8 @@ private:
         const std::int32_t label = at->second;
         if (first) mesh_.body_names.push_back(name);
         for (const ElementAt& member : members) {
-            const auto [entry, fresh] = body_of_.emplace(member, label);
-            if (!fresh && entry->second != label)
+            const auto [entry, inserted] = body_of_.emplace(member, label);
+            if (!inserted && entry->second != label)
                 throw SceneFailure(elements.place,
                                    fmt::format("element {} is in \"{}\" and in \"{}\": it belongs to one body only",
                                                member.scope->elements[member.index].id,

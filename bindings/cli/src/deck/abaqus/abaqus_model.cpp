@@ -55,11 +55,11 @@ Entry Model::resolved_scope(const Entry& entry) const {
 
 bool Trail::enter(const Set& set, const Place& place, const char* what) {
     constexpr std::size_t deepest = 22;
-    const auto [at, fresh] = open_.emplace(&set, true);
-    if (!fresh && at->second) throw SceneFailure(place, fmt::format("{} sets contain each other", what));
-    if (fresh && ++depth_ > deepest)
+    const auto [at, inserted] = open_.emplace(&set, true);
+    if (!inserted && at->second) throw SceneFailure(place, fmt::format("{} sets contain each other", what));
+    if (inserted && ++depth_ > deepest)
         throw SceneFailure(place, fmt::format("{} sets contain each other more than {} deep", what, deepest));
-    return fresh;
+    return inserted;
 }
 
 void Trail::leave(const Set& set) {

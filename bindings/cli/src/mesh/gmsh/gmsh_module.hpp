@@ -18,7 +18,7 @@ struct GmshModule {
     MeshData (*weave)(const WeaveCell& cell);
 };
 
-// Loads the module at the first call, from where the program looks for its libraries. place: of the key that needs it.
+// Loads the module at the first call, from the folder in which the program searches its libraries. place: of the key that needs it.
 // Throws SceneFailure with the linker's words if that fails.
 const GmshModule& gmsh_module(const Place& place);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The ledger of a march: stored + dissipated + released energy against the work, from the rows of history.csv.
+// The ledger of an analysis: stored + dissipated + released energy against the work, from the rows of history.csv.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ struct Balance {
     std::int64_t step = 0;  // in which the ledger is off most
     double time = 0;
     double defect = 0;       // there: what is stored, dissipated and released since the start, less the work
-    double work = 0;         // the largest of the march
+    double work = 0;         // the largest of the analysis
     double last_defect = 0;  // at the end
     // The largest defect over the largest work; 0 if there is neither.
     [[nodiscard]] double relative() const;

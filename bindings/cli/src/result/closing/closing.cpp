@@ -18,7 +18,7 @@ Closing closing_of(const Model& model, const delam_solver* solver, const Scene& 
     out.load_drops = load_drops_of(rows, out.jumps, scene);
     out.estimate_tolerance = option_number(solver, "backtracking_tolerance");
     out.estimate_violated = violated_steps(rows, out.estimate_tolerance);
-    out.estimate_hollow = hollow_steps(rows);
+    out.estimate_inconclusive = inconclusive_steps(rows);
     out.front_unresolved = unresolved_steps(rows, model, scene);
     out.rotation_max = rotation_max;
     return out;
@@ -28,7 +28,7 @@ std::vector<std::string> closing_lines(const Closing& closing, const Scene& scen
     std::vector<std::string> out = jump_lines(closing.jumps, scene);
     out.push_back(balance_line(closing.balance, scene));
     out.push_back(estimate_line(closing.estimate_violated, closing.estimate_tolerance));
-    out.push_back(hollow_line(closing.estimate_hollow));
+    out.push_back(inconclusive_line(closing.estimate_inconclusive));
     out.push_back(mixity_error_line(closing.mixity_error, scene));
     out.push_back(load_drops_line(closing.load_drops));
     for (std::string& line : search_lines(closing.search, scene)) out.push_back(std::move(line));

@@ -22,7 +22,7 @@ struct Closing {
     MixityError mixity_error;
     SearchLimits search;
     LoadDrops load_drops;
-    std::vector<std::int64_t> estimate_violated, estimate_hollow;
+    std::vector<std::int64_t> estimate_violated, estimate_inconclusive;
     double estimate_tolerance = 0;
     std::vector<std::int64_t> front_unresolved;  // steps in which a crack grew with too few pairs in its process zone
     double rotation_max = 0;                     // rad, in the steps with fields

@@ -33,7 +33,7 @@ std::string estimate_line(const std::vector<std::int64_t>& steps, double eta) {
     return fmt::format("two-sided estimate violated in steps: {} (tolerance eta = {:g})", fmt::join(steps, ", "), eta);
 }
 
-std::vector<std::int64_t> hollow_steps(const Rows& rows) {
+std::vector<std::int64_t> inconclusive_steps(const Rows& rows) {
     std::vector<std::int64_t> out;
     for (std::size_t i = 1; i < rows.size(); ++i) {
         const double work = std::abs(number_of(rows[i], "work") - number_of(rows[i - 1], "work"));
@@ -44,7 +44,7 @@ std::vector<std::int64_t> hollow_steps(const Rows& rows) {
     return out;
 }
 
-std::string hollow_line(const std::vector<std::int64_t>& steps) {
+std::string inconclusive_line(const std::vector<std::int64_t>& steps) {
     if (steps.empty()) return "";
     return fmt::format(
         "two-sided estimate says nothing in {} {} (the first is step {}): its bounds lie farther apart than the work "

@@ -17,8 +17,8 @@ std::vector<std::int64_t> violated_steps(const Rows& rows, double eta);
 std::string estimate_line(const std::vector<std::int64_t>& steps, double eta);
 
 // Steps whose bounds lie farther apart than the work of the step: the estimate holds there whatever happens.
-std::vector<std::int64_t> hollow_steps(const Rows& rows);
+std::vector<std::int64_t> inconclusive_steps(const Rows& rows);
 // The closing line; "" if there is none.
-std::string hollow_line(const std::vector<std::int64_t>& steps);
+std::string inconclusive_line(const std::vector<std::int64_t>& steps);
 
 }  // namespace cli

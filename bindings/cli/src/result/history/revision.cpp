@@ -14,10 +14,10 @@ std::int64_t revised_from(const Model& model, delam_solver* solver, std::int64_t
     return std::min(static_cast<std::int64_t>(first), step);
 }
 
-Look::Look(const Model& model, delam_solver* solver, std::int64_t step) : solver_(solver) {
-    call(model.context.get(), delam_solver_look(solver, step), "look at step " + std::to_string(step));
+SelectedStep::SelectedStep(const Model& model, delam_solver* solver, std::int64_t step) : solver_(solver) {
+    call(model.context.get(), delam_solver_look(solver, step), "select step " + std::to_string(step));
 }
 
-Look::~Look() { delam_solver_look(solver_, -1); }
+SelectedStep::~SelectedStep() { delam_solver_look(solver_, -1); }
 
 }  // namespace cli

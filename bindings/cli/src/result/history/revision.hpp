@@ -12,12 +12,12 @@ namespace cli {
 std::int64_t revised_from(const Model& model, delam_solver* solver, std::int64_t step);
 
 // The solver's values and fields are those of an earlier step, which it keeps, while this object exists.
-class Look {
+class SelectedStep {
 public:
-    Look(const Model& model, delam_solver* solver, std::int64_t step);
-    ~Look();
-    Look(const Look&) = delete;
-    Look& operator=(const Look&) = delete;
+    SelectedStep(const Model& model, delam_solver* solver, std::int64_t step);
+    ~SelectedStep();
+    SelectedStep(const SelectedStep&) = delete;
+    SelectedStep& operator=(const SelectedStep&) = delete;
 
 private:
     delam_solver* solver_;

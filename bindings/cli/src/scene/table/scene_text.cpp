@@ -32,7 +32,7 @@ private:
     void take() {
         const char c = text_[at_];
         if (c == '"' || c == '\'') {
-            fresh_ = false;
+            at_table_ = false;
             skip_string();
             return;
         }
@@ -50,7 +50,7 @@ private:
             case '\r':
                 break;
             case '[':
-                if (fresh_)
+                if (at_table_)
                     take_header();
                 else
                     open(false);
@@ -74,14 +74,14 @@ private:
                 in_key_ = false;
                 break;
             default:
-                fresh_ = false;
+                at_table_ = false;
         }
     }
 
-    // fresh: at the start of a line outside all brackets, where [ begins a table and no list.
-    void begin_key(bool fresh) {
+    // at_table: at the start of a line outside all brackets, where [ begins a table and no list.
+    void begin_key(bool at_table) {
         in_key_ = true;
-        fresh_ = fresh;
+        at_table_ = at_table;
         parts_ = 1;
     }
 
@@ -95,7 +95,7 @@ private:
         note(levels);
         open_.push_back({table, levels});
         in_key_ = false;
-        fresh_ = false;
+        at_table_ = false;
         if (table) begin_key(false);
     }
 
@@ -115,7 +115,7 @@ private:
         }
         note(header_);
         while (at_ < text_.size() && text_[at_] == ']') ++at_;
-        fresh_ = false;
+        at_table_ = false;
         in_key_ = false;
     }
 
@@ -154,7 +154,7 @@ private:
     int header_ = 0;  // levels of the table whose header was last
     int parts_ = 1;   // of the key
     bool in_key_ = true;
-    bool fresh_ = true;
+    bool at_table_ = true;
     std::vector<Bracket> open_;
     Depth deepest_;
 };
