@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the host may ask about the cell types: rows of the library's table.
+// Answers questions of the host about cell types with rows of the library's table.
 #include "mesh/cell_type.hpp"
 
 #include <algorithm>

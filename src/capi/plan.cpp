@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a host can ask of a problem before it creates a solver: options, keys of values, the plan.
+// Answers questions of a host about a problem without a solver: options, keys of values, the plan.
 #include "evolution/analysis/plan.hpp"
 #include "capi/handle/handles.hpp"
 #include "evolution/observe/values.hpp"

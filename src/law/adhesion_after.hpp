@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far a point softens while it dissipates a given share of its toughness.
+// Computes how far a point softens while it dissipates a given share of its toughness.
 #pragma once
 
 #include "law/law.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which cells share which faces.
+// Finds the faces that cells share.
 #pragma once
 
 #include <array>

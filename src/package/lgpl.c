@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the LGPL modules of CHOLMOD name outside themselves (lgpl.cmake): functions of its supernodal module, which say
-// that they are not there, and the C library's streams.
+// External names of the LGPL modules of CHOLMOD (lgpl.cmake): functions of its supernodal module, which report that
+// they are missing, and the C library's streams.
 #include <stdio.h>
 #include <suitesparse/cholmod.h>
 

@@ -32,7 +32,7 @@ set_target_properties(delam_static PROPERTIES OUTPUT_NAME delam LINKER_LANGUAGE 
 target_include_directories(delam_static INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
                                                   $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 
-# Libraries where every linker looks go by their names, others by their places; those of C++ behind them, since the
+# Libraries that every linker finds go by their names, others by their places; those of C++ behind them, since the
 # linker may be that of C.
 set(DELAM_STATIC_LINKS)
 foreach(library IN LISTS CHOLMOD_LIBRARY METIS_LIBRARY LAPACK_LIBRARIES CMAKE_THREAD_LIBS_INIT)

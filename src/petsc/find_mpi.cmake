@@ -2,7 +2,7 @@
 # Finds MPI without the traps of CMake's module: it ends with an error where MPI's compiler is there without its
 # headers, and the build folder remembers what was not found.
 
-# delam_forget_absent_mpi(): removes from the cache what the module did not find, so that it looks again.
+# delam_forget_absent_mpi(): removes from the cache what the module did not find, so that it searches again.
 function(delam_forget_absent_mpi)
   get_cmake_property(names CACHE_VARIABLES)
   foreach(name IN LISTS names)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What carries a node: a body; only constraints, forces and pairs (a control node); or other nodes (a tied node).
+// The carriers of a node: a body; only constraints, forces and pairs (a control node); or other nodes (a tied node).
 #pragma once
 
 #include <cstdint>

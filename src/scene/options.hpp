@@ -51,9 +51,10 @@ struct Option {
     const char* unit;     // -: none
     const char* initial;  // the default, as people write it
     std::variant<double Options::*, std::int64_t Options::*, std::string Options::*> member;
-    Bound lower, upper;                                            // of a number
-    std::vector<std::string> words;                                // of a text: what it may be
-    std::vector<std::pair<std::string, std::string>> other_words;  // what is taken for one of these: (other, word)
+    Bound lower, upper;              // of a number
+    std::vector<std::string> words;  // of a text: what it may be
+    // words that are taken for one of these: (other, word)
+    std::vector<std::pair<std::string, std::string>> other_words;
     Hashed hashed;
     std::string range;    // bounds or words, as people read them
     std::string meaning;  // with the alias and the other words

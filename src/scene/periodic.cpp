@@ -127,7 +127,7 @@ private:
     std::vector<Point> periods_, dual_;
     Nodes nodes_;  // of bodies: control nodes may lie anywhere
     double distance_ = 0.0;
-    std::vector<unsigned> upper_;    // which upper faces each node lies on, as bits
+    std::vector<unsigned> upper_;    // upper faces on which each node lies, as bits
     std::vector<std::uint8_t> met_;  // from which faces each lower node was met, as bits
     std::vector<PeriodicPair> pairs_;
     std::string missing_;

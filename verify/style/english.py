@@ -22,9 +22,8 @@ OWN_LINE = re.compile(r"(?:of|those)\b(?! course)", re.I)
 # A subordinate clause needs a main clause, thus a comma.
 CLAUSE = re.compile(r"(?:where|while|before|after|because|since|once|until)\b", re.I)
 # A preposition needs a verb in the same sentence.
-PREPOSITION = re.compile(r"(?:at|along|as|behind|between|beyond|by|for|from|in|into|on|only|out of|per|to|under|up to|with|within"
-                         r"|without)\b")
-PREPOSITION = re.compile(PREPOSITION.pattern, re.I)
+PREPOSITION = re.compile(r"(?:at|along|as|behind|between|beyond|by|for|from|in|into|on|out of|per|to|under|up to|with|within|without)\b",
+                         re.I)
 VERB = re.compile(r"\b(?:is|are|was|were|be|has|have|had|does|do|did|can|cannot|may|might|must|need|needs|will|would|lies?|stands?|gets?"
                   r"|gives?|costs?|gains?|reads?|holds?|releases?|releasing|leaves?|moves?|remain|suffices?|join|begins?|acts?|counts?"
                   r"|says?|handle|leave|become|becomes|follows?|says|means?|takes?|uses?|keeps?|makes?)\b|=", re.I)
@@ -46,7 +45,7 @@ GLOSSARY = {
     "creeping": (r"creep(?:s|ing)?", "slow; converges slowly"),
 }
 # What users and hosts have keeps its name, and a term of the field stays.
-ALLOWED = re.compile(r"delam_solver_look|estimate_hollow|up-looking|looking up|right-looking|left-looking")
+ALLOWED = re.compile(r"delam_solver_look|`_look`|estimate_hollow|up-looking")
 WORDS = {name: re.compile(rf"(?<![A-Za-z])(?:{word})(?![A-Za-z])", re.I) for name, (word, _) in GLOSSARY.items()}
 
 TOKEN = re.compile(r"//[^\n]*|/\*.*?\*/|R\"(?P<mark>[^(\s]*)\(.*?\)(?P=mark)\"|\"(?:\\.|[^\"\\\n])*\""

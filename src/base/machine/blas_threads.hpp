@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How many threads the BLAS uses. Its threads wait for each other by spinning: where other programs use the cores, a
-// product waits for a time slice of each of them. So a call has one thread, whatever the host has set; what is large is
-// shared by threads of the library (team.hpp), which sleep while they wait.
+// Limits the threads of the BLAS. These wait for each other by spinning: where other programs use the cores, a product
+// waits for a time slice of each thread. So a call has one thread, whatever the host has set; threads of the library
+// (team.hpp), which sleep while they wait, share large work.
 #pragma once
 
 #include <cstdint>

@@ -121,7 +121,7 @@ inline std::int32_t report(Context& context, std::int32_t status, const char* wh
     try {
         context.monitor.log(status < 0 ? 0 : 1, what);
         context.message = what;  // again, because a call made by the log callback may have replaced it
-    } catch (...) {              // what the log lacks, the message says
+    } catch (...) {              // the message says what the log lacks
     }
     return status;
 }

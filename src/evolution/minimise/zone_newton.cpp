@@ -255,7 +255,7 @@ Descent::Move Descent::step(const Point& at) {
         closed_ = before;
         const std::int64_t pair = weakest(at);
         move.taken = move_backoff_.report(pair >= 0 && minimise(at, at.adhesion, 0.0, pair, move.to) &&
-                                           move.to.energy < at.energy);
+                                          move.to.energy < at.energy);
         if (move.taken) {
             ++state_.effort.debond_moves;
             move.carried[index(pair)] = 0.0;

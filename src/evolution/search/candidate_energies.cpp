@@ -149,7 +149,7 @@ void CandidateEnergies::from_operator(std::span<const double> adhesion, std::spa
                  .converged)
             return;
         e.value = response_.stored_bulk + response_.load_potential + stored_energy(pairs, adhesion, response_.jump) -
-                  gradient_energy(pairs, adhesion);  // which does not grow with the load
+                  gradient_energy(pairs, adhesion);  // this energy does not grow with the load
         if (!follow_mixity_) return;
         const auto dim = static_cast<std::size_t>(pairs.dimension);
         for (const std::int64_t p : e.next)

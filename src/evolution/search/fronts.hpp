@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where cracks may grow: the fronts of debonded regions, and places in intact regions where a new crack may begin.
+// Finds the places where cracks may grow: the fronts of debonded regions, and places in intact regions where a new
+// crack may begin.
 //
 // Pairs are neighbours when they share a face of an interface. A front is a connected set of adhering pairs next to
 // debonded ones; its n-th ring are the adhering pairs n - 1 faces away from it. In 2D rings are single pairs, and the

@@ -39,10 +39,10 @@ public:
     // op: any operator of the scene whose memory may be disturbed; it must outlive the search.
     Search(const Problem& problem, const PairLaws& pairs, const ContactScene& contact, Monitor& monitor,
            JumpOperator& op);
-    // from: the step as far as it is known, recorded; mixity: that of its start. What a search finds depends on its step
-    // and on the state before it, so that an analysis that was saved, rolled back or cancelled goes on with the same
-    // bits: energies for later searches are part of the state. Besides these nothing is kept from other steps but E_all
-    // of the same load.
+    // from: the step as far as it is known, recorded; mixity: that of its start. What a search finds depends on its
+    // step and on the state before it, so that an analysis that was saved, rolled back or cancelled goes on with the
+    // same bits: energies for later searches are part of the state. Besides these nothing is kept from other steps but
+    // E_all of the same load.
     SearchResult run(const Increment& increment, const StepAccount& account, const State& from,
                      std::span<const double> mixity);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a search has found.
+// Result of a search.
 #pragma once
 
 #include <cstdint>

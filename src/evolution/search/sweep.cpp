@@ -260,9 +260,10 @@ void Sweep::bound_smaller_cracks(std::size_t n) {
 
 bool Sweep::settled_by_a_larger_one(std::size_t n) const {
     const std::vector<std::int64_t> pairs = pairs_within(n);
-    return std::any_of(search_.smaller_cracks.begin(), search_.smaller_cracks.end(), [&](const SearchRun::SmallerCracks& b) {
-        return not_promising(b.energy) && std::includes(b.pairs.begin(), b.pairs.end(), pairs.begin(), pairs.end());
-    });
+    return std::any_of(
+        search_.smaller_cracks.begin(), search_.smaller_cracks.end(), [&](const SearchRun::SmallerCracks& b) {
+            return not_promising(b.energy) && std::includes(b.pairs.begin(), b.pairs.end(), pairs.begin(), pairs.end());
+        });
 }
 
 // Rings far apart, at positions that do not move with the front.

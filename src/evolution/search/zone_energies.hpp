@@ -85,7 +85,7 @@ private:
     std::vector<std::uint8_t> wanted_;  // [pairs]
     double allowed_ = 0.0;
     bool with_jumps_ = false;
-    std::size_t checked_ = 0;         // most pairs by which a state with settled contact outside differs
+    std::size_t checked_ = 0;           // most pairs by which a state with settled contact outside differs
     std::vector<std::uint8_t> joined_;  // [pairs] wanted since forget() for their contact; empty: none
     bool settled_ = true;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the file of a shape of softening says about the kind of law that it makes:
+// Items of the file of a shape of softening about the kind of law that it makes:
 //
 //   kind          its LawKind
 //   parameters    optional: an array of ShapeParameter, those that no other shape has

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the files that call CHOLMOD share: how it sees our matrices, and its errors as ours.
+// Shared by the files that call CHOLMOD: our matrices in its types, and its errors as ours.
 #pragma once
 
 #include <suitesparse/cholmod.h>

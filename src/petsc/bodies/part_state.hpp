@@ -52,7 +52,7 @@ private:
     std::vector<std::int32_t> owned_;
     std::vector<double> displacement_, force_;
     Eigenstrains eigenstrains_;
-    bool has_cells_ = false;  // what follows
+    bool has_cells_ = false;  // stress_ and rotation_ are set
     std::vector<double> stress_, rotation_;
 };
 

@@ -12,7 +12,7 @@ namespace delam::petsc {
 // share a face.
 struct GluedCells {
     std::vector<std::int64_t> vertex;     // of each cell
-    std::vector<std::int64_t> cells;      // how many a vertex has
+    std::vector<std::int64_t> cells;      // number of cells of each vertex
     std::vector<std::int64_t> start;      // of its neighbours
     std::vector<std::int64_t> neighbour;  // ascending
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a saved state keeps of the condensed operator: the choice of the zone, on which the last digits of the next
-// solve depend.
+// A saved state keeps the choice of the zone of the condensed operator, because the last digits of the next solve
+// depend on it.
 #include <algorithm>
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is left of the skeleton of superelements when the displacements on the cuts, and all jumps that do not change,
-// have been minimised out: an energy of the jumps of the zone.
+// Minimises the displacements on the cuts, and all jumps that do not change, out of the energy of the skeleton of
+// superelements; an energy of the jumps of the zone remains.
 //
 // A node adds the energies that its children have left and its own entries, and eliminates what it owns,
 //     F = [F_ee F_er; F_re F_rr],   L L^T = F_ee + springs,   V = L^-1 F_er,   F_rr - V^T V   goes on to its parent

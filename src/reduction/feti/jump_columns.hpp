@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the jumps follow a unit rest jump of one row, at base springs that never change, so that each row costs one solve
-// in the life of the operator.
+// Response of the jumps to a unit rest jump of one row, at base springs that never change, so that each row costs one
+// solve in the life of the operator.
 //
 // At the base every row of a law has its full stiffness, rows that only touch have that of the bodies, bonded rows are
 // held: nothing floats. With S the bodies' stiffness over the rows that have a spring and s their springs, the forces

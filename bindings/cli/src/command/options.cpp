@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What people can choose, as the library lists it: the options of [solver] and the parameters of the laws.
+// Lists the choices that the library has: the options of [solver] and the parameters of the laws.
 #include <cstdint>
 #include <string>
 

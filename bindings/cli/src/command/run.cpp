@@ -308,7 +308,7 @@ int already_complete(OutputFolder& folder, const Scene& scene) {
                                               "run again without --resume",
                                               scene.file, folder.path()));
     require_unchanged(folder.path(), published);
-    folder.end();  // which may have been interrupted
+    folder.end();  // an earlier call may have been interrupted
     say("{}: complete already\n", folder.path());
     if (published.files.empty())
         say("result.json names no files, as those of earlier versions: history.csv and the others were not compared\n");

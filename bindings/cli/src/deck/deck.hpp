@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What an input file of Abaqus says beside its mesh: materials, sections, interactions and the steps of the analysis,
-// as written there. Data alone: deck_cards.hpp reads it, deck_scene.hpp makes a scene of it.
+// Data of an input file of Abaqus beside its mesh: materials, sections, interactions and the steps of the analysis, as
+// written there. deck_cards.hpp reads them, deck_scene.hpp makes a scene of them.
 #pragma once
 
 #include <algorithm>
@@ -142,7 +142,7 @@ struct Step {
     std::string name;
     double first_increment = 1;
     double period = 1;
-    bool ramp = true;  // what has no amplitude grows over the step
+    bool ramp = true;  // loads without an amplitude grow over the step
     bool new_boundaries = false, new_forces = false, new_distributed = false;  // those before end
     std::vector<LoadLine> boundaries, forces;
     Place place;

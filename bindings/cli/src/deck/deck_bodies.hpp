@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the bodies of a mesh lie beside each other: which sides of their cells are one and the same, and which coincide.
+// The neighbourhood of bodies of a mesh: the sides of cells that two bodies share, and the sides that coincide.
 #pragma once
 
 #include <array>

@@ -47,7 +47,7 @@ void ConstraintReader::take_kinematic(const InpCard& card) {
         const bool one = line.fields.size() < 2 || line.fields[1].empty();
         const int last = one ? first : degree_of_freedom(line.fields[1], 6, line.place);
         if (last < first) throw SceneFailure(line.place, fmt::format("degrees of freedom {} to {}: none", first, last));
-        // Those above are rotations, which nodes of solids do not have.
+        // Higher degrees of freedom are rotations, which nodes of solids do not have.
         for (int dof = first; dof <= std::min(last, 3); ++dof)
             if (std::find(open_->dofs.begin(), open_->dofs.end(), dof) == open_->dofs.end()) open_->dofs.push_back(dof);
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What holds the bodies of a deck together, as [[laws]] and [[interfaces]] of a scene.
+// Writes the connections of the bodies of a deck as [[laws]] and [[interfaces]] of a scene.
 #pragma once
 
 #include <string>

@@ -51,7 +51,7 @@ private:
     struct Control {
         std::string name;
         std::vector<double> at;
-        std::vector<Row> determined;  // what constraints and loads determine: an orthonormal basis
+        std::vector<Row> determined;  // directions that constraints and loads determine: an orthonormal basis
         std::map<std::size_t, Place> pushed;
     };
 

@@ -217,7 +217,7 @@ private:
     const Model& model_;
     const MeshData& mesh_;
     const std::vector<std::string>& plain_names_;
-    const std::vector<std::size_t>& pieces_;  // how many each of them consists of
+    const std::vector<std::size_t>& pieces_;  // number of pieces of each body
 };
 
 std::string header(const ImportedScene& scene, const std::string& deck) {

@@ -13,9 +13,9 @@ namespace cli {
 
 struct ImportedScene {
     std::string text;                   // TOML
-    std::vector<std::string> taken;     // what became what, for people
-    std::vector<std::string> changed;   // what the scene does otherwise
-    std::vector<std::string> left_out;  // what it does not have
+    std::vector<std::string> taken;     // translated items and their new form, for people
+    std::vector<std::string> changed;   // items that the scene handles in another way
+    std::vector<std::string> left_out;  // items that the scene does not have
 };
 
 // mesh_name: by which the scene names the deck, relative to its own folder. Throws SceneFailure with file, line and

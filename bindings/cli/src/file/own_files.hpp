@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which files of a folder are this program's own: it replaces and removes no others.
+// Decides which files of a folder are this program's own: it replaces and removes no others.
 //
 // A folder in which it works holds a marker. Files are its own if their names are those that it writes and the folder
 // is marked, or if an older version, which wrote no marker, can be recognised by them. Links, folders and files with a
-// second name are never its own: what they lead to is somebody else's.
+// second name are never its own: they lead to what belongs to others.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What mesh and result files call the library's cell types.
+// Names of the library's cell types in mesh and result files.
 #pragma once
 
 #include <cstddef>

@@ -19,7 +19,7 @@ struct Outcome {
     std::vector<std::int64_t> not_converged;
     Closing closing;
     std::vector<std::string> closing_lines;
-    bool has_jumps = false;  // whether there is a jumps.csv
+    bool has_jumps = false;  // there is a jumps.csv
     std::int64_t resumed = 0;
     std::string started;
     std::string command;

@@ -15,7 +15,7 @@ namespace cli {
 inline constexpr double largest_shown = 3.4e38;
 
 struct ViewAbout {
-    nlohmann::json shown;  // what the page says of the solution
+    nlohmann::json shown;  // data of the solution for the page
     std::int32_t dimension = 0;
     double shortest_edge = 0;
     std::string scene_hash;

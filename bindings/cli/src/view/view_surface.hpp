@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What can be seen of a mesh: in the plane its cells, in space the faces of the bodies that no other cell of the body
+// The visible part of a mesh: in the plane its cells, in space the faces of the bodies that no other cell of the body
 // covers; and the interfaces. Only the nodes of these are kept.
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the loads do to the dual problem, per pattern: dead forces on the first copy of their nodes, the forces of
-// eigenstrains each on its own subdomain, prescribed displacements on the constraints.
+// Loads of the dual problem, per pattern: dead forces on the first copy of their nodes, the forces of eigenstrains each
+// on its own subdomain, prescribed displacements on the constraints.
 #pragma once
 
 #include <span>

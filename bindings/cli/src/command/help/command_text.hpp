@@ -9,7 +9,7 @@ namespace cli {
 
 struct OptionText {
     std::vector<std::string> names;  // "--out", "-o"; of an argument: "scene"
-    std::string value;               // what it stands for, e.g. "FOLDER"; "" of a flag
+    std::string value;               // the kind of value, e.g. "FOLDER"; "" of a flag
     std::string meaning;
     std::vector<std::string> choices;
     bool needed = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From the parts, sets and surfaces of an Abaqus input file to the mesh of a scene.
+// Makes the mesh of a scene from the parts, sets and surfaces of an Abaqus input file.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the module of Gmsh shows to the program.
+// The functions of the module of Gmsh that the program calls.
 #include "mesh/gmsh/gmsh_module.hpp"
 #include "mesh/gmsh/read_gmsh.hpp"
 

@@ -18,8 +18,8 @@ struct GmshModule {
     MeshData (*weave)(const WeaveCell& cell);
 };
 
-// Loads the module at the first call, from the folder in which the program searches its libraries. place: of the key that needs it.
-// Throws SceneFailure with the linker's words if that fails.
+// Loads the module at the first call, from the folder in which the program searches its libraries. place: of the key
+// that needs it. Throws SceneFailure with the linker's words if that fails.
 const GmshModule& gmsh_module(const Place& place);
 
 }  // namespace cli

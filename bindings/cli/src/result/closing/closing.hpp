@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a march ends with: jumps, energy balance, and what it did not resolve; as data, and as lines for people. Made
-// from history.csv and the state, so that a resumed run includes the steps before it.
+// Closing report of an analysis: jumps, energy balance, and what it did not resolve; as data, and as lines for people.
+// It is made from history.csv and the state, so that a resumed run includes the steps before it.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether the pairs of an interface resolve the process zones of its cracks: predicted before an analysis, checked
-// after it in its rows.
+// Checks that the pairs of an interface resolve the process zones of its cracks: by a prediction before an analysis,
+// and by the rows of the history after it.
 #pragma once
 
 #include <cstdint>

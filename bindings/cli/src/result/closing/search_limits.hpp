@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the search of an energetic march left open, from the columns search_gap and search_margin.
+// Reports what the search of an energetic analysis left open, from the columns search_gap and search_margin.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How HDF5 reaches files: a driver of our own, which keeps the system's reason of the first operation that failed and
-// does not let HDF5 see that writing failed. HDF5 1.10 crashes in some of its own ways out of a failed read or
-// write, in others it forgets what is lost, and never it says why. Whoever closes a file asks the driver instead.
+// HDF5 reaches files through a driver of our own, which keeps the system's reason of the first operation that failed
+// and does not let HDF5 see that writing failed. After a failed read or write, HDF5 1.10 crashes in some places,
+// forgets the lost data in others, and never says why. The code that closes a file asks the driver instead.
 //
 // File driver interface: "HDF5 Virtual File Layer", HDF5 1.10 documentation; H5FDpublic.h.
 #pragma once

@@ -140,7 +140,7 @@ private:
             ++at_;
         }
         at_ += lines ? 3 : 1;
-        // Up to two quotes before the closing three belong to the string.
+        // The string may end with up to two quotes before the closing three.
         for (int i = 0; lines && i < 2 && at_ < text_.size() && text_[at_] == quote; ++i) ++at_;
     }
 
