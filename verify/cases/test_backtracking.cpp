@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Returns to earlier steps by the two-sided estimate: what they achieve, that the resulting history is consistent, and
 // that it can be rolled back, saved and cut like any other.
-#include "books.hpp"
+#include "step_ledger.hpp"
 #include "energetic_scenes.hpp"
 #include "flexure.hpp"
 #include "mmf.hpp"
@@ -28,39 +28,39 @@ FlexureScene make(const reference::Flexure& data, const char* backtracking, cons
 }
 double time_of(int k, int steps) { return 2.0 * k / steps; }
 
-void look(const Solver& solver, int step) {
+void select_step(const Solver& solver, int step) {
     solver.scene().require(delam_solver_look(solver.get(), step), "delam_solver_look");
 }
 
 // The values of a step, as a host reads them.
-cases::Books read(const Solver& s, int k, int steps) {
-    return cases::read_books(s, "press", 0.5 * cases::enf_final_load * time_of(k, steps));
+cases::StepLedger read(const Solver& s, int k, int steps) {
+    return cases::read_ledger(s, "press", 0.5 * cases::enf_final_load * time_of(k, steps));
 }
 // of: the number of steps of the whole analysis.
-std::vector<cases::Books> history(const Solver& solver, int steps, int of) {
-    std::vector<cases::Books> rows;
+std::vector<cases::StepLedger> history(const Solver& solver, int steps, int of) {
+    std::vector<cases::StepLedger> rows;
     for (int k = 0; k <= steps; ++k) {
-        look(solver, k);
+        select_step(solver, k);
         rows.push_back(read(solver, k, of));
     }
-    look(solver, -1);
+    select_step(solver, -1);
     return rows;
 }
-int violated(const std::vector<cases::Books>& rows) {
+int violated(const std::vector<cases::StepLedger>& rows) {
     int n = 0;
-    for (const cases::Books& r : rows) n += r.lower - r.increment > eta * r.size() ? 1 : 0;
+    for (const cases::StepLedger& r : rows) n += r.lower - r.increment > eta * r.size() ? 1 : 0;
     return n;
 }
-int first_break(const std::vector<cases::Books>& rows, double least = 1e-3) {
+int first_break(const std::vector<cases::StepLedger>& rows, double least = 1e-3) {
     int k = 0;
     while (k < static_cast<int>(rows.size()) && rows[static_cast<std::size_t>(k)].dissipated < least) ++k;
     return k;
 }
 // variational: the increment is that of the ledger of PANM 15 (2010).
-void expect_one_history(const std::vector<cases::Books>& rows, const reference::LawData& law, const std::string& where,
+void expect_one_history(const std::vector<cases::StepLedger>& rows, const reference::LawData& law, const std::string& where,
                         const std::string& rule = "frozen") {
     for (std::size_t k = 1; k < rows.size(); ++k) {
-        const cases::Books &a = rows[k - 1], &b = rows[k];
+        const cases::StepLedger &a = rows[k - 1], &b = rows[k];
         const std::string step = where + ", step " + std::to_string(k) + ": ";
         if (rule != "variational")
             cases::expect_near(b.energy - a.energy + b.dissipated - a.dissipated, b.increment, 1e-10, b.size(),
@@ -89,12 +89,12 @@ double walk(Solver& solver, int first, int last, int steps, const reference::Law
         if (check != nullptr && from < k) {
             expect_one_history(history(solver, k, steps), *check, "pending at " + std::to_string(k));
             for (int j = static_cast<int>(from); j < k; ++j) {
-                look(solver, j);
+                select_step(solver, j);
                 cases::expect(solver.value("revisions") >= 1.0, "a replaced step says so");
                 cases::expect(solver.value("step") == j && std::abs(solver.value("time") - time_of(j, steps)) < 1e-12,
                               "step and time");
             }
-            look(solver, -1);
+            select_step(solver, -1);
         }
         solver.commit();
     }
@@ -105,7 +105,7 @@ CASE_TEST(no_bound_is_missed_afterwards) {
     const int steps = loop % 2 == 0 ? 80 : 40;
     const double exponent = loop < 2 ? 1.0 : 2.0;
     const FlexureScene off = make(brittle(exponent), "off"), on = make(brittle(exponent), "on");
-    std::vector<cases::Books> plain{cases::Books{}};
+    std::vector<cases::StepLedger> plain{cases::StepLedger{}};
     Solver a(off.scene, 0.0), b(on.scene, 0.0);
     for (int k = 1; k <= steps; ++k) {
         a.step(time_of(k, steps));
@@ -128,7 +128,7 @@ CASE_TEST(replaced_steps_hold_on_their_own) {
     Solver b(on.scene, 0.0), probe(on.scene, 0.0);
     walk(b, 1, steps, steps);
     for (int k = 1; k <= steps; ++k) {
-        look(b, k);
+        select_step(b, k);
         const auto adhesion = b.field("adhesion");
         const auto displacement = b.field("displacement");
         probe.equilibrate(time_of(k, steps), adhesion);
@@ -180,7 +180,7 @@ CASE_TEST(rollback_of_a_return) {
     cases::expect_same(solver, cases::read_bits(solver), bits, "after rollback");
     cases::expect(solver.save() == bytes, "bytes after rollback");
     for (int j = 1; j < k; ++j) {
-        look(solver, j);
+        select_step(solver, j);
         cases::expect(solver.value("revisions") == 0.0, "no step has been replaced");
     }
     // A further step, rolled back too, must leave no trace.
@@ -210,10 +210,10 @@ CASE_TEST(resumed_march) {
         }
         cases::expect(resumed.save() == whole.save(), "bytes in the end");
         for (int j = 0; j <= k + 4; ++j) {
-            look(whole, j);
-            look(resumed, j);
+            select_step(whole, j);
+            select_step(resumed, j);
             cases::expect_same(resumed, cases::read_bits(resumed), cases::read_bits(whole),
-                               "looked at, step " + std::to_string(j));
+                               "selected, step " + std::to_string(j));
         }
     }
 }

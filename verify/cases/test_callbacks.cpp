@@ -17,14 +17,14 @@ using reference::Solver;
 // Acts once, at the third poll.
 struct Watch {
     std::function<void()> act;
-    int looks = 0;
-    static std::int32_t look(const char*, std::int64_t, std::int64_t, void* user) {
+    int polls = 0;
+    static std::int32_t poll(const char*, std::int64_t, std::int64_t, void* user) {
         auto& w = *static_cast<Watch*>(user);
-        if (++w.looks == 3) w.act();
+        if (++w.polls == 3) w.act();
         return 0;
     }
     void listen(const Scene& scene) {
-        scene.require(delam_context_set_progress(scene.context(), look, this), "delam_context_set_progress");
+        scene.require(delam_context_set_progress(scene.context(), poll, this), "delam_context_set_progress");
     }
 };
 
@@ -67,7 +67,7 @@ CASE_TEST(in_progress) {
     watched.step(cases::small_time(6));
     scene.require(delam_context_set_progress(scene.context(), nullptr, nullptr), "delam_context_set_progress");
     watched.commit();
-    cases::expect(watch.looks >= 3, "nothing was tried");
+    cases::expect(watch.polls >= 3, "nothing was tried");
     cases::expect_same(watched, cases::read_bits(watched), cases::read_bits(plain), "after the step");
     cases::expect(watched.save() == plain.save(), "snapshots differ");
 }
@@ -190,7 +190,7 @@ CASE_TEST(destroyed_at_work) {
         };
         watch.listen(scene);
         scene.require(delam_solver_advance(solver, cases::small_time(6)), "delam_solver_advance");
-        cases::expect(watch.looks >= 3 && solver == nullptr, "nothing was destroyed");
+        cases::expect(watch.polls >= 3 && solver == nullptr, "nothing was destroyed");
         scene.require(delam_context_set_progress(scene.context(), nullptr, nullptr), "delam_context_set_progress");
         Solver again(scene, 0.0);
         cases::walk(again, 1, 2);

@@ -452,7 +452,7 @@ const Walk walks[] = {
 };
 constexpr int walk_count = static_cast<int>(std::size(walks));
 
-// A front that creeps, sometimes with a change elsewhere, a jump back, or a change everywhere.
+// A front that advances slowly, sometimes with a change elsewhere, a jump back, or a change everywhere.
 CASE_TEST(long_walk) {
     const Walk& w = walks[loop];
     Scene scene = w.make();

@@ -148,7 +148,7 @@ CASE_TEST(soft_spring_jump_is_located) {
     cases::expect_near(solver.value("dissipated"), toughness * area, 1e-9, toughness * area, "the toughness is spent");
     const double exact_release = energetic ? 0.0 : (0.5 * exact * exact / series(spring) - toughness) * area;
     cases::expect_near(jump.released, exact_release, 1e-3, toughness * area, "energy released");
-    cases::expect_near(released, jump.released, 1e-12, toughness * area, "the step books the same release");
+    cases::expect_near(released, jump.released, 1e-12, toughness * area, "the step records the same release");
 }
 
 // ---- bar bonded to a rigid base ------------------------------------------------------------------------------------

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "acceptance.hpp"
-#include "books.hpp"
+#include "step_ledger.hpp"
 #include "comparison.hpp"
 #include "direct.hpp"
 #include "enf.hpp"
@@ -19,7 +19,7 @@ struct StepRecord {
     std::int32_t status;
     double stored, dissipated, work, load_potential;
     double lower, increment, upper;
-    cases::Books books;
+    cases::StepLedger ledger;
     reference::Acceptance acceptance;
     reference::Comparison comparison;
     std::vector<double> adhesion;
@@ -47,7 +47,7 @@ std::vector<StepRecord> march() {
         r.lower = solver.value("lower");
         r.increment = solver.value("increment");
         r.upper = solver.value("upper");
-        r.books = cases::read_books(solver, "press", 0.5 * cases::enf_final_load * time);
+        r.ledger = cases::read_ledger(solver, "press", 0.5 * cases::enf_final_load * time);
         r.adhesion = solver.field("adhesion");
         r.acceptance = reference::accept(solver, exported);
         r.comparison = reference::compare(solver, direct.solve(time, r.adhesion), exported, 1e-10);
@@ -112,10 +112,10 @@ CASE_TEST(two_sided_estimate) {
 // All energies of the elastic, linear march are quadratic in the load: E_k = theta_k R_k / 2, so that the bounds are
 // those of a step in which the stiffness changes at its beginning, or at its end. The work lies between them.
 CASE_TEST(work_of_the_reactions) {
-    cases::Books before;
+    cases::StepLedger before;
     before.adhesion = start_adhesion;
     for (std::size_t k = 0; k < all().size(); ++k) {
-        const cases::Books& b = all()[k].books;
+        const cases::StepLedger& b = all()[k].ledger;
         const double size = all().back().work;
         cases::expect_work(cases::Enf{}.law, before, b, 1e-11, size, at(k));
         const double squares = 0.5 * (b.factor * b.factor - before.factor * before.factor);

@@ -176,14 +176,14 @@ Scene pulled(const Shape& shape, const Layout& layout, int subdomains) {
     const auto bottom = face(scene, d - 1, 0.0), top = face(scene, d - 1, sides[static_cast<std::size_t>(d - 1)]);
     for (int k = 0; k < d; ++k) scene.hold(bottom, unit(d, k));
     const auto load = scene.pattern("pull", {0.0, 1.0}, {0.0, 2e-4});
-    std::vector<double> up, aside;
+    std::vector<double> up, sideways;
     for (const auto n : top) {
         const double x = scene.coordinate(n, 0) / sides[0];
         up.push_back(1.0 - 0.4 * x);
-        aside.push_back(0.5 * x);
+        sideways.push_back(0.5 * x);
     }
     scene.drive(top, unit(d, d - 1), load, up);
-    scene.drive(top, unit(d, 0), load, aside);
+    scene.drive(top, unit(d, 0), load, sideways);
     if (d == 3) scene.hold(top, unit(3, 1));
     realise(scene, subdomains);
     return scene;

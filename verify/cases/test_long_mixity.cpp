@@ -18,7 +18,7 @@ CASE_TEST(provable_bounds) {
         cases::expect(m.warnings.empty(), "a fine march warns: " + (m.warnings.empty() ? "" : m.warnings.front()));
 }
 
-// Booked defects decrease with the step; those of the ledger of PANM 15 (2010) stay, unless the mixity is variational.
+// Recorded defects decrease with the step; those of the ledger of PANM 15 (2010) stay, unless the mixity is variational.
 CASE_TEST(defects_side_by_side) {
     const int steps[] = {40, 160, 640};
     for (const char* rule : {"frozen", "converged", "variational"}) {
@@ -28,9 +28,9 @@ CASE_TEST(defects_side_by_side) {
             cases::expect(march.unfinished == 0, std::string(rule) + ": unfinished steps");
         if (std::string(rule) != "converged") continue;
         // The work errs by the softening of a step; what is dissipated is that of fine steps from the first.
-        cases::expect_below(std::abs(m[2].defect), 0.4 * std::abs(m[0].defect), "converged: booked defect");
+        cases::expect_below(std::abs(m[2].defect), 0.4 * std::abs(m[0].defect), "converged: recorded defect");
         for (const cases::MmfMarch& march : m) {
-            cases::expect_below(std::abs(march.defect), 1e-3 * march.dissipated, "converged: booked defect");
+            cases::expect_below(std::abs(march.defect), 1e-3 * march.dissipated, "converged: recorded defect");
             cases::expect_near(march.dissipated, m[2].dissipated, 2e-3, m[2].dissipated, "converged: dissipated");
         }
     }
@@ -44,7 +44,7 @@ CASE_TEST(turning_pair_in_the_limit) {
             cases::expect_below(std::abs(d.slides), 1e-4 * d.work, "variational: ledger of PANM 15");
             continue;
         }
-        cases::expect_below(std::abs(d.booked), 1e-4 * d.work, std::string(rule) + ": booked ledger");
+        cases::expect_below(std::abs(d.recorded), 1e-4 * d.work, std::string(rule) + ": recorded ledger");
         cases::expect_near(d.slides, limit, 0.01, std::abs(limit), std::string(rule) + ": ledger of PANM 15");
     }
 }

@@ -56,9 +56,9 @@ CASE_TEST(coarse_frozen_march_warns) {
 
 // ---- ledgers -------------------------------------------------------------------------------------------------------
 
-// With frozen mixity the ledger of PANM 15 (2010) misses int f_B dB however small the steps are, and the booked one
+// With frozen mixity the ledger of PANM 15 (2010) misses int f_B dB however small the steps are, and the recorded one
 // closes like tau. With converged mixity both have the same defect; the variational analysis closes the ledger of PANM
-// 15 and leaves the booked one open.
+// 15 and leaves the recorded one open.
 CASE_TEST(mode_changes_while_it_softens) {
     const double limit = cases::turning_integral();
     std::printf("turning pair: int f_B dB = %.4f\n", limit);
@@ -66,10 +66,10 @@ CASE_TEST(mode_changes_while_it_softens) {
         const cases::TurningDefect coarse = cases::turning_defect(rule, 50), middle = cases::turning_defect(rule, 200),
                                    fine = cases::turning_defect(rule, 800);
         cases::expect_near(fine.slides, limit, 0.03, std::abs(limit), std::string(rule) + ": ledger of PANM 15");
-        cases::expect_below(std::abs(middle.booked), 0.4 * std::abs(coarse.booked),
-                            std::string(rule) + ": booked, 200 steps");
-        cases::expect_below(std::abs(fine.booked), 0.4 * std::abs(middle.booked),
-                            std::string(rule) + ": booked, 800 steps");
+        cases::expect_below(std::abs(middle.recorded), 0.4 * std::abs(coarse.recorded),
+                            std::string(rule) + ": recorded, 200 steps");
+        cases::expect_below(std::abs(fine.recorded), 0.4 * std::abs(middle.recorded),
+                            std::string(rule) + ": recorded, 800 steps");
     }
     const cases::TurningDefect coarse = cases::turning_defect("variational", 50),
                                fine = cases::turning_defect("variational", 800);
@@ -174,14 +174,14 @@ double largest(const std::vector<double>& values) {
     return m;
 }
 
-// booked: tolerance of the booked dissipation.
-void expect_alike(const Seen& a, const Seen& b, double tolerance, double booked, const std::string& where) {
+// recorded: tolerance of the recorded dissipation.
+void expect_alike(const Seen& a, const Seen& b, double tolerance, double recorded, const std::string& where) {
     const double force = largest(b.reaction), spent = std::max(largest(b.dissipated), largest(b.slides));
     cases::expect(spent > 0.0, where + ": nothing was damaged");
     for (std::size_t k = 0; k < a.reaction.size(); ++k) {
         const std::string at = where + ", step " + std::to_string(k + 1);
         cases::expect_near(a.reaction[k], b.reaction[k], tolerance, force, at + ": reaction");
-        cases::expect_near(a.dissipated[k], b.dissipated[k], booked, spent, at + ": dissipated");
+        cases::expect_near(a.dissipated[k], b.dissipated[k], recorded, spent, at + ": dissipated");
         cases::expect_near(a.slides[k], b.slides[k], tolerance, spent, at + ": dissipated, slides");
     }
     for (std::size_t p = 0; p < a.adhesion.size(); ++p)
@@ -202,14 +202,14 @@ CASE_TEST(one_answer) {
     expect_alike(march(floating_ply(d, law_of(rule), rule, "feti", "alternate", 1e-9), steps, end), plain, 1e-6, 1e-6,
                  where + "feti");
     // The variational functional favours changing the mode while damage grows, so it has several critical points in the
-    // block. A pair that breaks has the mixity of another iterate in each method of minimisation, and only the booked
+    // block. A pair that breaks has the mixity of another iterate in each method of minimisation, and only the recorded
     // dissipation beside the ledger of PANM 15 (2010) shows this.
     if (loop == 5) return;
-    const double booked = loop == 2 ? 1e-3 : 1e-5;
+    const double recorded = loop == 2 ? 1e-3 : 1e-5;
     expect_alike(march(floating_ply(d, law_of(rule), rule, "condensed", "accelerated", 1e-9), steps, end), plain, 1e-5,
-                 booked, where + "accelerated");
+                 recorded, where + "accelerated");
     expect_alike(march(floating_ply(d, law_of(rule), rule, "feti", "accelerated", 1e-9), steps, end), plain, 1e-5,
-                 booked, where + "feti, accelerated");
+                 recorded, where + "feti, accelerated");
 }
 
 // A law that does not depend on the mode: the same digits under all rules.

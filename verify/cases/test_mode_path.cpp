@@ -80,9 +80,9 @@ March march(const Scene& scene, int steps) {
         solver.step(static_cast<double>(k) / steps);
         solver.commit();
         released += solver.value("released");
-        const double booked = solver.value("stored_bulk") + solver.value("stored_interface") +
+        const double recorded = solver.value("stored_bulk") + solver.value("stored_interface") +
                               solver.value("dissipated") + released - solver.value("work");
-        m.defect = std::max(m.defect, std::abs(booked));
+        m.defect = std::max(m.defect, std::abs(recorded));
         m.load.push_back(solver.value("reaction:press"));
         m.crack.push_back(solver.value("crack_length"));
         m.dissipated.push_back(solver.value("dissipated"));

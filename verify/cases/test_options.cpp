@@ -178,7 +178,7 @@ CASE_TEST(hash_changes_with_every_option) {
     std::set<std::string> seen{fresh};
     for (const Listed& option : listed()) {
         std::size_t values = 0, scenes = 0;
-        const auto look = [&](const std::string& what) {
+        const auto check = [&](const std::string& what) {
             const std::string hash = hash_of(scene);
             if (option.key == "threads" || option.key == "memory_limit") {
                 cases::expect(hash == fresh, option.key + " changes the hash");
@@ -193,7 +193,7 @@ CASE_TEST(hash_changes_with_every_option) {
             for (const std::string& word : words_of(option.range)) {
                 scene.require(set(scene, option, word), option.key.c_str());
                 const Solver solver(scene, 0.0);
-                if (own.insert(delam_solver_option(solver.get(), option.key.c_str())).second) look(word);
+                if (own.insert(delam_solver_option(solver.get(), option.key.c_str())).second) check(word);
             }
             cases::expect(own.size() > 1, option.key + " has no choice");
         } else {
@@ -203,7 +203,7 @@ CASE_TEST(hash_changes_with_every_option) {
                 const double tried = option.type == "integer" ? std::floor(value) : value;
                 if (!(tried > range.lower && tried < range.upper) || tried == initial) continue;
                 scene.require(set(scene, option, tried), option.key.c_str());
-                look(std::to_string(tried));
+                check(std::to_string(tried));
             }
             ++values;  // the default, which is not tested here
         }

@@ -58,22 +58,22 @@ void walk(Solver& solver, int first, int last) {
     }
 }
 
-void look(const Solver& solver, std::int64_t step) {
+void select_step(const Solver& solver, std::int64_t step) {
     solver.scene().require(delam_solver_look(solver.get(), step), "delam_solver_look");
 }
 
 // The values of the kept steps when they are read again.
-void expect_as_looked_at(Solver& solver, const std::string& where) {
+void expect_as_selected(Solver& solver, const std::string& where) {
     const Size size = size_of(solver);
     for (const char* key : keys) {
         const std::vector<double> values = recorded(solver, key);
         for (std::size_t i = 0; i < values.size(); ++i) {
-            look(solver, size.first + static_cast<std::int64_t>(i));
+            select_step(solver, size.first + static_cast<std::int64_t>(i));
             cases::expect(delam::same_bits(solver.value(key), values[i]),
                           where + ": " + key + " of step " + std::to_string(size.first + static_cast<std::int64_t>(i)));
         }
     }
-    look(solver, -1);
+    select_step(solver, -1);
 }
 
 CASE_TEST(steps_that_returns_replace) {
@@ -90,7 +90,7 @@ CASE_TEST(steps_that_returns_replace) {
             cases::expect(size_of(solver).steps == k, "a step that was rolled back is recorded");
             solver.step(time_of(k));
         }
-        if (k > 1) look(solver, k - 1);
+        if (k > 1) select_step(solver, k - 1);
         solver.commit();
         plain.step(time_of(k));
         plain.commit();
@@ -100,7 +100,7 @@ CASE_TEST(steps_that_returns_replace) {
     const std::vector<double> revisions = recorded(solver, "revisions");
     cases::expect(*std::max_element(revisions.begin(), revisions.end()) >= 1.0, "no step was replaced");
     cases::expect(size_of(solver).steps == steps + 1, "one entry a step");
-    expect_as_looked_at(solver, "in the end");
+    expect_as_selected(solver, "in the end");
 }
 
 CASE_TEST(saved_with_the_state) {
@@ -127,7 +127,7 @@ CASE_TEST(saved_with_the_state) {
         cases::expect(delam::same_bits(recorded(whole, key), recorded(second, key)),
                       std::string(key) + " after loading");
     // A return to before the start of the record replaces the whole record.
-    expect_as_looked_at(second, "resumed");
+    expect_as_selected(second, "resumed");
 }
 
 CASE_TEST(in_space_by_feti) {

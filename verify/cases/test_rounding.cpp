@@ -86,7 +86,7 @@ CASE_TEST(slender) {
                                   " times longer than thick: " + delam_status_name(found.status) + " " + found.words;
         if (ratio <= 100.0) {
             cases::expect(found.status == DELAM_OK, where);
-            cases::expect(found.recoveries == 0.0, where + ": looked at although nothing cancels");
+            cases::expect(found.recoveries == 0.0, where + ": recovered although nothing cancels");
             cases::expect_below(found.balance, 1e-7, where);
         }
         if (found.status == DELAM_OK) cases::expect_below(found.balance, 5e-3, where);

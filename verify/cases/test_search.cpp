@@ -198,7 +198,7 @@ CASE_TEST(a_limited_search_says_so) {
     Solver solver(scene, 0.0);
     solver.step(0.35);
     cases::expect_below(solver.value("search_candidates"), limit, "candidates beyond the limit");
-    cases::expect(solver.value("search_gap") > 0.0, "fronts that were not looked at may be lower");
+    cases::expect(solver.value("search_gap") > 0.0, "fronts that were not compared may be lower");
     cases::expect_below(solver.value("damage_change"), 1e-5, "a critical point all the same");
     const double limited = cases::total(solver), gap = solver.value("search_gap");
     Scene whole = cases::make_beam(b);

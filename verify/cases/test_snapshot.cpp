@@ -304,7 +304,7 @@ Scene make_peel(const Peel& p) {
     std::vector<double> uneven;
     for (const auto node : edge) uneven.push_back(1.0 + 0.2 * scene.coordinate(node, 1) / width);
     scene.drive(edge, {0.0, 0.0, 1.0}, scene.pattern("peel", {0.0, 1.0}, {0.0, 4e-4}), uneven);
-    scene.drive(edge, {0.0, 1.0, 0.0}, scene.pattern("aside", {0.0, 1.0}, {0.0, 1e-4}),
+    scene.drive(edge, {0.0, 1.0, 0.0}, scene.pattern("sideways", {0.0, 1.0}, {0.0, 1e-4}),
                 std::vector<double>(edge.size(), 1.0));
     for (const auto& [key, value] : p.texts) scene.text(key, value);
     if (p.subdomains > 0) scene.number("subdomains", static_cast<double>(p.subdomains));

@@ -32,7 +32,7 @@ struct Before {
 
 // The sums over the parts are those of the whole: what the loads do is stored, dissipated or released, but for the
 // error of the trapezoidal rule, which is the defect; their work is within the bounds, which add up too.
-void expect_books_close(const Solver& s, const Before& before, const std::string& where) {
+void expect_ledger_close(const Solver& s, const Before& before, const std::string& where) {
     const double change = cases::stored(s) - before.energy + s.value("dissipated") - before.dissipated;
     const double work = s.value("work") - before.work;
     cases::expect_near(s.value("increment"), change, 1e-9, size_of(s), where + "increment");
@@ -85,7 +85,7 @@ CASE_TEST(block_jumps_where_it_should) {
         const Before before(solver);
         solver.step(static_cast<double>(k) / steps);
         const std::string where = "step " + std::to_string(k) + ": ";
-        expect_books_close(solver, before, where);
+        expect_ledger_close(solver, before, where);
         expect_jumps(solver, static_cast<double>(k - 1) / steps, where, true);
         solver.commit();
     }
@@ -119,7 +119,7 @@ CASE_TEST(smooth_march_has_no_jump) {
     for (int k = 1; k <= 20; ++k) {
         const Before before(solver);
         solver.step(2.0 * k / 20);
-        expect_books_close(solver, before, "step " + std::to_string(k) + ": ");
+        expect_ledger_close(solver, before, "step " + std::to_string(k) + ": ");
         expect_jumps(solver, 2.0 * (k - 1) / 20, "step " + std::to_string(k) + ": ");
         solver.commit();
         spent = solver.value("dissipated");
@@ -144,7 +144,7 @@ CASE_TEST(smooth_march_has_no_jump) {
     for (int k = 1; k <= 5; ++k) {
         const Before before(spring);
         spring.step(k / 5.0);
-        expect_books_close(spring, before, "spring, step " + std::to_string(k) + ": ");
+        expect_ledger_close(spring, before, "spring, step " + std::to_string(k) + ": ");
         spring.commit();
     }
     cases::expect_near(spring.value("dissipated"), gc * b.width, 1e-6, gc * b.width, "the spring's bond is spent");
@@ -168,7 +168,7 @@ CASE_TEST(jumps_of_a_flexure) {
         const Before before(solver);
         solver.step(2.0 * k / steps);
         const std::string where = "step " + std::to_string(k) + ": ";
-        expect_books_close(solver, before, where);
+        expect_ledger_close(solver, before, where);
         expect_jumps(solver, 2.0 * (k - 1) / steps, where);
         released += solver.value("released");
         parts += solver.value("substeps");
@@ -248,7 +248,7 @@ CASE_TEST(steps_that_do_not_converge_are_cut) {
         failed += a.advance(time) == DELAM_NOT_CONVERGED ? 1 : 0;
         const Before before(b);
         failed_adaptive += b.advance(time) == DELAM_NOT_CONVERGED ? 1 : 0;
-        expect_books_close(b, before, "adaptive, step " + std::to_string(k) + ": ");
+        expect_ledger_close(b, before, "adaptive, step " + std::to_string(k) + ": ");
         refused += b.value("refused_steps");
         const std::int32_t status = c.advance(time);
         stubborn.require(status < 0 ? status : 0, "delam_solver_advance");
@@ -273,7 +273,7 @@ CASE_TEST(wide_estimates_are_cut) {
     for (int k = 1; k <= 3; ++k) {
         const Before before(solver);
         solver.step(k / 3.0);
-        expect_books_close(solver, before, "step " + std::to_string(k) + ": ");
+        expect_ledger_close(solver, before, "step " + std::to_string(k) + ": ");
         cases::expect_below(solver.value("substeps"), 64.0, "parts that are shorter than smallest_step");
         solver.commit();
     }
@@ -290,7 +290,7 @@ CASE_TEST(snapping_steps_are_cut) {
     for (int k = 1; k <= steps; ++k) {
         const Before before(solver);
         solver.step(2.0 * k / steps);
-        expect_books_close(solver, before, "step " + std::to_string(k) + ": ");
+        expect_ledger_close(solver, before, "step " + std::to_string(k) + ": ");
         cases::expect(solver.value("mixity_error") <= tolerance || solver.value("substeps") > 8.0,
                       "a step that snaps is cut as far as allowed");
         cases::expect_below(solver.value("substeps"), 1.0 / smallest, "parts that are shorter than smallest_step");

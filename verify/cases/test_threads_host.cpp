@@ -97,16 +97,16 @@ CASE_TEST(cancel_through_progress) {
 // The assembly of large meshes polls every few hundred cells: the time until a cancel takes effect does not grow with
 // the mesh.
 struct Assembly {
-    std::int64_t looks = 0;
+    std::int64_t polls = 0;
     static std::int32_t count(const char* stage, std::int64_t done, std::int64_t, void* user) {
         auto& a = *static_cast<Assembly*>(user);
-        ++a.looks;
+        ++a.polls;
         const std::string now = stage;
         return now == "analyse" || (now == "condense" && done > 0) ? 1 : 0;  // assembled, of FETI the first subdomain
     }
 };
 
-CASE_TEST(looks_while_assembling) {
+CASE_TEST(polls_while_assembling) {
     constexpr std::int64_t columns = 48, rows = 24, layers = 4;
     Scene scene(3, {0.48, 0.24}, {columns, rows}, {0.04, 0.04}, {layers, layers}, DELAM_HEX8);
     scene.interface(0, 1);
@@ -129,8 +129,8 @@ CASE_TEST(looks_while_assembling) {
     const std::int32_t status = delam_solver_create(scene.problem(), 0.0, &solver);
     cases::expect(status == DELAM_CANCELLED && solver == nullptr, std::string("status ") + delam_status_name(status));
     const std::int64_t cells = 2 * columns * rows * layers / subdomains;
-    cases::expect(assembly.looks >= cells / 256,
-                  std::to_string(assembly.looks) + " looks while " + std::to_string(cells) + " cells were assembled");
+    cases::expect(assembly.polls >= cells / 256,
+                  std::to_string(assembly.polls) + " polls while " + std::to_string(cells) + " cells were assembled");
     scene.require(delam_context_set_progress(scene.context(), nullptr, nullptr), "delam_context_set_progress");
 }
 
@@ -279,7 +279,7 @@ int main() {
     TCase* tests = tcase_create("guest");
     tcase_add_test(tests, two_threads_same_bits);
     tcase_add_test(tests, cancel_through_progress);
-    tcase_add_loop_test(tests, looks_while_assembling, 0, 2);
+    tcase_add_loop_test(tests, polls_while_assembling, 0, 2);
     tcase_add_test(tests, cancel_from_another_thread);
     tcase_add_test(tests, nothing_is_printed);
     tcase_add_test(tests, signals_are_untouched);

@@ -46,7 +46,7 @@ inline reference::Scene make_turning_pair(const char* rule) {
 }
 
 struct TurningDefect {
-    double booked, slides, work;
+    double recorded, slides, work;
 };
 
 inline TurningDefect turning_defect(const char* rule, int steps) {
@@ -57,7 +57,7 @@ inline TurningDefect turning_defect(const char* rule, int steps) {
         solver.commit();
     }
     const TurningDefect d{solver.value("defect"), solver.value("defect_slides"), solver.value("work")};
-    std::printf("turning pair, %s, %d steps: defect %.4f, PANM 15 %.4f J/m2 of %.1f\n", rule, steps, d.booked, d.slides,
+    std::printf("turning pair, %s, %d steps: defect %.4f, PANM 15 %.4f J/m2 of %.1f\n", rule, steps, d.recorded, d.slides,
                 d.work);
     return d;
 }

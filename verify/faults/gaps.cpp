@@ -27,7 +27,7 @@ struct Watch {
     double last = now();
     std::map<std::string, double> longest;
 
-    void look(const std::string& next) {
+    void poll(const std::string& next) {
         const double time = now();
         double& gap = longest[stage + " -> " + next];
         gap = std::max(gap, time - last);
@@ -35,7 +35,7 @@ struct Watch {
         last = time;
     }
     static std::int32_t poll(const char* stage, std::int64_t, std::int64_t, void* user) {
-        static_cast<Watch*>(user)->look(stage);
+        static_cast<Watch*>(user)->poll(stage);
         return 0;
     }
     template <class Call>
@@ -44,7 +44,7 @@ struct Watch {
         last = now();
         longest.clear();
         call();
-        look("end");
+        poll("end");
         std::vector<std::pair<double, std::string>> gaps;
         for (const auto& [where, gap] : longest) gaps.emplace_back(-gap, where);
         std::sort(gaps.begin(), gaps.end());

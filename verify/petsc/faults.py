@@ -23,7 +23,7 @@ from launch import DELAM_MPI, ENVIRONMENT, EXAMPLES, Ranks, alone, expect, finis
 
 PROMPT = 10.0  # s, in which all has ended
 START = 60.0  # s, where the ranks start first, perhaps beside other programs
-PATIENCE = 8.0  # s, in which a rank that has failed waits for the others (src/petsc/base/communicator.cpp)
+LONGEST_WAIT = 8.0  # s, in which a rank that has failed waits for the others (src/petsc/base/communicator.cpp)
 ENGINE = os.environ.get("DELAM_TEST_ENGINE", "")  # test_engine.cpp
 SCARCE = os.environ.get("DELAM_SCARCE_LIBRARY", "")  # scarce.c
 SCENE = os.path.join(EXAMPLES, "enf-ductile", "enf-ductile.toml")
@@ -174,9 +174,9 @@ def step():
         begun = time.monotonic()
         ended(ranks, what, "a rank is lost now",
               "libdelam-petsc: one rank has failed and the others wait for it: .*thrown in a step",
-              limit=PATIENCE + PROMPT)
+              limit=LONGEST_WAIT + PROMPT)
         took = time.monotonic() - begun
-        expect(took > PATIENCE - 1.0, f"{what}: ended after {took:.1f} s, {PATIENCE:g} of them patience")
+        expect(took > LONGEST_WAIT - 1.0, f"{what}: ended after {took:.1f} s, {LONGEST_WAIT:g} of them waited")
     what = "a task that fails on one rank while the other works longer than that"
     with Ranks(2, "late", program=ENGINE) as ranks:
         code = ranks.wait(START)

@@ -2,7 +2,7 @@
 """Checks the English of comments, messages and names in src and bindings/cli/src: no comment begins with a fragment in
 the place of a sentence, and no private word stands where the field has one.
 
-    python3 verify/style/english.py [--count | --glossary]
+    python3 verify/style/english.py [--glossary]
 """
 
 import argparse

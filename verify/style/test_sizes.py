@@ -7,6 +7,7 @@ import sys
 import tempfile
 
 import arrows
+import english
 import readmes
 import scanner
 import sentences

@@ -242,7 +242,7 @@ START_TEST(zone_answers_as_the_dense_one) {
         (expected ? definite : indefinite) += 1;
         ck_assert_msg(has_minimum(*sparse, scene.theta) == expected, "%s: with tangents of %g of the bodies", c.name,
                       share);
-        // Rigid motions are looked at whether or not a load acts on them.
+        // Rigid motions are checked whether or not a load acts on them.
         const std::vector<double> nothing(scene.theta.size(), 0.0);
         ck_assert_msg(!c.floating || has_minimum(*sparse, nothing) == expected, "%s: without load, tangents of %g",
                       c.name, share);
@@ -364,7 +364,7 @@ START_TEST(energies_within_what_is_allowed) {
 }
 END_TEST
 
-// While a front advances, a look at what has become softer mostly shows that nothing floats; and what floats is found.
+// While a front advances, a check of what has become softer mostly shows that nothing floats; and what floats is found.
 START_TEST(floating_parts_are_found) {
     const unit::LayerCase c{.name = "", .dimension = 3, .layers = 4, .subdomains = 0, .stiffness = 125e9};
     const unit::LayerState scene(c, 1);
@@ -565,7 +565,7 @@ START_TEST(continues_bit_for_bit) {
 }
 END_TEST
 
-// A search looks at other states; the factor of the state that it came from is still there, with the same bits.
+// A search solves other states; the factor of the state that it came from is still there, with the same bits.
 START_TEST(comes_back_without_factoring) {
     unit::LayerState scene(cases[_i], 7);
     for (const bool energetic : {true, false}) {

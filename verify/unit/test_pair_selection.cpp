@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pairs in a box against a rule for blocks, which knows where the interface ends and looks at no face.
+// Pairs in a box against a rule for blocks, which knows where the interface ends and uses no face.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>

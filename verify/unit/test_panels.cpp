@@ -43,10 +43,10 @@ double distance(const DenseMatrix& a, const DenseMatrix& b) {
 START_TEST(factor) {
     const DenseMatrix a = definite();
     DenseMatrix lower = a, again = a;
-    int looks = 0;
-    ck_assert(factor_definite(lower, [&] { ++looks; }));
+    int polls = 0;
+    ck_assert(factor_definite(lower, [&] { ++polls; }));
     ck_assert(factor_definite(again));
-    ck_assert_int_gt(looks, 3);
+    ck_assert_int_gt(polls, 3);
     ck_assert(lower.value == again.value);
     clear_upper(lower);
     ck_assert(distance(lower_times_transpose(lower), a) <= 1e-11);
@@ -68,15 +68,15 @@ END_TEST
 START_TEST(products) {
     DenseMatrix lower = definite(), v = definite();
     ck_assert(factor_definite(lower));
-    int looks = 0;
+    int polls = 0;
     DenseMatrix gram(n, n);
-    add_gram(gram, v, [&] { ++looks; });
-    ck_assert_int_gt(looks, 1);
+    add_gram(gram, v, [&] { ++polls; });
+    ck_assert_int_gt(polls, 1);
     mirror_lower(gram);
     ck_assert(distance(gram, multiply(v, v)) <= 1e-9);
-    looks = 0;
-    solve_lower(lower, v, 0, [&] { ++looks; });
-    ck_assert_int_gt(looks, 1);
+    polls = 0;
+    solve_lower(lower, v, 0, [&] { ++polls; });
+    ck_assert_int_gt(polls, 1);
     clear_upper(lower);
     ck_assert(distance(multiply(lower, v), definite()) <= 1e-11);
 }
@@ -114,18 +114,18 @@ START_TEST(any_number_of_threads) {
 END_TEST
 
 START_TEST(stopped) {
-    int looks = 0;
+    int polls = 0;
     DenseMatrix a = definite();
     bool left = false;
     try {
         factor_definite(a, [&] {
-            if (++looks == 2) throw std::runtime_error("enough");
+            if (++polls == 2) throw std::runtime_error("enough");
         });
     } catch (const std::runtime_error&) {
         left = true;
     }
     ck_assert(left);
-    ck_assert_int_eq(looks, 2);
+    ck_assert_int_eq(polls, 2);
 }
 END_TEST
 

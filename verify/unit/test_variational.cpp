@@ -216,7 +216,7 @@ END_TEST
 
 // Where other pairs made a mixity swing at first, it goes the whole way once they rest: with the fraction that the
 // swings have left it would take 150 updates.
-START_TEST(what_swung_does_not_creep) {
+START_TEST(an_oscillating_mixity_settles) {
     const Law law = alike_in_both_modes();
     PairLaws pairs;
     pairs.law = {&law};
@@ -270,7 +270,7 @@ int main() {
     tcase_add_test(tests, proximal_spring_bounds_the_curvature);
     tcase_add_test(tests, small_jumps_and_contact);
     tcase_add_test(tests, swings_end);
-    tcase_add_test(tests, what_swung_does_not_creep);
+    tcase_add_test(tests, an_oscillating_mixity_settles);
     tcase_add_test(tests, broken_pairs_keep_theirs);
     suite_add_tcase(suite, tests);
     SRunner* runner = srunner_create(suite);

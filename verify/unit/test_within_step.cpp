@@ -78,7 +78,7 @@ START_TEST(steady_growth) {
 }
 END_TEST
 
-// More than the states give is booked nowhere: the balance shows it.
+// More than the states give is recorded nowhere: the balance shows it.
 START_TEST(a_shortfall_is_not_hidden) {
     const double a = 1.2, begin = critical(a), end = 1.2 * begin;
     std::vector<PathPoint> states = path(a, end);

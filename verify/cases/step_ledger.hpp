@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a step books, by its definition: the work of the reactions by the trapezoidal rule, and what is neither stored
-// nor dissipated of it where a pair is damaged abruptly. For one load pattern and a law of which Go/Gc is the same in
-// all modes.
+// The energies that a step records, by their definitions: the work of the reactions by the trapezoidal rule, and the
+// part of it that is neither stored nor dissipated where a pair is damaged abruptly. The functions are for one load
+// pattern and a law of which Go/Gc is the same in all modes.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace cases {
 
-struct Books {
+struct StepLedger {
     double factor = 0.0, reaction = 0.0;  // of the load
     double energy = 0.0, dissipated = 0.0, work = 0.0, lower = 0.0, increment = 0.0, upper = 0.0, released = 0.0,
            defect = 0.0;
@@ -24,7 +24,7 @@ struct Books {
 };
 
 // factor: of the pattern `load` at the time of the state.
-inline Books read_books(const reference::Solver& s, const std::string& load, double factor) {
+inline StepLedger read_ledger(const reference::Solver& s, const std::string& load, double factor) {
     return {factor,
             s.value("reaction:" + load),
             s.value("stored_bulk") + s.value("stored_interface") + s.value("load_potential"),
@@ -54,7 +54,7 @@ inline double largest_loss(const reference::LawData& law, const std::vector<doub
 struct Leap {
     double work = 0.0, released = 0.0;
 };
-inline Leap leap(const Books& a, const Books& b) {
+inline Leap leap(const StepLedger& a, const StepLedger& b) {
     const double begin = a.factor / b.factor, before = a.energy / (begin * begin), after = b.energy;
     const double spent = b.dissipated - a.dissipated;
     const double square = before > after ? std::clamp(spent / (before - after), begin * begin, 1.0) : 1.0;
@@ -67,7 +67,7 @@ inline Leap leap(const Books& a, const Books& b) {
 // raised to what was stored and dissipated, up to the upper bound. A step that was minimised from another state (a
 // return, a search) is a leap. in_parts: a step that takes more than a part of its
 // toughness from a pair (path_step) knows its work from the states on its way, between the bounds.
-inline void expect_work(const reference::LawData& law, const Books& a, const Books& b, double tolerance, double size,
+inline void expect_work(const reference::LawData& law, const StepLedger& a, const StepLedger& b, double tolerance, double size,
                         const std::string& where, bool in_parts = false) {
     const double trapezoid = 0.5 * (b.factor - a.factor) * (a.reaction + b.reaction);
     const double loss = largest_loss(law, a.adhesion, b.adhesion);
