@@ -67,8 +67,8 @@ inline Leap leap(const StepLedger& a, const StepLedger& b) {
 // raised to what was stored and dissipated, up to the upper bound. A step that was minimised from another state (a
 // return, a search) is a leap. in_parts: a step that takes more than a part of its
 // toughness from a pair (path_step) knows its work from the states on its way, between the bounds.
-inline void expect_work(const reference::LawData& law, const StepLedger& a, const StepLedger& b, double tolerance, double size,
-                        const std::string& where, bool in_parts = false) {
+inline void expect_work(const reference::LawData& law, const StepLedger& a, const StepLedger& b, double tolerance,
+                        double size, const std::string& where, bool in_parts = false) {
     const double trapezoid = 0.5 * (b.factor - a.factor) * (a.reaction + b.reaction);
     const double loss = largest_loss(law, a.adhesion, b.adhesion);
     double work = trapezoid;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Returns to earlier steps by the two-sided estimate: what they achieve, that the resulting history is consistent, and
 // that it can be rolled back, saved and cut like any other.
-#include "step_ledger.hpp"
 #include "energetic_scenes.hpp"
 #include "flexure.hpp"
 #include "mmf.hpp"
 #include "small_march.hpp"
+#include "step_ledger.hpp"
 
 namespace {
 
@@ -57,8 +57,8 @@ int first_break(const std::vector<cases::StepLedger>& rows, double least = 1e-3)
     return k;
 }
 // variational: the increment is that of the ledger of PANM 15 (2010).
-void expect_one_history(const std::vector<cases::StepLedger>& rows, const reference::LawData& law, const std::string& where,
-                        const std::string& rule = "frozen") {
+void expect_one_history(const std::vector<cases::StepLedger>& rows, const reference::LawData& law,
+                        const std::string& where, const std::string& rule = "frozen") {
     for (std::size_t k = 1; k < rows.size(); ++k) {
         const cases::StepLedger &a = rows[k - 1], &b = rows[k];
         const std::string step = where + ", step " + std::to_string(k) + ": ";

@@ -5,10 +5,10 @@
 #include <algorithm>
 
 #include "acceptance.hpp"
-#include "step_ledger.hpp"
 #include "comparison.hpp"
 #include "direct.hpp"
 #include "enf.hpp"
+#include "step_ledger.hpp"
 #include "support.hpp"
 
 namespace {

@@ -18,7 +18,8 @@ CASE_TEST(provable_bounds) {
         cases::expect(m.warnings.empty(), "a fine march warns: " + (m.warnings.empty() ? "" : m.warnings.front()));
 }
 
-// Recorded defects decrease with the step; those of the ledger of PANM 15 (2010) stay, unless the mixity is variational.
+// Recorded defects decrease with the step; those of the ledger of PANM 15 (2010) stay, unless the mixity is
+// variational.
 CASE_TEST(defects_side_by_side) {
     const int steps[] = {40, 160, 640};
     for (const char* rule : {"frozen", "converged", "variational"}) {

@@ -81,7 +81,7 @@ March march(const Scene& scene, int steps) {
         solver.commit();
         released += solver.value("released");
         const double recorded = solver.value("stored_bulk") + solver.value("stored_interface") +
-                              solver.value("dissipated") + released - solver.value("work");
+                                solver.value("dissipated") + released - solver.value("work");
         m.defect = std::max(m.defect, std::abs(recorded));
         m.load.push_back(solver.value("reaction:press"));
         m.crack.push_back(solver.value("crack_length"));

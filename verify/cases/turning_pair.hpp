@@ -57,8 +57,8 @@ inline TurningDefect turning_defect(const char* rule, int steps) {
         solver.commit();
     }
     const TurningDefect d{solver.value("defect"), solver.value("defect_slides"), solver.value("work")};
-    std::printf("turning pair, %s, %d steps: defect %.4f, PANM 15 %.4f J/m2 of %.1f\n", rule, steps, d.recorded, d.slides,
-                d.work);
+    std::printf("turning pair, %s, %d steps: defect %.4f, PANM 15 %.4f J/m2 of %.1f\n", rule, steps, d.recorded,
+                d.slides, d.work);
     return d;
 }
 
