@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Values as bytes, field by field. A struct is saved by a table of its members, each with the version of the format
-// that it came with; writer and reader walk the same table, so that they cannot disagree, and the reader leaves out
-// what bytes of an older version do not have: such a member keeps its default.
+// that introduced it. Writer and reader walk the same table, so that they cannot disagree. A member that is newer than
+// the bytes keeps its default.
 #pragma once
 
 #include <cmath>

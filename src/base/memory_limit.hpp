@@ -15,8 +15,8 @@ struct MemoryLimit {
 // limit of its address space.
 MemoryLimit memory_limit();
 
-// The smallest limit of Linux' control groups of this process, of versions 1 and 2, and of those around them; infinite
-// where there is none. top: the folder that contains proc and sys.
+// Returns the smallest limit of the Linux control groups of this process, of versions 1 and 2, and of the groups around
+// them; infinite if they set no limit. top: the folder that contains proc and sys.
 double control_group_limit(const std::string& top);
 
 }  // namespace delam

@@ -27,8 +27,8 @@ std::span<const int> split(const CellRow& row) {
     return plane ? std::span<const int>(one_square) : one_cube;
 }
 
-// Quadratic cells have nodes midway between those of linear ones, on a lattice of half the spacing: serendipity cells
-// only at the points on the edges of boxes, which lie midway in at most one direction, the others at all points.
+// Quadratic cells have nodes midway between those of linear ones, on a lattice of half the spacing. Serendipity cells
+// have only the points on the edges of boxes, which lie midway in at most one direction; the others have all points.
 bool on_lattice(const CellRow& row, std::int64_t i, std::int64_t j, std::int64_t k) {
     return row.interpolation != Interpolation::serendipity || i % 2 + j % 2 + k % 2 <= 1;
 }

@@ -165,9 +165,9 @@ public:
         });
     }
 
-    // A 6- or 8-node face as triangles between its nodes. Within a triangle the reference coordinates are linear in
-    // space, so that on a flat face with straight, evenly divided sides the integrals of its shape functions, of degree
-    // 3 at most, are exact; on a curved one they sum to the area of the triangles.
+    // A 6- or 8-node face as triangles between its nodes. The reference coordinates are linear in space within a
+    // triangle. The integrals of the shape functions, of degree 3 at most, are therefore exact on a flat face with
+    // straight, evenly divided sides; on a curved face they sum to the area of the triangles.
     void add_quadratic_face(std::span<const std::int64_t> nodes, std::span<double> weight) const {
         const CellType type = face_row(3, nodes.size()).surface;
         const auto place = reference_nodes(type);

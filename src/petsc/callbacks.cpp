@@ -7,7 +7,7 @@ namespace delam::petsc {
 
 namespace {
 
-// Session's functions throw nothing but for a lack of memory for a message.
+// Session's functions throw only if there is no memory for a message.
 template <class Work>
 std::int32_t with_session(void* user, Work&& work) noexcept {
     Session* session = static_cast<Link*>(user)->session;

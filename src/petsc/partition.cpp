@@ -66,7 +66,7 @@ std::vector<int> checked(const GivenRanks& given, const delam_mesh* mesh, int si
     return {rank, rank + count};
 }
 
-// Nothing but from rank 0.
+// Returns the lists of rank 0; the other ranks send nothing.
 std::vector<std::vector<std::int64_t>> outgoing(const Communicator& comm,
                                                 std::vector<std::vector<std::int64_t>> lists) {
     comm.together([&] { lists.resize(static_cast<std::size_t>(comm.size())); });

@@ -408,7 +408,7 @@ double Descent::run(std::int64_t limit, double tolerance) {
         newton_step_ = move.newton && !halved_;
         const bool squared = move.newton && !renewed;
         ended_ = squared ? change * std::max(100.0 * change, system_.left()) <= tolerance : change <= tolerance;
-        // Nothing is left but the rounding of the solves.
+        // The descent also ends if only the rounding of the solves is left.
         ended_ = ended_ || (squared && 100.0 * change * change <= tolerance && idle >= limits_.newton_most_idle &&
                             system_.left() > limits_.newton_met_rounding);
     }
@@ -448,7 +448,7 @@ std::optional<double> ZoneNewton::run(State& state, const Increment& increment, 
             Descent descent(*this, state, increment, mixities, springs(), *part);
             added += descent.run(std::min(limit, limits.newton_steps_in_part),
                                  std::max(tolerance, limits.newton_part_of_change * std::min(1.0, last_change)));
-            // Nothing is left of a step of Newton's method but what it has linearised.
+            // A step of Newton's method is at its end if the part that it has linearised no longer changes.
             if (newton && descent.ended() && descent.first_change() <= tolerance) break;
         }
         const Springs acting = springs();

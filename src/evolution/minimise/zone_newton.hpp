@@ -5,11 +5,11 @@
 //   phi(j) = min over 0 <= zeta <= zeta_before of  zeta Y(j) + g(zeta)      (Increment::minimum),
 //
 // and  1/2 x^T S x - theta^T L^T x + sum w phi(j)  over u_n >= 0 is minimised by Newton's method with the active set of
-// active_set.hpp and a line search on the energy. Where a pair softens faster than the bodies unload, the tangent is
-// indefinite: then the pair is taken straight to its debonded branch if that lowers the energy, or so much of the
-// tangents is used that they remain definite (a damped step); else the step is that of the staggered scheme, which
-// always lowers the energy. No step raises it. Where the mixity follows the iterates, every step renews it, from the
-// pairs that took part in its displacements.
+// active_set.hpp and a line search on the energy. The tangent is indefinite where a pair softens faster than the bodies
+// unload. The pair is then taken straight to its debonded branch if that lowers the energy. Otherwise a damped step
+// uses so much of the tangents that they remain definite. If this fails, too, the step is that of the staggered scheme,
+// which always lowers the energy. No step raises the energy. Where the mixity follows the iterates, every step renews
+// it, from the pairs that took part in its displacements.
 #pragma once
 
 #include <optional>

@@ -4,18 +4,18 @@
 // A candidate is the adhesion before the step with a set R of pairs debonded at once:
 //   I(R) = E(t, z_R) + D(z_before, z_R).
 // Sets grow by rings from every front and from places where a crack may begin (fronts.hpp), from all fronts together,
-// and from each front again with the others where they were best; and an interface may come off altogether. E falls as
-// R grows, and D grows with it. So nothing between two sets R1 < R2 of a sweep lies below  E(R2) + D(R1),  nor anything
-// beyond R below  E_all + D(R),  where E_all is the energy with everything debonded. A sweep samples rings far apart,
-// then around its minima, then wherever these bounds leave room for a state that is lower by more than
+// and from each front again with the others where they were best. One set debonds a whole interface. E falls as R
+// grows, and D grows with it. Therefore every set between R1 < R2 of a sweep has at least the energy E(R2) + D(R1), and
+// every set beyond R at least E_all + D(R), where E_all is the energy with everything debonded. A sweep samples rings
+// far apart, then around its minima, then wherever these bounds leave room for a state that is lower by more than
 // search_tolerance (sweep.hpp).
 //
 // Contact without friction and springs are homogeneous, E(theta) = |theta|^2 E(theta/|theta|): under a proportional
 // load one solve gives E_all for all steps.
 //
-// Where the operator offers a zone the energies come from a zone about each front (zone_energies.hpp), with the contact
-// outside as it is in the step; else from whole displacement solves. They choose what is minimised from; the energy of
-// a result never comes from here.
+// If the operator offers a zone, the energies come from a zone about each front (zone_energies.hpp), with the contact
+// outside as it is in the step; otherwise they come from whole displacement solves. They only select the starts of
+// minimisations, which compute the energy of the result.
 #pragma once
 
 #include <cstdint>
@@ -39,10 +39,10 @@ public:
     // op: any operator of the scene whose memory may be disturbed; it must outlive the search.
     Search(const Problem& problem, const PairLaws& pairs, const ContactScene& contact, Monitor& monitor,
            JumpOperator& op);
-    // from: the step as far as it is known, recorded; mixity: that of its start. What a search finds depends on its
-    // step and on the state before it, so that an analysis that was saved, rolled back or cancelled goes on with the
-    // same bits: energies for later searches are part of the state. Besides these nothing is kept from other steps but
-    // E_all of the same load.
+    // from: the step as far as it is known, recorded; mixity: that of its start. The result depends on the step and on
+    // the state before it alone, so that an analysis that was saved, rolled back or cancelled continues with the same
+    // bits. Energies for later searches are therefore part of the state, and other steps leave only E_all of the same
+    // load.
     SearchResult run(const Increment& increment, const StepAccount& account, const State& from,
                      std::span<const double> mixity);
 

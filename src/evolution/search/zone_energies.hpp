@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Energies of many states that differ from one known state in a few pairs, where the operator offers a zone: the other
-// pairs and their contact stay as they are in the known state, so that each energy is a small dense solve with contact
-// inside the zone. Contact outside is checked where a state differs from the known one in twice as many pairs as any
-// state before it; pairs that are then on the wrong side join the zone. (FETI cannot tell without another solve: there
-// it stays as it is.)
+// Computes the energies of many states that differ from one known state in a few pairs, if the operator offers a zone.
+// The other pairs and their contact stay as they are in the known state. Each energy is then a small dense solve with
+// contact inside the zone. Contact outside is checked where a state differs from the known one in twice as many pairs
+// as any state before it; pairs that are then on the wrong side join the zone. (FETI would need another solve for this
+// check, and keeps the contact outside as it is.)
 #pragma once
 
 #include <cstdint>

@@ -6,9 +6,9 @@
 
 namespace delam {
 
-// Samples mixity, adhesion and driving energy, and checks that g(B, 1) = 0, g is decreasing and convex, its derivatives
-// are those returned, zeta*(B, Y) is nonincreasing in Y and the minimiser of zeta Y + g, and its slope is the one
-// returned. Throws Error(DELAM_ERROR_PROBLEM) naming the law, the fault, the place and the values.
+// Samples mixity, adhesion and driving energy. Checks that g(B, 1) = 0, that g is decreasing and convex, and that its
+// derivatives are those returned; that zeta*(B, Y) does not increase with Y, that it minimises zeta Y + g, and that its
+// slope is the one returned. Throws Error(DELAM_ERROR_PROBLEM) naming the law, the fault, the place and the values.
 void require_consistent(const HostSoftening& law);
 
 }  // namespace delam

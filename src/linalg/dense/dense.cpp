@@ -26,9 +26,9 @@ constexpr std::int64_t small_inverse = 1024, wide = 256;
 // Multiplications between two polls: some milliseconds.
 constexpr double part = 5e7;
 
-// Multiplications in a piece for one thread: about half a millisecond, much less than the time slice for which a thread
-// may have to wait where other programs use the cores, and ten times what it takes to wake one. The pieces depend on
-// the sizes alone, so that no digit depends on the number of threads.
+// Multiplications of a piece for one thread. They take about half a millisecond: much less than the time slice for
+// which a thread may have to wait where other programs use the cores, and ten times the time to wake a thread. The
+// pieces depend on the sizes alone, so that no digit depends on the number of threads.
 constexpr double piece = 8e6;
 
 // Calls operation(first, count) for pieces of the columns, or rows, each of which takes `cost` multiplications. Each is

@@ -17,10 +17,10 @@ namespace delam {
 // between orders.
 std::vector<std::int64_t> elimination_order(const SparseMatrix& matrix, std::int64_t trailing, const Poll& poll);
 
-// The sum of the squares of the columns of the factor in this order, in which members of a group follow one another:
-// from the groups alone, as if those below a column had the average number of members. Exact where all have as many.
-// The leading variables come back in postorder, which changes no fill and makes columns with the same rows neighbours.
-// groups: equal_rows() of all variables; pattern: pattern_of_groups().
+// Returns the sum of the squares of the columns of the factor in this order, in which members of a group follow one
+// another. It uses the groups alone, as if the groups below a column had the average number of members; it is exact if
+// all groups have as many. Also puts the leading variables into postorder, which changes no fill and makes columns with
+// the same rows neighbours. groups: equal_rows() of all variables; pattern: pattern_of_groups().
 double estimated_operations(const EqualRows& groups, const SparseMatrix& pattern, std::int64_t trailing,
                             std::vector<std::int64_t>& order);
 

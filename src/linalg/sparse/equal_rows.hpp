@@ -21,8 +21,8 @@ struct EqualRows {
 };
 
 // Variables 0 .. variables-1, the others count as absent; those before `leading` are never in a group with the rest.
-// Rows are compared by a checksum of their columns: two different ones with the same checksum would make a poorer
-// order, not a wrong one.
+// Rows are compared by a checksum of their columns: if two different rows had the same checksum, the order would be
+// poorer, but not wrong.
 EqualRows equal_rows(const SparseMatrix& m, std::int64_t variables, std::int64_t leading);
 
 // Returns which groups the rows connect: the pattern of a matrix [groups][groups], both triangles, columns not sorted.

@@ -38,8 +38,8 @@ std::vector<std::size_t> spatial_order(const Mesh& mesh, std::span<const NodePai
     return order;
 }
 
-// A face in terms of pairs, beginning at its smallest pair (edges: at their first corner), so that neither weights nor
-// order depend on the host's numbering of its cells.
+// Returns a face in terms of pairs, beginning at its smallest pair (edges: at their first corner), so that neither
+// weights nor order depend on the host's numbering of its cells.
 struct PairFace {
     std::vector<std::int64_t> pair;  // corners, then mid-sides, then the centre
     std::size_t corners;
@@ -59,9 +59,9 @@ PairFace pair_face(const BoundaryFace& face, const std::map<std::int64_t, std::i
     return result;
 }
 
-// The face in the list of an interface whose largest faces are of the kind `row`: where it has fewer corners, its last
-// corner is repeated; a corner replaces a missing mid-side node, the first mid-side node a missing centre. The pieces
-// of the larger face then cover the smaller one.
+// Appends the face as one of the kind `row`, that of the largest faces of the interface. Its last corner is repeated if
+// it has fewer corners; a corner replaces a missing mid-side node, and the first mid-side node replaces a missing
+// centre. The pieces of the larger face then cover the smaller one.
 void append_padded(const PairFace& face, const FaceRow& row, std::vector<std::int64_t>& out) {
     const std::size_t own = face.corners, corners = index(row.corners), sides = index(row.sides());
     const std::size_t own_sides = own == 2 ? 1 : own;

@@ -16,7 +16,8 @@ constexpr int tag = 7;
 // A rank that has failed waits that long for the others to notice. If they wait for this rank, they never come.
 constexpr std::chrono::seconds longest_wait{8};
 
-// No other rank can be told any more. PETSc's error stream is the host's to redirect (PETSC_STDERR, PetscVFPrintf).
+// Writes a message of a rank that can no longer reach the others. The host may redirect PETSc's error stream
+// (PETSC_STDERR, PetscVFPrintf).
 void say(const std::string& text) { PetscFPrintf(PETSC_COMM_SELF, PETSC_STDERR, "%s\n", text.c_str()); }
 
 }  // namespace

@@ -32,7 +32,7 @@ Numbering::Numbering(const Communicator& comm, std::span<const std::int64_t> nod
         for (std::int64_t node = begin; node < begin + share_ && node < total; ++node) {
             const int o = owner[static_cast<std::size_t>(node - begin)];
             if (o < 0 && node >= mesh_nodes) continue;
-            // An orphan is told as -1 - node.
+            // An orphan is encoded as -1 - node.
             yours[o < 0 ? 0 : static_cast<std::size_t>(o)].push_back(o < 0 ? -1 - node : node);
         }
     });

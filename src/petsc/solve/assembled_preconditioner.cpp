@@ -98,7 +98,8 @@ void AssembledPreconditioner::add_entries(const Operator::Entries& entries) {
     check(MatAXPY(matrix_, 1.0, entries_.matrix(), grown ? DIFFERENT_NONZERO_PATTERN : SUBSET_NONZERO_PATTERN));
 }
 
-// Variables that nothing acts on, neither bodies nor entries, are not asked for; their rows only have to be regular.
+// Some variables are acted on by neither bodies nor entries: nobody asks for them, and their rows only have to be
+// regular.
 void AssembledPreconditioner::complete_diagonal() {
     check(MatGetDiagonal(matrix_, work_));
     PetscReal largest = 0.0;

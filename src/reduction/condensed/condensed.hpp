@@ -40,7 +40,7 @@ public:
 
     Zones* zones() override { return this; }
     DenseZone* zone(const Springs& springs, std::span<const std::uint8_t> wanted, bool tight) override;
-    // All rows, forces and energies from a zone solution with these springs; none: no unknown moves.
+    // Sets all rows, forces and energies from a zone solution with these springs; null: no unknown moves.
     void respond(const Springs& springs, std::span<const double> theta, const Zone::Solution* solution,
                  Response& response) const;
 

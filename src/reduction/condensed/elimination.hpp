@@ -5,10 +5,10 @@
 // A node adds the energies that its children have left and its own entries, and eliminates what it owns,
 //     F = [F_ee F_er; F_re F_rr],   L L^T = F_ee + springs,   V = L^-1 F_er,   F_rr - V^T V   goes on to its parent
 // (the multifrontal method: I. Duff, J. Reid, ACM TOMS 9, 1983), where r are the jumps of the zone below and the
-// border. The zone is eliminated last, at the lowest node that has all of it below: what lies outside of this subtree
-// comes down to it in the same way, from the root, as messages do in a tree of cliques (S. Lauritzen, D. Spiegelhalter,
-// J. R. Stat. Soc. B 50, 1988). A change of springs or of the zone asks for the nodes on its path alone. What a node
-// leaves is a function of the springs and the zone, not of what was there before.
+// border. The zone is eliminated last, at the lowest node that has all of it below. The energies of the rest of the
+// tree come down to this node from the root in the same way, as messages do in a tree of cliques (S. Lauritzen, D.
+// Spiegelhalter, J. R. Stat. Soc. B 50, 1988). A change of springs or of the zone renews the nodes on its path alone.
+// The energy that a node leaves depends on the springs and the zone, not on earlier states.
 #pragma once
 
 #include <cstdint>

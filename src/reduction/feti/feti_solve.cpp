@@ -17,7 +17,7 @@ namespace {
 
 // Residuals below this part of the loads' own energy norm are rounding.
 constexpr double rounding = 1e-14;
-// A warm start larger than the load by 2^900 is none: its squares would not be finite.
+// A warm start larger than the load by 2^900 is not used: its squares would not be finite.
 constexpr int largest_start = 900;
 
 // The force of its own that a spring has.

@@ -2,10 +2,10 @@
 // The zone of total FETI: a dense energy of the jumps where springs change, found from the columns of the dual
 // operator.
 //
-// A set A of rows holds all whose springs differ from the base's and all that are wanted, rounded up to the groups in
-// which columns are found; outside A the springs are the base's, and the columns have them minimised out. Of A, the
-// groups of wanted rows are the zone, the others are minimised out at their springs of the moment. All of it depends on
-// the scene, the springs and what is wanted alone, never on an earlier zone: what is kept is what would be found again.
+// The set A consists of the rows whose springs differ from those of the base and of all wanted rows, rounded up to the
+// groups in which columns are found. Rows outside A have the springs of the base, and the columns have them minimised
+// out. The groups of wanted rows are the zone; the other rows of A are minimised out at their present springs. The zone
+// depends on the scene, the springs and the wanted rows alone: kept columns equal those that would be found again.
 #pragma once
 
 #include <cstdint>

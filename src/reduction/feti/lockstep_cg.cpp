@@ -115,8 +115,8 @@ private:
     }
 };
 
-// The forces nearest to these that carry the resultants. False: a resultant is there that no forces can carry; where
-// there is none, what is left is the rounding of the forces.
+// The forces nearest to these that carry the resultants. False: no forces can carry one of the resultants. Columns
+// without a resultant are not tested, because what is left of them is the rounding of the forces.
 bool balance(const DualOperator& op, const DenseMatrix& resultant, DenseMatrix& lambda) {
     double left = 0.0;
     for (std::int64_t c = 0; c < lambda.columns; ++c) {

@@ -111,8 +111,8 @@ void check_loads(const Problem& problem) {
     }
 }
 
-// No constraint may follow from others, nor contradict them. Short ones are reduced first: they fill little. Pairs are
-// not asked: where they are bonded, supports on both sides are harmless.
+// No constraint may follow from others or contradict them. Short ones are reduced first, because they fill little.
+// Pairs are left out: where they are bonded, supports on both sides are harmless.
 void check_constraints(const Problem& problem) {
     std::vector<std::size_t> order(problem.constraints.size());
     std::iota(order.begin(), order.end(), std::size_t{0});

@@ -21,13 +21,13 @@ std::string duration_text(double seconds) {
     return fmt::format("{}:{:02d}", whole / 60, whole % 60);
 }
 
-// JSON has no NaN: a factor without a load.
+// JSON has no NaN, which is the factor without a load.
 std::string json_number(double value) { return std::isfinite(value) ? fmt::format("{}", value) : "null"; }
 
 constexpr std::string_view erase_line = "\r\033[K";
 
-// Columns of the terminal behind standard output; 0: there is none, or one of no width, which mpirun puts in front of
-// whatever its own output goes to.
+// Returns the columns of the terminal behind standard output; 0: it is no terminal, or one of no width, as mpirun sets
+// up for its own output.
 std::size_t terminal_width() {
     winsize size{};
     return isatty(STDOUT_FILENO) == 1 && ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 ? size.ws_col : 0;

@@ -12,7 +12,7 @@ public:
     // root: the scope of the sets and nodes that they name.
     ConstraintReader(Deck& deck, const Part& root) : deck_(deck), root_(root) {}
 
-    // False: the card is none of a constraint.
+    // False: the card does not belong to a constraint.
     bool take(const InpCard& card);
     // Throws SceneFailure where a *COUPLING was not followed by its kind.
     void finish() const;

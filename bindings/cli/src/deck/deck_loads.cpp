@@ -262,7 +262,7 @@ private:
         return amplitude != nullptr && amplitude->total_time;
     }
 
-    // Goes on from the last point to the end of the step.
+    // Continues from the last point to the end of the step.
     void extend(History& history, const Step& step, const LoadLine& line, double end) {
         const double last = history.points.back().second;
         const Amplitude* amplitude = amplitude_of(line);

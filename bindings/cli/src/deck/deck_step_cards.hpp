@@ -16,7 +16,7 @@ public:
     // root: the scope of the sets that steps name.
     StepReader(Deck& deck, const Part& root) : deck_(deck), root_(root) {}
 
-    // False: the card is none of a step.
+    // False: the card does not belong to a step.
     bool take(const InpCard& card);
 
 private:

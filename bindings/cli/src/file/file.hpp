@@ -10,7 +10,7 @@
 namespace cli {
 
 // Writes a file beside PATH that was not there, synchronises it and gives it the name PATH, which has either the old or
-// the new content. Neither a link nor a file of anybody else is opened.
+// the new content. It opens neither a link nor a file of others.
 void write_atomic(const std::string& path, std::string_view bytes);
 // True for the names of files that are written beside the file `of`, and which a process that was killed leaves there.
 bool is_beside(std::string_view name, std::string_view of);
@@ -23,9 +23,9 @@ inline constexpr std::string_view revised_suffix = ".revised";
 // needs its content; otherwise it is removed.
 void take_revised(const std::string& path, const std::function<bool(const std::string& revised)>& counts);
 
-// Throws Failure where a file that a person named is there already, unless `replace` is set and `own` says of its bytes
-// that this program has written them; always where it is a link or no regular file: renaming would put an ordinary file
-// in its place. what: "a page of delam view", for the message.
+// Throws Failure if the file that a person named exists already and is a link or no regular file, because renaming
+// would put an ordinary file in its place. Throws also for a regular file, unless `replace` is set and `own` says that
+// this program has written its bytes. what: "a page of delam view", for the message.
 void require_replaceable(const std::string& path, bool replace, const std::string& what,
                          const std::function<bool(const std::string& bytes)>& own);
 

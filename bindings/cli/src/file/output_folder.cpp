@@ -111,7 +111,7 @@ OutputFolder::~OutputFolder() {
 }
 
 void OutputFolder::begin() {
-    // The state first: nothing goes on from what is left if this is interrupted.
+    // The state is removed first: if this is interrupted, no run continues from the rest.
     remove_file(running_ + "/state.bin");
     for (const std::string& name : names_in(running_))
         if (name != marker_name && is_running_name(name)) remove_file(running_ + "/" + name);

@@ -7,7 +7,7 @@
 
 namespace cli {
 
-// A readable number near h that divides all lengths evenly; "" if there is none worth suggesting.
+// Returns a readable number near h that divides all lengths evenly; "" if no such number is worth suggesting.
 std::string suggested_size(const std::vector<double>& lengths, double h);
 bool divides(double h, double length);
 

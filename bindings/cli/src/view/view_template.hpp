@@ -7,8 +7,8 @@
 
 namespace cli {
 
-// named: a file; "": the one that is installed with the program, or that of its build folder. Failure(exit_scene) if
-// there is none, or it is no template.
+// named: a file; "": the one that is installed with the program, or that of its build folder. Throws
+// Failure(exit_scene) if the file is missing or is no template.
 std::string view_template(const std::string& named);
 // The template with a result: `data` in the place that is kept for it, `title` in that of the title.
 std::string filled_template(std::string page, std::string_view title, std::string_view data);

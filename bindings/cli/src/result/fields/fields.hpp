@@ -29,8 +29,8 @@ public:
     void settle();
     // The hashes of the files of the chosen steps up to `last`, in their order.
     std::vector<std::string> hashes(std::size_t last);
-    // Goes on with the files of the chosen steps up to `last`. Throws Failure(exit_scene) if one is missing, or not
-    // what its hash says; where no hashes were saved, if it is not of its step.
+    // Continues with the files of the chosen steps up to `last`. Throws Failure(exit_scene) if a file is missing or its
+    // hash differs from the saved one; if no hashes were saved, if it is of another step.
     void resume(std::size_t last, const std::optional<std::vector<std::string>>& saved);
     // Combines steps 0 .. last into folder/fields.h5 and folder/fields.xdmf.
     // Largest rotation of a cell in these steps, rad (0 if no step has displacements).

@@ -16,7 +16,8 @@ namespace cli::h5 {
 namespace {
 
 thread_local FileTrouble trouble;
-// Not opening is none where another way of opening the file works: HDF5 tries whether a file is there, then makes it.
+// A file that cannot be opened is no failure if another way of opening works: HDF5 tries whether a file exists, then
+// makes it.
 thread_local FileTrouble not_opened;
 
 void note(const std::string& path, int code) {

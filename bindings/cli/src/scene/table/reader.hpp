@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Strict reading of one TOML table by its rows (keys.hpp): every key is known and has the type and range of its row,
-// and the rules of the table hold, or the error states where and what is allowed.
+// Reads one TOML table strictly by its rows (keys.hpp): every key must be known and have the type and range of its row,
+// and the rules of the table must hold. An error says where the fault is and what is allowed.
 #pragma once
 
 #include <cstdint>

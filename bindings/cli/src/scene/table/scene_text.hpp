@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// TOML text, measured before toml++ reads it: toml++ calls itself once for each level of a key or a list when it
-// copies, prints or removes a tree, so that a text of 60,000 levels would end the stack.
+// Measures the depth of a TOML text before toml++ reads it. toml++ calls itself once for each level of a key or a list
+// when it copies, prints or removes a tree: a text of 60,000 levels would exhaust the stack.
 #pragma once
 
 #include <cstdint>
