@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # find_package(delam [COMPONENTS cpp fortran static petsc]): delam::delam, and delam::cpp, delam::fortran and
-# delam::delam_static where they are installed. delam::delam_petsc is there, and find_package searches MPI, only where the
-# component petsc is asked for.
+# delam::delam_static where they are installed. delam::delam_petsc is there, and find_package searches MPI, only where
+# the component petsc is asked for.
 include("${CMAKE_CURRENT_LIST_DIR}/delam-targets.cmake")
 set(delam_known "cpp, fortran, static and petsc")
 foreach(part cpp fortran static petsc)
