@@ -73,7 +73,7 @@ public:
     std::int32_t body_label(std::int32_t body) const { return labels_[static_cast<std::size_t>(body)]; }
     // Index of the body with a label; -1 when there is none.
     std::int32_t body_of_label(std::int32_t label) const;
-    // Does a body have no cells?
+    // True if the body has no cells.
     bool host_body(std::int32_t body) const;
     // Body index of a node, -1 for a node of none.
     std::int32_t node_body(std::int64_t node) const;

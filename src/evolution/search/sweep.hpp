@@ -80,7 +80,7 @@ private:
     std::vector<std::int64_t> pairs_within(std::size_t n) const;
     // True if a crack with this energy, and each smaller one, lies too high.
     bool not_promising(double energy) const;
-    // Says a larger crack, of this sweep or another one, that one of n rings is not promising?
+    // True if a larger crack, of this sweep or another one, shows that one of n rings is not promising.
     bool settled_by_a_larger_one(std::size_t n) const;
     // Keeps what the sample says about smaller cracks.
     void bound_smaller_cracks(std::size_t n);

@@ -138,9 +138,9 @@ void Condensed::choose(const Springs& springs, std::span<const std::uint8_t> wan
     condense();
 }
 
-// Do bodies float unless these unknowns are held, at these springs? Where nothing but contact holds them, held rows
-// that enter the zone one by one find their motions with more digits: 16 plies lifted off each other did not settle in
-// one zone.
+// True if bodies float at these springs unless these unknowns are held. Where only contact holds them, held rows that
+// enter the zone one by one find their motions with more digits: 16 plies lifted off each other did not settle in one
+// zone.
 bool Condensed::floats_unless_held(std::span<const std::uint8_t> unknowns, std::span<const double> springs) const {
     const DenseMatrix& rigid = bulk_->rigid();
     if (rigid.columns == 0) return false;

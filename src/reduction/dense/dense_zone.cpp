@@ -277,7 +277,7 @@ bool DenseZone::factor_motions() {
     return factor_definite(motion_factor_);
 }
 
-// Does no free motion carry a part of this load?
+// True if no free motion carries a part of this load.
 bool DenseZone::balances(std::span<const double> load) const {
     for (std::int64_t c = 0; rigid_.columns > 0 && c < motions_.free.columns; ++c) {
         double total = 0.0, size = 0.0, motion = 0.0, pull_size = 0.0;

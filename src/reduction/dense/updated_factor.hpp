@@ -32,7 +32,7 @@ struct BoundUnknowns {
     std::span<const std::int64_t> free, bound;
     const DenseMatrix& binding;  // M
 
-    // Does this free unknown, by its number among them, determine a bound one?
+    // True if this free unknown, by its number among them, determines a bound one.
     bool binds(std::size_t i) const;
     // All unknowns of the rows that bind.
     std::size_t touched() const;
