@@ -21,7 +21,7 @@ constexpr const char* left_out = "left out";
 // Operations of Go and Gc at a mixity: two interaction criteria, each a few exponentials and logarithms of about 20.
 constexpr double mixity_operations = 200.0;
 
-// What the items are made from.
+// The data from which the items are made.
 struct Basis {
     const Problem& problem;
     const ReductionChoice& choice;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a scene needs and what was left out, as data: each item with its reason, its cost and what the decision saves.
+// The decisions that an analysis takes for a scene, as data: each item with its reason, its cost and its saving.
 #pragma once
 
 #include <string>
@@ -22,7 +22,7 @@ struct PlanItem {
 class Solver;
 std::vector<PlanItem> plan_of(const Solver& solver);
 
-// Of an analysis that has not begun.
+// The plan of an analysis that has not begun.
 struct Forecast {
     std::vector<PlanItem> plan;
     double setup = 0.0;   // s, nominal, of the factorisations before the first step

@@ -25,7 +25,7 @@ constexpr std::uint64_t magic = 0x31305453'4d4c4544;  // "DELMST01" in memory on
 // 11: energies of candidates for the next search.
 constexpr std::uint32_t version = 11, oldest = 5;
 constexpr std::int64_t most_steps = std::int64_t{1} << 53;
-// Of a larger file, hash and checksum are compared piece by piece, before there is memory for all of it.
+// Hash and checksum of a larger file are compared piece by piece, before memory is taken for all of it.
 constexpr std::uint64_t largest_unchecked = std::uint64_t{1} << 20;
 
 void forget_zones(State& state) {
@@ -147,7 +147,7 @@ void check(const Record& record, const State& state) {
                  "' from step ", record.first(), " on, but its state is of step ", state.step);
 }
 
-// Of bytes that begin as those of this library do, in any version that it reads.
+// Reads the head of bytes that begin as those of this library do, in any version that it reads.
 std::uint32_t read_head(Reader& r) {
     std::uint64_t found_magic = 0;
     std::uint32_t found_version = 0;

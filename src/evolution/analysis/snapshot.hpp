@@ -16,7 +16,7 @@ std::vector<std::uint8_t> save(const Solver& solver);
 // Throws Error(DELAM_ERROR_SNAPSHOT) for bytes that are damaged, of another version or of another scene; the solver is
 // then unchanged.
 void load(Solver& solver, std::span<const std::uint8_t> bytes);
-// The same from a file. Looks at its first bytes before it takes memory for the others.
+// The same from a file. Checks its first bytes before it takes memory for the others.
 void load_file(Solver& solver, const std::string& path);
 
 }  // namespace delam

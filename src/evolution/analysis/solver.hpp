@@ -18,7 +18,7 @@
 
 namespace delam {
 
-// How a step ended; text is empty for DELAM_OK.
+// Status with which a step ended; text is empty for DELAM_OK.
 struct Outcome {
     std::int32_t status = 0;
     std::string text;
@@ -40,7 +40,7 @@ public:
     void set_history(std::int64_t pattern, std::span<const double> times, std::span<const double> values);
     // Patterns whose history was changed, with their present histories.
     std::vector<std::int64_t> changed_histories() const;
-    // From the committed state on, commit() records this value for every step.
+    // Makes commit() record this value for every step, beginning with the committed state.
     void record(const std::string& key);
     const Record& recorded() const { return record_; }
     // Hash of the scene at the solver's creation.
@@ -77,14 +77,14 @@ public:
     std::vector<double> step_tangent();
     // From the initial state on, follows the derivatives by a number of the laws of these interfaces; its index.
     std::int64_t follow(std::span<const std::int64_t> interfaces, const std::string& key);
-    // Of state(): dE/dtheta by the parameters that are followed, [patterns][parameters].
+    // Returns dE/dtheta of state() by the parameters that are followed, [patterns][parameters].
     std::vector<double> sensitivities() const;
     std::int64_t followed() const { return static_cast<std::int64_t>(followed_.size()); }
     const JumpOperator& jump_operator() const { return stepper_.op(); }
     // The bodies condensed onto the jumps; null: they are not.
     const Bulk* condensed() const { return stepper_.design().condensed; }
     const ReductionChoice& reduction() const { return stepper_.reduction(); }
-    // What the search of the pending step compared, or of the committed one if none is pending; empty: no search.
+    // A text about the search of the pending step, or of the committed one if none is pending; empty: no search.
     const std::string& searched() const { return pending_ ? pending_->searched : searched_; }
 
 private:
