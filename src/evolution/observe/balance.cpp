@@ -43,7 +43,7 @@ double largest_reaction(const JumpOperator& op, const State& state, double force
     return std::max(force_floor, max_abs(op.reaction(state.theta, state.response)));
 }
 
-// Parts that have come off move without strain, energy or reaction; everything there is rightly rounding. Otherwise the
+// Parts that have come off move without strain, energy or reaction, so that everything there is rounding. Otherwise the
 // forces are compared with reactions, and their work with the energies, and the smaller ratio counts.
 double out_of_balance(const Problem& problem, const JumpOperator& op, const State& state, double force_floor) {
     const Ledger& ledger = state.ledger;

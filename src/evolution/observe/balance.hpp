@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Checks whether a state is in equilibrium. Rounding can destroy all digits of a stiffness that is a small difference
-// of large ones (plies thousands of times longer than thick), and neither minimisation nor its tolerances would notice.
+// of large ones (plies thousands of times longer than thick). Minimisation and its tolerances would not notice.
 #pragma once
 
 #include "evolution/increment/state.hpp"

@@ -38,7 +38,7 @@ struct FrontPoint {
     double mixity() const { return total() > 0.0 ? (rate[1] + rate[2]) / total() : 0.0; }
 };
 
-// In 2D one point.
+// A front; in 2D it has one point.
 struct CrackFront {
     bool closed = false;  // a loop: its last point is connected to the first
     std::vector<FrontPoint> points;
@@ -56,11 +56,11 @@ struct CrackedInterface {
 
 // The adhesion at a front.
 inline constexpr double front_adhesion = 0.5;
-// Whether a pair lies in the process zone: it has lost a thousandth of its adhesion, and a thousandth of its toughness
+// True if a pair lies in the process zone: it has lost a thousandth of its adhesion, and a thousandth of its toughness
 // is left to dissipate. The adhesion alone does not show where the zone ends: beyond the onset it is below (onset
 // jump)/(jump), which is small throughout the zone of a stiff interface.
 bool in_process_zone(const CrackedInterface& interface, std::int64_t pair);
-// Whether it lies behind the zone: all but a thousandth of the toughness is dissipated, or it never adhered.
+// True if the pair lies behind the zone: all but a thousandth of the toughness is dissipated, or it never adhered.
 bool exhausted(const CrackedInterface& interface, std::int64_t pair);
 // Weight of these pairs, L or L2.
 double process_zone(const CrackedInterface& interface);
@@ -68,7 +68,7 @@ double process_zone(const CrackedInterface& interface);
 inline bool undamaged(double initial, double adhesion) { return initial > 0.0 && adhesion >= initial; }
 
 std::vector<CrackFront> crack_fronts(const CrackedInterface& interface);
-// For interfaces in 2D and in 3D.
+// Find the fronts of interfaces in 2D and in 3D.
 std::vector<CrackFront> crack_fronts_on_lines(const CrackedInterface& interface);
 std::vector<CrackFront> crack_fronts_on_faces(const CrackedInterface& interface);
 

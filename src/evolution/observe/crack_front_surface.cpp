@@ -69,8 +69,8 @@ private:
 
     std::size_t crossing(std::int64_t p, std::int64_t q) {
         const auto key = std::minmax(p, q);
-        const auto [entry, fresh] = number_.try_emplace(std::pair{key.first, key.second}, crossings.size());
-        if (fresh) {
+        const auto [entry, inserted] = number_.try_emplace(std::pair{key.first, key.second}, crossings.size());
+        if (inserted) {
             const Vector3 x = place_of(interface_, p), y = place_of(interface_, q);
             const double share = (front_adhesion - adhesion(p)) / (adhesion(q) - adhesion(p));
             Crossing made;

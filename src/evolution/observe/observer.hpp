@@ -19,7 +19,7 @@ class EngineOperator;
 
 class Observer {
 public:
-    // What is read must outlive the observer. in_engine: the operator, if an engine of the host has the bodies.
+    // The arguments must outlive the observer.
     Observer(const Problem& problem, const JumpOperator& op, const PairLaws& pairs, const ContactScene& contact,
              const std::vector<double>& initial_adhesion, const EngineOperator* in_engine)
         : problem_(problem),
@@ -54,11 +54,12 @@ public:
     std::vector<double> reaction() const { return op_.reaction(state().theta, state().response); }
     // Out-of-balance force over the largest reaction.
     double equilibrium_defect(const State& state) const;
-    // At the centres of the cells (centre_stress); NaN for bodies with a stiffness of the host and no material.
+    // Returns the stress at the centres of the cells (centre_stress); NaN for bodies with a stiffness of the host and
+    // no material.
     std::vector<double> stress();
     // e* of the bodies, in material axes; empty if there are none.
     std::vector<Strain> eigenstrains() const;
-    // Of a body (index), -1: of all; recovers the displacements.
+    // Returns the average over a body (index), -1: over all; recovers the displacements.
     VolumeAverage average(std::int32_t body);
     // Returns the largest rotation of a cell, rad; NaN without cells. Recovers the displacements.
     double largest_rotation(const State& state);
@@ -70,7 +71,7 @@ public:
 
 private:
     bool known(std::int32_t body) const { return problem_.material[static_cast<std::size_t>(body)].has_value(); }
-    // For each body; undefined where the material is unknown.
+    // Returns the model of each body; undefined where the material is unknown.
     std::vector<BodyModel> models() const;
 
     const Problem& problem_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every state must be before a call returns it, whatever has computed it: finite, and held by its supports.
+// Checks every state before a call returns it, whatever has computed it: it must be finite, and held by its supports.
 #pragma once
 
 #include "evolution/increment/state.hpp"

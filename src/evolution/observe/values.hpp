@@ -10,13 +10,13 @@
 
 namespace delam {
 
-// What it takes to read a value.
+// Work that a value needs.
 enum class ValueCost {
     free,     // the state or the solver holds the number
     reads,    // goes over the pairs or the crack fronts of the state
     recovers  // recovers the displacements of the state: a sparse solve
 };
-// What a value belongs to.
+// The kind of thing that a value belongs to.
 enum class ValueScope {
     whole,      // the whole scene
     interface,  // all interfaces with a law together; KEY:I is that of interface I
@@ -46,7 +46,7 @@ std::string value_key(const std::string& key);
 // Why a value is not recorded, in words; nullptr where it can be.
 const char* why_unrecorded(const std::string& key);
 
-// The value of which a large one is told (warnings.hpp).
+// The value that warnings.hpp reports if it is large.
 inline constexpr const char* rotation_key = "rotation_max";
 
 struct KeyedValue {
@@ -59,7 +59,7 @@ std::optional<KeyedValue> not_finite(const Ledger& ledger);
 // Values of a state of the analysis, which need not be the one that is shown. Throws Error(DELAM_ERROR_ARGUMENT) for an
 // unknown key.
 std::vector<double> values_of(Observer& observer, const State& state, const std::vector<std::string>& keys);
-// Of the state that is shown.
+// Returns a value of the state that is shown.
 double value(Observer& observer, const std::string& key);
 
 }  // namespace delam

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What an analysis tells the host's log about its steps, each kind once.
+// Warns in the host's log about the steps of an analysis, once for each kind of warning.
 #pragma once
 
 #include <string>
