@@ -178,7 +178,7 @@ START_TEST(the_ledger_is_the_sum_over_pairs) {
             next.response.jump = c->jump;
             next.adhesion = rule.damage_step(c->before.adhesion, c->jump);
             rule.record(next);
-            rule.book(next);
+            rule.record_ledger(next);
             double stored = 0.0, dissipated = 3.0, linear = 5.0;
             for (std::size_t p = 0; p < pair_count; ++p) {
                 const Toughness t = c->law.toughness(next.mixity[p]);

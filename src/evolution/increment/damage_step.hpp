@@ -22,7 +22,7 @@ struct PairLaws {
     std::vector<double> weight;  // L (2D) or L2 (3D)
     // Toughness of pairs whose mixity is not computed because their law does not depend on it; empty: all are computed.
     std::vector<std::optional<Toughness>> fixed;
-    // Of interfaces whose law has kappa > 0; empty: the damage step is pointwise everywhere.
+    // Gradient terms of interfaces whose law has kappa > 0; empty: the damage step is pointwise everywhere.
     std::vector<std::shared_ptr<const GradientTerm>> gradient;
 
     bool mixed(std::size_t pair) const { return law[pair] != nullptr && (fixed.empty() || !fixed[pair]); }
@@ -38,7 +38,7 @@ double largest_driving(const PairLaws& pairs, std::span<const double> jump);
 // B of every pair, [pairs]. A pair whose jump is rounding (below 1e-10 of the onset's or of the largest one) keeps its
 // `known` B, and so does one whose mixity is not computed.
 std::vector<double> mixities(const PairLaws& pairs, std::span<const double> jump, std::span<const double> known);
-// Whether any pair has a jump larger than the rounding of its onset.
+// True if any pair has a jump larger than the rounding of its onset.
 bool any_jump(const PairLaws& pairs, std::span<const double> jump);
 // s = weight k zeta of every row, [rows].
 std::vector<double> spring_stiffness(const PairLaws& pairs, std::span<const double> adhesion);

@@ -26,7 +26,7 @@ namespace delam {
 // [pairs].
 SparseMatrix surface_stiffness(const Mesh& mesh, const InterfaceGeometry& interface, std::span<const double> adhesion);
 
-// Of one interface; all arrays are over its own pairs.
+// The gradient term of one interface; all arrays are over its own pairs.
 class GradientTerm {
 public:
     // stiffness: A. weight: [pairs]. first: index of the interface's first pair among all. kappa > 0, F L.
@@ -36,7 +36,7 @@ public:
     std::size_t first() const { return first_; }
     std::size_t pairs() const { return weight_.size(); }
     std::span<const double> weight() const { return weight_; }
-    // Whether an included face touches the pair. All other pairs obey the pointwise law.
+    // True if an included face touches the pair. All other pairs obey the pointwise law.
     bool coupled(std::size_t pair) const { return diagonal_[pair] > 0.0; }
     std::int64_t coupled_pairs() const;
     double diagonal(std::size_t pair) const { return diagonal_[pair]; }  // kappa A_ii

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What one load step minimises: over adhesions 0 <= zeta <= zeta_before and admissible displacements u,
+// The minimisation of one load step: over adhesions 0 <= zeta <= zeta_before and admissible displacements u,
 //
 //   I(zeta, u) = E(t, u, zeta) + D(zeta_before, zeta)
 //
 // (Zeman, Kruzik, Gruber, PANM 15 (2010), "Incremental minimization"). The toughness depends on the mode mixity B of
-// each pair, and the three rules of rule/mixity_rule.hpp differ in whose B a step uses. An increment knows the state
-// before the step and the laws of the pairs. It answers for the interfaces: their energy, the damage step, the response
-// of one pair. StepMixities follows the mixities of a minimisation, StepAccount knows what a step costs.
+// each pair, and the three rules of mixity_rule.hpp differ in whose B a step uses. An increment knows the state before
+// the step, the laws of the pairs and the rule. It computes the part of the interfaces: their energy, the damage step,
+// the response of one pair, the numbers that a search of candidates needs, and the entries of the step in the ledger.
+// It also follows one minimisation: observe() takes the mixities of the iterates and tells whether the toughness in use
+// has settled.
 #pragma once
 
 #include <array>
@@ -66,7 +68,7 @@ public:
     // Is the energy at fixed adhesion quadratic in the displacements?
     virtual bool quadratic() const = 0;
     // ---- one pair ------------------------------------------------------------------------------------------------
-    // Does the pair damage, or would it if its driving energy were larger by 1/nearly?
+    // True if the pair damages, or would damage if its driving energy were larger by 1/nearly.
     virtual bool damages(std::size_t pair, double adhesion, std::span<const double> local_jump,
                          double nearly) const = 0;
     virtual PairMinimum minimum(std::size_t pair, std::span<const double> local_jump) const = 0;
@@ -75,7 +77,7 @@ public:
                             double fraction) const = 0;
     // The part of its toughness that the pair has not yet dissipated.
     virtual double left(std::size_t pair, double adhesion) const = 0;
-    // What the pair has dissipated since the state before, at the toughness in use, per unit area.
+    // Energy that the pair has dissipated since the state before, at the toughness in use, per unit area.
     virtual double dissipated(std::size_t pair, double adhesion) const = 0;
     // Change of the pair's traction at a jump as its adhesion goes from one value to another, relative to its peak
     // traction: |to - from| sqrt(Y/Go), or |to - from| below the onset. A softening pair of a stiff interface has

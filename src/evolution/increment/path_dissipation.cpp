@@ -13,7 +13,7 @@ namespace {
 
 constexpr int parts = 16;
 constexpr int mixity_halvings = 40;  // of an interval of mixities
-// Of the steps before and after a state: beyond this ratio a parabola through three states says nothing.
+// Largest ratio of the steps before and after a state; beyond it, a parabola through three states says nothing.
 constexpr double comparable = 20.0;
 
 // The jump between two states: j(s) = from + s before + s (s + ratio) bend, j(0) = from, j(1) = to, j(-ratio) = last.
@@ -75,7 +75,7 @@ PathEnergy integrate(const PairLaws& pairs, std::size_t pair, const PairPath& pa
     return sum;
 }
 
-// At the mixities of the two states alone.
+// Returns the dissipated energy by the mixities of the two states alone.
 double of_the_ends(const PairLaws& pairs, std::size_t pair, const PairPath& path, double mixity) {
     const Law& law = *pairs.law[pair];
     double sum = 0.0;

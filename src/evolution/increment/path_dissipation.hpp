@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a pair dissipates on the way from one state of a path to the next. With a toughness that depends on the mode
-// this is the integral of its threshold along the path, int h(B, zeta) (-dzeta) with h = -dg/dzeta, and no function of
-// the two states: a pair that slides first and opens later dissipates more than one that does the reverse.
+// Computes the energy that a pair dissipates between two states of a path. If the toughness depends on the mode, this
+// is the integral of its threshold along the path, int h(B, zeta) (-dzeta) with h = -dg/dzeta, and no function of the
+// two states: a pair that slides first and opens later dissipates more than one that does the reverse.
 //
 // The jump of the pair is interpolated: by the parabola through its values in the last three states, and otherwise by a
 // straight line. Along it the pair follows its law, zeta = argmin of zeta Y + g(B, zeta), down to the adhesion that it
@@ -16,7 +16,7 @@
 
 namespace delam {
 
-// Of one pair, F/L.
+// Energies of one pair, F/L.
 struct PathEnergy {
     double dissipated = 0.0;
     double linear = 0.0;  // in the split of PANM 15 (2010): int Gc(B) (-dzeta)

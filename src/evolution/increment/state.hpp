@@ -11,7 +11,7 @@
 
 namespace delam {
 
-// Energies, F L (2D: F). Both parts of the booked split are >= 0; that of PANM 15 (2010), whose dissipation is linear
+// Energies, F L (2D: F). Both parts of the recorded split are >= 0; that of PANM 15 (2010), whose dissipation is linear
 // in the damage, is reported in addition (`_linear`).
 struct Ledger {
     double stored_bulk = 0.0;
@@ -34,24 +34,24 @@ struct Ledger {
     // steps, shifts them.
     double initial = 0.0;
     double initial_linear = 0.0;
-    // Of the step: estimated error of what it has dissipated, relative to it.
+    // Estimated error of the energy that the step has dissipated, relative to that energy.
     double mixity_error = 0.0;
 
     double energy_linear() const { return stored_bulk + stored_interface_linear + load_potential; }
-    // What does not close, in either split.
+    // Defect of the energy balance, in either split.
     double defect() const { return energy() - initial + dissipated + released - work; }
     double defect_linear() const { return energy_linear() - initial_linear + dissipated_linear + released - work; }
     double energy() const { return stored_bulk + stored_interface + load_potential; }
-    // Of what differences of energies are small.
+    // Scale with which differences of energies are compared.
     double scale() const { return std::max(std::abs(energy()), std::abs(work)); }
-    // Whether this increment of the same step is lower than the ledger's by more than rounding.
+    // True if this increment of the same step is lower than the ledger's by more than rounding.
     bool undercut_by(double other) const {
         constexpr double equivalence = 1e-10;  // of the scale
         return other < increment - equivalence * scale();
     }
 };
 
-// What a step cost; the effort of several minimisations adds up.
+// Cost of a step; the effort of several minimisations adds up.
 struct Effort {
     std::int64_t am_iterations = 0;  // alternations of the staggered scheme
     std::int64_t displacement_solves = 0;
@@ -91,21 +91,22 @@ struct JumpWithin {
     std::vector<double> conjugate_before, conjugate_after;  // [patterns] dE/dtheta at this load
 };
 
-// How the step ended.
+// Outcome of a step.
 struct StepOutcome {
-    double damage_change = 0.0;    // what a further damage step would change of an adhesion
+    double damage_change = 0.0;    // change that a further damage step would make to an adhesion
     std::int64_t mixity_held = 0;  // pairs whose mixity would not settle and was held
-    double search_margin = 0.0;    // lowest candidate minus the state kept, F L
+    // Energy of the state kept minus the bound of the candidates left out, F L; 0: none of them can be lower.
+    double search_margin = 0.0;
     // State kept minus what bounds the candidates left out, F L; 0: nothing left out can be lower.
     double search_gap = 0.0;
     std::int64_t jumps = 0;  // instants of this step at which the state jumps
     double released = 0.0;   // energy that the step sets free and nothing stores or dissipates, F L
 };
 
-// How the step came about.
+// The way in which the step was computed.
 struct StepHistory {
-    std::int64_t backtracks = 0;     // returns to an earlier step
-    std::int64_t revisions = 0;      // how often this step was computed anew after a return
+    std::int64_t backtracks = 0;     // number of times that this step was computed anew after a return
+    std::int64_t revisions = 0;      // number of times that this step was computed anew after a return
     std::int64_t revised_from = 0;   // first step that these returns replaced
     std::int64_t substeps = 1;       // steps that this one was cut into
     std::int64_t refused_steps = 0;  // that were too long and not kept

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What of a state is saved: a row for each member, in the order of the bytes, in the group of the version of the format
-// that it came with (snapshot.cpp). A further member is a further row at the end, in a group of a further version. A
-// state is refused where an array has not the size of the solver's own or a number is not finite, unless its row allows
-// it.
+// The saved members of a state. There is a row for each member, in the order of the bytes, in the group of the version
+// of the format that introduced it (snapshot.cpp). To save another member, add a row at the end, in the group of a new
+// version. A state is refused if an array differs in size from the solver's own or a number is not finite, unless the
+// row allows it.
 #pragma once
 
 #include <tuple>

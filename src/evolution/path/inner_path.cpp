@@ -59,7 +59,7 @@ PathPoint path_point(const PairLaws& pairs, const PairGraph& graph, const State&
     return point;
 }
 
-void InnerPath::book(const State& at, const State& next) {
+void InnerPath::record(const State& at, const State& next) {
     const auto dim = static_cast<std::size_t>(pairs_.dimension);
     const auto local = [dim](const std::vector<double>& jump, std::size_t pair) {
         return jump.empty() ? std::span<const double>() : std::span<const double>(jump).subspan(pair * dim, dim);
@@ -70,7 +70,7 @@ void InnerPath::book(const State& at, const State& next) {
                                          {local(last_, p), local(at.response.jump, p), local(next.response.jump, p),
                                           at.adhesion[p], next.adhesion[p]},
                                          next.mixity[p]);
-        dissipated_.booked += pairs_.weight[p] * e.dissipated;
+        dissipated_.recorded += pairs_.weight[p] * e.dissipated;
         dissipated_.linear += pairs_.weight[p] * e.linear;
         dissipated_.error += pairs_.weight[p] * e.error;
     }
@@ -145,8 +145,8 @@ bool InnerPath::follow(State& next, const StepRule& step, const Dissipation* beg
     std::int64_t held = 0;
     bool converged = part(at, next, displaced);
     while (true) {
-        book(at, next);
-        points_.push_back(path_point(pairs_, graph_, next, dissipated_.booked));
+        record(at, next);
+        points_.push_back(path_point(pairs_, graph_, next, dissipated_.recorded));
         held = std::max(held, next.outcome.mixity_held);
         if ((watch && !watch(next, dissipated_)) || !stopped_) break;
         last_ = std::move(at.response.jump);

@@ -43,9 +43,9 @@ public:
     // mixities. displaced: the displacements of `next` are those of its adhesion. False: a part did not converge.
     bool follow(State& next, const StepRule& step, const Dissipation* begun = nullptr, const Watch& watch = {},
                 bool displaced = false);
-    // Do all pairs that are damaged in part, or nearly loaded to their onset, have the same toughness at these
-    // mixities? before: and those that were damaged since then, at the mixities that they show now, too. Without such
-    // pairs: yes.
+    // True if all pairs that are damaged in part, or nearly loaded to their onset, have the same toughness at these
+    // mixities, or if there are no such pairs. before: pairs that were damaged since then count, too, at the mixities
+    // that they show now.
     bool one_mode(const State& at, std::span<const double> mixity, const State* before) const;
     // Minimises in one part, without the bound of a part.
     bool minimise(State& next, StepRule& increment, bool displaced) const {
@@ -53,7 +53,7 @@ public:
     }
     // The energy that the step has dissipated in all parts, including that of its start, F L.
     const Dissipation& dissipated() const { return dissipated_; }
-    // Did the path begin at a state that is not the one before the step?
+    // True if the path began at a state that is not the one before the step.
     bool started_elsewhere() const { return started_elsewhere_; }
     // The states reached by the parts, without the state before the step.
     const std::vector<PathPoint>& points() const { return points_; }
@@ -61,7 +61,7 @@ public:
 private:
     double bound(const State& at, std::span<const double> mixity) const;
     bool part(const State& at, State& next, bool displaced);
-    void book(const State& at, const State& next);
+    void record(const State& at, const State& next);
 
     const PairLaws& pairs_;
     const PairGraph& graph_;

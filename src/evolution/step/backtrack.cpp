@@ -18,7 +18,7 @@ Stepper::Result backtracked_step(Stepper& stepper, Chain& chain, std::int64_t la
     std::int64_t i = k, returns = 0, revised_from = k;
     bool returning = true, same_before = false;
     Effort effort;                          // of everything computed that is not kept as step k
-    std::map<std::int64_t, bool> settled;   // whether the replaced steps converged
+    std::map<std::int64_t, bool> settled;   // true for a replaced step that converged
     std::optional<Stepper::Start> carried;  // the state whose lower bound has failed
     while (true) {
         std::vector<Stepper::Start> starts;

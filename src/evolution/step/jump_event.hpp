@@ -23,10 +23,10 @@ struct JumpEvent {
     std::vector<double> conjugate_before, conjugate_after;  // [patterns] dE/dtheta
 };
 
-// What happened between two states.
+// Describes the jump between two states.
 JumpEvent describe_jump(const PairLaws& pairs, const PairGraph& graph, const State& before, const State& after);
-// Does a step jump: does it release energy worth mentioning, or lose load, as a front moves by more than one row of
-// pairs?
+// True if the state jumps in a step: the step releases energy worth mentioning, or loses load, as a front moves by more
+// than one row of pairs.
 bool jumps(const PairLaws& pairs, const PairGraph& graph, const State& before, const State& after);
 
 }  // namespace delam

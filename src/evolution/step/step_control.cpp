@@ -88,7 +88,7 @@ private:
     void accept_parent();
     void accept_goal();
     void accept(Goal goal);
-    void book_jump(State& next) const;
+    void record_jump(State& next) const;
     ControlledStep close();
 };
 
@@ -148,7 +148,7 @@ void Parts::accept_goal() {
     Goal done = std::move(goals_.back());
     goals_.pop_back();
     if (jumps(done)) {
-        book_jump(done.reached->state);
+        record_jump(done.reached->state);
         jumps_.push_back(describe_jump(stepper_.pairs(), graph_, at_, done.reached->state));
         jumps_.back().step = step_;
     }
@@ -156,7 +156,7 @@ void Parts::accept_goal() {
 }
 
 // The jump has been located: the load moves first, at the state before, and then the state jumps.
-void Parts::book_jump(State& next) const {
+void Parts::record_jump(State& next) const {
     Ledger& ledger = next.ledger;
     next.jump_within = {};  // bisection tells the instant
     next.outcome.released = std::max(0.0, ledger.upper - ledger.increment);
@@ -185,7 +185,7 @@ void Parts::accept(Goal goal) {
     outcome_.released += next.outcome.released;
     at_ = std::move(next);
     --at_.step;  // the parts of a step share its number
-    // What was computed from the start of this part is invalid from its end.
+    // Goals that were reached from the start of this part are invalid from its end.
     for (Goal& other : goals_) {
         if (!other.reached) continue;
         other.reached.reset();

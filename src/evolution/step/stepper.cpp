@@ -18,20 +18,21 @@ namespace delam {
 namespace {
 
 constexpr std::size_t most_starts = 2;  // candidates of a search from which a step is minimised
-// What `promising` is for relaxing a candidate, for following the way to it, whose dissipated energy the candidate only
-// estimates.
+// Limit for following the path to a candidate, as `promising` is for minimising from it; the candidate only estimates
+// the energy that the path dissipates.
 constexpr double promising_way = 0.05;
-// Of the toughness: what a pair may lose in a step that damages gradually.
+// Share of its toughness that a pair may lose in a step that damages gradually.
 constexpr double gradual = 0.1;
-// Squares of the larger loads at which fronts are followed ahead (scout).
+// Squares of the load ratios at which fronts are continued (continue_fronts).
 constexpr double least_overload = 1.02, overload_growth = 1.04, most_overload = 4.0;
-// Of what is dissipated down to a candidate: how much farther fronts are followed.
+// Extent to which fronts are continued, relative to the energy dissipated down to a candidate.
 constexpr double beyond = 1.2;
-// The way is given up where it lies higher than this above the step, of what is dissipated on it, after a part of it.
+// A continuation is given up if its energy lies by more than the fraction `too_high` of its dissipated energy above the
+// step, once it has dissipated the fraction `first_part` of its extent.
 constexpr double too_high = 0.25, first_part = 0.1;
 constexpr double same = 1e-3;  // spread of toughnesses, relative
 
-// Do all pairs that a candidate debonds have the same toughness?
+// True if all pairs that a candidate debonds have the same toughness.
 bool same_toughness(const PairLaws& pairs, const Candidate& candidate, std::span<const double> from) {
     double least = std::numeric_limits<double>::infinity(), most = 0.0;
     for (std::size_t p = 0; p < from.size(); ++p) {
@@ -43,7 +44,7 @@ bool same_toughness(const PairLaws& pairs, const Candidate& candidate, std::span
     return most <= (1.0 + same) * least;
 }
 
-// Does a candidate debond no more pairs than soften already? The step itself has compared such states.
+// True if a candidate debonds no more pairs than soften already. The step itself has compared such states.
 bool within_zone(std::span<const double> candidate, std::span<const double> from) {
     std::int64_t debonded = 0, softening = 0;
     for (std::size_t p = 0; p < from.size(); ++p) {
@@ -139,7 +140,7 @@ Stepper::Result Stepper::initial(double time) {
     state.mixity = mixities(pairs_, state.response.jump, state.mixity);
     state.mixity_before = state.mixity;
     state.loaded = any_jump(pairs_, state.response.jump) ? 1 : 0;
-    book_energies(pairs_, state);
+    record_energies(pairs_, state);
     state.ledger.initial = state.ledger.energy();
     state.ledger.initial_linear = state.ledger.energy_linear();
     state.memory = operator_->memory();
@@ -165,10 +166,10 @@ double Stepper::largest_loss(const StepRule& step, const State& next) const {
     return largest;
 }
 
-// The work of the reactions by the trapezoidal rule, which is exact where nothing is damaged. What is neither stored
-// nor dissipated of it in a step that damages a pair abruptly is released, into a motion that a quasi-static model does
-// not have. A step that was followed in parts knows when they happen, and books what the load does between them
-// (within_step.hpp).
+// The work of the reactions by the trapezoidal rule, which is exact where nothing is damaged. In a step that damages a
+// pair abruptly, the part of the work that is neither stored nor dissipated is released, into a motion that a
+// quasi-static model does not have. A step that was followed in parts knows when they happen, and records the work of
+// the load between them (within_step.hpp).
 void Stepper::book_step(State& next, const StepRule& step, const InnerPath* path) const {
     step.book(next, path != nullptr ? &path->dissipated() : nullptr);
     const State& before = step.before();
@@ -225,7 +226,7 @@ bool Stepper::minimise(State& next, const StepRule& step, const Dissipation* beg
                                            : path.minimise(next, *step.starting_at(next.mixity), displaced);
     refuse_runaway(next, step);
     next.loaded = step.before().loaded != 0 || any_jump(pairs_, next.response.jump) ? 1 : 0;
-    book_step(next, step, step.in_parts() ? &path : nullptr);
+    record_step(next, step, step.in_parts() ? &path : nullptr);
     next.memory = operator_->memory();
     return converged;
 }
@@ -257,8 +258,8 @@ double Stepper::lower_excess(const State& state) const {
     return scale > 0.0 ? (state.ledger.lower - state.ledger.increment) / scale : 0.0;
 }
 
-// At its adhesion, and with its contact set, the state before answers loads in proportion with displacements in
-// proportion: the bodies, springs and frictionless contact without a gap have no other length.
+// The state before answers loads in proportion with displacements in proportion, at its adhesion and with its contact
+// set: the bodies, springs and frictionless contact without a gap have no other length.
 bool Stepper::displaced_in_proportion(State& next, const State& before) const {
     const std::optional<double> a = load_ratio(before.theta, next.theta);
     if (!a || !operator_->traits().proportional || before.response.jump.empty() ||
@@ -272,7 +273,7 @@ bool Stepper::displaced_in_proportion(State& next, const State& before) const {
     return true;
 }
 
-// Before the first load there is no jump that gives a mixity; the elastic solution of the step itself gives it.
+// No jump gives a mixity before the first load; the elastic solution of the step itself gives it.
 bool Stepper::start(State& next, const State& before, double time) {
     next = before;
     begin(next, before, time);
@@ -344,7 +345,7 @@ Stepper::Scouted Stepper::scout(Result& best, const StepRule& step, double exten
     const Ledger &now = from.ledger, &then = step.before().ledger;
     const Dissipation own{now.dissipated - then.dissipated, now.dissipated_linear - then.dissipated_linear,
                           now.mixity_error * (now.dissipated - then.dissipated)};
-    Scouted found;
+    Continuation found;
     State at = from;
     Dissipation reached = own;
     for (double square = least_overload; square < most_overload && found.farthest < extent && !found.given_up;
@@ -358,14 +359,14 @@ Stepper::Scouted Stepper::scout(Result& best, const StepRule& step, double exten
                     const double gradient = gradient_energy(pairs_, state.adhesion);
                     const double energy = state.response.stored_bulk + state.response.load_potential +
                                           stored_energy(pairs_, state.adhesion, state.response.jump) - gradient;
-                    const double incremental = energy / square + gradient - then.energy() + dissipated.booked;
+                    const double incremental = energy / square + gradient - then.energy() + dissipated.recorded;
                     ++found.compared;
                     if (incremental < found.incremental) {
                         found.incremental = incremental;
                         found.state = state;
                         found.dissipated = dissipated;
                     }
-                    found.farthest = dissipated.booked - own.booked;
+                    found.farthest = dissipated.recorded - own.recorded;
                     found.given_up =
                         found.farthest > first_part * extent && incremental > now.increment + too_high * found.farthest;
                     return found.farthest < extent && !found.given_up;
@@ -382,28 +383,28 @@ Stepper::Scouted Stepper::scout(Result& best, const StepRule& step, double exten
     return found;
 }
 
-// A zone's energy keeps the contact outside as it was, unless a look has shown otherwise, and may be too low, so
-// candidates that seem lower than the kept state are checked by displacement steps of their own. Returns the lowest
-// candidate.
+// A zone's energy keeps the contact outside as it was, unless a check has shown otherwise, and may be too low.
+// Candidates that seem lower than the kept state are therefore compared by displacement steps of their own. Returns the
+// lowest candidate.
 double Stepper::hold_against(Result& best, const SearchResult& found, const StepRule& step) {
     double lowest = std::numeric_limits<double>::infinity();
-    bool held = false;
+    bool compared = false;
     for (const Candidate& candidate : found.starts) {
         const double kept = best.state.ledger.increment;
         if (!best.state.ledger.undercut_by(candidate.incremental))
-            return std::min(lowest, held ? candidate.incremental : found.lowest);
-        held = true;
+            return std::min(lowest, compared ? candidate.incremental : found.lowest);
+        compared = true;
         State own = best.state;
         own.adhesion = candidate.adhesion;
         own.mixity = candidate.mixity;
         minimiser().displace(own, step);
         own.mixity = step.shown(own.response.jump, std::move(own.mixity));
-        book_step(own, step);
+        record_step(own, step);
         lowest = std::min(lowest, own.ledger.increment);
         best.state.effort = own.effort;
         if (own.ledger.increment < kept) keep_lower(best, std::move(own), step);
     }
-    return held ? lowest : found.lowest;
+    return compared ? lowest : found.lowest;
 }
 
 void Stepper::search(Result& best, const StepRule& step) {
@@ -433,15 +434,15 @@ void Stepper::search(Result& best, const StepRule& step) {
                 continue;
             ++minimised;
             const double extent = beyond * (dissipated - own);
-            Scouted scouted = scout(best, step, extent);
-            followed = scouted.given_up || !(scouted.farthest < extent);
+            Continuation continued = continue_fronts(best, step, extent);
+            followed = continued.given_up || !(continued.farthest < extent);
             if (followed) {
-                lowest = scouted.incremental;
+                lowest = continued.incremental;
                 other.effort = best.state.effort;
-                other.adhesion = std::move(scouted.state.adhesion);
-                other.mixity = std::move(scouted.state.mixity);
-                if (lowest < level + promising_way * scouted.farthest)
-                    keep_lower(best, std::move(other), step, &scouted.dissipated);
+                other.adhesion = std::move(continued.state.adhesion);
+                other.mixity = std::move(continued.state.mixity);
+                if (lowest < level + promising_way * continued.farthest)
+                    keep_lower(best, std::move(other), step, &continued.dissipated);
                 break;
             }
             other.effort = best.state.effort;
@@ -452,7 +453,7 @@ void Stepper::search(Result& best, const StepRule& step) {
         other.mixity = candidate.mixity;
         keep_lower(best, std::move(other), step);
     }
-    if (!followed) lowest = hold_against(best, found, step);
+    if (!followed) lowest = compare_candidates(best, found, step);
     if (twin_) best.state.search_memory = twin_->memory();
     best.state.search_energies = std::move(found.energies);
     StepOutcome& outcome = best.state.outcome;
@@ -481,7 +482,7 @@ Stepper::Result Stepper::equilibrate(const State& before, double time, std::span
     const std::unique_ptr<StepRule> still = increment(before, next.mixity);
     result.converged = minimiser().displace(next, *still);
     next.mixity = still->shown(next.response.jump, std::move(next.mixity));
-    book_energies(pairs_, next);
+    record_energies(pairs_, next);
     next.ledger.initial += next.ledger.energy() - before.ledger.energy();
     next.ledger.initial_linear += next.ledger.energy_linear() - before.ledger.energy_linear();
     next.memory = operator_->memory();

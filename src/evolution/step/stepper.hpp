@@ -24,7 +24,7 @@
 
 namespace delam {
 
-// Of interfaces whose law has kappa > 0.
+// Returns the gradient terms of the interfaces whose law has kappa > 0.
 std::vector<std::shared_ptr<const GradientTerm>> gradient_terms(const Problem& problem);
 
 class Stepper {
@@ -37,7 +37,7 @@ public:
     struct Result {
         State state;
         bool converged = true;
-        std::string searched{};  // what the search compared; empty: there was none
+        std::string searched{};  // the candidates that the search compared; empty: there was none
     };
     // The initial state: displacements at the initial adhesion.
     Result initial(double time);
@@ -64,8 +64,8 @@ public:
     std::vector<double> step_tangent(const State& before, const State& state);
     // From now on every state gets its derivatives by these parameters; returns those of the initial state.
     Sensitivity follow(std::vector<FollowedParameter> parameters, const State& initial);
-    // Whether the lower bound of a step fails by more than eta, so that a state lower than `before` exists at its own
-    // time. Relative excess over the larger of energy and work.
+    // Returns the excess of the lower bound of a step over its increment, relative to the larger of energy and work. If
+    // it is larger than eta, a state lower than `before` exists at its own time.
     double lower_excess(const State& state) const;
 
     const PairLaws& pairs() const { return pairs_; }
@@ -97,8 +97,8 @@ private:
     double largest_loss(const StepRule& step, const State& next) const;
     void book_step(State& next, const StepRule& step, const InnerPath* path = nullptr) const;
     void keep_lower(Result& best, State other, const StepRule& step, const Dissipation* begun = nullptr);
-    // Where the dissipated energy depends on the way: how far fronts run at a larger load, and the state on this way
-    // that is lowest at the load of the step.
+    // Result of continue_fronts(), which is needed where the dissipated energy depends on the path: how far fronts run
+    // at a larger load, and the state on this path that is lowest at the load of the step.
     struct Scouted {
         State state;  // adhesion and mixity
         Dissipation dissipated;

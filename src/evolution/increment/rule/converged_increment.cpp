@@ -13,11 +13,12 @@ namespace delam {
 namespace {
 
 // A mixity that oscillates moves half as far after each oscillation that does not shrink to half, and further again
-// where it then only creeps. It is held once the fraction has fallen to `least_share`, or after so many reversals, so
-// that a step terminates.
+// where it then only converges slowly. It is held once the fraction has fallen to `least_share`, or after so many
+// reversals, so that a step terminates.
 constexpr double least_share = 1.0 / 64.0;
 constexpr std::int64_t most_turns = 100;
-// Of the share that a part may take: the state that is kept may lie above the bound by what the stopping test allows.
+// Tolerance, relative to the share that a part may take: the state that is kept may lie above the bound by what the
+// stopping test allows.
 constexpr double at_the_bound = 1e-3;
 constexpr double mixity_difference = 1e-6;  // of the derivative by B
 
@@ -56,7 +57,7 @@ bool ConvergedIncrement::observe(std::size_t pair, const Driving& y) {
         }
         if (swing.share < least_share || swing.turns > most_turns) swing.share = 0.0;
     } else if (change * swing.last > 0.0) {
-        // What creeps moves as far as a secant says, but no more than twice as far as before.
+        // A mixity that converges slowly moves as far as a secant says, but no more than twice as far as before.
         const double left = 1.0 - change / swing.last;
         const double share = std::min({swing.most, 2.0 * swing.share, left > 0.5 ? swing.share / left : 1.0});
         swing.grown = swing.grown || share > swing.share;

@@ -31,13 +31,13 @@ protected:
     void add_mixity(PairDirection& direction, const State& state) const override;
 
 private:
-    // How the mixity of a pair moves from iterate to iterate.
+    // The changes of the mixity of a pair from iterate to iterate.
     struct Swing {
         double last = 0.0;   // relative change of Gc or Go that the last iterate called for
         double share = 1.0;  // part of such a change that is made
         double most = 1.0;   // that this part may become again
         bool grown = false;  // since it was halved last
-        double open = 0.0;   // what the last change left out
+        double open = 0.0;   // rest of the last change, which was not made
         std::int64_t turns = 0;
     };
     std::vector<Swing> swing_;

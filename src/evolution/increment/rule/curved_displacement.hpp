@@ -26,7 +26,7 @@ public:
     CurvedDisplacement(const PairLaws& pairs, std::span<const double> adhesion, std::span<const double> mixity)
         : pairs_(pairs), adhesion_(adhesion), mixity_(mixity) {}
 
-    // Whether the energy is a quadratic form after all, because no adhesion lies between 0 and 1.
+    // True if the energy is a quadratic form after all, because no adhesion lies between 0 and 1.
     bool plain() const;
     // closed, response: the start on entry (ignored if the jump is empty or zero), the solution on return. False: a
     // limit was reached.

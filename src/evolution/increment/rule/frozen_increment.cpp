@@ -26,7 +26,7 @@ double FrozenIncrement::cost(std::span<const double> mixity, std::span<const dou
     return dissipation(pairs_, mixity, before_.adhesion, adhesion);
 }
 
-void FrozenIncrement::book_rule(State& next, double /*energy_change_linear*/) const {
+void FrozenIncrement::record_rule(State& next, double /*energy_change_linear*/) const {
     next.ledger.dissipated_linear =
         before_.ledger.dissipated_linear + dissipation_linear(pairs_, next.mixity, before_.adhesion, next.adhesion);
 }

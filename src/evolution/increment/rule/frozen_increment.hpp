@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// mixity_rule = frozen: the whole step uses the mixities of the state before it. The step minimises the booked split:
+// mixity_rule = frozen: the whole step uses the mixities of the state before it. The step minimises the recorded split:
 // stored zeta Y, dissipated g(B, zeta) - g(B, zeta_before). At frozen B the displacement step is a quadratic program.
 #pragma once
 
@@ -22,12 +22,12 @@ public:
     std::vector<PairDirection> directions(const State& state) const override;
 
 protected:
-    void book_rule(State& next, double energy_change_linear) const override;
-    // What the mixity of the pair adds to the form omega of its direction as the pair moves; nothing while B is frozen.
+    void record_rule(State& next, double energy_change_linear) const override;
+    // Adds the change of the mixity of the pair to the form omega of its direction; nothing while B is frozen.
     virtual void add_mixity(PairDirection& /*direction*/, const State& /*state*/) const {}
 
 private:
-    // Does the pair damage at the end of the step: is its adhesion the minimiser at its load, strictly inside?
+    // True if the pair damages at the end of the step: its adhesion is the minimiser at its load, strictly inside.
     bool damaging(const State& state, std::size_t pair, bool coupled) const;
 };
 

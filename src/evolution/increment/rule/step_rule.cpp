@@ -145,7 +145,7 @@ void StepRule::restore(const Memory& memory) {
     std::copy(memory.toughness.begin(), memory.toughness.end(), now_.toughness.begin());
 }
 
-void book_energies(const PairLaws& pairs, State& state) {
+void record_energies(const PairLaws& pairs, State& state) {
     Ledger& ledger = state.ledger;
     ledger.stored_bulk = state.response.stored_bulk;
     ledger.load_potential = state.response.load_potential;
@@ -157,7 +157,7 @@ void StepRule::book(State& next, const Dissipation* along) const {
     book_energies(pairs_, next);
     Ledger& ledger = next.ledger;
     const double dissipated =
-        along != nullptr ? along->booked : dissipation(pairs_, next.mixity, before_.adhesion, next.adhesion);
+        along != nullptr ? along->recorded : dissipation(pairs_, next.mixity, before_.adhesion, next.adhesion);
     ledger.dissipated = before_.ledger.dissipated + dissipated;
     const double change = ledger.energy() - before_.ledger.energy();
     ledger.increment = change + dissipated;
@@ -168,7 +168,7 @@ void StepRule::book(State& next, const Dissipation* along) const {
         return;
     }
     ledger.increment_lower = change + dissipation(pairs_, next.mixity_before, before_.adhesion, next.adhesion);
-    book_rule(next, ledger.energy_linear() - before_.ledger.energy_linear());
+    record_rule(next, ledger.energy_linear() - before_.ledger.energy_linear());
 }
 
 }  // namespace delam

@@ -95,7 +95,7 @@ std::vector<double> VariationalIncrement::shown(std::span<const double> jump, st
 }
 
 // The dissipation that is minimised has the mixity of the state before.
-void VariationalIncrement::book_rule(State& next, double energy_change_linear) const {
+void VariationalIncrement::record_rule(State& next, double energy_change_linear) const {
     Ledger& ledger = next.ledger;
     const double dissipated = dissipation_linear(pairs_, next.mixity_before, before_.adhesion, next.adhesion);
     const std::vector<double>& last = before_.loaded != 0 ? before_.mixity_before : next.mixity_before;
@@ -104,7 +104,7 @@ void VariationalIncrement::book_rule(State& next, double energy_change_linear) c
     ledger.increment_lower = energy_change_linear + dissipation_linear(pairs_, last, before_.adhesion, next.adhesion);
 }
 
-// The force of each pair that is neither whole nor broken, less that of its spring, component by component.
+// The force of each pair that is partly damaged, less that of its spring, component by component.
 std::vector<PairDirection> VariationalIncrement::directions(const State& state) const {
     if (!pairs_.gradient.empty())
         fail(DELAM_ERROR_STATE, "step tangent: not available for mixity_rule = variational with a gradient term");

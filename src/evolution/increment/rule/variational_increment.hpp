@@ -32,7 +32,7 @@ public:
 
 protected:
     const std::vector<double>& recorded() const override { return now_.own; }
-    void book_rule(State& next, double energy_change_linear) const override;
+    void record_rule(State& next, double energy_change_linear) const override;
 
 private:
     VariationalPair pair(std::size_t p) const {
