@@ -18,7 +18,7 @@ namespace {
 // Groups of at most this many constraints are solved densely.
 constexpr std::size_t dense_reactions = 200;
 
-// For rows of unit length, whatever the units of control nodes.
+// Computes the reactions with rows scaled to unit length, whatever the units of control nodes.
 std::vector<double> direct_reactions(std::span<const Constraint* const> list, std::span<const double> left) {
     const auto n = static_cast<std::int64_t>(list.size());
     std::vector<std::map<std::int64_t, double>> row(list.size());
@@ -111,7 +111,7 @@ std::vector<double> BodySystem::reaction(std::span<const double> theta, std::spa
     for (std::size_t c = 0; c < count; ++c) {
         poll_cancel("recover", static_cast<std::int64_t>(problem_.constraints[c].dof.size()));
         for (const std::int64_t dof : problem_.constraints[c].dof)
-            if (const auto [at, fresh] = user.try_emplace(dof, c); !fresh) group[find(c)] = find(at->second);
+            if (const auto [at, inserted] = user.try_emplace(dof, c); !inserted) group[find(c)] = find(at->second);
     }
     std::map<std::size_t, std::vector<std::size_t>> members;
     for (std::size_t c = 0; c < count; ++c) members[find(c)].push_back(c);

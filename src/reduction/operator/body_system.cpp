@@ -14,7 +14,7 @@ namespace delam {
 
 namespace {
 
-// Of the bodies with cells of their own, over all mesh DOFs.
+// Assembles the stiffness of the bodies with cells of their own, over all mesh DOFs.
 SparseMatrix assemble_cells(const Problem& problem, const Poll& poll) {
     const Mesh& mesh = *problem.mesh;
     std::vector<BodyModel> models;

@@ -19,7 +19,7 @@ namespace delam {
 class BodySystem {
 public:
     // `problem` must outlive the system. elsewhere: K is not assembled here, and stiffness(), transformed() and
-    // stressed() have nothing to say.
+    // stressed() may not be called.
     enum class Stiffness { here, elsewhere };
     BodySystem(const Problem& problem, const Poll& poll, Stiffness stiffness = Stiffness::here);
 

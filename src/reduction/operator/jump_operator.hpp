@@ -30,8 +30,7 @@ public:
     virtual ~JumpOperator() = default;
     // theta: [patterns].
     virtual void solve(const Springs& springs, std::span<const double> theta, Response& response) = 0;
-    // What solves from now on leave of their residual; without a call: usual. True: this operator can tell it from
-    // usual.
+    // Sets the accuracy of the following solves; without a call: usual. True: this operator can tell it from usual.
     virtual bool aim(Accuracy /*accuracy*/) { return false; }
     // Contact may hold or release any of these rows in the solves up to the next call; empty: no more than usual. (A
     // hint: solve() takes all springs as they come.)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A system about rows that change, with everything else at its minimum: unknowns x of an energy, rows j = N x + O theta
-// with springs (or, for Newton's method, coupled 2x2 or 3x3 tangents) and rows that are held at zero.
+// A system of the rows that change, with everything else at its minimum. It has unknowns x of an energy, rows j = N x +
+// O theta with springs (or, for Newton's method, coupled 2x2 or 3x3 tangents), and rows that are held at zero.
 //
 //   minimise  1/2 x^T S x - theta^T L^T x + 1/2 sum_rq j_r C_rq j_q - sum_r h_r j_r      subject to j_r = 0 on held
 //   rows
@@ -22,7 +22,7 @@ namespace delam {
 
 struct Response;
 
-// What an iteration has left open of jumps (L) and forces (F) of rows; 0: no more than rounding.
+// Errors that an iteration has left in jumps (L) and forces (F) of rows; 0: no more than rounding.
 struct SolveError {
     double jump = 0.0;
     double force = 0.0;
@@ -36,12 +36,12 @@ public:
         std::int64_t row, column;  // of the zone; both (r, q) and (q, r) are given
         double value;
     };
-    // A model of the forces about an iterate of Newton's method begins: the solves up to the next one differ by contact
-    // alone, and may leave a part of the residual with which the first of them starts. Before the first model, solves
-    // are as exact as their tolerance.
+    // Begins a model of the forces about an iterate of Newton's method. The solves up to the next model differ by
+    // contact alone, and may leave a part of the residual with which the first of them starts. Before the first model,
+    // solves are as exact as their tolerance.
     virtual void begin_model() {}
-    // Only the energy of what follows is wanted: solutions may lie above the least energy by so much, F L;
-    // 0: as little as the tolerance says. Models are over then.
+    // Only the energy of the following solves is needed: a solution may lie above the least energy by this amount, F L;
+    // 0: by as little as the tolerance allows. Ends a model.
     virtual void ask_for_energies(double /*allowed*/) {}
     // False: not positive definite.
     virtual bool factor(std::span<const Coupling> couplings, std::span<const std::uint8_t> held) = 0;
@@ -66,10 +66,10 @@ public:
         std::int64_t row;
         double value;
     };
-    // Whether flexibility() tells.
+    // True if flexibility() has an answer.
     virtual bool offers_flexibility() const { return false; }
-    // Of the last factor(): the work of each set of forces on the jumps that each other one causes, [set][set]. Null:
-    // it would take a solve of all bodies for each of them.
+    // Returns, for the last factor(), the work of each set of forces on the jumps that each other one causes,
+    // [set][set]. Null: it would take a solve of all bodies for each of them.
     virtual std::optional<DenseMatrix> flexibility(std::span<const std::vector<RowForce>> /*forces*/) { return {}; }
 
     // The operator's jump row of each row, ascending.
@@ -90,7 +90,7 @@ public:
     virtual double energy_of_moving(std::span<const std::size_t> /*rows*/, std::span<const double> /*d*/) const {
         return std::numeric_limits<double>::infinity();
     }
-    // Of such energies: differences below this part of them are rounding.
+    // Returns the rounding of such energies: differences below this part of them are rounding.
     virtual double energy_rounding() const = 0;
 };
 
