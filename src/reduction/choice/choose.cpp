@@ -28,7 +28,7 @@ double cube(double x) { return x * x * x; }
 // Fitted constants; README.md describes the data.
 // of the squares of all jumps: zones and what they take along to the root of the tree
 constexpr double zone_squares = 2.2;
-// Of what is no dense operation: assembly, checks and ordering per displacement, a load step per jump (measured on
+// Operations outside dense kernels: assembly, checks and ordering per displacement, a load step per jump (measured on
 // beams with cells of 1 to 0.1 mm: 1.5 to 2.5 us, 0.9 to 1.1 us).
 constexpr double setup_overhead = 4e4, step_overhead = 2e4;
 constexpr double condensed_step = 1.5;  // of the operations of a condensation of all of the skeleton, per load step
@@ -36,9 +36,9 @@ constexpr double supernodes = 1.25;     // numbers stored per entry of a factor
 constexpr double series_bytes = 32.0;  // per square of a subdomain's jumps: the series preconditioner while it is built
 constexpr double feti_solves = 16.0;   // displacement solves per load step
 constexpr double feti_iterations = 20.0;  // Krylov iterations per solve
-// Of the iterated operator: solves per load step; products of each, those of its iterations and of what goes with them;
-// operations of the patches of a load step per variable, up to so many variables (beyond them patches grow no more);
-// factors of the whole per load step.
+// Constants of the iterated operator: solves per load step; products of each, those of its iterations and those beside
+// them; operations of the patches of a load step per variable, up to so many variables (beyond them patches grow no
+// more); factors of the whole per load step.
 constexpr double iterated_solves = 12.0;
 constexpr double many_interfaces = 2.0;  // times as many where more than one interface may soften
 constexpr double iterated_products = 6.4;
@@ -47,7 +47,7 @@ constexpr double patch_variables = 25e3;
 constexpr double iterated_renewals = 0.5;
 constexpr double iterated_vectors = 46.0;  // states and directions of an iteration
 constexpr double most_vectors = 156.0;     // with the 60 pairs that conjugate gradients keep at most
-// Per variable: METIS takes 1.1 s for 354,000 displacements, 3 s for a million.
+// Operations per variable: METIS takes 1.1 s for 354,000 displacements, 3 s for a million.
 constexpr double ordering_operations = 6e4;
 constexpr double relaxed_supernodes = 1.5;  // numbers stored per entry of its factor
 // Operations of a factor, times variables over the square of its entries (1: all columns alike).
@@ -199,7 +199,7 @@ ReductionCost predict_feti(const Problem& problem, std::int64_t subdomains, doub
     boundary = std::min(copies, dofs) / parts;
     const double jumps = 2.0 * number(problem.jump_count()) / parts;
     const double inside = std::max(dofs / parts, 2.0);
-    // For a factor with that many interior unknowns, including its coupling to the boundary.
+    // The factor has that many interior unknowns, and its coupling to the boundary counts, too.
     const double entries = dim == 2 ? 5.0 * inside * std::log2(inside) : 17.0 * std::pow(inside, 4.0 / 3.0);
     const double sparse = 3.0 * entries * entries / inside + cube(boundary) / 3.0;
     const bool series = problem.options.preconditioner == "series";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which realisation of the jump operator a scene gets, by predicted cost and memory.
+// Chooses the realisation of the jump operator for a scene, by predicted cost and memory.
 //
 // Counted, not timed: floating-point operations (a multiplication and an addition are two) and bytes. The sparse
 // factor's numbers come from its symbolic analysis and are exact; the others are formulae whose constants were fitted
@@ -20,7 +20,7 @@
 
 namespace delam {
 
-// Seconds are operations over this, and say so wherever they are shown.
+// Seconds are operations over this number, and are marked as such wherever they are shown.
 inline constexpr double nominal_rate = 20e9;  // operations/s of one core in a large factorisation
 // Number of load steps that an analysis is assumed to have.
 inline constexpr double nominal_steps = 40.0;
@@ -54,7 +54,7 @@ struct ReductionChoice {
     ReductionCost iteration;
     ReductionCost feti;
     ReductionCost engine;  // nobody knows
-    // Of the realisation in use.
+    // Returns the cost of the realisation in use.
     const ReductionCost& own() const;
     double monolithic = 0.0;      // bytes of one monolithic factorisation, 0: not predicted
     double factor_entries = 0.0;  // of the operator's sparse factor, 0: not analysed
@@ -68,7 +68,7 @@ class Bulk;
 class EngineOperator;
 struct IteratedSize;
 ReductionCost predict_condensed(const Bulk& bulk);
-// From the condensed operator's analysis, without another one.
+// Takes the size from the condensed operator's analysis, without another one.
 IteratedSize iterated_size(const Bulk& bulk);
 ReductionCost predict_iterated(const IteratedSize& size);
 // Entries of the factor of the scene's monolithic matrix, in the best order, and peak bytes of making it.
@@ -78,7 +78,7 @@ double predict_monolithic_bytes(const Bulk& bulk);
 ReductionCost predict_feti(const Problem& problem, std::int64_t subdomains, double& boundary);
 // Why an operator of this cost cannot be built, "": it can.
 std::string does_not_fit(const ReductionChoice& choice);
-// What the predictions of the condensed and the iterated operator say. Pure: for tests.
+// Decides by the predictions of the condensed and the iterated operator. Pure: for tests.
 void choose(ReductionChoice& choice);
 
 // FETI, if the operator that was chosen cannot fit into the memory, and FETI's subdomains can. Pure: for tests.
