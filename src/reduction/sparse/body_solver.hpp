@@ -28,12 +28,14 @@ public:
     // Numbers of a state.
     virtual std::int64_t state_size() const = 0;
 
-    // Whether the next states are wanted for their energies, to be compared: what a residual hides must then not be
-    // large either.
+    // Tells whether the energies of the next states are to be compared: the error that a residual hides must then be
+    // small, too.
     virtual void compare_energies(bool /*yes*/) {}
-    // What acts from now on. False: the system is not positive definite, and nothing can be solved.
+    // Sets the couplings and held rows from now on. False: the system is not positive definite, and nothing can be
+    // solved.
     virtual bool set(std::vector<Zone::Coupling> couplings, std::span<const std::uint8_t> held) = 0;
-    // What may stay of the norm of a residual, given the norm at the start: as much, or what the tolerance allows.
+    // Returns the norm of a residual that may remain, given the norm at the start: as much, or what the tolerance
+    // allows.
     using Forcing = std::function<double(double first)>;
     struct Answer {
         std::int64_t iterations = 0;
@@ -53,9 +55,9 @@ public:
     virtual std::vector<double> held_forces(std::span<const double> theta, std::span<const double> x,
                                             std::span<double> force) const = 0;
 
-    // About the largest force of the load T^T (f - K U theta); 0: there is none.
+    // Returns about the largest force of the load T^T (f - K U theta); 0: no load.
     virtual double load_size(std::span<const double> theta) const = 0;
-    // Of a state. strain: 1/2 u^T K u; done: f_p^T u; lifted: U_p^T (K u - f), the forces at what pattern p moves.
+    // Work of a state. strain: 1/2 u^T K u; done: f_p^T u; lifted: U_p^T (K u - f), the forces at what pattern p moves.
     struct Work {
         double strain = 0.0;
         std::vector<double> done, lifted;  // [patterns]
@@ -68,7 +70,7 @@ public:
                          std::vector<double>& stressed) = 0;
 
     virtual std::int64_t factorisations() const = 0;
-    // What the next solution's last digits depend on.
+    // Saved data on which the last digits of the next solution depend.
     virtual std::vector<double> memory() = 0;
     virtual void recall(std::span<const double> memory) = 0;
     // Throws Error(DELAM_ERROR_SNAPSHOT).

@@ -15,11 +15,12 @@ namespace {
 // Springs that resist a motion by less than this part of the bodies' stiffness hold it weakly.
 constexpr double weakly = 1e-7;
 constexpr double anchored = 1e-2;  // of the bodies' stiffness: a spring that replaces a support
-// As in zone.cpp: the largest part of a load that may remain on a free motion, and what counts as rounding.
+// Same constants as in zone.cpp: the largest part of a load that may remain on a free motion, and the part that counts
+// as rounding.
 constexpr double unbalanced_load = 1e-8;
 constexpr double rounded_load = 1e-11;
 
-// Of Z^T W Z with a diagonal W, block by block of its rows.
+// Returns the eigenvalues and eigenvectors of Z^T W Z with a diagonal W; the product is formed block by block of rows.
 Eigen weighted_gram(const DenseMatrix& z, std::span<const double> weight) {
     constexpr std::int64_t most = 4096;
     DenseMatrix gram(z.columns, z.columns);

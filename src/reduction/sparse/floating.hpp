@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rigid motions of parts that only their interfaces hold: those that nothing holds at the moment, which are null
-// vectors of the system and must carry no load; and those that springs hold so weakly that an iteration had better know
-// them.
+// Rigid motions of parts that only their interfaces hold. Nothing holds the free ones at the moment: they are null
+// vectors of the system and must carry no load. Springs hold the weak ones so weakly that an iteration converges better
+// if it knows them.
 #pragma once
 
 #include <cstdint>
@@ -20,9 +20,9 @@ public:
 
     // Finds both kinds at what acts on the system now.
     void update();
-    // How often that took more than a look at what has become softer.
+    // Number of updates that took more than a check of the springs that have become softer.
     std::int64_t examinations() const { return examinations_; }
-    // In variables; they open no held row.
+    // Both kinds of motions in variables; they open no held row.
     const std::vector<std::vector<double>>& free() const { return free_; }
     const std::vector<std::vector<double>>& weak() const { return weak_; }
     // Springs that hold all these motions, for preconditioners.
@@ -53,7 +53,7 @@ private:
     const JumpSystem& system_;
     RigidMotions rigid_;
     std::vector<std::int64_t> dof_of_;  // [variables that are displacements] one that is the variable itself
-    bool known_ = false;                // what follows
+    bool known_ = false;                // the members below are set
     std::vector<std::uint8_t> held_, active_;
     std::vector<double> spring_;  // [rows] for which weak_ was found
     std::vector<std::vector<double>> free_, weak_;

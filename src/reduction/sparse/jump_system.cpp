@@ -117,7 +117,7 @@ void JumpSystem::express_rows(const BodySystem& bodies) {
     }
 }
 
-// In place: a copy of the matrix would be among the largest things that there are.
+// Adds in place: a copy of the matrix would be one of the largest blocks of memory.
 void JumpSystem::with_added(std::span<const Triplet> entries, const std::function<void(const SparseMatrix&)>& use) {
     struct Restored {
         SparseMatrix& matrix;

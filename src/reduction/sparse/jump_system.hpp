@@ -28,8 +28,8 @@ class JumpSystem {
 public:
     // transformed: T^T K T of the bodies
     JumpSystem(const BodySystem& bodies, SparseMatrix transformed, const Poll& poll);
-    // Of the trailing variables alone, those of all rows and constraints, for bodies that somebody else solves: what
-    // multiplies by T^T K T has nothing to say. Their diagonal comes later.
+    // Has the trailing variables alone, those of all rows and constraints, for bodies that somebody else solves:
+    // functions that multiply by T^T K T do not apply. The diagonal comes later.
     explicit JumpSystem(const BodySystem& bodies);
     void set_diagonal(std::vector<double> diagonal) { diagonal_ = std::move(diagonal); }
 
@@ -48,7 +48,7 @@ public:
     // d of such a constraint, [patterns]
     const std::vector<double>& equation_right(std::size_t e) const { return equation_right_[e]; }
 
-    // What acts from now on, on rows that are not held. held: [rows]; prescribed rows are never held.
+    // Sets the couplings from now on, on rows that are not held. held: [rows]; prescribed rows are never held.
     void set(std::vector<Zone::Coupling> couplings, std::span<const std::uint8_t> held);
     const std::vector<Zone::Coupling>& couplings() const { return couplings_; }
     const std::vector<std::uint8_t>& held() const { return held_; }
@@ -61,7 +61,7 @@ public:
     };
     const std::vector<Slave>& slaves() const { return slaves_; }
     const std::vector<std::int64_t>& removed() const { return removed_; }
-    // Of the variables of jump_variables.hpp, the first that this system has.
+    // The first of the variables of jump_variables.hpp that this system has.
     std::int64_t first() const { return first_; }
 
     // o, [rows]

@@ -15,7 +15,7 @@ namespace delam {
 
 namespace {
 
-// A start larger than the load by 2^900 is none: it would hardly be finite.
+// A start larger than the load by 2^900 is not used: it would hardly be finite.
 constexpr int largest_start_power = 900;
 
 // A rough solve's. 3e-3 and 1e-2 need about the same iterations to find a first contact set, 3e-2 twice as many: pairs
@@ -133,7 +133,8 @@ void SparseOperator::respond(const Springs& springs, std::span<const double> the
     find_energies(theta, mu, response);
 }
 
-// From the displacements: a stored energy is a sum of squares, and its error is that of the solution squared.
+// Computes the energies from the displacements: a stored energy is a sum of squares, and its error is that of the
+// solution squared.
 void SparseOperator::find_energies(std::span<const double> theta, std::span<const double> mu,
                                    Response& response) const {
     const std::size_t patterns = theta.size();
@@ -192,7 +193,8 @@ double SparseOperator::equilibrium_defect(std::span<const double> theta, const R
     return bodies_->defect(theta, force, response.force, bodies_->reaction(theta, force, response.force));
 }
 
-// As of the condensed operator: entries of the stiffness have an error of the rounding unit times the diagonal.
+// Estimates the rounding as the condensed operator does: entries of the stiffness have an error of the rounding unit
+// times the diagonal.
 double SparseOperator::rounding_energy(std::span<const double>, const Response& response) const {
     const std::span<const double> diagonal = solver_.system().diagonal();
     const std::vector<double>& x = response.multipliers;

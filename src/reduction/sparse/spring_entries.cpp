@@ -42,9 +42,9 @@ std::vector<std::uint8_t> differing_rows(const JumpSystem& system, std::span<con
     std::vector<std::uint8_t> row(now.size(), 0);
     for (std::size_t r = 0; r < now.size(); ++r) {
         if (system.prescribed()[r] != 0 || now[r] == springs[r]) continue;
-        const double body = row_diagonal(system, r), old = body + springs[r], fresh = body + now[r];
+        const double body = row_diagonal(system, r), old = body + springs[r], present = body + now[r];
         const double share = now[r] < 0.0 ? differs_in_kind : differs;
-        row[r] = fresh > (1.0 + share) * old || old > (1.0 + share) * fresh ? 1 : 0;
+        row[r] = present > (1.0 + share) * old || old > (1.0 + share) * present ? 1 : 0;
     }
     for (const Zone::Coupling& c : system.couplings()) {
         const auto r = index(c.row), q = index(c.column);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What acts on the jump rows, as entries of a matrix of all variables, for preconditioners. There a held row is a
-// spring so stiff that the bodies do not feel it give way: the pattern of the matrix then does not depend on contact.
+// The springs on the jump rows, as entries of a matrix of all variables, for preconditioners. A held row is there a
+// spring so stiff that its displacement does not affect the bodies: the pattern of the matrix then does not depend on
+// contact.
 #pragma once
 
 #include <cstdint>
@@ -12,11 +13,11 @@
 
 namespace delam {
 
-// Of the bodies' stiffness: a held row.
+// Stiffness of a held row, relative to that of the bodies.
 inline constexpr double held_as = 1e8;
 
-// Of the diagonal, on variables of constraints on many: parts that only such constraints hold would leave a factor
-// singular. Far below what the bodies feel.
+// Relative to the diagonal, on variables of constraints on many: parts that only such constraints hold would leave a
+// factor singular. It is too small to affect the bodies.
 inline constexpr double constraint_shift = 1e-7;
 
 // Stiffness of the bodies against a row: the largest of its variables.
@@ -25,7 +26,7 @@ double row_diagonal(const JumpSystem& system, std::size_t row);
 std::vector<Triplet> spring_entries(const JumpSystem& system, std::span<const Zone::Coupling> couplings,
                                     std::span<const std::uint8_t> held);
 
-// What acts on the rows at the moment, as springs, held rows as those that stand for them: [rows].
+// Returns the present springs on the rows, with those that stand for held rows: [rows].
 std::vector<double> springs_of(const JumpSystem& system);
 
 // A spring differs from an earlier one if bodies and spring together are stiffer or softer by this share.
@@ -35,7 +36,7 @@ inline constexpr double differs = 0.1;
 inline constexpr double differs_in_kind = 0.03;
 // [rows] 1: what acts on it differs from these springs [rows].
 std::vector<std::uint8_t> differing_rows(const JumpSystem& system, std::span<const double> springs);
-// Whether what acts on some row is softer than these springs.
+// True if the spring on some row is softer than these springs.
 bool any_softer(const JumpSystem& system, std::span<const double> springs);
 
 }  // namespace delam

@@ -201,9 +201,10 @@ bool EngineSolver::set(std::vector<Zone::Coupling> couplings, std::span<const st
     return has_minimum();
 }
 
-// Conjugate gradients towards a load need not meet the direction in which the energy falls. Where it does, softening
-// rows move: from forces of random sign on these rows alone, the iteration meets it within a few steps, because all
-// other directions look alike to the preconditioner (the largest eigenvalue of what softening takes off, by Lanczos).
+// Conjugate gradients towards a load need not meet the direction in which the energy falls. If there is such a
+// direction, softening rows move in it. The iteration meets it within a few steps from forces of random sign on these
+// rows alone, because all other directions are similar for the preconditioner (the largest eigenvalue of what softening
+// takes off, by Lanczos).
 bool EngineSolver::has_minimum() {
     std::vector<std::uint8_t> softening(system_.rows().size(), 0);
     bool any = false;
@@ -416,7 +417,7 @@ void EngineSolver::require_numbers(const Raw& raw, std::span<const double> state
           std::span<const double>(scalars)})
         if (!std::all_of(list.begin(), list.end(), [](double v) { return std::isfinite(v); }))
             fail(DELAM_ERROR_NUMERICAL, "engine: solve: the answer is not finite");
-    // 64 bits hold the sum of more solves than a march can make.
+    // 64 bits hold the sum of more solves than an analysis can make.
     constexpr std::int64_t most = std::int64_t{1} << 32;
     if (a.iterations < 0 || a.iterations > most)
         fail(DELAM_ERROR_NUMERICAL, "engine: solve: iterations = ", a.iterations, ", allowed: 0 to ", most);

@@ -51,7 +51,7 @@ public:
     void require_memory(std::span<const double> memory) const override;
 
 private:
-    // Where the parts of a state begin.
+    // Beginnings of the parts of a state.
     struct Layout {
         std::size_t variables, balance, done, lifted, weights, rigid, size;
     };
@@ -59,15 +59,15 @@ private:
         return x.subspan(first, next - first);
     }
     void claim();  // the engine has the variables of this operator
-    void apply();  // what acts
+    void apply();  // the couplings and held rows
     void renew_now();
     void renew();  // at lagged_
-    // Whether tangents that soften leave a minimum.
+    // True if tangents that soften leave a minimum.
     bool has_minimum();
     bool balanced(std::span<const double> theta, std::span<const double> force) const;
     std::vector<double> forces(std::span<const double> theta, std::span<const double> row_force) const;
     std::vector<double> rights(std::span<const double> theta) const;
-    // What the engine has answered.
+    // Answer of the engine.
     struct Raw {
         delam_experimental_answer answer{};
         std::vector<double> correction, correction_balance;

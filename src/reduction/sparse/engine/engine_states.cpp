@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What follows from states whose displacements the engine keeps.
+// Functions that use the states whose displacements the engine keeps.
 #include <algorithm>
 #include <cmath>
 
@@ -12,13 +12,14 @@ namespace delam {
 
 namespace {
 
-// Of the largest variable: by which a combination of kept answers may differ from a state that it makes up.
+// Largest difference, relative to the largest variable, between a state and a combination of kept answers that stands
+// for it.
 constexpr double same_state = 1e-11;
 
 }  // namespace
 
-// Weights tell the truth as long as the combination has the variables of the state, and its loads: where all pairs are
-// bonded, the variables are zero at any load.
+// Weights are valid if the combination has the variables of the state and its loads: where all pairs are bonded, the
+// variables are zero at any load.
 std::optional<std::vector<double>> EngineSolver::known_weights(std::span<const double> x,
                                                                std::span<const double> theta) const {
     if (x.size() != at_.size) return {};
@@ -128,7 +129,8 @@ void EngineSolver::recover_in_engine(std::span<const double> theta, std::span<co
     engine_->require(engine.recover(weights.data(), nullptr, nullptr, engine.user), "recover");
 }
 
-// Springs of the preconditioner, the debt, the iterations of its first solve, what it is worth.
+// Springs of the preconditioner, the iterations that a new one would have saved, the iterations of its first solve, its
+// worth.
 std::vector<double> EngineSolver::memory() {
     std::vector<double> m = lagged_;
     if (m.empty()) return m;

@@ -12,7 +12,7 @@ namespace delam {
 
 namespace {
 
-// Of the largest entry of a node's rows: no pivot.
+// Largest entry that is no pivot, relative to the largest entry of a node's rows.
 constexpr double no_pivot = 1e-8;
 
 void take(const std::vector<double>& values, std::vector<std::int64_t>& starts, std::vector<std::int64_t>& dofs,

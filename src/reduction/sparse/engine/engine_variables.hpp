@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The variables of jump_variables.hpp as an engine of the host is told of them (delam_experimental_variables).
+// The variables of jump_variables.hpp in the form that an engine of the host gets (delam_experimental_variables).
 #pragma once
 
 #include <cstdint>

@@ -15,17 +15,18 @@ namespace {
 constexpr std::size_t most_directions = 60;  // kept conjugate; older ones are forgotten
 constexpr std::size_t judged = 5;            // iterations, before their gain says anything about the others
 constexpr double accelerates = 1.5;          // conjugate gradients become faster
-// An error of less than this part of the size of the state leaves the size as it is.
+// An error of less than this part of the size of the state does not change that size.
 constexpr double same_size = 0.03;
 
-// Whether what the iterations so far have gained says that the limit will not do.
+// True if the gain of the iterations so far shows that the limit will not suffice.
 bool hopeless(double gained_by_now, double needed, std::size_t iterations, std::int64_t limit) {
     if (iterations < judged) return false;
     const double per_iteration = std::log(gained_by_now) / static_cast<double>(iterations);
     return !(per_iteration < 0.0) || std::log(needed) / per_iteration > accelerates * static_cast<double>(limit);
 }
 
-// Of the tridiagonal matrix that the recursion implies (Lanczos; G. Golub, C. Van Loan, Matrix Computations, 10.2).
+// Returns the least eigenvalue of the tridiagonal matrix that the recursion implies (Lanczos; G. Golub, C. Van Loan,
+// Matrix Computations, 10.2).
 double least_eigenvalue(std::span<const double> steps, std::span<const double> shares) {
     const std::size_t n = std::min(steps.size(), most_directions);
     if (n == 0) return 1.0;

@@ -99,7 +99,7 @@ bool Patches::cover(std::span<const std::int64_t> seeds, bool any_size, const Po
     }
     // Connected parts; a visited variable is marked as beyond the margin.
     const SparseMatrix& a = system_.matrix();
-    std::vector<Patch> fresh;
+    std::vector<Patch> chosen;
     std::vector<std::size_t> stay;
     std::vector<std::int64_t> stack;
     for (std::size_t first = 0; first < ring.size(); ++first) {
@@ -124,13 +124,13 @@ bool Patches::cover(std::span<const std::int64_t> seeds, bool any_size, const Po
         if (same != patches_.end())
             stay.push_back(static_cast<std::size_t>(same - patches_.begin()));
         else
-            fresh.push_back(make(std::move(part), poll));
+            chosen.push_back(make(std::move(part), poll));
     }
-    fresh.reserve(fresh.size() + stay.size());
+    chosen.reserve(chosen.size() + stay.size());
     std::vector<std::int64_t> chosen_for(seeds.begin(), seeds.end());
-    // From here on nothing fails: an interrupted choice leaves the one before.
-    for (const std::size_t p : stay) fresh.push_back(std::move(patches_[p]));
-    patches_ = std::move(fresh);
+    // Nothing fails from here on: an interrupted choice leaves the one before.
+    for (const std::size_t p : stay) chosen.push_back(std::move(patches_[p]));
+    patches_ = std::move(chosen);
     seeds_ = std::move(chosen_for);
     inner_ = std::move(inner);
     member_ = std::move(member);

@@ -90,18 +90,18 @@ void Reanalysis::factorise_whole() {
                       [this] { monitor_.progress("factor", factorisations_, 0); });
 }
 
-void Reanalysis::set_aside() {
+void Reanalysis::swap_factor_out() {
     if (!comes_back_ || !remembered_ || lagged_.empty()) return;
-    if (aside_ == nullptr)
-        aside_ = std::make_unique<WholeFactor>(system_, [this] { monitor_.progress("analyse", 0, 0); });
-    aside_.swap(whole_);
-    springs_aside_ = std::move(lagged_);
+    if (other_factor_ == nullptr)
+        other_factor_ = std::make_unique<WholeFactor>(system_, [this] { monitor_.progress("analyse", 0, 0); });
+    other_factor_.swap(whole_);
+    other_springs_ = std::move(lagged_);
     lagged_.clear();
     remembered_ = false;
 }
 
 void Reanalysis::renew(std::vector<double> springs) {
-    set_aside();
+    swap_factor_out();
     lagged_.clear();  // an interrupted factorisation is never taken for a valid one
     patches_.forget();
     std::vector<double> now = std::move(springs);
@@ -149,7 +149,7 @@ bool Reanalysis::set(std::vector<Zone::Coupling> couplings, std::span<const std:
     const bool fresh = lagged_.empty() || (renewal_.due(whole_->size().flops) && !changed().empty());
     if (fresh) renew_now();
     // A factor of the whole cannot have tangents: those of some pairs are negative.
-    if (!cover(fresh || !plain())) {
+    if (!cover(renewed || !plain())) {
         renew_now();
         cover(true);
     }
@@ -193,10 +193,11 @@ double Reanalysis::size_of(std::span<const double> theta, std::span<const double
     return std::sqrt(std::abs(dot(u, force)) + work_of_couplings(x));
 }
 
-// What is missing is A^-1 r, and the preconditioner is nearly A^-1: jumps and forces of M r, over the root of the
-// least eigenvalue of M A that the iteration has met: sqrt(r^T A^-1 r) <= sqrt(r^T M r / least). An estimate. (The
-// energy of M r would give bounds, |force| <= sqrt(stiffness of the row) |error| and |jump| <= sqrt(flexibility of the
-// row) |error|, but those of a row at the tip of an arm are useless, by the flexibility of the whole arm.)
+// Estimates the jumps and forces of the missing correction A^-1 r. The preconditioner M is nearly A^-1, so that the
+// estimate is M r over the root of the least eigenvalue of M A that the iteration has met: sqrt(r^T A^-1 r) <= sqrt(r^T
+// M r / least). (The energy of M r would give bounds, |force| <= sqrt(stiffness of the row) |error| and |jump| <=
+// sqrt(flexibility of the row) |error|, but those of a row at the tip of an arm are useless, by the flexibility of the
+// whole arm.)
 SolveError Reanalysis::error_of(std::span<const double> correction, double least) const {
     SolveError error;
     std::vector<double> left(correction.size()), force(system_.rows().size(), 0.0);
@@ -297,8 +298,9 @@ void Reanalysis::precondition(std::span<const double> r, std::span<double> z) {
     }
 }
 
-// The multiple of the start that has the least energy: a load that has only grown needs nothing else. A start so much
-// larger than the load that its energy is not finite is none. Returns A x there, with the rest of expressed variables.
+// The multiple of the start that has the least energy: a load that has only grown needs nothing else. No start is used
+// if it is so much larger than the load that its energy is not finite. Returns A x there, with the rest of expressed
+// variables.
 std::vector<double> Reanalysis::start_from(std::span<const double> right, std::span<const double> theta,
                                            std::span<double> x) const {
     std::vector<double> y(x.begin(), x.end()), image(x.size());
@@ -408,7 +410,7 @@ Reanalysis::Answer Reanalysis::solve(std::span<const double> theta, std::span<co
         system_.spread(at, theta);
         std::vector<double> springs(at.size(), 0.0);
         for (const Direction& d : cg.given) {
-            // What acts along a rigid motion are loads and springs alone.
+            // Loads and springs alone act along a rigid motion.
             std::fill(springs.begin(), springs.end(), 0.0);
             system_.add_couplings(at, springs);
             const double along = (dot(d.p, right) - dot(d.p, springs)) / d.pap;

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Solves the system of bodies and interfaces again and again while its springs change little from one time to the next
 // (global/local reanalysis; P. Gosselet, M. Blanchard, O. Allix, G. Guguin, AMSES 5, 2018): conjugate gradients,
-// preconditioned by
-// a factor of the whole at springs of an earlier moment, and before and after it exact factors of patches around the
-// springs that differ (multiplicative Schwarz, symmetric).
+// preconditioned by a factor of the whole with earlier springs, and before and after it by exact factors of patches
+// around the springs that differ (multiplicative Schwarz, symmetric).
 #pragma once
 
 #include <cstdint>
@@ -50,7 +49,7 @@ public:
     const WholeFactor* whole() const { return whole_.get(); }
     const Patches& patches() const { return patches_; }
 
-    // Of an analysis that looks at other states and comes back.
+    // True for an analysis that solves other states and comes back.
     static bool keeps_two_factors(const Problem& problem);
 
     std::vector<double> memory() override;
@@ -67,7 +66,7 @@ private:
     bool cover(bool any_size);
     bool factorise_patches();
     void renew(std::vector<double> springs);
-    void set_aside();
+    void swap_factor_out();
     std::vector<double> history() const;
     void renew_now();  // at the springs that act
     void factorise_whole();
@@ -97,7 +96,8 @@ private:
     Renewal renewal_;             // its price and excess in operations
     bool attempt_ = false;        // too much differs for wide patches, but the factor is still the one before
     double rounded_ = 0.0;        // what rounding leaves of a residual, relative; 0: not yet met with this factor
-    // A search looks at other states and comes back: the factor to come back to is kept beside the one in use.
+    // A search solves other states and comes back: the factor of the state that it leaves is kept beside the one in
+    // use.
     bool comes_back_;
     bool remembered_ = false;  // memory() has told of the factor in use
     std::unique_ptr<WholeFactor> aside_;

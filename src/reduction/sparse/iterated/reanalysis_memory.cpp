@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a saved state keeps of the reanalysis: the springs of the whole factor and the choice of the patches.
+// Data of the reanalysis in a saved state: the springs of the whole factor and the choice of the patches.
 #include <algorithm>
 #include <cmath>
 
@@ -15,8 +15,8 @@ constexpr std::size_t numbers = 3;  // between the springs and the seeds
 
 }  // namespace
 
-// Springs of the whole factor [rows], the excess of its solves, what rounding leaves, the iterations of its first
-// solve, then the seeds of the patches.
+// Springs of the whole factor [rows], the operations that a new one would have saved, the rounding of a residual, the
+// iterations of its first solve, then the seeds of the patches.
 std::vector<double> Reanalysis::memory() {
     remembered_ = !lagged_.empty();
     return history();
@@ -50,7 +50,7 @@ void Reanalysis::require_memory(std::span<const double> memory) const {
 void Reanalysis::recall(std::span<const double> memory) {
     if (std::ranges::equal(memory, history())) return;
     if (memory.empty()) {
-        set_aside();
+        swap_factor_out();
         lagged_.clear();
         patches_.forget();
         renewal_.renewed();
@@ -63,10 +63,10 @@ void Reanalysis::recall(std::span<const double> memory) {
     for (double& s : springs) s += 0.0;  // negative zero would be saved with its sign
     std::vector<std::int64_t> seeds;
     for (std::size_t i = rows + numbers; i < memory.size(); ++i) seeds.push_back(static_cast<std::int64_t>(memory[i]));
-    if (springs != lagged_ && springs == springs_aside_) {
+    if (springs != lagged_ && springs == other_springs_) {
         patches_.forget();
-        aside_.swap(whole_);
-        lagged_.swap(springs_aside_);
+        other_factor_.swap(whole_);
+        lagged_.swap(other_springs_);
     } else if (springs != lagged_) {
         renew(std::move(springs));
     }
