@@ -64,7 +64,8 @@ bool in_process_zone(const CrackedInterface& interface, std::int64_t pair);
 bool exhausted(const CrackedInterface& interface, std::int64_t pair);
 // Weight of these pairs, L or L2.
 double process_zone(const CrackedInterface& interface);
-// Neither damaged nor initially open: where the adhesion of two such pairs differs, no crack is the cause.
+// True if the pair is neither damaged nor initially open: if the adhesion of two such pairs differs, no crack is the
+// cause.
 inline bool undamaged(double initial, double adhesion) { return initial > 0.0 && adhesion >= initial; }
 
 std::vector<CrackFront> crack_fronts(const CrackedInterface& interface);
@@ -73,8 +74,8 @@ std::vector<CrackFront> crack_fronts_on_lines(const CrackedInterface& interface)
 std::vector<CrackFront> crack_fronts_on_faces(const CrackedInterface& interface);
 
 // a = a_0 + sum w (1 - zeta) over the initially adhering pairs, L or L2; a_0 is the size of the linear pieces of faces
-// that touch a pair without initial adhesion, so in 2D up to the pair at the tip. Never more than the size of the
-// interface.
+// that touch a pair without initial adhesion; in 2D it reaches to the pair at the tip. The length is at most the size
+// of the interface.
 double crack_length(const CrackedInterface& interface);
 
 // Straight pieces of the faces as pair indices, without padding entries: 2 pairs (2D), 3 or 4.

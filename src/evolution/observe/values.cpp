@@ -325,7 +325,7 @@ const Row* find_row(const std::string& key) {
     return nullptr;
 }
 
-// The interface or pattern of KEY:I or KEY:NAME; -1: of the key alone. false: there is none of this name.
+// Finds the interface or pattern of KEY:I or KEY:NAME; -1: KEY alone. False: no interface or pattern has this name.
 bool part_of(const Problem& problem, const ValueInfo& info, const std::string& key, std::int64_t& part) {
     part = -1;
     const std::size_t colon = key.find(':');

@@ -14,13 +14,13 @@ class Warnings {
 public:
     // The monitor must outlive them.
     Warnings(const Problem& problem, Monitor& monitor);
-    // Tells of a step whose energy lies outside its two-sided estimate, and of a ledger that does not close.
+    // Warns of a step whose energy lies outside its two-sided estimate, and of a ledger that does not close.
     void judge_ledger(const State& after, const Options& options);
-    // Tells of a front that advanced with too few pairs in its process zone.
+    // Warns of a front that advanced with too few pairs in its process zone.
     void judge_front(const Observer& observer, const State& before, const State& after);
-    // Tells of cells whose rotation, in rad, is large for strains that are linear in the displacements.
+    // Warns of cells whose rotation, in rad, is large for strains that are linear in the displacements.
     void judge_rotation(const State& state, double largest);
-    // Tells of nodal forces that are poorly balanced.
+    // Warns of nodal forces that are poorly balanced.
     void report_balance(const std::string& what);
 
 private:
