@@ -30,7 +30,7 @@ struct PairPath {
     double adhesion_from, adhesion_to;
 };
 
-// mixity: where the jump tells none.
+// mixity: used where the jump defines none.
 PathEnergy path_energy(const PairLaws& pairs, std::size_t pair, const PairPath& path, double mixity);
 
 // The mixity whose toughness is what an intact pair dissipates that comes from one jump and debonds by another.

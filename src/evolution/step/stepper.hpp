@@ -41,9 +41,9 @@ public:
     };
     // The initial state: displacements at the initial adhesion.
     Result initial(double time);
-    // Another state of the same scene as a start: its adhesion, clipped to `before`, for broken pairs the mixity with
-    // which they broke, and what has been dissipated since the beginning of the analysis, F L. descends: it was reached
-    // from `before`, so that the difference was dissipated in between.
+    // A start from another state of the same scene: its adhesion, clipped to `before`, for broken pairs the mixity with
+    // which they broke, and the energy dissipated since the beginning of the analysis, F L. descends: the state was
+    // reached from `before`, so that the difference was dissipated in between.
     struct Start {
         Start(const State& state, bool descends_)
             : descends(descends_),
