@@ -10,10 +10,10 @@
 // falls as long as its slope does not change sign.
 //
 // g'' of a brittle law ranges over (Gc/Go)^3, that of a Griffith law is zero. Instead of the tangent -dY/dz each pair
-// therefore uses the secant between z and the z* that the pointwise law would choose at the present load q = Y + kappa
-// (A z)/w,
-//   c = (Y(z) - q) / (z* - z),
-// which tends to the tangent at the solution, solves an uncoupled pair in one step, and vanishes only at the solution.
+// therefore uses the secant
+//   c = (Y(z) - q) / (z* - z)
+// between z and the z* that the pointwise law would choose at the present load q = Y + kappa (A z)/w. The secant tends
+// to the tangent at the solution, solves an uncoupled pair in one step, and vanishes only at the solution.
 #pragma once
 
 #include <cstdint>
