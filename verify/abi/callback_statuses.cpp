@@ -287,7 +287,7 @@ const Call calls[] = {
      false, true},
 };
 
-// What has to come back: by experimental.h of an engine, by delam.h DELAM_ERROR_PROBLEM of a law.
+// Returns the status that has to come back: by experimental.h for an engine, by delam.h DELAM_ERROR_PROBLEM for a law.
 std::int32_t wanted(const std::set<std::int32_t>& listed, std::int32_t given, bool engine) {
     const std::set<std::int32_t> of_engines = {DELAM_CANCELLED,   DELAM_ERROR_ARGUMENT, DELAM_ERROR_PROBLEM,
                                                DELAM_ERROR_STATE, DELAM_ERROR_MEMORY,   DELAM_ERROR_NUMERICAL};

@@ -18,7 +18,7 @@ Json measure_series(const std::string& scene, int repeat, double cap);
 Json measure_memory(const std::string& scene, const std::string& method, double cap);
 // Compares the histories of all methods at a tolerance delta (agreement.cpp).
 Json measure_agreement(const std::string& scene, double delta, double cap);
-// Whether every method's end state is a critical point (critical.cpp).
+// Checks that every method's end state is a critical point (critical.cpp).
 Json measure_critical(const std::string& scene, double cap);
 // Local, backtracked and energetic analysis and the LSE in turn, `repeat` rounds: times, counts, the jump, gap and
 // margin of the search (energetic_series.cpp).

@@ -89,7 +89,7 @@ Run run(const Element& element, double h, int steps, double delta, int repeat, d
     return r;
 }
 
-// Where the error of an element meets the target: time by log-log interpolation over its meshes.
+// The point where the error of an element meets the target: time by log-log interpolation over its meshes.
 struct Meeting {
     double seconds = nan;
     double h = nan;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What threads cost where other programs use the cores: four analyses of a scene file as four processes at once against
-// one after another, and one analysis beside busy loops. Every analysis is a separate process.
+// Measures the cost of threads where other programs use the cores: four analyses of a scene file as four processes at
+// once against one after another, and one analysis beside busy loops. Every analysis is a separate process.
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -53,7 +53,7 @@ struct Variant {
     std::string name;
     int host;    // threads of BLAS and OpenMP; 0: the environment says nothing
     long asked;  // option threads; 0: its default
-    // Of each round: seconds of the clock and of the processors.
+    // Seconds of the clock and of the processors in each round.
     std::vector<double> turn{}, turn_processor{}, once{}, once_processor{}, alone{}, loaded{}, loaded_processor{};
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the progress callback of a context tells of an analysis: iterations of each linear solve, and for how long the
-// library does not listen, so that a cancellation has to wait.
+// Measures an analysis by the progress callback of a context: iterations of each linear solve, and how long the library
+// does not poll, so that a cancellation has to wait.
 #pragma once
 
 #include <cstdint>

@@ -62,11 +62,11 @@ inline Leap leap(const StepLedger& a, const StepLedger& b) {
             std::max(0.0, square * (before - after) - spent)};
 }
 
-// Of two states with one step between them. What comes from a pair that loses more than a tenth of its toughness is
+// Compares two states with one step between them. The energy of a pair that loses more than a tenth of its toughness is
 // released; where one loses more than half, the reactions change at an instant that is not known, and the work is
 // raised to what was stored and dissipated, up to the upper bound. A step that was minimised from another state (a
-// return, a search) is a leap. in_parts: a step that takes more than a part of its
-// toughness from a pair (path_step) knows its work from the states on its way, between the bounds.
+// return, a search) is a leap. in_parts: a step that takes more than a part of its toughness from a pair (path_step)
+// knows its work from the states on its way, between the bounds.
 inline void expect_work(const reference::LawData& law, const StepLedger& a, const StepLedger& b, double tolerance,
                         double size, const std::string& where, bool in_parts = false) {
     const double trapezoid = 0.5 * (b.factor - a.factor) * (a.reaction + b.reaction);

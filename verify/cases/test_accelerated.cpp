@@ -69,7 +69,8 @@ CASE_TEST(ductile_enf) {
     cases::expect_below(feti.alternations, 1.2 * fast.alternations, "alternations of the march by FETI");
     cases::expect_below(feti.newton, 1.2 * fast.newton, "Newton solves of the march by FETI");
     cases::expect_below(iterated.alternations, 1.2 * fast.alternations, "alternations of the iterated march");
-    // Those in a part of the bodies included; at 1e-10 the last few depend on rounding (131 to 137 beside 67).
+    // The count includes solves in a part of the bodies; at 1e-10 the last few depend on rounding (131 to 137 beside
+    // 67).
     cases::expect_below(iterated.newton, 2.2 * fast.newton, "Newton solves of the iterated march");
 }
 

@@ -298,7 +298,7 @@ CASE_TEST(marches_with_constraints) {
 CASE_TEST(floating) {
     const int d = loop % 2 == 0 ? 2 : 3;
     const bool slanted = loop / 2 % 2 == 1;
-    const unsigned lost = static_cast<unsigned>(loop) / 4U;  // which ones
+    const unsigned lost = static_cast<unsigned>(loop) / 4U;  // the interfaces that have lost it
     const auto make = [&] { return cases::make_cross(d, slanted, 0); };
     Scene condensed = make(), feti = make(), iterated = make();
     condensed.text("reduction", "condensed");

@@ -74,7 +74,7 @@ CASE_TEST(energy_falls_with_the_front) {
                             "front " + std::to_string(f));
 }
 
-// Without reuse: every front at every load, each by a separate displacement step.
+// Nothing is reused: every front at every load, each by a separate displacement step.
 CASE_TEST(scan_is_exhaustive) {
     if (loop % 2 == 1 && !cases::whole()) return;
     const reference::Flexure data = specimen(loop);

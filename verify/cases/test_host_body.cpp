@@ -139,7 +139,7 @@ constexpr const char* keys[] = {
     "stored_bulk",         "stored_interface", "dissipated",      "work",          "lower", "upper", "crack_length",
     "energy_release_rate", "contact_pairs",    "debonded_length", "reaction:drive"};
 
-// What every step of an analysis gives.
+// Results of every step of an analysis.
 struct Marched {
     std::vector<std::map<std::string, double>> values;
     std::vector<std::vector<double>> displacement;

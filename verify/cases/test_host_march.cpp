@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a host does between steps: changes histories, saves states as files, uses more threads.
+// Actions of a host between steps: it changes histories, saves states as files, uses more threads.
 #include <fcntl.h>
 #include <sched.h>
 #include <sys/resource.h>
@@ -205,7 +205,7 @@ private:
     rlimit before_{};
 };
 
-// What is no state is refused without waiting for it, and without memory for all of it.
+// Bytes that are no state are refused without a wait, and without memory for all of them.
 CASE_TEST(not_a_state) {
     const Folder folder;
     const Scene scene = bar({0.0, 1.0}, {0.0, 9e-5});

@@ -460,7 +460,7 @@ CASE_TEST(strengths_and_onset_criterion) {
             const double kenane = gn + (gt - gn) * std::pow(b, eta);
             cases::expect_near(gc[i], kenane, 1e-13, kenane, "toughness");
         }
-        // Of an onset and a strength, the last one counts.
+        // The last one of an onset and a strength counts.
         set("normal_onset", 2.0);
         scene.require(delam_law_toughness(raw, 1, mixity.data(), go.data(), nullptr), "onset again");
         cases::expect_near(go[0], 2.0, 0.0, 1.0, "onset again");

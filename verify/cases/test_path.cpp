@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a front dissipates, releases and needs as load does not depend on the way in which it is computed: stiff
-// interfaces with the default tolerance; mixed mode in parts by every method; the ledger of coarse and fine steps.
+// The energy that a front dissipates and releases, and the load that it needs, do not depend on how they are computed:
+// stiff interfaces with the default tolerance; mixed mode in parts by every method; the ledger of coarse and fine
+// steps.
 #include <algorithm>
 #include <array>
 #include <vector>
@@ -175,8 +176,8 @@ CASE_TEST(one_path_by_all_methods) {
     same(march(data, steps, "condensed", "accelerated", 0.02), 3e-3, "parts a fifth as long");
 }
 
-// What the loads do is stored, dissipated or released, and the jump is one, in coarse steps as in fine ones, wherever
-// in a step it comes.
+// The work of the loads is stored, dissipated or released, and the jump is one, in coarse steps as in fine ones,
+// wherever in a step it comes.
 CASE_TEST(ledger_of_a_jump) {
     const reference::Flexure data = jumping(loop == 0 ? 3e-3 : 1.5e-3, 1e13);
     double fine = 0.0, carried = 0.0, instant = 0.0;

@@ -191,7 +191,7 @@ CASE_TEST(refused) {
     cases::expect(delam_solver_record(solver.get(), "work") == DELAM_ERROR_STATE, "a step is pending");
 }
 
-// What the library says of its values, and that a second name is as good as the first.
+// The descriptions of values agree with the library, and a second name is as good as the first.
 CASE_TEST(descriptions_and_aliases) {
     const reference::Scene scene = cases::small_enf();
     Solver solver(scene, 0.0);

@@ -20,7 +20,7 @@ using reference::Solver;
 
 double size_of(const Solver& s) { return std::max(cases::scale(s), 1e-12); }
 
-// What the ledger of an analysis in parts had before a step.
+// The ledger of an analysis in parts before a step.
 struct Before {
     double energy, dissipated, work, defect;
     explicit Before(const Solver& s)
@@ -199,9 +199,9 @@ CASE_TEST(jumps_of_a_flexure) {
     cases::expect(jumps(again).size() == before.size(), "jumps of the march after a set state is committed");
 }
 
-// What is missing in the ledger was released, also where a local front jumps by cells so regularly that the jumps count
-// as growth (loop 1). Known open problem (DELAM_OPEN_TESTS=1 runs it): not where a step was replaced after a return,
-// because its jumps are not located, and the trapezoidal rule does not see when they come (loop 0).
+// The energy that is missing in the ledger was released, also where a local front jumps by cells so regularly that the
+// jumps count as growth (loop 1). Known open problem (DELAM_OPEN_TESTS=1 runs it): not where a step was replaced after
+// a return, because its jumps are not located, and the trapezoidal rule does not see when they come (loop 0).
 CASE_TEST(all_that_is_missing_was_released) {
     reference::FlexureScene f = reference::make_flexure(reference::find_flexure("enf-brittle"));
     f.scene.text("backtracking", loop == 0 ? "on" : "off");

@@ -51,7 +51,7 @@ Scene strip(const Setting& s) {
     scene.begin();
     scene.elastic(-1, 70e9, 0.3);
     reference::LawData law{1e13, 1e13, 20.0, 40.0, 200.0, 500.0};
-    if (std::string(s.rule) == "variational")  // which allows only a weak dependence on the mode
+    if (std::string(s.rule) == "variational")  // this rule allows only a weak dependence on the mode
         law.normal_onset = 60.0, law.tangential_onset = 80.0, law.tangential_toughness = 210.0;
     law.gradient = s.gradient;
     scene.law(0, law);

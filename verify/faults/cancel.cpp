@@ -12,7 +12,7 @@ namespace {
 
 using faults::expect;
 
-// For names like "delam_solver_value kkt_gap".
+// True for names like "delam_solver_value kkt_gap".
 bool reads(const std::string& name) {
     for (const char* function : {"delam_mesh_find_patch", "delam_problem_body_matrix", "delam_problem_constraints",
                                  "delam_problem_eigenstrain_energy", "delam_problem_forces", "delam_problem_hash",

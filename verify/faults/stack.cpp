@@ -36,7 +36,7 @@ void* march(void* strip) {
     }
 }
 
-// In a process of its own; whether it ended well.
+// Runs in a process of its own; true if it ended well.
 bool run(faults::Strip strip, std::size_t kib) {
     std::fflush(stdout);
     const pid_t pid = fork();

@@ -77,7 +77,7 @@ struct Engaged {
 // Two contexts, the objects made with them, and the data of the callbacks.
 struct World {
     std::vector<std::unique_ptr<Engaged>> engines;
-    std::vector<std::uint8_t> part;  // what delam_experimental_problem_part wrote last
+    std::vector<std::uint8_t> part;  // last output of delam_experimental_problem_part
     std::unique_ptr<Host> host[2] = {std::make_unique<Host>(), std::make_unique<Host>()};
     HostLaw host_law;
     Shelf<delam_mesh> mesh;
@@ -501,7 +501,7 @@ std::int32_t set_stiffness(const delam_mesh* mesh, Input& in, delam_problem* pro
     std::vector<std::int64_t> nodes;
     for (std::int64_t n = 0; n < s.nodes; ++n)
         if (bodies[static_cast<std::size_t>(n)] == body) nodes.push_back(n);
-    // As long as three components per node require, whatever the dimension.
+    // The array is as long as three components per node require, whatever the dimension.
     const std::size_t most = 3 * nodes.size();
     std::int64_t rows = 0, entries = 0;
     delam_problem_body_matrix(problem, body, &rows, &entries, nullptr, nullptr, nullptr);
@@ -785,7 +785,7 @@ std::int32_t set_engine(World& world, Input& in, const delam_mesh* mesh, delam_p
     return status;
 }
 
-// What the engines do from now on, in calls that are asked.
+// Chooses what the engines do from now on, in calls that are asked.
 void turn_engines(World& world, Input& in) {
     static constexpr std::int32_t statuses[] = {DELAM_CANCELLED,
                                                 DELAM_ERROR_ARGUMENT,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every call of the library promises: a status listed in its comment, a message for each status other than
-// DELAM_OK, and an unchanged object after an error.
+// Checks the promises of every call of the library: a status listed in its comment, a message for each status other
+// than DELAM_OK, and an unchanged object after an error.
 #pragma once
 
 #include <cstdint>

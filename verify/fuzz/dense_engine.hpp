@@ -54,14 +54,14 @@ public:
         no_message,
         count
     };
-    // What the answers and diagonals are, where `spoiled` says so.
+    // Kind of the answers and diagonals, where `spoiled` says so.
     Nonsense nonsense = Nonsense::none;
     // The engine fails in the call after `fail_in` others (-1: never) and returns fail_with.
     std::int64_t fail_in = -1;
     std::int32_t fail_with = DELAM_ERROR_NUMERICAL;
     // No input may run for ever: then every call fails.
     std::int64_t calls_at_most = 1000000;
-    // Whether faults occur at all: a host that only looks at an object leaves them out.
+    // True if faults occur at all: a host that only reads an object leaves them out.
     bool awake = true;
     bool failed = false;  // since it was reset
     std::int64_t calls = 0, released = 0;

@@ -134,7 +134,7 @@ public:
         if (!call("delam_mesh_create", may::argument,
                   delam_mesh_create(host_.context, arrays.dimension, arrays.node_count(), arrays.nodes.data(), &mesh_)))
             return;
-        // In one call or in two.
+        // The cells come in one call or in two.
         const std::int64_t first = in_.seldom() ? in_.below(arrays.cell_count() + 1) : arrays.cell_count();
         const bool conforming = in_.flag();
         add(arrays, 0, first, conforming);

@@ -22,7 +22,7 @@ constexpr int calls_at_most = 24;
 constexpr Statuses parts = may::argument | may::state;
 constexpr Statuses given_cells = may::cancelled | may::argument | may::problem | may::state;
 constexpr Statuses scenes = given_cells | may::numerical;
-// What work and tasks return passes; so they return nothing but statuses that are listed here.
+// Statuses that work and tasks return are passed on; so they return only statuses that are listed here.
 constexpr Statuses passed = may::argument | may::state | may::internal;
 
 void start_mpi() {
@@ -38,7 +38,7 @@ void start_mpi() {
 
 struct World;
 
-// What work and task do is decided by the bytes, too.
+// The bytes decide what work and task do, too.
 struct Inside {
     World* world;
     Input* in;

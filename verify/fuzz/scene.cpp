@@ -81,7 +81,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     } catch (const cli::Failure& failure) {
         const std::string_view said = failure.what();
         expect(!said.empty(), "a failure has a text", "scene");
-        // As call() writes them; a scene may contain these words too.
+        // These are the words of call(); a scene may contain them, too.
         for (const char* status : {"(DELAM_ERROR_INTERNAL)", "(DELAM_ERROR_HANDLE)"})
             expect(failure.code() != cli::exit_numerical || !said.ends_with(status), "no defect within",
                    failure.what());

@@ -15,8 +15,8 @@ namespace harness {
 namespace {
 
 constexpr int steps = 40;
-// What the library minimises, and the rule by which the scan books the same mixity. With exponents of 1 the toughness
-// is the same at every mixity and the rule has no effect; with 2 the two histories book the mixities of their own
+// The problem of the library, and the rule by which the scan records the same mixity. With exponents of 1 the toughness
+// is the same at every mixity and the rule has no effect; with 2 the two histories record the mixities of their own
 // states, which need not agree to the last digit.
 struct Case {
     const char* specimen;

@@ -9,7 +9,7 @@ namespace harness {
 
 inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-// From the last two: error ~ size^p. NaN with fewer, or where an error is 0.
+// Returns p of error ~ size^p, from the last two sizes. NaN with fewer, or where an error is 0.
 double order_of_errors(const std::vector<double>& sizes, const std::vector<double>& errors);
 // From the last three values v ~ v0 + c size^p, for any ratio of their sizes, p within 0.05 .. 8. NaN if there is no
 // such p (the values oscillate, or are not yet asymptotic).

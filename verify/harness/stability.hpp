@@ -66,7 +66,7 @@ struct Trial {
     // The scene with lengths in units of `unit`. The change of the energy of its direct solution shows what rounding of
     // the matrices leaves; the error may be twenty times that, up to 1e-2.
     std::function<reference::Scene(double unit)> in_unit;
-    // For the reference alone: a scene with the same answer in which every body is supported. None: the scene itself.
+    // A scene for the reference alone, with the same answer, in which every body is supported. None: the scene itself.
     std::function<reference::Scene()> held;
 };
 
@@ -77,7 +77,7 @@ class Study {
 public:
     explicit Study(const Options& options);
     const Options& options() const { return options_; }
-    // Whether the subject was requested; names it on stderr.
+    // True if the subject was requested; names it on stderr.
     bool wanted(const std::string& subject) const;
     // `also`: a trial of the same scene and times; the analyses are made once, and the rows of both follow.
     void run(const Trial& trial, const Trial* also = nullptr);

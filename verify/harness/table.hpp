@@ -22,7 +22,7 @@ struct Cell {
 
 struct Table {
     std::string name;
-    std::string note;  // what was measured
+    std::string note;  // the measured quantity
     std::vector<std::string> columns;
     std::vector<std::vector<Cell>> rows;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What an engine should answer, by dense matrices in long double and Gauss' elimination.
+// Computes what an engine should answer, by dense matrices in long double and Gauss' elimination.
 #pragma once
 
 #include <algorithm>

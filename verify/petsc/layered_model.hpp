@@ -34,7 +34,7 @@ struct Layers {
     std::int64_t dof(std::int64_t n, std::int64_t component) const { return dimension * n + component; }
 };
 
-// What one rank adds: the stiffness of the cells from column `first` to `last`.
+// The contribution of one rank: the stiffness of the cells from column `first` to `last`.
 struct Strip {
     Indices nodes, row_starts, columns;
     Values coordinates, values;

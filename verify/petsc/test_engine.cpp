@@ -17,7 +17,7 @@ namespace {
 
 using namespace verify;
 
-delam_experimental_engine given;  // what delam_petsc_attach passes on
+delam_experimental_engine given;  // the engine that delam_petsc_attach passes on
 Values recovered;                 // the combination of kept answers that delam_petsc_recover is for
 int failures = 0;
 // The default preconditioner is exact when it is new; PETSC_OPTIONS chooses others.

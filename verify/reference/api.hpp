@@ -72,14 +72,14 @@ public:
     static Scene conforming(int dimension, const std::vector<double>& nodes, std::int32_t cell_type,
                             const std::vector<std::int64_t>& cells, const std::vector<std::int32_t>& bodies);
 
-    // From existing handles, with the stiffness of each interface; only options can be added.
+    // Adopts existing handles, with the stiffness of each interface; only options can be added.
     static Scene adopt(Context context, Mesh mesh, Problem problem, std::vector<InterfaceStiffness> stiffness);
 
     std::int64_t interface(std::int32_t body_a, std::int32_t body_b);
     std::int64_t projected(std::int32_t body_a, std::int32_t body_b, double gap = 0.0);
     std::int64_t obstacle(const std::vector<std::int64_t>& nodes, const std::vector<double>& normals,
                           std::int64_t control_node);
-    // Between all bodies that touch; returns the number of interfaces.
+    // Adds interfaces between all bodies that touch; returns their number.
     std::int64_t all_interfaces();
     void begin();
 

@@ -49,7 +49,7 @@ struct ScanStep {
     double total() const { return stored + dissipated; }
 };
 
-// Where the initial state stops being the one of least energy as the load grows.
+// The load at which the initial state stops being the one of least energy.
 struct Crossing {
     double load = 0.0;        // m
     std::size_t front = 0;    // to which the front jumps

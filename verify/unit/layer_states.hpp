@@ -85,7 +85,7 @@ inline Problem make_layers_of(const LayerCase& c) {
         problem.interfaces.back().law.reset();
         problem.interfaces.back().contact = true;
         std::fill(problem.interfaces.back().adhesion.begin(), problem.interfaces.back().adhesion.end(), 0.0);
-        // What lies above must not fall off sideways.
+        // Nodes above must not fall off sideways.
         for (std::int64_t node = 0; node < problem.mesh->node_count(); ++node)
             if (problem.mesh->node_body(node) == static_cast<std::int32_t>(c.layers) - 1 &&
                 problem.mesh->node(node)[0] < 1e-9)

@@ -56,7 +56,7 @@ public:
     }
 
     std::string message;
-    std::int32_t fails = DELAM_OK;  // what the next solve returns
+    std::int32_t fails = DELAM_OK;  // status that the next solve returns
     int released = 0, prepared = 0, renewed = 0, recovered = 0, solved = 0;
     double cost = 10.0;
 

@@ -147,8 +147,8 @@ START_TEST(limits_and_failures_are_reported) {
 }
 END_TEST
 
-// Of two rows the first softens faster than the rest unloads: held it is pulled, free it penetrates. A search that
-// goes on has no end; two solves tell.
+// The first of two rows softens faster than the rest unloads: held it is pulled, free it penetrates. A search would
+// have no end, but two solves show it.
 START_TEST(negative_curvature_is_seen_in_two_sets) {
     DenseSystem s;
     s.stiffness = DenseMatrix(2, 2);
@@ -182,7 +182,7 @@ START_TEST(contact_may_hold_what_floats) {
 }
 END_TEST
 
-// From coarse rows to all of them: the same set.
+// The search from coarse rows to all of them finds the same set.
 START_TEST(levels_lead_to_the_same_set) {
     std::mt19937 random(6);
     for (int trial = 0; trial < 100; ++trial) {

@@ -51,7 +51,7 @@ START_TEST(one_thread_meanwhile) {
     {
         const BlasThreads outer;
         ck_assert_int_eq(openblas_get_num_threads(), 1);
-        ck_assert_int_eq(blas_threads(), 3);  // what the host has set
+        ck_assert_int_eq(blas_threads(), 3);  // number that the host has set
         const BlasThreads inner;
         ck_assert_int_eq(openblas_get_num_threads(), 1);
     }

@@ -159,7 +159,7 @@ double curved_volume(const Mesh& mesh, std::int64_t c) {
     return sum;
 }
 
-// From the cells' boundaries alone.
+// Computes the volume from the cells' boundaries alone.
 double volume(const Mesh& mesh) {
     double sum = 0.0;
     for (std::int64_t c = 0; c < mesh.cell_count(); ++c) {

@@ -166,7 +166,7 @@ START_TEST(options_force_and_say_so) {
 }
 END_TEST
 
-// What is predicted from the condensed operator's analysis is what the iterated operator then has.
+// The prediction from the condensed operator's analysis agrees with the iterated operator.
 START_TEST(iterated_size_is_what_was_predicted) {
     const Problem problem = unit::make_flexure(scene(_i));
     Monitor monitor;
@@ -287,7 +287,7 @@ START_TEST(limits_of_the_process_are_seen) {
     if (!unit::counting) return;  // sanitizers map more than there is
     rlimit before{};
     ck_assert_int_eq(getrlimit(RLIMIT_AS, &before), 0);
-    const double planted = 0.999 * std::min(machine.bytes, 1e15);  // what the process has mapped must fit
+    const double planted = 0.999 * std::min(machine.bytes, 1e15);  // the mapped memory of the process must fit
     const rlimit less{static_cast<rlim_t>(planted), before.rlim_max};
     ck_assert_int_eq(setrlimit(RLIMIT_AS, &less), 0);
     const MemoryLimit limited = memory_limit();

@@ -61,7 +61,7 @@ struct Diagonal {
         for (std::size_t i = 0; i < x.size(); ++i) energy += a[i] * x[i] * x[i];
         return std::sqrt(energy);
     }
-    // Of the solution, in the energy norm.
+    // Error of the solution, in the energy norm.
     double off(std::span<const double> x) const {
         std::vector<double> e(x.size());
         for (std::size_t i = 0; i < x.size(); ++i) e[i] = x[i] - right[i] / a[i];

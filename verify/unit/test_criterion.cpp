@@ -139,7 +139,7 @@ START_TEST(admissible) {
     set_parameter(law, "toughness_exponent", 4.0);
     ck_assert(scaled(1.0).empty());
     expect(scaled(0.99), "normal_toughness 99 < normal_onset 100");
-    // Where the minimum is narrow: next to the pure mode.
+    // The minimum is narrow here: next to the pure mode.
     set_parameter(law, "onset_exponent", 0.05);
     set_parameter(law, "toughness_exponent", 60.0);
     expect(scaled(2.0), "change the exponents");

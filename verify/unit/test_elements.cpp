@@ -274,8 +274,8 @@ START_TEST(quadratic_fields) {
 }
 END_TEST
 
-// With incompatible modes: linear fields on distorted cells give no force at inner nodes and have the standard energy;
-// the matrix is symmetric to the bit and only rigid motions have no energy; it is never stiffer than the standard one.
+// Incompatible modes: linear fields on distorted cells give no force at inner nodes and have the standard energy; the
+// matrix is symmetric to the bit and only rigid motions have no energy; it is never stiffer than the standard one.
 START_TEST(incompatible_modes) {
     for (const CellType type : {CellType::quad4, CellType::hex8}) {
         const Mesh mesh = with_straight_sides(type);

@@ -170,7 +170,7 @@ START_TEST(zone_answers_as_the_dense_one) {
     const double size = std::max(std::abs(a[0].energy), std::abs(b[0].energy));
     ck_assert_msg(std::abs(off) <= 1e-8 * size, "%s: energies off by %.2e of %.3g", c.name, off, size);
 
-    // Whether tangents leave a minimum at all.
+    // Counts of tangents without and with a minimum.
     int indefinite = 0, definite = 0;
     for (const double share : {-1e-12, -1e-8, -1e-4, -1e-3, -3e-3, -1e-2, -3e-2, -0.1, -0.3, -1.0, -3.0}) {
         const auto has_minimum = [&](Zone& zone) {

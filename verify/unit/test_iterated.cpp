@@ -195,7 +195,7 @@ START_TEST(answers_as_the_condensed_operator) {
 }
 END_TEST
 
-// What Newton's method asks: minimisers with springs and held rows, and whether tangents leave a minimum at all.
+// The questions of Newton's method: minimisers with springs and held rows, and whether tangents leave a minimum at all.
 START_TEST(zone_answers_as_the_dense_one) {
     const unit::LayerCase& c = cases[_i];
     unit::LayerState scene(c, static_cast<unsigned>(_i) + 1U);
@@ -640,7 +640,7 @@ START_TEST(contact_settles_on_answers_of_any_accuracy) {
 }
 END_TEST
 
-// What such answers leave in doubt is solved again, and the contact sets are those of exact ones.
+// Rows that such answers leave in doubt are solved again, and the contact sets are those of exact answers.
 START_TEST(doubtful_contact_is_solved_again) {
     int wrong = 0;
     for (const unit::LayerCase& c : cases) {

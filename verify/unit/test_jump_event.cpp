@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which steps count as jumps: an interface whose front moves by more than one row of its pairs, whatever the fronts of
+// A step counts as a jump of an interface whose front moves by more than one row of its pairs, whatever the fronts of
 // other interfaces do.
 #include <cstdlib>
 #include <vector>

@@ -58,7 +58,7 @@ struct Scene {
         if (which == 2) unit::bind_opening(problem, unit::LayerCase::Opening::prescribed);
         return problem;
     }
-    // What acts on the rows of a zone: every wanted one has softened to this share.
+    // Couplings of the rows of a zone: every wanted one has softened to this share.
     std::vector<Zone::Coupling> softened(const Zone& zone, double share) const {
         std::vector<Zone::Coupling> couplings;
         for (std::size_t z = 0; z < zone.jump_rows().size(); ++z) {
@@ -74,7 +74,7 @@ struct Scene {
         for (const std::int64_t r : zone.jump_rows()) held.push_back(springs.held[index(r)]);
         return held;
     }
-    // Of a zone, its springs included.
+    // Energy of a zone, its springs included.
     double energy(Zone& zone, const std::vector<double>& x, double share) const {
         double energy = zone.energy_of(theta, x);
         const std::vector<double> jump = zone.jumps(theta, x);

@@ -50,7 +50,7 @@ START_TEST(no_groups_no_limit) {
 }
 END_TEST
 
-// Of version 2: the group itself, one around it, and the root of a container, which is its own group.
+// Groups of version 2: the group itself, one around it, and the root of a container, which is its own group.
 START_TEST(the_narrowest_group_decides) {
     Tree tree("0::/batch/job.slice/step\n");
     tree.set("/batch/job.slice/step/memory.max", "8589934592\n");
@@ -65,7 +65,7 @@ START_TEST(the_narrowest_group_decides) {
 }
 END_TEST
 
-// Of version 1 the controller counts; paths may contain colons, and other controllers have trees of their own.
+// The controller of version 1 counts; paths may contain colons, and other controllers have trees of their own.
 START_TEST(version_1) {
     Tree tree("12:cpu,cpuacct:/a\n7:memory,hugetlb:/docker/id:7\n1:name=systemd:/a\n0::/\n");
     ck_assert(std::isinf(tree.limit()));

@@ -164,7 +164,7 @@ START_TEST(layered_blocks) {
         const auto nodes_of = [&](std::int64_t through) {
             return lattice_nodes(type, plane ? Indices{5, through} : Indices{5, 4, through});
         };
-        // On one level: hex20 has there what quad8 has in the plane, and tet10 a full lattice.
+        // Nodes on one level: hex20 has there what quad8 has in the plane, and tet10 a full lattice.
         const std::int64_t level = plane ? (quadratic(type) ? 11 : 6)
                                          : lattice_nodes(type == CellType::hex20 ? CellType::quad8 : type, {5, 4});
         ck_assert_int_eq(mesh.node_count(), nodes_of(2) + nodes_of(1) + nodes_of(3));
@@ -481,7 +481,7 @@ START_TEST(missing_middle_nodes) {
             ck_assert_refused(DELAM_ERROR_MESH, "has no partner on the other side", mesh.add_interface(0, 1, 0.0));
         }
     }
-    // Within a body: two quad8 side by side, the edge between them with two middle nodes.
+    // Two quad8 of one body, side by side; the edge between them has two middle nodes.
     const Numbers nodes{0, 0,   1,   0, 1, 1,   0,   1, 2, 0,   2,   1, 0.5, 0,
                         1, 0.5, 0.5, 1, 0, 0.5, 1.5, 0, 2, 0.5, 1.5, 1, 1,   0.5};
     Mesh mesh(2, nodes);

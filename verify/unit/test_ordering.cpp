@@ -82,8 +82,8 @@ START_TEST(dissection_is_taken_where_it_orders_better) {
 }
 END_TEST
 
-// With trailing variables: the Schur complement onto them, in their given order, against products with the matrix; and
-// a solve of the whole.
+// Trailing variables: the Schur complement onto them, in their given order, against products with the matrix; and a
+// solve of the whole.
 START_TEST(trailing_variables_stay_last) {
     const std::int64_t trailing = 3 * 17 * 17;
     const SparseMatrix m = box(17, 17, 12, true);

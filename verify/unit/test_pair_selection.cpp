@@ -84,7 +84,8 @@ START_TEST(boxes_of_blocks) {
 }
 END_TEST
 
-// What a box says of its ends: nothing where they lie on pairs or beyond the interface, else the next pair outside.
+// The pairs beyond the ends of a box: none where the ends lie on pairs or beyond the interface, else the next pair
+// outside.
 START_TEST(ends_between_pairs) {
     for (const CellType type : {CellType::quad4, CellType::quad8}) {
         const Mesh mesh = block(type, 8, 0);  // pairs at multiples of 0.25, or 0.125

@@ -20,7 +20,7 @@ using namespace delam::part_test;
 
 namespace {
 
-// Of all cells of the mesh, as a solver computes them, at displacements of any kind.
+// Fields of all cells of the mesh, as a solver computes them, at displacements of any kind.
 struct WholeFields {
     explicit WholeFields(const Blocks& b, const std::vector<std::int32_t>& bodies, const std::vector<double>& strains) {
         const Mesh& mesh = b.core();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a pair dissipates between two states of a path, against closed forms, and how far a share of its toughness takes
-// it, for every law.
+// Compares the energy that a pair dissipates between two states of a path with closed forms, and tests how far a share
+// of its toughness takes it, for every law.
 #include <array>
 #include <cmath>
 #include <string>
@@ -140,7 +140,7 @@ START_TEST(no_mixity) {
 }
 END_TEST
 
-// From mode I to mode II and back: the integral of the threshold along the path.
+// The integral of the threshold along a path from mode I to mode II and back.
 START_TEST(turning) {
     const int d = _i;
     for (const Turn turn : {Turn{0.1, 0.9, 1.0}, Turn{0.9, 0.1, 1.0}, Turn{0.05, 0.6, 2.0}}) {
@@ -215,7 +215,7 @@ START_TEST(a_share_of_the_toughness) {
 }
 END_TEST
 
-// Those that soften continuously give the share itself.
+// Laws that soften continuously give the share itself.
 START_TEST(exactly_the_share) {
     for (const char* shape : {"piecewise-linear", "exponential", "trapezoidal"})
         for (const double ratio : {2.5, 40.0, 1e5}) {

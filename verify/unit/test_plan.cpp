@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What an analysis leaves out changes nothing: contact where pairs cannot close, mixity where the law does not depend
-// on it, displacements that nobody reads. And the bodies are factored only once.
+// Work that an analysis leaves out changes nothing: contact where pairs cannot close, mixity where the law does not
+// depend on it, displacements that nobody reads. And the bodies are factored only once.
 #include <algorithm>
 #include <cmath>
 #include <cstring>

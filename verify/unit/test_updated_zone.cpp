@@ -198,7 +198,7 @@ START_TEST(stiff_springs) {
 }
 END_TEST
 
-// What forgets its past goes on with the bits of a new zone.
+// A zone that forgets its past continues with the bits of a new zone.
 START_TEST(forgets) {
     Random random(static_cast<unsigned>(_i) + 370U);
     Case c = make_case(random, 40, 0, _i % 3);
