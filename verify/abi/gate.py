@@ -63,7 +63,7 @@ def exported(library):
 
 
 def read_header(path, base):
-    """Of delam.h, or with `base`, which is delam.h, of the header of a library on top."""
+    """Reads delam.h or, with `base`, which is delam.h, the header of a library on top."""
     return headers.read(path, headers.read(base), promised=True) if base else headers.read(path)
 
 

@@ -102,7 +102,7 @@ def parameters_of(text, where):
 
 
 def members_of(text, where, line):
-    """Of the lines between the braces of a struct, the first of which is `line`."""
+    """Reads the lines between the braces of a struct, the first of which is `line`."""
     members = []
     if COMMENT.search(text):
         raise HeaderError(f"{where}: comments of a struct stand above it")
@@ -130,7 +130,7 @@ def members_of(text, where, line):
 
 
 def types_of(member):
-    """Of a parameter or a member; of a function its result and its parameters."""
+    """The types of a parameter or a member; of a function, those of its result and its parameters."""
     return [member.result, *(p.type for p in member.parameters)] if isinstance(member, Function) else [member.type]
 
 

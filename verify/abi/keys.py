@@ -171,7 +171,7 @@ def recorded_of(library, header):
 
 
 def general(name):
-    """Of a value of the march, as the table of the header has it."""
+    """The key of a value of the analysis, as the table of the header has it."""
     return re.sub(r":\d+$", ":I", re.sub(r":open$", ":NAME", name))
 
 
@@ -309,7 +309,7 @@ def growth(unit, dimension):
 
 
 def measured(library, header):
-    """What the library does otherwise than the tables of the header say."""
+    """Lists where the library differs from the tables of the header."""
     wrong, seen = [], set()
     values, fields = values_of(header), fields_of(header)
 

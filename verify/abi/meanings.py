@@ -57,7 +57,7 @@ UNORDERED = {("delam_mesh_add_host_body", "nodes")}
 
 
 def run(host, row):
-    """What a row sees of a library."""
+    """Runs a row with a library and returns what it sees."""
     see = table.See(row.name)
     host.used = {}
     host.open()
@@ -92,7 +92,7 @@ def phrases(header):
 
 
 def gaps(header, host, rows):
-    """What the table does not have, and what it has that is not there."""
+    """Lists what the table lacks, and what it has that does not exist."""
     told = {place for row in rows for place in places_of(row)}
     arrays = {("delam_" + name[6:], parameter, None) for name, kinds in host.shapes.items()
               for parameter, kind, _ in kinds if kind in ("in", "out")}

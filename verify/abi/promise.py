@@ -111,7 +111,7 @@ def statuses(text):
 
 
 def entries(text):
-    """Of null: each entry, and for one without a condition the name alone."""
+    """The entries of null: each entry, and for one without a condition the name alone."""
     return [] if text in ("", "none") else lint.split(text)
 
 

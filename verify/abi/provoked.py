@@ -398,7 +398,7 @@ STOPPED = {"problem_set_stiffness", "solver_create", "solver_advance", "solver_e
 
 
 def wrong_wait(name):
-    """What a call does with a request to cancel that came before it, or None."""
+    """Describes what a call does with a request to cancel that came before it, or returns None."""
     make, arguments = contract.CALLS[name]
     scene = make()
     right = arguments(scene)
@@ -418,7 +418,7 @@ def wrong_wait(name):
 
 
 def provoke(name, status, row):
-    """What is wrong with a row, or None."""
+    """Describes the fault of a row, or returns None."""
     make, arguments = row
     scene = make()
     right = arguments(scene)

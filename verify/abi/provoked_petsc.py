@@ -82,7 +82,7 @@ class Ranks:
         return self
 
     def inside(self, work):
-        """What work() returns on rank 0."""
+        """Returns the status of work() on rank 0."""
         seen = []
         self.work = WORK(lambda _: seen.append(work()) or 0)
         self.right("run", ask("run", self.handle, self.work, None))
@@ -295,7 +295,7 @@ def code_of(status):
 
 
 def wrong_with(status, provoke):
-    """What is wrong with a row, or None."""
+    """Describes the fault of a row, or returns None."""
     got, ranks = provoke()
     if got != code_of(status):
         return f"the row gives {got}, expected {code_of(status)}; {ranks.message() if ranks else ''}"

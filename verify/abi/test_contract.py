@@ -177,7 +177,7 @@ class Scene:
         return data
 
     def look(self):
-        """What an error must leave alone: sizes of the mesh, hash of the problem, state of the solver."""
+        """The data that an error must leave unchanged: sizes of the mesh, hash of the problem, state of the solver."""
         sizes = [short(0)] + [whole(0) for _ in range(4)]
         fine("mesh_size", self.mesh, *sizes)
         seen = [size[0] for size in sizes]
@@ -221,7 +221,7 @@ def more_nodes(s):
 
 
 def stiffness(s):
-    """Of body 0: its nodes are 0 to 3, what it moves by is a rigid motion."""
+    """The stiffness of body 0 as arguments: its nodes are 0 to 3, and its free motions are the rigid ones."""
     starts, columns, values = room(c_int64, 9), room(c_int64, 64), room(c_double, 64)
     fine("problem_body_matrix", s.problem, 0, None, None, starts, columns, values)
     kernel = real(*[1, 0] * 4, *[0, 1] * 4, 0, 0, 0, 1, -1, 1, -1, 0)

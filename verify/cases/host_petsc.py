@@ -97,7 +97,7 @@ def on_ranks(ranks, host, *arguments, limit=None):
 
 
 def broken_parts(host, path):
-    """Whether all ranks end in time, with a message, where the file of rank 1 is missing or of no use."""
+    """Tests that all ranks end in time, with a message, where the file of rank 1 is missing or of no use."""
     part = pathlib.Path(path + "_2.msh")
     lines = part.read_text(encoding="utf-8").splitlines()
     cells = [n for n, line in enumerate(lines) if len(line.split()) > 12 and line.split()[1] == "5"]

@@ -99,7 +99,7 @@ def must(words, folder):
 
 
 def published(folder):
-    """Whether a folder holds a whole result: what result.json says of the files is so."""
+    """True if a folder holds a whole result: the files are as result.json says."""
     path = os.path.join(folder, "result.json")
     if not os.path.exists(path):
         return False
@@ -142,7 +142,7 @@ class Scenario:
             must(["import", "deck.inp", "--out", "imported.toml"], folder)
 
     def right(self, folder):
-        """What is always so, also after a failure."""
+        """Checks what always holds, also after a failure."""
         for path in ("notes.txt", os.path.join("out", "notes.txt")):
             whole = os.path.join(folder, path)
             if (path == "notes.txt" or self.name != "run") and read(whole).decode() != NOTES:
@@ -208,7 +208,7 @@ class Faults:
         return call(words, folder, LD_PRELOAD=SHIM, FAULTS_FOLDER=folder, **more)
 
     def at(self, number):
-        """What is wrong after the operation of this number has failed; "": nothing."""
+        """Describes the fault after the operation of this number has failed; "": nothing."""
         folder = os.path.join(self.base, f"{self.scenario.name}-{number}")
         shutil.copytree(self.template, folder, symlinks=True)
         code = CODES[number % len(CODES)]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What two runs of a scene have in common: history, fields, adhesion and contact of all steps that are written.
+"""Compares two runs of a scene: history, fields, adhesion and contact of all steps that are written.
 
 Rounding must not decide. Two quantities amplify it, and are compared by what is known of them:
 
@@ -74,7 +74,7 @@ class Result:
             self.contact = of_pairs("contact", lambda group: np.zeros(count(group))) != 0
 
     def differences(self, other, slender=False):
-        """Of every kind: the largest difference from the other, of the largest value of the kind; and the number of
+        """Returns, for every kind, the largest difference from the other, of the largest value of the kind; and the number of
         pairs on different sides of contact."""
         a, b = self.rows, other.rows
         energy = max(np.abs(b[name]).max() for name in self.energies)
@@ -98,7 +98,7 @@ class Result:
         return found, self.sides(other)
 
     def of_the_jumps(self, other):
-        """What the adhesion may differ by because the jumps do: [steps][pairs]. Only steps that damage a pair count,
+        """Returns the difference of the adhesion that the difference of the jumps allows: [steps][pairs]. Only steps that damage a pair count,
         from then on."""
         size = np.linalg.norm(other.fields["jump"], axis=2)
         moved = np.linalg.norm(self.fields["jump"] - other.fields["jump"], axis=2)
@@ -123,7 +123,7 @@ def of(a, b, size):
 
 
 def verdict(result, reference, allowed, exact, slender=False):
-    """Whether they agree, and in how much."""
+    """Returns whether they agree, and in how much."""
     if len(reference.rows["step"]) != len(result.rows["step"]):
         return False, "other steps"
     found, sides = result.differences(reference, slender)

@@ -232,7 +232,7 @@ def ways(dimension):
 
 
 def kept():
-    """What the ranks have recovered is of that state, until the next recovery or other parts."""
+    """The fields that the ranks have recovered belong to that state, until the next recovery or other parts."""
     problem = scene(2) if COMM.rank == 0 else None
     mesh = None if problem is None else problem.mesh
     with delam.petsc.Ranks(COMM) as ranks:

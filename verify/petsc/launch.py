@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the tests of many processes share: starting delam and delam-mpi under a time limit, and expectations."""
+"""Shared by the tests of many processes: starting delam and delam-mpi under a time limit, and expectations."""
 import atexit
 import contextlib
 import ctypes
@@ -91,7 +91,7 @@ class Ranks:
             return file.read()
 
     def pid(self, rank):
-        """Of the process of a rank; None while it has not begun."""
+        """Returns the process id of a rank; None while it has not begun."""
         path = os.path.join(self.pids, str(rank))
         if not os.path.exists(path):
             return None
@@ -131,7 +131,7 @@ def expect(condition, what):
 
 
 def last_lines(said):
-    """What the program said last, or if it said nothing, mpirun."""
+    """Returns the last lines of the program or, if it said nothing, of mpirun."""
     lines = [line.strip() for line in said.replace("\r", "\n").splitlines() if line.strip(" -\n")]
     own = [line for line in lines if re.search(r"delam|error|^(run|solve|step)", line)]
     return " | ".join(own[-3:] or lines[-3:])[-500:]

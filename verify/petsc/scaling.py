@@ -88,7 +88,7 @@ def bodies_part(said):
 
 
 def local_factors(program, text, ranks):
-    """Of each rank, the entries of the two factors that BDDC has of its matrix at the first preconditioner, as MUMPS
+    """Returns, for each rank, the entries of the two factors that BDDC has of its matrix at the first preconditioner, as MUMPS
     counts them in its analysis."""
     options = SOLVERS["bddc"]
     for solver in ("dirichlet", "neumann"):

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What comparison.py calls the same, and what it does not: two runs of one scene, changed here or by a number of the
+"""Tests what comparison.py calls the same, and what it does not: two runs of one scene, changed here or by a number of the
 scene. One process."""
 import copy
 

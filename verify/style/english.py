@@ -100,7 +100,7 @@ def private_words(name, text):
 
 
 def problems(name, text):
-    """What this rule refuses in a file, a line each."""
+    """Lists what this rule refuses in a file, a line each."""
     if pathlib.PurePath(name).suffix in CODE:
         yield from fragments(name, text)
     yield from private_words(name, text)

@@ -52,7 +52,7 @@ def skip_angles(code, n):
 
 
 def declaration(head, start):
-    """What stands before a brace, and where it begins: without access specifiers and parameters of a template."""
+    """Returns the text before a brace, and where it begins: without access specifiers and parameters of a template."""
     while True:
         m = ACCESS.match(head) or TEMPLATE.match(head)
         if not m:
@@ -64,7 +64,7 @@ def declaration(head, start):
 
 
 def initialises_member(head):
-    """Whether a brace behind this head belongs to a member in a constructor's list, not to the function's body."""
+    """True if a brace behind this head belongs to a member in a constructor's list, not to the function's body."""
     depth, colon = 0, False
     for n, c in enumerate(head):
         depth += {"(": 1, ")": -1}.get(c, 0)

@@ -32,7 +32,7 @@ def sources():
 
 
 def problems(name, text):
-    """What is too long in a file of this name, a line each."""
+    """Lists what is too long in a file of this name, a line each."""
     lines = text.splitlines()
     for n, line in enumerate(lines, 1):
         if len(line) > WIDTH:

@@ -105,7 +105,7 @@ def strain_of(gradient):
 
 
 def quad4_stiffness(width, height, stiffness):
-    """Of a rectangle with corners counter-clockwise from the lower left, DOFs 2 corner + component, by 2 x 2 Gauss
+    """The stiffness of a rectangle with corners counter-clockwise from the lower left, DOFs 2 corner + component, by 2 x 2 Gauss
     points; stiffness: [3][3] in xx, yy, xy."""
     total = [[0.0] * 8 for _ in range(8)]
     corners = ((-1, -1), (1, -1), (1, 1), (-1, 1))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What several rows build."""
+"""Scenes that several rows build."""
 import forms
 from host import Out
 
@@ -21,7 +21,7 @@ def middles_of(name):
 
 
 def places_of(name):
-    """Of the nodes of a cell type, in the unit square or its like; the order is that of the header."""
+    """The coordinates of the nodes of a cell type, in the unit square or its like; the order is that of the header."""
     corners = CORNERS[shape_of(name)]
     places = [tuple(map(float, c)) for c in corners]
     for a, b in middles_of(name):

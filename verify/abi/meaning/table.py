@@ -32,7 +32,7 @@ def whole(value):
 
 
 class See:
-    """What a row has seen: failures, and the numbers that a baseline keeps, (row, what) -> (unit, numbers)."""
+    """The results of a row: failures, and the numbers that a baseline keeps, (row, what) -> (unit, numbers)."""
 
     def __init__(self, row_name):
         self.row, self.failures, self.numbers = row_name, [], {}
@@ -106,7 +106,7 @@ def close(unit, a, b, size):
 
 
 def against(baseline, numbers, seen_rows):
-    """What is not as in the baseline; rows that did not run are left out."""
+    """Lists differences from the baseline; rows that did not run are left out."""
     for (name, what), (unit, old) in baseline.items():
         if name not in seen_rows:
             continue
