@@ -74,8 +74,8 @@ class Result:
             self.contact = of_pairs("contact", lambda group: np.zeros(count(group))) != 0
 
     def differences(self, other, slender=False):
-        """Returns, for every kind, the largest difference from the other, of the largest value of the kind; and the number of
-        pairs on different sides of contact."""
+        """Returns, for every kind, the largest difference from the other, of the largest value of the kind; and the
+        number of pairs on different sides of contact."""
         a, b = self.rows, other.rows
         energy = max(np.abs(b[name]).max() for name in self.energies)
         found = {"reaction": max(of(a[name], b[name], np.abs(b[name]).max()) for name in b
@@ -98,8 +98,8 @@ class Result:
         return found, self.sides(other)
 
     def of_the_jumps(self, other):
-        """Returns the difference of the adhesion that the difference of the jumps allows: [steps][pairs]. Only steps that damage a pair count,
-        from then on."""
+        """Returns the difference of the adhesion that the difference of the jumps allows: [steps][pairs]. Only steps
+        that damage a pair count, from then on."""
         size = np.linalg.norm(other.fields["jump"], axis=2)
         moved = np.linalg.norm(self.fields["jump"] - other.fields["jump"], axis=2)
         relative = np.divide(moved, size, out=np.zeros_like(moved), where=size > 0.0)

@@ -88,8 +88,8 @@ def bodies_part(said):
 
 
 def local_factors(program, text, ranks):
-    """Returns, for each rank, the entries of the two factors that BDDC has of its matrix at the first preconditioner, as MUMPS
-    counts them in its analysis."""
+    """Returns, for each rank, the entries of the two factors that BDDC has of its matrix at the first preconditioner,
+    as MUMPS counts them in its analysis."""
     options = SOLVERS["bddc"]
     for solver in ("dirichlet", "neumann"):
         prefix = f" -delam_pc_bddc_{solver}_"

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests what comparison.py calls the same, and what it does not: two runs of one scene, changed here or by a number of the
-scene. One process."""
+"""Tests what comparison.py calls the same, and what it does not: two runs of one scene, changed here or by a number
+of the scene. One process."""
 import copy
 
 import numpy as np
