@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What work costs, where several parts of the library compare it.
+// Costs that several parts of the library compare.
 #pragma once
 
 namespace delam {

@@ -86,7 +86,7 @@ public:
 
     // The least adhesion that the pair may reach.
     virtual double least(std::size_t pair) const = 0;
-    // How the pairs that damage at the end of the step respond to their jumps.
+    // Returns how the pairs that damage at the end of the step respond to their jumps.
     virtual std::vector<PairDirection> directions(const State& state) const = 0;
 
 protected:

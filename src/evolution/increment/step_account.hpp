@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a step or a candidate of its search costs, and what the ledger records of it.
+// The dissipated energy of a step or of a candidate of its search, and the entries of a step in the ledger.
 #pragma once
 
 #include <span>
@@ -8,11 +8,11 @@
 
 namespace delam {
 
-// What a step dissipates, F L.
+// Energy that a step dissipates, F L.
 struct Dissipation {
-    double booked = 0.0;
+    double recorded = 0.0;
     double linear = 0.0;  // in the split of PANM 15 (2010)
-    double error = 0.0;   // estimate for what is booked
+    double error = 0.0;   // estimate for `recorded`
 };
 
 class StepAccount {
@@ -24,17 +24,17 @@ public:
     virtual double cost(std::span<const double> mixity, std::span<const double> adhesion) const = 0;
     // E of the state before, of the split that cost() completes.
     virtual double energy_before() const = 0;
-    // Do pairs that break next take the mixity that the candidate's displacements show?
+    // True if pairs that break next take the mixity that the candidate's displacements show.
     virtual bool follows_iterates() const = 0;
-    // Are the energies of candidates bounds for the states left out?
+    // True if the energies of candidates are bounds for the states left out.
     virtual bool bounds_candidates() const = 0;
     // ---- the ledger ----------------------------------------------------------------------------------------------
-    // Energies, dissipated energies and increments of the step into next.ledger. along: what was dissipated on the way;
-    // none: at the mixities of the state.
-    virtual void book(State& next, const Dissipation* along = nullptr) const = 0;
+    // Records energies, dissipated energies and increments of the step in next.ledger. along: the energy dissipated
+    // along the path; none: at the mixities of the state.
+    virtual void record_ledger(State& next, const Dissipation* along = nullptr) const = 0;
 };
 
 // Energies of a state at its own mixity; the columns that accumulate are not touched.
-void book_energies(const PairLaws& pairs, State& state);
+void record_energies(const PairLaws& pairs, State& state);
 
 }  // namespace delam

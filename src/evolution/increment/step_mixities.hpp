@@ -34,8 +34,8 @@ public:
     virtual const Memory& memory() const = 0;
     virtual void restore(const Memory& memory) = 0;
 
-    // The change of the damage step that what the solve has left open of the jumps explains. From now on a change of
-    // this size says nothing about mixities either.
+    // Returns the change of the damage step that the error of the solve in the jumps explains. From now on a change of
+    // this size does not count for mixities either.
     virtual double blur(const State& state, std::span<const double> damage) = 0;
     // Mixities of a start from another state: where that state is broken, those with which it broke.
     virtual void adopt(std::span<const double> mixity, State& start) const = 0;

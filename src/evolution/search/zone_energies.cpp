@@ -54,7 +54,7 @@ std::optional<double> ZoneEnergies::energy(std::span<const double> adhesion) {
     std::size_t differ = 0;
     for (std::size_t p = 0; p < adhesion.size(); ++p) differ += adhesion[p] != known_->adhesion[p] ? 1 : 0;
     std::optional<double> energy = zone_energy(adhesion);
-    settled_ = !energy || whole_ || differ < std::max<std::size_t>(1, look_again * looked_at_);
+    settled_ = !energy || whole_ || differ < std::max<std::size_t>(1, recheck_factor * checked_);
     for (int round = 0; !settled_ && round < rounds_outside; ++round) {
         const std::vector<std::size_t> wrong = wrong_outside();
         settled_ = wrong.empty();

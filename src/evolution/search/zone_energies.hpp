@@ -28,10 +28,10 @@ public:
 
     // True if every zone has all rows.
     bool whole() const { return whole_; }
-    // known: a state with displacements and booked energy, which must outlive the following calls. wanted: [pairs] that
-    // may differ. allowed: by how much an energy may be too high, F L. with_jumps: its jumps are wanted, too, which
-    // contact must not be left undecided for. False: there is no zone for them, or no equilibrium under the known load
-    // in it.
+    // known: a state with displacements and recorded energy, which must outlive the following calls. wanted: [pairs]
+    // that may differ. allowed: by how much an energy may be too high, F L. with_jumps: its jumps are wanted, too,
+    // which contact must not be left undecided for. False: there is no zone for them, or no equilibrium under the known
+    // load in it.
     bool focus(const State& known, std::span<const std::uint8_t> wanted, double allowed, bool with_jumps);
     // Discards what earlier energies have shown of contact; a search begins without it.
     void forget() {

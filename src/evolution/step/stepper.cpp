@@ -170,8 +170,8 @@ double Stepper::largest_loss(const StepRule& step, const State& next) const {
 // pair abruptly, the part of the work that is neither stored nor dissipated is released, into a motion that a
 // quasi-static model does not have. A step that was followed in parts knows when they happen, and records the work of
 // the load between them (within_step.hpp).
-void Stepper::book_step(State& next, const StepRule& step, const InnerPath* path) const {
-    step.book(next, path != nullptr ? &path->dissipated() : nullptr);
+void Stepper::record_step(State& next, const StepRule& step, const InnerPath* path) const {
+    step.record_ledger(next, path != nullptr ? &path->dissipated() : nullptr);
     const State& before = step.before();
     Ledger& ledger = next.ledger;
     std::vector<double> d(next.theta.size());
@@ -340,7 +340,7 @@ void Stepper::keep_lower(Result& best, State other, const StepRule& step, const 
 
 // The load grows until fronts have run so far that `extent` is dissipated beyond the step's own state. E of a state at
 // the load of the step is that at the larger one over the square of their ratio, but for the gradient energy.
-Stepper::Scouted Stepper::scout(Result& best, const StepRule& step, double extent) {
+Stepper::Continuation Stepper::continue_fronts(Result& best, const StepRule& step, double extent) {
     const State& from = best.state;
     const Ledger &now = from.ledger, &then = step.before().ledger;
     const Dissipation own{now.dissipated - then.dissipated, now.dissipated_linear - then.dissipated_linear,
@@ -386,7 +386,7 @@ Stepper::Scouted Stepper::scout(Result& best, const StepRule& step, double exten
 // A zone's energy keeps the contact outside as it was, unless a check has shown otherwise, and may be too low.
 // Candidates that seem lower than the kept state are therefore compared by displacement steps of their own. Returns the
 // lowest candidate.
-double Stepper::hold_against(Result& best, const SearchResult& found, const StepRule& step) {
+double Stepper::compare_candidates(Result& best, const SearchResult& found, const StepRule& step) {
     double lowest = std::numeric_limits<double>::infinity();
     bool compared = false;
     for (const Candidate& candidate : found.starts) {

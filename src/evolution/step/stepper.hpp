@@ -95,11 +95,11 @@ private:
     void refuse_runaway(const State& state, const StepRule& step);
     // The largest part of its toughness that a pair loses in a step.
     double largest_loss(const StepRule& step, const State& next) const;
-    void book_step(State& next, const StepRule& step, const InnerPath* path = nullptr) const;
+    void record_step(State& next, const StepRule& step, const InnerPath* path = nullptr) const;
     void keep_lower(Result& best, State other, const StepRule& step, const Dissipation* begun = nullptr);
     // Result of continue_fronts(), which is needed where the dissipated energy depends on the path: how far fronts run
     // at a larger load, and the state on this path that is lowest at the load of the step.
-    struct Scouted {
+    struct Continuation {
         State state;  // adhesion and mixity
         Dissipation dissipated;
         double incremental = std::numeric_limits<double>::infinity();  // I, F L
@@ -107,8 +107,8 @@ private:
         bool given_up = false;                                         // it lies far above the step
         std::int64_t compared = 0;                                     // states on it
     };
-    Scouted scout(Result& best, const StepRule& step, double extent);
-    double hold_against(Result& best, const SearchResult& found, const StepRule& step);
+    Continuation continue_fronts(Result& best, const StepRule& step, double extent);
+    double compare_candidates(Result& best, const SearchResult& found, const StepRule& step);
     void search(Result& best, const StepRule& step);
 
     const Problem& problem_;

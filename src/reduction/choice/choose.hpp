@@ -93,7 +93,7 @@ struct Design {
     std::vector<BoundRow> bound;           // jumps that supports bind to others
     std::unique_ptr<Bulk> bulk;            // of the condensed operator
     std::unique_ptr<JumpOperator> op;      // the iterated operator, which factors nothing before its first solve
-    // Of the operator that was built, null where it is another realisation.
+    // Parts of the operator that was built; null if it is another realisation.
     const Bulk* condensed = nullptr;            // the bodies condensed onto the jumps
     const EngineOperator* in_engine = nullptr;  // the bodies are an engine's of the host
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a jump operator is asked with, and what it answers.
+// Arguments and results of a jump operator.
 #pragma once
 
 #include <algorithm>
@@ -24,8 +24,9 @@ struct SupportError {
     std::int64_t constraint = -1;  // -1: none misses
     double error = 0.0;            // |B_d u - c|, L
     double size = 0.0;             // of the displacements of which this is a difference, L
-    // Of the displacements: far above what a converged solve leaves (1e-12), far below what anybody would call held. A
-    // host that asks for fewer digits of the iterative solve has asked for them at its supports, too.
+    // Allowed error, relative to the displacements: far above the error of a converged solve (1e-12), far below what
+    // anybody would call held. A host that asks for fewer digits of the iterative solve has asked for them at its
+    // supports, too.
     static double allowed(double linear_tolerance) { return std::max(1e-6, linear_tolerance); }
     bool violated(double linear_tolerance) const { return !(error <= allowed(linear_tolerance) * size); }
 };
@@ -46,8 +47,8 @@ struct Response {
     bool converged = true;
 };
 
-// Of an iterative solve: enough for a first idea of contact, as the option linear_tolerance says, or all that this
-// operator can reach.
+// Accuracy of an iterative solve: enough for a first idea of contact, as the option linear_tolerance says, or all that
+// this operator can reach.
 enum class Accuracy { rough, usual, tight };
 
 }  // namespace delam

@@ -153,8 +153,8 @@ void record_energies(const PairLaws& pairs, State& state) {
     ledger.stored_interface_linear = ledger.stored_interface + stored_linear(pairs, state.mixity, state.adhesion);
 }
 
-void StepRule::book(State& next, const Dissipation* along) const {
-    book_energies(pairs_, next);
+void StepRule::record_ledger(State& next, const Dissipation* along) const {
+    record_energies(pairs_, next);
     Ledger& ledger = next.ledger;
     const double dissipated =
         along != nullptr ? along->recorded : dissipation(pairs_, next.mixity, before_.adhesion, next.adhesion);

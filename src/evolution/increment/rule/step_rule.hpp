@@ -12,7 +12,7 @@
 
 namespace delam {
 
-// What bounds a minimisation.
+// Bounds of a minimisation.
 struct StepLimits {
     StepLimits(double tolerance_, double stride_ = 1.0) : tolerance(tolerance_), stride(stride_) {}
     double tolerance;  // of the tractions (Increment::change), and relative of a toughness
@@ -56,7 +56,7 @@ public:
 
     bool follows_iterates() const override { return false; }
     bool bounds_candidates() const override { return true; }
-    void book(State& next, const Dissipation* along = nullptr) const override;
+    void record_ledger(State& next, const Dissipation* along = nullptr) const override;
 
 protected:
     // mixity: [pairs]. like: a step of the same laws, from which toughnesses at equal mixities are taken.
@@ -64,8 +64,8 @@ protected:
              const StepRule* like = nullptr);
     virtual const std::vector<double>& recorded() const { return now_.used; }
     virtual void begin_observation() {}
-    // In the split of PANM 15 (2010), at the mixities of the state.
-    virtual void book_rule(State& next, double energy_change_linear) const = 0;
+    // Records the split of PANM 15 (2010), at the mixities of the state.
+    virtual void record_rule(State& next, double energy_change_linear) const = 0;
     std::size_t dimension() const { return static_cast<std::size_t>(pairs_.dimension); }
     // The part of the jumps that belongs to a pair.
     std::span<const double> local(std::span<const double> jump, std::size_t pair) const {

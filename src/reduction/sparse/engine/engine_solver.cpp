@@ -16,13 +16,13 @@ namespace delam {
 
 namespace {
 
-// Iterations beyond those of a fresh preconditioner after which an old one is given up.
+// Iterations beyond those of a new preconditioner after which an old one is given up.
 constexpr std::int64_t least_attempt = 20;
 constexpr double highest_cost = 1e6;
 // Residual and iterations of the search for a direction without a minimum.
 constexpr double probed = 1e-3;
 constexpr std::int64_t longest_probe = 60;
-// What a solve calls back. An exception waits until the engine has returned.
+// Arguments of the callbacks of a solve. An exception waits until the engine has returned.
 struct Calls {
     const BodySolver::Forcing& forcing;
     Monitor& monitor;

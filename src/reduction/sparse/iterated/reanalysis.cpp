@@ -146,8 +146,8 @@ bool Reanalysis::factorise_patches() {
 bool Reanalysis::set(std::vector<Zone::Coupling> couplings, std::span<const std::uint8_t> held) {
     system_.set(std::move(couplings), held);
     floating_.update();
-    const bool fresh = lagged_.empty() || (renewal_.due(whole_->size().flops) && !changed().empty());
-    if (fresh) renew_now();
+    const bool renewed = lagged_.empty() || (renewal_.due(whole_->size().flops) && !changed().empty());
+    if (renewed) renew_now();
     // A factor of the whole cannot have tangents: those of some pairs are negative.
     if (!cover(renewed || !plain())) {
         renew_now();

@@ -57,9 +57,6 @@ public:
     void require_memory(std::span<const double> memory) const override;
 
 private:
-    // Iterations with a fresh factor for which no newer one is blamed: as many as its first solve has taken, within
-    // these bounds (tangents that are negative or couple rows are in patches alone).
-
     // Variables of rows whose springs differ from those of the factor.
     std::vector<std::int64_t> changed() const;
     bool plain() const;
@@ -100,8 +97,8 @@ private:
     // use.
     bool comes_back_;
     bool remembered_ = false;  // memory() has told of the factor in use
-    std::unique_ptr<WholeFactor> aside_;
-    std::vector<double> springs_aside_;  // [rows]; empty: there is none
+    std::unique_ptr<WholeFactor> other_factor_;
+    std::vector<double> other_springs_;  // [rows]; empty: there is none
     std::int64_t factorisations_ = 0;
     std::vector<std::vector<double>> null_;  // free motions in the reduced space, orthonormal
     std::vector<double> work_, image_;
