@@ -15,7 +15,7 @@ namespace {
 // A failed method is tried again after 1, 2, 4, 8, 8 ... steps.
 class Backoff {
 public:
-    explicit Patience(std::int64_t longest) : longest_(longest) {}
+    explicit Backoff(std::int64_t longest) : longest_(longest) {}
     bool try_now() {
         if (wait_ == 0) return true;
         --wait_;
@@ -108,7 +108,7 @@ private:
     bool halved_ = false;  // descend() has gone a part of the way only
     Extrapolation extrapolation_;
     std::vector<double> used_;  // adhesions from which the last extrapolation started
-    Patience newton_patience_{limits_.newton_longest_wait}, move_patience_{limits_.newton_longest_wait};
+    Backoff newton_backoff_{limits_.newton_longest_wait}, move_backoff_{limits_.newton_longest_wait};
     bool indefinite_ = false;                      // the last model had no minimum
     bool softens_ = false;                         // the last tangents were indefinite
     std::int64_t staggered_ = 0;                   // staggered steps since Newton's method has succeeded
@@ -251,7 +251,7 @@ Descent::Move Descent::step(const Point& at) {
         if (!softens_) newton_backoff_.report(move.newton);
     }
     move.taken = move.newton;
-    if (!move.taken && !(soft && *soft < limits_.newton_own_branch) && move_patience_.try_now()) {
+    if (!move.taken && !(soft && *soft < limits_.newton_own_branch) && move_backoff_.try_now()) {
         closed_ = before;
         const std::int64_t pair = weakest(at);
         move.taken = move_backoff_.report(pair >= 0 && minimise(at, at.adhesion, 0.0, pair, move.to) &&

@@ -8,7 +8,7 @@
 namespace delam {
 
 // Throws Error(DELAM_ERROR_PROBLEM) for the first thing that is missing or contradictory, including supports: every
-// part connected through bonded or adhering pairs must be held against all its rigid motions.
+// part connected through bonded or adhering pairs needs supports that prevent all its rigid motions.
 void validate(const Problem& problem, const Poll& poll = {});
 
 }  // namespace delam

@@ -17,7 +17,7 @@ namespace delam {
 
 namespace {
 
-// Of the work of all tangents along a rigid motion: what may be rounding of a sum that cancels.
+// Rounding of a sum that cancels, relative to the work of all tangents along a rigid motion.
 constexpr double cancelled = 1e-13;
 
 }  // namespace
