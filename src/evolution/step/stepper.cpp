@@ -27,8 +27,7 @@ constexpr double gradual = 0.1;
 constexpr double least_overload = 1.02, overload_growth = 1.04, most_overload = 4.0;
 // Extent to which fronts are continued, relative to the energy dissipated down to a candidate.
 constexpr double beyond = 1.2;
-// A continuation is given up if its energy lies by more than the fraction `too_high` of its dissipated energy above the
-// step, once it has dissipated the fraction `first_part` of its extent.
+// A continuation ends above the step by `too_high` of its dissipated energy, after `first_part` of its extent.
 constexpr double too_high = 0.25, first_part = 0.1;
 constexpr double same = 1e-3;  // spread of toughnesses, relative
 
