@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tests the scanner of functions on code whose lengths are known, and plants what sizes.py, words.py,
-readmes.py, arrows.py and sentences.py must refuse."""
+readmes.py, arrows.py, sentences.py and english.py must refuse."""
 
 import pathlib
 import sys
@@ -154,6 +154,41 @@ def planted_sentences():
     return len(faults) + 1
 
 
+def planted_english():
+    """Plants fragments and private words; returns how many."""
+    fragment, private = "a comment needs a subject and a verb", "is a private word"
+    refused = {
+        "// What a search has found.\nint a;\n": fragment,
+        "// SPDX-License-Identifier: BSD-3-Clause\n// Whether the pair\n// adheres.\n": fragment,
+        "// Of the last step.\nint a;\n": fragment,
+        "int a;  // what is left\n": fragment,
+        "// Those of the part.\nint a;\n": fragment,
+        "// For messages.\nint a;\n": fragment,
+        "// In units of the mesh; 0: none.\nint a;\n": fragment,
+        "// Where the nodes of a cell sit.\nint a;\n": fragment,
+        "// A march through all steps.\nint a;\n": private,
+        "int looked_at_ = 0;\n": private,
+        "double debt_ = 0.0;\n": private,
+        'fail("the energies that a step books");\n': private,
+        "struct Beneath {};\n": private,
+    }
+    for text, what in refused.items():
+        assert any(what in line for line in english.problems("src/a/b.cpp", text)), f"{text!r} was not refused"
+    fine = [
+        "// Returns what a search has found.\nint a;\n",
+        "double mass;  // of each body\n",
+        "// In the plane the rotation about z is the first component.\nint a;\n",
+        "// Where the load is zero, nothing moves.\nint a;\n",
+        "// It refuses what nobody needs.\nint a;\n",
+        'call(delam_solver_look(solver, -1), "estimate_hollow");\n',
+        "// An up-looking factorisation refreshes the Marchenko overlook.\nint a;\n",
+    ]
+    for text in fine:
+        assert not list(english.problems("src/a/b.cpp", text)), f"{text!r} was refused"
+    assert list(english.problems("src/a/README.md", "A fresh factor.\n")) and not list(english.problems("src/a/README.md", "Whether.\n"))
+    return len(refused) + 1
+
+
 def main():
     found = list(scanner.functions(CODE))
     assert found == EXPECTED, f"found {found}, expected {EXPECTED}"
@@ -204,7 +239,7 @@ def main():
         assert list(readmes.problems(src)) == [f"src/law/law_kind: {missing}"]
         (src / "law" / "README.md").write_text("- `mixity`, `law_kind`, `linear`\n", encoding="utf-8")
         assert not list(readmes.problems(src))
-    houses = planted_arrows() + planted_imports() + planted_sentences()
+    houses = planted_arrows() + planted_imports() + planted_sentences() + planted_english()
     print(f"{len(EXPECTED)} functions, {len(refused) + len(planted) + 2 + houses} planted")
     return 0
 

@@ -74,7 +74,7 @@ bool descend(const CgSystem& system, std::span<double> x, std::vector<double>& r
         system.apply(z, ap);
         const double pap = dot(z, ap);
         if (!(pap > 0.0))
-            return !(pap <= -system.limits.restart_flat * std::abs(rz));  // what is not finite has no sign
+            return !(pap <= -system.limits.restart_flat * std::abs(rz));  // a number that is not finite has no sign
         const double step = rz / pap;
         steps.push_back(step);
         add_scaled(step, z, x);

@@ -92,7 +92,7 @@ private:
     std::vector<double> lagged_;  // [rows] springs of the factor; held ones as springs. Empty: there is none
     Renewal renewal_;             // its price and excess in operations
     bool attempt_ = false;        // too much differs for wide patches, but the factor is still the one before
-    double rounded_ = 0.0;        // what rounding leaves of a residual, relative; 0: not yet met with this factor
+    double rounded_ = 0.0;        // rounding of a residual, relative; 0: not yet met with this factor
     // A search solves other states and comes back: the factor of the state that it leaves is kept beside the one in
     // use.
     bool comes_back_;
