@@ -167,7 +167,9 @@ bool Solve::iterate(const Question& question, const Restarts& restarts, double& 
 Result Solve::rounds(const Question& question) {
     const Communicator& comm = bodies_.comm();
     Result result;
-    Restarts restarts(question.tolerance, rounded_);
+    double tolerance = question.tolerance;  // of rank 0, which alone has the question
+    comm.broadcast(tolerance);
+    Restarts restarts(tolerance, rounded_);
     double size = residual(question);
     while (true) {
         const double norm = precondition();
