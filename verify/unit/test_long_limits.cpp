@@ -73,7 +73,7 @@ constexpr Scene scenes[] = {
 };
 constexpr int steps = 8;
 
-// What an analysis finds and what it costs.
+// Results of an analysis, and its cost.
 struct Found {
     std::vector<double> energies, adhesion, reaction;  // of all steps
     bool converged = true;

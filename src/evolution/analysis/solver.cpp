@@ -166,7 +166,7 @@ void Solver::commit() {
     record_.reserve_row();
     // From here on nothing can fail.
     for (const Record::Row& row : rows) record_.put(row);
-    const bool was_shown = selected_ == nullptr;
+    const bool present_shown = selected_ == nullptr;
     selected_ = nullptr;
     jumps_ = std::move(all);
     for (State& state : pending_->revised) {
@@ -183,7 +183,10 @@ void Solver::commit() {
     committed_ = std::move(pending_->state);
     searched_ = std::move(pending_->searched);
     pending_.reset();
-    was_shown ? observer_.follow(committed_) : observer_.show(committed_);
+    if (present_shown)
+        observer_.follow(committed_);  // the pending state, which is the committed one now
+    else
+        observer_.show(committed_);
 }
 
 void Solver::rollback() {

@@ -15,7 +15,7 @@ from .live import shown, units_of
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-# What draws each kind: {kind: (module, function)}.
+# The function that draws each kind of figure: {kind: (module, function)}.
 _CURVES = ".._pictures.curves"
 _OF_RESULT = {"load": (_CURVES, "load_figure"), "energies": (_CURVES, "energies_figure"),
               "averages": (_CURVES, "averages_figure"), "snapshots": (".._pictures.snapshots", "snapshots_figure"),
