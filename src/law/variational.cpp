@@ -22,12 +22,12 @@ VariationalPair::Mode VariationalPair::mode(std::span<const double> local_jump) 
 std::pair<Toughness, double> VariationalPair::damaging(std::span<const double> local_jump) const {
     const Mode m = mode(local_jump);
     const Toughness t = law.toughness(m.mixity);
-    return {t, std::max(0.0, m.driving.total() + (t.total - total_before))};
+    return {t, m.driving.total() + (t.total - total_before)};
 }
 
 double VariationalPair::minimiser(std::span<const double> local_jump, double zeta_old) const {
     const auto [toughness, driving] = damaging(local_jump);
-    return law.minimiser(toughness, driving, zeta_old);
+    return law.minimiser(toughness, std::max(0.0, driving), zeta_old);
 }
 
 double VariationalPair::energy(std::span<const double> local_jump, double zeta) const {

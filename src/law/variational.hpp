@@ -30,7 +30,8 @@ struct VariationalPair {
 
     // local_jump: normal, tangent(s). Per unit area.
     double minimiser(std::span<const double> local_jump, double zeta_old) const;
-    // The damage is that of the law at this toughness under Y + Gc(B) - Gc_before.
+    // The damage is that of the law at this toughness under Y + Gc(B) - Gc_before, which may be negative: only a
+    // gradient term tells that from 0.
     std::pair<Toughness, double> damaging(std::span<const double> local_jump) const;
     double energy(std::span<const double> local_jump, double zeta) const;  // phi
     // zeta K j + f_B grad B: normal, tangent(s); what is beyond the dimension is 0.
