@@ -49,7 +49,9 @@ std::array<double, 3> VariationalPair::force(std::span<const double> local_jump,
     return t;
 }
 
-std::array<double, 9> VariationalPair::tangent(std::span<const double> local_jump, double zeta_old) const {
+// Of the force; damage(jump): the adhesion there.
+template <class Damage>
+std::array<double, 9> VariationalPair::slope(std::span<const double> local_jump, const Damage& damage) const {
     const std::size_t dim = local_jump.size();
     const double size = std::sqrt(2.0 * driving_energy(law, local_jump).total());
     std::array<double, 9> h{};
@@ -62,13 +64,21 @@ std::array<double, 9> VariationalPair::tangent(std::span<const double> local_jum
             std::copy(local_jump.begin(), local_jump.end(), j.begin());
             j[q] += s == 0 ? -step : step;
             const std::span<const double> at(j.data(), dim);
-            side[static_cast<std::size_t>(s)] = force(at, minimiser(at, zeta_old));
+            side[static_cast<std::size_t>(s)] = force(at, damage(at));
         }
         for (std::size_t r = 0; r < dim; ++r) h[r * dim + q] = (side[1][r] - side[0][r]) / (2.0 * step);
     }
     for (std::size_t r = 0; r < dim; ++r)
         for (std::size_t q = 0; q < r; ++q) h[r * dim + q] = h[q * dim + r] = 0.5 * (h[r * dim + q] + h[q * dim + r]);
     return h;
+}
+
+std::array<double, 9> VariationalPair::tangent(std::span<const double> local_jump, double zeta_old) const {
+    return slope(local_jump, [&](std::span<const double> at) { return minimiser(at, zeta_old); });
+}
+
+std::array<double, 9> VariationalPair::tangent_held(std::span<const double> local_jump, double zeta) const {
+    return slope(local_jump, [&](std::span<const double>) { return zeta; });
 }
 
 // B = sin^2 phi:  F' = f_B sin 2phi,  F'' = f_BB sin^2 2phi + 2 f_B cos 2phi.
