@@ -49,7 +49,7 @@ std::array<double, 3> VariationalPair::force(std::span<const double> local_jump,
     return t;
 }
 
-// Of the force; damage(jump): the adhesion there.
+// Returns the slope of the force. damage(jump) returns the adhesion there.
 template <class Damage>
 std::array<double, 9> VariationalPair::slope(std::span<const double> local_jump, const Damage& damage) const {
     const std::size_t dim = local_jump.size();

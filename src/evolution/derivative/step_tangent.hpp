@@ -53,8 +53,8 @@ private:
     Response unit(std::span<const double> theta, const std::vector<double>& force);
     // Returns the tangent of bodies and springs alone.
     std::vector<double> elastic(std::span<const Pattern> patterns);
-    // Returns the elastic tangent less what the pairs along these directions give way. coupled: the gradient term couples
-    // them.
+    // Returns the elastic tangent less what the pairs along these directions give way. coupled: the gradient term
+    // couples them.
     std::vector<double> yielding(std::span<const Pattern> patterns, std::vector<PairDirection> directions,
                                  bool coupled);
     // The gradient term couples pairs that damage: - kappa A / w.
