@@ -15,7 +15,7 @@ declare -A slice_tests=(
     [7]='^ranks/long_scenes_whole.*$'
     [8]='^(abi/long_.*)$'
     [9]='^fuzz/.*$'
-    [10]='^fault/(long|cancel|memory).*$'
+    [10]='^(fault/(long|cancel|memory)|features/).*$'
 )
 # Stages of verify/stages.sh, with their arguments, separated by semicolons.
 declare -A slice_stages=(

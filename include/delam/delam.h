@@ -1230,12 +1230,14 @@ DELAM_API int32_t delam_solver_front(const delam_solver *solver, int64_t interfa
 
 /* Returns the tangent of the load patterns at fixed adhesion and contact set, in the state described
  * (delam_solver_value). matrix [pattern_count][pattern_count] has the entries d2 E / d factor_p d factor_q and is
- * symmetric. Row p is the derivative of reaction:p (for a force pattern, of minus its displacement). The call costs one
- * displacement solve per pattern; the state does not change.
+ * symmetric. Row p is the derivative of reaction:p (for a force pattern, of minus its displacement). With
+ * `mixity_rule = variational`, the traction that this rule adds changes with the jumps as well. The call costs one
+ * displacement solve per pattern (with `mixity_rule = variational`, also one per component of a partly damaged pair);
+ * the state does not change.
  * For a periodic cell, let each component of <grad u> be the factor of a pattern of its own. If the periods lie along
  * the axes, each component of control node k has a pattern whose coefficient is the length of period k. The matrix is
  * then the homogenised stiffness times the volume. DELAM_ERROR_STATE: a force pattern acts along a motion that nothing
- * holds.
+ * holds. DELAM_ERROR_NUMERICAL: the tangent is singular.
  * [unit matrix of factors; null none; status cancelled, argument, state, numerical; source none; since 0.1] */
 DELAM_API int32_t delam_solver_tangent(delam_solver *solver, int64_t capacity, double *matrix);
 

@@ -245,7 +245,8 @@ DELAM_API int32_t delam_experimental_solver_follow(delam_solver *solver, int64_t
  * reaches a corner of its law, the analysis has none.
  * *unknown receives the number of pairs of which one quantity is taken as constant. This is the adhesion, if it came to
  * rest within a step. It is the mixity, if the pair damaged in the very first loaded step with `mixity_rule = frozen`.
- * *unknown is usually 0 in analyses that do not jump. DELAM_ERROR_STATE: the state was loaded or set.
+ * *unknown is usually 0 in analyses that do not jump. With `mixity_rule = converged`, long steps have parts, after
+ * which pairs come to rest, unless `path_step = 1`. DELAM_ERROR_STATE: the state was loaded or set.
  * [unit matrix of factors; null unknown; status argument, state; source P. Michaleris, D. Tortorelli, C. Vidal, Int. J.
  * Numer. Meth. Engng 37 (1994) 2471-2499; since 0.2] */
 DELAM_API int32_t delam_experimental_solver_sensitivity(const delam_solver *solver, int64_t capacity, double *matrix,

@@ -22,12 +22,12 @@ VariationalPair::Mode VariationalPair::mode(std::span<const double> local_jump) 
 std::pair<Toughness, double> VariationalPair::damaging(std::span<const double> local_jump) const {
     const Mode m = mode(local_jump);
     const Toughness t = law.toughness(m.mixity);
-    return {t, std::max(0.0, m.driving.total() + (t.total - total_before))};
+    return {t, m.driving.total() + (t.total - total_before)};
 }
 
 double VariationalPair::minimiser(std::span<const double> local_jump, double zeta_old) const {
     const auto [toughness, driving] = damaging(local_jump);
-    return law.minimiser(toughness, driving, zeta_old);
+    return law.minimiser(toughness, std::max(0.0, driving), zeta_old);
 }
 
 double VariationalPair::energy(std::span<const double> local_jump, double zeta) const {
@@ -49,7 +49,9 @@ std::array<double, 3> VariationalPair::force(std::span<const double> local_jump,
     return t;
 }
 
-std::array<double, 9> VariationalPair::tangent(std::span<const double> local_jump, double zeta_old) const {
+// Returns the slope of the force. damage(jump) returns the adhesion there.
+template <class Damage>
+std::array<double, 9> VariationalPair::slope(std::span<const double> local_jump, const Damage& damage) const {
     const std::size_t dim = local_jump.size();
     const double size = std::sqrt(2.0 * driving_energy(law, local_jump).total());
     std::array<double, 9> h{};
@@ -62,13 +64,21 @@ std::array<double, 9> VariationalPair::tangent(std::span<const double> local_jum
             std::copy(local_jump.begin(), local_jump.end(), j.begin());
             j[q] += s == 0 ? -step : step;
             const std::span<const double> at(j.data(), dim);
-            side[static_cast<std::size_t>(s)] = force(at, minimiser(at, zeta_old));
+            side[static_cast<std::size_t>(s)] = force(at, damage(at));
         }
         for (std::size_t r = 0; r < dim; ++r) h[r * dim + q] = (side[1][r] - side[0][r]) / (2.0 * step);
     }
     for (std::size_t r = 0; r < dim; ++r)
         for (std::size_t q = 0; q < r; ++q) h[r * dim + q] = h[q * dim + r] = 0.5 * (h[r * dim + q] + h[q * dim + r]);
     return h;
+}
+
+std::array<double, 9> VariationalPair::tangent(std::span<const double> local_jump, double zeta_old) const {
+    return slope(local_jump, [&](std::span<const double> at) { return minimiser(at, zeta_old); });
+}
+
+std::array<double, 9> VariationalPair::tangent_held(std::span<const double> local_jump, double zeta) const {
+    return slope(local_jump, [&](std::span<const double>) { return zeta; });
 }
 
 // B = sin^2 phi:  F' = f_B sin 2phi,  F'' = f_BB sin^2 2phi + 2 f_B cos 2phi.

@@ -30,13 +30,16 @@ struct VariationalPair {
 
     // local_jump: normal, tangent(s). Per unit area.
     double minimiser(std::span<const double> local_jump, double zeta_old) const;
-    // The damage is that of the law at this toughness under Y + Gc(B) - Gc_before.
+    // The damage is that of the law at this toughness under Y + Gc(B) - Gc_before, which may be negative: only a
+    // gradient term tells that from 0.
     std::pair<Toughness, double> damaging(std::span<const double> local_jump) const;
     double energy(std::span<const double> local_jump, double zeta) const;  // phi
     // zeta K j + f_B grad B: normal, tangent(s); what is beyond the dimension is 0.
     std::array<double, 3> force(std::span<const double> local_jump, double zeta) const;
     // Row-major derivative of the force with the damage minimised out, by differences.
     std::array<double, 9> tangent(std::span<const double> local_jump, double zeta_old) const;
+    // The same with the damage held.
+    std::array<double, 9> tangent_held(std::span<const double> local_jump, double zeta) const;
     // A spring mu K that bounds the curvature of f(B(j), zeta) from above near j: with x = sqrt(K) j in polar
     // coordinates, f = F(phi), the Hessian is [0, -F'; -F', F''] / (2 Y).
     double proximal(std::span<const double> local_jump, double zeta) const;
@@ -48,6 +51,8 @@ private:
         bool known;  // false: the jump is rounding
     };
     Mode mode(std::span<const double> local_jump) const;
+    template <class Damage>
+    std::array<double, 9> slope(std::span<const double> local_jump, const Damage& damage) const;
 };
 
 }  // namespace delam

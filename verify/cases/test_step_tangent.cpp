@@ -168,6 +168,51 @@ void tangent_is_the_derivative(int loop) {
         cases::expect_below(asymmetry, 1e-6, std::string(s.name) + ": asymmetry");
 }
 
+// At fixed adhesion and contact set: compared with displacement steps beside the state.
+void load_tangent_is_the_derivative(int loop) {
+    const Setting& s = settings[loop];
+    if (std::string(s.name) == "frozen, FETI, space" && !cases::whole()) return;
+    const Scene scene = strip(s);
+    Solver solver(scene, 0.0);
+    for (const double time : {0.3, 0.6, 0.9}) {
+        solver.step(time);
+        solver.commit();
+        std::vector<double> tangent(9);
+        scene.require(delam_solver_tangent(solver.get(), 9, tangent.data()), "delam_solver_tangent");
+        double size = 0.0;
+        for (std::size_t p = 0; p < 3; ++p) size = std::max(size, std::abs(tangent[4 * p]) * ends[p] * ends[p]);
+        const double beside = time + 1e-3;
+        const auto at = [&](std::size_t q, double change) {
+            for (std::size_t p = 0; p < 3; ++p) {
+                const double value = ends[p] * (time + (p == q ? change : 0.0));
+                scene.require(delam_solver_set_history(solver.get(), static_cast<std::int64_t>(p), 1, &beside, &value),
+                              "delam_solver_set_history");
+            }
+            scene.require(delam_solver_equilibrate(solver.get(), beside, nullptr), "delam_solver_equilibrate");
+            std::vector<double> reactions;
+            for (const char* name : names) reactions.push_back(solver.value(std::string("reaction:") + name));
+            solver.rollback();
+            return reactions;
+        };
+        for (std::size_t q = 0; q < 3; ++q) {
+            const auto above = at(q, 1e-5), below = at(q, -1e-5);
+            for (std::size_t p = 0; p < 3; ++p)
+                cases::expect_near(tangent[3 * p + q] * ends[p] * ends[q], (above[p] - below[p]) / 2e-5 * ends[p], 1e-5,
+                                   size,
+                                   std::string(s.name) + ", load tangent at " + std::to_string(time) + ", d " +
+                                       names[p] + " / d " + names[q]);
+        }
+        for (std::size_t p = 0; p < 3; ++p) {
+            const double end = 1.0;
+            scene.require(delam_solver_set_history(solver.get(), static_cast<std::int64_t>(p), 1, &end, &ends[p]),
+                          "delam_solver_set_history");
+        }
+    }
+}
+
+START_TEST(load_derivative) { cases::run_body(load_tangent_is_the_derivative, _i); }
+END_TEST
+
 START_TEST(derivative) { cases::run_body(tangent_is_the_derivative, _i); }
 END_TEST
 
@@ -324,6 +369,7 @@ int main() {
     Suite* suite = suite_create("step_tangent");
     TCase* tests = tcase_create("step_tangent");
     tcase_add_loop_test(tests, derivative, 0, setting_count);
+    tcase_add_loop_test(tests, load_derivative, 0, setting_count);
     tcase_add_test(tests, tangent_refused);
     tcase_add_loop_test(tests, condensed, 0, 2);
     tcase_add_test(tests, no_operator_by_feti);

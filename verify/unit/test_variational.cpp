@@ -7,8 +7,10 @@
 #include <random>
 #include <vector>
 
+#include "evolution/increment/gradient.hpp"
 #include "evolution/increment/rule/converged_increment.hpp"
 #include "evolution/increment/rule/frozen_increment.hpp"
+#include "evolution/increment/rule/variational_increment.hpp"
 #include "law/variational.hpp"
 
 #include <check.h>
@@ -94,12 +96,17 @@ START_TEST(force_and_tangent) {
             ck_assert_double_eq_tol(force[c], slope, 1e-6 * law.normal_stiffness * size);
         }
         const auto h2 = pair.tangent(local, 0.9);
+        const auto held = pair.tangent_held(local, zeta);
         for (std::size_t q = 0; q < dim; ++q) {
             const double step = 1e-5 * size;
             std::array<double, 3> low = j, high = j;
             low[q] -= step;
             high[q] += step;
             const std::span<const double> a(low.data(), dim), b(high.data(), dim);
+            for (std::size_t r = 0; r < dim; ++r)
+                ck_assert_double_eq_tol(held[r * dim + q],
+                                        (pair.force(b, zeta)[r] - pair.force(a, zeta)[r]) / (2 * step),
+                                        1e-3 * law.normal_stiffness * (1.0 + law.normal_toughness / law.normal_onset));
             const double za = pair.minimiser(a, 0.9), zb = pair.minimiser(b, 0.9);
             if ((za >= 0.9) != (zb >= 0.9) || (za <= 0.0) != (zb <= 0.0)) continue;  // a kink in between
             const auto fa = pair.force(a, za), fb = pair.force(b, zb);
@@ -124,6 +131,37 @@ START_TEST(damage_is_the_minimiser) {
         for (int i = 0; i <= 400; ++i)
             ck_assert(pair.energy(j, old * i / 400.0) >= reached - 1e-12 * law.normal_toughness);
     }
+}
+END_TEST
+
+// Three pairs in a row, coupled by a gradient term: the middle one damages and draws its neighbours along, whose modes
+// turn to where the toughness is less, by more than their Y.
+START_TEST(coupled_damage_is_the_minimiser) {
+    Law law;
+    law.normal_stiffness = law.tangential_stiffness = 1e11;
+    law.normal_onset = law.tangential_onset = 30.0;
+    law.normal_toughness = 200.0;
+    law.tangential_toughness = 250.0;
+    law.gradient = 1.0;
+    PairLaws pairs;
+    pairs.law = {&law, &law, &law};
+    pairs.weight = {1.0, 1.0, 1.0};
+    std::vector<Triplet> chain{{0, 0, 1.0},  {0, 1, -1.0}, {1, 0, -1.0}, {1, 1, 2.0},
+                               {1, 2, -1.0}, {2, 1, -1.0}, {2, 2, 1.0}};
+    pairs.gradient = {std::make_shared<GradientTerm>(300.0, from_triplets(3, 3, std::move(chain)), pairs.weight, 0)};
+    State before = whole(3);
+    before.adhesion = {0.95, 0.9, 0.97};
+    const std::vector<double> used{0.9, 0.5, 0.8}, jump{2e-6, 1e-6, 6e-5, 5e-5, 2e-6, 2e-6};
+    const VariationalIncrement step(pairs, before, used, 1e-6);
+    const std::vector<double> zeta = step.damage_step(before.adhesion, jump);
+    ck_assert(zeta[0] < 0.95 && zeta[1] > 0.0 && zeta[1] < 0.9 && zeta[2] < 0.97);
+    const double reached = step.energy(zeta, jump);
+    for (std::size_t p = 0; p < 3; ++p)
+        for (const double change : {-1e-2, -1e-3, 1e-3, 1e-2}) {
+            std::vector<double> other = zeta;
+            other[p] = std::clamp(other[p] + change, 0.0, before.adhesion[p]);
+            ck_assert_double_ge(step.energy(other, jump), reached - 1e-10 * std::abs(reached));
+        }
 }
 END_TEST
 
@@ -267,6 +305,7 @@ int main() {
     tcase_add_test(tests, toughness_slopes);
     tcase_add_test(tests, force_and_tangent);
     tcase_add_test(tests, damage_is_the_minimiser);
+    tcase_add_test(tests, coupled_damage_is_the_minimiser);
     tcase_add_test(tests, proximal_spring_bounds_the_curvature);
     tcase_add_test(tests, small_jumps_and_contact);
     tcase_add_test(tests, swings_end);

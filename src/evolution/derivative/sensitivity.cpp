@@ -215,7 +215,7 @@ Sensitivity sensitivity(Linearised linearised, std::span<const FollowedParameter
     const State& state = linearised.state();
     const std::size_t pairs = state.adhesion.size();
     const Linearised::Damaging damaging =
-        step != nullptr ? linearised.damaging(patterns.size(), *step) : Linearised::Damaging{};
+        step != nullptr ? linearised.damaging(patterns.size(), step->directions(state)) : Linearised::Damaging{};
     std::vector<std::uint8_t> active(pairs, 0);
     for (const PairDirection& direction : damaging.directions) active[direction.pair] = 1;
     Sensitivity out;

@@ -33,7 +33,7 @@ Response Linearised::unit(std::span<const double> theta, const std::vector<doubl
     return response;
 }
 
-std::vector<double> Linearised::tangent(std::span<const Pattern> patterns) {
+std::vector<double> Linearised::elastic(std::span<const Pattern> patterns) {
     std::vector<double> matrix(patterns.size() * patterns.size()), theta(patterns.size(), 0.0);
     for (std::size_t q = 0; q < patterns.size(); ++q) {
         theta[q] = 1.0;
@@ -78,8 +78,8 @@ Response Linearised::answer(std::size_t patterns, const std::vector<double>& for
     return unit(still, force);
 }
 
-Linearised::Damaging Linearised::damaging(std::size_t patterns, const Increment& increment) {
-    Damaging of{increment.directions(state_), {}, {}};
+Linearised::Damaging Linearised::damaging(std::size_t patterns, std::vector<PairDirection> found) {
+    Damaging of{std::move(found), {}, {}};
     const auto n = static_cast<std::int64_t>(of.directions.size());
     of.system = DenseMatrix(n, n);
     std::vector<double> force(springs_.stiffness.size(), 0.0);
@@ -95,10 +95,19 @@ Linearised::Damaging Linearised::damaging(std::size_t patterns, const Increment&
     return of;
 }
 
+std::vector<double> Linearised::tangent(std::span<const Pattern> patterns, const Increment& increment) {
+    return yielding(patterns, increment.held_directions(state_), false);
+}
+
 std::vector<double> Linearised::step_tangent(std::span<const Pattern> patterns, const Increment& increment) {
+    return yielding(patterns, increment.directions(state_), true);
+}
+
+std::vector<double> Linearised::yielding(std::span<const Pattern> patterns, std::vector<PairDirection> found,
+                                         bool coupled) {
     const auto count = static_cast<std::int64_t>(patterns.size());
-    std::vector<double> matrix = tangent(patterns);
-    auto [directions, answers, system] = damaging(patterns.size(), increment);
+    std::vector<double> matrix = elastic(patterns);
+    auto [directions, answers, system] = damaging(patterns.size(), std::move(found));
     const auto n = static_cast<std::int64_t>(directions.size());
     if (n == 0) return matrix;
 
@@ -106,10 +115,10 @@ std::vector<double> Linearised::step_tangent(std::span<const Pattern> patterns, 
     DenseMatrix right(n, count);
     for (std::int64_t a = 0; a < n; ++a)
         for (std::int64_t q = 0; q < count; ++q) right(a, q) = along(directions[index(a)], columns_[index(q)].jump);
-    add_gradient(directions, system);
+    if (coupled) add_gradient(directions, system);
     if (!solve_general(system, right, singular))
-        fail(DELAM_ERROR_NUMERICAL, "step tangent: singular with ", n,
-             " damaging pairs; an instability (a jump of the state) is imminent");
+        fail(DELAM_ERROR_NUMERICAL, coupled ? "step tangent" : "tangent", ": singular with ", n,
+             " partly damaged pairs; an instability (a jump of the state) is imminent");
     for (std::int64_t q = 0; q < count; ++q)
         for (std::int64_t p = 0; p < count; ++p)
             for (std::int64_t a = 0; a < n; ++a)

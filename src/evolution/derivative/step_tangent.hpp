@@ -29,9 +29,9 @@ public:
     // Solves with the state's own memory, so that the last digits depend on the state alone; every other call that
     // solves recalls the memory of its state too.
 
-    // Returns the tangent at the adhesion of the state, [patterns][patterns]. Error(DELAM_ERROR_STATE): a pattern acts
-    // along a motion that nothing holds.
-    std::vector<double> tangent(std::span<const Pattern> patterns);
+    // Returns the tangent at the adhesion of the state, under the rule of `increment`, [patterns][patterns].
+    // Error(DELAM_ERROR_STATE): a pattern acts along a motion that nothing holds.
+    std::vector<double> tangent(std::span<const Pattern> patterns, const Increment& increment);
     // Returns the tangent of the step of `increment`.
     std::vector<double> step_tangent(std::span<const Pattern> patterns, const Increment& increment);
 
@@ -42,7 +42,7 @@ public:
         std::vector<Response> answers;
         DenseMatrix system;
     };
-    Damaging damaging(std::size_t patterns, const Increment& increment);
+    Damaging damaging(std::size_t patterns, std::vector<PairDirection> directions);
     // Returns the response to forces on the rows, without loads.
     Response answer(std::size_t patterns, const std::vector<double>& force);
     double along(const PairDirection& direction, std::span<const double> jump) const;
@@ -51,6 +51,12 @@ public:
 
 private:
     Response unit(std::span<const double> theta, const std::vector<double>& force);
+    // Returns the tangent of bodies and springs alone.
+    std::vector<double> elastic(std::span<const Pattern> patterns);
+    // Returns the elastic tangent less what the pairs along these directions give way. coupled: the gradient term
+    // couples them.
+    std::vector<double> yielding(std::span<const Pattern> patterns, std::vector<PairDirection> directions,
+                                 bool coupled);
     // The gradient term couples pairs that damage: - kappa A / w.
     void add_gradient(std::span<const PairDirection> directions, DenseMatrix& system) const;
 

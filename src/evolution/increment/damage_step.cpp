@@ -81,7 +81,7 @@ std::vector<double> damage_at(const PairLaws& pairs, std::span<const Toughness> 
     std::vector<double> zeta(adhesion_old.begin(), adhesion_old.end());
     for (std::size_t p = 0; p < zeta.size(); ++p)
         if (pairs.law[p] != nullptr && zeta[p] > 0.0) {
-            zeta[p] = pairs.law[p]->minimiser(toughness[p], driving[p], zeta[p]);
+            zeta[p] = pairs.law[p]->minimiser(toughness[p], std::max(0.0, driving[p]), zeta[p]);
             if (least && zeta[p] < adhesion_old[p]) zeta[p] = std::max(zeta[p], least(p));
         }
     for (const auto& term : pairs.gradient) {

@@ -88,6 +88,8 @@ public:
     virtual double least(std::size_t pair) const = 0;
     // Returns how the pairs that damage at the end of the step respond to their jumps.
     virtual std::vector<PairDirection> directions(const State& state) const = 0;
+    // Returns how pairs respond at fixed adhesion, beside their springs.
+    virtual std::vector<PairDirection> held_directions(const State& /*state*/) const { return {}; }
 
 protected:
     Increment(const PairLaws& pairs, const State& before) : pairs_(pairs), before_(before) {}

@@ -489,7 +489,7 @@ Stepper::Result Stepper::equilibrate(const State& before, double time, std::span
 }
 
 std::vector<double> Stepper::tangent(const State& state) {
-    return Linearised(*operator_, pairs_, contact_, state).tangent(problem_.patterns);
+    return Linearised(*operator_, pairs_, contact_, state).tangent(problem_.patterns, *increment(state, state.mixity));
 }
 
 std::vector<double> Stepper::step_tangent(const State& before, const State& state) {

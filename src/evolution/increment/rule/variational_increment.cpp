@@ -104,10 +104,19 @@ void VariationalIncrement::record_rule(State& next, double energy_change_linear)
     ledger.increment_lower = energy_change_linear + dissipation_linear(pairs_, last, before_.adhesion, next.adhesion);
 }
 
-// The force of each pair that is partly damaged, less that of its spring, component by component.
 std::vector<PairDirection> VariationalIncrement::directions(const State& state) const {
     if (!pairs_.gradient.empty())
         fail(DELAM_ERROR_STATE, "step tangent: not available for mixity_rule = variational with a gradient term");
+    return beside_springs(state, false);
+}
+
+std::vector<PairDirection> VariationalIncrement::held_directions(const State& state) const {
+    return beside_springs(state, true);
+}
+
+// Returns the force of each partly damaged pair, less that of its spring, component by component. held: the adhesion is
+// fixed; otherwise the damage follows the jump.
+std::vector<PairDirection> VariationalIncrement::beside_springs(const State& state, bool held) const {
     const std::size_t dim = dimension();
     const double largest = largest_driving(pairs_, state.response.jump);
     const std::vector<double> spring = spring_stiffness(pairs_, state.adhesion);
@@ -117,7 +126,9 @@ std::vector<PairDirection> VariationalIncrement::directions(const State& state) 
         const Law& law = *pairs_.law[p];
         const double before = state.mixity_before[p];
         const VariationalPair own{law, before, law.toughness(before).total, largest};
-        const std::array<double, 9> tangent = own.tangent(local(state.response.jump, p), before_.adhesion[p]);
+        const std::span<const double> jump = local(state.response.jump, p);
+        const std::array<double, 9> tangent =
+            held ? own.tangent_held(jump, state.adhesion[p]) : own.tangent(jump, before_.adhesion[p]);
         const std::size_t first = state.closed[p] != 0 ? 1 : 0;
         for (std::size_t r = first; r < dim; ++r) {
             PairDirection direction{p, std::vector<double>(dim, 0.0), std::vector<double>(dim, 0.0), 1.0};

@@ -29,12 +29,14 @@ public:
     bool bounds_candidates() const override { return false; }
     std::vector<double> shown(std::span<const double> jump, std::vector<double> mixity) const override;
     std::vector<PairDirection> directions(const State& state) const override;
+    std::vector<PairDirection> held_directions(const State& state) const override;
 
 protected:
     const std::vector<double>& recorded() const override { return now_.own; }
     void record_rule(State& next, double energy_change_linear) const override;
 
 private:
+    std::vector<PairDirection> beside_springs(const State& state, bool held) const;
     VariationalPair pair(std::size_t p) const {
         return {*pairs_.law[p], now_.used[p], now_.toughness[p].total, largest_};
     }
