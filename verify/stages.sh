@@ -60,20 +60,3 @@ thread_sanitizer() {
 clang() {
     check "clang without warnings" build clang -DDELAM_BUILD_TESTS=ON
 }
-
-# valgrind does not know AVX-512.
-memory_checked() {
-    OPENBLAS_CORETYPE=Haswell CK_FORK=no CK_DEFAULT_TIMEOUT=0 valgrind --quiet --error-exitcode=9 --leak-check=full \
-        --errors-for-leak-kinds=definite "$1"
-}
-
-# valgrind_unit: runs the unit tests and two cases with valgrind.
-valgrind_unit() {
-    local program
-    for program in build/release/verify/unit_test_* build/release/verify/case_test_{capi,single_pair}; do
-        # test_choose counts what is allocated, which valgrind takes out of its hands.
-        if [[ -f $program && $program != *test_long_* && $program != *test_choose ]]; then
-            check "valgrind $(basename "$program")" memory_checked "$program"
-        fi
-    done
-}

@@ -89,7 +89,7 @@ public:
     // Returns how the pairs that damage at the end of the step respond to their jumps.
     virtual std::vector<PairDirection> directions(const State& state) const = 0;
     // Returns how pairs respond at fixed adhesion, beside their springs.
-    virtual std::vector<PairDirection> held_directions(const State& /*state*/) const { return {}; }
+    virtual std::vector<PairDirection> held_directions(const State& state) const = 0;
 
 protected:
     Increment(const PairLaws& pairs, const State& before) : pairs_(pairs), before_(before) {}

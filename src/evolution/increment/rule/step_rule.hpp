@@ -40,6 +40,7 @@ public:
     double dissipated(std::size_t pair, double adhesion) const override;
     double least(std::size_t /*pair*/) const override { return 0.0; }
     bool quadratic() const override { return true; }
+    std::vector<PairDirection> held_directions(const State& /*state*/) const override { return {}; }
 
     bool observe(std::span<const double> adhesion, std::span<const double> jump) override;
     bool observe(std::size_t pair, const Driving& y) override;
