@@ -1,14 +1,22 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checks that every file of src is named in the README of its folder or of a folder above it.
+"""Checks that every file of src is named in the README of its folder or of a folder above it, and that each path to a file
+of the repository, in a text or a comment, leads to one.
 
     python3 verify/style/readmes.py
 """
 
 import pathlib
 import re
+import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+# A path to a file, from the root of the repository or from a folder above the file that names it; NAME and FAMILY stand
+# for names of the reader.
+PATH = re.compile(r"(?<![\w/.-])(?:src|verify|bindings|examples|include)/(?!NAME|FAMILY)[\w./-]+"
+                  r"\.(?:cpp|hpp|h|inc|py|sh|md|cmake|toml|csv|inp|f90|jl|js)(?!\w)")
+# What is in the past tense, what names made-up paths, and what names files where they are installed.
+UNREAD = ("CHANGELOG.md", "verify/style/test_sizes.py", "verify/packaging/components.sh")
 
 
 def problems(src):
@@ -23,8 +31,22 @@ def problems(src):
             yield f"{stem.relative_to(src.parent)}: named in no README of its folder or of one above it"
 
 
+def lost(root, names):
+    """Yields paths that the files of these names, relative to root, name and that lead nowhere."""
+    for name in names:
+        try:
+            text = (root / name).read_text(encoding="utf-8")
+        except UnicodeDecodeError:
+            continue
+        for path in sorted(set(PATH.findall(text))):
+            if not any((root / folder / path).exists() for folder in pathlib.Path(name).parents):
+                yield f"{name}: {path} is not there"
+
+
 def main():
-    wrong = list(problems(ROOT / "src"))
+    names = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=False).stdout.splitlines()
+    wrong = [*problems(ROOT / "src"),
+             *lost(ROOT, [name for name in names if name not in UNREAD and (ROOT / name).is_file()])]
     for line in wrong:
         print(line, file=sys.stderr)
     return 1 if wrong else 0

@@ -239,6 +239,9 @@ def main():
         assert list(readmes.problems(src)) == [f"src/law/law_kind: {missing}"]
         (src / "law" / "README.md").write_text("- `mixity`, `law_kind`, `linear`\n", encoding="utf-8")
         assert not list(readmes.problems(src))
+        (src / "law" / "names.hpp").write_text("// See src/law/mixity.cpp, src/lost.cpp and examples/NAME/NAME.toml.\n",
+                                               encoding="utf-8")
+        assert list(readmes.lost(src.parent, ["src/law/names.hpp"])) == ["src/law/names.hpp: src/lost.cpp is not there"]
     houses = planted_arrows() + planted_imports() + planted_sentences() + planted_english()
     print(f"{len(EXPECTED)} functions, {len(refused) + len(planted) + 2 + houses} planted")
     return 0

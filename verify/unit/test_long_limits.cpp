@@ -101,8 +101,9 @@ Found analyse(const Scene& scene, const Limits& limits) {
         found.converged = found.converged && outcome.status == DELAM_OK;
         solver.commit();
         const State& state = solver.state();
-        for (const double e :
-             {state.ledger.stored_bulk, state.ledger.stored_interface, state.ledger.dissipated, state.ledger.released})
+        // Without what is released: a step's deficit of energy is booked as released from a bound on, and the deficit
+        // of "energetic" lies at this bound.
+        for (const double e : {state.ledger.stored_bulk, state.ledger.stored_interface, state.ledger.dissipated})
             found.energies.push_back(e);
         found.adhesion.insert(found.adhesion.end(), state.adhesion.begin(), state.adhesion.end());
         found.reaction.push_back(state.response.conjugate.front());
@@ -129,6 +130,15 @@ double difference(const Found& a, const Found& b) {
 // before. (Largest difference that was seen: LIMITS.md.)
 constexpr double allowed = 1e-4;
 
+constexpr const char* heading =
+    "# Numbers that steer the solvers\n\n"
+    "Written by `DELAM_LIMITS=LIMITS.md verify/unit_test_long_limits` in a build folder: what half and twice of each "
+    "number "
+    "do to the analyses of `verify/unit/test_long_limits.cpp`.\n\n"
+    "Difference: the largest of energies and reactions, relative, and of adhesions. Work: solves and Krylov iterations "
+    "over those with the number itself. Where neither changes, no analysis came to the number: it guards.\n\n"
+    "| number | value | reason | half: difference, work | twice: difference, work |\n|---|---|---|---|---|\n";
+
 START_TEST(test_limits) {
     std::vector<Found> expected;
     for (const Scene& scene : scenes) {
@@ -136,10 +146,7 @@ START_TEST(test_limits) {
         ck_assert_msg(expected.back().converged, "%s: not converged", scene.name);
     }
     std::FILE* table = std::getenv("DELAM_LIMITS") != nullptr ? std::fopen(std::getenv("DELAM_LIMITS"), "w") : nullptr;
-    if (table != nullptr)
-        std::fputs(
-            "| number | value | reason | half: difference, work | twice: difference, work |\n|---|---|---|---|---|\n",
-            table);
+    if (table != nullptr) std::fputs(heading, table);
     std::string wrong;
     for (const Row& row : rows()) {
         std::string line = "| `" + row.name + "` | " + row.value + " | " + row.reason + " |";

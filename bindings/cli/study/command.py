@@ -27,7 +27,7 @@ DONE, NOT_CONVERGED, WRONG, OUTPUT, NUMERICAL, INTERRUPTED = 0, 1, 2, 3, 4, 130
 LONGEST = 1000  # characters of a message: a text of a file may be any number of them
 
 # What moves a cursor, turns a line or hides a text: controls but for line feeds and tabs, separators and changes of
-# direction of Unicode, and bytes that are no UTF-8. src/printable.cpp shows the same ones in the same way.
+# direction of Unicode, and bytes that are no UTF-8. src/text/printable.cpp shows the same ones in the same way.
 UNPRINTABLE = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ud800-\udfff\ufeff"
                          "\U000e0000-\U000e007f]")
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers and axes with the units of the scene, as plot.py has them (bindings/cli/plot/result.py).
+// Numbers and axes with the units of the scene, as plot.py has them (bindings/python/src/delam/_pictures/result.py).
 export const number = (value, digits = 4) => {
   if (value === null || value === undefined) return 'infinite';
   if (value === 0) return '0';
