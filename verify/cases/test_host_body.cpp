@@ -258,7 +258,7 @@ const std::vector<Example>& examples() {
 
 constexpr int steps = 8;
 
-void march_is_the_same(int loop) {
+LOOP_TEST(march_is_the_same, 0, 2 * static_cast<int>(examples().size())) {
     const Example& example = examples()[static_cast<std::size_t>(loop / 2)];
     const bool feti = loop % 2 == 1;
     const auto options = [&](Scene& scene) {
@@ -302,12 +302,9 @@ void march_is_the_same(int loop) {
     same_march(mixed, ", cells");
 }
 
-START_TEST(march) { cases::run_body(march_is_the_same, _i); }
-END_TEST
-
 // A bar on the host's own springs: the host adds them to the diagonal, and the library finds the motions that they
 // hold. One cell per body, no Poisson effect: springs in series, c (ground) + 1/E + 1/k + 1/E to 1 per unit area.
-void grounded_bar(int loop) {
+LOOP_TEST(grounded_bar, 0, 6) {
     const int dim = loop < 3 ? 2 : 3;
     const int way = loop % 3;  // condensed, found; FETI, found; condensed, declared that no motion is free
     const double young = 1e12, stiffness = 1e12, ground = 4e11;
@@ -348,12 +345,9 @@ void grounded_bar(int loop) {
     cases::expect_near(stress[0], exact, 1e-9, exact, "traction");
 }
 
-START_TEST(grounded) { cases::run_body(grounded_bar, _i); }
-END_TEST
-
 // Springs along one direction hold only that translation; the library's supports hold the rest. The same bar, driven
 // sideways too.
-CASE_TEST(partly_grounded) {
+TEST(partly_grounded) {
     Scene own(2, {1.0}, {1}, {1.0, 1.0}, {1, 1}, DELAM_QUAD4);
     own.interface(0, 1);
     own.begin();
@@ -446,7 +440,7 @@ Scene emptied_scene(const Example& example, const Scene& own, double diagonal) {
     return scene;
 }
 
-void emptied_rows(int loop) {
+LOOP_TEST(emptied_rows, 0, 2) {
     const Example& example = examples()[1];
     const bool feti = loop == 1;
     Scene own = example.make();
@@ -463,11 +457,8 @@ void emptied_rows(int loop) {
     }
 }
 
-START_TEST(emptied) { cases::run_body(emptied_rows, _i); }
-END_TEST
-
 // More rows than a dense square block may have, because a body is sparse.
-CASE_TEST(large_body) {
+TEST(large_body) {
     Scene own(2, {1.0}, {152}, {1.0, 1.0}, {152, 1}, DELAM_QUAD4);
     own.interface(0, 1);
     own.begin();
@@ -496,7 +487,7 @@ CASE_TEST(large_body) {
 }
 
 // A kernel declared for two bodies in one call, three motions of each.
-CASE_TEST(kernel_of_two_bodies) {
+TEST(kernel_of_two_bodies) {
     Scene own(2, {2.0}, {2}, {1.0, 1.0}, {1, 1}, DELAM_QUAD4);
     own.interface(0, 1);
     own.begin();
@@ -525,7 +516,7 @@ CASE_TEST(kernel_of_two_bodies) {
 }
 
 // One label, two plies that the matrix does not connect: two pieces, each with its own motions.
-CASE_TEST(two_pieces_of_one_body) {
+TEST(two_pieces_of_one_body) {
     Scene own(2, {0.12}, {30}, {2e-3, 2e-3, 2e-3}, {1, 1, 1}, DELAM_QUAD4);
     own.interface(0, 1);
     own.interface(1, 2);
@@ -617,7 +608,7 @@ CASE_TEST(two_pieces_of_one_body) {
 }
 
 // Errors are named, and the problem stays unchanged.
-CASE_TEST(refusals) {
+TEST(refusals) {
     Scene own(2, {2.0}, {2}, {1.0, 1.0}, {1, 1}, DELAM_QUAD4);
     own.interface(0, 1);
     own.begin();
@@ -718,7 +709,7 @@ CASE_TEST(refusals) {
 }
 
 // Without faces there are no fronts, and nothing for a gradient term to act on.
-CASE_TEST(no_faces) {
+TEST(no_faces) {
     Scene own(2, {2.0}, {2}, {1.0, 1.0}, {1, 1}, DELAM_QUAD4);
     own.interface(0, 1);
     own.begin();
@@ -777,19 +768,3 @@ CASE_TEST(no_faces) {
 }
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("host_body");
-    TCase* tests = tcase_create("host_body");
-    tcase_add_loop_test(tests, march, 0, 2 * static_cast<int>(examples().size()));
-    tcase_add_loop_test(tests, grounded, 0, 6);
-    tcase_add_test(tests, partly_grounded);
-    tcase_add_loop_test(tests, emptied, 0, 2);
-    tcase_add_test(tests, large_body);
-    tcase_add_test(tests, kernel_of_two_bodies);
-    tcase_add_test(tests, two_pieces_of_one_body);
-    tcase_add_test(tests, refusals);
-    tcase_add_test(tests, no_faces);
-    suite_add_tcase(suite, tests);
-    return cases::run_suite(suite);
-}

@@ -11,11 +11,10 @@
 
 #include "base/error.hpp"
 #include "base/numbers.hpp"
+#include "check.hpp"
 #include "delam/delam.h"
 #include "mesh/layers.hpp"
 #include "mesh/mesh.hpp"
-
-#include "quiet_check.hpp"  // last: it has a macro named fail
 
 namespace unit {
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "check.hpp"
 #include "evolution/contact/extrapolation.hpp"
 #include "law/law.hpp"
 #include "linalg/dense/dense.hpp"
@@ -22,9 +23,6 @@
 #include "reduction/dense/rigid_jumps.hpp"
 #include "reduction/operator/jump_variables.hpp"
 #include "scene/problem.hpp"
-
-// Last: its macro fail() would break delam::fail().
-#include "quiet_check.hpp"
 
 using namespace delam;
 
@@ -127,8 +125,8 @@ constexpr int size_count = static_cast<int>(std::size(sizes));
 
 // ---- dense kernels -------------------------------------------------------------------------------------------------
 
-START_TEST(dense_kernels) {
-    const Index n = sizes[_i], m = n / 3 + 1;
+LOOP_TEST(dense_kernels, 0, size_count) {
+    const Index n = sizes[loop], m = n / 3 + 1;
     Random random(static_cast<unsigned>(n) + 1U);
     const DenseMatrix a = random.matrix(n, n), b = random.matrix(n, m);
     expect_close(multiply(a, b).value, plain_product(a, b).value, 1e-12, "A B");
@@ -188,11 +186,10 @@ START_TEST(dense_kernels) {
     indefinite(n - 1, n - 1) = -1.0;
     ck_assert(!factor_definite(indefinite));
 }
-END_TEST
 
-START_TEST(congruences) {
-    Random random(static_cast<unsigned>(_i) + 40U);
-    const Index n = 5 + 13 * _i, m = 1 + 9 * _i;
+LOOP_TEST(congruences, 0, 6) {
+    Random random(static_cast<unsigned>(loop) + 40U);
+    const Index n = 5 + 13 * loop, m = 1 + 9 * loop;
     std::vector<Triplet> entries, columns;
     for (Index k = 0; k < 5 * n; ++k) {
         const Index i = random.below(n), j = random.below(n);
@@ -212,11 +209,10 @@ START_TEST(congruences) {
         for (Index e = c.start[at(r)]; e + 1 < c.start[at(r) + 1]; ++e)
             ck_assert(c.column[at(e)] < c.column[at(e) + 1]);
 }
-END_TEST
 
-START_TEST(echelons) {
-    Random random(static_cast<unsigned>(_i) + 70U);
-    const Index rows = 1 + _i % 7, columns = 1 + random.below(9), preferred = random.below(columns + 1);
+LOOP_TEST(echelons, 0, 60) {
+    Random random(static_cast<unsigned>(loop) + 70U);
+    const Index rows = 1 + loop % 7, columns = 1 + random.below(9), preferred = random.below(columns + 1);
     DenseMatrix q = random.matrix(rows, columns);
     for (double& v : q.value)
         if (random.one_in(3)) v = 0.0;
@@ -258,7 +254,6 @@ START_TEST(echelons) {
                           static_cast<int>(j));
         }
 }
-END_TEST
 
 // ---- condensation --------------------------------------------------------------------------------------------------
 
@@ -292,11 +287,11 @@ void expect_same_energy(const Condensation& c, const DenseEnergy& parent, const 
 }  // namespace
 
 // loop: size and kind of springs.
-START_TEST(condensations) {
-    Random random(static_cast<unsigned>(_i) + 200U);
-    const Index n = std::array<Index, 6>{3, 12, 33, 64, 129, 200}[at(_i % 6)];
-    const int kind = _i / 6;
-    DenseEnergy parent{random.definite(n), random.matrix(n, 1 + _i % 3)};
+LOOP_TEST(condensations, 0, 18) {
+    Random random(static_cast<unsigned>(loop) + 200U);
+    const Index n = std::array<Index, 6>{3, 12, 33, 64, 129, 200}[at(loop % 6)];
+    const int kind = loop / 6;
+    DenseEnergy parent{random.definite(n), random.matrix(n, 1 + loop % 3)};
     if (kind == 2) {  // floats as a whole: only springs hold it
         for (Index i = 0; i < n; ++i) {
             double sum = 0.0;
@@ -322,9 +317,8 @@ START_TEST(condensations) {
     const double tolerance = kind == 1 ? 1e-9 : 1e-10;
     expect_same_energy(c, parent, stiffness, eliminated, random, tolerance);
 }
-END_TEST
 
-START_TEST(indefinite_elimination) {
+TEST(indefinite_elimination) {
     DenseEnergy parent{DenseMatrix(2, 2), DenseMatrix(2, 1)};
     parent.stiffness(0, 0) = 1.0;
     parent.stiffness(1, 1) = -1.0;
@@ -336,7 +330,6 @@ START_TEST(indefinite_elimination) {
     }
     ck_assert(refused);
 }
-END_TEST
 
 // ---- zone ----------------------------------------------------------------------------------------------------------
 
@@ -558,20 +551,19 @@ void drop_contradictions(ZoneCase& z) {
 
 }  // namespace
 
-START_TEST(zones) {
-    Random random(static_cast<unsigned>(_i) + 500U);
-    ZoneCase z = zone_case(random, 2 + _i % 25, _i % 9, 0, _i % 2 == 1, 0.0);
+LOOP_TEST(zones, 0, 60) {
+    Random random(static_cast<unsigned>(loop) + 500U);
+    ZoneCase z = zone_case(random, 2 + loop % 25, loop % 9, 0, loop % 2 == 1, 0.0);
     drop_contradictions(z);
     check_zone(z, 1e-9, "held by its bodies");
 }
-END_TEST
 
 // Motions resisted only by springs and held rows, with springs down to 1e-13 of the bodies'.
-START_TEST(floating_zones) {
-    Random random(static_cast<unsigned>(_i) + 900U);
-    const double weak = std::array{0.0, 1e-2, 1e-7, 1e-13}[at(_i % 4)];
-    const Index motions = 1 + _i % 3;
-    ZoneCase z = zone_case(random, 8 + _i % 17, _i % 5, motions, _i % 2 == 1, weak);
+LOOP_TEST(floating_zones, 0, 48) {
+    Random random(static_cast<unsigned>(loop) + 900U);
+    const double weak = std::array{0.0, 1e-2, 1e-7, 1e-13}[at(loop % 4)];
+    const Index motions = 1 + loop % 3;
+    ZoneCase z = zone_case(random, 8 + loop % 17, loop % 5, motions, loop % 2 == 1, weak);
     std::fill(z.held.begin(), z.held.end(), std::uint8_t{0});
     if (weak == 0.0)
         for (std::size_t r = 0; r < z.held.size(); ++r) z.held[r] = random.one_in(6) ? 1 : 0;
@@ -582,10 +574,9 @@ START_TEST(floating_zones) {
     std::fill(z.row_force.begin(), z.row_force.end(), 0.0);
     check_zone(z, weak > 0.0 && weak < 1e-10 ? 1e-6 : 1e-8, "floating");
 }
-END_TEST
 
-START_TEST(unbalanced_zones) {
-    Random random(static_cast<unsigned>(_i) + 1300U);
+LOOP_TEST(unbalanced_zones, 0, 5) {
+    Random random(static_cast<unsigned>(loop) + 1300U);
     ZoneCase z = zone_case(random, 10, 0, 2, false, 0.0);
     std::fill(z.held.begin(), z.held.end(), std::uint8_t{0});
     DenseZone zone(z.energy, z.rows, {}, z.rigid);
@@ -606,7 +597,6 @@ START_TEST(unbalanced_zones) {
     multiply(z.energy.load, z.theta, load);
     expect_close(image, load, 1e-9, "S x");
 }
-END_TEST
 
 // ---- jump variables ------------------------------------------------------------------------------------------------
 
@@ -716,11 +706,11 @@ void constrain(Problem& problem, Random& random, int count) {
 
 }  // namespace
 
-START_TEST(variables) {
-    Random random(static_cast<unsigned>(_i) + 1700U);
-    const int kind = _i % 6;
+LOOP_TEST(variables, 0, 60) {
+    Random random(static_cast<unsigned>(loop) + 1700U);
+    const int kind = loop % 6;
     Problem problem = kind < 4 ? junction(kind / 2, kind % 2 == 1) : plies(kind == 4 ? 2 : 3, kind == 4 ? 4 : 3);
-    constrain(problem, random, 1 + _i / 2);
+    constrain(problem, random, 1 + loop / 2);
     const JumpVariables v = make_jump_variables(problem);
     const Index dofs = problem.mesh->dimension() * problem.mesh->node_count();
     ck_assert_int_eq(v.transform.rows, dofs);
@@ -794,11 +784,10 @@ START_TEST(variables) {
     const Eigen gram = eigen_symmetric(multiply_transposed(t, t));
     ck_assert_msg(gram.value.front() > 1e-6, "columns of T depend on each other: %.2e", gram.value.front());
 }
-END_TEST
 
 // Motions that no support resists, as seen at the interfaces: the freedoms of the bodies less those of the whole.
-START_TEST(rigid_motions) {
-    Problem problem = junction(1, _i == 1);
+LOOP_TEST(rigid_motions, 0, 2) {
+    Problem problem = junction(1, loop == 1);
     DenseMatrix z = rigid_jumps(problem);
     ck_assert_int_eq(z.columns, 9);  // four bodies of three motions; the common ones open nothing
     const DenseMatrix unit = multiply_transposed(z, z);
@@ -812,12 +801,11 @@ START_TEST(rigid_motions) {
     ck_assert_int_eq(split_motions(z, active).free.columns, 0);
     ck_assert_int_eq(split_motions(z, active).held.columns, 9);
 }
-END_TEST
 
 // ---- damage, extrapolation -----------------------------------------------------------------------------------------
 
-START_TEST(slopes) {
-    Random random(static_cast<unsigned>(_i) + 2500U);
+LOOP_TEST(slopes, 0, 40) {
+    Random random(static_cast<unsigned>(loop) + 2500U);
     const double onset = std::pow(10.0, random.real(-3.0, 3.0)), ratio = 1.0 + std::pow(10.0, random.real(-3.0, 4.0));
     const LinearSoftening shape;
     const Toughness t{onset, onset * ratio};
@@ -842,13 +830,12 @@ START_TEST(slopes) {
     ck_assert(shape.slope({onset, onset}, onset, 1.0) == 0.0);
     ck_assert(shape.slope({onset, onset}, 3.0 * onset, 1.0) == 0.0);
 }
-END_TEST
 
 // z -> A z + b with few distinct eigenvalues: extrapolation from k differences is exact after k eigenvalues have been
 // seen.
-START_TEST(extrapolated_contraction) {
-    const int distinct = 1 + _i;
-    Random random(static_cast<unsigned>(_i) + 3000U);
+LOOP_TEST(extrapolated_contraction, 0, 5) {
+    const int distinct = 1 + loop;
+    Random random(static_cast<unsigned>(loop) + 3000U);
     const Index n = 12;
     const DenseMatrix q = orthonormalised(random.matrix(n, n));
     DenseMatrix a(n, n);
@@ -880,28 +867,4 @@ START_TEST(extrapolated_contraction) {
         const std::vector<double> kept = fresh.next(z, z);
         ck_assert(k == 0 || distance(kept, z) < 1e-6 * largest(z));
     }
-}
-END_TEST
-
-int main() {
-    Suite* suite = suite_create("condensed_parts");
-    TCase* tests = tcase_create("parts");
-    tcase_add_loop_test(tests, dense_kernels, 0, size_count);
-    tcase_add_loop_test(tests, congruences, 0, 6);
-    tcase_add_loop_test(tests, echelons, 0, 60);
-    tcase_add_loop_test(tests, condensations, 0, 18);
-    tcase_add_test(tests, indefinite_elimination);
-    tcase_add_loop_test(tests, zones, 0, 60);
-    tcase_add_loop_test(tests, floating_zones, 0, 48);
-    tcase_add_loop_test(tests, unbalanced_zones, 0, 5);
-    tcase_add_loop_test(tests, variables, 0, 60);
-    tcase_add_loop_test(tests, rigid_motions, 0, 2);
-    tcase_add_loop_test(tests, slopes, 0, 40);
-    tcase_add_loop_test(tests, extrapolated_contraction, 0, 5);
-    suite_add_tcase(suite, tests);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }

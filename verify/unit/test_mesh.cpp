@@ -16,6 +16,7 @@
 
 #include "all_types.hpp"
 #include "base/error.hpp"
+#include "check.hpp"
 #include "delam/delam.h"
 #include "mesh/box_tree.hpp"
 #include "mesh/faces.hpp"
@@ -24,8 +25,6 @@
 #include "mesh/partition.hpp"
 #include "mesh/selection.hpp"
 #include "partitions.hpp"
-
-#include "quiet_check.hpp"  // last: it has a macro named fail
 
 using namespace delam;
 
@@ -123,7 +122,7 @@ void check_frames(const Mesh& mesh, const InterfaceGeometry& i) {
 }  // namespace
 
 // The arms of the published ENF and MMF meshes: 120 mm x 3 mm in square cells.
-START_TEST(two_arms) {
+TEST(two_arms) {
     const struct {
         double h;
         std::int64_t along, through;
@@ -151,9 +150,8 @@ START_TEST(two_arms) {
         }
     }
 }
-END_TEST
 
-START_TEST(layered_blocks) {
+TEST(layered_blocks) {
     for (const CellType type : all_types) {
         const bool plane = topology(type).dimension == 2;
         const Numbers lengths = plane ? Numbers{2.0} : Numbers{2.0, 1.5};
@@ -220,11 +218,10 @@ START_TEST(layered_blocks) {
     ck_assert_refused(DELAM_ERROR_ARGUMENT, "nodes: at most",
                       layers(CellType::hex8, {1, 1}, {100000, 100000}, {1}, {1}));
 }
-END_TEST
 
 // The host decides the order of nodes and cells: in space the pairs are the same, bit for bit, even where rounding has
 // moved the nodes of the two sides a little and the interface is vertical.
-START_TEST(shuffled_nodes) {
+TEST(shuffled_nodes) {
     for (const CellType type : all_types) {
         const bool plane = topology(type).dimension == 2;
         const Mesh plain = layers(type, plane ? Numbers{2.0} : Numbers{2.0, 1.5}, plane ? Indices{9} : Indices{5, 4},
@@ -262,10 +259,9 @@ START_TEST(shuffled_nodes) {
         ck_assert(std::abs(a.frame[0] + 1.0) < 1e-14);  // from body 0 at x = -0.3..0 to body 1 at x = -0.5..-0.3
     }
 }
-END_TEST
 
 // A circular interface: normals are radial, weights are those of the polygon.
-START_TEST(curved_interface) {
+TEST(curved_interface) {
     const int n = 60;
     Numbers nodes;
     Indices cells;
@@ -293,10 +289,9 @@ START_TEST(curved_interface) {
         ck_assert(i.frame[4 * p + 2] == i.frame[4 * p + 1] && i.frame[4 * p + 3] == -i.frame[4 * p]);
     }
 }
-END_TEST
 
 // A distorted quadrilateral face: the weights are the integrals of its bilinear shape functions, whose sum is the area.
-START_TEST(weights_of_distorted_faces) {
+TEST(weights_of_distorted_faces) {
     Mesh plain = layers(CellType::hex8, {2.0, 1.0}, {4, 3}, {0.5, 0.5}, {1, 1});
     Mesh mesh = rebuilt(plain, 0, [](std::span<double> x) {
         const double bump = x[0] * (2.0 - x[0]) * x[1] * (1.0 - x[1]);
@@ -311,11 +306,10 @@ START_TEST(weights_of_distorted_faces) {
     for (std::size_t p = 0; p < i.node_a.size(); ++p) moment += i.weight[p] * mesh.node(i.node_a[p])[1];
     ck_assert(std::abs(moment - 1.0) < 1e-2);  // a nodal rule: near the exact first moment, but not equal
 }
-END_TEST
 
 // Rings of quadratic cells with their middle nodes on the circle: normals are radial to the fourth order of the cell's
 // angle, at middle nodes exactly, weights positive with the length of the circle.
-START_TEST(curved_cells) {
+TEST(curved_cells) {
     for (const CellType type : {CellType::quad8, CellType::quad9, CellType::tri6}) {
         const int n = 24;
         Mesh plain = layers(type, {2.0 * M_PI}, {n}, {0.5, 0.5}, {1, 1});
@@ -345,11 +339,10 @@ START_TEST(curved_cells) {
         }
     }
 }
-END_TEST
 
 // Weights of flat faces by hand; those of faces with shifted middle nodes and of warped faces are positive and sum to
 // the length, or the area that the nodes span.
-START_TEST(weights_of_quadratic_faces) {
+TEST(weights_of_quadratic_faces) {
     const auto weights_of = [](CellType type, const std::function<void(std::span<double>)>& map) {
         const bool plane = topology(type).dimension == 2;
         Mesh mesh = rebuilt(
@@ -399,10 +392,9 @@ START_TEST(weights_of_quadratic_faces) {
         ck_assert(sum(warped.weight) > 1.0 && sum(warped.weight) < 1.1);
     }
 }
-END_TEST
 
 // Triangles among quadrilaterals: rows of eight with a collapsed side.
-START_TEST(mixed_faces) {
+TEST(mixed_faces) {
     const Mesh bricks = layers(CellType::hex20, {1, 1}, {1, 1}, {1, 1}, {1, 1});
     const Mesh tetrahedra = layers(CellType::tet10, {1, 1}, {1, 1}, {1, 1}, {1, 1});
     Numbers nodes(bricks.nodes().begin(), bricks.nodes().end());
@@ -433,10 +425,9 @@ START_TEST(mixed_faces) {
     }
     ck_assert_uint_eq(shrunken, 2);
 }
-END_TEST
 
 // A mid-side node without a partner is named, wherever the partner is missing.
-START_TEST(missing_middle_nodes) {
+TEST(missing_middle_nodes) {
     for (const CellType type : all_types) {
         if (!quadratic(type)) continue;
         const bool plane = topology(type).dimension == 2;
@@ -488,11 +479,10 @@ START_TEST(missing_middle_nodes) {
     mesh.add_cells(CellType::quad8, Indices{0, 1, 2, 3, 6, 7, 8, 9, 1, 4, 5, 2, 10, 11, 12, 13}, {});
     ck_assert_refused(DELAM_ERROR_MESH, "not its mid-side nodes", boundary_faces(mesh, 0));
 }
-END_TEST
 
 // The integrals of the shape functions over whole faces, known by hand: 1/6, 2/3, 1/6 of an edge; nothing of a corner
 // and a third of a middle node on a triangle; -1/12 and 1/3 on an 8-node face.
-START_TEST(patches_of_quadratic_faces) {
+TEST(patches_of_quadratic_faces) {
     const Mesh plane = layers(CellType::quad8, {1}, {1}, {1}, {1});
     const Patch edge = find_patch(plane, 0, Numbers{-1, 1}, Numbers{2, 1}, Numbers{0, 1});
     ck_assert_uint_eq(edge.nodes.size(), 3);
@@ -513,9 +503,8 @@ START_TEST(patches_of_quadratic_faces) {
         ck_assert(std::abs(middles.weights[k] - (x[0] == 0.5 && x[1] == 0.5 ? 1.0 : 0.5) / 3.0) < 1e-15);
     }
 }
-END_TEST
 
-START_TEST(refused_cells) {
+TEST(refused_cells) {
     const Numbers square{0, 0, 1, 0, 1, 1, 0, 1, 2, 0, 2, 1};
     Mesh mesh(2, square);
     ck_assert_refused(DELAM_ERROR_MESH, "cell 0 (body 7): smallest Jacobian -",
@@ -548,7 +537,6 @@ START_TEST(refused_cells) {
         ck_assert_int_eq(scaled.cell_count(), 6);
     }
 }
-END_TEST
 
 // Two blocks, the upper one cut and placed arbitrarily.
 Mesh two_blocks(CellType type, std::int64_t lower_cells, std::int64_t upper_cells, double length, double shift,
@@ -577,7 +565,7 @@ Mesh two_blocks(CellType type, std::int64_t lower_cells, std::int64_t upper_cell
     return mesh;
 }
 
-START_TEST(refused_interfaces) {
+TEST(refused_interfaces) {
     for (const CellType type : all_types) {
         // Half the cells, shifted cells, cells that share corners only at one end, a sliver of overlap.
         const struct {
@@ -621,10 +609,9 @@ START_TEST(refused_interfaces) {
     ck_assert_refused(DELAM_ERROR_STATE, "has an interface already",
                       mesh.add_cells(CellType::tri3, Indices{0, 1, 5}, Labels{1}));
 }
-END_TEST
 
 // A later body with a label in between moves the indices of the others; interfaces follow.
-START_TEST(late_bodies) {
+TEST(late_bodies) {
     const Numbers nodes{0, 0, 1, 0, 1, 1, 0, 1, 0, 1, 1, 1, 1, 2, 0, 2, 5, 5, 6, 5, 6, 6, 5, 6};
     Mesh mesh(2, nodes);
     mesh.add_cells(CellType::quad4, Indices{0, 1, 2, 3, 4, 5, 6, 7}, Labels{2, 9});
@@ -635,9 +622,8 @@ START_TEST(late_bodies) {
     ck_assert_int_eq(mesh.body_label(mesh.interfaces()[0].body_b), 2);
     ck_assert_int_eq(mesh.interfaces()[0].body_a, 2);
 }
-END_TEST
 
-START_TEST(nodes_in_boxes) {
+TEST(nodes_in_boxes) {
     const Mesh mesh = layers(CellType::quad4, {1.0}, {10}, {0.2, 0.2}, {2, 2});
     ck_assert_uint_eq(find_nodes(mesh, -1, Numbers{0, 0.2}, Numbers{1, 0.2}).size(), 22);
     ck_assert_uint_eq(find_nodes(mesh, 1, Numbers{0, 0.2}, Numbers{1, 0.2}).size(), 11);
@@ -647,11 +633,10 @@ START_TEST(nodes_in_boxes) {
     ck_assert_refused(DELAM_ERROR_ARGUMENT, "axis 1", find_nodes(mesh, 0, Numbers{0, 1}, Numbers{1, 0}));
     ck_assert_refused(DELAM_ERROR_ARGUMENT, "body index 2", find_nodes(mesh, 2, Numbers{0, 0}, Numbers{1, 1}));
 }
-END_TEST
 
 // Shape functions sum to one and reproduce linear fields: the weights and their first moments are those of the patch,
 // wherever the box ends.
-START_TEST(patches) {
+TEST(patches) {
     for (const CellType type : all_types) {
         const bool plane = topology(type).dimension == 2;
         const double top = 0.7;
@@ -710,10 +695,9 @@ START_TEST(patches) {
     const Patch oblique = find_patch(triangle, 0, Numbers{0.25, 0.0}, Numbers{1.0, 0.5}, Numbers{1, 1});
     ck_assert(std::abs(sum(oblique.weights) - 0.5 * std::sqrt(2.0)) < 1e-14);
 }
-END_TEST
 
 // All numbers of parts for each type are in the long tier.
-START_TEST(partitions) {
+TEST(partitions) {
     std::array<std::int64_t, 2> shares{};  // in space, in the plane
     for (const CellType type : all_types) {
         // Every number in the plane and in space; for each type the small ones and every fourth.
@@ -732,10 +716,9 @@ START_TEST(partitions) {
     ck_assert_refused(DELAM_ERROR_ARGUMENT, "subdomains 17: must be in 0..16", partition(tiny, 17));
     ck_assert_refused(DELAM_ERROR_ARGUMENT, "subdomains -1", partition(tiny, -1));
 }
-END_TEST
 
 // Two squares of one body that share a node, and one far away: at least three subdomains.
-START_TEST(parts_that_touch_in_a_node) {
+TEST(parts_that_touch_in_a_node) {
     const Numbers nodes{0, 0, 1, 0, 1, 1, 0, 1, 2, 1, 2, 2, 1, 2, 5, 5, 6, 5, 6, 6, 5, 6};
     Mesh mesh(2, nodes);
     mesh.add_cells(CellType::quad4, Indices{0, 1, 2, 3, 2, 4, 5, 6, 7, 8, 9, 10}, {});
@@ -743,11 +726,10 @@ START_TEST(parts_that_touch_in_a_node) {
     ck_assert_uint_eq(parts.subdomain_body.size(), 3);
     unit::check_partition(mesh, unit::cell_faces(mesh), parts);
 }
-END_TEST
 
 static void host_handler(int) {}
 
-START_TEST(host_is_left_alone) {
+TEST(host_is_left_alone) {
     const Mesh mesh = layers(CellType::quad4, {4.0}, {60}, {1, 0.5}, {10, 5});
     std::srand(42);
     std::array<int, 12> expected{};
@@ -775,9 +757,8 @@ START_TEST(host_is_left_alone) {
         ck_assert((now.sa_flags & SA_RESTART) != 0 && sigismember(&now.sa_mask, SIGUSR1) == 1);
     }
 }
-END_TEST
 
-START_TEST(box_search) {
+TEST(box_search) {
     std::mt19937 random(9);
     std::uniform_real_distribution<double> point(0.0, 1.0);
     const auto draw = [&] { return Point{point(random), point(random), point(random)}; };
@@ -806,35 +787,4 @@ START_TEST(box_search) {
         if (best.first > 0.0) ck_assert(tree.nearest(p, 0.99 * best.first).index == -1);
     }
     ck_assert(BoxTree({}).nearest(draw()).index == -1);
-}
-END_TEST
-
-int main() {
-    Suite* suite = suite_create("mesh");
-    TCase* cases = tcase_create("mesh");
-    tcase_add_test(cases, two_arms);
-    tcase_add_test(cases, layered_blocks);
-    tcase_add_test(cases, shuffled_nodes);
-    tcase_add_test(cases, curved_interface);
-    tcase_add_test(cases, weights_of_distorted_faces);
-    tcase_add_test(cases, curved_cells);
-    tcase_add_test(cases, weights_of_quadratic_faces);
-    tcase_add_test(cases, mixed_faces);
-    tcase_add_test(cases, missing_middle_nodes);
-    tcase_add_test(cases, patches_of_quadratic_faces);
-    tcase_add_test(cases, refused_cells);
-    tcase_add_test(cases, refused_interfaces);
-    tcase_add_test(cases, late_bodies);
-    tcase_add_test(cases, nodes_in_boxes);
-    tcase_add_test(cases, patches);
-    tcase_add_test(cases, partitions);
-    tcase_add_test(cases, parts_that_touch_in_a_node);
-    tcase_add_test(cases, host_is_left_alone);
-    tcase_add_test(cases, box_search);
-    suite_add_tcase(suite, cases);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }
