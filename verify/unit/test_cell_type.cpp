@@ -17,6 +17,7 @@
 #include "mesh/layers.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/shape.hpp"
+#include "refused.hpp"
 
 using namespace delam;
 
@@ -26,14 +27,7 @@ constexpr auto last = static_cast<std::int32_t>(cell_rows.size());
 constexpr CellType unknown_types[] = {CellType{0}, CellType{last + 1}, CellType{-1}, CellType{1 << 30}};
 
 void expect_refusal(std::int32_t status, const std::string& part, const std::function<void()>& action) {
-    try {
-        action();
-    } catch (const Error& e) {
-        ck_assert_msg(e.status() == status && std::string(e.what()).find(part) != std::string::npos,
-                      "status %d, \"%s\" lacks \"%s\"", e.status(), e.what(), part.c_str());
-        return;
-    }
-    ck_abort_msg("\"%s\" was not refused", part.c_str());
+    ck_assert_refused(status, part, action());
 }
 
 // The reference cell as a mesh of one cell.

@@ -20,6 +20,7 @@
 #include "reduction/choice/choose.hpp"
 #include "reduction/condensed/bulk.hpp"
 #include "reduction/sparse/iterated/iterated.hpp"
+#include "refused.hpp"
 
 using namespace delam;
 
@@ -183,13 +184,7 @@ void note_stage(std::vector<std::string>& stages, Monitor& monitor) {
 
 // The message with which a solver is refused, "": it is not.
 std::string refused(const Problem& problem, Monitor& monitor) {
-    try {
-        const Solver solver(problem, monitor, 0.0);
-    } catch (const Error& e) {
-        ck_assert_int_eq(e.status(), DELAM_ERROR_MEMORY);
-        return e.what();
-    }
-    return {};
+    return unit::refusal(DELAM_ERROR_MEMORY, [&] { const Solver solver(problem, monitor, 0.0); });
 }
 
 constexpr double gibibyte = 1073741824.0;

@@ -18,6 +18,7 @@
 #include "mesh/faces.hpp"
 #include "mesh/layers.hpp"
 #include "mesh/mesh.hpp"
+#include "refused.hpp"
 
 using namespace delam;
 
@@ -27,22 +28,6 @@ using Labels = std::vector<std::int32_t>;
 using Indices = std::vector<std::int64_t>;
 using Numbers = std::vector<double>;
 using Place = std::array<double, 3>;
-
-// Message of the error in which an action ends; empty if there is none.
-std::string refusal(std::int32_t status, const std::function<void()>& action) {
-    try {
-        action();
-    } catch (const Error& e) {
-        ck_assert_msg(e.status() == status, "status %d: %s", e.status(), e.what());
-        return e.what();
-    }
-    return "";
-}
-#define ck_assert_refused(status, part, action)                                                         \
-    do {                                                                                                \
-        const std::string said = refusal(status, [&] { action; });                                      \
-        ck_assert_msg(said.find(part) != std::string::npos, "\"%s\" lacks \"%s\"", said.c_str(), part); \
-    } while (0)
 
 // The unit square or cube as a mesher would write it: shared nodes, cells with the label of the box in which they lie.
 struct Written {

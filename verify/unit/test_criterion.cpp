@@ -15,6 +15,7 @@
 #include "law/law.hpp"
 #include "law/law_parameters.hpp"
 #include "laws.hpp"
+#include "refused.hpp"
 
 using delam::Criterion;
 using delam::Law;
@@ -27,23 +28,11 @@ bool close(double a, double b, double tolerance) {
 }
 
 std::string refusal(const Law& law) {
-    try {
-        validate(law);
-    } catch (const delam::Error& e) {
-        ck_assert_int_eq(e.status(), DELAM_ERROR_PROBLEM);
-        return e.what();
-    }
-    return "";
+    return unit::refusal(DELAM_ERROR_PROBLEM, [&] { validate(law); });
 }
 
 std::string table_refusal(const std::vector<double>& xi, const std::vector<double>& s) {
-    try {
-        delam::TabulatedSoftening().set_table(xi, s);
-    } catch (const delam::Error& e) {
-        ck_assert_int_eq(e.status(), DELAM_ERROR_ARGUMENT);
-        return e.what();
-    }
-    return "";
+    return unit::refusal(DELAM_ERROR_ARGUMENT, [&] { delam::TabulatedSoftening().set_table(xi, s); });
 }
 
 void expect(const std::string& text, const std::string& part) {

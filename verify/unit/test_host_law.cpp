@@ -13,6 +13,7 @@
 #include "law/law.hpp"
 #include "law/law_parameters.hpp"
 #include "laws.hpp"
+#include "refused.hpp"
 
 using delam::Law;
 using delam::Toughness;
@@ -33,13 +34,7 @@ Law given(delam_adhesion_callback adhesion, delam_dissipation_callback dissipati
 
 template <class Body>
 std::string refusal(Body&& body) {
-    try {
-        body();
-    } catch (const delam::Error& e) {
-        ck_assert_int_eq(e.status(), DELAM_ERROR_PROBLEM);
-        return e.what();
-    }
-    return "";
+    return unit::refusal(DELAM_ERROR_PROBLEM, body);
 }
 
 void expect(const std::string& text, const std::string& part) {

@@ -20,6 +20,7 @@
 #include "law/law.hpp"
 #include "law/law_parameters.hpp"
 #include "law/mixity.hpp"
+#include "refused.hpp"
 
 using delam::Law;
 using delam::Toughness;
@@ -65,13 +66,7 @@ double reference_interaction(double gn, double gt, double p, double q, double b)
 
 // Message of a refused law; empty if it is accepted.
 std::string refusal(const Law& law) {
-    try {
-        validate(law);
-    } catch (const delam::Error& e) {
-        ck_assert_int_eq(e.status(), DELAM_ERROR_PROBLEM);
-        return e.what();
-    }
-    return "";
+    return unit::refusal(DELAM_ERROR_PROBLEM, [&] { validate(law); });
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "check.hpp"
 #include "linalg/dense/dense.hpp"
 #include "mesh/layers.hpp"
+#include "refused.hpp"
 
 using namespace delam;
 
@@ -106,12 +107,9 @@ TEST(rank) {
 
 TEST(refused) {
     for (const CellType type : {CellType::tri3, CellType::tet4}) {
-        std::string said;
-        try {
+        const std::string said = unit::refusal(DELAM_ERROR_ARGUMENT, [&] {
             require_formulation(distorted(type, 1), 0, Formulation::mean_dilatation, -1);
-        } catch (const Error& e) {
-            said = e.what();
-        }
+        });
         ck_assert(said.find(topology(type).name) != std::string::npos &&
                   said.find("constant already") != std::string::npos &&
                   said.find("allowed are quad4, hex8, tri6, quad8, quad9, tet10 and hex20") != std::string::npos);

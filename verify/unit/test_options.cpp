@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "check.hpp"
 #include "delam/delam.h"
+#include "refused.hpp"
 #include "scene/options.hpp"
 
 using namespace delam;
@@ -27,16 +28,12 @@ double allowed_end(const Bound& end, const Bound& other) {
 template <class Value>
 std::string refusal(const std::string& key, const Value& value) {
     Options options;
-    try {
+    return unit::refusal(DELAM_ERROR_ARGUMENT, [&] {
         if constexpr (std::is_same_v<Value, double>)
             options.set_number(key, value);
         else
             options.set_text(key, value);
-        return "";
-    } catch (const Error& e) {
-        ck_assert_int_eq(e.status(), DELAM_ERROR_ARGUMENT);
-        return e.what();
-    }
+    });
 }
 
 }  // namespace

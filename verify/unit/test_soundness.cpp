@@ -10,6 +10,7 @@
 #include "evolution/increment/state_fields.hpp"
 #include "evolution/observe/soundness.hpp"
 #include "flexure.hpp"
+#include "refused.hpp"
 
 using namespace delam;
 
@@ -33,13 +34,7 @@ Problem small(const char* reduction) {
 
 // The message of the refusal, "" if there is none.
 std::string refusal(const Problem& problem, const State& state, bool converged) {
-    try {
-        require_sound(problem, state, converged);
-    } catch (const Error& error) {
-        ck_assert_int_eq(error.status(), DELAM_ERROR_NUMERICAL);
-        return error.what();
-    }
-    return "";
+    return unit::refusal(DELAM_ERROR_NUMERICAL, [&] { require_sound(problem, state, converged); });
 }
 
 void expect_named(const std::string& refusal, const char* name) {

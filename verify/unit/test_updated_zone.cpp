@@ -3,40 +3,16 @@
 // solutions, the same verdict on definiteness, and few full factorisations.
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <random>
 #include <vector>
 
 #include "base/numbers.hpp"
-#include "check.hpp"
-#include "linalg/dense/dense.hpp"
+#include "random_dense.hpp"
 #include "reduction/dense/dense_zone.hpp"
 
 using namespace delam;
+using namespace unit;
 
 namespace {
-
-using Index = std::int64_t;
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
-class Random {
-public:
-    explicit Random(unsigned seed) : engine_(seed) {}
-    double real(double low = -1.0, double high = 1.0) {
-        return std::uniform_real_distribution<double>(low, high)(engine_);
-    }
-    bool one_in(int n) { return std::uniform_int_distribution<int>(1, n)(engine_) == 1; }
-    Index below(Index n) { return std::uniform_int_distribution<Index>(0, n - 1)(engine_); }
-    std::vector<double> vector(Index n) {
-        std::vector<double> v(at(n));
-        for (double& x : v) x = real();
-        return v;
-    }
-
-private:
-    std::mt19937 engine_;
-};
 
 // Rows of one unknown each, then `bound` rows of two; springs and held rows that change.
 struct Case {
