@@ -52,7 +52,7 @@ std::vector<std::vector<std::int64_t>> components(const SparseMatrix& k, std::in
 double diagonal(const SparseMatrix& k, std::int64_t row) {
     const auto begin = k.column.begin() + k.start[index(row)], end = k.column.begin() + k.start[index(row) + 1];
     const auto found = std::lower_bound(begin, end, row);
-    return found != end && *found == row ? k.value[static_cast<std::size_t>(found - k.column.begin())] : 0.0;
+    return found != end && *found == row ? k.value[index(found - k.column.begin())] : 0.0;
 }
 
 // K Q of some nodes' DOFs; entries to other nodes are zero.
@@ -167,7 +167,7 @@ void refuse_mechanisms(const Mesh& mesh, std::int32_t body, const HostStiffness&
 SparseMatrix with_tame_supports(SparseMatrix k, std::int64_t dim) {
     const auto entry = [&](std::int64_t row) -> double& {
         const auto begin = k.column.begin() + k.start[index(row)], end = k.column.begin() + k.start[index(row) + 1];
-        return k.value[static_cast<std::size_t>(std::lower_bound(begin, end, row) - k.column.begin())];
+        return k.value[index(std::lower_bound(begin, end, row) - k.column.begin())];
     };
     std::vector<double> others(index(k.rows), 0.0);
     for (std::int64_t row = 0; row < k.rows; ++row)

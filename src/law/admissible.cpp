@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/numbers.hpp"
 #include "delam/delam.h"
 #include "law/law_parameters.hpp"
 #include "law/softening/host_check.hpp"
@@ -64,7 +65,7 @@ std::pair<double, double> least_excess(const Law& law) {
     std::sort(dips.begin(), dips.end(), [&](std::size_t i, std::size_t j) { return y[i] < y[j]; });
     if (dips.size() > 16) dips.resize(16);
 
-    const auto first = static_cast<std::size_t>(std::min_element(y.begin(), y.end()) - y.begin());
+    const auto first = index(std::min_element(y.begin(), y.end()) - y.begin());
     std::pair<double, double> least{x[first], y[first]};
     constexpr double golden = 0.6180339887498949;
     for (const std::size_t i : dips) {

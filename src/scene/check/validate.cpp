@@ -24,12 +24,12 @@ void check_bodies(const Problem& problem) {
     const Mesh& mesh = *problem.mesh;
     if (mesh.body_count() == 0) fail(DELAM_ERROR_PROBLEM, "mesh: no bodies");
     for (std::int32_t body = 0; body < mesh.body_count(); ++body) {
-        if (problem.stiffness[static_cast<std::size_t>(body)] != nullptr) {
+        if (problem.stiffness[index(body)] != nullptr) {
             for (const Eigenstrain& e : problem.eigenstrains)
                 if (e.body == body)
                     fail(DELAM_ERROR_PROBLEM, "body ", mesh.body_label(body),
                          " has the host's stiffness and an eigenstrain of pattern '",
-                         problem.patterns[static_cast<std::size_t>(e.pattern)].name,
+                         problem.patterns[index(e.pattern)].name,
                          "': give its forces instead (delam_problem_add_forces)");
             continue;
         }
@@ -38,7 +38,7 @@ void check_bodies(const Problem& problem) {
             fail(DELAM_ERROR_PROBLEM, "body ", mesh.body_label(body),
                  ": no cells and no stiffness (delam_problem_set_stiffness)");
         require_material(problem, body);
-        require_formulation(mesh, body, problem.formulation[static_cast<std::size_t>(body)], DELAM_ERROR_PROBLEM);
+        require_formulation(mesh, body, problem.formulation[index(body)], DELAM_ERROR_PROBLEM);
         (void)problem.model(body);
     }
 }
@@ -168,7 +168,7 @@ void check_supports(const Problem& problem) {
         if (motion.force_work > 1e-9) {
             fail(DELAM_ERROR_PROBLEM, "missing support: ", names(*problem.mesh, motion), " can ", motion.description,
                  " at the initial adhesion, and the dead forces of pattern '",
-                 problem.patterns[static_cast<std::size_t>(motion.force_pattern)].name, "' do work in this motion");
+                 problem.patterns[index(motion.force_pattern)].name, "' do work in this motion");
         }
     }
 }
