@@ -189,6 +189,26 @@ def planted_english():
     return len(refused) + 1
 
 
+def planted_steps():
+    """Plants faults in the lines that follow one load step; returns how many."""
+    source = "void Stepper::step(int a,\n                   int b) {\n    search(a);\n}\ninline int free() { return call(1); }\n"
+    with tempfile.TemporaryDirectory() as folder:
+        src = pathlib.Path(folder) / "src"
+        src.mkdir()
+        (src / "a.cpp").write_text(source, encoding="utf-8")
+
+        def found(function, path="a.cpp", lines=readmes.STEPS):
+            text = "".join(f"{n}. `{path}`: `{function}` minimises.\n" for n in range(1, lines + 1))
+            (src / "README.md").write_text(text, encoding="utf-8")
+            return list(readmes.misled(src))
+
+        assert found("Stepper::step") == found("free") == []
+        refused = [found(name) for name in ("search", "call", "step", "Search::step", "Stepper::ste")]
+        refused += [found("free", "b.cpp"), found("free", lines=readmes.STEPS - 1)]
+        assert all(refused), refused
+    return len(refused)
+
+
 def main():
     found = list(scanner.functions(CODE))
     assert found == EXPECTED, f"found {found}, expected {EXPECTED}"
@@ -242,7 +262,7 @@ def main():
         (src / "law" / "names.hpp").write_text("// See src/law/mixity.cpp, src/lost.cpp and examples/NAME/NAME.toml.\n",
                                                encoding="utf-8")
         assert list(readmes.lost(src.parent, ["src/law/names.hpp"])) == ["src/law/names.hpp: src/lost.cpp is not there"]
-    houses = planted_arrows() + planted_imports() + planted_sentences() + planted_english()
+    houses = planted_steps() + planted_arrows() + planted_imports() + planted_sentences() + planted_english()
     print(f"{len(EXPECTED)} functions, {len(refused) + len(planted) + 2 + houses} planted")
     return 0
 
