@@ -9,7 +9,7 @@ small_scenes.quick().
 --brief   fewer scenes, each on 1 and 2 ranks, or on 1 and 4
 --part    each N-th of the scenes, from the I-th on
 --loose   with the scenes' own damage_tolerance instead of a small one
---repeat  only: with it, two runs on the same ranks differ by no more than the README of the command line says
+--repeat  only: with it, two runs on the same ranks differ by no more than the manual of the command line says
 """
 import argparse
 import os

@@ -219,6 +219,8 @@ def main():
         "a long function in a class": ("src/a/b.hpp", "class A {\n" + lengthy(81) + "};\n"),
         "a long function for C": ("src/a/b.cpp", 'extern "C" {\n' + lengthy(81) + "}\n"),
         "a long file": ("src/a/b.cpp", "int a;\n" * 501),
+        "a long README": ("verify/a/README.md", "- a\n" * 41),
+        "a wide README": ("verify/a/README.md", "| " + "x" * 121 + " |\n" + "x" * 121 + "\n"),
     }
     for what, (name, text) in refused.items():
         assert len(list(sizes.problems(name, text))) == 1, f"{what} was not refused"
@@ -228,6 +230,7 @@ def main():
         "two functions": ("src/a/b.cpp", lengthy(80) + lengthy(80)),
         "a long function elsewhere": ("verify/b.cpp", lengthy(200)),
         "a full file": ("src/a/b.cpp", "int a;\n" * 500),
+        "a full README": ("verify/a/README.md", "| " + "x" * 121 + " |\n" + "- a\n" * 39),
     }
     for what, (name, text) in fine.items():
         assert not list(sizes.problems(name, text)), f"{what} was refused"
