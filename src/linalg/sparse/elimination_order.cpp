@@ -83,8 +83,9 @@ Order minimum_degree(const EqualRows& groups, const SparseMatrix& pattern, std::
     return members(groups, trailing, of_groups);
 }
 
-// Nested dissection is tried where minimum degree costs more operations per stored entry of the matrix; README.md has
-// the data. The triangle of the trailing variables costs the same in every order.
+// Nested dissection is tried where minimum degree costs more operations per stored entry of the matrix. METIS takes 0.1
+// us per stored entry in space and 0.2 us in the plane; a third of these operations takes 0.08 us. The triangle of the
+// trailing variables costs the same in every order.
 constexpr double worth_dissecting = 5e3;
 
 bool may_gain(double operations, const SparseMatrix& m, std::int64_t trailing) {

@@ -25,7 +25,7 @@ double number(std::int64_t n) { return static_cast<double>(n); }
 double square(double x) { return x * x; }
 double cube(double x) { return x * x * x; }
 
-// Fitted constants; README.md describes the data.
+// Fitted constants; src/reduction/NOTES.md describes the data.
 // of the squares of all jumps: zones and what they take along to the root of the tree
 constexpr double zone_squares = 2.2;
 // Operations outside dense kernels: assembly, checks and ordering per displacement, a load step per jump (measured on
