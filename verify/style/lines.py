@@ -62,6 +62,9 @@ def main():
         for lines, path in sorted(files[wanted], reverse=True):
             print(f"{lines:7d} {path}")
         return
+    for pattern, _, _ in NOT_WRITTEN:
+        if not any(fnmatch.fnmatchcase(path, pattern) for found in files.values() for _, path in found):
+            print(f"NOT_WRITTEN: no file is {pattern}")
     parts = sorted(files.items(), key=lambda part: (part[0] in ("data", "generated"), -sum(n for n, _ in part[1])))
     parts.append(("written by people", [file for kind, found in parts if kind not in ("data", "generated") for file in found]))
     parts.append(("all", [file for found in files.values() for file in found]))
