@@ -94,4 +94,8 @@ fi
 if has cli; then
     place=$("$work/all/bin/delam" --help | grep -oE 'share/doc/[a-z/]+') || fail "delam --help names no documents"
     [[ -f $work/all/$place/SCENE.md ]] || fail "delam --help names $place, where SCENE.md is not"
+    # The schema that the installed example names for editors is what the installed program prints.
+    example=$work/all/share/doc/delam/examples/enf
+    schema=$(sed -n '1s/^#:schema //p' "$example/enf.toml")
+    "$work/all/bin/delam" schema | cmp - "$example/$schema" || fail "enf.toml names $schema, which is not the schema of scenes"
 fi
