@@ -16,7 +16,7 @@ namespace {
 
 // Energy of a rigid motion relative to that of the diagonal alone: rounding below the first number, a support above the
 // second.
-constexpr double rounding = 1e-12, resisted = 1e-9;
+constexpr double free_motion = 1e-12, resisted = 1e-9;
 // Tolerances of a declared motion: its distance from a rigid one, and the force that it needs.
 constexpr double told_tolerance = 1e-6;
 // Smaller ratios of pivots are rounding.
@@ -229,10 +229,10 @@ Split found_split(const SparseMatrix& k, std::span<const std::int64_t> local, st
         if (ratio < -resisted)
             fail(DELAM_ERROR_ARGUMENT, where, ": a rigid motion has a negative energy, ", ratio,
                  " times that of the diagonal alone: the matrix is indefinite");
-        if (std::abs(ratio) > rounding) {
+        if (std::abs(ratio) > free_motion) {
             if (ratio >= resisted) continue;
             fail(DELAM_ERROR_ARGUMENT, where, ": the energy of a rigid motion is ", ratio,
-                 " times that of the diagonal alone, neither <= ", rounding, " (free) nor >= ", resisted,
+                 " times that of the diagonal alone, neither <= ", free_motion, " (free) nor >= ", resisted,
                  " (held): give the kernel");
         }
         std::vector<double> x(eigen.vector.value.begin() + e * q.columns,

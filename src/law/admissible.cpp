@@ -16,7 +16,7 @@ namespace delam {
 
 namespace {
 
-constexpr double rounding = 1e-12;  // relative amount by which Gc may fall short of Go
+constexpr double shortfall = 1e-12;  // relative amount by which Gc may fall short of Go
 
 // The natural coordinate of a mixity is x = ln(psi^2), B = 1/(1+exp(-x)): either toughness changes from one asymptote
 // to the other around its own crossing psi^2 = G_t/G_n, over a width of one over the exponents. The range is that of
@@ -96,10 +96,10 @@ void require_admissible(const Law& law) {
                    ? text(" = s^2/(2 k) of its strength ", strength, ": give more stiffness or less strength")
                    : std::string();
     };
-    if (total.normal < onset.normal * (1.0 - rounding))
+    if (total.normal < onset.normal * (1.0 - shortfall))
         fail(DELAM_ERROR_PROBLEM, "law: normal_toughness ", total.normal, " < normal_onset ", onset.normal,
              of_strength(law.normal_strength));
-    if (total.tangential < onset.tangential * (1.0 - rounding))
+    if (total.tangential < onset.tangential * (1.0 - shortfall))
         fail(DELAM_ERROR_PROBLEM, "law: tangential_toughness ", total.tangential, " < tangential_onset ",
              onset.tangential, of_strength(law.tangential_strength));
 
@@ -107,7 +107,7 @@ void require_admissible(const Law& law) {
     // different ones Gc may dip below Go in between.
     if (law.criterion_of_onset() == law.criterion && onset.first == total.first && onset.second == total.second) return;
     const auto [x, value] = least_excess(law);
-    if (value >= -rounding) return;
+    if (value >= -shortfall) return;
     const double b = mixity_of(x);
     fail(DELAM_ERROR_PROBLEM, "law: toughness ", toughness_at(law.criterion, total, b), " < onset ",
          toughness_at(law.criterion_of_onset(), onset, b), " at mixity B = ", b,

@@ -247,6 +247,11 @@ def main():
     for what, text in planted.items():
         assert list(words.problems("src/a/b.cpp", text, words.RULES)), f"{what} was not refused"
         assert not list(words.problems("src/a/b.cpp", "// " + text.replace("\n", " "), words.RULES)), f"{what} in a comment was refused"
+    twin = {"src/a.cpp": "constexpr double far = 1e-3, near = 2.0;  // far = 5.0\n",
+            "src/b.cpp": "static constexpr std::int64_t far = 1e-3;\ninline constexpr double near = 3.0;\n"}
+    assert [line.split(":")[0] for line in words.twins(twin)] == ["far = 1e-3 stands in src/a.cpp, src/b.cpp"]
+    twin = {"src/a.cpp": "constexpr double noticeable = 0.01;", "bindings/cli/src/b.cpp": "constexpr double noticeable = 0.02;"}
+    assert list(words.twins(twin)) == ["noticeable has 2 values: 0.01, 0.02"]
     with tempfile.TemporaryDirectory() as folder:
         src = pathlib.Path(folder) / "src"
         (src / "law").mkdir(parents=True)
