@@ -130,7 +130,7 @@ def unused_passed(folder):
 
 
 def fuzzed_statuses(path):
-    """function -> statuses that its row in the table of the fuzz target (verify/fuzz/api_sequence.cpp) lets pass."""
+    """function -> statuses that its row in the table of the fuzz target (verify/fuzz/api_calls.hpp) lets pass."""
     rows = re.findall(r'\{"(delam_\w+)", Subject::\w+,\s*(may::[^,]*),', open(path).read())
     return {name: set(re.findall(r"may::(\w+)", terms)) - {"usual"} for name, terms in rows}
 
@@ -284,7 +284,7 @@ def main():
     parser.add_argument("--promised", help="delam.h, where HEADER is the experimental one")
     parser.add_argument("--base", help="delam.h, where HEADER is that of a library on top of libdelam")
     parser.add_argument("--sources", help="src/capi: the statuses that its lines give are compared with those listed")
-    parser.add_argument("--fuzzed", help="verify/fuzz/api_sequence.cpp: so are those that its table lets pass")
+    parser.add_argument("--fuzzed", help="verify/fuzz/api_calls.hpp: so are those that its table lets pass")
     options = parser.parse_args()
     try:
         known = options.promised or options.base

@@ -149,7 +149,7 @@ def read(path, known=None, promised=False):
             allowed |= MPI
         for type_text in (t for thing in things for t in types_of(thing)):
             bare = type_text.replace("const ", "").rstrip("*")
-            if bare not in allowed or (bare in structs and "*" not in type_text):
+            if bare not in allowed or ((bare in structs or bare in handles) and "*" not in type_text):
                 raise HeaderError(f"{where}: {name}: type '{type_text}' is none of the interface's types")
 
     at = 0
@@ -168,6 +168,8 @@ def read(path, known=None, promised=False):
             if constant := CONSTANT.match(match.group()):
                 if constant.group(1) != "DELAM_API":
                     header.constants[constant.group(1)] = constant.group(2)
+                    if not re.fullmatch(r"-?\d+", constant.group(2)):
+                        raise HeaderError(f"{where}: no integer constant: {match.group()}")
             if re.match(r"#define \w+\(", match.group()):
                 raise HeaderError(f"{where}: a macro with arguments: {match.group()}")
         elif match := LINKAGE.match(text, at):

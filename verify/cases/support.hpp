@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Check with C++ test bodies: an exception fails the test, and unwinds all destructors before Check jumps out.
+// What a test expects; an exception fails it (check.hpp).
 #pragma once
-
-#include <check.h>
 
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <exception>
 #include <stdexcept>
 #include <string>
+
+#include "check.hpp"
 
 namespace cases {
 
@@ -34,38 +33,8 @@ inline void expect_below(double value, double limit, const std::string& what) {
     throw std::runtime_error(line);
 }
 
-inline void run_body(void (*body)(int), int loop) {
-    std::string failure;
-    try {
-        body(loop);
-        return;
-    } catch (const std::exception& e) {
-        failure = e.what();
-    }
-    // The copy lives outside every destructor, because Check leaves by longjmp or by ending the forked process.
-    static char text[1200];
-    std::snprintf(text, sizeof text, "%s", failure.c_str());
-    failure = std::string();
-    ck_abort_msg("%s", text);
-}
-
 // In the long tier (case/whole_NAME, see verify/CMakeLists.txt) a test runs everything, in the quick tier what finds
 // most in little time.
 inline bool whole() { return std::getenv("DELAM_WHOLE") != nullptr; }
 
-inline int run_suite(Suite* suite) {
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
-}
-
 }  // namespace cases
-
-// The loop index of tcase_add_loop_test is `loop`.
-#define CASE_TEST(name)                                    \
-    static void name##_body(int loop);                     \
-    START_TEST(name) { cases::run_body(name##_body, _i); } \
-    END_TEST                                               \
-    static void name##_body([[maybe_unused]] int loop)

@@ -46,7 +46,7 @@ Watch watch_enf(const LawData& law, int steps, double delta) {
 
 // ---- one critical point --------------------------------------------------------------------------------------------
 
-CASE_TEST(ductile_enf) {
+LOOP_TEST(ductile_enf, 0, 2) {
     const double delta = loop == 0 ? 1e-5 : 1e-10;
     const double tolerance = loop == 0 ? 1e-4 : 1e-8;
     Watch w = watch_enf(ductile, 20, delta);
@@ -177,20 +177,20 @@ void march_peel(const Peel& p, int steps, const char* rule) {
 }
 
 // loop: the scene, then in how many steps the load is applied.
-CASE_TEST(peeling) {
+LOOP_TEST(peeling, 0, 2 * peel_count) {
     if ((loop == 2 || loop == 3) && !cases::whole()) return;  // in one step all the same
     march_peel(peels[loop % peel_count], loop < peel_count ? 6 : 1, "frozen");
 }
 
 // Modes that change while a front grows, which the default rule follows in parts.
-CASE_TEST(peeling_in_parts) {
+LOOP_TEST(peeling_in_parts, 0, 5) {
     const int scenes[] = {1, 2, 3, 5, 9};
     march_peel(peels[scenes[loop]], 6, "converged");
 }
 
 // ---- many critical points ------------------------------------------------------------------------------------------
 
-CASE_TEST(brittle_enf) {
+LOOP_TEST(brittle_enf, 0, 2) {
     const double h = loop == 0 ? 1e-3 : 0.5e-3;
     const std::string where = std::string("brittle ENF, h = ") + (loop == 0 ? "1 mm" : "0.5 mm");
     const Scene scene = enf(h, brittle, "condensed", "accelerated", 1e-5);
@@ -201,7 +201,7 @@ CASE_TEST(brittle_enf) {
 
 // From the same states both methods end in critical points; their energies are printed, and neither exceeds that of the
 // elastic answer.
-CASE_TEST(brittle_steps_from_the_same_states) {
+TEST(brittle_steps_from_the_same_states) {
     const Scene fast = enf(1.5e-3, brittle, "condensed", "accelerated", 1e-5);
     const Scene plain = enf(1.5e-3, brittle, "condensed", "alternate", 1e-5);
     Solver march(fast, 0.0);
@@ -239,7 +239,7 @@ CASE_TEST(brittle_steps_from_the_same_states) {
 
 // ---- counts --------------------------------------------------------------------------------------------------------
 
-CASE_TEST(counts_of_the_ductile_march) {
+TEST(counts_of_the_ductile_march) {
     const Scene scene = enf(0.5e-3, ductile, "condensed", "accelerated", 1e-5);
     const Watched w = cases::watch(scene, watch_enf(ductile, 40, 1e-5), "ductile ENF, h = 0.5 mm");
     cases::expect_below(w.newton + w.solves, 260.0, "linear solves");
@@ -250,7 +250,7 @@ CASE_TEST(counts_of_the_ductile_march) {
 
 // Six elements along, toughness a thousand times the onset: a pair reaches its onset just when the others have settled.
 // The returned state must itself be a fixed point, not the one before it.
-CASE_TEST(end_of_plain_alternation) {
+LOOP_TEST(end_of_plain_alternation, 0, 2) {
     const double k = loop == 0 ? 1e16 : 1e13;
     LawData law{k, k, 5e9 / k, 5e9 / k, 5e12 / k, 5e12 / k};
     Scene scene = cases::make_plies(2, 2, DELAM_QUAD4, "incompatible", law, 6);
@@ -267,7 +267,7 @@ CASE_TEST(end_of_plain_alternation) {
 
 // Near a growing mode plain steps get longer; extrapolated, they point backwards, and what they heal or break is worth
 // less energy than the rounding of the total. FETI with extrapolation must terminate all the same.
-CASE_TEST(growing_modes_end) {
+TEST(growing_modes_end) {
     const LawData laws[] = {{5734538321725559.0, 13778830381103614.0, 4.8624263356114658e-07, 7.3025404161363605e-07,
                              1.5554332683917959e-06, 2.4971317961320756e-06, 2.4369361701978729},
                             {49379597056.96315, 153109893828.73068, 0.070690370335389149, 0.047462206736868857,
@@ -291,7 +291,7 @@ CASE_TEST(growing_modes_end) {
 
 // ---- limits --------------------------------------------------------------------------------------------------------
 
-CASE_TEST(few_alternations) {
+LOOP_TEST(few_alternations, 0, 12) {
     const double limit = std::array{1.0, 2.0, 5.0}[static_cast<std::size_t>(loop) % 3];
     const char* reduction = loop / 3 == 0 ? "condensed" : "feti";
     Peel p = peels[loop / 6 == 0 ? 4 : 0];
@@ -317,19 +317,3 @@ CASE_TEST(few_alternations) {
 }
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("accelerated");
-    TCase* tests = tcase_create("minimisation");
-    tcase_add_loop_test(tests, ductile_enf, 0, 2);
-    tcase_add_loop_test(tests, peeling, 0, 2 * peel_count);
-    tcase_add_loop_test(tests, peeling_in_parts, 0, 5);
-    tcase_add_loop_test(tests, brittle_enf, 0, 2);
-    tcase_add_test(tests, brittle_steps_from_the_same_states);
-    tcase_add_test(tests, counts_of_the_ductile_march);
-    tcase_add_loop_test(tests, end_of_plain_alternation, 0, 2);
-    tcase_add_test(tests, growing_modes_end);
-    tcase_add_loop_test(tests, few_alternations, 0, 12);
-    suite_add_tcase(suite, tests);
-    return cases::run_suite(suite);
-}

@@ -5,7 +5,7 @@
 
 #include "mmf.hpp"
 
-#include "support.hpp"  // last: check.h has a macro named fail
+#include "support.hpp"
 
 using namespace cases;
 
@@ -61,7 +61,7 @@ std::int64_t scene_pattern(const reference::Scene& scene, const char* name) {
 
 // Affine displacements: averages and rotations are those of the gradient, stresses those of Hooke's law, in each body
 // and in all together. loop: scene, then realisation.
-CASE_TEST(affine_averages) {
+LOOP_TEST(affine_averages, 0, 18) {
     struct {
         int dimension;
         std::int32_t cell;
@@ -117,7 +117,7 @@ CASE_TEST(affine_averages) {
 
 // A prescribed strain in a fixed body: the strain stays that of the displacements, the stress lacks C e*; the same out
 // of the plane. loop: scene, then realisation.
-CASE_TEST(eigenstrains) {
+LOOP_TEST(eigenstrains, 0, 9) {
     const bool stress = loop % 3 == 1;
     const int dim = loop % 3 == 2 ? 3 : 2;
     reference::Scene scene = affine(dim, dim == 3 ? DELAM_HEX8 : DELAM_QUAD4, stress ? "plane-stress" : "plane-strain");
@@ -145,7 +145,7 @@ CASE_TEST(eigenstrains) {
 
 // Warns once: of a rotation of more than 0.1, and only when it is read; of a process zone that the mesh does not
 // resolve, as predicted and as found; of a step outside its two-sided estimate.
-CASE_TEST(warnings) {
+LOOP_TEST(warnings, 0, 3) {
     const bool brittle = loop == 0;
     reference::Scene scene = make_mmf(1e-3, brittle ? mmf_brittle : mmf_ductile, "converged");
     if (loop == 2) scene.text("reduction", "iterated");
@@ -173,14 +173,4 @@ CASE_TEST(warnings) {
     const double exact = brittle ? thick : std::pow(thick, 0.25) * std::pow(3e-3, 0.75);
     expect_near(length, exact, 1e-9, exact, "predicted process zone");
     expect_near(spacing, 1e-3, 0.01, 1e-3, "spacing of the pairs");
-}
-
-int main() {
-    Suite* suite = suite_create("averages");
-    TCase* all = tcase_create("averages");
-    tcase_add_loop_test(all, affine_averages, 0, 18);
-    tcase_add_loop_test(all, eigenstrains, 0, 9);
-    tcase_add_loop_test(all, warnings, 0, 3);
-    suite_add_tcase(suite, all);
-    return run_suite(suite);
 }

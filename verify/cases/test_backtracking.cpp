@@ -101,7 +101,7 @@ double walk(Solver& solver, int first, int last, int steps, const reference::Law
     return returns;
 }
 
-CASE_TEST(no_bound_is_missed_afterwards) {
+LOOP_TEST(no_bound_is_missed_afterwards, 0, 4) {
     const int steps = loop % 2 == 0 ? 80 : 40;
     const double exponent = loop < 2 ? 1.0 : 2.0;
     const FlexureScene off = make(brittle(exponent), "off"), on = make(brittle(exponent), "on");
@@ -122,7 +122,7 @@ CASE_TEST(no_bound_is_missed_afterwards) {
 
 // Each kept step alone: displacements at its adhesion have its energy; the energy of its adhesion is what was
 // dissipated.
-CASE_TEST(replaced_steps_hold_on_their_own) {
+TEST(replaced_steps_hold_on_their_own) {
     const int steps = 40;
     const FlexureScene on = make(brittle(), "on");
     Solver b(on.scene, 0.0), probe(on.scene, 0.0);
@@ -163,7 +163,7 @@ int first_return(const FlexureScene& f, int steps) {
     return 0;
 }
 
-CASE_TEST(rollback_of_a_return) {
+LOOP_TEST(rollback_of_a_return, 0, 2) {
     const int steps = 40;
     const FlexureScene f = make(brittle(2.0), "on", concept_of(loop));
     int k = first_return(f, steps);
@@ -190,7 +190,7 @@ CASE_TEST(rollback_of_a_return) {
     cases::expect_same(solver, cases::read_bits(solver), pending, "taken again");
 }
 
-CASE_TEST(resumed_march) {
+LOOP_TEST(resumed_march, 0, 2) {
     const int steps = 40;
     const FlexureScene f = make(brittle(2.0), "on", concept_of(loop));
     const int k = std::max(2, first_return(f, steps));
@@ -218,7 +218,7 @@ CASE_TEST(resumed_march) {
     }
 }
 
-CASE_TEST(limits_and_depth) {
+TEST(limits_and_depth) {
     const int steps = 40;
     const reference::Flexure data = brittle(2.0);
     FlexureScene off = make(data, "off"), none = make(data, "on"), one = make(data, "on"), shallow = make(data, "on");
@@ -248,7 +248,7 @@ CASE_TEST(limits_and_depth) {
 }
 
 // A state set by the host is no step: a later return must not undo it.
-CASE_TEST(a_set_state_is_kept) {
+TEST(a_set_state_is_kept) {
     const int steps = 40;
     FlexureScene f = make(brittle(2.0), "on");
     const int k = first_return(f, steps);
@@ -266,7 +266,7 @@ CASE_TEST(a_set_state_is_kept) {
 }
 
 // Laws that soften, analyses that return many times, every rule: the loops terminate.
-CASE_TEST(returns_end) {
+LOOP_TEST(returns_end, 0, 6) {
     const char* rules[] = {"frozen", "converged", "variational"};
     reference::Scene scene = cases::make_mmf(1.5e-3, cases::mmf_ductile, rules[loop % 3]);
     scene.text("backtracking", "on");
@@ -280,17 +280,3 @@ CASE_TEST(returns_end) {
 }
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("backtracking");
-    TCase* tests = tcase_create("backtracking");
-    tcase_add_loop_test(tests, no_bound_is_missed_afterwards, 0, 4);
-    tcase_add_test(tests, replaced_steps_hold_on_their_own);
-    tcase_add_loop_test(tests, rollback_of_a_return, 0, 2);
-    tcase_add_loop_test(tests, resumed_march, 0, 2);
-    tcase_add_test(tests, limits_and_depth);
-    tcase_add_test(tests, a_set_state_is_kept);
-    tcase_add_loop_test(tests, returns_end, 0, 6);
-    suite_add_tcase(suite, tests);
-    return cases::run_suite(suite);
-}

@@ -56,22 +56,22 @@ void compare(const bench::SceneData& data, double tolerance, bool wide) {
     }
 }
 
-CASE_TEST(same_march) { compare(coarse(), 1e-8, loop == 1); }
+LOOP_TEST(same_march, 0, 2) { compare(coarse(), 1e-8, loop == 1); }
 
-CASE_TEST(same_march_with_patches) {
+TEST(same_march_with_patches) {
     auto data = coarse();
     data.patch = 2e-3;
     compare(data, 1e-8, false);
 }
 
-CASE_TEST(same_march_in_3d) {
+TEST(same_march_in_3d) {
     auto data = bench::find_scene("block-2");
     data.steps = 4;
     compare(data, 1e-8, false);
 }
 
 // The timed scene is the scene tested elsewhere.
-CASE_TEST(same_scene) {
+TEST(same_scene) {
     cases::Enf e;
     e.h = 1e-3;
     const auto known = cases::make_enf(e);
@@ -95,14 +95,3 @@ CASE_TEST(same_scene) {
 }
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("baseline");
-    TCase* tc = tcase_create("baseline");
-    tcase_add_loop_test(tc, same_march, 0, 2);
-    tcase_add_test(tc, same_march_with_patches);
-    tcase_add_test(tc, same_march_in_3d);
-    tcase_add_test(tc, same_scene);
-    suite_add_tcase(suite, tc);
-    return cases::run_suite(suite);
-}

@@ -55,7 +55,7 @@ void try_everything(const Scene& scene, delam_solver* solver) {
     cases::expect(delam_solver_option(solver, "solution") == nullptr, "a text was given");
 }
 
-CASE_TEST(in_progress) {
+TEST(in_progress) {
     (void)loop;
     const Scene scene = cases::small_enf(0);
     Solver plain(scene, 0.0), watched(scene, 0.0);
@@ -84,7 +84,7 @@ struct Log {
     }
 };
 
-CASE_TEST(in_the_log) {
+TEST(in_the_log) {
     (void)loop;
     Scene scene = cases::small_enf(0);
     Log log{&scene};
@@ -117,7 +117,7 @@ struct Asking {
     }
 };
 
-CASE_TEST(in_a_law) {
+TEST(in_a_law) {
     (void)loop;
     const Scene scene = cases::small_enf(0);
     Asking asking;
@@ -153,7 +153,7 @@ struct Ending {
     }
 };
 
-CASE_TEST(law_that_ends_itself) {
+TEST(law_that_ends_itself) {
     (void)loop;
     const Scene scene = cases::small_enf(0), elsewhere = cases::small_enf(0);
     Ending ending;
@@ -169,7 +169,7 @@ CASE_TEST(law_that_ends_itself) {
 }
 
 // Objects destroyed in the middle of a step live until the step has ended.
-CASE_TEST(destroyed_at_work) {
+TEST(destroyed_at_work) {
     (void)loop;
     for (const bool energetic : {false, true}) {
         Scene scene = cases::small_enf(0);
@@ -197,7 +197,7 @@ CASE_TEST(destroyed_at_work) {
     }
 }
 
-CASE_TEST(another_island) {
+TEST(another_island) {
     (void)loop;
     const Scene scene = cases::small_enf(0), other = cases::small_enf(0);
     Solver solver(scene, 0.0), plain(other, 0.0);
@@ -210,16 +210,3 @@ CASE_TEST(another_island) {
 }
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("callbacks");
-    TCase* tests = tcase_create("inside");
-    tcase_add_test(tests, in_progress);
-    tcase_add_test(tests, in_the_log);
-    tcase_add_test(tests, in_a_law);
-    tcase_add_test(tests, law_that_ends_itself);
-    tcase_add_test(tests, destroyed_at_work);
-    tcase_add_test(tests, another_island);
-    suite_add_tcase(suite, tests);
-    return cases::run_suite(suite);
-}

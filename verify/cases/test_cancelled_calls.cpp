@@ -415,7 +415,7 @@ void read_solver(Host& host, const Block& b) {
               [&] { return delam_solver_average(solver, -1, &value, nullptr, nullptr); });
 }
 
-CASE_TEST(calls_that_build) {
+LOOP_TEST(calls_that_build, 0, 2) {
     Watch watch;
     Host host(watch);
     const Block block = make_block(host, loop == 0 ? 2 : 3);
@@ -423,7 +423,7 @@ CASE_TEST(calls_that_build) {
     build_problems(host, block);
 }
 
-CASE_TEST(calls_that_read) {
+LOOP_TEST(calls_that_read, 0, 3) {
     Watch watch;
     Host host(watch);
     const Block block = make_block(host, loop < 2 ? 2 : 3);
@@ -433,7 +433,7 @@ CASE_TEST(calls_that_read) {
 }
 
 // A request made earlier concerns the analysis: calls that build or read succeed, and the next step is cancelled.
-CASE_TEST(waiting_request) {
+TEST(waiting_request) {
     Watch watch;
     Host host(watch);
     delam_context* context = host.h.context;
@@ -457,13 +457,3 @@ CASE_TEST(waiting_request) {
 }
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("cancelled calls");
-    TCase* tests = tcase_create("polls");
-    tcase_add_loop_test(tests, calls_that_build, 0, 2);
-    tcase_add_loop_test(tests, calls_that_read, 0, 3);
-    tcase_add_test(tests, waiting_request);
-    suite_add_tcase(suite, tests);
-    return cases::run_suite(suite);
-}

@@ -160,7 +160,7 @@ void expect_accepted(const Solver& solver, const Exported& exported, double tole
     cases::expect_below(a.worst(), tolerance, where + ": " + a.text());
 }
 
-CASE_TEST(every_scene) {
+LOOP_TEST(every_scene, 0, entry_count) {
     const Entry& entry = entries[loop];
     if (takes_long(entry.name) && !cases::whole()) return;
     Scene condensed = entry.make(), feti = entry.make(), iterated = entry.make();
@@ -249,7 +249,7 @@ const Constrained constrained[] = {{"means", 0.012},    {"bound jumps", 1.0}, {"
                                    {"obstacles", 1.0}};
 constexpr int constrained_count = static_cast<int>(std::size(constrained));
 
-CASE_TEST(marches_with_constraints) {
+LOOP_TEST(marches_with_constraints, 0, 2 * constrained_count) {
     const int d = loop < constrained_count ? 2 : 3;
     const Constrained& own = constrained[loop % constrained_count];
     const std::string name = own.name + std::string(d == 2 ? "" : " 3D");
@@ -295,7 +295,7 @@ CASE_TEST(marches_with_constraints) {
 
 // Cross and tee with interfaces that have lost all adhesion: contact alone, or nothing, holds the parts above. Only
 // stresses, energies and forces are unique.
-CASE_TEST(floating) {
+LOOP_TEST(floating, 0, 16) {
     const int d = loop % 2 == 0 ? 2 : 3;
     const bool slanted = loop / 2 % 2 == 1;
     const unsigned lost = static_cast<unsigned>(loop) / 4U;  // the interfaces that have lost it
@@ -344,7 +344,7 @@ CASE_TEST(floating) {
 
 // Dead forces on a ply that has lost its adhesion: pressed, it rests (equal in all); lifted, there is no equilibrium:
 // DELAM_LIMIT in all.
-CASE_TEST(dead_forces_on_a_loose_ply) {
+LOOP_TEST(dead_forces_on_a_loose_ply, 0, 2) {
     const int d = loop == 0 ? 2 : 3;
     std::int32_t lifted[3];
     std::vector<double> traction[3];
@@ -388,7 +388,7 @@ CASE_TEST(dead_forces_on_a_loose_ply) {
 // ---- prescribed values that bind several jumps -------------------------------------------------------------------
 
 // Nothing is damaged: the energy of a step lies between its two estimates.
-CASE_TEST(estimates_with_bound_jumps) {
+LOOP_TEST(estimates_with_bound_jumps, 0, 12) {
     const int d = loop / 3 % 2 == 0 ? 2 : 3;
     Scene scene = loop < 6 ? cases::make_bound_jumps(d) : cases::make_bound_slip(d);
     scene.law(0, {1e14, 1e14, 1e9, 1e9, 1e9, 1e9});
@@ -408,7 +408,7 @@ CASE_TEST(estimates_with_bound_jumps) {
 }
 
 // A mean over the upper nodes of bonded pairs whose lower nodes are fixed contradicts the bond.
-CASE_TEST(bound_jumps_of_a_bond) {
+LOOP_TEST(bound_jumps_of_a_bond, 0, 3) {
     Scene scene = cases::make_bound_jumps(2);
     scene.bonded(0);
     scene.text("reduction", realisations[loop]);
@@ -453,7 +453,7 @@ const Walk walks[] = {
 constexpr int walk_count = static_cast<int>(std::size(walks));
 
 // A front that advances slowly, sometimes with a change elsewhere, a jump back, or a change everywhere.
-CASE_TEST(long_walk) {
+LOOP_TEST(long_walk, 0, walk_count) {
     const Walk& w = walks[loop];
     Scene scene = w.make();
     scene.text("reduction", "condensed");
@@ -493,7 +493,7 @@ CASE_TEST(long_walk) {
 }
 
 // Nothing adheres: the first step is computed, rolled back, and another one computed.
-CASE_TEST(rollback_of_the_first_step) {
+TEST(rollback_of_the_first_step) {
     const auto make = [] {
         Scene scene = cases::make_plies(2, 2, DELAM_QUAD4, "standard", block_law, 60);
         std::vector<std::int64_t> all(scene.pair_count());
@@ -516,7 +516,7 @@ CASE_TEST(rollback_of_the_first_step) {
 
 // A soft arm below or above one 1e8 times stiffer: its tractions result from its own stiffness, whichever side it is
 // on.
-CASE_TEST(soft_on_stiff) {
+LOOP_TEST(soft_on_stiff, 0, 2) {
     const double ratio = loop == 0 ? 1e8 : 1e-8;
     Scene scene(2, {0.04}, {40}, {2e-3, 2e-3}, {2, 2}, DELAM_QUAD4);
     scene.interface(0, 1);
@@ -540,19 +540,3 @@ CASE_TEST(soft_on_stiff) {
 }
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("condensed");
-    TCase* tests = tcase_create("operator");
-    tcase_add_loop_test(tests, every_scene, 0, entry_count);
-    tcase_add_loop_test(tests, marches_with_constraints, 0, 2 * constrained_count);
-    tcase_add_loop_test(tests, floating, 0, 16);
-    tcase_add_loop_test(tests, dead_forces_on_a_loose_ply, 0, 2);
-    tcase_add_loop_test(tests, estimates_with_bound_jumps, 0, 12);
-    tcase_add_loop_test(tests, bound_jumps_of_a_bond, 0, 3);
-    tcase_add_loop_test(tests, long_walk, 0, walk_count);
-    tcase_add_test(tests, rollback_of_the_first_step);
-    tcase_add_loop_test(tests, soft_on_stiff, 0, 2);
-    suite_add_tcase(suite, tests);
-    return cases::run_suite(suite);
-}

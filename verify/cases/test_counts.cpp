@@ -51,7 +51,7 @@ std::string place(const Damage& damage, std::int64_t subdomains, double k) {
 }
 
 // loop: damage and number of subdomains.
-CASE_TEST(iterations_do_not_see_the_stiffness) {
+LOOP_TEST(iterations_do_not_see_the_stiffness, 0, 2 * damage_count) {
     if (loop >= damage_count && loop % 2 == 0 && !cases::whole()) return;
     const Damage& damage = damages[loop % damage_count];
     const std::int64_t subdomains = loop < damage_count ? 2 : 8;
@@ -69,7 +69,7 @@ CASE_TEST(iterations_do_not_see_the_stiffness) {
     cases::expect_below(most / least, 2.25, std::string(damage.name) + ", most / least over all k");
 }
 
-CASE_TEST(iterations_at_constant_ratio) {
+LOOP_TEST(iterations_at_constant_ratio, 0, damage_count) {
     if (loop % 2 == 0 && !cases::whole()) return;
     const Damage& damage = damages[loop];
     for (const double k : {1.25e11, 1e15, 1e20}) {
@@ -138,8 +138,9 @@ void make_marches() {
         march_failure = e.what();
     }
 }
+BEFORE_TESTS(make_marches);
 
-CASE_TEST(balance_closes_with_the_step) {
+TEST(balance_closes_with_the_step) {
     cases::expect(march_failure.empty(), march_failure);
     for (std::size_t i = 1; i < marches.size(); ++i) {
         const March& coarse = marches[i - 1];
@@ -151,7 +152,7 @@ CASE_TEST(balance_closes_with_the_step) {
     }
 }
 
-CASE_TEST(contact_is_found_quickly) {
+TEST(contact_is_found_quickly) {
     cases::expect(march_failure.empty(), march_failure);
     for (const March& m : {marches.at(1), cut_march}) {
         cases::expect(m.not_converged == 0, std::to_string(m.not_converged) + " steps did not converge");
@@ -163,17 +164,3 @@ CASE_TEST(contact_is_found_quickly) {
 }
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("counts");
-    TCase* krylov = tcase_create("krylov");
-    tcase_add_loop_test(krylov, iterations_do_not_see_the_stiffness, 0, 2 * damage_count);
-    tcase_add_loop_test(krylov, iterations_at_constant_ratio, 0, damage_count);
-    suite_add_tcase(suite, krylov);
-    TCase* ductile = tcase_create("ductile");
-    tcase_add_unchecked_fixture(ductile, make_marches, nullptr);
-    tcase_add_test(ductile, balance_closes_with_the_step);
-    tcase_add_test(ductile, contact_is_found_quickly);
-    suite_add_tcase(suite, ductile);
-    return cases::run_suite(suite);
-}

@@ -31,7 +31,7 @@ Scene slide(double amount, const char* preconditioner) {
     return scene;
 }
 
-CASE_TEST(a_cycle_through_zero_keeps_damage_and_mode) {
+LOOP_TEST(a_cycle_through_zero_keeps_damage_and_mode, 0, 4) {
     const double amount = 1e-4;  // onset at 6.3e-5, debonded at 1.9e-4
     const Scene scene = slide(amount, preconditioners[loop]);
     Solver solver(scene, 0.0);
@@ -49,7 +49,7 @@ CASE_TEST(a_cycle_through_zero_keeps_damage_and_mode) {
 }
 
 // The whole ENF: bent, released, bent again. The second bending is elastic, along the secant.
-CASE_TEST(enf_released_and_bent_again) {
+TEST(enf_released_and_bent_again) {
     cases::Enf e;
     e.h = 1.5e-3;
     const Scene scene = cases::make_enf(e);
@@ -64,7 +64,7 @@ CASE_TEST(enf_released_and_bent_again) {
 }
 
 // A simply supported layer: three supports, three rigid motions, a dead force on top.
-CASE_TEST(statically_determinate_layer) {
+LOOP_TEST(statically_determinate_layer, 0, 4) {
     const int cells = 8 << loop;
     Scene scene(2, {0.08}, {cells}, {0.01}, {cells / 8}, DELAM_QUAD4);
     scene.begin();
@@ -91,13 +91,3 @@ CASE_TEST(statically_determinate_layer) {
 }
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("cycles");
-    TCase* tests = tcase_create("cycles");
-    tcase_add_loop_test(tests, a_cycle_through_zero_keeps_damage_and_mode, 0, 4);
-    tcase_add_test(tests, enf_released_and_bent_again);
-    tcase_add_loop_test(tests, statically_determinate_layer, 0, 4);
-    suite_add_tcase(suite, tests);
-    return cases::run_suite(suite);
-}

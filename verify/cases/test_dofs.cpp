@@ -12,7 +12,7 @@ struct Row {
 };
 constexpr Row table[] = {{1e-3, 1936, 242}, {0.75e-3, 3220, 322}, {0.5e-3, 6748, 482}};
 
-CASE_TEST(slides_table) {
+LOOP_TEST(slides_table, 0, 3) {
     const Row& row = table[loop];
     cases::Enf e;
     e.h = row.h;
@@ -30,11 +30,3 @@ CASE_TEST(slides_table) {
 }
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("dofs");
-    TCase* tests = tcase_create("slides");
-    tcase_add_loop_test(tests, slides_table, 0, 3);
-    suite_add_tcase(suite, tests);
-    return cases::run_suite(suite);
-}

@@ -103,7 +103,7 @@ void check_heated(const Element& e, const char* plane, bool walls) {
 
 }  // namespace
 
-CASE_TEST(heated) {
+LOOP_TEST(heated, 0, element_count) {
     const Element& e = elements[loop];
     for (const bool walls : {false, true}) {
         check_heated(e, "plane-strain", walls);
@@ -113,7 +113,7 @@ CASE_TEST(heated) {
 
 // S. Timoshenko, J. Opt. Soc. Am. 11 (1925): curvature of a strip of two metals, m = t1/t2, n = E1/E2,
 //   kappa = 6 (alpha2 - alpha1) dT (1+m)^2 / (h (3 (1+m)^2 + (1 + m n) (m^2 + 1/(m n)))).
-CASE_TEST(bimetal) {
+LOOP_TEST(bimetal, 0, 2) {
     const std::int32_t cell = loop == 0 ? DELAM_QUAD8 : DELAM_QUAD4;
     const double length = 0.1, t1 = 0.002, t2 = 0.003, e1 = 200e9, e2 = 70e9, a1 = 1.2e-5, a2 = 2.3e-5;
     Scene scene(2, {length}, {50}, {t1, t2}, {2, 3}, cell);
@@ -155,7 +155,7 @@ CASE_TEST(bimetal) {
 
 // [0/90/0] cooled after its cure: in the middle, sigma_x = E_x (eps - alpha_x dT), eps = sum t E_x alpha_x dT / sum t
 // E_x.
-CASE_TEST(cross_ply) {
+TEST(cross_ply) {
     const double length = 0.08, thick = 0.002, inner = 0.003, a1 = -0.3e-6, a2 = 28e-6, cold = -120.0;
     Scene scene(2, {length}, {40}, {thick, inner, thick}, {2, 3, 2}, DELAM_QUAD8);
     scene.interface(0, 1);
@@ -213,7 +213,7 @@ Scene loaded(int which, const LawData& law) {
 
 }  // namespace
 
-CASE_TEST(against_the_reference) {
+LOOP_TEST(against_the_reference, 0, 4) {
     Scene scene = loaded(loop, cases::block_law);
     std::vector<double> adhesion(scene.pair_count());
     for (std::size_t i = 0; i < adhesion.size(); ++i) adhesion[i] = i % 3 == 0 ? 0.0 : i % 3 == 1 ? 0.4 : 1.0;
@@ -232,7 +232,7 @@ CASE_TEST(against_the_reference) {
 }
 
 // At fixed adhesion and contact, E is quadratic in the factors, so a central difference is its exact derivative.
-CASE_TEST(conjugates_are_derivatives) {
+LOOP_TEST(conjugates_are_derivatives, 0, 4) {
     Scene scene = loaded(loop, cases::block_law);
     const std::vector<double> adhesion(scene.pair_count(), 1.0);
     for (const char* reduction : {"condensed", "iterated", "feti"}) {
@@ -300,7 +300,7 @@ Scene cured(int which) {
 }  // namespace
 
 // Cure first, then load until the plies debond: the bounds hold in every step and the ledger closes.
-CASE_TEST(cure_then_load) {
+LOOP_TEST(cure_then_load, 0, 3) {
     Scene scene = cured(loop);
     double kept = 0.0, spent = 0.0;
     for (const char* reduction : {"condensed", "iterated", "feti"}) {
@@ -337,7 +337,7 @@ CASE_TEST(cure_then_load) {
 }
 
 // One material and one expansion throughout: nothing loads the interface, and rounding must not count as contact.
-CASE_TEST(nothing_to_hold) {
+LOOP_TEST(nothing_to_hold, 0, element_count) {
     const Element& e = elements[loop];
     const int d = flat(e.cell) ? 2 : 3;
     Scene scene(d, d == 2 ? std::vector<double>{0.04} : std::vector<double>{0.04, 0.01},
@@ -364,7 +364,7 @@ CASE_TEST(nothing_to_hold) {
 }
 
 // An unsupported ply is heated: it expands, and no part of it resists.
-CASE_TEST(floating_ply) {
+LOOP_TEST(floating_ply, 0, element_count) {
     const Element& e = elements[loop];
     const int d = flat(e.cell) ? 2 : 3;
     Scene loose(d, d == 2 ? std::vector<double>{0.04} : std::vector<double>{0.04, 0.01},
@@ -394,20 +394,4 @@ CASE_TEST(floating_ply) {
         for (const double s : solver.field("stress"))
             cases::expect_near(s, 0.0, 1e-7, young * alpha * heat, std::string(reduction) + ": stress");
     }
-}
-
-int main() {
-    Suite* suite = suite_create("eigenstrain");
-    TCase* tests = tcase_create("eigenstrain");
-    tcase_set_timeout(tests, 300);
-    tcase_add_loop_test(tests, heated, 0, element_count);
-    tcase_add_loop_test(tests, bimetal, 0, 2);
-    tcase_add_test(tests, cross_ply);
-    tcase_add_loop_test(tests, against_the_reference, 0, 4);
-    tcase_add_loop_test(tests, conjugates_are_derivatives, 0, 4);
-    tcase_add_loop_test(tests, cure_then_load, 0, 3);
-    tcase_add_loop_test(tests, nothing_to_hold, 0, element_count);
-    tcase_add_loop_test(tests, floating_ply, 0, element_count);
-    suite_add_tcase(suite, tests);
-    return cases::run_suite(suite);
 }

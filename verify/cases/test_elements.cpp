@@ -107,13 +107,13 @@ void expect_moves(const Element& e, const Outcome& o) {
 }
 
 constexpr int first_solid = 5;
-CASE_TEST(solids) {
+LOOP_TEST(solids, 0, element_count - first_solid) {
     const Element& e = elements[first_solid + loop];
     expect_moves(e, march(e));
 }
 
 // One cell across a ply is enough for elements that bend well: plane strain, so the plane ones are comparable.
-CASE_TEST(plane_elements_agree) {
+TEST(plane_elements_agree) {
     const Outcome fine = march(elements[4]);
     expect_moves(elements[4], fine);
     for (const Element& e : elements) {
@@ -128,7 +128,7 @@ CASE_TEST(plane_elements_agree) {
 }
 
 // Saved and loaded, with the formulation as part of the scene's identity.
-CASE_TEST(formulation_is_part_of_the_scene) {
+TEST(formulation_is_part_of_the_scene) {
     const Scene scene = peel(elements[1]);
     const Scene other = peel(elements[0]);
     char a[17];
@@ -141,7 +141,7 @@ CASE_TEST(formulation_is_part_of_the_scene) {
     cases::expect(wrong.load(solver.save()) == DELAM_ERROR_SNAPSHOT, "a snapshot of another formulation is refused");
 }
 
-CASE_TEST(refusals) {
+TEST(refusals) {
     const Scene triangles = peel(elements[2]);
     const auto message = [](const Scene& scene) { return std::string(delam_context_message(scene.context())); };
     cases::expect(delam_problem_set_formulation(triangles.problem(), 1, "incompatible") == DELAM_ERROR_ARGUMENT,
@@ -160,14 +160,3 @@ CASE_TEST(refusals) {
 }
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("elements");
-    TCase* tests = tcase_create("marches");
-    tcase_add_loop_test(tests, solids, 0, element_count - first_solid);
-    tcase_add_test(tests, plane_elements_agree);
-    tcase_add_test(tests, formulation_is_part_of_the_scene);
-    tcase_add_test(tests, refusals);
-    suite_add_tcase(suite, tests);
-    return cases::run_suite(suite);
-}

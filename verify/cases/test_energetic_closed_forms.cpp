@@ -61,7 +61,7 @@ double jump_by_halving(Solver& solver, double end, int halvings) {
 
 constexpr double soft[] = {0.5, 0.1, 0.02};  // K over the softening slope
 
-CASE_TEST(soft_spring_local_jump) {
+LOOP_TEST(soft_spring_local_jump, 0, 3) {
     const double spring = soft[loop] * slope;
     const double end = 1.3 * local_load(spring);
     Scene scene = spring_scene(spring, end);
@@ -69,7 +69,7 @@ CASE_TEST(soft_spring_local_jump) {
     cases::expect_near(jump_by_halving(solver, end, 16), local_load(spring), 1e-3, local_load(spring), "local jump");
 }
 
-CASE_TEST(soft_spring_energetic_jump) {
+LOOP_TEST(soft_spring_energetic_jump, 0, 3) {
     const double spring = soft[loop] * slope;
     const double end = 1.3 * energetic_load(spring);
     cases::expect(energetic_load(spring) < local_load(spring), "the energetic jump comes first");
@@ -81,7 +81,7 @@ CASE_TEST(soft_spring_energetic_jump) {
 }
 
 // Above the softening slope the solution is unique, and the search must find nothing else.
-CASE_TEST(stiff_spring_energetic_is_continuous) {
+LOOP_TEST(stiff_spring_energetic_is_continuous, 0, 2) {
     const double spring = slope * (loop == 0 ? 1.5 : 4.0);
     const double end = 1.1 * dc;
     Scene scene = spring_scene(spring, end);
@@ -119,7 +119,7 @@ Jump only_jump(const Solver& solver) {
 // With the instant located, the ledger has the load of the jump: work is done up to it, w^2/2 (1/K + 1/k)^-1, and none
 // after it. What is not dissipated was released: nothing where the two energies cross, sigma0^2/2 (1/K + 1/k) - Gc at
 // the local load.
-CASE_TEST(soft_spring_jump_is_located) {
+LOOP_TEST(soft_spring_jump_is_located, 0, 6) {
     const bool energetic = loop >= 3;
     const double spring = soft[loop % 3] * slope;
     const double exact = energetic ? energetic_load(spring) : local_load(spring);
@@ -225,7 +225,7 @@ void expect_first_order(const Errors* errors, const char* what) {
 
 // Least energy of all fronts, 8 loads per cell: the front jumps from pair to pair, so its error never exceeds one cell,
 // and the force is a sawtooth around the plateau; both errors are of first order in h.
-CASE_TEST(bar_scan_follows_the_plateau) {
+TEST(bar_scan_follows_the_plateau) {
     Errors errors[3];
     for (int m = 0; m < 3; ++m) {
         const cases::Bar bar = bar_of(meshes[m], 0.7);
@@ -245,7 +245,7 @@ CASE_TEST(bar_scan_follows_the_plateau) {
 
 // The same bar by the local analysis: the pair at the tip must reach its strength, which happens late by h over the
 // length lam of the bond. First order too, with a larger constant: energetic = local in the limit.
-CASE_TEST(bar_local_converges_to_the_plateau) {
+TEST(bar_local_converges_to_the_plateau) {
     Errors errors[3];
     for (int m = 0; m < 3; ++m) {
         const cases::Bar bar = bar_of(2 * meshes[m], 0.6);
@@ -265,7 +265,7 @@ CASE_TEST(bar_local_converges_to_the_plateau) {
 }
 
 // The library's search along the plateau: no more energy than the scan after every step.
-CASE_TEST(bar_energetic_follows_the_plateau) {
+LOOP_TEST(bar_energetic_follows_the_plateau, 0, 3) {
     const cases::Bar bar = bar_of(meshes[loop], 0.7);
     Scene scene = cases::make_bar(bar);
     scene.text("solution", "energetic");
@@ -295,7 +295,7 @@ double full_debonding_load(const cases::Bar& bar) {
     return 0.5 * (bar.length + bar.bond_length) * bar.plateau() / bar.membrane;
 }
 
-CASE_TEST(free_bar_scan_jumps_halfway) {
+TEST(free_bar_scan_jumps_halfway) {
     double errors[3];
     for (int m = 0; m < 3; ++m) {
         const cases::Bar bar = bar_of(meshes[m], 0.7, false);
@@ -316,7 +316,7 @@ CASE_TEST(free_bar_scan_jumps_halfway) {
     cases::expect_below(std::abs(errors[2]), 1e-3, "load of the jump, finest mesh");
 }
 
-CASE_TEST(free_bar_energetic_jumps_halfway) {
+TEST(free_bar_energetic_jumps_halfway) {
     const cases::Bar bar = bar_of(cases::whole() ? 200 : 150, 0.7, false);
     Scene scene = cases::make_bar(bar);
     scene.text("solution", "energetic");
@@ -344,21 +344,3 @@ CASE_TEST(free_bar_energetic_jumps_halfway) {
 }
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("energetic_closed_forms");
-    TCase* springs = tcase_create("spring");
-    tcase_add_loop_test(springs, soft_spring_local_jump, 0, 3);
-    tcase_add_loop_test(springs, soft_spring_energetic_jump, 0, 3);
-    tcase_add_loop_test(springs, stiff_spring_energetic_is_continuous, 0, 2);
-    tcase_add_loop_test(springs, soft_spring_jump_is_located, 0, 6);
-    suite_add_tcase(suite, springs);
-    TCase* bars = tcase_create("bar");
-    tcase_add_test(bars, bar_scan_follows_the_plateau);
-    tcase_add_test(bars, bar_local_converges_to_the_plateau);
-    tcase_add_loop_test(bars, bar_energetic_follows_the_plateau, 0, 3);
-    tcase_add_test(bars, free_bar_scan_jumps_halfway);
-    tcase_add_test(bars, free_bar_energetic_jumps_halfway);
-    suite_add_tcase(suite, bars);
-    return cases::run_suite(suite);
-}

@@ -76,7 +76,7 @@ void expect_sound(const Checked& c, const std::string& what, int violated = 0) {
     cases::expect_below(c.violated, violated, what + ": steps beyond their bounds");
 }
 
-CASE_TEST(brittle_flexure_misses_no_bound) {
+LOOP_TEST(brittle_flexure_misses_no_bound, 0, 2) {
     const int steps = loop == 0 ? 20 : 40;
     reference::FlexureScene f = reference::make_flexure(reference::find_flexure("enf-brittle"));
     f.scene.text("solution", "energetic");
@@ -104,7 +104,7 @@ Scene loaded(const std::vector<double>& at, const std::vector<double>& values, b
     return scene;
 }
 
-CASE_TEST(rest_reversal_and_reloading) {
+TEST(rest_reversal_and_reloading) {
     const double w = 4e-3;
     Scene scene = loaded({0.0, 0.1, 0.4, 0.6, 0.7, 0.8, 1.0}, {0.0, 0.0, 0.7 * w, -0.5 * w, 0.0, 0.0, 1.2 * w});
     cases::set_energetic(scene, 1e-2);
@@ -124,7 +124,7 @@ CASE_TEST(rest_reversal_and_reloading) {
 }
 
 // Two loads that are not proportional; saved during the analysis, the rest is the same to the bit.
-CASE_TEST(turning_load_and_snapshot) {
+TEST(turning_load_and_snapshot) {
     Scene scene = loaded({0.0, 1.0}, {0.0, 1.5e-3}, true), again = loaded({0.0, 1.0}, {0.0, 1.5e-3}, true);
     for (Scene* s : {&scene, &again}) cases::set_energetic(*s, 1e-2);
     Solver whole(scene, 0.0), resumed(again, 0.0);
@@ -142,7 +142,7 @@ CASE_TEST(turning_load_and_snapshot) {
 
 // Mirror-symmetric fronts: their candidates have equal energies except for rounding, so a continued analysis must
 // choose alike.
-CASE_TEST(equal_fronts_and_snapshot) {
+LOOP_TEST(equal_fronts_and_snapshot, 0, 2) {
     Beam b;
     if (loop == 1) b.h = 3e-3;
     b.right = b.left;
@@ -178,7 +178,7 @@ constexpr Softening softenings[] = {{"piecewise-linear", 0.0, 0.0, 1e12}, {"expo
                                     {"trapezoidal", 0.5, 0.0, 1e12},      {"griffith", 0.0, 0.0, 1e13},
                                     {"exponential", 0.0, 0.0, 125e9},     {"piecewise-linear", 0.0, 1e-3, 1e12}};
 
-CASE_TEST(laws_that_soften) {
+LOOP_TEST(laws_that_soften, 0, 6) {
     const Softening& s = softenings[loop];
     Beam b;
     b.press = 6e-3;
@@ -206,7 +206,7 @@ CASE_TEST(laws_that_soften) {
 }
 
 // Cells with nodes between the corners, and simplices.
-CASE_TEST(other_cells) {
+LOOP_TEST(other_cells, 0, 4) {
     const std::int32_t type[] = {DELAM_QUAD8, DELAM_TRI6, DELAM_HEX20, DELAM_TET10};
     const bool plane = loop < 2;
     const double length = 0.06, width = 0.004, layer = 3e-3;
@@ -237,16 +237,3 @@ CASE_TEST(other_cells) {
 }
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("energetic_marches");
-    TCase* tests = tcase_create("energetic_marches");
-    tcase_add_loop_test(tests, brittle_flexure_misses_no_bound, 0, 2);
-    tcase_add_test(tests, rest_reversal_and_reloading);
-    tcase_add_test(tests, turning_load_and_snapshot);
-    tcase_add_loop_test(tests, equal_fronts_and_snapshot, 0, 2);
-    tcase_add_loop_test(tests, laws_that_soften, 0, 6);
-    tcase_add_loop_test(tests, other_cells, 0, 4);
-    suite_add_tcase(suite, tests);
-    return cases::run_suite(suite);
-}

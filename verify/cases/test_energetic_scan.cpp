@@ -9,16 +9,9 @@ namespace {
 // With exponents 1 the toughness does not depend on the mixity, and the two histories cannot differ in it.
 constexpr cases::ScanRun runs[] = {{1.5e-3, 0.0, 2.0}, {1.5e-3, 3e-3, 1.0}, {1e-3, 2e-3, 2.0}};
 
-CASE_TEST(no_step_above_the_scan) { cases::expect_no_step_above_the_scan(runs[loop]); }
-CASE_TEST(jump_is_located_where_the_energies_cross) { cases::expect_jump_where_the_energies_cross(runs[loop]); }
+LOOP_TEST(no_step_above_the_scan, 0, std::size(runs)) { cases::expect_no_step_above_the_scan(runs[loop]); }
+LOOP_TEST(jump_is_located_where_the_energies_cross, 0, std::size(runs)) {
+    cases::expect_jump_where_the_energies_cross(runs[loop]);
+}
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("energetic_scan");
-    TCase* tests = tcase_create("enf");
-    tcase_add_loop_test(tests, no_step_above_the_scan, 0, static_cast<int>(std::size(runs)));
-    tcase_add_loop_test(tests, jump_is_located_where_the_energies_cross, 0, static_cast<int>(std::size(runs)));
-    suite_add_tcase(suite, tests);
-    return cases::run_suite(suite);
-}

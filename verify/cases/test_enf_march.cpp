@@ -68,6 +68,7 @@ void make_march() {
         march_failure = e.what();
     }
 }
+BEFORE_TESTS(make_march);
 
 const std::vector<StepRecord>& all() {
     cases::expect(march_failure.empty(), march_failure);
@@ -76,14 +77,14 @@ const std::vector<StepRecord>& all() {
 
 std::string at(std::size_t k) { return "step " + std::to_string(k + 1) + ": "; }
 
-CASE_TEST(every_step_converges) {
+TEST(every_step_converges) {
     for (std::size_t k = 0; k < all().size(); ++k) {
         cases::expect(all()[k].status == DELAM_OK, at(k) + delam_status_name(all()[k].status));
     }
     cases::expect(all().size() == steps, "steps");
 }
 
-CASE_TEST(energy_balance) {
+TEST(energy_balance) {
     const double work = all().back().work;
     cases::expect(work > 0.0, "the device does work");
     for (std::size_t k = 0; k < all().size(); ++k) {
@@ -94,7 +95,7 @@ CASE_TEST(energy_balance) {
     }
 }
 
-CASE_TEST(two_sided_estimate) {
+TEST(two_sided_estimate) {
     double stored = 0.0;
     double dissipated = 0.0;
     for (std::size_t k = 0; k < all().size(); ++k) {
@@ -111,7 +112,7 @@ CASE_TEST(two_sided_estimate) {
 
 // All energies of the elastic, linear march are quadratic in the load: E_k = theta_k R_k / 2, so that the bounds are
 // those of a step in which the stiffness changes at its beginning, or at its end. The work lies between them.
-CASE_TEST(work_of_the_reactions) {
+TEST(work_of_the_reactions) {
     cases::StepLedger before;
     before.adhesion = start_adhesion;
     for (std::size_t k = 0; k < all().size(); ++k) {
@@ -127,20 +128,20 @@ CASE_TEST(work_of_the_reactions) {
     }
 }
 
-CASE_TEST(kkt_outside_the_solver) {
+TEST(kkt_outside_the_solver) {
     for (std::size_t k = 0; k < all().size(); ++k) {
         cases::expect_below(all()[k].acceptance.worst(), 1e-10, at(k) + all()[k].acceptance.text());
     }
 }
 
-CASE_TEST(against_direct) {
+TEST(against_direct) {
     for (std::size_t k = 0; k < all().size(); ++k) {
         cases::expect_below(all()[k].comparison.worst(), 1e-8, at(k) + all()[k].comparison.text());
         cases::expect(all()[k].comparison.contacts == 0, at(k) + all()[k].comparison.text());
     }
 }
 
-CASE_TEST(irreversible) {
+TEST(irreversible) {
     double dissipated = 0.0;
     std::vector<double> adhesion = all().front().adhesion;
     for (std::size_t k = 0; k < all().size(); ++k) {
@@ -155,18 +156,3 @@ CASE_TEST(irreversible) {
 }
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("enf march");
-    TCase* tests = tcase_create("ductile");
-    tcase_add_unchecked_fixture(tests, make_march, nullptr);
-    tcase_add_test(tests, every_step_converges);
-    tcase_add_test(tests, energy_balance);
-    tcase_add_test(tests, two_sided_estimate);
-    tcase_add_test(tests, work_of_the_reactions);
-    tcase_add_test(tests, kkt_outside_the_solver);
-    tcase_add_test(tests, against_direct);
-    tcase_add_test(tests, irreversible);
-    suite_add_tcase(suite, tests);
-    return cases::run_suite(suite);
-}

@@ -94,7 +94,7 @@ std::string where(const Way& way, double size) {
     return way.text() + text;
 }
 
-CASE_TEST(small_loads_are_proportional) {
+LOOP_TEST(small_loads_are_proportional, 0, way_count) {
     const Way& way = ways[loop];
     constexpr double unit = 1e-9;
     const Scene reference = flexure(way, unit, false);
@@ -119,7 +119,7 @@ CASE_TEST(small_loads_are_proportional) {
 
 // Energies, about 1e6 J/m2 times the square of the load, overflow at some 1e151 m; that of a pair on the way to its
 // debonding, which has softened and opened but holds, at some 1e150 m.
-CASE_TEST(large_loads_are_finite_or_refused) {
+LOOP_TEST(large_loads_are_finite_or_refused, 0, way_count) {
     const Way& way = ways[loop];
     const double largest = std::string(way.rule) == "converged" ? 1e149 : 1e150;
     for (const double size : {1e100, largest, 1e200, 1e300})
@@ -148,7 +148,7 @@ CASE_TEST(large_loads_are_finite_or_refused) {
 }
 
 // A load that ends in rounding (a sine at pi) after a large one.
-CASE_TEST(supports_hold_after_unloading) {
+LOOP_TEST(supports_hold_after_unloading, 0, way_count) {
     const Way& way = ways[loop];
     for (const double fraction : {1e-16, 1e-30, 1e-200}) {
         const double size = 1e-6;
@@ -163,13 +163,3 @@ CASE_TEST(supports_hold_after_unloading) {
 }
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("extreme loads");
-    TCase* test = tcase_create("steps");
-    tcase_add_loop_test(test, small_loads_are_proportional, 0, way_count);
-    tcase_add_loop_test(test, large_loads_are_finite_or_refused, 0, way_count);
-    tcase_add_loop_test(test, supports_hold_after_unloading, 0, way_count);
-    suite_add_tcase(suite, test);
-    return cases::run_suite(suite);
-}

@@ -11,7 +11,7 @@ constexpr cases::FetiChoice choices[] = {{8, "lumped", "orthonormal"},
                                          {8, "series", "orthonormal"},
                                          {8, "series", "redundant"}};
 // The test itself computes the states, because OpenMP threads of the linear algebra do not survive Check's fork.
-CASE_TEST(same_displacement_step) {
+TEST(same_displacement_step) {
     const cases::DirectStates states(1e-3, 8);
     for (const auto& choice : choices) {
         cases::solve_all(states, choice, [&](std::size_t i, const reference::Comparison& c, std::int32_t, double) {
@@ -23,11 +23,3 @@ CASE_TEST(same_displacement_step) {
 }
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("feti and direct");
-    TCase* tests = tcase_create("ductile enf");
-    tcase_add_test(tests, same_displacement_step);
-    suite_add_tcase(suite, tests);
-    return cases::run_suite(suite);
-}

@@ -92,7 +92,7 @@ const Loose loose_cases[] = {
     {{1}, {2}, "top ply"}, {{0}, {1}, "two plies together"}, {{0, 1}, {1, 2}, "middle and top ply"}};
 
 // Pressed down in the middle, the loose plies rest on those below; their ends may lift off.
-CASE_TEST(pressed_plies) {
+LOOP_TEST(pressed_plies, 0, 6) {
     const int d = loop / 3 == 0 ? 2 : 3;
     const Loose& l = loose_cases[loop % 3];
     const Scene supported = plies(d, l.interfaces, press, l.pinned, 3);
@@ -124,7 +124,7 @@ CASE_TEST(pressed_plies) {
 }
 
 // Pulled up: loose plies leave as a whole, without stress.
-CASE_TEST(lifted_plies) {
+LOOP_TEST(lifted_plies, 0, 6) {
     const int d = loop / 3 == 0 ? 2 : 3;
     const Loose& l = loose_cases[loop % 3];
     const std::string where = std::string(l.name) + ", " + std::to_string(d) + "D";
@@ -143,7 +143,7 @@ CASE_TEST(lifted_plies) {
 }
 
 // Nothing touches the loose ply: it may lie anywhere above, at rest, without energy.
-CASE_TEST(idle_plies) {
+LOOP_TEST(idle_plies, 0, 6) {
     const int d = loop / 3 == 0 ? 2 : 3;
     const Loose& l = loose_cases[loop % 3];
     const std::string where = std::string(l.name) + ", " + std::to_string(d) + "D";
@@ -168,7 +168,7 @@ void lift_by_force(Scene& scene, double force) {
 }
 
 // A dead load on a ply that is loose from the start is refused with the scene.
-CASE_TEST(dead_load_on_a_loose_ply) {
+TEST(dead_load_on_a_loose_ply) {
     Scene scene = plies(2, {1}, 0.0, {}, 3);
     lift_by_force(scene, 10.0);
     cases::expect(delam_problem_check(scene.problem()) == DELAM_ERROR_PROBLEM, "the scene is refused");
@@ -176,7 +176,7 @@ CASE_TEST(dead_load_on_a_loose_ply) {
 }
 
 // A dead load beyond the interface's strength tears a ply off: there is no equilibrium, and the solver reports it.
-CASE_TEST(dead_load_tears_a_ply_off) {
+TEST(dead_load_tears_a_ply_off) {
     Scene scene = plies(2, {}, 0.0, {}, 3);
     const double strength = std::sqrt(2.0 * law.normal_stiffness * law.normal_onset);
     lift_by_force(scene, 2.0 * strength * length);
@@ -192,7 +192,7 @@ CASE_TEST(dead_load_tears_a_ply_off) {
 }
 
 // Intact triple layers with two interfaces, one perfectly bonded or both compliant, bent: against the reference.
-CASE_TEST(bent_layers) {
+LOOP_TEST(bent_layers, 0, 4) {
     const int d = loop / 2 == 0 ? 2 : 3;
     const bool bonded = loop % 2 == 1;
     reference::State state;  // of the first, for both
@@ -277,7 +277,7 @@ Scene cross(int n, bool bonded_one) {
     return scene;
 }
 
-CASE_TEST(cross_point) {
+LOOP_TEST(cross_point, 0, 2) {
     reference::State state;  // of the first, for both
     for (const int subdomains : {4, 9}) {
         Scene scene = cross(6, loop == 1);
@@ -297,17 +297,3 @@ CASE_TEST(cross_point) {
 }
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("floating");
-    TCase* tests = tcase_create("plies");
-    tcase_add_loop_test(tests, pressed_plies, 0, 6);
-    tcase_add_loop_test(tests, lifted_plies, 0, 6);
-    tcase_add_loop_test(tests, idle_plies, 0, 6);
-    tcase_add_test(tests, dead_load_on_a_loose_ply);
-    tcase_add_test(tests, dead_load_tears_a_ply_off);
-    tcase_add_loop_test(tests, bent_layers, 0, 4);
-    tcase_add_loop_test(tests, cross_point, 0, 2);
-    suite_add_tcase(suite, tests);
-    return cases::run_suite(suite);
-}

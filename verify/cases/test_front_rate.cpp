@@ -8,7 +8,7 @@
 #include "flexure.hpp"
 #include "front_points.hpp"
 
-#include "support.hpp"  // last: check.h has a macro named fail
+#include "support.hpp"
 
 using namespace cases;
 
@@ -88,7 +88,7 @@ double dcb_rate(double a, double opening, double arm, double stiffness) {
 // Below onset: the springs of the interface act on arms of known stiffness. The closed form ignores shear of the arms,
 // hence an error of a few percent.
 // closed form, a few percent.
-CASE_TEST(dcb_below_onset) {
+TEST(dcb_below_onset) {
     Dcb d;
     d.notch = 50e-3;
     d.opening = 0.1e-3;
@@ -108,7 +108,7 @@ CASE_TEST(dcb_below_onset) {
 }
 
 // G = -dU/da at fixed ends: the front moved by a cell. Stiff and soft interfaces, linear and quadratic cells.
-CASE_TEST(energy_differences) {
+LOOP_TEST(energy_differences, 0, 5) {
     struct {
         std::int32_t cell;
         reference::LawData law;
@@ -138,7 +138,7 @@ CASE_TEST(energy_differences) {
 
 // ENF with closed contact behind the tip: mode II, and beam theory's G = 9 P^2 a^2 / (16 E b^2 h^3) for the load of the
 // solution.
-CASE_TEST(enf_below_onset_and_growing) {
+LOOP_TEST(enf_below_onset_and_growing, 0, 2) {
     reference::Flexure data;
     data.h = loop == 0 ? 0.5e-3 : 1e-3;
     data.element = loop == 0 ? "quad4-incompatible" : "quad8";
@@ -161,7 +161,7 @@ CASE_TEST(enf_below_onset_and_growing) {
 }
 
 // A softening front that grows: G is Gc, whatever the law does in between; the process zone moves along.
-CASE_TEST(growth_at_the_toughness) {
+LOOP_TEST(growth_at_the_toughness, 0, 2) {
     Dcb d;
     d.h = loop == 1 ? 0.5e-3 : 0.25e-3;
     d.cell = loop == 1 ? DELAM_QUAD8 : DELAM_QUAD4;
@@ -194,7 +194,7 @@ CASE_TEST(growth_at_the_toughness) {
 }
 
 // Mixed mode with the mixity of the step's own solution: G at the front is Gc at the mixity of G.
-CASE_TEST(mixed_mode_growth) {
+TEST(mixed_mode_growth) {
     reference::Flexure data;
     data.mixed = true;
     data.h = 0.25e-3;
@@ -224,7 +224,7 @@ CASE_TEST(mixed_mode_growth) {
 }
 
 // A wide DCB in space: the plane values at mid-width; without Poisson effect, everywhere.
-CASE_TEST(dcb_in_space) {
+LOOP_TEST(dcb_in_space, 0, 3) {
     if (loop == 0 && !cases::whole()) return;  // no Poisson effect
     Dcb d;
     d.h = 1e-3;
@@ -290,17 +290,4 @@ CASE_TEST(dcb_in_space) {
                     1e-12, plane, "value energy_release_rate");
         expect_near(solver.value("crack_length:0"), d.notch * d.width, 1e-9, 1.0, "crack_length is an area in space");
     }
-}
-
-int main() {
-    Suite* suite = suite_create("front_rate");
-    TCase* rates = tcase_create("rates");
-    tcase_add_test(rates, dcb_below_onset);
-    tcase_add_loop_test(rates, energy_differences, 0, 5);
-    tcase_add_loop_test(rates, enf_below_onset_and_growing, 0, 2);
-    tcase_add_loop_test(rates, growth_at_the_toughness, 0, 2);
-    tcase_add_test(rates, mixed_mode_growth);
-    tcase_add_loop_test(rates, dcb_in_space, 0, 3);
-    suite_add_tcase(suite, rates);
-    return run_suite(suite);
 }

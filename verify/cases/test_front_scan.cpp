@@ -31,7 +31,7 @@ double stored(const reference::Solver& solver) {
     return solver.value("stored_bulk") + solver.value("stored_interface");
 }
 
-CASE_TEST(energy_is_quadratic_in_the_load) {
+LOOP_TEST(energy_is_quadratic_in_the_load, 0, 4) {
     const Fronts fronts(specimen(loop));
     const reference::FlexureScene& s = fronts.flexure();
     std::size_t first = 0;
@@ -55,7 +55,7 @@ CASE_TEST(energy_is_quadratic_in_the_load) {
     }
 }
 
-CASE_TEST(fronts_agree_with_the_direct_solver) {
+LOOP_TEST(fronts_agree_with_the_direct_solver, 0, 4) {
     const Fronts fronts(specimen(loop));
     const reference::FlexureScene& s = fronts.flexure();
     reference::DirectReference direct(s.scene);
@@ -67,7 +67,7 @@ CASE_TEST(fronts_agree_with_the_direct_solver) {
 }
 
 // Breaking more pairs never stores more energy.
-CASE_TEST(energy_falls_with_the_front) {
+LOOP_TEST(energy_falls_with_the_front, 0, 4) {
     const Fronts fronts(specimen(loop));
     for (std::size_t f = 1; f < fronts.list().size(); ++f)
         cases::expect_below(fronts.stored(f, 1e-3), fronts.stored(f - 1, 1e-3) * (1.0 + 1e-9),
@@ -75,7 +75,7 @@ CASE_TEST(energy_falls_with_the_front) {
 }
 
 // Nothing is reused: every front at every load, each by a separate displacement step.
-CASE_TEST(scan_is_exhaustive) {
+LOOP_TEST(scan_is_exhaustive, 0, 4) {
     if (loop % 2 == 1 && !cases::whole()) return;
     const reference::Flexure data = specimen(loop);
     const Fronts fronts(data);
@@ -106,7 +106,7 @@ CASE_TEST(scan_is_exhaustive) {
 }
 
 // The load of the jump is where the energies cross: just below it the scan stays, just above it has jumped.
-CASE_TEST(crossing_of_the_energies) {
+LOOP_TEST(crossing_of_the_energies, 0, 4) {
     const Fronts fronts(specimen(loop));
     for (const MixityRule rule : {MixityRule::pure, MixityRule::frozen, MixityRule::converged}) {
         const auto crossing = fronts.crossing(rule);
@@ -123,7 +123,7 @@ CASE_TEST(crossing_of_the_energies) {
 
 // The ENF is pure mode II: the criterion's exponents change the toughness by less than 0.1 %. The MMF has beam theory's
 // psi^2 = 3/4 at the front, 35 J/m2, while pairs far ahead keep the mixity that they had before the front came.
-CASE_TEST(mixity_rules_differ_in_the_mixed_mode_only) {
+TEST(mixity_rules_differ_in_the_mixed_mode_only) {
     const Fronts enf(specimen(0, 1e-3));
     const auto middle = enf.list().size() / 2;
     const double pure = enf.dissipated(0, middle, MixityRule::pure);
@@ -141,16 +141,3 @@ CASE_TEST(mixity_rules_differ_in_the_mixed_mode_only) {
 }
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("front_scan");
-    TCase* tests = tcase_create("fronts");
-    tcase_add_loop_test(tests, energy_is_quadratic_in_the_load, 0, 4);
-    tcase_add_loop_test(tests, fronts_agree_with_the_direct_solver, 0, 4);
-    tcase_add_loop_test(tests, energy_falls_with_the_front, 0, 4);
-    tcase_add_loop_test(tests, scan_is_exhaustive, 0, 4);
-    tcase_add_loop_test(tests, crossing_of_the_energies, 0, 4);
-    tcase_add_test(tests, mixity_rules_differ_in_the_mixed_mode_only);
-    suite_add_tcase(suite, tests);
-    return cases::run_suite(suite);
-}

@@ -158,7 +158,7 @@ std::vector<std::uint32_t> versions_read() {
     return read;
 }
 
-CASE_TEST(every_version_is_there) {
+TEST(every_version_is_there) {
     std::string missing;
     for (const std::uint32_t version : versions_read()) {
         int wanted = 0;
@@ -175,7 +175,7 @@ CASE_TEST(every_version_is_there) {
     cases::expect(missing.empty(), "golden states are missing:" + missing);
 }
 
-CASE_TEST(every_version_is_read) {
+TEST(every_version_is_read) {
     int read = 0;
     for (const auto& entry : std::filesystem::directory_iterator(DELAM_GOLDEN)) {
         const std::filesystem::path& path = entry.path();
@@ -224,10 +224,5 @@ int main(int argc, char** argv) {
         write(argv[1]);
         return 0;
     }
-    Suite* suite = suite_create("golden");
-    TCase* one = tcase_create("golden");
-    tcase_add_test(one, every_version_is_there);
-    tcase_add_test(one, every_version_is_read);
-    suite_add_tcase(suite, one);
-    return cases::run_suite(suite);
+    return tests::run();
 }

@@ -172,7 +172,7 @@ void expect_same(const March& a, const March& b, double tolerance, const std::st
 
 // ---- both minimisations, both operators, plane and space -----------------------------------------------------------
 
-CASE_TEST(accelerated_is_plain) {
+LOOP_TEST(accelerated_is_plain, 0, 6) {
     if (loop == 3 && !cases::whole()) return;  // half of the time of all
     Peel p;
     p.law = with(ductile, kappa);
@@ -197,7 +197,7 @@ CASE_TEST(accelerated_is_plain) {
 
 // ---- the profile of the process zone depends on kappa, not on the mesh ---------------------------------------------
 
-CASE_TEST(profile_converges) {
+LOOP_TEST(profile_converges, 0, 2) {
     Peel p;
     p.law = with(loop == 0 ? ductile : griffith, kappa);
     p.delta = 1e-6;
@@ -240,7 +240,7 @@ CASE_TEST(profile_converges) {
 
 // ---- limits of kappa -----------------------------------------------------------------------------------------------
 
-CASE_TEST(small_kappa_is_the_pointwise_march) {
+TEST(small_kappa_is_the_pointwise_march) {
     Peel p;
     p.law = ductile;
     p.delta = 1e-9;
@@ -259,7 +259,7 @@ CASE_TEST(small_kappa_is_the_pointwise_march) {
 }
 
 // Zero is a value, and equals no value in every digit.
-CASE_TEST(kappa_zero_changes_no_digit) {
+TEST(kappa_zero_changes_no_digit) {
     Peel p;
     p.law = ductile;
     const Scene without = make(p);
@@ -301,7 +301,7 @@ CASE_TEST(kappa_zero_changes_no_digit) {
 
 // ---- the ledger -----------------------------------------------------------------------------------------------------
 
-CASE_TEST(ledger_closes) {
+TEST(ledger_closes) {
     Peel p;
     p.law = with(ductile, kappa);
     p.law.exponent = 1.0;  // one toughness for every mixity: the ledger has only the defect of the finite steps
@@ -317,7 +317,7 @@ CASE_TEST(ledger_closes) {
 
 // ---- save, load, continue -------------------------------------------------------------------------------------------
 
-CASE_TEST(resumed_march) {
+TEST(resumed_march) {
     Peel p;
     p.law = with(ductile, kappa);
     const Scene scene = make(p), again = make(p);
@@ -341,16 +341,3 @@ CASE_TEST(resumed_march) {
 }
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("gradient");
-    TCase* tests = tcase_create("marches");
-    tcase_add_loop_test(tests, accelerated_is_plain, 0, 6);
-    tcase_add_loop_test(tests, profile_converges, 0, 2);
-    tcase_add_test(tests, small_kappa_is_the_pointwise_march);
-    tcase_add_test(tests, kappa_zero_changes_no_digit);
-    tcase_add_test(tests, ledger_closes);
-    tcase_add_test(tests, resumed_march);
-    suite_add_tcase(suite, tests);
-    return cases::run_suite(suite);
-}

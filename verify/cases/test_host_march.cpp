@@ -51,7 +51,7 @@ void to(Solver& solver, double time) {
 }
 
 // A history given step by step leads to the same analysis as a scene that had it from the start, to the last bit.
-void told_history(int loop) {
+LOOP_TEST(told_history, 0, 2) {
     const char* solution = loop == 0 ? "local" : "energetic";
     const std::vector<double> times{0.0, 0.25, 0.5, 0.75, 1.0}, values{0.0, 6e-5, 2e-5, 9e-5, 7e-5};
     const Scene known = bar(times, values, solution), unknown = bar({0.0}, {0.0}, solution);
@@ -86,10 +86,7 @@ void told_history(int loop) {
     cases::expect(again.load(planned.save()) == DELAM_ERROR_SNAPSHOT, "another scene");
 }
 
-START_TEST(history) { cases::run_body(told_history, _i); }
-END_TEST
-
-CASE_TEST(history_refused) {
+TEST(history_refused) {
     const Scene scene = bar({0.0, 1.0}, {0.0, 5e-5});
     Solver solver(scene, 0.0);
     to(solver, 0.5);
@@ -130,7 +127,7 @@ struct Folder {
     }
 };
 
-CASE_TEST(states_as_files) {
+TEST(states_as_files) {
     const Folder folder;
     const std::string path = (folder.path / "état 1.state").string();
     const Scene scene = bar({0.0, 1.0}, {0.0, 9e-5});
@@ -206,7 +203,7 @@ private:
 };
 
 // Bytes that are no state are refused without a wait, and without memory for all of them.
-CASE_TEST(not_a_state) {
+TEST(not_a_state) {
     const Folder folder;
     const Scene scene = bar({0.0, 1.0}, {0.0, 9e-5});
     Solver solver(scene, 0.0);
@@ -255,7 +252,7 @@ CASE_TEST(not_a_state) {
 }
 
 // A disk that fills up: the existing file stays, and nothing else is left.
-CASE_TEST(full_disk) {
+TEST(full_disk) {
     const Folder folder;
     const std::string path = (folder.path / "state").string();
     const Scene scene = bar({0.0, 1.0}, {0.0, 9e-5});
@@ -281,7 +278,7 @@ CASE_TEST(full_disk) {
 }
 
 // Two contexts save to one path at the same time: the file is one of the two, complete.
-CASE_TEST(two_writers) {
+TEST(two_writers) {
     const Folder folder;
     const std::string path = (folder.path / "state").string();
     std::atomic<int> failures{0};
@@ -307,7 +304,7 @@ CASE_TEST(two_writers) {
 }
 
 // A step that is not converged says what did not come to its end, and only that.
-CASE_TEST(names_what_did_not_converge) {
+TEST(names_what_did_not_converge) {
     const auto message_of = [](const char* key, const char* rule, const char* reduction) {
         Scene scene = cases::small_enf();
         scene.text("reduction", reduction);
@@ -343,7 +340,7 @@ CASE_TEST(names_what_did_not_converge) {
 }
 
 // No digit depends on the library's own threads.
-CASE_TEST(threads_change_no_digit) {
+TEST(threads_change_no_digit) {
     cases::expect(delam_blas_threads() >= 0, "BLAS threads");
     std::vector<cases::Bits> ends;
     for (const double threads : {1.0, 2.0, 5.0}) {
@@ -389,7 +386,7 @@ CASE_TEST(threads_change_no_digit) {
 }
 
 // Cancelled while other threads of the team work: the state before, and the same end.
-CASE_TEST(cancelled_with_threads) {
+TEST(cancelled_with_threads) {
     Scene scene = cases::small_enf(6);
     scene.number("threads", 3.0);
     Solver solver(scene, 0.0), straight(scene, 0.0);
@@ -416,19 +413,3 @@ CASE_TEST(cancelled_with_threads) {
 }
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("host_march");
-    TCase* tests = tcase_create("host_march");
-    tcase_add_loop_test(tests, history, 0, 2);
-    tcase_add_test(tests, history_refused);
-    tcase_add_test(tests, states_as_files);
-    tcase_add_test(tests, not_a_state);
-    tcase_add_test(tests, full_disk);
-    tcase_add_test(tests, two_writers);
-    tcase_add_test(tests, names_what_did_not_converge);
-    tcase_add_test(tests, threads_change_no_digit);
-    tcase_add_test(tests, cancelled_with_threads);
-    suite_add_tcase(suite, tests);
-    return cases::run_suite(suite);
-}

@@ -201,7 +201,7 @@ Inclusion exact_field(const Setting& setting) {
 
 // Halving the cells lowers the errors by the orders of the elements: displacements 2 (linear) and more than 2.5
 // (quadratic), stresses at the centres of cells 1.5 and 2.
-CASE_TEST(fields_converge_to_the_exact_inclusion) {
+LOOP_TEST(fields_converge_to_the_exact_inclusion, 0, 2 * static_cast<int>(settings.size())) {
     const Setting& setting = settings[static_cast<std::size_t>(loop) % settings.size()];
     const bool quadratic = static_cast<std::size_t>(loop) >= settings.size();
     if (quadratic && loop % 2 == 1 && !cases::whole()) return;
@@ -232,7 +232,7 @@ CASE_TEST(fields_converge_to_the_exact_inclusion) {
 }
 
 // The rim of a composite cylinder moves outwards uniformly: force over displacement is the bulk modulus, order 2 and 4.
-CASE_TEST(bulk_modulus_of_a_composite_cylinder) {
+LOOP_TEST(bulk_modulus_of_a_composite_cylinder, 0, 6) {
     if ((loop == 1 || loop == 5) && !cases::whole()) return;
     const bool quadratic = loop % 2 == 1;
     const Bond bond = loop / 2 == 0 ? Bond::perfect : loop / 2 == 1 ? Bond::springs : Bond::none;
@@ -268,7 +268,7 @@ CASE_TEST(bulk_modulus_of_a_composite_cylinder) {
 }
 
 // The exact field is exact: equilibrium and Hooke's law by differences, the remote stress, the interface conditions.
-CASE_TEST(the_reference_is_a_solution) {
+TEST(the_reference_is_a_solution) {
     const Inclusion exact(fibre, matrix, radius, {50e6, -20e6}, 1.0 / normal_stiffness, 1.0 / tangential_stiffness);
     for (const bool inside : {true, false}) {
         const Phase phase = inside ? fibre : matrix;
@@ -309,13 +309,3 @@ CASE_TEST(the_reference_is_a_solution) {
 }
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("inclusion");
-    TCase* fields = tcase_create("inclusion");
-    tcase_add_test(fields, the_reference_is_a_solution);
-    tcase_add_loop_test(fields, fields_converge_to_the_exact_inclusion, 0, 2 * static_cast<int>(settings.size()));
-    tcase_add_loop_test(fields, bulk_modulus_of_a_composite_cylinder, 0, 6);
-    suite_add_tcase(suite, fields);
-    return cases::run_suite(suite);
-}

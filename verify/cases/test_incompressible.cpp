@@ -149,7 +149,7 @@ constexpr double ratios[] = {0.3, 0.4999, 0.499999};
 }  // namespace
 
 // Standard cells lock: quad4 and hex8 by 1e3 at the last ratio, quadratic quadrilaterals by 10.
-CASE_TEST(thick_cylinder) {
+LOOP_TEST(thick_cylinder, 0, element_count) {
     const Case& e = elements[loop];
     const bool quadratic = e.cell != DELAM_QUAD4 && e.cell != DELAM_HEX8;
     for (const double nu : ratios) {
@@ -169,7 +169,7 @@ CASE_TEST(thick_cylinder) {
 
 // Linear dilatations represent bending exactly; constant ones are too soft, by an error of second order in the size of
 // the cells.
-CASE_TEST(bent_slab) {
+LOOP_TEST(bent_slab, 0, element_count) {
     if (loop == 5 && !cases::whole()) return;  // half of the time of all
     const Case& e = elements[loop];
     const bool exact = e.cell == DELAM_QUAD8 || e.cell == DELAM_QUAD9 || e.cell == DELAM_HEX20;
@@ -217,7 +217,7 @@ void mixed(Scene& scene, int d) {
 
 }  // namespace
 
-CASE_TEST(with_eigenstrain_and_axes) {
+LOOP_TEST(with_eigenstrain_and_axes, 0, element_count) {
     const Case& e = elements[loop];
     const int d = loop < flat_count ? 2 : 3;
     Scene scene(d, d == 2 ? std::vector<double>{0.04} : std::vector<double>{0.04, 0.01},
@@ -241,15 +241,4 @@ CASE_TEST(with_eigenstrain_and_axes) {
     cases::expect(delam_problem_check(scene.problem()) == DELAM_ERROR_PROBLEM, "not in plane stress");
     cases::expect(std::string(delam_context_message(scene.context())).find("no formulation locks") != std::string::npos,
                   "with its reason");
-}
-
-int main() {
-    Suite* suite = suite_create("incompressible");
-    TCase* tests = tcase_create("incompressible");
-    tcase_set_timeout(tests, 300);
-    tcase_add_loop_test(tests, thick_cylinder, 0, element_count);
-    tcase_add_loop_test(tests, bent_slab, 0, element_count);
-    tcase_add_loop_test(tests, with_eigenstrain_and_axes, 0, element_count);
-    suite_add_tcase(suite, tests);
-    return cases::run_suite(suite);
 }

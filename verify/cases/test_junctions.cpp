@@ -126,7 +126,7 @@ void realise(Scene& scene, int subdomains) {
     if (subdomains > 0) scene.number("subdomains", subdomains);
 }
 
-CASE_TEST(linear_field) {
+LOOP_TEST(linear_field, 0, 12) {
     const Shape& shape = shapes[loop % 4];
     const Layout& layout = layouts[loop / 4];
     const int d = shape.dimension;
@@ -190,7 +190,7 @@ Scene pulled(const Shape& shape, const Layout& layout, int subdomains) {
 }
 
 // Each realisation runs its own analysis; at its adhesion the direct solver must find its state.
-CASE_TEST(marches_agree) {
+LOOP_TEST(marches_agree, 0, 6) {
     if ((loop == 1 || loop == 5) && !cases::whole()) return;  // in space one layout alone
     const Shape& shape = shapes[loop % 2 == 0 ? 0 : 2];
     const Layout& layout = layouts[loop / 2];
@@ -229,12 +229,3 @@ CASE_TEST(marches_agree) {
 }
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("junctions");
-    TCase* tests = tcase_create("conforming meshes");
-    tcase_add_loop_test(tests, linear_field, 0, 12);
-    tcase_add_loop_test(tests, marches_agree, 0, 6);
-    suite_add_tcase(suite, tests);
-    return cases::run_suite(suite);
-}

@@ -96,7 +96,7 @@ Scene imposed(const std::vector<double>& direction, const std::vector<double>& t
 // Loading, unloading and reloading at one pair, in both modes and between them (equal modes and exponent 1, so that the
 // toughness is the same): the traction follows the curve, and the dissipation is the area under it less what unloading
 // returns.
-CASE_TEST(closed_forms) {
+LOOP_TEST(closed_forms, 0, kind_count) {
     const Kind kind = kinds()[static_cast<std::size_t>(loop)];
     const double d0 = std::sqrt(2.0 * onset / k), peak = k * d0;
     const std::vector<double> turns{0.0, 1.3, 0.4, 1.8, 0.0, 2.2, 5.0};
@@ -162,7 +162,7 @@ double defect(const Kind& kind, int steps, double& spent) {
 
 // Where the traction decreases continuously, the defect decreases with the step. Where it drops (the last two), the
 // pairs break one by one, and the energy that each releases is lost: none of it may be gained.
-CASE_TEST(ledger) {
+LOOP_TEST(ledger, 0, kind_count + 1) {
     std::vector<Kind> all = kinds();
     Kind smooth = all[3];
     smooth.xi = {0.0, 0.1, 0.4, 0.7, 1.0};
@@ -237,7 +237,7 @@ Law bilinear(const Scene& scene, laws::Bilinear& data, bool host) {
     return law;
 }
 
-CASE_TEST(host_law_marches_like_ours) {
+LOOP_TEST(host_law_marches_like_ours, 0, 2) {
     const int dimension = 2 + loop;
     const Scene first = flexure(dimension), second = flexure(dimension);
     laws::Bilinear data;
@@ -263,7 +263,7 @@ CASE_TEST(host_law_marches_like_ours) {
     cases::expect(own.value("front") > 0.0 && *high - *low > 0.2, "the march is mixed and damages");
 }
 
-CASE_TEST(callback_fails) {
+TEST(callback_fails) {
     const Scene scene = flexure(2);
     laws::Bilinear data;
     use(scene, bilinear(scene, data, true));
@@ -292,7 +292,7 @@ std::string hash_of(const Scene& scene) {
     return out;
 }
 
-CASE_TEST(hash_and_keys) {
+TEST(hash_and_keys) {
     const Scene scene = flexure(2);
     std::vector<std::string> seen;
     const auto fresh = [&](const Law& law, const std::string& what) {
@@ -406,7 +406,7 @@ void check_bounds(const char* kind, std::int64_t i, const Law& law) {
     cases::expect((words.find("< 1") != std::string::npos) == (upper == 1.0), where + ": " + words);
 }
 
-CASE_TEST(kinds_and_bounds) {
+TEST(kinds_and_bounds) {
     const Scene scene = imposed({0.0, 1.0}, {0.0, 1.0}, {0.0, 1.0});
     std::string listed;
     for (std::int64_t i = 0; i < delam_law_kind_count(); ++i) {
@@ -424,7 +424,7 @@ CASE_TEST(kinds_and_bounds) {
 }
 
 // A law by its strengths, with a quadratic onset and the toughness of Benzeggagh and Kenane, set in any order.
-CASE_TEST(strengths_and_onset_criterion) {
+TEST(strengths_and_onset_criterion) {
     const Scene scene = imposed({0.0, 1.0}, {0.0, 1.0}, {0.0, 1.0});
     const double kn = 4e14, kt = 1e14, sn = 60e6, st = 90e6, gn = 300.0, gt = 800.0, eta = 2.3;
     for (const bool onset_first : {false, true}) {
@@ -485,17 +485,3 @@ CASE_TEST(strengths_and_onset_criterion) {
 }
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("laws");
-    TCase* tests = tcase_create("laws");
-    tcase_add_loop_test(tests, closed_forms, 0, kind_count);
-    tcase_add_loop_test(tests, ledger, 0, kind_count + 1);
-    tcase_add_loop_test(tests, host_law_marches_like_ours, 0, 2);
-    tcase_add_test(tests, callback_fails);
-    tcase_add_test(tests, hash_and_keys);
-    tcase_add_test(tests, kinds_and_bounds);
-    tcase_add_test(tests, strengths_and_onset_criterion);
-    suite_add_tcase(suite, tests);
-    return cases::run_suite(suite);
-}

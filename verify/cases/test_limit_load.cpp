@@ -42,7 +42,7 @@ Scene peel(int d, int which, bool nose) {
     return scene;
 }
 
-CASE_TEST(peeled_off) {
+LOOP_TEST(peeled_off, 0, 12) {
     const int d = loop % 2 == 0 ? 2 : 3;
     const Scene scene = peel(d, loop / 2 % 3, loop / 6 == 1);
     Solver solver(scene, 0.0);
@@ -67,11 +67,3 @@ CASE_TEST(peeled_off) {
 }
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("limit load");
-    TCase* tests = tcase_create("peel");
-    tcase_add_loop_test(tests, peeled_off, 0, 12);
-    suite_add_tcase(suite, tests);
-    return cases::run_suite(suite);
-}

@@ -8,7 +8,7 @@ namespace {
 
 using reference::Solver;
 
-CASE_TEST(returns_end) {
+LOOP_TEST(returns_end, 0, 6) {
     const char* rules[] = {"frozen", "converged", "variational"};
     const bool brittle = loop >= 3;
     const int steps = 320;
@@ -46,11 +46,3 @@ CASE_TEST(returns_end) {
 }
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("long_backtracking");
-    TCase* tests = tcase_create("long_backtracking");
-    tcase_add_loop_test(tests, returns_end, 0, 6);
-    suite_add_tcase(suite, tests);
-    return cases::run_suite(suite);
-}

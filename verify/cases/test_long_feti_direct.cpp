@@ -10,7 +10,7 @@ constexpr std::int64_t subdomains[] = {2, 8, 32};
 constexpr const char* preconditioners[] = {"none", "lumped", "dirichlet", "series"};
 constexpr const char* gluings[] = {"orthonormal", "redundant"};
 // The test itself computes the states, because OpenMP threads of the linear algebra do not survive Check's fork.
-CASE_TEST(same_displacement_step) {
+LOOP_TEST(same_displacement_step, 0, 4) {
     const cases::DirectStates states(0.5e-3, 1);
     for (const std::int64_t n : subdomains) {
         for (const char* gluing : gluings) {
@@ -25,11 +25,3 @@ CASE_TEST(same_displacement_step) {
 }
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("feti and direct, all states");
-    TCase* tests = tcase_create("ductile enf");
-    tcase_add_loop_test(tests, same_displacement_step, 0, 4);
-    suite_add_tcase(suite, tests);
-    return cases::run_suite(suite);
-}

@@ -9,7 +9,7 @@ namespace {
 
 // The lower bound with the mixity of the step before last is the provable one; with 160 and 320 steps the frozen
 // analysis really jumps too early once, and dissipates three percent less than with 640.
-CASE_TEST(provable_bounds) {
+LOOP_TEST(provable_bounds, 0, 3) {
     const int steps[] = {160, 320, 640}, below[] = {1, 1, 0};
     const cases::MmfMarch m = cases::march_mmf(1e-3, cases::mmf_ductile, "frozen", steps[loop]);
     cases::expect(m.below == below[loop] && m.above == 0,
@@ -20,7 +20,7 @@ CASE_TEST(provable_bounds) {
 
 // Recorded defects decrease with the step; those of the ledger of PANM 15 (2010) stay, unless the mixity is
 // variational.
-CASE_TEST(defects_side_by_side) {
+TEST(defects_side_by_side) {
     const int steps[] = {40, 160, 640};
     for (const char* rule : {"frozen", "converged", "variational"}) {
         std::vector<cases::MmfMarch> m;
@@ -37,7 +37,7 @@ CASE_TEST(defects_side_by_side) {
     }
 }
 
-CASE_TEST(turning_pair_in_the_limit) {
+TEST(turning_pair_in_the_limit) {
     const double limit = cases::turning_integral();
     for (const char* rule : {"frozen", "converged", "variational"}) {
         const cases::TurningDefect d = cases::turning_defect(rule, 12800);
@@ -51,13 +51,3 @@ CASE_TEST(turning_pair_in_the_limit) {
 }
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("mixity, many steps");
-    TCase* tests = tcase_create("limits");
-    tcase_add_loop_test(tests, provable_bounds, 0, 3);
-    tcase_add_test(tests, defects_side_by_side);
-    tcase_add_test(tests, turning_pair_in_the_limit);
-    suite_add_tcase(suite, tests);
-    return cases::run_suite(suite);
-}

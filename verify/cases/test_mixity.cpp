@@ -22,7 +22,7 @@ constexpr const char* rules[] = {"frozen", "converged", "variational"};
 
 // Beam theory has B = 3/7, where the criterion gives 25 / sqrt(B^2 + (1-B)^2) = 35 J/m2. Frozen pairs have the mode of
 // their position ahead of the old front.
-CASE_TEST(brittle_mmf) {
+LOOP_TEST(brittle_mmf, 0, 2) {
     const double h = loop == 0 ? 1e-3 : 0.5e-3;
     const double criterion = 25.0 / std::hypot(3.0 / 7.0, 4.0 / 7.0);
     const cases::MmfMarch frozen = cases::march_mmf(h, cases::mmf_brittle, "frozen", 40);
@@ -41,7 +41,7 @@ CASE_TEST(brittle_mmf) {
 
 // ---- snaps ---------------------------------------------------------------------------------------------------------
 
-CASE_TEST(coarse_frozen_march_warns) {
+TEST(coarse_frozen_march_warns) {
     const cases::MmfMarch frozen = cases::march_mmf(1e-3, cases::mmf_ductile, "frozen", 40);
     cases::expect(frozen.warnings.size() == 1, std::to_string(frozen.warnings.size()) + " warnings instead of 1");
     for (const std::string& line : frozen.warnings)
@@ -59,7 +59,7 @@ CASE_TEST(coarse_frozen_march_warns) {
 // With frozen mixity the ledger of PANM 15 (2010) misses int f_B dB however small the steps are, and the recorded one
 // closes like tau. With converged mixity both have the same defect; the variational analysis closes the ledger of PANM
 // 15 and leaves the recorded one open.
-CASE_TEST(mode_changes_while_it_softens) {
+TEST(mode_changes_while_it_softens) {
     const double limit = cases::turning_integral();
     std::printf("turning pair: int f_B dB = %.4f\n", limit);
     for (const char* rule : {"frozen", "converged"}) {
@@ -77,7 +77,7 @@ CASE_TEST(mode_changes_while_it_softens) {
 }
 
 // The defects follow their definition in every step.
-CASE_TEST(defects_by_definition) {
+LOOP_TEST(defects_by_definition, 0, 3) {
     const Scene scene = cases::make_mmf(1e-3, cases::mmf_ductile, rules[loop]);
     Solver solver(scene, 0.0);
     double released = 0.0;
@@ -189,7 +189,7 @@ void expect_alike(const Seen& a, const Seen& b, double tolerance, double recorde
 }
 
 // loop: rule, then dimension.
-CASE_TEST(one_answer) {
+LOOP_TEST(one_answer, 0, 6) {
     if (loop > 3 && !cases::whole()) return;  // the other rules in space
     const char* rule = rules[loop % 3];
     const int d = loop < 3 ? 2 : 3;
@@ -213,7 +213,7 @@ CASE_TEST(one_answer) {
 }
 
 // A law that does not depend on the mode: the same digits under all rules.
-CASE_TEST(no_mixity_no_difference) {
+LOOP_TEST(no_mixity_no_difference, 0, 4) {
     LawData plain = mixed;
     plain.tangential_onset = plain.normal_onset;
     plain.tangential_toughness = plain.normal_toughness;
@@ -238,7 +238,7 @@ CASE_TEST(no_mixity_no_difference) {
 
 // Outside the library, from exported fields: the traction of every open pair is the derivative of zeta Y + f(B(j),
 // zeta) with respect to its jump.
-CASE_TEST(variational_traction) {
+LOOP_TEST(variational_traction, 0, 4) {
     const int d = loop % 2 == 0 ? 2 : 3;
     const Scene scene = floating_ply(d, turned, "variational", loop < 2 ? "condensed" : "feti", "accelerated", 1e-8);
     const reference::Exported exported(scene);
@@ -296,7 +296,7 @@ CASE_TEST(variational_traction) {
 
 // A toughness that varies much with the mode keeps pairs closed that should break (DCB of unequal arms, ratio 3: 1.7
 // times the load, and steps that do not converge): refused by name, under this rule alone.
-CASE_TEST(variational_refused) {
+TEST(variational_refused) {
     const struct {
         double onset, tangential, exponent;
         bool refused;
@@ -321,7 +321,7 @@ CASE_TEST(variational_refused) {
 
 // ---- snapshots -----------------------------------------------------------------------------------------------------
 
-CASE_TEST(saved_and_loaded) {
+LOOP_TEST(saved_and_loaded, 0, 3) {
     const Scene scene = cases::make_mmf(1e-3, cases::mmf_ductile, rules[loop]);
     Solver straight(scene, 0.0), other(scene, 0.0);
     for (int k = 1; k <= 9; ++k) {
@@ -339,19 +339,3 @@ CASE_TEST(saved_and_loaded) {
 }
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("mixity");
-    TCase* tests = tcase_create("rules");
-    tcase_add_loop_test(tests, brittle_mmf, 0, 2);
-    tcase_add_test(tests, coarse_frozen_march_warns);
-    tcase_add_test(tests, mode_changes_while_it_softens);
-    tcase_add_loop_test(tests, defects_by_definition, 0, 3);
-    tcase_add_loop_test(tests, one_answer, 0, 6);
-    tcase_add_loop_test(tests, no_mixity_no_difference, 0, 4);
-    tcase_add_loop_test(tests, variational_traction, 0, 4);
-    tcase_add_test(tests, variational_refused);
-    tcase_add_loop_test(tests, saved_and_loaded, 0, 3);
-    suite_add_tcase(suite, tests);
-    return cases::run_suite(suite);
-}

@@ -100,7 +100,7 @@ March march(const Scene& scene, int steps) {
     return m;
 }
 
-CASE_TEST(steps_do_not_matter) {
+TEST(steps_do_not_matter) {
     const Scene scene = bending(1e-3);
     const March coarse = march(scene, 20), fine = march(scene, 80);
     for (std::size_t k = 0; k < coarse.load.size(); ++k)
@@ -119,11 +119,3 @@ CASE_TEST(steps_do_not_matter) {
 }
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("mode_path");
-    TCase* tests = tcase_create("mixed-mode bending");
-    tcase_add_test(tests, steps_do_not_matter);
-    suite_add_tcase(suite, tests);
-    return cases::run_suite(suite);
-}

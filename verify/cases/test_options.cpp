@@ -96,7 +96,7 @@ std::int32_t set_initial(const Scene& scene, const Listed& option) {
     return option.type == "text" ? set(scene, option, option.initial) : set(scene, option, number_of(option.initial));
 }
 
-CASE_TEST(defaults_are_those_listed) {
+TEST(defaults_are_those_listed) {
     const Scene scene = pair_of_cells();
     const Solver solver(scene, 0.0);
     const std::string fresh = hash_of(scene);
@@ -111,7 +111,7 @@ CASE_TEST(defaults_are_those_listed) {
     }
 }
 
-CASE_TEST(ranges_are_kept) {
+TEST(ranges_are_kept) {
     const Scene scene = pair_of_cells();
     const std::string fresh = hash_of(scene);
     std::int64_t index = 0;
@@ -146,7 +146,7 @@ CASE_TEST(ranges_are_kept) {
     }
 }
 
-CASE_TEST(aliases_are_taken) {
+TEST(aliases_are_taken) {
     const Scene scene = pair_of_cells();
     const std::vector<Listed> all = listed();
     int aliases = 0;
@@ -172,7 +172,7 @@ CASE_TEST(aliases_are_taken) {
 }
 
 // Each value of an option gives another scene: all hashes differ. Other words for one value give the same scene.
-CASE_TEST(hash_changes_with_every_option) {
+TEST(hash_changes_with_every_option) {
     const Scene scene = pair_of_cells();
     const std::string fresh = hash_of(scene);
     std::set<std::string> seen{fresh};
@@ -215,14 +215,3 @@ CASE_TEST(hash_changes_with_every_option) {
 }
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("options");
-    TCase* one = tcase_create("options");
-    tcase_add_test(one, defaults_are_those_listed);
-    tcase_add_test(one, ranges_are_kept);
-    tcase_add_test(one, aliases_are_taken);
-    tcase_add_test(one, hash_changes_with_every_option);
-    suite_add_tcase(suite, one);
-    return cases::run_suite(suite);
-}

@@ -67,7 +67,7 @@ Peak peak_of(const Scene& scene) {
 }
 
 // loop: dimension, then stiffness, then reduction.
-CASE_TEST(stiff_interfaces_stop_at_rest) {
+LOOP_TEST(stiff_interfaces_stop_at_rest, 0, 12) {
     const int d = 2 + loop % 2;
     const double stiffness = loop / 2 % 2 == 0 ? 1e17 : 1e18;
     const char* reduction = std::array{"condensed", "feti", "iterated"}[static_cast<std::size_t>(loop) / 4];
@@ -152,7 +152,7 @@ March march(const reference::Flexure& data, int steps, const char* reduction = "
     return m;
 }
 
-CASE_TEST(one_path_by_all_methods) {
+TEST(one_path_by_all_methods) {
     const reference::Flexure data = jumping(1.5e-3, 1e12);
     constexpr int steps = 20;
     const March own = march(data, steps, "condensed", "accelerated");
@@ -178,7 +178,7 @@ CASE_TEST(one_path_by_all_methods) {
 
 // The work of the loads is stored, dissipated or released, and the jump is one, in coarse steps as in fine ones,
 // wherever in a step it comes.
-CASE_TEST(ledger_of_a_jump) {
+LOOP_TEST(ledger_of_a_jump, 0, 2) {
     const reference::Flexure data = jumping(loop == 0 ? 3e-3 : 1.5e-3, 1e13);
     double fine = 0.0, carried = 0.0, instant = 0.0;
     for (const int steps : {80, 20}) {
@@ -203,7 +203,7 @@ CASE_TEST(ledger_of_a_jump) {
 }
 
 // Steps sixteen times as long: the same front, and what it dissipates as well as their own estimate says.
-CASE_TEST(coarse_and_fine_steps) {
+TEST(coarse_and_fine_steps) {
     const reference::Flexure data = jumping(1.5e-3, 1e12);
     const March coarse = march(data, 20), fine = march(data, 320);
     const double estimate = *std::max_element(coarse.error.begin(), coarse.error.end());
@@ -213,14 +213,3 @@ CASE_TEST(coarse_and_fine_steps) {
 }
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("path");
-    TCase* tests = tcase_create("path");
-    tcase_add_loop_test(tests, stiff_interfaces_stop_at_rest, 0, 12);
-    tcase_add_test(tests, one_path_by_all_methods);
-    tcase_add_loop_test(tests, ledger_of_a_jump, 0, 2);
-    tcase_add_test(tests, coarse_and_fine_steps);
-    suite_add_tcase(suite, tests);
-    return cases::run_suite(suite);
-}

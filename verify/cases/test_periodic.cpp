@@ -98,7 +98,7 @@ std::vector<double> tangent(const Solver& solver, std::size_t patterns) {
 }
 
 // loop: dimension, material, interface, realisation
-CASE_TEST(homogenised_stiffness) {
+LOOP_TEST(homogenised_stiffness, 0, 24) {
     const int d = loop % 2 == 0 ? 2 : 3;
     const bool alike = loop / 2 % 2 == 0, glued = loop / 4 % 2 == 0;
     Scene scene = layers(d, alike, glued);
@@ -144,7 +144,7 @@ CASE_TEST(homogenised_stiffness) {
 
 // Tension along y by a dead force on control node 1, with sides free to contract; the cell's rotation is fixed at
 // control nodes.
-CASE_TEST(prescribed_stress) {
+LOOP_TEST(prescribed_stress, 0, 6) {
     const int d = loop % 2 == 0 ? 2 : 3;
     Scene scene = layers(d, false, false);
     realise(scene, loop / 2);
@@ -175,7 +175,7 @@ CASE_TEST(prescribed_stress) {
 }
 
 // Reactions follow the tangent as long as adhesion and contact do not change.
-CASE_TEST(tangent_of_a_damaged_cell) {
+LOOP_TEST(tangent_of_a_damaged_cell, 0, 12) {
     const int d = loop % 2 == 0 ? 2 : 3;
     Scene scene = loop / 6 == 0 ? cases::make_periodic_plies(d, true) : cases::make_lever(d);
     realise(scene, loop / 2 % 3);
@@ -205,7 +205,7 @@ CASE_TEST(tangent_of_a_damaged_cell) {
     cases::expect_near(t[1], t[2], 1e-7, std::abs(t[0]) + std::abs(t[1]) + std::abs(t[3]), "symmetry");
 }
 
-CASE_TEST(refused) {
+TEST(refused) {
     const auto status = [](Scene& scene, std::vector<double> periods, std::vector<std::int64_t> controls) {
         return delam_problem_add_periodic(scene.problem(), static_cast<std::int64_t>(controls.size()), periods.data(),
                                           controls.data(), 0.0, 0);
@@ -245,14 +245,3 @@ CASE_TEST(refused) {
 }
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("periodic cells");
-    TCase* tests = tcase_create("layers");
-    tcase_add_loop_test(tests, homogenised_stiffness, 0, 24);
-    tcase_add_loop_test(tests, prescribed_stress, 0, 6);
-    tcase_add_loop_test(tests, tangent_of_a_damaged_cell, 0, 12);
-    tcase_add_test(tests, refused);
-    suite_add_tcase(suite, tests);
-    return cases::run_suite(suite);
-}

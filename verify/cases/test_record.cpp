@@ -76,7 +76,7 @@ void expect_as_selected(Solver& solver, const std::string& where) {
     select_step(solver, -1);
 }
 
-CASE_TEST(steps_that_returns_replace) {
+TEST(steps_that_returns_replace) {
     const FlexureScene f = returning();
     Solver solver(f.scene, 0.0), plain(f.scene, 0.0);
     cases::expect(size_of(solver).first == 0 && size_of(solver).steps == 0, "nothing is recorded unless asked for");
@@ -103,7 +103,7 @@ CASE_TEST(steps_that_returns_replace) {
     expect_as_selected(solver, "in the end");
 }
 
-CASE_TEST(saved_with_the_state) {
+TEST(saved_with_the_state) {
     const FlexureScene f = returning();
     Solver whole(f.scene, 0.0), first(f.scene, 0.0), second(f.scene, 0.0);
     walk(whole, 1, 2);
@@ -130,7 +130,7 @@ CASE_TEST(saved_with_the_state) {
     expect_as_selected(second, "resumed");
 }
 
-CASE_TEST(in_space_by_feti) {
+TEST(in_space_by_feti) {
     reference::Scene scene = cases::make_plies(3, 2, DELAM_HEX8, "standard", {1e13, 1e13, 1.0, 1.0, 20.0, 20.0}, 8);
     scene.text("reduction", "feti");
     Solver solver(scene, 0.0);
@@ -148,7 +148,7 @@ CASE_TEST(in_space_by_feti) {
     cases::expect(delam::same_bits(rates, recorded(solver, "energy_release_rate")), "energy release rate");
 }
 
-CASE_TEST(later_keys_and_set_states) {
+TEST(later_keys_and_set_states) {
     const reference::Scene scene = cases::small_enf();
     Solver solver(scene, 0.0);
     record(solver, "time");
@@ -169,7 +169,7 @@ CASE_TEST(later_keys_and_set_states) {
                   "a state that was set");
 }
 
-CASE_TEST(refused) {
+TEST(refused) {
     const reference::Scene scene = cases::small_enf();
     Solver solver(scene, 0.0);
     for (const char* key : {"no_such_value", "", "kkt_gap", "kkt_equilibrium", "rotation_max", "bulk_factorisations",
@@ -192,7 +192,7 @@ CASE_TEST(refused) {
 }
 
 // The descriptions of values agree with the library, and a second name is as good as the first.
-CASE_TEST(descriptions_and_aliases) {
+TEST(descriptions_and_aliases) {
     const reference::Scene scene = cases::small_enf();
     Solver solver(scene, 0.0);
     std::int64_t count = 0;
@@ -230,16 +230,3 @@ CASE_TEST(descriptions_and_aliases) {
 }
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("record");
-    TCase* one = tcase_create("record");
-    tcase_add_test(one, steps_that_returns_replace);
-    tcase_add_test(one, saved_with_the_state);
-    tcase_add_test(one, in_space_by_feti);
-    tcase_add_test(one, later_keys_and_set_states);
-    tcase_add_test(one, refused);
-    tcase_add_test(one, descriptions_and_aliases);
-    suite_add_tcase(suite, one);
-    return cases::run_suite(suite);
-}

@@ -65,7 +65,7 @@ double area(std::int32_t cell) { return in_plane(cell) ? length : length * lengt
 
 // Interfaces far softer than this show the rounding of the assembled matrices: the bulk's K u is then only the
 // difference of numbers as large as E w / h, and a translation has an error of eps times these.
-CASE_TEST(tension_at_any_stiffness) {
+LOOP_TEST(tension_at_any_stiffness, 0, 9) {
     for (const double k : {1e9, 1.25e11, 1e15, 1e20, 1e22}) {
         for (const bool redundant : {false, true}) {
             const double w = 1e-5;
@@ -97,7 +97,7 @@ CASE_TEST(tension_at_any_stiffness) {
 }
 
 // Compressed faces close whatever adhesion they have, and carry the pressure of a monolithic block.
-CASE_TEST(compression_closes) {
+LOOP_TEST(compression_closes, 0, 9) {
     for (const double adhesion : {0.0, 0.5, 1.0}) {
         const double w = -1e-5;
         const Scene scene = stack(cells[loop], 1e12, w, true, true);
@@ -122,7 +122,7 @@ CASE_TEST(compression_closes) {
 }
 
 // A separated block that is driven away: its faces open freely, and no force is left.
-CASE_TEST(debonded_block_opens) {
+LOOP_TEST(debonded_block_opens, 0, 9) {
     const Scene scene = stack(cells[loop], 1e12, 1e-5, true, true);
     DirectReference direct(scene);
     const auto state = direct.solve(1.0, std::vector<double>(scene.pair_count(), 0.0));
@@ -135,7 +135,7 @@ CASE_TEST(debonded_block_opens) {
 }
 
 // Nothing holds the lower block once its bond is gone: refused by a message, without numbers.
-CASE_TEST(free_body_is_refused) {
+LOOP_TEST(free_body_is_refused, 0, 9) {
     const Scene scene = stack(cells[loop], 1e12, 1e-5, false, false);
     DirectReference direct(scene);
     std::string message;
@@ -148,14 +148,3 @@ CASE_TEST(free_body_is_refused) {
 }
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("direct reference");
-    TCase* tests = tcase_create("closed forms");
-    tcase_add_loop_test(tests, tension_at_any_stiffness, 0, 9);
-    tcase_add_loop_test(tests, compression_closes, 0, 9);
-    tcase_add_loop_test(tests, debonded_block_opens, 0, 9);
-    tcase_add_loop_test(tests, free_body_is_refused, 0, 9);
-    suite_add_tcase(suite, tests);
-    return cases::run_suite(suite);
-}

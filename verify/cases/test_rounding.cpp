@@ -75,7 +75,7 @@ Found march(const Scene& scene) {
     return found;
 }
 
-CASE_TEST(slender) {
+LOOP_TEST(slender, 0, 4) {
     if (loop == 3 && !cases::whole()) return;  // bent in space
     const int dimension = loop % 2 == 0 ? 2 : 3;
     const bool opened = loop / 2 == 0;
@@ -99,11 +99,3 @@ CASE_TEST(slender) {
 }
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("rounding");
-    TCase* tests = tcase_create("plies");
-    tcase_add_loop_test(tests, slender, 0, 4);
-    suite_add_tcase(suite, tests);
-    return cases::run_suite(suite);
-}

@@ -32,7 +32,7 @@ const Case scenes[] = {
     {"fibres-30", {"mesh.fibres=6", "mesh.cells_around=16", "mesh.gap=0.3", "time.steps=10"}, {2, 5, 10}, 0, 2e-9},
 };
 
-CASE_TEST(scene_files) {
+LOOP_TEST(scene_files, 0, std::size(scenes)) {
     const Case& scene = scenes[loop];
     if (std::string(scene.name) == "enf-3d" && !cases::whole()) return;
     reference::SceneFile file = reference::read_scene_file(
@@ -51,11 +51,3 @@ CASE_TEST(scene_files) {
 }
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("scene files");
-    TCase* tests = tcase_create("direct reference");
-    tcase_add_loop_test(tests, scene_files, 0, static_cast<int>(std::size(scenes)));
-    suite_add_tcase(suite, tests);
-    return cases::run_suite(suite);
-}

@@ -17,10 +17,10 @@ using reference::Solver;
 // ---- several fronts -----------------------------------------------------------------------------------------------
 
 // Squares of 3 mm here and below; of 1.5 mm in the long tier.
-CASE_TEST(two_fronts_of_a_flexure) { cases::expect_two_fronts(3e-3, loop == 1); }
+LOOP_TEST(two_fronts_of_a_flexure, 0, 2) { cases::expect_two_fronts(3e-3, loop == 1); }
 
 // Two equal patches under a soft block: breaking only one releases almost nothing.
-CASE_TEST(only_the_joint_advance_pays) {
+TEST(only_the_joint_advance_pays) {
     Block b;
     b.cells = 13;
     b.end = 1.3 * cases::energetic_load(b) * std::sqrt(8.0 / 13.0);
@@ -38,14 +38,14 @@ CASE_TEST(only_the_joint_advance_pays) {
 
 // ---- two interfaces in one stack ----------------------------------------------------------------------------------
 
-CASE_TEST(two_interfaces) {
+LOOP_TEST(two_interfaces, 0, 2) {
     if (loop == 0 || cases::whole()) cases::expect_two_interfaces(3e-3, loop == 1);
 }
 
 // ---- nucleation ---------------------------------------------------------------------------------------------------
 
 // The whole intact interface separates at w = sqrt(2 Gc (1/K + 1/k)), however many pairs it has.
-CASE_TEST(intact_interface_lets_go_at_once) {
+LOOP_TEST(intact_interface_lets_go_at_once, 0, 2) {
     Block b;
     b.cells = loop == 0 ? 12 : 80;
     b.end = 2.0 * cases::energetic_load(b);
@@ -63,7 +63,7 @@ CASE_TEST(intact_interface_lets_go_at_once) {
 }
 
 // A weak spot inside an intact beam: the crack begins there.
-CASE_TEST(weak_spot) {
+TEST(weak_spot) {
     Beam b;
     b.left = b.right = 0.0;
     b.press = 2e-3;
@@ -81,7 +81,7 @@ CASE_TEST(weak_spot) {
 // ---- space --------------------------------------------------------------------------------------------------------
 
 // Opened or bent; condensed, or by an iteration whose candidates have energies of few digits.
-CASE_TEST(straight_fronts_in_space) {
+LOOP_TEST(straight_fronts_in_space, 0, 4) {
     const double length = 0.06, width = 0.008, layer = 2e-3;
     Scene scene(3, {length, width}, {30, 2}, {layer, layer}, {1, 1}, DELAM_HEX8);
     scene.interface(0, 1);
@@ -147,7 +147,7 @@ CASE_TEST(straight_fronts_in_space) {
 
 // A block that nothing holds sideways once it is off: breaking all pairs is a candidate, as it is where the block is
 // held.
-CASE_TEST(floating_block_comes_off) {
+LOOP_TEST(floating_block_comes_off, 0, 2) {
     Block b;
     b.held = false;
     b.end = 1.5 * cases::energetic_load(b);
@@ -161,7 +161,7 @@ CASE_TEST(floating_block_comes_off) {
 
 // Under a dead load there is no equilibrium without the interface: such candidates are skipped, and the library claims
 // no bound for them.
-CASE_TEST(dead_load) {
+TEST(dead_load) {
     Beam b;
     b.right = 0.0;
     Scene scene = cases::make_beam(b);
@@ -188,7 +188,7 @@ CASE_TEST(dead_load) {
 
 // ---- limits -------------------------------------------------------------------------------------------------------
 
-CASE_TEST(a_limited_search_says_so) {
+LOOP_TEST(a_limited_search_says_so, 0, 4) {
     const int limit = loop == 0 ? 0 : loop == 1 ? 1 : loop == 2 ? 2 : 5;
     Beam b;
     Scene scene = cases::make_beam(b);
@@ -232,7 +232,7 @@ void expect_same_states(const std::vector<std::vector<double>>& a, const std::ve
                                std::string(what) + ", step " + std::to_string(k + 1) + ", pair " + std::to_string(p));
 }
 
-CASE_TEST(same_states_by_other_operators) {
+LOOP_TEST(same_states_by_other_operators, 0, 2) {
     Beam b;
     b.h = 3e-3;
     Scene condensed = cases::make_beam(b), other = cases::make_beam(b);
@@ -243,7 +243,7 @@ CASE_TEST(same_states_by_other_operators) {
     expect_same_states(states(condensed, 6), states(other, 6), false, reduction);
 }
 
-CASE_TEST(same_energy_by_alternation) {
+TEST(same_energy_by_alternation) {
     Beam b;
     Scene fast = cases::make_beam(b), plain = cases::make_beam(b);
     plain.text("minimisation", "alternate");
@@ -254,7 +254,7 @@ CASE_TEST(same_energy_by_alternation) {
         cases::expect_near(c[k], a[k], 1e-6, a[k], "energy of step " + std::to_string(k + 1));
 }
 
-CASE_TEST(same_states_in_other_units_and_mirrored) {
+LOOP_TEST(same_states_in_other_units_and_mirrored, 0, 3) {
     Beam b;
     b.left = 0.033;
     Scene scene = cases::make_beam(b);
@@ -271,22 +271,3 @@ CASE_TEST(same_states_in_other_units_and_mirrored) {
 }
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("search");
-    TCase* tests = tcase_create("search");
-    tcase_add_loop_test(tests, two_fronts_of_a_flexure, 0, 2);
-    tcase_add_test(tests, only_the_joint_advance_pays);
-    tcase_add_loop_test(tests, two_interfaces, 0, 2);
-    tcase_add_loop_test(tests, intact_interface_lets_go_at_once, 0, 2);
-    tcase_add_test(tests, weak_spot);
-    tcase_add_loop_test(tests, straight_fronts_in_space, 0, 4);
-    tcase_add_loop_test(tests, floating_block_comes_off, 0, 2);
-    tcase_add_test(tests, dead_load);
-    tcase_add_loop_test(tests, a_limited_search_says_so, 0, 4);
-    tcase_add_loop_test(tests, same_states_by_other_operators, 0, 2);
-    tcase_add_test(tests, same_energy_by_alternation);
-    tcase_add_loop_test(tests, same_states_in_other_units_and_mirrored, 0, 3);
-    suite_add_tcase(suite, tests);
-    return cases::run_suite(suite);
-}

@@ -33,7 +33,7 @@ Scene block() {
     return scene;
 }
 
-CASE_TEST(of_the_step_that_is_kept) {
+LOOP_TEST(of_the_step_that_is_kept, 0, 1) {
     const Scene scene = block();
     Solver solver(scene, 0.0);
     cases::expect(searched(solver).empty(), "no search in the initial state");
@@ -58,7 +58,7 @@ CASE_TEST(of_the_step_that_is_kept) {
     cases::expect(searched(solver).empty(), "a loaded state: " + searched(solver));
 }
 
-CASE_TEST(of_every_substep) {
+LOOP_TEST(of_every_substep, 0, 1) {
     Scene scene = block();
     scene.number("jump_tolerance", 0.05);
     Solver solver(scene, 0.0);
@@ -73,12 +73,3 @@ CASE_TEST(of_every_substep) {
 }
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("searched");
-    TCase* tests = tcase_create("searched");
-    tcase_add_loop_test(tests, of_the_step_that_is_kept, 0, 1);
-    tcase_add_loop_test(tests, of_every_substep, 0, 1);
-    suite_add_tcase(suite, tests);
-    return cases::run_suite(suite);
-}

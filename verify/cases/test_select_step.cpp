@@ -8,7 +8,7 @@ namespace {
 using reference::Solver;
 
 // Read displacements at step 1, commit step 2, read again: the displacements must be those of step 2.
-CASE_TEST(fields_after_a_selected_step) {
+LOOP_TEST(fields_after_a_selected_step, 0, 1) {
     (void)loop;
     auto scene = cases::small_enf(0);
     scene.text("backtracking", "on");
@@ -28,7 +28,7 @@ CASE_TEST(fields_after_a_selected_step) {
 }
 
 // The margin of a search does not depend on the reduction of the bodies, with a gradient term either.
-CASE_TEST(gradient_term_in_the_search) {
+LOOP_TEST(gradient_term_in_the_search, 0, 2) {
     double margin[2], increment[2];
     for (int feti = 0; feti < 2; ++feti) {
         cases::Enf e;
@@ -63,12 +63,3 @@ CASE_TEST(gradient_term_in_the_search) {
 }
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("select_step");
-    TCase* tests = tcase_create("select_step");
-    tcase_add_loop_test(tests, fields_after_a_selected_step, 0, 1);
-    tcase_add_loop_test(tests, gradient_term_in_the_search, 0, 2);
-    suite_add_tcase(suite, tests);
-    return cases::run_suite(suite);
-}

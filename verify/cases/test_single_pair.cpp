@@ -74,7 +74,7 @@ double along_path(double time) {
     return path[i] + (path[i + 1] - path[i]) * (time - static_cast<double>(i));
 }
 
-CASE_TEST(bilinear_law) {
+LOOP_TEST(bilinear_law, 0, 2) {
     const Mode& m = modes[loop];
     const Scene scene = imposed(m, path);
     Solver solver(scene, 0.0);
@@ -137,7 +137,7 @@ double ledger_defect(const Mode& m, int steps, double& bound) {
     return 0.0;
 }
 
-CASE_TEST(ledger_closes_in_the_limit) {
+LOOP_TEST(ledger_closes_in_the_limit, 0, 2) {
     const Mode& m = modes[loop];
     double bound_coarse = 0.0;
     double bound_fine = 0.0;
@@ -148,7 +148,7 @@ CASE_TEST(ledger_closes_in_the_limit) {
 }
 
 // The law function alone, at the same points.
-CASE_TEST(law_function) {
+LOOP_TEST(law_function, 0, 2) {
     const Mode& m = modes[loop];
     const Scene scene = imposed(m, {0.0, 1.0});
     delam_law* raw = nullptr;
@@ -175,13 +175,3 @@ CASE_TEST(law_function) {
 }
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("single pair");
-    TCase* tests = tcase_create("pure modes");
-    tcase_add_loop_test(tests, bilinear_law, 0, 2);
-    tcase_add_loop_test(tests, ledger_closes_in_the_limit, 0, 2);
-    tcase_add_loop_test(tests, law_function, 0, 2);
-    suite_add_tcase(suite, tests);
-    return cases::run_suite(suite);
-}

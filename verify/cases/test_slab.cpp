@@ -68,7 +68,7 @@ Scene make(const Specimen& specimen, int dimension) {
     return scene;
 }
 
-CASE_TEST(a_slab_is_plane_strain) {
+LOOP_TEST(a_slab_is_plane_strain, 0, 8) {
     const bool frozen = loop < 4;
     const Specimen specimen{loop % 2 == 1, loop / 2 % 2 == 1, frozen ? "frozen" : "converged"};
     const Scene plane = make(specimen, 2), solid = make(specimen, 3);
@@ -99,11 +99,3 @@ CASE_TEST(a_slab_is_plane_strain) {
 }
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("slab");
-    TCase* test = tcase_create("slab");
-    tcase_add_loop_test(test, a_slab_is_plane_strain, 0, 8);
-    suite_add_tcase(suite, test);
-    return cases::run_suite(suite);
-}

@@ -10,7 +10,7 @@ using reference::Solver;
 
 constexpr int half = 8;
 
-CASE_TEST(resumed_march) {
+TEST(resumed_march) {
     const Scene scene = cases::small_enf();
     Solver whole(scene, 0.0);
     cases::walk(whole, 1, half);
@@ -30,7 +30,7 @@ CASE_TEST(resumed_march) {
     cases::expect(resumed.save() == whole.save(), "snapshots in the end");
 }
 
-CASE_TEST(pending_step_is_not_saved) {
+TEST(pending_step_is_not_saved) {
     const Scene scene = cases::small_enf();
     Solver solver(scene, 0.0);
     cases::walk(solver, 1, half);
@@ -39,7 +39,7 @@ CASE_TEST(pending_step_is_not_saved) {
     cases::expect(solver.save() == before, "the snapshot holds the committed state");
 }
 
-CASE_TEST(rollback_is_exact) {
+TEST(rollback_is_exact) {
     const Scene scene = cases::small_enf();
     Solver solver(scene, 0.0);
     cases::walk(solver, 1, half);
@@ -60,7 +60,7 @@ CASE_TEST(rollback_is_exact) {
     cases::expect_same(solver, cases::read_bits(solver), pending, "the step taken again");
 }
 
-CASE_TEST(equilibrate_moves_no_ledger) {
+TEST(equilibrate_moves_no_ledger) {
     const Scene scene = cases::small_enf();
     Solver solver(scene, 0.0);
     cases::walk(solver, 1, half);
@@ -95,7 +95,7 @@ void expect_refused(Solver& solver, const std::vector<std::uint8_t>& bytes, cons
     cases::expect(std::string(delam_context_message(solver.scene().context())) != "", what + ": no message");
 }
 
-CASE_TEST(damaged_bytes) {
+TEST(damaged_bytes) {
     const Scene scene = tiny(8e-5);
     Solver solver(scene, 0.0);
     solver.step(0.5);
@@ -127,7 +127,7 @@ CASE_TEST(damaged_bytes) {
     cases::expect_same(fresh, cases::read_bits(fresh), cases::read_bits(solver), "after loading");
 }
 
-CASE_TEST(other_scene) {
+TEST(other_scene) {
     const Scene scene = tiny(8e-5);
     Solver solver(scene, 0.0);
     solver.step(1.0);
@@ -167,7 +167,7 @@ void leap(Solver& solver, int first, int last) {
     }
 }
 
-CASE_TEST(resumed_leaps) {
+TEST(resumed_leaps) {
     const Scene scene = leaping_enf();
     Solver whole(scene, 0.0);
     std::vector<std::vector<std::uint8_t>> bytes{whole.save()};
@@ -189,7 +189,7 @@ CASE_TEST(resumed_leaps) {
 }
 
 // Every step is computed twice, with a far step and a displacement step in between, both rolled back.
-CASE_TEST(leaps_rolled_back) {
+TEST(leaps_rolled_back) {
     const Scene scene = leaping_enf();
     Solver straight(scene, 0.0), wavering(scene, 0.0);
     for (int k = 1; k <= leaps; ++k) {
@@ -213,7 +213,7 @@ CASE_TEST(leaps_rolled_back) {
 }
 
 // A solver with another history loads a state and continues from there.
-CASE_TEST(loaded_over_another_past) {
+TEST(loaded_over_another_past) {
     const Scene scene = leaping_enf();
     Solver first(scene, 0.0), other(scene, 0.0);
     leap(first, 1, 12);
@@ -235,7 +235,7 @@ std::int32_t count_down(const char*, std::int64_t, std::int64_t, void* user) {
     return --static_cast<Countdown*>(user)->left == 0 ? 1 : 0;
 }
 
-CASE_TEST(cancelled_leaps) {
+TEST(cancelled_leaps) {
     const Scene scene = leaping_enf();
     Solver straight(scene, 0.0);
     leap(straight, 1, 14);
@@ -318,7 +318,7 @@ void peel(Solver& solver, int step) {
     solver.commit();
 }
 
-CASE_TEST(resumed_peel) {
+LOOP_TEST(resumed_peel, 0, std::size(peels)) {
     const Peel& p = peels[loop];
     const Scene scene = make_peel(p);
     Solver whole(scene, 0.0);
@@ -350,21 +350,3 @@ CASE_TEST(resumed_peel) {
 }
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("snapshot");
-    TCase* tests = tcase_create("bits");
-    tcase_add_test(tests, resumed_march);
-    tcase_add_test(tests, pending_step_is_not_saved);
-    tcase_add_test(tests, rollback_is_exact);
-    tcase_add_test(tests, equilibrate_moves_no_ledger);
-    tcase_add_test(tests, damaged_bytes);
-    tcase_add_test(tests, other_scene);
-    tcase_add_test(tests, resumed_leaps);
-    tcase_add_test(tests, leaps_rolled_back);
-    tcase_add_test(tests, loaded_over_another_past);
-    tcase_add_test(tests, cancelled_leaps);
-    tcase_add_loop_test(tests, resumed_peel, 0, static_cast<int>(std::size(peels)));
-    suite_add_tcase(suite, tests);
-    return cases::run_suite(suite);
-}

@@ -65,7 +65,7 @@ Answer closed_form(double spring, double w) {
     return {u, slope * (dc - u)};
 }
 
-CASE_TEST(stiff_spring_is_continuous) {
+LOOP_TEST(stiff_spring_is_continuous, 0, 4) {
     const int dimension = loop < 3 ? 2 : 3;
     const double spring = slope * (loop == 0 ? 1.5 : loop == 1 ? 3.0 : 10.0);
     const int steps = 60;
@@ -87,7 +87,7 @@ CASE_TEST(stiff_spring_is_continuous) {
     }
 }
 
-CASE_TEST(soft_spring_jumps_at_the_local_load) {
+LOOP_TEST(soft_spring_jumps_at_the_local_load, 0, 2) {
     const double spring = slope * (loop == 0 ? 0.5 : 0.1);
     const double local = peak * (1.0 / spring + 1.0 / k);
     const Scene scene = bar(spring, {0.0, 1.0, 2.0}, {0.0, 0.999 * local, 1.001 * local}, 2);
@@ -103,7 +103,7 @@ CASE_TEST(soft_spring_jumps_at_the_local_load) {
 }
 
 // In one giant step a stiff spring still ends on its branch: the solution is unique.
-CASE_TEST(stiff_spring_in_one_step) {
+TEST(stiff_spring_in_one_step) {
     const double spring = 3.0 * slope;
     const double w = 0.8 * dc;
     const Scene scene = bar(spring, {0.0, 1.0}, {0.0, w}, 2);
@@ -115,13 +115,3 @@ CASE_TEST(stiff_spring_in_one_step) {
 }
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("spring");
-    TCase* tests = tcase_create("series");
-    tcase_add_loop_test(tests, stiff_spring_is_continuous, 0, 4);
-    tcase_add_loop_test(tests, soft_spring_jumps_at_the_local_load, 0, 2);
-    tcase_add_test(tests, stiff_spring_in_one_step);
-    suite_add_tcase(suite, tests);
-    return cases::run_suite(suite);
-}

@@ -67,7 +67,7 @@ void expect_jumps(const Solver& s, double from, const std::string& where, bool a
 }
 
 // A block that separates: at its two closed-form loads, to the tolerance, whatever the steps.
-CASE_TEST(block_jumps_where_it_should) {
+LOOP_TEST(block_jumps_where_it_should, 0, 6) {
     Block b;
     b.cells = 3;
     b.stiffness = 1e12;
@@ -106,7 +106,7 @@ CASE_TEST(block_jumps_where_it_should) {
 }
 
 // Damage that grows steadily is no jump, however fine or coarse the tolerance.
-CASE_TEST(smooth_march_has_no_jump) {
+LOOP_TEST(smooth_march_has_no_jump, 0, 4) {
     const double tolerance[] = {0.2, 0.1, 1e-2, 1e-3};
     reference::Flexure data = reference::find_flexure("enf-ductile");
     data.law.exponent = 1.0;
@@ -152,7 +152,7 @@ CASE_TEST(smooth_march_has_no_jump) {
 }
 
 // Jumps of the flexure test: the energy that they release, and the balance of an analysis with many of them.
-CASE_TEST(jumps_of_a_flexure) {
+LOOP_TEST(jumps_of_a_flexure, 0, 2) {
     const bool energetic = loop == 0;
     reference::Flexure data = reference::find_flexure("enf-brittle");
     if (energetic) data.h = cases::whole() ? 1.5e-3 : 3e-3;
@@ -199,10 +199,13 @@ CASE_TEST(jumps_of_a_flexure) {
     cases::expect(jumps(again).size() == before.size(), "jumps of the march after a set state is committed");
 }
 
+bool open() { return std::getenv("DELAM_OPEN_TESTS") != nullptr; }
+
 // The energy that is missing in the ledger was released, also where a local front jumps by cells so regularly that the
 // jumps count as growth (loop 1). Known open problem (DELAM_OPEN_TESTS=1 runs it): not where a step was replaced after
 // a return, because its jumps are not located, and the trapezoidal rule does not see when they come (loop 0).
-CASE_TEST(all_that_is_missing_was_released) {
+LOOP_TEST(all_that_is_missing_was_released, open() ? 0 : 1, 2) {
+    if (!open()) std::printf("open, left out: all_that_is_missing_was_released (0)\n");
     reference::FlexureScene f = reference::make_flexure(reference::find_flexure("enf-brittle"));
     f.scene.text("backtracking", loop == 0 ? "on" : "off");
     f.scene.text("mixity_rule", "frozen");
@@ -229,7 +232,7 @@ CASE_TEST(all_that_is_missing_was_released) {
 
 // ---- refusals -----------------------------------------------------------------------------------------------------
 
-CASE_TEST(steps_that_do_not_converge_are_cut) {
+TEST(steps_that_do_not_converge_are_cut) {
     Scene fixed = cases::small_enf(0), adaptive = cases::small_enf(0), stubborn = cases::small_enf(0);
     for (Scene* s : {&fixed, &adaptive, &stubborn}) {
         s->text("minimisation", "alternate");
@@ -262,7 +265,7 @@ CASE_TEST(steps_that_do_not_converge_are_cut) {
 }
 
 // A step whose bounds are wide is divided until they are not.
-CASE_TEST(wide_estimates_are_cut) {
+TEST(wide_estimates_are_cut) {
     Beam b;
     b.press = 1e-3;
     Scene scene = cases::make_beam(b);
@@ -279,7 +282,7 @@ CASE_TEST(wide_estimates_are_cut) {
     }
 }
 
-CASE_TEST(snapping_steps_are_cut) {
+TEST(snapping_steps_are_cut) {
     Scene scene = cases::make_mmf(1e-3, cases::mmf_ductile, "frozen");
     const double tolerance = 0.05, smallest = 1.0 / 256.0;
     scene.number("mixity_step_tolerance", tolerance);
@@ -316,7 +319,7 @@ struct Countdown {
     }
 };
 
-CASE_TEST(cancelled_anywhere) {
+LOOP_TEST(cancelled_anywhere, 0, 4) {
     Beam b;
     b.h = 3e-3;
     Scene scene = cases::make_beam(b);
@@ -361,20 +364,3 @@ CASE_TEST(cancelled_anywhere) {
 }
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("step_control");
-    TCase* tests = tcase_create("step_control");
-    tcase_add_loop_test(tests, block_jumps_where_it_should, 0, 6);
-    tcase_add_loop_test(tests, smooth_march_has_no_jump, 0, 4);
-    tcase_add_loop_test(tests, jumps_of_a_flexure, 0, 2);
-    tcase_add_test(tests, steps_that_do_not_converge_are_cut);
-    tcase_add_test(tests, wide_estimates_are_cut);
-    tcase_add_test(tests, snapping_steps_are_cut);
-    tcase_add_loop_test(tests, cancelled_anywhere, 0, 4);
-    const bool open = std::getenv("DELAM_OPEN_TESTS") != nullptr;
-    tcase_add_loop_test(tests, all_that_is_missing_was_released, open ? 0 : 1, 2);
-    if (!open) std::printf("open, left out: all_that_is_missing_was_released (0)\n");
-    suite_add_tcase(suite, tests);
-    return cases::run_suite(suite);
-}

@@ -100,7 +100,7 @@ std::vector<double> step_tangent(const Solver& solver) {
     return matrix;
 }
 
-void tangent_is_the_derivative(int loop) {
+LOOP_TEST(tangent_is_the_derivative, 0, setting_count) {
     const Setting& s = settings[loop];
     if (std::string(s.name) == "frozen, FETI, space" && !cases::whole()) return;
     const Scene scene = strip(s);
@@ -169,7 +169,7 @@ void tangent_is_the_derivative(int loop) {
 }
 
 // At fixed adhesion and contact set: compared with displacement steps beside the state.
-void load_tangent_is_the_derivative(int loop) {
+LOOP_TEST(load_tangent_is_the_derivative, 0, setting_count) {
     const Setting& s = settings[loop];
     if (std::string(s.name) == "frozen, FETI, space" && !cases::whole()) return;
     const Scene scene = strip(s);
@@ -210,13 +210,7 @@ void load_tangent_is_the_derivative(int loop) {
     }
 }
 
-START_TEST(load_derivative) { cases::run_body(load_tangent_is_the_derivative, _i); }
-END_TEST
-
-START_TEST(derivative) { cases::run_body(tangent_is_the_derivative, _i); }
-END_TEST
-
-CASE_TEST(tangent_refused) {
+TEST(tangent_refused) {
     const Scene scene = strip(settings[0]);
     Solver solver(scene, 0.0);
     std::vector<double> matrix(9);
@@ -262,7 +256,7 @@ CASE_TEST(tangent_refused) {
 }
 
 // E = 1/2 x.S x - theta.L x + 1/2 theta.A theta at the jumps of an analysis, and its jumps from x.
-void operator_is_the_energy(int loop) {
+LOOP_TEST(operator_is_the_energy, 0, 2) {
     const Scene scene = strip(settings[loop == 0 ? 0 : 5]);
     Solver solver(scene, 0.0);
     std::int64_t n = 0, entries = 0, patterns = 0;
@@ -317,10 +311,7 @@ void operator_is_the_energy(int loop) {
         for (std::size_t j = 0; j < i; ++j) cases::expect(s[i * un + j] == s[j * un + i], "symmetry");
 }
 
-START_TEST(condensed) { cases::run_body(operator_is_the_energy, _i); }
-END_TEST
-
-CASE_TEST(no_operator_by_feti) {
+TEST(no_operator_by_feti) {
     const Scene scene = strip(settings[1]);
     Solver solver(scene, 0.0);
     std::int64_t n = 0;
@@ -333,7 +324,7 @@ CASE_TEST(no_operator_by_feti) {
 
 // Derivatives by numbers of laws are followed from the initial state on; a state that was set or loaded has none, nor
 // have the steps from it.
-CASE_TEST(sensitivities_end_where_a_state_is_set) {
+TEST(sensitivities_end_where_a_state_is_set) {
     const Scene scene = strip(settings[2]);
     Solver solver(scene, 0.0);
     const std::int64_t interface = 0, nowhere = 7;
@@ -364,16 +355,3 @@ CASE_TEST(sensitivities_end_where_a_state_is_set) {
 }
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("step_tangent");
-    TCase* tests = tcase_create("step_tangent");
-    tcase_add_loop_test(tests, derivative, 0, setting_count);
-    tcase_add_loop_test(tests, load_derivative, 0, setting_count);
-    tcase_add_test(tests, tangent_refused);
-    tcase_add_loop_test(tests, condensed, 0, 2);
-    tcase_add_test(tests, no_operator_by_feti);
-    tcase_add_test(tests, sensitivities_end_where_a_state_is_set);
-    suite_add_tcase(suite, tests);
-    return cases::run_suite(suite);
-}

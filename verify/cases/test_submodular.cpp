@@ -48,7 +48,7 @@ double enumerate(const Function& f) {
     return least;
 }
 
-CASE_TEST(cuts) {
+LOOP_TEST(cuts, 0, 20) {
     const Cut cut = make_cut(static_cast<unsigned>(loop));
     const auto found = reference::minimise_submodular(n, cut, 1000);
     const double exact = enumerate(cut);
@@ -60,7 +60,7 @@ CASE_TEST(cuts) {
 
 // Minus part * sqrt(|A|), whose marginals -part (sqrt(m+1) - sqrt(m)) grow from -part to 0: violations smaller than
 // `part`, so that the corrected bound holds.
-CASE_TEST(correction_for_violations) {
+LOOP_TEST(correction_for_violations, 0, 20) {
     const Cut cut = make_cut(static_cast<unsigned>(loop));
     const double part = 0.3;
     const auto f = [&](const Set& set) {
@@ -72,12 +72,3 @@ CASE_TEST(correction_for_violations) {
 }
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("submodular");
-    TCase* tests = tcase_create("minimum_norm_point");
-    tcase_add_loop_test(tests, cuts, 0, 20);
-    tcase_add_loop_test(tests, correction_for_violations, 0, 20);
-    suite_add_tcase(suite, tests);
-    return cases::run_suite(suite);
-}

@@ -43,7 +43,7 @@ Scene arms(double low, double high) {
 }
 
 // A crack in the middle, opened at mid-span: left and right respond alike.
-CASE_TEST(left_and_right) {
+TEST(left_and_right) {
     Scene scene = arms(0.4 * length, 0.6 * length);
     const auto bottom = scene.find(0, {0.0, 0.0}, {length, 0.0});
     scene.hold(bottom, {0.0, 1.0});
@@ -75,7 +75,7 @@ CASE_TEST(left_and_right) {
 }
 
 // A double cantilever opened by equal and opposite displacements: no slip, and the arms are mirror images.
-CASE_TEST(upper_and_lower) {
+TEST(upper_and_lower) {
     Scene scene = arms(0.0, 0.3 * length);
     const auto right = scene.find(-1, {length, 0.0}, {length, 2 * arm});
     scene.hold(right, {1.0, 0.0});
@@ -160,7 +160,7 @@ constexpr Units systems[] = {
     {0.125, 64.0, 1e-12, "2^-3 and 2^6"}, {1e3, 1.0, 1e-9, "mm, N"},
     {1e6, 1e6, 1e-9, "um, uN"},           {1.0 / 0.0254, 1.0 / 4.4482216152605, 1e-9, "inch, pound"}};
 
-CASE_TEST(change_of_units) {
+LOOP_TEST(change_of_units, 0, 6) {
     const Units& s = systems[loop];
     const Record base = bending(1.0, 1.0);
     const Record other = bending(s.length, s.force);
@@ -185,13 +185,3 @@ CASE_TEST(change_of_units) {
 }
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("symmetry and units");
-    TCase* tests = tcase_create("scenes");
-    tcase_add_test(tests, left_and_right);
-    tcase_add_test(tests, upper_and_lower);
-    tcase_add_loop_test(tests, change_of_units, 0, 6);
-    suite_add_tcase(suite, tests);
-    return cases::run_suite(suite);
-}

@@ -23,7 +23,7 @@ cases::Bits march(std::int64_t subdomains) {
     return cases::read_bits(solver);
 }
 
-CASE_TEST(two_threads_same_bits) {
+TEST(two_threads_same_bits) {
     const auto alone = march(6);
     cases::Bits in_thread[2];
     std::string failure[2];
@@ -62,7 +62,7 @@ std::int32_t watch(const char* stage, std::int64_t, std::int64_t, void* user) {
 
 // Cancelled at the first, second, ... call of the progress callback, the solver continues as if the step had never been
 // requested.
-CASE_TEST(cancel_through_progress) {
+TEST(cancel_through_progress) {
     const Scene scene = cases::small_enf();
     Solver solver(scene, 0.0);
     cases::walk(solver, 1, few);
@@ -106,7 +106,7 @@ struct Assembly {
     }
 };
 
-CASE_TEST(polls_while_assembling) {
+LOOP_TEST(polls_while_assembling, 0, 2) {
     constexpr std::int64_t columns = 48, rows = 24, layers = 4;
     Scene scene(3, {0.48, 0.24}, {columns, rows}, {0.04, 0.04}, {layers, layers}, DELAM_HEX8);
     scene.interface(0, 1);
@@ -147,7 +147,7 @@ std::int32_t meet(const char*, std::int64_t, std::int64_t, void* user) {
     return 0;
 }
 
-CASE_TEST(cancel_from_another_thread) {
+TEST(cancel_from_another_thread) {
     const Scene scene = cases::small_enf();
     Solver solver(scene, 0.0);
     cases::walk(solver, 1, few);
@@ -218,7 +218,7 @@ void provoke() {
     cases::expect(delam_mesh_add_interface(scene.mesh(), 0, 7, 0.0, &index) < 0, "unknown body");
 }
 
-CASE_TEST(nothing_is_printed) {
+TEST(nothing_is_printed) {
     const std::string text = written_during(provoke);
     cases::expect(text.empty(), "the library wrote: " + text.substr(0, 200));
 }
@@ -235,7 +235,7 @@ bool same_handler(const struct sigaction& a, const struct sigaction& b) {
 }
 
 // A host with its own handlers for the signals that libraries tend to use: they keep function, flags and mask.
-CASE_TEST(signals_are_untouched) {
+TEST(signals_are_untouched) {
     constexpr int taken[] = {SIGABRT, SIGTERM, SIGINT, SIGSEGV, SIGFPE};
     struct sigaction original[NSIG] = {};
     struct sigaction before[NSIG] = {};
@@ -260,7 +260,7 @@ CASE_TEST(signals_are_untouched) {
     cases::expect(changed == 0, "handler of signal " + std::to_string(changed) + " changed");
 }
 
-CASE_TEST(rand_is_untouched) {
+TEST(rand_is_untouched) {
     std::srand(20100609);
     int expected[8];
     for (int& r : expected) r = std::rand();
@@ -273,17 +273,3 @@ CASE_TEST(rand_is_untouched) {
 }
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("threads and host");
-    TCase* tests = tcase_create("guest");
-    tcase_add_test(tests, two_threads_same_bits);
-    tcase_add_test(tests, cancel_through_progress);
-    tcase_add_loop_test(tests, polls_while_assembling, 0, 2);
-    tcase_add_test(tests, cancel_from_another_thread);
-    tcase_add_test(tests, nothing_is_printed);
-    tcase_add_test(tests, signals_are_untouched);
-    tcase_add_test(tests, rand_is_untouched);
-    suite_add_tcase(suite, tests);
-    return cases::run_suite(suite);
-}

@@ -103,7 +103,7 @@ double stress_error(int d, std::int64_t lower, std::int64_t upper, const char* r
     return stresses(d, lower, upper, reduction).error;
 }
 
-CASE_TEST(patch) {
+LOOP_TEST(patch, 0, 6) {
     const int d = loop / 3 == 0 ? 2 : 3;
     const char* reduction = std::array{"condensed", "feti", "iterated"}[static_cast<std::size_t>(loop) % 3];
     const std::string where = std::to_string(d) + "D, " + reduction;
@@ -129,11 +129,3 @@ CASE_TEST(patch) {
 }
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("unmatched");
-    TCase* tests = tcase_create("projected interfaces");
-    tcase_add_loop_test(tests, patch, 0, 6);
-    suite_add_tcase(suite, tests);
-    return cases::run_suite(suite);
-}

@@ -136,7 +136,7 @@ std::array<double, unknowns> solved(std::array<std::array<double, unknowns>, unk
     return b;
 }
 
-CASE_TEST(newton_of_a_host) {
+LOOP_TEST(newton_of_a_host, 0, setting_count) {
     const Setting& setting = settings[loop];
     const Arms element = arms(setting, false), structure = arms(setting, true);
     std::array<double, unknowns> spring{};
@@ -201,7 +201,7 @@ CASE_TEST(newton_of_a_host) {
 }
 
 // A host that tries a step many times is not warned as often.
-CASE_TEST(warned_once) {
+TEST(warned_once) {
     static int warnings;
     warnings = 0;
     const Arms element = arms(settings[2], false);
@@ -237,12 +237,3 @@ CASE_TEST(warned_once) {
 }
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("user_element");
-    TCase* tests = tcase_create("user_element");
-    tcase_add_loop_test(tests, newton_of_a_host, 0, setting_count);
-    tcase_add_test(tests, warned_once);
-    suite_add_tcase(suite, tests);
-    return cases::run_suite(suite);
-}

@@ -7,7 +7,10 @@
 #include <cstring>
 #include <iterator>
 #include <limits>
+#include <list>
 #include <span>
+#include <sstream>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -143,6 +146,16 @@ struct in_order {
         : status(function(std::forward<Arguments>(arguments)...)) {}
     std::int32_t status;
 };
+#define IN_ORDER(...) (fuzz::in_order{__VA_ARGS__}.status)
+
+// The words of a text.
+inline std::vector<const char*> words_of(const char* text) {
+    static std::list<std::string> kept;
+    std::vector<const char*> words;
+    std::istringstream all(text);
+    for (std::string word; all >> word;) words.push_back(kept.emplace_back(word).c_str());
+    return words;
+}
 
 // Rarely NULL in place of an array.
 template <class T>

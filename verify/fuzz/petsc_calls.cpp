@@ -115,12 +115,12 @@ std::int32_t read_part(Input& in, delam_petsc* petsc) {
     std::vector<std::int64_t> node(static_cast<std::size_t>(nodes));
     std::vector<std::int32_t> owned(node.size());
     const auto room = [&](std::int64_t needed) { return in.seldom() ? std::min(in.hostile_whole(), needed) : needed; };
-    status = in_order{delam_petsc_part_nodes, petsc, room(nodes), maybe(in, node), maybe(in, owned), nullptr}.status;
+    status = IN_ORDER(delam_petsc_part_nodes, petsc, room(nodes), maybe(in, node), maybe(in, owned), nullptr);
     settle("delam_petsc_part_nodes", petsc, status, may::argument | may::state);
     status = delam_petsc_part_cells(petsc, none, nullptr, &cells);
     settle("delam_petsc_part_cells", petsc, status, may::argument);
     std::vector<std::int64_t> cell(static_cast<std::size_t>(cells));
-    status = in_order{delam_petsc_part_cells, petsc, room(cells), maybe(in, cell), nullptr}.status;
+    status = IN_ORDER(delam_petsc_part_cells, petsc, room(cells), maybe(in, cell), nullptr);
     settle("delam_petsc_part_cells", petsc, status, may::argument);
     static const char* const keys[] = {"displacement", "force", "stress", "rotation"};
     const char* key = in.word(keys);
@@ -128,8 +128,7 @@ std::int32_t read_part(Input& in, delam_petsc* petsc) {
     status = delam_petsc_part_field(petsc, key, none, nullptr, &rows, in.seldom() ? nullptr : &columns);
     settle("delam_petsc_part_field", petsc, status, of_fields);
     std::vector<double> values(static_cast<std::size_t>(rows * columns));
-    status =
-        in_order{delam_petsc_part_field, petsc, key, room(rows * columns), maybe(in, values), nullptr, nullptr}.status;
+    status = IN_ORDER(delam_petsc_part_field, petsc, key, room(rows * columns), maybe(in, values), nullptr, nullptr);
     settle("delam_petsc_part_field", petsc, status, of_fields);
     return DELAM_OK;
 }
@@ -212,8 +211,8 @@ std::int32_t work(void* user) {
                 std::vector<std::uint8_t> bytes(static_cast<std::size_t>(in.below(9)));
                 const auto size = static_cast<std::int64_t>(bytes.size());
                 const std::int64_t said = in.seldom() ? -1 - in.below(200) : size;
-                settle("delam_petsc_everywhere", petsc,
-                       in_order{delam_petsc_everywhere, petsc, said, maybe(in, bytes)}.status, passed);
+                settle("delam_petsc_everywhere", petsc, IN_ORDER(delam_petsc_everywhere, petsc, said, maybe(in, bytes)),
+                       passed);
                 break;
             }
             case 6:
@@ -261,16 +260,10 @@ void one(World& world, Input& in) {
             const Rows rows(in, nodes);
             const auto set = in.flag() ? delam_petsc_set_part : delam_petsc_set_rows;
             Rows given = rows;
-            const std::int32_t status = in_order{set,
-                                                 petsc,
-                                                 rows.dimension,
-                                                 rows.node_count,
-                                                 maybe(in, given.nodes),
-                                                 in.seldom() ? nullptr : given.coordinates.data(),
-                                                 maybe(in, given.starts),
-                                                 maybe(in, given.columns),
-                                                 maybe(in, given.values)}
-                                            .status;
+            const std::int32_t status =
+                IN_ORDER(set, petsc, rows.dimension, rows.node_count, maybe(in, given.nodes),
+                         in.seldom() ? nullptr : given.coordinates.data(), maybe(in, given.starts),
+                         maybe(in, given.columns), maybe(in, given.values));
             settle("delam_petsc_set_part", petsc, status, parts);
             return;
         }
@@ -284,9 +277,8 @@ void one(World& world, Input& in) {
                 ranks[in.byte() % ranks.size()] = static_cast<std::int32_t>(in.hostile_whole());
             const std::int64_t said = in.seldom() ? in.hostile_whole() : cells;
             settle("delam_petsc_take_cells", petsc,
-                   in_order{delam_petsc_take_cells, petsc, mesh, problem,
-                            said == cells + 0 ? said : -std::abs(said / 2), maybe(in, ranks)}
-                       .status,
+                   IN_ORDER(delam_petsc_take_cells, petsc, mesh, problem,
+                            said == cells + 0 ? said : -std::abs(said / 2), maybe(in, ranks)),
                    given_cells);
             return;
         }
@@ -296,7 +288,7 @@ void one(World& world, Input& in) {
             if (in.seldom()) numbers = in.indices(static_cast<std::size_t>(nodes), nodes);
             const std::int64_t said = in.seldom() ? in.hostile_whole() : nodes;
             settle("delam_petsc_set_cells", petsc,
-                   in_order{delam_petsc_set_cells, petsc, mesh, problem, said, maybe(in, numbers)}.status, given_cells);
+                   IN_ORDER(delam_petsc_set_cells, petsc, mesh, problem, said, maybe(in, numbers)), given_cells);
             return;
         }
         case 6:
@@ -321,7 +313,7 @@ void one(World& world, Input& in) {
                                                "memory_mb_max", "operations_sum", "bytes_sent_max", "messages_sum"};
             double value = 0.0;
             settle("delam_petsc_value", petsc,
-                   in_order{delam_petsc_value, petsc, in.word(keys), in.seldom() ? nullptr : &value}.status, parts);
+                   IN_ORDER(delam_petsc_value, petsc, in.word(keys), in.seldom() ? nullptr : &value), parts);
             return;
         }
         case 12:

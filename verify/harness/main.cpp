@@ -26,11 +26,6 @@ int main(int argc, char** argv) {
             options.subjects.insert(argv[++i]);
         } else if (std::strcmp(argv[i], "--specimen") == 0 && i + 1 < argc) {
             options.specimen = argv[++i];
-        } else if (std::strcmp(argv[i], "--solution") == 0 && i + 1 < argc) {
-            options.solution = argv[++i];
-        } else if (std::strcmp(argv[i], "--most-steps") == 0 && i + 1 < argc) {
-            options.most_steps = std::atoi(argv[++i]);
-            understood = understood && options.most_steps > 0;
         } else if (name == nullptr && argv[i][0] != '-') {
             name = argv[i];
         } else {
@@ -40,19 +35,12 @@ int main(int argc, char** argv) {
     const struct {
         const char* name;
         harness::Table (*make)(const harness::Options&);
-    } tables[] = {{"pcg", harness::pcg},
-                  {"contact", harness::contact},
-                  {"balance", harness::balance},
-                  {"feti-direct", harness::feti_direct},
-                  {"energetic", harness::energetic},
-                  {"jump-instant", harness::jump_instant},
-                  {"estimate", harness::estimate},
-                  {"convergence", harness::convergence},
+    } tables[] = {{"balance", harness::balance},           {"feti-direct", harness::feti_direct},
+                  {"energetic", harness::energetic},       {"jump-instant", harness::jump_instant},
 #ifdef DELAM_SCENE_FILES
                   {"scene-direct", harness::scene_direct},
 #endif
-                  {"stability", harness::stability},
-                  {"sets", harness::sets}};
+                  {"stability", harness::stability},       {"sets", harness::sets}};
     for (const auto& table : tables) {
         if (!understood || name == nullptr || std::strcmp(name, table.name) != 0) continue;
         try {
@@ -64,11 +52,10 @@ int main(int argc, char** argv) {
             return 1;
         }
     }
-    std::fprintf(
-        stderr,
-        "usage: delam_harness [--json] [--quick] [--finest MM] [--scene FILE [--set KEY=VALUE ...]]\n"
-        "       [--specimen NAME] [--solution NAME] [--most-steps N] [--subject NAME]... TABLE\n"
-        "tables: pcg, contact, balance, feti-direct, energetic, jump-instant, estimate, convergence, stability "
-        "(--subject), sets, scene-direct (of --scene)\n");
+    std::fprintf(stderr,
+                 "usage: delam_harness [--json] [--quick] [--finest MM] [--scene FILE [--set KEY=VALUE ...]]\n"
+                 "       [--specimen NAME] [--subject NAME]... TABLE\n"
+                 "tables: balance, feti-direct, energetic, jump-instant, stability (--subject), sets, scene-direct (of "
+                 "--scene)\n");
     return 1;
 }

@@ -14,19 +14,14 @@ double optional_value(const reference::Solver& solver, const char* key) {
 }
 
 // The booked energies of the solver's current step.
-Record read(const reference::Solver& solver, bool keep_adhesion) {
+Record read(const reference::Solver& solver) {
     Record r;
-    r.reaction = solver.value("reaction:press");
     r.stored_bulk = solver.value("stored_bulk");
     r.stored_interface = solver.value("stored_interface");
     r.dissipated = solver.value("dissipated");
     r.work = solver.value("work");
-    r.stored_interface_slides = solver.value("stored_interface_slides");
-    r.dissipated_slides = solver.value("dissipated_slides");
-    r.lower = solver.value("lower");
     r.upper = solver.value("upper");
     r.increment = solver.value("increment");
-    r.increment_lower = solver.value("increment_lower");
     r.front = solver.value("front");
     r.debonded = solver.value("debonded_length");
     r.am_iterations = solver.value("am_iterations");
@@ -34,21 +29,11 @@ Record read(const reference::Solver& solver, bool keep_adhesion) {
     r.displacement_solves = solver.value("displacement_solves");
     r.candidates = optional_value(solver, "search_candidates");
     r.backtracks = solver.value("backtracks");
-    r.jumps = optional_value(solver, "jumps");
     r.released = optional_value(solver, "released");
-    if (keep_adhesion) r.adhesion = solver.field("adhesion");
     return r;
 }
 
 }  // namespace
-
-double Record::lower_violation() const {
-    return (lower - increment_lower) / std::max(std::abs(stored_bulk + stored_interface), std::abs(work));
-}
-
-double Record::upper_violation() const {
-    return (increment - upper) / std::max(std::abs(stored_bulk + stored_interface), std::abs(work));
-}
 
 double March::defect() const {
     double worst = 0.0;
@@ -56,13 +41,7 @@ double March::defect() const {
     return worst;
 }
 
-double March::defect_slides() const {
-    double worst = 0.0;
-    for (const Record& r : steps) worst = std::max(worst, std::abs(r.total_slides() - r.work));
-    return worst;
-}
-
-March run(const reference::Flexure& data, int steps, const Choice& choice, bool keep_adhesion) {
+March run(const reference::Flexure& data, int steps, const Choice& choice) {
     March march;
     const reference::FlexureScene flexure = reference::make_flexure(data);
     const reference::Scene& scene = flexure.scene;
@@ -82,7 +61,7 @@ March run(const reference::Flexure& data, int steps, const Choice& choice, bool 
         const std::int32_t status = solver.advance(time);
         if (status < 0) scene.require(status, "delam_solver_advance");
         solver.commit();
-        const Record now = read(solver, false);
+        const Record now = read(solver);
         for (double Record::*count : {&Record::am_iterations, &Record::newton_solves, &Record::displacement_solves,
                                       &Record::candidates, &Record::backtracks})
             march.spent.*count += now.*count;
@@ -95,7 +74,7 @@ March run(const reference::Flexure& data, int steps, const Choice& choice, bool 
             if (first < k) scene.require(delam_solver_look(solver.get(), i), "delam_solver_look");
             Record& r = march.steps[static_cast<std::size_t>(i - 1)];
             const bool converged = r.converged;
-            r = read(solver, keep_adhesion);
+            r = read(solver);
             r.converged = converged;
             r.load = data.load(data.end_time * i / steps);
         }
@@ -114,14 +93,6 @@ March run(const reference::Flexure& data, int steps, const Choice& choice, bool 
 
 std::string skipped(const std::string& refused) {
     return std::string("skipped: ").append(refused, 0, refused.find(';'));
-}
-
-double at(const std::vector<double>& values, double part) {
-    const double place = part * static_cast<double>(values.size());
-    const auto left = std::min(values.size() - 1, static_cast<std::size_t>(place));
-    const double first = left == 0 ? 0.0 : values[left - 1];
-    const double share = place - static_cast<double>(left);
-    return first + share * (values[left] - first);
 }
 
 }  // namespace harness

@@ -5,13 +5,6 @@
 #include <limits>
 
 namespace harness {
-namespace {}
-
-double order_of_errors(const std::vector<double>& sizes, const std::vector<double>& errors) {
-    const std::size_t n = errors.size();
-    if (n < 2 || !(errors[n - 1] > 0.0) || !(errors[n - 2] > 0.0)) return nan;
-    return std::log(errors[n - 2] / errors[n - 1]) / std::log(sizes[n - 2] / sizes[n - 1]);
-}
 
 // (v1 - v2) / (v2 - v3) = ((s1/s3)^p - (s2/s3)^p) / ((s2/s3)^p - 1), which grows with p.
 double order_of_values(const std::vector<double>& sizes, const std::vector<double>& values) {

@@ -37,20 +37,15 @@ struct Options {
     std::string scene;                  // a scene file
     std::vector<std::string> settings;  // KEY=VALUE for it
     std::set<std::string> subjects;     // for the table stability: only these
-    std::string specimen, solution;     // for tables over several: only this one
-    int most_steps = 0;                 // > 0: leaves out analyses of more steps
+    std::string specimen;               // for tables over several: only this one
 
     bool wants(const std::string& of_specimen) const { return specimen.empty() || specimen == of_specimen; }
 };
 
-Table pcg(const Options& options);
-Table contact(const Options& options);
 Table balance(const Options& options);
 Table feti_direct(const Options& options);
 Table energetic(const Options& options);
 Table jump_instant(const Options& options);
-Table estimate(const Options& options);
-Table convergence(const Options& options);
 Table sets(const Options& options);
 Table stability(const Options& options);
 #ifdef DELAM_SCENE_FILES

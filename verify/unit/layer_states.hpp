@@ -3,18 +3,21 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <cstdio>
+#include <memory>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "base/numbers.hpp"
+#include "check.hpp"
 #include "flexure.hpp"
+#include "reduction/condensed/condensed.hpp"
 #include "reduction/operator/jump_operator.hpp"
 #include "reduction/operator/zone.hpp"
 #include "scene/problem.hpp"
-
-// Last: its macro fail() would break delam::fail().
-#include "quiet_check.hpp"
 
 namespace unit {
 
@@ -22,19 +25,42 @@ using namespace delam;
 
 struct LayerCase {
     const char* name;
-    int dimension;
-    std::size_t layers;
-    std::int64_t subdomains;
-    double stiffness;       // of the law
-    bool floating = false;  // the layers come apart but for the zone
-    bool touching = false;  // the second interface only touches
-    bool loaded = false;    // dead forces and an eigenstrain
+    int dimension = 2;
+    std::size_t layers = 2;
+    std::int64_t subdomains = 0;
+    double stiffness = 125e9;  // of the law
+    bool floating = false;     // the layers come apart but for the zone
+    bool touching = false;     // the second interface only touches
+    bool loaded = false;       // dead forces and an eigenstrain
     const char* preconditioner = "series";
     bool clamped = false;  // supports on both faces of the last pairs
     double tolerance = 1e-7;
     // The mean opening of all pairs of the last interface is prescribed, as large as that of the first one, or that of
     // a control node on which a force acts.
     enum class Opening { none, prescribed, tied, control } opening = Opening::none;
+};
+
+inline constexpr LayerCase layer_cases[] = {
+    {.name = "two layers"},
+    {.name = "four layers", .layers = 4},
+    {.name = "soft interface", .subdomains = 3, .stiffness = 1e9},
+    {.name = "stiff interface", .subdomains = 3, .stiffness = 1e16},
+    {.name = "space", .dimension = 3, .layers = 3, .subdomains = 4},
+    {.name = "a layer that floats", .layers = 3, .subdomains = 5, .floating = true},
+    {.name = "a layer that floats in space", .dimension = 3, .layers = 3, .floating = true},
+    // The condensed operator loses more digits here than others: its forces balance to 1e-6 only.
+    {.name = "layers on weak springs", .layers = 3, .stiffness = 1e6, .floating = true, .tolerance = 1e-4},
+    {.name = "contact alone", .layers = 3, .touching = true},
+    {.name = "dead forces, eigenstrains", .layers = 3, .subdomains = 4, .loaded = true},
+    {.name = "a clamped end in space", .dimension = 3, .clamped = true},
+    {.name = "mean opening", .layers = 3, .opening = LayerCase::Opening::prescribed},
+    {.name = "mean opening in space", .dimension = 3, .opening = LayerCase::Opening::prescribed},
+    {.name = "two means tied to each other", .dimension = 3, .layers = 3, .opening = LayerCase::Opening::tied},
+    {.name = "mean opening of a control node", .layers = 3, .opening = LayerCase::Opening::control},
+    {.name = "three layers in seven subdomains", .layers = 3, .subdomains = 7},
+    {.name = "lumped preconditioner", .subdomains = 4, .preconditioner = "lumped"},
+    {.name = "a clamped end", .layers = 3, .subdomains = 5, .clamped = true},
+    {.name = "very stiff interface", .stiffness = 1e17},
 };
 
 // A constraint on many jumps.
@@ -109,6 +135,34 @@ inline Problem make_layers_of(const LayerCase& c) {
     }
     if (c.opening != LayerCase::Opening::none) bind_opening(problem, c.opening);
     return problem;
+}
+
+// The condensed operator of a problem.
+struct Reference {
+    Monitor monitor;
+    std::shared_ptr<Bulk> bulk;
+    Condensed condensed;
+    explicit Reference(const Problem& problem)
+        : bulk(condensed_bulk(problem, monitor)), condensed(bulk, problem, monitor) {}
+    Condensed& operator*() { return condensed; }
+    Condensed* operator->() { return &condensed; }
+
+private:
+    static std::shared_ptr<Bulk> condensed_bulk(const Problem& problem, Monitor& monitor) {
+        auto bulk = std::make_shared<Bulk>(problem, monitor);
+        bulk->condense(monitor);
+        return bulk;
+    }
+};
+
+inline void expect_close(std::span<const double> a, std::span<const double> b, double tolerance, double size,
+                         const std::string& what) {
+    ck_assert_uint_eq(a.size(), b.size());
+    double off = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        off = std::isnan(a[i] - b[i]) ? HUGE_VAL : std::max(off, std::abs(a[i] - b[i]));
+    std::printf("%s: off by %.2e of %.3g\n", what.c_str(), off, size);
+    ck_assert_msg(off <= tolerance * size, "%s: off by %.2e of %.3g", what.c_str(), off, size);
 }
 
 // A state that a march may meet: a notch, some pairs damaged, some closed.

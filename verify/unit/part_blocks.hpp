@@ -13,13 +13,11 @@
 
 #include "base/numbers.hpp"
 #include "capi/handle/handles.hpp"
+#include "check.hpp"
 #include "delam/experimental.h"
 #include "mesh/mesh.hpp"
 #include "same_bits.hpp"
 #include "scene/problem.hpp"
-
-// Last: its macro fail() would break delam::fail().
-#include <check.h>
 
 namespace delam::part_test {
 

@@ -10,11 +10,10 @@
 
 #include "all_types.hpp"
 #include "base/numbers.hpp"
+#include "check.hpp"
 #include "mesh/layers.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/partition.hpp"
-
-#include "quiet_check.hpp"  // last: it has a macro named fail
 
 namespace unit {
 

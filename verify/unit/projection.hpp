@@ -11,11 +11,11 @@
 
 #include "base/error.hpp"
 #include "base/numbers.hpp"
+#include "check.hpp"
 #include "delam/delam.h"
 #include "mesh/layers.hpp"
 #include "mesh/mesh.hpp"
-
-#include "quiet_check.hpp"  // last: it has a macro named fail
+#include "refused.hpp"
 
 namespace unit {
 
@@ -111,22 +111,6 @@ inline double area(const InterfaceGeometry& i) {
     for (const double w : i.weight) sum += w;
     return sum;
 }
-
-// Message of the error in which an action ends; empty if there is none.
-inline std::string refusal(std::int32_t status, const std::function<void()>& action) {
-    try {
-        action();
-    } catch (const Error& e) {
-        ck_assert_msg(e.status() == status, "status %d: %s", e.status(), e.what());
-        return e.what();
-    }
-    return "";
-}
-#define ck_assert_refused(status, part, action)                                                         \
-    do {                                                                                                \
-        const std::string said = unit::refusal(status, [&] { action; });                                \
-        ck_assert_msg(said.find(part) != std::string::npos, "\"%s\" lacks \"%s\"", said.c_str(), part); \
-    } while (0)
 
 // Two rings around a quarter circle (a cylinder in 3D), of n and 2 n + 1 cells: b's nodes are off a's faces by the
 // distance of the chords from the arc. `rings` has the divisions along the axis of the cylinder.

@@ -325,4 +325,13 @@ private:
     std::unique_ptr<SparseCholesky> factor_;
 };
 
+// A problem with an engine of its own.
+struct Engined {
+    Problem problem;
+    SerialEngine engine;
+    explicit Engined(const Problem& other) : problem(other), engine(BodySystem(other, {}).stiffness()) {
+        problem.engine = std::make_shared<Engine>(engine.functions());
+    }
+};
+
 }  // namespace unit

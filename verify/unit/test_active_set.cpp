@@ -9,10 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "check.hpp"
 #include "evolution/contact/active_set.hpp"
 #include "linalg/dense/dense.hpp"
-
-#include <check.h>
 
 using namespace delam;
 
@@ -111,7 +110,7 @@ bool cycles(DenseSystem s, const ContactRows& rows) {
 
 }  // namespace
 
-START_TEST(the_set_is_the_only_one) {
+TEST(the_set_is_the_only_one) {
     std::mt19937 random(1);
     int cycled = 0;
     for (int trial = 0; trial < 400; ++trial) {
@@ -131,9 +130,8 @@ START_TEST(the_set_is_the_only_one) {
     // Else the test shows nothing about cycles.
     ck_assert_int_ge(cycled, 5);
 }
-END_TEST
 
-START_TEST(limits_and_failures_are_reported) {
+TEST(limits_and_failures_are_reported) {
     std::mt19937 random(2);
     const ContactRows rows = all_rows(6);
     DenseSystem s = some_system(random, 6);
@@ -145,11 +143,10 @@ START_TEST(limits_and_failures_are_reported) {
     const ActiveSet failed = find_active_set(s, rows, closed, 100, true);
     ck_assert(!failed.settled && failed.last == ContactSolve::failed && failed.solves == 1);
 }
-END_TEST
 
 // The first of two rows softens faster than the rest unloads: held it is pulled, free it penetrates. A search would
 // have no end, but two solves show it.
-START_TEST(negative_curvature_is_seen_in_two_sets) {
+TEST(negative_curvature_is_seen_in_two_sets) {
     DenseSystem s;
     s.stiffness = DenseMatrix(2, 2);
     s.stiffness(0, 0) = -1.0;
@@ -163,10 +160,9 @@ START_TEST(negative_curvature_is_seen_in_two_sets) {
         ck_assert(!found.settled && found.last == ContactSolve::failed && found.solves == 2);
     }
 }
-END_TEST
 
 // Nothing balances the load while all rows are open; contact does.
-START_TEST(contact_may_hold_what_floats) {
+TEST(contact_may_hold_what_floats) {
     std::mt19937 random(4);
     const ContactRows rows = all_rows(5);
     DenseSystem s = some_system(random, 5);
@@ -180,10 +176,9 @@ START_TEST(contact_may_hold_what_floats) {
     s.balanced = true;
     ck_assert(closed == exhaustive(s, rows));
 }
-END_TEST
 
 // The search from coarse rows to all of them finds the same set.
-START_TEST(levels_lead_to_the_same_set) {
+TEST(levels_lead_to_the_same_set) {
     std::mt19937 random(6);
     for (int trial = 0; trial < 100; ++trial) {
         DenseSystem s = some_system(random, 8);
@@ -195,7 +190,6 @@ START_TEST(levels_lead_to_the_same_set) {
         ck_assert(closed == exhaustive(s, rows));
     }
 }
-END_TEST
 
 // Answers are exact, and say that they may be off by ten times what they are: every sign is in doubt, none is wrong.
 template <std::int64_t N>
@@ -213,7 +207,7 @@ struct CautiousSystem : DenseSystem {
 };
 
 // Once no tighter answer can be had, so many sets follow from signs in doubt, and the last of them is accepted.
-START_TEST(signs_in_doubt_are_followed_for_a_few_sets) {
+TEST(signs_in_doubt_are_followed_for_a_few_sets) {
     std::mt19937 random(8);
     int left_wrong = 0, found_right = 0;
     for (int trial = 0; trial < 200; ++trial) {
@@ -235,22 +229,4 @@ START_TEST(signs_in_doubt_are_followed_for_a_few_sets) {
     }
     ck_assert_int_ge(left_wrong, 150);
     ck_assert_int_ge(found_right, 150);
-}
-END_TEST
-
-int main() {
-    Suite* suite = suite_create("active_set");
-    TCase* tests = tcase_create("active_set");
-    tcase_add_test(tests, the_set_is_the_only_one);
-    tcase_add_test(tests, negative_curvature_is_seen_in_two_sets);
-    tcase_add_test(tests, limits_and_failures_are_reported);
-    tcase_add_test(tests, contact_may_hold_what_floats);
-    tcase_add_test(tests, levels_lead_to_the_same_set);
-    tcase_add_test(tests, signs_in_doubt_are_followed_for_a_few_sets);
-    suite_add_tcase(suite, tests);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }

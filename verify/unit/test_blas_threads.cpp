@@ -9,12 +9,11 @@
 
 #include "base/machine/blas_threads.hpp"
 #include "base/monitor.hpp"
+#include "check.hpp"
 #include "evolution/analysis/solver.hpp"
 #include "flexure.hpp"
 #include "linalg/dense/blas.hpp"
 #include "linalg/dense/dense.hpp"
-
-#include <check.h>  // last: it has a macro named fail
 
 extern "C" {
 int openblas_get_num_threads() __attribute__((weak));
@@ -46,7 +45,7 @@ void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* inf
     next(uplo, n, a, lda, info);
 }
 
-START_TEST(one_thread_meanwhile) {
+TEST(one_thread_meanwhile) {
     if (!host_wants(3)) return;
     {
         const BlasThreads outer;
@@ -63,10 +62,9 @@ START_TEST(one_thread_meanwhile) {
     }
     ck_assert_int_eq(openblas_get_num_threads(), 1);
 }
-END_TEST
 
 // The first to come is the first to go: the other one still needs one thread.
-START_TEST(threads_that_overlap) {
+TEST(threads_that_overlap) {
     if (!host_wants(2)) return;
     std::atomic<int> stage{0};
     std::thread other([&] {
@@ -83,9 +81,8 @@ START_TEST(threads_that_overlap) {
     }
     ck_assert_int_eq(openblas_get_num_threads(), 2);
 }
-END_TEST
 
-START_TEST(one_thread_for_good) {
+TEST(one_thread_for_good) {
     if (!host_wants(2)) return;
     {
         const BlasThreads one;
@@ -97,10 +94,9 @@ START_TEST(one_thread_for_good) {
     leave_blas_one_thread();
     ck_assert_int_eq(openblas_get_num_threads(), 1);
 }
-END_TEST
 
 // An analysis has the bits of one with one thread of the BLAS, and leaves the host's number.
-START_TEST(an_analysis_leaves_the_number) {
+TEST(an_analysis_leaves_the_number) {
     if (!host_wants(2)) return;
     const Problem problem = unit::make_flexure({});
     const auto march = [&] {
@@ -119,20 +115,4 @@ START_TEST(an_analysis_leaves_the_number) {
     ck_assert_int_eq(most, 1);
     ck_assert(host_wants(1));
     ck_assert(march() == two);
-}
-END_TEST
-
-int main() {
-    Suite* suite = suite_create("threads of the BLAS");
-    TCase* cases = tcase_create("cases");
-    tcase_add_test(cases, one_thread_meanwhile);
-    tcase_add_test(cases, threads_that_overlap);
-    tcase_add_test(cases, one_thread_for_good);
-    tcase_add_test(cases, an_analysis_leaves_the_number);
-    suite_add_tcase(suite, cases);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? 0 : 1;
 }

@@ -19,12 +19,11 @@
 #include "body/element.hpp"
 #include "body/material.hpp"
 #include "body/rigid_modes.hpp"
+#include "check.hpp"
 #include "linalg/sparse/sparse.hpp"
 #include "mesh/faces.hpp"
 #include "mesh/layers.hpp"
 #include "mesh/mesh.hpp"
-
-#include <check.h>  // last: it has a macro named fail
 
 using namespace delam;
 
@@ -201,7 +200,7 @@ double volume(const Mesh& mesh) {
 
 // A linear displacement field u = A x: constant stress from Hooke's law in tensor form, no force on inner nodes, and
 // energy = volume * sigma:eps/2.
-START_TEST(patch_test) {
+TEST(patch_test) {
     const double gradient[3][3] = {{1.0e-3, 0.4e-3, -0.3e-3}, {-0.7e-3, 0.5e-3, 0.2e-3}, {0.6e-3, -0.1e-3, -0.8e-3}};
     for (const CellType type : all_types) {
         for (const Plane plane : {Plane::strain, Plane::stress}) {
@@ -254,10 +253,9 @@ START_TEST(patch_test) {
         }
     }
 }
-END_TEST
 
 // u_x = x y (z): not a linear field, but these elements represent it on a box; its energy is computed by hand.
-START_TEST(energy_of_a_product_field) {
+TEST(energy_of_a_product_field) {
     const double a = 1.7;
     const double b = 0.6;
     const double c = 2.3;
@@ -277,9 +275,8 @@ START_TEST(energy_of_a_product_field) {
         (d[0] * a * std::pow(b * c, 3) + d[21] * b * std::pow(a * c, 3) + d[21] * c * std::pow(a * b, 3)) / 18.0;
     ck_assert(std::abs(0.5 * u * u * k[18 * 24 + 18] - exact) <= 1e-14 * exact);
 }
-END_TEST
 
-START_TEST(kernel_and_symmetry) {
+TEST(kernel_and_symmetry) {
     for (const CellType type : all_types) {
         const Mesh mesh = distorted_block(type, 0.0, 1.0);
         const SparseMatrix k = whole_stiffness(mesh, Plane::strain);
@@ -306,10 +303,9 @@ START_TEST(kernel_and_symmetry) {
         }
     }
 }
-END_TEST
 
 // A single cell has only rigid motions without energy: full quadrature has no hourglass modes.
-START_TEST(single_cells) {
+TEST(single_cells) {
     for (const CellType type : all_types) {
         const Mesh mesh = distorted_block(type, 0.0, 1.0);
         const auto cell = mesh.cell(1);
@@ -323,9 +319,8 @@ START_TEST(single_cells) {
         ck_assert(values[kernel] >= 1e-3 * values.back());
     }
 }
-END_TEST
 
-START_TEST(rigid_modes_are_orthonormal) {
+TEST(rigid_modes_are_orthonormal) {
     for (const CellType type : all_types) {
         for (const double offset : {0.0, 1e4}) {
             for (const double unit : {1.0, 0x1p-20, 0x1p+20}) {
@@ -367,10 +362,9 @@ START_TEST(rigid_modes_are_orthonormal) {
     const Mesh flat(2, std::span(line).first(8));
     ck_assert_uint_eq(rigid_modes(flat, two).size(), 4 * 3);
 }
-END_TEST
 
 // With more cells than a batch and threads that share it, no bit changes.
-START_TEST(assembly_by_threads) {
+TEST(assembly_by_threads) {
     for (const CellType type : all_types) {
         const int dim = dimension_of(type);
         const std::array<double, 2> lengths{1.3, 0.9};
@@ -396,10 +390,9 @@ START_TEST(assembly_by_threads) {
         }
     }
 }
-END_TEST
 
 // The stiffnesses of parts of a body sum to that of the body.
-START_TEST(assembly_of_parts) {
+TEST(assembly_of_parts) {
     for (const CellType type : all_types) {
         const Mesh mesh = distorted_block(type, 0.0, 1.0);
         const SparseMatrix whole = whole_stiffness(mesh, Plane::strain);
@@ -429,9 +422,8 @@ START_TEST(assembly_of_parts) {
         for (std::size_t e = 0; e < n * n; ++e) ck_assert(std::abs(sum[e] - full[e]) <= 1e-14 * size);
     }
 }
-END_TEST
 
-START_TEST(jacobian_sign) {
+TEST(jacobian_sign) {
     const double square[] = {0, 0, 1, 0, 1, 1, 0, 1};
     ck_assert(std::abs(smallest_jacobian(CellType::quad4, square) - 0.25) <= 1e-15);
     const double bow_tie[] = {0, 0, 1, 0, 0, 1, 1, 1};
@@ -443,9 +435,8 @@ START_TEST(jacobian_sign) {
     const double corner[] = {5, 5, 5, 6, 5, 5, 5, 6, 5, 5, 5, 6};
     ck_assert(std::abs(smallest_jacobian(CellType::tet4, corner) - 1.0) <= 1e-14);
 }
-END_TEST
 
-START_TEST(triplets) {
+TEST(triplets) {
     std::mt19937 random(3);
     std::uniform_int_distribution<std::int64_t> row(0, 12);
     std::uniform_int_distribution<std::int64_t> column(0, 8);
@@ -484,9 +475,8 @@ START_TEST(triplets) {
     }
     ck_assert(refused);
 }
-END_TEST
 
-START_TEST(bad_materials) {
+TEST(bad_materials) {
     for (const Elastic bad : {Elastic{0.0, 0.3}, Elastic{-1.0, 0.3}, Elastic{1.0, 0.5}, Elastic{1.0, -1.0},
                               Elastic{std::nan(""), 0.3}, Elastic{1.0, std::nan("")}}) {
         bool refused = false;
@@ -497,27 +487,4 @@ START_TEST(bad_materials) {
         }
         ck_assert(refused);
     }
-}
-END_TEST
-
-int main() {
-    Suite* suite = suite_create("body");
-    TCase* cases = tcase_create("body");
-    tcase_set_timeout(cases, 120);
-    tcase_add_test(cases, patch_test);
-    tcase_add_test(cases, energy_of_a_product_field);
-    tcase_add_test(cases, kernel_and_symmetry);
-    tcase_add_test(cases, single_cells);
-    tcase_add_test(cases, rigid_modes_are_orthonormal);
-    tcase_add_test(cases, assembly_by_threads);
-    tcase_add_test(cases, assembly_of_parts);
-    tcase_add_test(cases, jacobian_sign);
-    tcase_add_test(cases, triplets);
-    tcase_add_test(cases, bad_materials);
-    suite_add_tcase(suite, cases);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }

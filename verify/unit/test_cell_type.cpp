@@ -10,14 +10,14 @@
 
 #include "base/error.hpp"
 #include "body/element.hpp"
+#include "check.hpp"
 #include "delam/delam.h"
 #include "mesh/cell_type.hpp"
 #include "mesh/faces.hpp"
 #include "mesh/layers.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/shape.hpp"
-
-#include <check.h>  // last: it has a macro named fail
+#include "refused.hpp"
 
 using namespace delam;
 
@@ -27,14 +27,7 @@ constexpr auto last = static_cast<std::int32_t>(cell_rows.size());
 constexpr CellType unknown_types[] = {CellType{0}, CellType{last + 1}, CellType{-1}, CellType{1 << 30}};
 
 void expect_refusal(std::int32_t status, const std::string& part, const std::function<void()>& action) {
-    try {
-        action();
-    } catch (const Error& e) {
-        ck_assert_msg(e.status() == status && std::string(e.what()).find(part) != std::string::npos,
-                      "status %d, \"%s\" lacks \"%s\"", e.status(), e.what(), part.c_str());
-        return;
-    }
-    ck_abort_msg("\"%s\" was not refused", part.c_str());
+    ck_assert_refused(status, part, action());
 }
 
 // The reference cell as a mesh of one cell.
@@ -51,7 +44,7 @@ Mesh reference_mesh(const CellRow& row) {
 }
 
 // All faces are there, their areas point out of the cell and close it.
-START_TEST(faces_close_the_cell) {
+TEST(faces_close_the_cell) {
     for (const CellRow& row : cell_rows) {
         const Mesh mesh = reference_mesh(row);
         const std::vector<BoundaryFace> faces = boundary_faces(mesh, 0);
@@ -70,10 +63,9 @@ START_TEST(faces_close_the_cell) {
         for (const double component : sum) ck_assert_double_eq_tol(component, 0.0, 1e-14);
     }
 }
-END_TEST
 
 // Triangle and tetrahedron 1/2 and 1/6, square and cube 4 and 8; no node twice.
-START_TEST(quadrature_measures_the_cell) {
+TEST(quadrature_measures_the_cell) {
     for (const CellRow& row : cell_rows) {
         const bool plane = row.topology.dimension == 2;
         const double exact = row.simplex() ? (plane ? 0.5 : 1.0 / 6.0) : (plane ? 4.0 : 8.0);
@@ -86,10 +78,9 @@ START_TEST(quadrature_measures_the_cell) {
         ck_assert(std::adjacent_find(places.begin(), places.end()) == places.end());
     }
 }
-END_TEST
 
 // N_a is 1 at node a and 0 at the others.
-START_TEST(shape_functions_interpolate) {
+TEST(shape_functions_interpolate) {
     for (const CellRow& row : cell_rows) {
         const auto nodes = reference_nodes(row.type);
         for (std::size_t b = 0; b < nodes.size(); ++b) {
@@ -100,10 +91,9 @@ START_TEST(shape_functions_interpolate) {
         }
     }
 }
-END_TEST
 
 // Nodes inside faces and cells are of complete interpolations alone.
-START_TEST(interpolation_fits_the_nodes) {
+TEST(interpolation_fits_the_nodes) {
     for (const CellRow& row : cell_rows) {
         const auto nodes = reference_nodes(row.type);
         const auto inside = std::count_if(nodes.begin(), nodes.end(), [&](const ReferencePoint& p) {
@@ -114,9 +104,8 @@ START_TEST(interpolation_fits_the_nodes) {
                       row.topology.name);
     }
 }
-END_TEST
 
-START_TEST(unknown_types_are_refused) {
+TEST(unknown_types_are_refused) {
     const std::string part =
         ": must be 1 (tri3) .. " + std::to_string(last) + " (" + cell_rows.back().topology.name + ")";
     std::vector<double> room(3600);
@@ -146,9 +135,8 @@ START_TEST(unknown_types_are_refused) {
         ck_assert_int_eq(mesh.cell_count(), 0);
     }
 }
-END_TEST
 
-START_TEST(unknown_faces_are_refused) {
+TEST(unknown_faces_are_refused) {
     for (const int dimension : {2, 3})
         for (std::size_t nodes = 0; nodes < 12; ++nodes) {
             const auto used = [&](const CellRow& row) {
@@ -166,23 +154,5 @@ START_TEST(unknown_faces_are_refused) {
     ck_assert_str_eq(plane.c_str(), "2 or 3");
     ck_assert_str_eq(space.c_str(), "3, 4, 6 or 8");
 }
-END_TEST
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("cell types");
-    TCase* tests = tcase_create("rows");
-    tcase_add_test(tests, faces_close_the_cell);
-    tcase_add_test(tests, quadrature_measures_the_cell);
-    tcase_add_test(tests, shape_functions_interpolate);
-    tcase_add_test(tests, interpolation_fits_the_nodes);
-    tcase_add_test(tests, unknown_types_are_refused);
-    tcase_add_test(tests, unknown_faces_are_refused);
-    suite_add_tcase(suite, tests);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? 0 : 1;
-}

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "check.hpp"
 #include "counting_allocator.hpp"
 #include "delam/delam.h"
 #include "evolution/analysis/solver.hpp"
@@ -19,9 +20,7 @@
 #include "reduction/choice/choose.hpp"
 #include "reduction/condensed/bulk.hpp"
 #include "reduction/sparse/iterated/iterated.hpp"
-
-// Last: its macro fail() would break delam::fail().
-#include <check.h>
+#include "refused.hpp"
 
 using namespace delam;
 
@@ -82,22 +81,22 @@ void expect_within(double predicted, double counted, double factor, const std::s
 }  // namespace
 
 // loop: scene and realisation.
-START_TEST(memory_is_what_was_predicted) {
+LOOP_TEST(memory_is_what_was_predicted, 0, 9) {
     if (!unit::counting) return;
-    unit::Flexure flexure = scene(_i % 3);
-    if (_i == 3 || _i == 4 || _i == 6 || _i == 7) flexure.along /= 2;  // Krylov steps take long
+    unit::Flexure flexure = scene(loop % 3);
+    if (loop == 3 || loop == 4 || loop == 6 || loop == 7) flexure.along /= 2;  // Krylov steps take long
     Problem problem = unit::make_flexure(flexure);
     constexpr const char* ways[] = {"condensed", "feti", "iterated"};
-    problem.options.reduction = ways[_i / 3];
+    problem.options.reduction = ways[loop / 3];
     double predicted = 0.0, unknowns = 0.0;
     const double counted = counted_march(problem, predicted, unknowns);
-    expect_within(predicted, counted, 1.5, "bytes, scene " + std::to_string(_i % 3) + ", " + problem.options.reduction);
+    expect_within(predicted, counted, 1.5,
+                  "bytes, scene " + std::to_string(loop % 3) + ", " + problem.options.reduction);
 }
-END_TEST
 
 // Fill of a symbolic analysis by its definition, from the column counts of a banded matrix: CHOLMOD reports sums of
 // their squares as flops.
-START_TEST(operations_of_the_sparse_factor_are_exact) {
+TEST(operations_of_the_sparse_factor_are_exact) {
     constexpr std::int64_t n = 200, band = 7;
     std::vector<Triplet> triplets;
     for (std::int64_t i = 0; i < n; ++i)
@@ -114,17 +113,16 @@ START_TEST(operations_of_the_sparse_factor_are_exact) {
     ck_assert(factor.size().entries == entries);
     ck_assert(factor.size().flops == flops);
 }
-END_TEST
 
 // The structure with all springs, ordered freely, as a monolithic code would factor it.
-START_TEST(monolithic_factor_is_what_was_predicted) {
-    const Problem problem = unit::make_flexure(scene(_i));
+LOOP_TEST(monolithic_factor_is_what_was_predicted, 0, 5) {
+    const Problem problem = unit::make_flexure(scene(loop));
     Monitor monitor;
     const Bulk bulk(problem, monitor);
     const SparseCholesky free_order(bulk.transformed());
     expect_within(predict_monolithic_entries(bulk), free_order.size().entries, 1.5,
-                  "entries of the monolithic factor, scene " + std::to_string(_i));
-    if (!unit::counting || _i > 2) return;
+                  "entries of the monolithic factor, scene " + std::to_string(loop));
+    if (!unit::counting || loop > 2) return;
     SparseMatrix matrix = bulk.transformed();
     for (std::int64_t r = 0; r < matrix.rows; ++r)
         for (std::int64_t e = matrix.start[static_cast<std::size_t>(r)];
@@ -136,11 +134,10 @@ START_TEST(monolithic_factor_is_what_was_predicted) {
     ck_assert(factor.factorise(matrix));
     const double own = 16.0 * static_cast<double>(matrix.entries());
     expect_within(predict_monolithic_bytes(bulk), own + static_cast<double>(unit::peak_bytes - before), 1.5,
-                  "bytes of the monolithic factorisation, scene " + std::to_string(_i));
+                  "bytes of the monolithic factorisation, scene " + std::to_string(loop));
 }
-END_TEST
 
-START_TEST(options_force_and_say_so) {
+TEST(options_force_and_say_so) {
     Monitor monitor;
     Problem problem = unit::make_flexure({});
     {
@@ -164,20 +161,18 @@ START_TEST(options_force_and_say_so) {
     ck_assert(solver.reduction().realisation == Realisation::iterated && solver.reduction().forced);
     ck_assert(solver.reduction().iteration.longest > 0.0 && solver.reduction().iteration.bytes > 0.0);
 }
-END_TEST
 
 // The prediction from the condensed operator's analysis agrees with the iterated operator.
-START_TEST(iterated_size_is_what_was_predicted) {
-    const Problem problem = unit::make_flexure(scene(_i));
+LOOP_TEST(iterated_size_is_what_was_predicted, 0, 5) {
+    const Problem problem = unit::make_flexure(scene(loop));
     Monitor monitor;
     const IteratedSize before = iterated_size(Bulk(problem, monitor)), after = Iterated(problem, monitor).size();
-    const std::string where = ", scene " + std::to_string(_i);
+    const std::string where = ", scene " + std::to_string(loop);
     ck_assert(before.variables == after.variables && before.stiffness == after.stiffness);
     expect_within(before.transformed, after.transformed, 1.01, "entries of the matrix" + where);
     expect_within(before.stored, after.stored, 1.5, "numbers of the factor" + where);
     expect_within(predict_iterated(before).analysis(), predict_iterated(after).analysis(), 1.5, "operations" + where);
 }
-END_TEST
 
 void note_stage(std::vector<std::string>& stages, Monitor& monitor) {
     monitor.progress_user = &stages;
@@ -189,22 +184,16 @@ void note_stage(std::vector<std::string>& stages, Monitor& monitor) {
 
 // The message with which a solver is refused, "": it is not.
 std::string refused(const Problem& problem, Monitor& monitor) {
-    try {
-        const Solver solver(problem, monitor, 0.0);
-    } catch (const Error& e) {
-        ck_assert_int_eq(e.status(), DELAM_ERROR_MEMORY);
-        return e.what();
-    }
-    return {};
+    return unit::refusal(DELAM_ERROR_MEMORY, [&] { const Solver solver(problem, monitor, 0.0); });
 }
 
 constexpr double gibibyte = 1073741824.0;
 
 // loop: realisation
-START_TEST(what_does_not_fit_is_refused_before_it_is_factored) {
-    Problem problem = unit::make_flexure(scene(_i == 2 ? 0 : _i + 1));
+LOOP_TEST(what_does_not_fit_is_refused_before_it_is_factored, 0, 3) {
+    Problem problem = unit::make_flexure(scene(loop == 2 ? 0 : loop + 1));
     constexpr const char* ways[] = {"condensed", "iterated", "feti"};
-    problem.options.reduction = ways[_i];
+    problem.options.reduction = ways[loop];
     std::vector<std::string> stages;
     Monitor monitor;
     note_stage(stages, monitor);
@@ -217,19 +206,18 @@ START_TEST(what_does_not_fit_is_refused_before_it_is_factored) {
         ck_assert_msg(words.find(part) != std::string::npos, "%s", words.c_str());
     for (const char* stage : {"factor", "condense", "subdomain"}) ck_assert(std::ranges::count(stages, stage) == 0);
     // Another realisation that was predicted and fits is named: six layers have many jumps.
-    ck_assert((words.find("use reduction = iterated") != std::string::npos) == (_i == 0));
+    ck_assert((words.find("use reduction = iterated") != std::string::npos) == (loop == 0));
     problem.options.memory_limit = 1.01 * least / gibibyte;
     ck_assert(refused(problem, monitor).empty());
-    if (_i == 2) return;
+    if (loop == 2) return;
     // Not even the matrices fit: refused before they are assembled.
     problem.options.memory_limit = 1e-4;
     stages.clear();
     ck_assert(refused(problem, monitor).find("stiffness of the bodies") != std::string::npos);
     ck_assert(std::ranges::count(stages, "assemble") == 0);
 }
-END_TEST
 
-START_TEST(auto_takes_what_fits) {
+TEST(auto_takes_what_fits) {
     Problem problem = unit::make_flexure(scene(1));
     Monitor monitor;
     ReductionChoice free = design_operator(problem, monitor).choice;
@@ -244,10 +232,9 @@ START_TEST(auto_takes_what_fits) {
     choose(free);
     ck_assert(free.condensed());
 }
-END_TEST
 
 // FETI is taken where its subdomains alone fit, and only there.
-START_TEST(auto_takes_feti_where_nothing_else_fits) {
+TEST(auto_takes_feti_where_nothing_else_fits) {
     Monitor monitor;
     const ReductionChoice free = design_operator(unit::make_flexure(scene(4)), monitor).choice;
     ck_assert(free.realisation != Realisation::feti);
@@ -279,9 +266,8 @@ START_TEST(auto_takes_feti_where_nothing_else_fits) {
     ck_assert(bound.op == nullptr && bound.bulk == nullptr &&
               bound.choice.reason.find("option memory_limit") != std::string::npos);
 }
-END_TEST
 
-START_TEST(limits_of_the_process_are_seen) {
+TEST(limits_of_the_process_are_seen) {
     const MemoryLimit machine = memory_limit();
     ck_assert(machine.bytes > 1e8 && !machine.what.empty());
     if (!unit::counting) return;  // sanitizers map more than there is
@@ -294,10 +280,9 @@ START_TEST(limits_of_the_process_are_seen) {
     ck_assert_int_eq(setrlimit(RLIMIT_AS, &before), 0);
     ck_assert(limited.bytes == std::floor(planted) && limited.what.find("address space") != std::string::npos);
 }
-END_TEST
 
 // METIS took 3.3 s for a million displacements.
-START_TEST(waits_for_orderings_are_predicted) {
+TEST(waits_for_orderings_are_predicted) {
     IteratedSize size;
     size.variables = 1.05e6;
     const double ordering = predict_iterated(size).ordering / nominal_rate;
@@ -310,9 +295,8 @@ START_TEST(waits_for_orderings_are_predicted) {
         ordering * nominal_rate * static_cast<double>(bulk.superelements().largest_inside()) / 1.05e6;
     ck_assert(std::abs(predict_condensed(bulk).ordering - expected) < 1e-9 * expected);
 }
-END_TEST
 
-START_TEST(size_memory_and_time_decide) {
+TEST(size_memory_and_time_decide) {
     ReductionChoice c;
     const auto iterated = [&] { return c.realisation == Realisation::iterated; };
     c.condensation = {1e9, 1e9, 1e8, 1e10};
@@ -338,29 +322,4 @@ START_TEST(size_memory_and_time_decide) {
     c.iteration.step = 1e12;
     choose(c);
     ck_assert(iterated() && c.reason.find("46340") != std::string::npos);
-}
-END_TEST
-
-int main() {
-    Suite* suite = suite_create("choose");
-    TCase* figures = tcase_create("predictions");
-    tcase_add_loop_test(figures, memory_is_what_was_predicted, 0, 9);
-    tcase_add_test(figures, operations_of_the_sparse_factor_are_exact);
-    tcase_add_loop_test(figures, monolithic_factor_is_what_was_predicted, 0, 5);
-    tcase_add_loop_test(figures, iterated_size_is_what_was_predicted, 0, 5);
-    suite_add_tcase(suite, figures);
-    TCase* choice = tcase_create("choice");
-    tcase_add_test(choice, options_force_and_say_so);
-    tcase_add_test(choice, size_memory_and_time_decide);
-    tcase_add_loop_test(choice, what_does_not_fit_is_refused_before_it_is_factored, 0, 3);
-    tcase_add_test(choice, auto_takes_what_fits);
-    tcase_add_test(choice, auto_takes_feti_where_nothing_else_fits);
-    tcase_add_test(choice, waits_for_orderings_are_predicted);
-    tcase_add_test(choice, limits_of_the_process_are_seen);
-    suite_add_tcase(suite, choice);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? 0 : 1;
 }

@@ -8,13 +8,11 @@
 #include <vector>
 
 #include "base/monitor.hpp"
+#include "check.hpp"
 #include "mesh/layers.hpp"
 #include "reduction/condensed/condensed.hpp"
 #include "same_bits.hpp"
 #include "scene/problem.hpp"
-
-// Last: its macro fail() would break delam::fail().
-#include <check.h>
 
 using namespace delam;
 
@@ -83,7 +81,7 @@ void solve_alike(const Problem& problem, Condensed& one, Condensed& other) {
 }  // namespace
 
 // A search works only in the zone, often for several steps, before it solves for the whole.
-START_TEST(zone_before_a_solve) {
+TEST(zone_before_a_solve) {
     Operators all;
     const auto one = all.fresh(), other = all.fresh();
     one->zone(springs(all.problem(), 2), rows_of_pairs(all.problem(), 0, 4), false);
@@ -91,10 +89,9 @@ START_TEST(zone_before_a_solve) {
     ck_assert(same_bits(one->memory(), other->memory()));
     solve_alike(all.problem(), *one, *other);
 }
-END_TEST
 
 // Negative zero equals zero; it must not survive in an operator that restores a memory with positive zero.
-START_TEST(zeros_with_a_sign) {
+TEST(zeros_with_a_sign) {
     Operators all;
     const auto one = all.fresh(), other = all.fresh();
     const std::vector<double> theta{1.0};
@@ -114,10 +111,9 @@ START_TEST(zeros_with_a_sign) {
     other->recall(memory);
     solve_alike(all.problem(), *one, *other);
 }
-END_TEST
 
 // Also after zones with another history, and after a discarded one.
-START_TEST(another_past) {
+TEST(another_past) {
     Operators all;
     const auto one = all.fresh(), other = all.fresh();
     const std::vector<double> theta{1.0};
@@ -133,11 +129,10 @@ START_TEST(another_past) {
     other->recall(memory);
     solve_alike(all.problem(), *one, *other);
 }
-END_TEST
 
 // A search for contact announces the rows that may change. Its zone has other digits, but it is no other system, and
 // nothing of it is left for the time after.
-START_TEST(expected_changes) {
+TEST(expected_changes) {
     Operators all;
     const auto one = all.fresh(), other = all.fresh();
     const std::vector<double> theta{1.0};
@@ -163,20 +158,4 @@ START_TEST(expected_changes) {
     one->expect_changes({});
     other->recall(one->memory());
     solve_alike(all.problem(), *one, *other);
-}
-END_TEST
-
-int main() {
-    Suite* suite = suite_create("condensed memory");
-    TCase* tests = tcase_create("bits");
-    tcase_add_test(tests, zone_before_a_solve);
-    tcase_add_test(tests, zeros_with_a_sign);
-    tcase_add_test(tests, another_past);
-    tcase_add_test(tests, expected_changes);
-    suite_add_tcase(suite, tests);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? 0 : 1;
 }

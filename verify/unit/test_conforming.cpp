@@ -13,12 +13,12 @@
 
 #include "all_types.hpp"
 #include "base/error.hpp"
+#include "check.hpp"
 #include "delam/delam.h"
 #include "mesh/faces.hpp"
 #include "mesh/layers.hpp"
 #include "mesh/mesh.hpp"
-
-#include "quiet_check.hpp"  // last: it has a macro named fail
+#include "refused.hpp"
 
 using namespace delam;
 
@@ -28,22 +28,6 @@ using Labels = std::vector<std::int32_t>;
 using Indices = std::vector<std::int64_t>;
 using Numbers = std::vector<double>;
 using Place = std::array<double, 3>;
-
-// Message of the error in which an action ends; empty if there is none.
-std::string refusal(std::int32_t status, const std::function<void()>& action) {
-    try {
-        action();
-    } catch (const Error& e) {
-        ck_assert_msg(e.status() == status, "status %d: %s", e.status(), e.what());
-        return e.what();
-    }
-    return "";
-}
-#define ck_assert_refused(status, part, action)                                                         \
-    do {                                                                                                \
-        const std::string said = refusal(status, [&] { action; });                                      \
-        ck_assert_msg(said.find(part) != std::string::npos, "\"%s\" lacks \"%s\"", said.c_str(), part); \
-    } while (0)
 
 // The unit square or cube as a mesher would write it: shared nodes, cells with the label of the box in which they lie.
 struct Written {
@@ -178,7 +162,7 @@ std::vector<LabelOf> layouts(int dim, std::int64_t n) {
     return list;
 }
 
-START_TEST(bodies_that_meet) {
+TEST(bodies_that_meet) {
     for (const CellType type : all_types) {
         for (const LabelOf& label_of : layouts(topology(type).dimension, 4)) {
             const Written w = written(type, 4, label_of);
@@ -188,10 +172,9 @@ START_TEST(bodies_that_meet) {
         }
     }
 }
-END_TEST
 
 // On the line where the three bodies of a T meet, each two of them have a pair, and the areas are those of the blocks.
-START_TEST(triple_junction) {
+TEST(triple_junction) {
     for (const CellType type : all_types) {
         const int dim = topology(type).dimension;
         Mesh mesh = written(type, 4, [&](const auto& box) { return tee(box, 4, dim); }).doubled();
@@ -212,10 +195,9 @@ START_TEST(triple_junction) {
         ck_assert_uint_eq(at_junction, 3 * line);
     }
 }
-END_TEST
 
 // Bodies inside another body, with one label and several pieces.
-START_TEST(surrounded_pieces) {
+TEST(surrounded_pieces) {
     for (const CellType type : {CellType::tri6, CellType::quad4, CellType::hex8, CellType::tet10}) {
         const int dim = topology(type).dimension;
         const Written w = written(type, 9, [&](const auto& box) { return fibres(box, dim); });
@@ -237,10 +219,9 @@ START_TEST(surrounded_pieces) {
         }
     }
 }
-END_TEST
 
 // Cells added in several calls, also of other types, and a body whose cells come before and after those of another.
-START_TEST(several_calls) {
+TEST(several_calls) {
     for (const CellType type : all_types) {
         const Written w = written(type, 4, [](const auto& box) { return static_cast<std::int32_t>(box[0] % 2); });
         Mesh mesh = w.empty();
@@ -268,10 +249,9 @@ START_TEST(several_calls) {
     ck_assert_int_eq(mesh.add_all_interfaces(0.0), 2);
     for (const InterfaceGeometry& i : mesh.interfaces()) ck_assert_int_eq(i.face_count(), 2);
 }
-END_TEST
 
 // Refused cells leave everything unchanged: what follows gives the same mesh as without them.
-START_TEST(refused_cells) {
+TEST(refused_cells) {
     for (const CellType type : all_types) {
         const Written w = written(type, 2, [](const auto& box) { return static_cast<std::int32_t>(box[0]); });
         Mesh mesh = w.empty();
@@ -307,11 +287,10 @@ START_TEST(refused_cells) {
         ck_assert_refused(DELAM_ERROR_MESH, "belongs to bodies", plain.add_cells(type, w.cells, w.labels));
     }
 }
-END_TEST
 
 // Each two bodies get the interface that they would get alone; existing interfaces are skipped; thousands are no
 // problem.
-START_TEST(all_interfaces) {
+TEST(all_interfaces) {
     for (const CellType type : all_types) {
         const Written w = written(type, 4, [&](const auto& box) { return octants(box, 4); });
         Mesh all = w.doubled();
@@ -338,10 +317,9 @@ START_TEST(all_interfaces) {
     for (const double bad : {-0.1, 0.5, std::nan("")})
         ck_assert_refused(DELAM_ERROR_ARGUMENT, "[0, 0.5)", apart.add_all_interfaces(bad));
 }
-END_TEST
 
 // Two cells on top of one, beside bodies that match: refused as a whole.
-START_TEST(unmatched_among_matched) {
+TEST(unmatched_among_matched) {
     Mesh mesh(2, Numbers{0, 0, 1, 0, 1, 1, 0, 1, 2, 0, 2, 1, 0, 1, 1, 1, 1, 2, 0, 2, 0.5, 1, 0.5, 2});
     mesh.add_conforming_cells(CellType::quad4, Indices{0, 1, 2, 3, 1, 4, 5, 2, 6, 10, 11, 9, 10, 7, 8, 11},
                               Labels{0, 1, 2, 2});
@@ -349,24 +327,5 @@ START_TEST(unmatched_among_matched) {
     ck_assert_uint_eq(mesh.interfaces().size(), 0);
     ck_assert_int_eq(mesh.add_interface(0, 1, 0.0), 0);
 }
-END_TEST
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("conforming");
-    TCase* tests = tcase_create("meshes");
-    tcase_add_test(tests, bodies_that_meet);
-    tcase_add_test(tests, triple_junction);
-    tcase_add_test(tests, surrounded_pieces);
-    tcase_add_test(tests, several_calls);
-    tcase_add_test(tests, refused_cells);
-    tcase_add_test(tests, all_interfaces);
-    tcase_add_test(tests, unmatched_among_matched);
-    suite_add_tcase(suite, tests);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? 0 : 1;
-}

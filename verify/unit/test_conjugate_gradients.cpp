@@ -2,15 +2,13 @@
 // The iteration against a solution in closed form: how often it asks its preconditioner, that it finds out a recursion
 // that drifts away from the true residual, that it stops at what rounding leaves, and that it recognises negative
 // curvature.
+#include "check.hpp"
 #include "reduction/sparse/iterated/conjugate_gradients.hpp"
 
 #include <cmath>
 #include <vector>
 
 #include "linalg/dense/dense.hpp"
-
-// Last: its macro fail() would break delam::fail().
-#include "quiet_check.hpp"
 
 using namespace delam;
 
@@ -72,7 +70,7 @@ struct Diagonal {
 }  // namespace
 
 // Six different eigenvalues: six iterations, and one preconditioned residual more.
-START_TEST(a_confirmed_recursion_is_not_preconditioned_again) {
+TEST(a_confirmed_recursion_is_not_preconditioned_again) {
     Diagonal s;
     s.cg.rounded = 1e-15;
     std::vector<double> x(s.a.size(), 0.0);
@@ -82,10 +80,9 @@ START_TEST(a_confirmed_recursion_is_not_preconditioned_again) {
     ck_assert_int_eq(s.preconditioned, 7);
     ck_assert_double_le(s.off(x), 1e-11);
 }
-END_TEST
 
 // A state that hardly changes keeps its size; one that begins at rest has none before its end.
-START_TEST(the_size_is_found_once_where_it_stays) {
+TEST(the_size_is_found_once_where_it_stays) {
     Diagonal s;
     s.cg.rounded = 1e-15;
     std::vector<double> x(s.a.size(), 0.0);
@@ -98,9 +95,8 @@ START_TEST(the_size_is_found_once_where_it_stays) {
     ck_assert_int_eq(s.sizes, 1);
     ck_assert_double_le(s.off(x), 1e-11);
 }
-END_TEST
 
-START_TEST(a_recursion_that_drifts_is_found_out) {
+TEST(a_recursion_that_drifts_is_found_out) {
     Diagonal s;
     s.noise = 1e-6;
     s.cg.rounded = 1e-15;
@@ -109,11 +105,10 @@ START_TEST(a_recursion_that_drifts_is_found_out) {
     ck_assert(outcome.converged);
     ck_assert_double_le(s.off(x), 1e-11);
 }
-END_TEST
 
 // A tolerance that rounding does not allow: the answer is as good as it can be, and nothing is spent on more, neither
 // where the level of rounding is known nor where it has to be estimated first.
-START_TEST(stops_at_rounding) {
+TEST(stops_at_rounding) {
     for (const double known : {1e-13, 0.0}) {
         Diagonal s;
         s.cg.rounding = [&s](std::span<const double> x) { return 1e-13 * s.size(x); };
@@ -128,11 +123,10 @@ START_TEST(stops_at_rounding) {
         ck_assert_int_eq(conjugate_gradients(s.cg, x, 1e-30, 100).iterations, 0);
     }
 }
-END_TEST
 
 // A residual that may stay: the iteration ends there, and its true residual is no larger. Less than the tolerance
 // allows is no reason to go on.
-START_TEST(ends_where_it_is_enough) {
+TEST(ends_where_it_is_enough) {
     std::int64_t before = 100;
     for (const double part : {0.0, 0.03, 0.3}) {
         Diagonal s;
@@ -153,29 +147,10 @@ START_TEST(ends_where_it_is_enough) {
     std::vector<double> x(s.a.size(), 0.0);
     ck_assert_double_le(conjugate_gradients(s.cg, x, 1e-3, 100).residual, 1e-3);
 }
-END_TEST
 
-START_TEST(negative_curvature_is_recognised) {
+TEST(negative_curvature_is_recognised) {
     Diagonal s;
     s.a[3] = -1.0;
     std::vector<double> x(s.a.size(), 0.0);
     ck_assert(!conjugate_gradients(s.cg, x, 1e-12, 100).definite);
-}
-END_TEST
-
-int main() {
-    Suite* suite = suite_create("conjugate_gradients");
-    TCase* tests = tcase_create("conjugate gradients");
-    tcase_add_test(tests, a_confirmed_recursion_is_not_preconditioned_again);
-    tcase_add_test(tests, the_size_is_found_once_where_it_stays);
-    tcase_add_test(tests, a_recursion_that_drifts_is_found_out);
-    tcase_add_test(tests, stops_at_rounding);
-    tcase_add_test(tests, ends_where_it_is_enough);
-    tcase_add_test(tests, negative_curvature_is_recognised);
-    suite_add_tcase(suite, tests);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? 0 : 1;
 }

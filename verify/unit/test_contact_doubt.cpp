@@ -6,12 +6,10 @@
 #include <vector>
 
 #include "base/numbers.hpp"
+#include "check.hpp"
 #include "evolution/contact/zone_system.hpp"
 #include "linalg/dense/dense.hpp"
 #include "reduction/dense/dense_zone.hpp"
-
-// Last: its macro fail() would break delam::fail().
-#include "quiet_check.hpp"
 
 using namespace delam;
 
@@ -71,8 +69,8 @@ Found find(const Case& c, double allowed) {
 
 }  // namespace
 
-START_TEST(energies_lie_within_the_bounds) {
-    std::mt19937 random(static_cast<unsigned>(_i));
+LOOP_TEST(energies_lie_within_the_bounds, 0, 8) {
+    std::mt19937 random(static_cast<unsigned>(loop));
     std::int64_t undecided = 0, saved = 0;
     for (int k = 0; k < 50; ++k) {
         const Case c = make_case(random);
@@ -90,17 +88,4 @@ START_TEST(energies_lie_within_the_bounds) {
     }
     ck_assert(undecided > 10);
     ck_assert(saved > 10);
-}
-END_TEST
-
-int main() {
-    Suite* suite = suite_create("contact_doubt");
-    TCase* tests = tcase_create("energies");
-    tcase_add_loop_test(tests, energies_lie_within_the_bounds, 0, 8);
-    suite_add_tcase(suite, tests);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -4,10 +4,9 @@
 #include <cmath>
 #include <functional>
 
+#include "check.hpp"
 #include "evolution/observe/crack_front.hpp"
 #include "mesh/layers.hpp"
-
-#include <check.h>  // last: it has a macro named fail
 
 using namespace delam;
 
@@ -62,8 +61,8 @@ double none(double, double) { return 0.0; }
 }  // namespace
 
 // A notch at the left end, a crack inside, one from the right end; 20 cells of length 1/2, linear and quadratic ones.
-START_TEST(fronts_on_a_line) {
-    Bed bed = Bed::layers({10.0}, {_i == 0 ? 20 : 10}, _i == 0 ? CellType::quad4 : CellType::quad8);
+LOOP_TEST(fronts_on_a_line, 0, 2) {
+    Bed bed = Bed::layers({10.0}, {loop == 0 ? 20 : 10}, loop == 0 ? CellType::quad4 : CellType::quad8);
     bed.set(bed.initial, [](double x, double) { return x < 1.9 ? 0.0 : 1.0; });
     ck_assert_uint_eq((bed.adhesion = bed.initial, bed.fronts().size()), 1);
     near(bed.fronts()[0].points[0].place[0], 2.0);
@@ -82,7 +81,7 @@ START_TEST(fronts_on_a_line) {
     for (std::size_t f = 0; f < 4; ++f) near(fronts[f].points[0].direction[0], direction[f]);
     near(fronts[1].points[0].length, fronts[2].points[0].length);
     near(0.5 * (fronts[1].points[0].place[0] + fronts[2].points[0].place[0]), 5.5);
-    if (_i == 0) {
+    if (loop == 0) {
         near(fronts[0].points[0].length, 2.0 + spent[0]);
         near(fronts[1].points[0].length, spent[1]);
         near(fronts[3].points[0].length, spent[2]);
@@ -95,12 +94,11 @@ START_TEST(fronts_on_a_line) {
     ck_assert_uint_eq(bed.fronts().size(), 0);
     near(crack_length(bed.interface()), 10.0);
 }
-END_TEST
 
 // With constant jumps int Y dzeta/dx dx = Y, however the adhesion varies; a patch of lower initial adhesion ahead adds
 // nothing.
-START_TEST(rates_on_a_line) {
-    Bed bed = Bed::layers({10.0}, {_i == 0 ? 20 : 10}, _i == 0 ? CellType::quad4 : CellType::quad8);
+LOOP_TEST(rates_on_a_line, 0, 2) {
+    Bed bed = Bed::layers({10.0}, {loop == 0 ? 20 : 10}, loop == 0 ? CellType::quad4 : CellType::quad8);
     bed.set(bed.initial, [](double x, double) { return x < 1.9 ? 0.0 : x > 7.9 ? 0.4 : 1.0; });
     bed.set(bed.adhesion, [](double x, double) {
         return x < 1.9 ? 0.0 : x > 7.9 ? 0.4 : std::min(1.0, 0.2 * (x - 1.9));
@@ -113,12 +111,11 @@ START_TEST(rates_on_a_line) {
     near(point.rate[2], 0.0);
     near(point.mixity(), 0.1 / 0.115, 1e-12);
     near(point.zone_pairs, 10.0);  // 2.0 .. 6.5
-    near(point.zone, 5.0, _i == 0 ? 1e-12 : 0.2);
+    near(point.zone, 5.0, loop == 0 ? 1e-12 : 0.2);
 }
-END_TEST
 
 // A ring-shaped interface: two fronts of one crack, wherever the list of faces begins.
-START_TEST(ring) {
+LOOP_TEST(ring, 0, 4) {
     const std::int64_t n = 24;
     std::vector<double> nodes;
     std::vector<std::int64_t> cells;
@@ -139,7 +136,7 @@ START_TEST(ring) {
     mesh.add_cells(CellType::quad4, cells, bodies);
     mesh.add_interface(0, 1, 1e-6);
     Bed bed(std::move(mesh));
-    const double start = 2.0 * M_PI * _i / 4.0;
+    const double start = 2.0 * M_PI * loop / 4.0;
     const auto inside = [&](double x, double y) { return std::cos(std::atan2(y, x) - start) > std::cos(0.9); };
     bed.set(bed.adhesion, [&](double x, double y) { return inside(x, y) ? 0.0 : 1.0; });
     bed.open([](double, double) { return 0.1; }, one);
@@ -160,7 +157,6 @@ START_TEST(ring) {
     bed.set(bed.adhesion, none);
     ck_assert_uint_eq(bed.fronts().size(), 0);
 }
-END_TEST
 
 struct Kind {
     CellType type;
@@ -171,7 +167,7 @@ constexpr Kind kinds[] = {{CellType::hex8, 20}, {CellType::tet4, 20}, {CellType:
 // A stiff interface: the jump rises in unit steps from the onset s_0 = 1e-5 s_c to s_c = 8, where the adhesion is
 // (s_0/s)(s_c - s)/(s_c - s_0), at most 1e-5 in between. Its process zone is where the traction decreases, not where
 // the adhesion is far from 0 and 1.
-START_TEST(zone_of_a_stiff_interface) {
+TEST(zone_of_a_stiff_interface) {
     const double s_c = 8.0, s_0 = 1e-5 * s_c;
     for (const bool space : {false, true}) {
         Bed bed =
@@ -197,11 +193,10 @@ START_TEST(zone_of_a_stiff_interface) {
         near(process_zone(bed.interface()), space ? 16.0 : 8.0, 1e-9);
     }
 }
-END_TEST
 
-// A straight front across the width, a blister inside: an open line and a loop on one interface.
-START_TEST(contours) {
-    const Kind kind = kinds[_i];
+// A straight front across the width, a blister inside: an open line and a ring on one interface.
+LOOP_TEST(contours, 0, 4) {
+    const Kind kind = kinds[loop];
     Bed bed = Bed::layers({20.0, 20.0}, {kind.cells, kind.cells}, kind.type);
     bed.set(bed.adhesion, [](double x, double y) {
         return std::clamp(std::min(0.5 + (x - 3.2) / 3.0, 0.5 + (std::hypot(x - 12.0, y - 10.0) - 4.0) / 3.0), 0.0,
@@ -211,8 +206,8 @@ START_TEST(contours) {
     const std::vector<CrackFront> fronts = bed.fronts();
     ck_assert_uint_eq(fronts.size(), 2);
     const bool swapped = fronts[0].closed;
-    const CrackFront &line = fronts[swapped ? 1 : 0], &loop = fronts[swapped ? 0 : 1];
-    ck_assert(!line.closed && loop.closed);
+    const CrackFront &line = fronts[swapped ? 1 : 0], &ring = fronts[swapped ? 0 : 1];
+    ck_assert(!line.closed && ring.closed);
     const double area = bed.geometry().weight.size() > 0 ? 400.0 : 0.0;
     double length = 0.0, rate = 0.0;
     for (const FrontPoint& point : line.points) {
@@ -225,7 +220,7 @@ START_TEST(contours) {
     near(rate / length, 0.5 * (3.0 * 0.01 + 5.0 * 0.04), 0.004);
     length = 0.0;
     double normal = 0.0, mixed[2] = {0.0, 0.0};
-    for (const FrontPoint& point : loop.points) {
+    for (const FrontPoint& point : ring.points) {
         const double x = point.place[0] - 12.0, y = point.place[1] - 10.0, r = std::hypot(x, y);
         near(r, 4.0, 0.15);
         ck_assert_msg((point.direction[0] * x + point.direction[1] * y) / r > 0.9, "outward");
@@ -243,10 +238,9 @@ START_TEST(contours) {
     for (const double w : bed.geometry().weight) weights += w;
     near(weights, area, 1e-9);
 }
-END_TEST
 
 // A front that advances in strips: each point has its own process zone and pairs.
-START_TEST(zones_in_space) {
+TEST(zones_in_space) {
     Bed bed = Bed::layers({20.0, 8.0}, {20, 4}, CellType::hex8);
     bed.set(bed.adhesion, [](double x, double) { return std::clamp((x - 4.5) / 6.0, 0.0, 1.0); });
     const std::vector<CrackFront> fronts = bed.fronts();
@@ -258,10 +252,9 @@ START_TEST(zones_in_space) {
         near(point.rate[0], 0.0);
     }
 }
-END_TEST
 
 // A checkerboard with saddles and many loops: every crossing belongs to exactly one front, and every front ends.
-START_TEST(saddles) {
+TEST(saddles) {
     Bed bed = Bed::layers({8.0, 8.0}, {8, 8}, CellType::hex8);
     bed.set(bed.adhesion, [](double x, double y) { return static_cast<int>(std::lround(x + y)) % 2 == 0 ? 0.0 : 0.9; });
     std::size_t points = 0;
@@ -270,23 +263,4 @@ START_TEST(saddles) {
     bed.set(bed.adhesion, [](double x, double y) { return std::lround(x) == 4 && std::lround(y) == 4 ? 0.0 : 1.0; });
     ck_assert_uint_eq(bed.fronts().size(), 1);
     ck_assert(bed.fronts()[0].closed);
-}
-END_TEST
-
-int main() {
-    Suite* suite = suite_create("crack_front");
-    TCase* fronts = tcase_create("fronts");
-    tcase_add_loop_test(fronts, fronts_on_a_line, 0, 2);
-    tcase_add_loop_test(fronts, rates_on_a_line, 0, 2);
-    tcase_add_loop_test(fronts, ring, 0, 4);
-    tcase_add_loop_test(fronts, contours, 0, 4);
-    tcase_add_test(fronts, zones_in_space);
-    tcase_add_test(fronts, zone_of_a_stiff_interface);
-    tcase_add_test(fronts, saddles);
-    suite_add_tcase(suite, fronts);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? 0 : 1;
 }

@@ -8,14 +8,14 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "check.hpp"
 #include "delam/delam.h"
 #include "law/admissible.hpp"
 #include "law/criterion.hpp"
 #include "law/law.hpp"
 #include "law/law_parameters.hpp"
 #include "laws.hpp"
-
-#include <check.h>  // last: it has a macro named fail
+#include "refused.hpp"
 
 using delam::Criterion;
 using delam::Law;
@@ -28,23 +28,11 @@ bool close(double a, double b, double tolerance) {
 }
 
 std::string refusal(const Law& law) {
-    try {
-        validate(law);
-    } catch (const delam::Error& e) {
-        ck_assert_int_eq(e.status(), DELAM_ERROR_PROBLEM);
-        return e.what();
-    }
-    return "";
+    return unit::refusal(DELAM_ERROR_PROBLEM, [&] { validate(law); });
 }
 
 std::string table_refusal(const std::vector<double>& xi, const std::vector<double>& s) {
-    try {
-        delam::TabulatedSoftening().set_table(xi, s);
-    } catch (const delam::Error& e) {
-        ck_assert_int_eq(e.status(), DELAM_ERROR_ARGUMENT);
-        return e.what();
-    }
-    return "";
+    return unit::refusal(DELAM_ERROR_ARGUMENT, [&] { delam::TabulatedSoftening().set_table(xi, s); });
 }
 
 void expect(const std::string& text, const std::string& part) {
@@ -53,7 +41,7 @@ void expect(const std::string& text, const std::string& part) {
 
 }  // namespace
 
-START_TEST(closed_forms) {
+TEST(closed_forms) {
     for (int i = 0; i <= 20; ++i) {
         const double b = i / 20.0;
         const Modes eta{100.0, 700.0, 2.284, 9.0};
@@ -76,10 +64,9 @@ START_TEST(closed_forms) {
             for (const double b : {0.0, 1e-3, 0.4, 1.0}) ck_assert(delam::toughness_at(criterion, same, b) == 3.0);
         }
 }
-END_TEST
 
 // dG/dB by differences with long steps in the logarithm of B and of 1-B; one-sided at the pure modes.
-START_TEST(slopes) {
+TEST(slopes) {
     for (const Criterion criterion : laws::criteria)
         for (const double p : {0.6, 1.0, 1.5, 2.0, 4.0})
             for (const double q : {0.6, 1.0, 2.3, 5.0}) {
@@ -109,10 +96,9 @@ START_TEST(slopes) {
     for (const Criterion criterion : laws::criteria)
         for (const double b : {0.0, 0.5, 1.0}) ck_assert(delam::toughness_slope_at(criterion, same, b) == 0.0);
 }
-END_TEST
 
 // A minimum of Gc/Go between two admissible pure modes; admissible on one side of the limit and refused on the other.
-START_TEST(admissible) {
+TEST(admissible) {
     // G = 100 + 300 B^eta: the onset, with eta = 1, is 250 at B = 1/2, the toughness, with eta = 4, r (100 + 300/16).
     Law law = laws::law("exponential", Criterion::benzeggagh_kenane, 1.5);
     law.normal_onset = 100.0;
@@ -160,9 +146,8 @@ START_TEST(admissible) {
     ck_assert(griffith.toughness(0.3).onset == griffith.toughness(0.3).total);
     ck_assert(griffith.least_onset() == std::min(griffith.normal_toughness, griffith.tangential_toughness));
 }
-END_TEST
 
-START_TEST(keys) {
+TEST(keys) {
     for (const laws::Named& named : laws::shapes(Criterion::valoroso_champaney, 2.0)) {
         ck_assert_msg(refusal(named.law).empty(), "%s: %s", named.name.c_str(), refusal(named.law).c_str());
         for (const delam::LawParameter& p : delam::law_parameters()) {
@@ -189,9 +174,8 @@ START_TEST(keys) {
     expect(refusal(trapezium), "plateau nan");
     expect(refusal(laws::law("tabulated", Criterion::power, 2.0)), "softening is missing");
 }
-END_TEST
 
-START_TEST(tables) {
+TEST(tables) {
     ck_assert(table_refusal({0.0, 1.0}, {1.0, 0.0}).empty());
     ck_assert(table_refusal({0.0, 0.4, 0.4, 1.0, 1.0}, {1.0, 1.0, 0.4, 0.4, 0.0}).empty());
     ck_assert(table_refusal({0.0, 0.4, 1.0}, {1.0, 0.0, 0.0}).empty());
@@ -205,22 +189,4 @@ START_TEST(tables) {
     expect(table_refusal({0.0, 1.5, 1.0}, {1.0, 0.5, 0.0}), "xi[1] = 1.5");
     expect(table_refusal({0.0, 0.5, 1.0}, {1.0, std::nan(""), 0.0}), "s[1] = nan");
     expect(table_refusal({0.0, 0.0, 1.0}, {1.0, 0.0, 0.0}), "area under the table is 0");
-}
-END_TEST
-
-int main() {
-    Suite* suite = suite_create("criterion");
-    TCase* cases = tcase_create("criterion");
-    tcase_set_timeout(cases, 120);
-    tcase_add_test(cases, closed_forms);
-    tcase_add_test(cases, slopes);
-    tcase_add_test(cases, admissible);
-    tcase_add_test(cases, keys);
-    tcase_add_test(cases, tables);
-    suite_add_tcase(suite, cases);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }

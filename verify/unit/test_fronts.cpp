@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <set>
 
+#include "check.hpp"
 #include "evolution/search/fronts.hpp"
 #include "mesh/layers.hpp"
 #include "mesh/mesh.hpp"
-
-#include <check.h>  // last: it has a macro named fail
 
 using namespace delam;
 
@@ -70,7 +69,7 @@ void expect_rings(const std::vector<Ring>& found, const std::vector<Ring>& expec
     }
 }
 
-START_TEST(neighbours_in_the_plane) {
+TEST(neighbours_in_the_plane) {
     const Stack s(2, {4}, 3, CellType::quad4);
     ck_assert_uint_eq(s.graph.size(), 10);
     for (std::size_t p = 0; p < 10; ++p) {
@@ -83,10 +82,9 @@ START_TEST(neighbours_in_the_plane) {
     ck_assert_int_eq(s.graph.first_pair(0), 0);
     ck_assert_int_eq(s.graph.first_pair(1), 5);
 }
-END_TEST
 
 // Being neighbours is mutual; a pair is not its own neighbour, never that of another interface, and every pair has one.
-START_TEST(neighbours_of_all_cells) {
+TEST(neighbours_of_all_cells) {
     const CellType types[] = {CellType::tri3, CellType::quad4, CellType::tri6,  CellType::quad8,
                               CellType::tet4, CellType::hex8,  CellType::tet10, CellType::hex20};
     for (const CellType type : types) {
@@ -113,9 +111,8 @@ START_TEST(neighbours_of_all_cells) {
         ck_assert_uint_eq(count, s.graph.size() / 2);
     }
 }
-END_TEST
 
-START_TEST(fronts_in_the_plane) {
+TEST(fronts_in_the_plane) {
     Stack s(2, {7}, 3, CellType::quad4);
     s.debond({0, 1, 5, 6, 15});
     // Interface 0: pairs 2..4 between two notches, 7 at the end; interface 1: pairs 8..14.
@@ -134,19 +131,17 @@ START_TEST(fronts_in_the_plane) {
     s.debond({2});
     expect_rings(s.of(false), {{3, 4}, {7}, {14}});
 }
-END_TEST
 
-START_TEST(nothing_left_or_nothing_broken) {
+TEST(nothing_left_or_nothing_broken) {
     Stack s(2, {3}, 2, CellType::quad4);
     ck_assert(s.of(false).empty());
     expect_rings(s.of(true), {{0}, {3}});
     s.debond({0, 1, 2, 3});
     ck_assert(s.fronts(2).empty());
 }
-END_TEST
 
 // A permanently bonded pair is neither a front nor a crack, and is no front beside debonded pairs.
-START_TEST(bonded_pairs_stay_out) {
+TEST(bonded_pairs_stay_out) {
     Stack s(2, {4}, 3, CellType::quad4);
     for (std::size_t p = 0; p < 5; ++p) s.pairs.law[p] = nullptr;
     s.debond({0, 1, 5});
@@ -154,11 +149,10 @@ START_TEST(bonded_pairs_stay_out) {
     expect_rings(s.of(true, 3), {{9}});
     ck_assert_uint_eq(s.rings_of({1, false, {6}}).size(), 4);
 }
-END_TEST
 
 // New cracks begin where the load is the largest fraction of the onset, largest first, a limited number per interface,
 // and not beside a front.
-START_TEST(new_cracks) {
+TEST(new_cracks) {
     Stack s(2, {20}, 3, CellType::quad4);
     for (std::size_t p = 0; p < s.adhesion.size(); ++p) s.load(p, 0.0);
     s.load(5, 2.0);
@@ -185,10 +179,9 @@ START_TEST(new_cracks) {
     expect_rings(s.of(false), {{8}, {10}});
     expect_rings(s.of(true, 9), with({15, 5, 28}));
 }
-END_TEST
 
 // A round hole in a plane: one closed front; rings grow around it. Two holes: two fronts.
-START_TEST(holes_in_an_area) {
+TEST(holes_in_an_area) {
     Stack s(3, {6, 6}, 2, CellType::hex8);
     const auto at = [&](double x, double y) {
         const InterfaceGeometry& g = s.mesh.interfaces()[0];
@@ -214,24 +207,5 @@ START_TEST(holes_in_an_area) {
     ck_assert_uint_eq(s.of(false).size(), 4);
     ck_assert(s.of(true, 0).empty());  // an area has no ends
 }
-END_TEST
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("fronts");
-    TCase* tests = tcase_create("fronts");
-    tcase_add_test(tests, neighbours_in_the_plane);
-    tcase_add_test(tests, neighbours_of_all_cells);
-    tcase_add_test(tests, fronts_in_the_plane);
-    tcase_add_test(tests, nothing_left_or_nothing_broken);
-    tcase_add_test(tests, bonded_pairs_stay_out);
-    tcase_add_test(tests, new_cracks);
-    tcase_add_test(tests, holes_in_an_area);
-    suite_add_tcase(suite, tests);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
-}

@@ -13,11 +13,10 @@
 #include <string>
 #include <vector>
 
+#include "check.hpp"
 #include "evolution/increment/coupled_damage.hpp"
 #include "evolution/increment/gradient.hpp"
 #include "mesh/layers.hpp"
-
-#include "quiet_check.hpp"  // last: it has a macro named fail
 
 using namespace delam;
 
@@ -111,7 +110,7 @@ Point turned(const Point& x) { return {0.6 * x[0] - 0.8 * x[1] + 3.0, 0.8 * x[0]
 
 // ---- operator -------------------------------------------------------------------------------------------------------
 
-START_TEST(lines) {
+TEST(lines) {
     for (const CellType type : plane_types) {
         const double length = 1.5;
         const Mesh mesh = two_layers(type, {length}, {3});
@@ -138,9 +137,8 @@ START_TEST(lines) {
         for (std::size_t e = 0; e < a.value.size(); ++e) ck_near(other.value[e], a.value[e], 1e-12, "turned");
     }
 }
-END_TEST
 
-START_TEST(faces) {
+TEST(faces) {
     for (const CellType type : solid_types) {
         const Mesh mesh = two_layers(type, {1.5, 0.8}, {3, 2});
         const double area = 1.2;
@@ -190,10 +188,9 @@ START_TEST(faces) {
         ck_near(size, area, type == CellType::tet10 || type == CellType::hex20 ? 2e-3 : 1e-12, "distorted: area");
     }
 }
-END_TEST
 
 // Lengths and kappa scaled by powers of two: the same digits.
-START_TEST(units_of_the_operator) {
+TEST(units_of_the_operator) {
     for (const CellType type : {CellType::quad4, CellType::quad8, CellType::hex8, CellType::tet10, CellType::hex20}) {
         const bool plane = topology(type).dimension == 2;
         const auto mesh = [&](double s) {
@@ -210,10 +207,9 @@ START_TEST(units_of_the_operator) {
         }
     }
 }
-END_TEST
 
 // A quarter of a circle and of a cylinder of radius 2, zeta = sin(phi): int cos^2(phi)/R^2 dA = pi/4 (times width) / R.
-START_TEST(curved_faces) {
+TEST(curved_faces) {
     constexpr double radius = 2.0;
     for (const CellType type :
          {CellType::quad8, CellType::tri6, CellType::hex20, CellType::tet10, CellType::quad4, CellType::hex8}) {
@@ -240,10 +236,9 @@ START_TEST(curved_faces) {
         ck_assert(order > (quadratic(type) ? 3.5 : 1.9));
     }
 }
-END_TEST
 
 // Bricks and tetrahedra side by side: triangles among quadrilaterals repeat corners.
-START_TEST(mixed_faces) {
+TEST(mixed_faces) {
     for (const bool second : {false, true}) {
         const Mesh bricks = two_layers(second ? CellType::hex20 : CellType::hex8, {1.0, 1.0}, {1, 1});
         const Mesh tetrahedra = two_layers(second ? CellType::tet10 : CellType::tet4, {1.0, 1.0}, {1, 1});
@@ -267,9 +262,8 @@ START_TEST(mixed_faces) {
         ck_assert_int_eq(a.entries(), separate);
     }
 }
-END_TEST
 
-START_TEST(notches_are_left_out) {
+TEST(notches_are_left_out) {
     const Mesh mesh = two_layers(CellType::quad4, {1.0}, {10});
     Numbers adhesion = ones(mesh);
     adhesion[0] = adhesion[1] = adhesion[2] = 0.0;
@@ -283,7 +277,6 @@ START_TEST(notches_are_left_out) {
     z[0] = z[1] = z[2] = 0.0;
     ck_assert(term.energy(z) == 0.0);
 }
-END_TEST
 
 // ---- damage step ----------------------------------------------------------------------------------------------------
 
@@ -365,7 +358,7 @@ void randomise(Step& s, std::mt19937& random, bool notched) {
 }  // namespace
 
 // Three pairs: no point of a grid over the whole box has less energy, and the best grid point lies beside the solution.
-START_TEST(three_pairs_by_exhaustion) {
+TEST(three_pairs_by_exhaustion) {
     const Mesh mesh = two_layers(CellType::quad4, {2.0}, {2});
     std::mt19937 random(11);
     std::uniform_real_distribution<double> unit(0.0, 1.0);
@@ -393,16 +386,15 @@ START_TEST(three_pairs_by_exhaustion) {
                       "case %d: grid %.3e above, more than its spacing explains", k, grid - least);
     }
 }
-END_TEST
 
 // Optimality on all kinds of faces, for laws from Griffith's to Gc/Go = 1e8 and kappa over twelve decades.
-START_TEST(random_steps_are_optimal) {
+LOOP_TEST(random_steps_are_optimal, 0, 6) {
     const CellType type[] = {CellType::quad4, CellType::quad8, CellType::hex8,
                              CellType::tet4,  CellType::tet10, CellType::hex20};
-    const bool plane = _i < 2;
-    const Mesh mesh = two_layers(type[_i], plane ? Numbers{1.0} : Numbers{1.0, 1.0},
+    const bool plane = loop < 2;
+    const Mesh mesh = two_layers(type[loop], plane ? Numbers{1.0} : Numbers{1.0, 1.0},
                                  plane ? std::vector<std::int64_t>{60} : std::vector<std::int64_t>{8, 7});
-    std::mt19937 random(static_cast<unsigned>(5 + _i));
+    std::mt19937 random(static_cast<unsigned>(5 + loop));
     std::int64_t worst = 0, total = 0, count = 0;
     for (const double ratio : {1.0, 1.0 + 1e-9, 1.0 + 1e-3, 2.5, 1e3, 1e8})
         for (int decade = -10; decade <= 2; ++decade)
@@ -413,7 +405,7 @@ START_TEST(random_steps_are_optimal) {
                     for (std::size_t i = 0; i < s.size(); ++i)
                         s.least[i] = s.old[i] * std::uniform_real_distribution<double>(0.0, 1.0)(random);
                 const CoupledDamage found = s.solve();
-                const std::string where = "type " + std::to_string(_i) + ", Gc/Go " + std::to_string(ratio) +
+                const std::string where = "type " + std::to_string(loop) + ", Gc/Go " + std::to_string(ratio) +
                                           ", kappa 1e" + std::to_string(decade) + ", case " + std::to_string(k) + ", " +
                                           std::to_string(found.iterations) + " iterations, residual " +
                                           std::to_string(found.residual);
@@ -423,13 +415,12 @@ START_TEST(random_steps_are_optimal) {
                 total += found.iterations;
                 ++count;
             }
-    std::printf("random steps, kind %d: %.1f factorisations, at most %lld\n", _i,
+    std::printf("random steps, kind %d: %.1f factorisations, at most %lld\n", loop,
                 static_cast<double>(total) / static_cast<double>(count), static_cast<long long>(worst));
 }
-END_TEST
 
 // Plain projected gradients, thousands of them, end in the same point.
-START_TEST(projected_gradients) {
+TEST(projected_gradients) {
     const Mesh mesh = two_layers(CellType::quad8, {1.0}, {6});
     std::mt19937 random(23);
     for (int k = 0; k < 40; ++k) {
@@ -462,10 +453,9 @@ START_TEST(projected_gradients) {
         for (std::size_t i = 0; i < z.size(); ++i) ck_near(found[i], z[i], 1e-10, "adhesion");
     }
 }
-END_TEST
 
 // Where the pointwise adhesion is smooth and inside the bounds, it changes by kappa times a fixed amount.
-START_TEST(small_kappa_recovers_the_pointwise_law) {
+TEST(small_kappa_recovers_the_pointwise_law) {
     for (const double ratio : {2.5, 1e4}) {
         const Mesh mesh = two_layers(CellType::quad4, {1.0}, {40});
         Numbers moved;
@@ -484,10 +474,9 @@ START_TEST(small_kappa_recovers_the_pointwise_law) {
         ck_assert(std::abs(std::log10(moved[1] / moved[2]) - 1.0) < 0.02);
     }
 }
-END_TEST
 
 // Uniform adhesion: the minimiser of the sum over all pairs, clipped by the lowest bound.
-START_TEST(large_kappa_is_uniform) {
+TEST(large_kappa_is_uniform) {
     for (const CellType type : {CellType::quad4, CellType::quad8, CellType::hex8, CellType::tet10}) {
         const bool plane = topology(type).dimension == 2;
         const Mesh mesh = two_layers(type, plane ? Numbers{1.0} : Numbers{1.0, 1.0},
@@ -511,12 +500,11 @@ START_TEST(large_kappa_is_uniform) {
         }
     }
 }
-END_TEST
 
 // With a Griffith law the damage step is an obstacle problem. Y = G + p on the left half, G - q on the right: kappa
 // zeta'' = p or -q between the contact with 0 and that with 1, so two parabolas that meet with the slope s = sqrt(2 /
 // (kappa (1/p + 1/q))).
-START_TEST(griffith_profile) {
+TEST(griffith_profile) {
     const double length = 3.0, kappa = 0.05, p = 0.4, q = 0.9, g = 1.0;
     const double slope = std::sqrt(2.0 / (kappa * (1.0 / p + 1.0 / q))), left = kappa * slope / p,
                  right = kappa * slope / q;
@@ -555,10 +543,9 @@ START_TEST(griffith_profile) {
         ck_assert(order > 1.8);
     }
 }
-END_TEST
 
 // Energies in other units: the same digits, or differences that rounding leaves.
-START_TEST(units_of_the_step) {
+TEST(units_of_the_step) {
     const Mesh mesh = two_layers(CellType::quad8, {1.0}, {20});
     for (const double ratio : {1.0, 2.5, 1e8}) {
         Numbers base;
@@ -581,10 +568,9 @@ START_TEST(units_of_the_step) {
         }
     }
 }
-END_TEST
 
 // The result does not depend on where the search starts, and a solved step is a fixed point.
-START_TEST(any_start) {
+TEST(any_start) {
     const Mesh mesh = two_layers(CellType::hex8, {1.0, 1.0}, {9, 9});
     std::mt19937 random(43);
     std::uniform_real_distribution<double> unit(0.0, 1.0);
@@ -605,33 +591,4 @@ START_TEST(any_start) {
         ck_assert_int_le(again.iterations, 2);
         for (std::size_t i = 0; i < base.size(); ++i) ck_near(again.adhesion[i], base[i], 1e-12, "fixed point");
     }
-}
-END_TEST
-
-int main() {
-    Suite* suite = suite_create("gradient");
-    TCase* tests = tcase_create("operator");
-    tcase_add_test(tests, lines);
-    tcase_add_test(tests, faces);
-    tcase_add_test(tests, units_of_the_operator);
-    tcase_add_test(tests, curved_faces);
-    tcase_add_test(tests, mixed_faces);
-    tcase_add_test(tests, notches_are_left_out);
-    suite_add_tcase(suite, tests);
-    TCase* steps = tcase_create("damage step");
-    tcase_set_timeout(steps, 240);
-    tcase_add_test(steps, three_pairs_by_exhaustion);
-    tcase_add_loop_test(steps, random_steps_are_optimal, 0, 6);
-    tcase_add_test(steps, projected_gradients);
-    tcase_add_test(steps, small_kappa_recovers_the_pointwise_law);
-    tcase_add_test(steps, large_kappa_is_uniform);
-    tcase_add_test(steps, griffith_profile);
-    tcase_add_test(steps, units_of_the_step);
-    tcase_add_test(steps, any_start);
-    suite_add_tcase(suite, steps);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -7,13 +7,13 @@
 #include <string>
 
 #include "base/error.hpp"
+#include "check.hpp"
 #include "delam/delam.h"
 #include "law/admissible.hpp"
 #include "law/law.hpp"
 #include "law/law_parameters.hpp"
 #include "laws.hpp"
-
-#include <check.h>  // last: it has a macro named fail
+#include "refused.hpp"
 
 using delam::Law;
 using delam::Toughness;
@@ -34,13 +34,7 @@ Law given(delam_adhesion_callback adhesion, delam_dissipation_callback dissipati
 
 template <class Body>
 std::string refusal(Body&& body) {
-    try {
-        body();
-    } catch (const delam::Error& e) {
-        ck_assert_int_eq(e.status(), DELAM_ERROR_PROBLEM);
-        return e.what();
-    }
-    return "";
+    return unit::refusal(DELAM_ERROR_PROBLEM, body);
 }
 
 void expect(const std::string& text, const std::string& part) {
@@ -112,7 +106,7 @@ std::int32_t exponential_dissipation(double, double zeta, double* g, double* slo
 
 }  // namespace
 
-START_TEST(same_as_the_bilinear_law) {
+TEST(same_as_the_bilinear_law) {
     laws::Bilinear data;
     const Law host = given(laws::adhesion, laws::dissipation, &data);
     Law own = laws::law("piecewise-linear", delam::Criterion::benzeggagh_kenane, 2.0);
@@ -148,9 +142,8 @@ START_TEST(same_as_the_bilinear_law) {
         }
     }
 }
-END_TEST
 
-START_TEST(endless_softening) {
+TEST(endless_softening) {
     Law shape;
     delam::softening_of("exponential", shape.softening);
     const Law law = given(exponential_adhesion, exponential_dissipation, &shape);
@@ -158,9 +151,8 @@ START_TEST(endless_softening) {
     ck_assert_msg(text.empty(), "%s", text.c_str());
     ck_assert(std::isinf(law.driving(law.toughness(0.0), 0.0)));
 }
-END_TEST
 
-START_TEST(failures) {
+TEST(failures) {
     laws::Bilinear data;
     data.failing = 17;
     const Law law = given(laws::adhesion, laws::dissipation, &data);
@@ -172,9 +164,8 @@ START_TEST(failures) {
     expect(refusal([&] { law.toughness(0.91); }), "the dissipation callback failed with 17");
     ck_assert(law.toughness(0.5).onset > 0.0);
 }
-END_TEST
 
-START_TEST(inconsistent_callbacks) {
+TEST(inconsistent_callbacks) {
     const struct {
         Fault fault;
         const char* says;
@@ -205,9 +196,8 @@ START_TEST(inconsistent_callbacks) {
     expect(refusal([&] { law.dissipated(t, 0.25); }),
            "dissipated energy -1 must be >= 0 at mixity B = 0.5, zeta = 0.25");
 }
-END_TEST
 
-START_TEST(stiffness_is_needed) {
+TEST(stiffness_is_needed) {
     laws::Bilinear data;
     Law law = given(laws::adhesion, laws::dissipation, &data);
     law.tangential_stiffness = 0.0;
@@ -215,22 +205,4 @@ START_TEST(stiffness_is_needed) {
     ck_assert_msg(text.find("tangential_stiffness 0: must be finite and > 0") != std::string::npos, "%s", text.c_str());
     ck_assert(!set_parameter(law, "normal_onset", 1.0) && set_parameter(law, "gradient", 0.1) &&
               set_parameter(law, "tangential_stiffness", 1.0));
-}
-END_TEST
-
-int main() {
-    Suite* suite = suite_create("host law");
-    TCase* cases = tcase_create("host law");
-    tcase_set_timeout(cases, 120);
-    tcase_add_test(cases, same_as_the_bilinear_law);
-    tcase_add_test(cases, endless_softening);
-    tcase_add_test(cases, failures);
-    tcase_add_test(cases, inconsistent_callbacks);
-    tcase_add_test(cases, stiffness_is_needed);
-    suite_add_tcase(suite, cases);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }

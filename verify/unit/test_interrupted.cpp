@@ -8,14 +8,13 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "check.hpp"
 #include "delam/delam.h"
 #include "evolution/analysis/snapshot.hpp"
 #include "evolution/analysis/solver.hpp"
 #include "evolution/observe/values.hpp"
 #include "flexure.hpp"
-
-// Last: its macro fail() would break delam::fail().
-#include "quiet_check.hpp"
+#include "refused.hpp"
 
 using namespace delam;
 
@@ -99,7 +98,9 @@ struct Reference {
     }
 };
 
-const Reference* undisturbed = nullptr;
+std::unique_ptr<const Reference> undisturbed;
+void march_undisturbed() { undisturbed = std::make_unique<const Reference>(); }
+BEFORE_TESTS(march_undisturbed);
 
 void expect_same(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
     ck_assert_uint_eq(a.size(), b.size());
@@ -109,20 +110,14 @@ void expect_same(const std::vector<std::uint8_t>& a, const std::vector<std::uint
 }  // namespace
 
 // loop: stage. At the first, the middle and the last poll of it.
-START_TEST(cancelled_while_it_is_set_up) {
+LOOP_TEST(cancelled_while_it_is_set_up, 0, 2) {
     const Problem problem = scene();
     const Reference& reference = *undisturbed;
-    const int polls = reference.polls[0].at(of_setup[_i]);
+    const int polls = reference.polls[0].at(of_setup[loop]);
     for (const int at : {1, (polls + 1) / 2, polls}) {
         March march;
-        march.watch.stop(of_setup[_i], at);
-        std::int32_t status = DELAM_OK;
-        try {
-            const Solver solver(problem, march.monitor, 0.0);
-        } catch (const Error& e) {
-            status = e.status();
-        }
-        ck_assert_int_eq(status, DELAM_CANCELLED);
+        march.watch.stop(of_setup[loop], at);
+        ck_assert_refused(DELAM_CANCELLED, "", Solver(problem, march.monitor, 0.0));
         if (at != polls) continue;
         march.watch.stop("", 0);
         Solver solver(problem, march.monitor, 0.0);
@@ -130,13 +125,12 @@ START_TEST(cancelled_while_it_is_set_up) {
         expect_same(save(solver), reference.end);
     }
 }
-END_TEST
 
 // loop: stage
-START_TEST(cancelled_in_a_step) {
+LOOP_TEST(cancelled_in_a_step, 0, 3) {
     const Problem problem = scene();
     const Reference& reference = *undisturbed;
-    const std::string stage = of_steps[_i];
+    const std::string stage = of_steps[loop];
     int cancelled = 0;
     for (int k = 2; k <= steps && cancelled < 2; ++k) {
         const auto found = reference.polls[static_cast<std::size_t>(k)].find(stage);
@@ -162,20 +156,4 @@ START_TEST(cancelled_in_a_step) {
         ++cancelled;
     }
     ck_assert_int_gt(cancelled, 0);
-}
-END_TEST
-
-int main() {
-    const Reference reference;
-    undisturbed = &reference;
-    Suite* suite = suite_create("interrupted");
-    TCase* iterated = tcase_create("iterated");
-    tcase_add_loop_test(iterated, cancelled_while_it_is_set_up, 0, 2);
-    tcase_add_loop_test(iterated, cancelled_in_a_step, 0, 3);
-    suite_add_tcase(suite, iterated);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? 0 : 1;
 }

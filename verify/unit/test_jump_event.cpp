@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A step counts as a jump of an interface whose front moves by more than one row of its pairs, whatever the fronts of
 // other interfaces do.
-#include <cstdlib>
 #include <vector>
 
+#include "check.hpp"
 #include "evolution/step/jump_event.hpp"
 #include "law/law.hpp"
-
-#include <check.h>
 
 using namespace delam;
 
@@ -66,7 +64,7 @@ struct Step {
 
 }  // namespace
 
-START_TEST(fronts_of_other_interfaces_do_not_hide_a_jump) {
+TEST(fronts_of_other_interfaces_do_not_hide_a_jump) {
     Step regular({1, 1, 1, 1, 1, 1}), one({1, 1, 1, 1, 1, 4});
     ck_assert(!regular.jumps());
     ck_assert(one.jumps());
@@ -77,9 +75,8 @@ START_TEST(fronts_of_other_interfaces_do_not_hide_a_jump) {
     one.after.jump_within.debonded = 3.0;  // together with other interfaces
     ck_assert(one.jumps());
 }
-END_TEST
 
-START_TEST(reactions_are_those_of_the_instant) {
+TEST(reactions_are_those_of_the_instant) {
     Step step({0, 0, 0, 0, 0, 4});
     const JumpEvent whole = describe_jump(step.pairs, step.graph, step.before, step.after);
     ck_assert_double_eq(whole.conjugate_before.at(0), 1.0);
@@ -91,18 +88,4 @@ START_TEST(reactions_are_those_of_the_instant) {
     ck_assert_int_eq(within.interface, 5);
     ck_assert_int_eq(within.first_pair, 3);
     ck_assert_int_eq(within.last_pair, 6);
-}
-END_TEST
-
-int main() {
-    Suite* suite = suite_create("jump_event");
-    TCase* events = tcase_create("events");
-    tcase_add_test(events, fronts_of_other_interfaces_do_not_hide_a_jump);
-    tcase_add_test(events, reactions_are_those_of_the_instant);
-    suite_add_tcase(suite, events);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -13,19 +13,22 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "check.hpp"
 #include "delam/delam.h"
 #include "law/admissible.hpp"
 #include "law/criterion.hpp"
 #include "law/law.hpp"
 #include "law/law_parameters.hpp"
 #include "law/mixity.hpp"
-
-#include <check.h>  // last: it has a macro named fail
+#include "refused.hpp"
 
 using delam::Law;
 using delam::Toughness;
 
 namespace {
+
+void no_gsl_handler() { gsl_set_error_handler_off(); }
+BEFORE_TESTS(no_gsl_handler);
 
 bool close(double a, double b, double tolerance) {
     return std::abs(a - b) <= tolerance * std::max(std::abs(a), std::abs(b));
@@ -63,18 +66,12 @@ double reference_interaction(double gn, double gt, double p, double q, double b)
 
 // Message of a refused law; empty if it is accepted.
 std::string refusal(const Law& law) {
-    try {
-        validate(law);
-    } catch (const delam::Error& e) {
-        ck_assert_int_eq(e.status(), DELAM_ERROR_PROBLEM);
-        return e.what();
-    }
-    return "";
+    return unit::refusal(DELAM_ERROR_PROBLEM, [&] { validate(law); });
 }
 
 }  // namespace
 
-START_TEST(bilinear_law) {
+TEST(bilinear_law) {
     const struct {
         Law law;
         double sigma0, d0, dc;
@@ -109,9 +106,8 @@ START_TEST(bilinear_law) {
         }
     }
 }
-END_TEST
 
-START_TEST(minimiser_against_scan) {
+TEST(minimiser_against_scan) {
     constexpr int n = 20000;
     for (const double ratio : {1.0 + 1e-3, 1.5, 2.5, 100.0, 2500.0}) {
         const Toughness t{3.0, 3.0 * ratio};
@@ -143,10 +139,9 @@ START_TEST(minimiser_against_scan) {
         }
     }
 }
-END_TEST
 
 // The two splits: f + Gc (1 - zeta) = g. Where the minimiser is inside, Y = -g'(zeta); both by differences of g.
-START_TEST(derivatives) {
+TEST(derivatives) {
     const Toughness t{1.0, 7.0};
     for (int i = 1; i < 20; ++i) {
         const double z = i / 20.0;
@@ -162,9 +157,8 @@ START_TEST(derivatives) {
     ck_assert(shape.stored_linear(t, 0.0) == 0.0);
     ck_assert(shape.stored_linear(t, 1.0) == 0.0);
 }
-END_TEST
 
-START_TEST(griffith_limit) {
+TEST(griffith_limit) {
     const Toughness griffith{2.0, 2.0};
     ck_assert(shape.minimiser(griffith, std::nextafter(2.0, 0.0), 0.8) == 0.8);
     ck_assert(shape.minimiser(griffith, 2.0, 0.8) == 0.0);
@@ -189,9 +183,8 @@ START_TEST(griffith_limit) {
     ck_assert(shape.minimiser({1.0, 2.0}, std::numeric_limits<double>::max(), 0.3) == 0.0);
     ck_assert(shape.minimiser({1.0, 2.0}, 4.0, 1.0) == 0.0);
 }
-END_TEST
 
-START_TEST(interaction_closed_form) {
+TEST(interaction_closed_form) {
     for (const double a : {0.05, 0.5, 1.0, 2.0, 7.0, 50.0}) {
         for (const double ratio : {1.0, 4.0, 1e-5, 1e10}) {
             for (int i = 0; i <= 40; ++i) {
@@ -209,9 +202,8 @@ START_TEST(interaction_closed_form) {
     ck_assert(close(delam::interaction(5.0, 5.0, 2.0, 2.0, 0.5), 5.0 * std::sqrt(2.0), 1e-15));
     for (int i = 0; i <= 10; ++i) ck_assert(close(delam::interaction(5.0, 5.0, 1.0, 1.0, i / 10.0), 5.0, 1e-15));
 }
-END_TEST
 
-START_TEST(interaction_unequal_exponents) {
+TEST(interaction_unequal_exponents) {
     const std::array<double, 7> exponents{0.05, 0.3, 1.0, 2.0, 3.7, 20.0, 50.0};
     for (const double p : exponents) {
         for (const double q : exponents) {
@@ -232,9 +224,8 @@ START_TEST(interaction_unequal_exponents) {
     const double equal = delam::interaction(2.0, 5.0, 2.0, 2.0, 0.4);
     ck_assert(close(delam::interaction(2.0, 5.0, 2.0, std::nextafter(2.0, 3.0), 0.4), equal, 1e-14));
 }
-END_TEST
 
-START_TEST(mixity) {
+TEST(mixity) {
     ck_assert(delam::mode_mixity(0.0, 0.0) == 0.0);
     ck_assert(delam::mode_mixity(3.0, 0.0) == 0.0);
     ck_assert(delam::mode_mixity(0.0, 1e-300) == 1.0);
@@ -243,10 +234,9 @@ START_TEST(mixity) {
     const double psi = std::sqrt(2.0 / 5.0) * 0.3 / 0.7;
     ck_assert(close(delam::mode_mixity(0.5 * 5.0 * 0.49, 0.5 * 2.0 * 0.09), psi * psi / (1.0 + psi * psi), 1e-15));
 }
-END_TEST
 
 // Powers of two scale doubles exactly: any dependence on units other than by a factor would show in the last bit.
-START_TEST(units) {
+TEST(units) {
     Law law = ductile;
     law.tangential_onset = 170.0;
     law.tangential_toughness = 600.0;
@@ -273,9 +263,8 @@ START_TEST(units) {
         }
     }
 }
-END_TEST
 
-START_TEST(parameters) {
+TEST(parameters) {
     Law law;
     for (const char* key : {"normal_stiffness", "tangential_stiffness", "normal_onset", "tangential_onset",
                             "normal_toughness", "tangential_toughness"}) {
@@ -297,9 +286,8 @@ START_TEST(parameters) {
     ck_assert(refusal(law).empty());
     ck_assert(law.toughness(0.0).total >= law.toughness(0.0).onset);
 }
-END_TEST
 
-START_TEST(toughness_below_onset_between_the_modes) {
+TEST(toughness_below_onset_between_the_modes) {
     // Exponent 8 at onset leaves 2^(7/8) G at B = 1/2, exponent 1 of the toughness only 1.2 G.
     Law law = bilinear(1e9, 100.0, 120.0);
     law.onset_exponent_1 = law.onset_exponent_2 = 8.0;
@@ -330,10 +318,9 @@ START_TEST(toughness_below_onset_between_the_modes) {
     fine.onset_exponent_2 = fine.toughness_exponent_2 = 9.0;
     ck_assert(refusal(fine).empty());
 }
-END_TEST
 
 // The area under the traction-jump curve is the total toughness, at any fixed mixity, by GSL's adaptive quadrature.
-START_TEST(area_is_the_toughness) {
+TEST(area_is_the_toughness) {
     struct Path {
         Toughness t;
         double stiffness;
@@ -357,29 +344,4 @@ START_TEST(area_is_the_toughness) {
         }
     }
     gsl_integration_workspace_free(work);
-}
-END_TEST
-
-int main() {
-    gsl_set_error_handler_off();
-    Suite* suite = suite_create("law");
-    TCase* cases = tcase_create("law");
-    tcase_set_timeout(cases, 120);
-    tcase_add_test(cases, bilinear_law);
-    tcase_add_test(cases, minimiser_against_scan);
-    tcase_add_test(cases, derivatives);
-    tcase_add_test(cases, griffith_limit);
-    tcase_add_test(cases, interaction_closed_form);
-    tcase_add_test(cases, interaction_unequal_exponents);
-    tcase_add_test(cases, mixity);
-    tcase_add_test(cases, units);
-    tcase_add_test(cases, parameters);
-    tcase_add_test(cases, toughness_below_onset_between_the_modes);
-    tcase_add_test(cases, area_is_the_toughness);
-    suite_add_tcase(suite, cases);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -7,13 +7,11 @@
 #include <vector>
 
 #include "base/numbers.hpp"
+#include "check.hpp"
 #include "evolution/analysis/solver.hpp"
 #include "layer_states.hpp"
 #include "linalg/dense/dense.hpp"
 #include "reduction/sparse/iterated/iterated.hpp"
-
-// Last: its macro fail() would break delam::fail().
-#include "quiet_check.hpp"
 
 using namespace delam;
 
@@ -95,8 +93,8 @@ std::vector<double> moved(const Zone& part, const Response& response, const std:
 
 // Minimiser, energies and forces of the part, tried on the energy of all bodies by finite differences along directions
 // that solutions for other loads span.
-START_TEST(what_lowers_the_energy_there_lowers_that_of_the_whole) {
-    const Scene scene(_i);
+LOOP_TEST(what_lowers_the_energy_there_lowers_that_of_the_whole, 0, scenes) {
+    const Scene scene(loop);
     Monitor monitor;
     Iterated op(scene.problem, monitor);
     Response response;
@@ -156,10 +154,9 @@ START_TEST(what_lowers_the_energy_there_lowers_that_of_the_whole) {
     const double slope = 0.5 * (of_whole(plus) - of_whole(minus)), opened = part->jumps(scene.theta, plus)[z];
     ck_assert_msg(std::abs(slope + force[z] * opened) <= 1e-6 * std::abs(slope), "%g, %g", slope, force[z] * opened);
 }
-END_TEST
 
-START_TEST(tangents_without_a_minimum_are_seen) {
-    const Scene scene(_i);
+LOOP_TEST(tangents_without_a_minimum_are_seen, 0, scenes) {
+    const Scene scene(loop);
     Monitor monitor;
     Iterated op(scene.problem, monitor);
     Response response;
@@ -168,11 +165,10 @@ START_TEST(tangents_without_a_minimum_are_seen) {
     ck_assert(part->factor(scene.softened(*part, 0.0), scene.held(*part)));
     ck_assert(!part->factor(scene.softened(*part, -1e3), scene.held(*part)));
 }
-END_TEST
 
 // A part as large as the whole is none, and nothing that is loaded is none.
-START_TEST(only_small_parts_are_offered) {
-    Scene scene(_i);
+LOOP_TEST(only_small_parts_are_offered, 0, scenes) {
+    Scene scene(loop);
     Monitor monitor;
     Iterated op(scene.problem, monitor);
     Response response;
@@ -182,7 +178,6 @@ START_TEST(only_small_parts_are_offered) {
     std::fill(scene.wanted.begin(), scene.wanted.end(), std::uint8_t{1});
     ck_assert(op.part(scene.theta, response, scene.wanted) == nullptr);
 }
-END_TEST
 
 namespace {
 
@@ -221,27 +216,11 @@ March march(const char* reduction) {
 }  // namespace
 
 // The front of a slender laminate crosses some hundred pairs.
-START_TEST(parts_spare_solves_of_the_whole) {
+TEST(parts_spare_solves_of_the_whole) {
     const March a = march("iterated"), b = march("condensed");
     ck_assert_double_gt(b.dissipated, 0.0);
     ck_assert_double_le(std::abs(a.dissipated - b.dissipated), 1e-6 * b.dissipated);
     std::printf("%d solves, %d iterations\n", static_cast<int>(a.whole), static_cast<int>(a.iterations));
     ck_assert_int_le(a.whole, 230);       // 198; 285 where each is solved to the tolerance, without parts 332
     ck_assert_int_le(a.iterations, 650);  // 576
-}
-END_TEST
-
-int main() {
-    TCase* tests = tcase_create("local zone");
-    tcase_add_loop_test(tests, what_lowers_the_energy_there_lowers_that_of_the_whole, 0, scenes);
-    tcase_add_loop_test(tests, tangents_without_a_minimum_are_seen, 0, scenes);
-    tcase_add_loop_test(tests, only_small_parts_are_offered, 0, scenes);
-    tcase_add_test(tests, parts_spare_solves_of_the_whole);
-    Suite* suite = suite_create("local zone");
-    suite_add_tcase(suite, tests);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? 0 : 1;
 }

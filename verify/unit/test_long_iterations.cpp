@@ -7,11 +7,9 @@
 #include <cstring>
 #include <string>
 
+#include "check.hpp"
 #include "evolution/analysis/solver.hpp"
 #include "flexure.hpp"
-
-// Last: its macro fail() would break delam::fail().
-#include "quiet_check.hpp"
 
 using namespace delam;
 
@@ -97,38 +95,20 @@ void expect_few(std::span<const March> marches) {
 
 }  // namespace
 
-START_TEST(whatever_the_stiffness) {
+TEST(whatever_the_stiffness) {
     std::vector<March> marches;
     for (const double k : stiffnesses) marches.push_back({.stiffness = k});
     expect_few(marches);
 }
-END_TEST
 
-START_TEST(whatever_the_shape_of_the_cells) {
+TEST(whatever_the_shape_of_the_cells) {
     std::vector<March> marches;
     for (const double aspect : aspects) marches.push_back({.aspect = aspect});
     expect_few(marches);
 }
-END_TEST
 
-START_TEST(however_many_interfaces) {
+TEST(however_many_interfaces) {
     std::vector<March> marches;
     for (const std::size_t layers : stacks) marches.push_back({.layers = layers});
     expect_few(marches);
-}
-END_TEST
-
-int main() {
-    Suite* suite = suite_create("iterations");
-    TCase* tests = tcase_create("marches");
-    tcase_set_timeout(tests, 300.0);
-    tcase_add_test(tests, whatever_the_stiffness);
-    tcase_add_test(tests, whatever_the_shape_of_the_cells);
-    tcase_add_test(tests, however_many_interfaces);
-    suite_add_tcase(suite, tests);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? 0 : 1;
 }

@@ -11,11 +11,9 @@
 #include <vector>
 
 #include "base/numbers.hpp"
+#include "check.hpp"
 #include "evolution/analysis/solver.hpp"
 #include "flexure.hpp"
-
-// Last: its macro fail() would break delam::fail().
-#include "quiet_check.hpp"
 
 using namespace delam;
 
@@ -141,7 +139,7 @@ constexpr const char* heading =
     "over those with the number itself. Where neither changes, no analysis came to the number: it guards.\n\n"
     "| number | value | reason | half: difference, work | twice: difference, work |\n|---|---|---|---|---|\n";
 
-START_TEST(test_limits) {
+TEST(test_limits) {
     std::vector<Found> expected;
     for (const Scene& scene : scenes) {
         expected.push_back(analyse(scene, {}));
@@ -176,19 +174,5 @@ START_TEST(test_limits) {
     if (table != nullptr) std::fclose(table);
     ck_assert_msg(wrong.empty(), "numbers that decide results:\n%s", wrong.c_str());
 }
-END_TEST
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("limits");
-    TCase* tests = tcase_create("limits");
-    tcase_set_timeout(tests, 0);
-    tcase_add_test(tests, test_limits);
-    suite_add_tcase(suite, tests);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? 0 : 1;
-}

@@ -14,10 +14,9 @@
 #include "body/cell_elasticity.hpp"
 #include "body/material.hpp"
 #include "body/orientation.hpp"
+#include "check.hpp"
 #include "linalg/dense/dense.hpp"
 #include "mesh/layers.hpp"
-
-#include <check.h>  // last: it has a macro named fail
 
 using namespace delam;
 
@@ -62,7 +61,7 @@ void close(double found, double expected, double scale) {
 
 }  // namespace
 
-START_TEST(compliance) {
+TEST(compliance) {
     const SpaceElasticity d = space_elasticity(wood);
     const std::vector<double> s = inverse<6>(d);
     const auto& c = wood.constant;
@@ -85,10 +84,9 @@ START_TEST(compliance) {
         for (std::size_t i = 0; i < 9; ++i) close(flat[i], plain[i], 1e11);
     }
 }
-END_TEST
 
 // Tsai and Hahn: 1/E_x = c4/E1 + s4/E2 + (1/G12 - 2 nu12/E1) c2 s2, and Qbar_11, Qbar_16 of a ply in plane stress.
-START_TEST(off_axis) {
+TEST(off_axis) {
     const auto& k = ply.constant;
     for (const double angle : {0.0, 0.3, 0.7, 1.2}) {
         const double c = std::cos(angle), s = std::sin(angle);
@@ -105,10 +103,9 @@ START_TEST(off_axis) {
         close(q[8], (q11 + q22 - 2.0 * q12 - 2.0 * q66) * c * c * s * s + q66 * (std::pow(c, 4) + std::pow(s, 4)), q11);
     }
 }
-END_TEST
 
 // Strains rotate with the axes: the energy of a strain is the same in both, and rotating back gives the first numbers.
-START_TEST(turning) {
+TEST(turning) {
     const Axes axes = product(turned_about(0, 0.4), product(turned_about(1, -1.1), turned_about(2, 2.3)));
     Axes back{};
     for (std::size_t i = 0; i < 3; ++i)
@@ -129,9 +126,8 @@ START_TEST(turning) {
     close(same, energy, energy);
     close(in_space[0] + in_space[1] + in_space[2], strain[0] + strain[1] + strain[2], 1e-3);
 }
-END_TEST
 
-START_TEST(bounds) {
+TEST(bounds) {
     const auto said = [](std::size_t i, double value) {
         Orthotropic m = ply;
         m.constant[i] = value;
@@ -153,9 +149,8 @@ START_TEST(bounds) {
     ck_assert(said(Orthotropic::nu23, most * (1.0 + 1e-6)).find("nu23") == 0);
     ck_assert(said(Orthotropic::nu23, most * (1.0 - 1e-6)).empty());
 }
-END_TEST
 
-START_TEST(orientation_list) {
+TEST(orientation_list) {
     const std::int64_t three[] = {0, 1, 3}, one[] = {1};
     const Axes a = turned_about(2, 0.2), b = turned_about(2, 0.4), c = turned_about(1, 0.1);
     const Axes first[] = {a, b, a}, then[] = {c};
@@ -170,11 +165,10 @@ START_TEST(orientation_list) {
     ck_assert(orthonormal_axes(x, xy, made) && (made == Axes{1, 0, 0, 0, 1, 0, 0, 0, 1}));
     ck_assert(!orthonormal_axes(x, x, made) && !orthonormal_axes(none, x, made));
 }
-END_TEST
 
 // Rotating a body together with its material rotates its stiffness, and the energy of a linear field is that of the
 // elasticity, out of the plane too.
-START_TEST(cells_turn_with_the_body) {
+TEST(cells_turn_with_the_body) {
     for (const CellType type : {CellType::quad4, CellType::hex8, CellType::tet10}) {
         const int dim = topology(type).dimension;
         const double lengths[] = {1.3, 0.9}, thickness[] = {0.7};
@@ -233,22 +227,4 @@ START_TEST(cells_turn_with_the_body) {
         ck_assert(assemble_stiffness(plain, cells, plain.body_nodes(0), round).value ==
                   assemble_stiffness(plain, cells, plain.body_nodes(0), bare).value);
     }
-}
-END_TEST
-
-int main() {
-    Suite* suite = suite_create("materials");
-    TCase* cases = tcase_create("materials");
-    tcase_add_test(cases, compliance);
-    tcase_add_test(cases, off_axis);
-    tcase_add_test(cases, turning);
-    tcase_add_test(cases, bounds);
-    tcase_add_test(cases, orientation_list);
-    tcase_add_test(cases, cells_turn_with_the_body);
-    suite_add_tcase(suite, cases);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }

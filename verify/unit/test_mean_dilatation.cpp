@@ -10,10 +10,10 @@
 
 #include "base/error.hpp"
 #include "body/assembly.hpp"
+#include "check.hpp"
 #include "linalg/dense/dense.hpp"
 #include "mesh/layers.hpp"
-
-#include <check.h>  // last: it has a macro named fail
+#include "refused.hpp"
 
 using namespace delam;
 
@@ -56,7 +56,7 @@ std::vector<Material> materials() { return {rubber, ply}; }
 }  // namespace
 
 // A linear displacement gives the forces and stresses of standard cells.
-START_TEST(patch) {
+TEST(patch) {
     for (const CellType type : projected_types)
         for (const Material& material : materials()) {
             const Mesh mesh = distorted(type, 3);
@@ -84,9 +84,8 @@ START_TEST(patch) {
             for (std::size_t i = 0; i < s.size(); ++i) ck_assert(std::abs(s[i] - t[i]) < 1e-11 * most);
         }
 }
-END_TEST
 
-START_TEST(rank) {
+TEST(rank) {
     for (const CellType type : projected_types)
         for (const Material& material : materials()) {
             const Mesh mesh = distorted(type, 1);
@@ -105,33 +104,14 @@ START_TEST(rank) {
                           stiffest);
         }
 }
-END_TEST
 
-START_TEST(refused) {
+TEST(refused) {
     for (const CellType type : {CellType::tri3, CellType::tet4}) {
-        std::string said;
-        try {
+        const std::string said = unit::refusal(DELAM_ERROR_ARGUMENT, [&] {
             require_formulation(distorted(type, 1), 0, Formulation::mean_dilatation, -1);
-        } catch (const Error& e) {
-            said = e.what();
-        }
+        });
         ck_assert(said.find(topology(type).name) != std::string::npos &&
                   said.find("constant already") != std::string::npos &&
                   said.find("allowed are quad4, hex8, tri6, quad8, quad9, tet10 and hex20") != std::string::npos);
     }
-}
-END_TEST
-
-int main() {
-    Suite* suite = suite_create("mean dilatation");
-    TCase* cases = tcase_create("mean dilatation");
-    tcase_add_test(cases, patch);
-    tcase_add_test(cases, rank);
-    tcase_add_test(cases, refused);
-    suite_add_tcase(suite, cases);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The limits of control groups, read from trees of files as Linux shows them.
 #include "base/memory_limit.hpp"
+#include "check.hpp"
 
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
-
-#include "quiet_check.hpp"
 
 using namespace delam;
 
@@ -43,15 +42,14 @@ private:
 
 }  // namespace
 
-START_TEST(no_groups_no_limit) {
+TEST(no_groups_no_limit) {
     ck_assert(std::isinf(control_group_limit("/no such folder")));
     ck_assert(std::isinf(Tree("0::/\n").limit()));
     ck_assert(std::isinf(Tree("0::/job\n").set("/job/memory.max", "max\n").limit()));
 }
-END_TEST
 
 // Groups of version 2: the group itself, one around it, and the root of a container, which is its own group.
-START_TEST(the_narrowest_group_decides) {
+TEST(the_narrowest_group_decides) {
     Tree tree("0::/batch/job.slice/step\n");
     tree.set("/batch/job.slice/step/memory.max", "8589934592\n");
     ck_assert_double_eq(tree.limit(), 8589934592.0);
@@ -63,10 +61,9 @@ START_TEST(the_narrowest_group_decides) {
     tree.set("/memory.max", "2147483648\n");
     ck_assert_double_eq(tree.limit(), 2147483648.0);
 }
-END_TEST
 
 // The controller of version 1 counts; paths may contain colons, and other controllers have trees of their own.
-START_TEST(version_1) {
+TEST(version_1) {
     Tree tree("12:cpu,cpuacct:/a\n7:memory,hugetlb:/docker/id:7\n1:name=systemd:/a\n0::/\n");
     ck_assert(std::isinf(tree.limit()));
     tree.set("/memory/docker/id:7/memory.limit_in_bytes", "3221225472\n");
@@ -76,27 +73,10 @@ START_TEST(version_1) {
     tree.set("/memory/memory.limit_in_bytes", "1073741824\n");
     ck_assert_double_eq(tree.limit(), 1073741824.0);
 }
-END_TEST
 
-START_TEST(lines_that_mean_nothing) {
+TEST(lines_that_mean_nothing) {
     Tree tree("\nnonsense\n0:\n0::no path\n0::/a/../b\n5:memory:\n");
     ck_assert(std::isinf(tree.limit()));
     tree.set("/memory.max", "not a number\n");
     ck_assert(std::isinf(tree.limit()));
-}
-END_TEST
-
-int main() {
-    Suite* suite = suite_create("memory_limit");
-    TCase* tests = tcase_create("control groups");
-    tcase_add_test(tests, no_groups_no_limit);
-    tcase_add_test(tests, the_narrowest_group_decides);
-    tcase_add_test(tests, version_1);
-    tcase_add_test(tests, lines_that_mean_nothing);
-    suite_add_tcase(suite, tests);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? 0 : 1;
 }

@@ -1,42 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes, interfaces, patches and partitions against counts and integrals known beforehand.
+// Meshes and interfaces against counts and integrals known beforehand.
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <csignal>
 #include <cstdint>
-#include <cstdlib>
 #include <functional>
 #include <numeric>
 #include <random>
-#include <set>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "all_types.hpp"
 #include "base/error.hpp"
+#include "check.hpp"
 #include "delam/delam.h"
-#include "mesh/box_tree.hpp"
 #include "mesh/faces.hpp"
-#include "mesh/layers.hpp"
 #include "mesh/mesh.hpp"
-#include "mesh/partition.hpp"
 #include "mesh/selection.hpp"
-#include "partitions.hpp"
-
-#include "quiet_check.hpp"  // last: it has a macro named fail
+#include "meshes.hpp"
+#include "refused.hpp"
 
 using namespace delam;
+using namespace unit;
 
 namespace {
 
-using Labels = std::vector<std::int32_t>;
-using Indices = std::vector<std::int64_t>;
-using Numbers = std::vector<double>;
-
-bool quadratic(CellType type) { return topology(type).nodes > topology(type).corners; }
-bool triangles(CellType type) { return topology(type).face_corners == 3; }
 // Nodes in a box of n[0] x n[1] (x n[2]) boxes of a block, faces and edges shared.
 std::int64_t lattice_nodes(CellType type, std::vector<std::int64_t> n) {
     std::int64_t corners = 1;
@@ -51,57 +40,6 @@ std::int64_t lattice_nodes(CellType type, std::vector<std::int64_t> n) {
     for (const std::int64_t k : n) edges += corners / (k + 1) * k;
     return corners + edges;
 }
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
-// Message of the error in which an action ends; empty if there is none.
-std::string refusal(std::int32_t status, const std::function<void()>& action) {
-    try {
-        action();
-    } catch (const Error& e) {
-        ck_assert_msg(e.status() == status, "status %d: %s", e.status(), e.what());
-        return e.what();
-    }
-    return "";
-}
-#define ck_assert_refused(status, part, action)                                                         \
-    do {                                                                                                \
-        const std::string said = refusal(status, [&] { action; });                                      \
-        ck_assert_msg(said.find(part) != std::string::npos, "\"%s\" lacks \"%s\"", said.c_str(), part); \
-    } while (0)
-
-Mesh layers(CellType type, Numbers lengths, Indices divisions, Numbers thickness, Indices layer_divisions) {
-    return make_layers(topology(type).dimension, lengths, divisions, thickness, layer_divisions, type);
-}
-
-// A mesh with the same cells, its nodes and cells in another order and its nodes mapped.
-Mesh rebuilt(const Mesh& mesh, unsigned seed, const std::function<void(std::span<double>)>& map = {}) {
-    const std::size_t dim = at(mesh.dimension());
-    std::mt19937 random(seed);
-    Indices place(at(mesh.node_count()));
-    std::iota(place.begin(), place.end(), std::int64_t{0});
-    Indices order(at(mesh.cell_count()));
-    std::iota(order.begin(), order.end(), std::int64_t{0});
-    if (seed != 0) {
-        std::shuffle(place.begin(), place.end(), random);
-        std::shuffle(order.begin(), order.end(), random);
-    }
-    Numbers nodes(mesh.nodes().size());
-    for (std::int64_t n = 0; n < mesh.node_count(); ++n) {
-        const std::span<double> target = std::span(nodes).subspan(at(place[at(n)]) * dim, dim);
-        std::copy(mesh.node(n).begin(), mesh.node(n).end(), target.begin());
-        if (map) map(target);
-    }
-    Mesh result(mesh.dimension(), nodes);
-    for (const std::int64_t c : order) {  // one by one, as a host may do
-        Indices cell;
-        for (const std::int64_t n : mesh.cell(c)) cell.push_back(place[at(n)]);
-        result.add_cells(mesh.cell_type(c), cell, Labels{mesh.body_label(mesh.cell_body(c))});
-    }
-    return result;
-}
-
-double sum(std::span<const double> x) { return std::accumulate(x.begin(), x.end(), 0.0); }
 
 void check_frames(const Mesh& mesh, const InterfaceGeometry& i) {
     const std::size_t dim = at(mesh.dimension());
@@ -123,7 +61,7 @@ void check_frames(const Mesh& mesh, const InterfaceGeometry& i) {
 }  // namespace
 
 // The arms of the published ENF and MMF meshes: 120 mm x 3 mm in square cells.
-START_TEST(two_arms) {
+TEST(two_arms) {
     const struct {
         double h;
         std::int64_t along, through;
@@ -151,9 +89,8 @@ START_TEST(two_arms) {
         }
     }
 }
-END_TEST
 
-START_TEST(layered_blocks) {
+TEST(layered_blocks) {
     for (const CellType type : all_types) {
         const bool plane = topology(type).dimension == 2;
         const Numbers lengths = plane ? Numbers{2.0} : Numbers{2.0, 1.5};
@@ -220,11 +157,10 @@ START_TEST(layered_blocks) {
     ck_assert_refused(DELAM_ERROR_ARGUMENT, "nodes: at most",
                       layers(CellType::hex8, {1, 1}, {100000, 100000}, {1}, {1}));
 }
-END_TEST
 
 // The host decides the order of nodes and cells: in space the pairs are the same, bit for bit, even where rounding has
 // moved the nodes of the two sides a little and the interface is vertical.
-START_TEST(shuffled_nodes) {
+TEST(shuffled_nodes) {
     for (const CellType type : all_types) {
         const bool plane = topology(type).dimension == 2;
         const Mesh plain = layers(type, plane ? Numbers{2.0} : Numbers{2.0, 1.5}, plane ? Indices{9} : Indices{5, 4},
@@ -262,10 +198,9 @@ START_TEST(shuffled_nodes) {
         ck_assert(std::abs(a.frame[0] + 1.0) < 1e-14);  // from body 0 at x = -0.3..0 to body 1 at x = -0.5..-0.3
     }
 }
-END_TEST
 
 // A circular interface: normals are radial, weights are those of the polygon.
-START_TEST(curved_interface) {
+TEST(curved_interface) {
     const int n = 60;
     Numbers nodes;
     Indices cells;
@@ -293,10 +228,9 @@ START_TEST(curved_interface) {
         ck_assert(i.frame[4 * p + 2] == i.frame[4 * p + 1] && i.frame[4 * p + 3] == -i.frame[4 * p]);
     }
 }
-END_TEST
 
 // A distorted quadrilateral face: the weights are the integrals of its bilinear shape functions, whose sum is the area.
-START_TEST(weights_of_distorted_faces) {
+TEST(weights_of_distorted_faces) {
     Mesh plain = layers(CellType::hex8, {2.0, 1.0}, {4, 3}, {0.5, 0.5}, {1, 1});
     Mesh mesh = rebuilt(plain, 0, [](std::span<double> x) {
         const double bump = x[0] * (2.0 - x[0]) * x[1] * (1.0 - x[1]);
@@ -311,11 +245,10 @@ START_TEST(weights_of_distorted_faces) {
     for (std::size_t p = 0; p < i.node_a.size(); ++p) moment += i.weight[p] * mesh.node(i.node_a[p])[1];
     ck_assert(std::abs(moment - 1.0) < 1e-2);  // a nodal rule: near the exact first moment, but not equal
 }
-END_TEST
 
 // Rings of quadratic cells with their middle nodes on the circle: normals are radial to the fourth order of the cell's
 // angle, at middle nodes exactly, weights positive with the length of the circle.
-START_TEST(curved_cells) {
+TEST(curved_cells) {
     for (const CellType type : {CellType::quad8, CellType::quad9, CellType::tri6}) {
         const int n = 24;
         Mesh plain = layers(type, {2.0 * M_PI}, {n}, {0.5, 0.5}, {1, 1});
@@ -345,11 +278,10 @@ START_TEST(curved_cells) {
         }
     }
 }
-END_TEST
 
 // Weights of flat faces by hand; those of faces with shifted middle nodes and of warped faces are positive and sum to
 // the length, or the area that the nodes span.
-START_TEST(weights_of_quadratic_faces) {
+TEST(weights_of_quadratic_faces) {
     const auto weights_of = [](CellType type, const std::function<void(std::span<double>)>& map) {
         const bool plane = topology(type).dimension == 2;
         Mesh mesh = rebuilt(
@@ -399,10 +331,9 @@ START_TEST(weights_of_quadratic_faces) {
         ck_assert(sum(warped.weight) > 1.0 && sum(warped.weight) < 1.1);
     }
 }
-END_TEST
 
 // Triangles among quadrilaterals: rows of eight with a collapsed side.
-START_TEST(mixed_faces) {
+TEST(mixed_faces) {
     const Mesh bricks = layers(CellType::hex20, {1, 1}, {1, 1}, {1, 1}, {1, 1});
     const Mesh tetrahedra = layers(CellType::tet10, {1, 1}, {1, 1}, {1, 1}, {1, 1});
     Numbers nodes(bricks.nodes().begin(), bricks.nodes().end());
@@ -433,10 +364,9 @@ START_TEST(mixed_faces) {
     }
     ck_assert_uint_eq(shrunken, 2);
 }
-END_TEST
 
 // A mid-side node without a partner is named, wherever the partner is missing.
-START_TEST(missing_middle_nodes) {
+TEST(missing_middle_nodes) {
     for (const CellType type : all_types) {
         if (!quadratic(type)) continue;
         const bool plane = topology(type).dimension == 2;
@@ -488,11 +418,10 @@ START_TEST(missing_middle_nodes) {
     mesh.add_cells(CellType::quad8, Indices{0, 1, 2, 3, 6, 7, 8, 9, 1, 4, 5, 2, 10, 11, 12, 13}, {});
     ck_assert_refused(DELAM_ERROR_MESH, "not its mid-side nodes", boundary_faces(mesh, 0));
 }
-END_TEST
 
 // The integrals of the shape functions over whole faces, known by hand: 1/6, 2/3, 1/6 of an edge; nothing of a corner
 // and a third of a middle node on a triangle; -1/12 and 1/3 on an 8-node face.
-START_TEST(patches_of_quadratic_faces) {
+TEST(patches_of_quadratic_faces) {
     const Mesh plane = layers(CellType::quad8, {1}, {1}, {1}, {1});
     const Patch edge = find_patch(plane, 0, Numbers{-1, 1}, Numbers{2, 1}, Numbers{0, 1});
     ck_assert_uint_eq(edge.nodes.size(), 3);
@@ -512,329 +441,4 @@ START_TEST(patches_of_quadratic_faces) {
         const auto x = tetrahedra.node(middles.nodes[k]);
         ck_assert(std::abs(middles.weights[k] - (x[0] == 0.5 && x[1] == 0.5 ? 1.0 : 0.5) / 3.0) < 1e-15);
     }
-}
-END_TEST
-
-START_TEST(refused_cells) {
-    const Numbers square{0, 0, 1, 0, 1, 1, 0, 1, 2, 0, 2, 1};
-    Mesh mesh(2, square);
-    ck_assert_refused(DELAM_ERROR_MESH, "cell 0 (body 7): smallest Jacobian -",
-                      mesh.add_cells(CellType::quad4, Indices{0, 3, 2, 1}, Labels{7}));
-    ck_assert_refused(DELAM_ERROR_MESH, "degenerate", mesh.add_cells(CellType::tri3, Indices{0, 1, 4}, {}));
-    ck_assert_refused(DELAM_ERROR_ARGUMENT, "node 6: must be in 0..5",
-                      mesh.add_cells(CellType::tri3, Indices{0, 1, 6}, {}));
-    ck_assert_refused(DELAM_ERROR_ARGUMENT, "body -2", mesh.add_cells(CellType::tri3, Indices{0, 1, 2}, Labels{-2}));
-    ck_assert_refused(DELAM_ERROR_ARGUMENT, "3D cells in a 2D mesh",
-                      mesh.add_cells(CellType::tet4, Indices{0, 1, 2, 3}, {}));
-    ck_assert_refused(DELAM_ERROR_MESH, "node 1 belongs to bodies 3 and 5; each body needs nodes of its own",
-                      mesh.add_cells(CellType::quad4, Indices{0, 1, 2, 3, 1, 4, 5, 2}, (Labels{3, 5})));
-    // After all that the mesh is as it was.
-    ck_assert_int_eq(mesh.cell_count(), 0);
-    ck_assert_int_eq(mesh.body_count(), 0);
-    for (std::int64_t n = 0; n < 6; ++n) ck_assert_int_eq(mesh.node_body(n), -1);
-    mesh.add_cells(CellType::quad4, Indices{0, 1, 2, 3, 1, 4, 5, 2}, Labels{3, 3});
-    ck_assert_int_eq(mesh.body_count(), 1);
-    ck_assert_int_eq(mesh.body_of_label(3), 0);
-    ck_assert_int_eq(mesh.body_of_label(0), -1);
-    mesh.add_cells(CellType::tri3, Indices{0, 1, 2}, Labels{3});
-    ck_assert_refused(DELAM_ERROR_MESH, "overlap", boundary_faces(mesh, 0));
-    ck_assert_refused(DELAM_ERROR_ARGUMENT, "not finite", Mesh(2, Numbers{0, std::nan("")}));
-    ck_assert_refused(DELAM_ERROR_ARGUMENT, "dimension 4", Mesh(4, Numbers{0, 0, 0, 0}));
-    // The same cell is as good in metres as in nanometres.
-    for (const double unit : {1e-9, 1e9}) {
-        Mesh scaled = rebuilt(layers(CellType::tet4, {1, 1}, {1, 1}, {1e-3}, {1}), 0, [&](std::span<double> x) {
-            for (double& v : x) v *= unit;
-        });
-        ck_assert_int_eq(scaled.cell_count(), 6);
-    }
-}
-END_TEST
-
-// Two blocks, the upper one cut and placed arbitrarily.
-Mesh two_blocks(CellType type, std::int64_t lower_cells, std::int64_t upper_cells, double length, double shift,
-                double gap) {
-    const bool plane = topology(type).dimension == 2;
-    const auto block = [&](std::int64_t cells, double extent) {
-        return layers(type, plane ? Numbers{extent} : Numbers{extent, 1.0}, plane ? Indices{cells} : Indices{cells, 2},
-                      {0.5}, {1});
-    };
-    const Mesh lower = block(lower_cells, 1.0);
-    const Mesh upper = block(upper_cells, length);
-    Numbers nodes(lower.nodes().begin(), lower.nodes().end());
-    for (std::int64_t n = 0; n < upper.node_count(); ++n) {
-        Numbers x(upper.node(n).begin(), upper.node(n).end());
-        x[0] += shift;
-        x.back() += 0.5 + gap;
-        nodes.insert(nodes.end(), x.begin(), x.end());
-    }
-    Mesh mesh(lower.dimension(), nodes);
-    for (std::int64_t c = 0; c < lower.cell_count(); ++c) mesh.add_cells(type, lower.cell(c), Labels{0});
-    for (std::int64_t c = 0; c < upper.cell_count(); ++c) {
-        Indices cell(upper.cell(c).begin(), upper.cell(c).end());
-        for (std::int64_t& n : cell) n += lower.node_count();
-        mesh.add_cells(type, cell, Labels{1});
-    }
-    return mesh;
-}
-
-START_TEST(refused_interfaces) {
-    for (const CellType type : all_types) {
-        // Half the cells, shifted cells, cells that share corners only at one end, a sliver of overlap.
-        const struct {
-            std::int64_t lower, upper;
-            double length, shift;
-        } unmatched[] = {{4, 2, 1.0, 0.0}, {2, 4, 1.0, 0.0},  {4, 4, 1.0, 0.1},
-                         {4, 3, 0.9, 0.0}, {1, 1, 1.0, 0.99}, {4, 1, 0.3, 0.0}};
-        for (const auto& u : unmatched) {
-            Mesh mesh = two_blocks(type, u.lower, u.upper, u.length, u.shift, 0.0);
-            ck_assert_refused(DELAM_ERROR_MESH, "do not match", mesh.add_interface(0, 1, 0.0));
-            ck_assert_uint_eq(mesh.interfaces().size(), 0);
-        }
-        Mesh apart = two_blocks(type, 4, 4, 1.0, 0.0, 0.125);
-        ck_assert_refused(DELAM_ERROR_MESH, "as close as 0.125", apart.add_interface(0, 1, 0.0));
-        Mesh corner = two_blocks(type, 4, 4, 1.0, 1.0, 0.0);
-        ck_assert_refused(DELAM_ERROR_MESH, "as close as 0", corner.add_interface(0, 1, 0.0));
-        // A shorter body on a longer one is accepted, and so is one that overhangs by whole cells.
-        Mesh shorter = two_blocks(type, 4, 2, 0.5, 0.25, 0.0);
-        shorter.add_interface(0, 1, 0.0);
-        ck_assert(std::abs(sum(shorter.interfaces()[0].weight) - 0.5) < 1e-14);
-        Mesh overhanging = two_blocks(type, 4, 4, 1.0, 0.25, 0.0);
-        overhanging.add_interface(0, 1, 0.0);
-        ck_assert(std::abs(sum(overhanging.interfaces()[0].weight) - 0.75) < 1e-14);
-        // Tolerance is relative to the shortest edge, 1/4 or, from corner to middle, 1/8.
-        Mesh near = two_blocks(type, 4, 4, 1.0, 0.0, quadratic(type) ? 0.012 : 0.024);
-        ck_assert_refused(DELAM_ERROR_MESH, quadratic(type) ? "as close as 0.012" : "as close as 0.024",
-                          near.add_interface(0, 1, 0.09));
-        near.add_interface(0, 1, 0.1);
-        // One inside the other.
-        Mesh inside = two_blocks(type, 4, 4, 1.0, 0.0, -0.5);
-        ck_assert_refused(DELAM_ERROR_MESH, "overlap", inside.add_interface(0, 1, 0.0));
-    }
-    Mesh mesh = two_blocks(CellType::quad4, 4, 4, 1.0, 0.0, 0.0);
-    for (const double bad : {-0.1, 0.5, std::nan("")})
-        ck_assert_refused(DELAM_ERROR_ARGUMENT, "[0, 0.5)", mesh.add_interface(0, 1, bad));
-    ck_assert_refused(DELAM_ERROR_ARGUMENT, "body_b 3", mesh.add_interface(0, 3, 0.0));
-    ck_assert_refused(DELAM_ERROR_ARGUMENT, "both 1", mesh.add_interface(1, 1, 0.0));
-    mesh.add_interface(0, 1, 0.0);
-    ck_assert_refused(DELAM_ERROR_ARGUMENT, "already joined by interface 0", mesh.add_interface(0, 1, 0.0));
-    ck_assert_refused(DELAM_ERROR_ARGUMENT, "already joined by interface 0", mesh.add_interface(1, 0, 0.0));
-    ck_assert_refused(DELAM_ERROR_STATE, "has an interface already",
-                      mesh.add_cells(CellType::tri3, Indices{0, 1, 5}, Labels{1}));
-}
-END_TEST
-
-// A later body with a label in between moves the indices of the others; interfaces follow.
-START_TEST(late_bodies) {
-    const Numbers nodes{0, 0, 1, 0, 1, 1, 0, 1, 0, 1, 1, 1, 1, 2, 0, 2, 5, 5, 6, 5, 6, 6, 5, 6};
-    Mesh mesh(2, nodes);
-    mesh.add_cells(CellType::quad4, Indices{0, 1, 2, 3, 4, 5, 6, 7}, Labels{2, 9});
-    mesh.add_interface(9, 2, 0.0);
-    ck_assert_int_eq(mesh.interfaces()[0].body_a, 1);
-    mesh.add_cells(CellType::quad4, Indices{8, 9, 10, 11}, Labels{4});
-    ck_assert_int_eq(mesh.body_label(mesh.interfaces()[0].body_a), 9);
-    ck_assert_int_eq(mesh.body_label(mesh.interfaces()[0].body_b), 2);
-    ck_assert_int_eq(mesh.interfaces()[0].body_a, 2);
-}
-END_TEST
-
-START_TEST(nodes_in_boxes) {
-    const Mesh mesh = layers(CellType::quad4, {1.0}, {10}, {0.2, 0.2}, {2, 2});
-    ck_assert_uint_eq(find_nodes(mesh, -1, Numbers{0, 0.2}, Numbers{1, 0.2}).size(), 22);
-    ck_assert_uint_eq(find_nodes(mesh, 1, Numbers{0, 0.2}, Numbers{1, 0.2}).size(), 11);
-    // Rounding: 0.3 is not a sum of tenths.
-    ck_assert(find_nodes(mesh, 0, Numbers{0.3, 0.0}, Numbers{0.4, 0.0}) == (Indices{3, 4}));
-    ck_assert(find_nodes(mesh, 0, Numbers{0.35, 0.0}, Numbers{0.36, 0.0}).empty());
-    ck_assert_refused(DELAM_ERROR_ARGUMENT, "axis 1", find_nodes(mesh, 0, Numbers{0, 1}, Numbers{1, 0}));
-    ck_assert_refused(DELAM_ERROR_ARGUMENT, "body index 2", find_nodes(mesh, 2, Numbers{0, 0}, Numbers{1, 1}));
-}
-END_TEST
-
-// Shape functions sum to one and reproduce linear fields: the weights and their first moments are those of the patch,
-// wherever the box ends.
-START_TEST(patches) {
-    for (const CellType type : all_types) {
-        const bool plane = topology(type).dimension == 2;
-        const double top = 0.7;
-        const Mesh mesh =
-            layers(type, plane ? Numbers{2.0} : Numbers{2.0, 1.5}, plane ? Indices{7} : Indices{7, 5}, {top}, {3});
-        const Numbers up = plane ? Numbers{0, 3} : Numbers{0, 0, 3};
-        std::mt19937 random(2);
-        std::uniform_real_distribution<double> point(0.0, 1.0);
-        for (int trial = 0; trial < 50; ++trial) {
-            Numbers low;
-            Numbers high;
-            double extent = 1.0;
-            for (std::size_t i = 0; i + 1 < up.size(); ++i) {
-                const double length = i == 0 ? 2.0 : 1.5;
-                const auto [a, b] = std::minmax({point(random) * length, point(random) * length});
-                low.push_back(trial == 0 ? -1.0 : a);
-                high.push_back(trial == 0 ? 9.0 : b);
-                extent *= trial == 0 ? length : b - a;
-            }
-            low.push_back(trial % 2 == 0 ? top : -5.0);  // a plane, or a box
-            high.push_back(trial % 2 == 0 ? top : 5.0);
-            const Patch patch = find_patch(mesh, 0, low, high, up);
-            ck_assert(std::abs(sum(patch.weights) - extent) <= 1e-13);
-            ck_assert(std::is_sorted(patch.nodes.begin(), patch.nodes.end()));
-            for (std::size_t axis = 0; axis + 1 < up.size(); ++axis) {
-                const double length = axis == 0 ? 2.0 : 1.5;
-                const double middle = 0.5 * (std::max(low[axis], 0.0) + std::min(high[axis], length));
-                double moment = 0.0;
-                for (std::size_t k = 0; k < patch.nodes.size(); ++k)
-                    moment += patch.weights[k] * mesh.node(patch.nodes[k])[axis];
-                ck_assert(std::abs(moment - middle * extent) <= 1e-13);
-            }
-            for (std::size_t k = 0; k < patch.nodes.size(); ++k) {
-                ck_assert(patch.weights[k] > 0.0 || quadratic(type));
-                ck_assert(mesh.node(patch.nodes[k]).back() == top);
-            }
-        }
-        ck_assert(find_patch(mesh, 0, Numbers{-9, -9, 5}, Numbers{9, plane ? -1.0 : 9.0, 9}, up).nodes.empty());
-        ck_assert_refused(DELAM_ERROR_ARGUMENT, "direction",
-                          find_patch(mesh, 0, Numbers{0, 0, 0}, Numbers{1, 1, 1}, Numbers(up.size(), 0.0)));
-        // A box that ends on nodes takes nothing of the faces beyond, whatever the rounding.
-        const Patch aligned = find_patch(mesh, 0, Numbers{2.0 * 3 / 7, -1, -1}, Numbers{2.0 * (4.0 / 7), 9, 9}, up);
-        for (const std::int64_t n : aligned.nodes) ck_assert(mesh.node(n)[0] > 0.8 && mesh.node(n)[0] < 1.2);
-    }
-    // On quadrilaterals no corner is preferred: a full square face gives a quarter each.
-    const Mesh cube = layers(CellType::hex8, {1, 1}, {1, 1}, {1}, {1});
-    const Patch face = find_patch(cube, 0, Numbers{-1, -1, -1}, Numbers{2, 2, 2}, Numbers{0, 0, 1});
-    for (const double w : face.weights) ck_assert(std::abs(w - 0.25) <= 1e-15);
-    // 45 degrees belong to both directions.
-    const Numbers roof{0, 0, 1, 0, 0, 1};
-    Mesh triangle(2, roof);
-    triangle.add_cells(CellType::tri3, Indices{0, 1, 2}, {});
-    for (const Numbers& direction : {Numbers{1, 0}, Numbers{0, 1}})
-        ck_assert(std::abs(sum(find_patch(triangle, 0, Numbers{0, 0}, Numbers{1, 1}, direction).weights) -
-                           std::sqrt(2.0)) < 1e-14);
-    const Patch oblique = find_patch(triangle, 0, Numbers{0.25, 0.0}, Numbers{1.0, 0.5}, Numbers{1, 1});
-    ck_assert(std::abs(sum(oblique.weights) - 0.5 * std::sqrt(2.0)) < 1e-14);
-}
-END_TEST
-
-// All numbers of parts for each type are in the long tier.
-START_TEST(partitions) {
-    std::array<std::int64_t, 2> shares{};  // in space, in the plane
-    for (const CellType type : all_types) {
-        // Every number in the plane and in space; for each type the small ones and every fourth.
-        const std::int64_t share = shares[topology(type).dimension == 2 ? 1 : 0]++ % 4;
-        unit::check_partitions(
-            type, [&](std::int64_t n) { return n <= 8 || n == 16 || n == 64 || n % 4 == share; },
-            [&](std::int64_t n) { return n % 8 == share; });
-    }
-    // Down to single cells.
-    const Mesh tiny = layers(CellType::tri3, {1}, {4}, {1}, {2});
-    for (std::int64_t n = 1; n <= tiny.cell_count(); ++n) {
-        const Partition parts = partition(tiny, n);
-        ck_assert_uint_eq(parts.subdomain_body.size(), at(n));
-        unit::check_partition(tiny, unit::cell_faces(tiny), parts);
-    }
-    ck_assert_refused(DELAM_ERROR_ARGUMENT, "subdomains 17: must be in 0..16", partition(tiny, 17));
-    ck_assert_refused(DELAM_ERROR_ARGUMENT, "subdomains -1", partition(tiny, -1));
-}
-END_TEST
-
-// Two squares of one body that share a node, and one far away: at least three subdomains.
-START_TEST(parts_that_touch_in_a_node) {
-    const Numbers nodes{0, 0, 1, 0, 1, 1, 0, 1, 2, 1, 2, 2, 1, 2, 5, 5, 6, 5, 6, 6, 5, 6};
-    Mesh mesh(2, nodes);
-    mesh.add_cells(CellType::quad4, Indices{0, 1, 2, 3, 2, 4, 5, 6, 7, 8, 9, 10}, {});
-    const Partition parts = partition(mesh, 1);
-    ck_assert_uint_eq(parts.subdomain_body.size(), 3);
-    unit::check_partition(mesh, unit::cell_faces(mesh), parts);
-}
-END_TEST
-
-static void host_handler(int) {}
-
-START_TEST(host_is_left_alone) {
-    const Mesh mesh = layers(CellType::quad4, {4.0}, {60}, {1, 0.5}, {10, 5});
-    std::srand(42);
-    std::array<int, 12> expected{};
-    for (int& r : expected) r = std::rand();
-    std::srand(42);
-    std::array<int, 12> found{};
-    for (std::size_t i = 0; i < 5; ++i) found[i] = std::rand();
-    const Partition before = partition(mesh, 12);
-    for (std::size_t i = 5; i < 12; ++i) found[i] = std::rand();
-    ck_assert(found == expected);
-    std::srand(4711);  // the host's random sequence must not affect the partition either
-    ck_assert(partition(mesh, 12).cell_subdomain == before.cell_subdomain);
-
-    struct sigaction own {};
-    own.sa_handler = host_handler;
-    own.sa_flags = SA_RESTART;
-    sigemptyset(&own.sa_mask);
-    sigaddset(&own.sa_mask, SIGUSR1);
-    for (const int signal : {SIGABRT, SIGTERM}) sigaction(signal, &own, nullptr);
-    partition(mesh, 12);
-    for (const int signal : {SIGABRT, SIGTERM}) {
-        struct sigaction now {};
-        sigaction(signal, nullptr, &now);
-        ck_assert(now.sa_handler == host_handler);
-        ck_assert((now.sa_flags & SA_RESTART) != 0 && sigismember(&now.sa_mask, SIGUSR1) == 1);
-    }
-}
-END_TEST
-
-START_TEST(box_search) {
-    std::mt19937 random(9);
-    std::uniform_real_distribution<double> point(0.0, 1.0);
-    const auto draw = [&] { return Point{point(random), point(random), point(random)}; };
-    std::vector<Box> boxes;
-    for (int i = 0; i < 500; ++i) {
-        const Point p = draw();
-        boxes.push_back({p, {p[0] + 0.2 * point(random), p[1] + 0.2 * point(random), p[2] + 0.2 * point(random)}});
-    }
-    const BoxTree tree(boxes);
-    for (int i = 0; i < 300; ++i) {
-        const Point p = draw();
-        std::set<std::int64_t> expected;
-        std::pair best{1e9, std::int64_t{-1}};
-        for (std::size_t k = 0; k < boxes.size(); ++k) {
-            double d[3];
-            for (std::size_t a = 0; a < 3; ++a) d[a] = std::max({boxes[k].low[a] - p[a], p[a] - boxes[k].high[a], 0.0});
-            const double distance = std::hypot(d[0], d[1], d[2]);
-            if (distance == 0.0) expected.insert(static_cast<std::int64_t>(k));
-            best = std::min(best, {distance, static_cast<std::int64_t>(k)});
-        }
-        std::set<std::int64_t> found;
-        tree.containing(p, [&](std::int64_t k) { found.insert(k); });
-        ck_assert(found == expected);
-        const BoxTree::Nearest nearest = tree.nearest(p);
-        ck_assert(nearest.index == best.second && nearest.distance == best.first);
-        if (best.first > 0.0) ck_assert(tree.nearest(p, 0.99 * best.first).index == -1);
-    }
-    ck_assert(BoxTree({}).nearest(draw()).index == -1);
-}
-END_TEST
-
-int main() {
-    Suite* suite = suite_create("mesh");
-    TCase* cases = tcase_create("mesh");
-    tcase_add_test(cases, two_arms);
-    tcase_add_test(cases, layered_blocks);
-    tcase_add_test(cases, shuffled_nodes);
-    tcase_add_test(cases, curved_interface);
-    tcase_add_test(cases, weights_of_distorted_faces);
-    tcase_add_test(cases, curved_cells);
-    tcase_add_test(cases, weights_of_quadratic_faces);
-    tcase_add_test(cases, mixed_faces);
-    tcase_add_test(cases, missing_middle_nodes);
-    tcase_add_test(cases, patches_of_quadratic_faces);
-    tcase_add_test(cases, refused_cells);
-    tcase_add_test(cases, refused_interfaces);
-    tcase_add_test(cases, late_bodies);
-    tcase_add_test(cases, nodes_in_boxes);
-    tcase_add_test(cases, patches);
-    tcase_add_test(cases, partitions);
-    tcase_add_test(cases, parts_that_touch_in_a_node);
-    tcase_add_test(cases, host_is_left_alone);
-    tcase_add_test(cases, box_search);
-    suite_add_tcase(suite, cases);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }

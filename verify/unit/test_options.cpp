@@ -9,11 +9,10 @@
 
 #include "base/archive.hpp"
 #include "base/error.hpp"
+#include "check.hpp"
 #include "delam/delam.h"
+#include "refused.hpp"
 #include "scene/options.hpp"
-
-// Last: its macro fail() would break delam::fail().
-#include <check.h>
 
 using namespace delam;
 
@@ -30,22 +29,18 @@ double allowed_end(const Bound& end, const Bound& other) {
 template <class Value>
 std::string refusal(const std::string& key, const Value& value) {
     Options options;
-    try {
+    return unit::refusal(DELAM_ERROR_ARGUMENT, [&] {
         if constexpr (std::is_same_v<Value, double>)
             options.set_number(key, value);
         else
             options.set_text(key, value);
-        return "";
-    } catch (const Error& e) {
-        ck_assert_int_eq(e.status(), DELAM_ERROR_ARGUMENT);
-        return e.what();
-    }
+    });
 }
 
 }  // namespace
 
 // Saved states and results identify their scene by this hash. Both numbers were computed before the table existed.
-START_TEST(hashes_stay_as_they_were) {
+TEST(hashes_stay_as_they_were) {
     Options options;
     options.set_text("mixity_rule", "frozen");  // its default at that time
     ck_assert_uint_eq(hash(options, seed), 0x17c7745f32b9ddd7u);
@@ -75,10 +70,9 @@ START_TEST(hashes_stay_as_they_were) {
     for (const auto& [key, number] : numbers) options.set_number(key, number);
     ck_assert_uint_eq(hash(options, seed), 0x15cdb0642e428c44u);
 }
-END_TEST
 
 // A later row enters the hash if it is set; a row that affects no digit never does.
-START_TEST(new_rows_leave_old_hashes_alone) {
+TEST(new_rows_leave_old_hashes_alone) {
     const auto whole = option_table();
     std::vector<Option> table(whole.begin(), whole.end());
     const auto late =
@@ -99,9 +93,8 @@ START_TEST(new_rows_leave_old_hashes_alone) {
     late->hashed = Hashed::never;
     ck_assert_uint_eq(hash(options, seed, table), before);
 }
-END_TEST
 
-START_TEST(ranges_end_where_they_say) {
+TEST(ranges_end_where_they_say) {
     for (const Option& row : option_table()) {
         if (row.type == std::string("text")) continue;
         ck_assert(row.lower.number < row.upper.number);
@@ -116,9 +109,8 @@ START_TEST(ranges_end_where_they_say) {
         }
     }
 }
-END_TEST
 
-START_TEST(aliases_are_the_same_option) {
+TEST(aliases_are_the_same_option) {
     std::set<std::string> names;
     int aliases = 0, other_words = 0;
     for (const Option& row : option_table()) {
@@ -154,9 +146,8 @@ START_TEST(aliases_are_the_same_option) {
     }
     ck_assert(aliases > 0 && other_words > 0);
 }
-END_TEST
 
-START_TEST(refusals_say_what_and_why) {
+TEST(refusals_say_what_and_why) {
     const auto number = [](const char* key, double value) { return refusal(key, value); };
     const auto word = [](const char* key, const char* value) { return refusal(key, std::string(value)); };
     const auto says = [](const std::string& words, const std::string& part) {
@@ -172,21 +163,4 @@ START_TEST(refusals_say_what_and_why) {
     says(word("contact_limit", "7"), "option 'contact_limit' is a number (1 <= value <= 2^53), not a text");
     says(word("solution", "nonsense"), "option 'solution' = 'nonsense' is outside its range: local | energetic");
     says(word("solution", "local | energetic"), "is outside its range");
-}
-END_TEST
-
-int main() {
-    Suite* suite = suite_create("options");
-    TCase* tests = tcase_create("options");
-    tcase_add_test(tests, hashes_stay_as_they_were);
-    tcase_add_test(tests, new_rows_leave_old_hashes_alone);
-    tcase_add_test(tests, ranges_end_where_they_say);
-    tcase_add_test(tests, refusals_say_what_and_why);
-    tcase_add_test(tests, aliases_are_the_same_option);
-    suite_add_tcase(suite, tests);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? 0 : 1;
 }

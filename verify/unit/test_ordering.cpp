@@ -17,14 +17,11 @@
 #include <vector>
 
 #include "box_matrix.hpp"
+#include "check.hpp"
 #include "linalg/sparse/cholesky.hpp"
 #include "linalg/sparse/dissection.hpp"
 #include "linalg/sparse/elimination_order.hpp"
 #include "linalg/sparse/equal_rows.hpp"
-#include "quiet_check.hpp"
-
-// Last: its macro fail() would break delam::fail().
-#include <check.h>
 
 using namespace delam;
 using unit::box;
@@ -60,7 +57,7 @@ void own_handler(int) { handled = handled + 1; }
 
 // The count of a cube's factor is that of the order that nested dissection gives, and half of what minimum degree
 // needs; a plate, where dissection costs operations, has the other order.
-START_TEST(dissection_is_taken_where_it_orders_better) {
+TEST(dissection_is_taken_where_it_orders_better) {
     const SparseMatrix cube = box(17, 17, 17);
     const std::vector<std::int64_t> order = dissection_order(cube, cube.rows);
     std::vector<std::int64_t> sorted = order;
@@ -80,11 +77,10 @@ START_TEST(dissection_is_taken_where_it_orders_better) {
         SparseCholesky(reordered(plate, dissection_order(plate, plate.rows)), plate.rows).size();
     ck_assert_double_lt(small.flops, dissected.flops);
 }
-END_TEST
 
 // Trailing variables: the Schur complement onto them, in their given order, against products with the matrix; and a
 // solve of the whole.
-START_TEST(trailing_variables_stay_last) {
+TEST(trailing_variables_stay_last) {
     const std::int64_t trailing = 3 * 17 * 17;
     const SparseMatrix m = box(17, 17, 12, true);
     const std::int64_t leading = m.rows - trailing;
@@ -118,11 +114,10 @@ START_TEST(trailing_variables_stay_last) {
     multiply(m, x, back);
     for (std::size_t i = 0; i < b.size(); ++i) ck_assert_double_lt(std::abs(back[i] - b[i]), 1e-9);
 }
-END_TEST
 
 // Equal bits after other calls of METIS and rand(), and in other threads; the host's sequence goes on and its handlers
 // are there.
-START_TEST(the_host_notices_nothing) {
+TEST(the_host_notices_nothing) {
     const SparseMatrix m = box(13, 13, 13), other = box(9, 30, 8);
     std::signal(SIGTERM, own_handler);
     std::srand(7);
@@ -144,10 +139,9 @@ START_TEST(the_host_notices_nothing) {
     for (std::thread& thread : threads) thread.join();
     for (const auto& result : parallel) ck_assert(result == order);
 }
-END_TEST
 
 // METIS would take them for errors of its own.
-START_TEST(requests_to_end_wait_for_the_order) {
+TEST(requests_to_end_wait_for_the_order) {
     const SparseMatrix m = box(20, 20, 20);
     const std::vector<std::int64_t> order = dissection_order(m, m.rows);
     std::signal(SIGTERM, own_handler);
@@ -167,19 +161,17 @@ START_TEST(requests_to_end_wait_for_the_order) {
     ck_assert_int_gt(handled, 1);  // within the call and after it
     ck_assert(std::signal(SIGTERM, SIG_DFL) == own_handler);
 }
-END_TEST
 
-START_TEST(solutions_have_equal_bits) {
+TEST(solutions_have_equal_bits) {
     const SparseMatrix m = box(16, 16, 16);
     const std::vector<double> first = solution(m);
     std::srand(12345);
     ck_assert(!dissection_order(box(8, 8, 8), 1000).empty());
     ck_assert(solution(m) == first);
 }
-END_TEST
 
 // Blocks without coupling, variables without any, and a dense block.
-START_TEST(graphs_in_pieces) {
+TEST(graphs_in_pieces) {
     std::vector<Triplet> t;
     const SparseMatrix cube = box(13, 13, 13);
     for (int copy = 0; copy < 2; ++copy)
@@ -207,11 +199,10 @@ START_TEST(graphs_in_pieces) {
     ck_assert_int_eq(static_cast<int>(dissection_order(from_triplets(400, 400, std::move(alone)), 400).size()), 400);
     ck_assert(dissection_order(from_triplets(300, 300, std::move(dense)), 300).empty());  // one vertex
 }
-END_TEST
 
 // The three variables of a node are one group unless some of them must come last, and groups are connected as their
 // nodes are.
-START_TEST(variables_with_equal_rows_are_one) {
+TEST(variables_with_equal_rows_are_one) {
     const std::int64_t nodes = 5 * 4 * 3;
     const SparseMatrix m = box(5, 4, 3);
     const EqualRows groups = equal_rows(m, m.rows, m.rows);
@@ -225,10 +216,9 @@ START_TEST(variables_with_equal_rows_are_one) {
     ck_assert_int_eq(static_cast<int>(apart.count()), static_cast<int>(nodes + 1));
     ck_assert(apart.of.back() == nodes && apart.of[apart.of.size() - 2] == nodes - 1);
 }
-END_TEST
 
 // On the groups, operations are those that CHOLMOD counts for the whole matrix, and the postorder does not change them.
-START_TEST(operations_are_estimated_from_groups) {
+TEST(operations_are_estimated_from_groups) {
     for (const SparseMatrix& m : {box(9, 8, 7), box(30, 20, 1)}) {
         const SparseCholesky factor(m);
         const EqualRows groups = equal_rows(m, m.rows, m.rows);
@@ -250,10 +240,9 @@ START_TEST(operations_are_estimated_from_groups) {
         ck_assert_int_eq(static_cast<int>(order.back()), static_cast<int>(m.rows - 1));
     }
 }
-END_TEST
 
 // Where every variable comes last, few or many, there is nothing to order.
-START_TEST(nothing_but_trailing_variables) {
+TEST(nothing_but_trailing_variables) {
     for (const std::int64_t n : {1, 3, 40}) {
         std::vector<Triplet> dense;
         for (std::int64_t r = 0; r < n; ++r)
@@ -265,25 +254,4 @@ START_TEST(nothing_but_trailing_variables) {
         ck_assert(std::is_sorted(order.begin(), order.end()));
         ck_assert_double_eq_tol(factor.trailing_factor()(0, 0), std::sqrt(static_cast<double>(n) + 1.0), 1e-14 * 7.0);
     }
-}
-END_TEST
-
-int main() {
-    Suite* suite = suite_create("ordering");
-    TCase* tests = tcase_create("ordering");
-    tcase_add_test(tests, dissection_is_taken_where_it_orders_better);
-    tcase_add_test(tests, trailing_variables_stay_last);
-    tcase_add_test(tests, the_host_notices_nothing);
-    tcase_add_test(tests, requests_to_end_wait_for_the_order);
-    tcase_add_test(tests, solutions_have_equal_bits);
-    tcase_add_test(tests, graphs_in_pieces);
-    tcase_add_test(tests, variables_with_equal_rows_are_one);
-    tcase_add_test(tests, operations_are_estimated_from_groups);
-    tcase_add_test(tests, nothing_but_trailing_variables);
-    suite_add_tcase(suite, tests);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? 0 : 1;
 }

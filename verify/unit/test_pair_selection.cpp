@@ -7,11 +7,10 @@
 #include <vector>
 
 #include "all_types.hpp"
+#include "check.hpp"
 #include "mesh/layers.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/selection.hpp"
-
-#include "quiet_check.hpp"  // last: it has a macro named fail
 
 using namespace delam;
 
@@ -45,7 +44,7 @@ bool in_block(double x, double lower, double upper, double end) {
 }
 
 // Ends at pairs and elsewhere, within the interface and beyond it; boxes high, low and flat.
-START_TEST(boxes_of_blocks) {
+TEST(boxes_of_blocks) {
     std::mt19937 random(5);
     std::size_t found = 0, at_tips = 0;
     for (const CellType type : all_types) {
@@ -82,11 +81,10 @@ START_TEST(boxes_of_blocks) {
     }
     ck_assert(found > 10000 && at_tips > 1000);
 }
-END_TEST
 
 // The pairs beyond the ends of a box: none where the ends lie on pairs or beyond the interface, else the next pair
 // outside.
-START_TEST(ends_between_pairs) {
+TEST(ends_between_pairs) {
     for (const CellType type : {CellType::quad4, CellType::quad8}) {
         const Mesh mesh = block(type, 8, 0);  // pairs at multiples of 0.25, or 0.125
         const double spacing = type == CellType::quad4 ? 0.25 : 0.125;
@@ -106,10 +104,9 @@ START_TEST(ends_between_pairs) {
     ck_assert(moved[0].upper && moved[0].axis == 1);
     ck_assert_double_eq_tol(moved[0].next, 1.0, 1e-12);
 }
-END_TEST
 
 // Without faces the ends of the interface are those of all its pairs.
-START_TEST(pairs_without_faces) {
+TEST(pairs_without_faces) {
     const Numbers nodes{0, 0, 1, 0, 2, 0, 3, 0, 0, 0, 1, 0, 2, 0, 3, 0};
     Mesh mesh(2, nodes);
     const Indices a{0, 1, 2, 3}, b{4, 5, 6, 7};
@@ -120,20 +117,5 @@ START_TEST(pairs_without_faces) {
     ck_assert(find_pairs(mesh, 0, Numbers{1, -1}, Numbers{3, 1}).pairs == (Indices{2, 3}));
     ck_assert(find_pairs(mesh, 0, Numbers{0, -1}, Numbers{3, 0}).pairs == (Indices{0, 1, 2, 3}));
 }
-END_TEST
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("pair selection");
-    TCase* cases = tcase_create("pair selection");
-    tcase_add_test(cases, boxes_of_blocks);
-    tcase_add_test(cases, ends_between_pairs);
-    tcase_add_test(cases, pairs_without_faces);
-    suite_add_tcase(suite, cases);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
-}

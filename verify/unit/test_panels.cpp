@@ -7,10 +7,8 @@
 #include <vector>
 
 #include "base/team.hpp"
+#include "check.hpp"
 #include "linalg/dense/dense.hpp"
-
-// Last: its macro fail() would break delam::fail().
-#include <check.h>
 
 using namespace delam;
 
@@ -40,7 +38,7 @@ double distance(const DenseMatrix& a, const DenseMatrix& b) {
     return largest;
 }
 
-START_TEST(factor) {
+TEST(factor) {
     const DenseMatrix a = definite();
     DenseMatrix lower = a, again = a;
     int polls = 0;
@@ -54,18 +52,16 @@ START_TEST(factor) {
     indefinite(n - 1, n - 1) = -1.0;
     ck_assert(!factor_definite(indefinite));
 }
-END_TEST
 
-START_TEST(inverse) {
+TEST(inverse) {
     const DenseMatrix a = definite();
     const DenseMatrix product = multiply(inverse_definite(a), a);
     DenseMatrix unit(n, n);
     for (std::int64_t i = 0; i < n; ++i) unit(i, i) = 1.0;
     ck_assert(distance(product, unit) <= 1e-11);
 }
-END_TEST
 
-START_TEST(products) {
+TEST(products) {
     DenseMatrix lower = definite(), v = definite();
     ck_assert(factor_definite(lower));
     int polls = 0;
@@ -80,7 +76,6 @@ START_TEST(products) {
     clear_upper(lower);
     ck_assert(distance(multiply(lower, v), definite()) <= 1e-11);
 }
-END_TEST
 
 // All that is shared, in the order of a condensation.
 std::vector<DenseMatrix> computed(std::int64_t threads) {
@@ -100,7 +95,7 @@ std::vector<DenseMatrix> computed(std::int64_t threads) {
     return all;
 }
 
-START_TEST(any_number_of_threads) {
+TEST(any_number_of_threads) {
     const std::vector<DenseMatrix> one = computed(1);
     for (const std::int64_t threads : {2, 3}) {
         const std::vector<DenseMatrix> more = computed(threads);
@@ -111,9 +106,8 @@ START_TEST(any_number_of_threads) {
     const TeamScope team(2);
     ck_assert(!factor_definite(indefinite));
 }
-END_TEST
 
-START_TEST(stopped) {
+TEST(stopped) {
     int polls = 0;
     DenseMatrix a = definite();
     bool left = false;
@@ -127,23 +121,5 @@ START_TEST(stopped) {
     ck_assert(left);
     ck_assert_int_eq(polls, 2);
 }
-END_TEST
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("panels");
-    TCase* tests = tcase_create("panels");
-    tcase_set_timeout(tests, 60.0);
-    tcase_add_test(tests, factor);
-    tcase_add_test(tests, inverse);
-    tcase_add_test(tests, products);
-    tcase_add_test(tests, any_number_of_threads);
-    tcase_add_test(tests, stopped);
-    suite_add_tcase(suite, tests);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
-}

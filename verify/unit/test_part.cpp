@@ -18,12 +18,10 @@
 #include "base/error.hpp"
 #include "base/numbers.hpp"
 #include "capi/handle/handles.hpp"
+#include "check.hpp"
 #include "delam/experimental.h"
 #include "part_blocks.hpp"
 #include "scene/part.hpp"
-
-// Last: its macro fail() would break delam::fail().
-#include <check.h>
 
 using namespace delam;
 using namespace delam::part_test;
@@ -77,8 +75,8 @@ std::vector<std::int64_t> ends(const Blocks& b) {
 
 }  // namespace
 
-START_TEST(a_whole_body_has_the_bits_of_its_matrix) {
-    const Blocks b(shapes[_i]);
+LOOP_TEST(a_whole_body_has_the_bits_of_its_matrix, 0, shape_count) {
+    const Blocks b(shapes[loop]);
     for (const std::int32_t label : {plies, core_layer}) {
         const std::vector<std::int64_t> cells = b.core().body_cells(b.core().body_of_label(label));
         const Matrix part = matrix_of(b, b.part(cells)), whole = body_matrix(b, label);
@@ -86,11 +84,10 @@ START_TEST(a_whole_body_has_the_bits_of_its_matrix) {
         ck_assert(same_bits(part.value, whole.value));
     }
 }
-END_TEST
 
 // Every third cell is in the same part, so that parts share nodes and each has cells of both bodies.
-START_TEST(parts_add_up_to_the_bodies) {
-    const Blocks b(shapes[_i]);
+LOOP_TEST(parts_add_up_to_the_bodies, 0, shape_count) {
+    const Blocks b(shapes[loop]);
     Sum parts, bodies;
     std::int64_t nodes = 0;
     for (std::int64_t p = 0; p < 3; ++p) {
@@ -115,11 +112,10 @@ START_TEST(parts_add_up_to_the_bodies) {
                       static_cast<long>(place.first), static_cast<long>(place.second), parts[place], value);
     }
 }
-END_TEST
 
 // Bytes do not depend on what else the problem holds, and survive reading and writing.
-START_TEST(bytes_are_what_they_say) {
-    const Blocks b(shapes[_i]);
+LOOP_TEST(bytes_are_what_they_say, 0, shape_count) {
+    const Blocks b(shapes[loop]);
     const std::vector<std::uint8_t> bytes = b.part(ends(b));
     const Part part = load_part(bytes);
     ck_assert(save(part) == bytes);
@@ -132,10 +128,9 @@ START_TEST(bytes_are_what_they_say) {
     ck_assert(part.axes_of_cell == axes);
     ck_assert(b.part(ends(b)) == bytes);
 }
-END_TEST
 
-START_TEST(damaged_bytes_are_refused) {
-    const Blocks b(shapes[_i]);
+LOOP_TEST(damaged_bytes_are_refused, 0, shape_count) {
+    const Blocks b(shapes[loop]);
     const std::vector<std::uint8_t> bytes = b.part(ends(b));
     b.expect(read(b, bytes));
     for (std::size_t at = 0; at < bytes.size(); at += 7) {
@@ -164,11 +159,10 @@ START_TEST(damaged_bytes_are_refused) {
     correct_checksum(longer);
     b.refused(read(b, longer), DELAM_ERROR_SNAPSHOT, "part has 1 bytes too many");
 }
-END_TEST
 
 // Bytes with a fitting checksum that no library has written.
-START_TEST(parts_of_no_problem_are_refused) {
-    const Blocks b(shapes[_i]);
+LOOP_TEST(parts_of_no_problem_are_refused, 0, shape_count) {
+    const Blocks b(shapes[loop]);
     const Part sound = load_part(b.part(ends(b)));
     const auto nodes = static_cast<std::int32_t>(sound.nodes.size());
     const std::vector<std::pair<const char*, std::function<void(Part&)>>> changes = {
@@ -217,9 +211,8 @@ START_TEST(parts_of_no_problem_are_refused) {
         b.refused(read(b, save(part)), DELAM_ERROR_SNAPSHOT, words);
     }
 }
-END_TEST
 
-START_TEST(formulations_that_cells_do_not_have) {
+TEST(formulations_that_cells_do_not_have) {
     const Blocks linear(shapes[0]), quadratic(shapes[1]), stress(shapes[2]);
     const auto formulation = [](const Blocks& b, Formulation f) {
         Part part = load_part(b.part(ends(b)));
@@ -231,9 +224,8 @@ START_TEST(formulations_that_cells_do_not_have) {
                       "'incompatible' of body");
     stress.refused(formulation(stress, Formulation::mean_dilatation), DELAM_ERROR_SNAPSHOT, "in plane stress");
 }
-END_TEST
 
-START_TEST(bytes_of_something_else) {
+TEST(bytes_of_something_else) {
     const Blocks b(shapes[0]);
     std::vector<std::uint8_t> bytes = b.part({0});
     bytes[7] ^= 3;
@@ -247,9 +239,8 @@ START_TEST(bytes_of_something_else) {
                                              nullptr, nullptr),
               DELAM_ERROR_SNAPSHOT, "part ends early at byte 0");
 }
-END_TEST
 
-START_TEST(wrong_arguments) {
+TEST(wrong_arguments) {
     const Blocks b(shapes[1]);
     const std::int64_t last = b.core().cell_count() - 1;
     std::vector<std::uint8_t> bytes(1 << 16, 77);
@@ -282,9 +273,8 @@ START_TEST(wrong_arguments) {
                                                     nullptr, nullptr, nullptr),
                      DELAM_ERROR_HANDLE);
 }
-END_TEST
 
-START_TEST(bodies_without_a_stiffness_of_their_own) {
+TEST(bodies_without_a_stiffness_of_their_own) {
     const Blocks b(shapes[1]);
     const auto part = [&](std::int32_t label) {
         const std::vector<std::int64_t> cells = b.core().body_cells(b.core().body_of_label(label));
@@ -306,25 +296,4 @@ START_TEST(bodies_without_a_stiffness_of_their_own) {
     delam_problem_destroy(&bare);
     b.expect(delam_problem_set_plane(b.problem, "plane-stress"));
     b.expect(part(core_layer));
-}
-END_TEST
-
-int main() {
-    Suite* suite = suite_create("part");
-    TCase* tests = tcase_create("part");
-    tcase_add_loop_test(tests, a_whole_body_has_the_bits_of_its_matrix, 0, shape_count);
-    tcase_add_loop_test(tests, parts_add_up_to_the_bodies, 0, shape_count);
-    tcase_add_loop_test(tests, bytes_are_what_they_say, 0, shape_count);
-    tcase_add_loop_test(tests, damaged_bytes_are_refused, 0, shape_count);
-    tcase_add_loop_test(tests, parts_of_no_problem_are_refused, 0, shape_count);
-    tcase_add_test(tests, formulations_that_cells_do_not_have);
-    tcase_add_test(tests, bytes_of_something_else);
-    tcase_add_test(tests, wrong_arguments);
-    tcase_add_test(tests, bodies_without_a_stiffness_of_their_own);
-    suite_add_tcase(suite, tests);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }

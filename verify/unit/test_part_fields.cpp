@@ -3,17 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <vector>
 
 #include "base/numbers.hpp"
 #include "body/assembly.hpp"
 #include "body/rotation.hpp"
+#include "check.hpp"
 #include "delam/experimental.h"
 #include "part_blocks.hpp"
-
-// Last: its macro fail() would break delam::fail().
-#include <check.h>
 
 using namespace delam;
 using namespace delam::part_test;
@@ -50,8 +47,8 @@ std::vector<double> rows_of(const std::vector<double>& values, const std::vector
 }  // namespace
 
 // With eigenstrains of one body, of both, of a body that the mesh does not have, and without.
-START_TEST(fields_of_parts_have_the_bits_of_the_whole) {
-    const Blocks b(shapes[_i]);
+LOOP_TEST(fields_of_parts_have_the_bits_of_the_whole, 0, shape_count) {
+    const Blocks b(shapes[loop]);
     const std::size_t dim = index(b.core().dimension());
     const std::vector<double> strains{
         1e-4, -2e-4, 3e-4, 4e-4, dim == 3 ? 5e-4 : 0.0, dim == 3 ? -6e-4 : 0.0, 2e-4, 7e-4, 1e-4, -3e-4, 0.0, 0.0};
@@ -80,9 +77,8 @@ START_TEST(fields_of_parts_have_the_bits_of_the_whole) {
         }
     }
 }
-END_TEST
 
-START_TEST(wrong_arguments_of_fields) {
+TEST(wrong_arguments_of_fields) {
     const Blocks b(shapes[0]);
     const std::vector<std::uint8_t> bytes = b.part({0, 1});
     const Matrix m = matrix_of(b, bytes);
@@ -100,18 +96,4 @@ START_TEST(wrong_arguments_of_fields) {
     strains[3] = 0.0;
     u[2] = infinite;
     b.refused(fields(1), DELAM_ERROR_ARGUMENT, "displacement[2] = inf");
-}
-END_TEST
-
-int main() {
-    Suite* suite = suite_create("part_fields");
-    TCase* tests = tcase_create("part_fields");
-    tcase_add_loop_test(tests, fields_of_parts_have_the_bits_of_the_whole, 0, shape_count);
-    tcase_add_test(tests, wrong_arguments_of_fields);
-    suite_add_tcase(suite, tests);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }

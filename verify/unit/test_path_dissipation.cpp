@@ -6,13 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "check.hpp"
 #include "evolution/increment/path_dissipation.hpp"
 #include "law/adhesion_after.hpp"
 #include "law/law_parameters.hpp"
 #include "law/mixity.hpp"
 #include "laws.hpp"
-
-#include "quiet_check.hpp"  // last: it has a macro named fail
 
 using namespace delam;
 
@@ -105,8 +104,8 @@ PathEnergy walk(const Turn& turn, int dimension, int steps, bool straight) {
 }  // namespace
 
 // At one mixity it is the function g of the state, to rounding, however long the path is.
-START_TEST(constant_mixity) {
-    const int d = _i;
+LOOP_TEST(constant_mixity, 2, 4) {
+    const int d = loop;
     const Law law = turning_law();
     const PairLaws pairs = one_pair(law, d);
     for (const double b : {0.0, 0.3, 1.0}) {
@@ -126,10 +125,9 @@ START_TEST(constant_mixity) {
         }
     }
 }
-END_TEST
 
 // Pairs whose toughness is fixed need no path.
-START_TEST(no_mixity) {
+TEST(no_mixity) {
     Law law = turning_law();
     PairLaws pairs = one_pair(law, 2);
     pairs.fixed = {Toughness{100.0, 250.0}};
@@ -138,11 +136,10 @@ START_TEST(no_mixity) {
     near(e.dissipated, law.dissipated(*pairs.fixed[0], 0.1) - law.dissipated(*pairs.fixed[0], 0.8), 1e-12, "g");
     ck_assert(e.linear == 250.0 * (0.8 - 0.1) && e.error == 0.0);
 }
-END_TEST
 
 // The integral of the threshold along a path from mode I to mode II and back.
-START_TEST(turning) {
-    const int d = _i;
+LOOP_TEST(turning, 2, 4) {
+    const int d = loop;
     for (const Turn turn : {Turn{0.1, 0.9, 1.0}, Turn{0.9, 0.1, 1.0}, Turn{0.05, 0.6, 2.0}}) {
         double before = 0.0;
         for (const int steps : {5, 10, 20}) {
@@ -162,32 +159,29 @@ START_TEST(turning) {
         }
     }
 }
-END_TEST
 
 // The tougher mode first: more is dissipated, though both paths run through the same adhesions between the same modes.
-START_TEST(reverse) {
+TEST(reverse) {
     const Turn slides_first{0.9, 0.1, 2.0}, opens_first{0.1, 0.9, 2.0};
     const double much = walk(slides_first, 2, 40, false).dissipated, less = walk(opens_first, 2, 40, false).dissipated;
     near(much, slides_first.exact(), 1e-4 * much, "slides first");
     near(less, opens_first.exact(), 1e-4 * less, "opens first");
     ck_assert(much > 1.2 * less);
 }
-END_TEST
 
 // The direction of the slip is no mode.
-START_TEST(plane_and_space) {
+TEST(plane_and_space) {
     const Turn turn{0.2, 0.8, 1.0};
     near(walk(turn, 3, 7, false).dissipated, walk(turn, 2, 7, false).dissipated, 1e-11 * turn.exact(), "space");
 }
-END_TEST
 
 // ---- adhesion after a share ----------------------------------------------------------------------------------------
 
 // The adhesion is one that the law passes through, and the first that has dissipated the share: exactly, unless the
 // law falls there at once.
-START_TEST(a_share_of_the_toughness) {
+LOOP_TEST(a_share_of_the_toughness, 0, 3) {
     for (const double ratio : {1.02, 2.5, 40.0, 1e5})
-        for (const auto& [name, law] : laws::shapes(laws::criteria[_i], ratio))
+        for (const auto& [name, law] : laws::shapes(laws::criteria[loop], ratio))
             for (const double b : {0.0, 0.4})
                 for (const double zeta_old : {1.0, 0.6, 0.01, 1e-5})
                     for (const double share : {0.03, 0.1, 0.5, 1.0}) {
@@ -213,13 +207,12 @@ START_TEST(a_share_of_the_toughness) {
                         }
                     }
 }
-END_TEST
 
 // Laws that soften continuously give the share itself.
-START_TEST(exactly_the_share) {
+LOOP_TEST(exactly_the_share, 0, 3) {
     for (const char* shape : {"piecewise-linear", "exponential", "trapezoidal"})
         for (const double ratio : {2.5, 40.0, 1e5}) {
-            Law law = laws::law(shape, laws::criteria[_i], ratio);
+            Law law = laws::law(shape, laws::criteria[loop], ratio);
             if (std::string(shape) == "trapezoidal") set_parameter(law, "plateau", 0.5);
             const Toughness t = law.toughness(0.4);
             for (const double zeta_old : {1.0, 0.5})
@@ -232,9 +225,8 @@ START_TEST(exactly_the_share) {
                 }
         }
 }
-END_TEST
 
-START_TEST(limits) {
+TEST(limits) {
     const Law law = laws::law("piecewise-linear", Criterion::valoroso_champaney, 2.5);
     const Toughness t = law.toughness(0.2);
     ck_assert(adhesion_after(law, t, 0.0, 0.1) == 0.0);
@@ -245,10 +237,9 @@ START_TEST(limits) {
     ck_assert(small < 1.0 && small > 1.0 - 1e-6);
     ck_assert(adhesion_after(laws::law("griffith", Criterion::power, 2.5), {250.0, 250.0}, 1.0, 0.1) == 0.0);
 }
-END_TEST
 
 // No digit depends on the units.
-START_TEST(units_of_a_share) {
+TEST(units_of_a_share) {
     for (const auto& [name, law] : laws::shapes(laws::criteria[0], 2.5)) {
         const Toughness t = law.toughness(0.3);
         for (const double scale : {std::ldexp(1.0, 40), std::ldexp(1.0, -60)}) {
@@ -261,27 +252,4 @@ START_TEST(units_of_a_share) {
                               "%s", name.c_str());
         }
     }
-}
-END_TEST
-
-int main() {
-    Suite* suite = suite_create("path_dissipation");
-    TCase* path = tcase_create("path");
-    tcase_add_loop_test(path, constant_mixity, 2, 4);
-    tcase_add_test(path, no_mixity);
-    tcase_add_loop_test(path, turning, 2, 4);
-    tcase_add_test(path, reverse);
-    tcase_add_test(path, plane_and_space);
-    TCase* share = tcase_create("share");
-    tcase_add_loop_test(share, a_share_of_the_toughness, 0, 3);
-    tcase_add_loop_test(share, exactly_the_share, 0, 3);
-    tcase_add_test(share, limits);
-    tcase_add_test(share, units_of_a_share);
-    suite_add_tcase(suite, path);
-    suite_add_tcase(suite, share);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -6,14 +6,12 @@
 #include <cstring>
 #include <string>
 
+#include "check.hpp"
 #include "evolution/analysis/plan.hpp"
 #include "evolution/analysis/solver.hpp"
 #include "evolution/observe/fields.hpp"
 #include "evolution/observe/values.hpp"
 #include "flexure.hpp"
-
-// Last: its macro fail() would break delam::fail().
-#include <check.h>
 
 using namespace delam;
 
@@ -53,9 +51,9 @@ void expect_same_bits(const std::vector<double>& a, const std::vector<double>& b
 
 }  // namespace
 
-START_TEST(mixity_left_out_changes_no_digit) {
+LOOP_TEST(mixity_left_out_changes_no_digit, 0, 2) {
     Problem problem = unit::make_flexure(linear_law());
-    problem.options.reduction = _i == 0 ? "condensed" : "feti";
+    problem.options.reduction = loop == 0 ? "condensed" : "feti";
     ck_assert(!problem.interfaces[0].law->depends_on_mixity());
     Solver* left_out = nullptr;
     Solver* computed = nullptr;
@@ -72,9 +70,8 @@ START_TEST(mixity_left_out_changes_no_digit) {
     delete left_out;
     delete computed;
 }
-END_TEST
 
-START_TEST(mixity_stays_where_the_law_sees_it) {
+TEST(mixity_stays_where_the_law_sees_it) {
     Law law = linear_law().law;
     ck_assert(!law.depends_on_mixity());
     for (double Law::*member :
@@ -89,11 +86,10 @@ START_TEST(mixity_stays_where_the_law_sees_it) {
         ck_assert(law.toughness(b).total == at_one_end.total);
     }
 }
-END_TEST
 
-START_TEST(contact_left_out_changes_no_digit) {
+LOOP_TEST(contact_left_out_changes_no_digit, 0, 2) {
     Problem problem = unit::make_flexure({});
-    if (_i == 1) {  // one layer pulled off the other by its whole face: no pair can close
+    if (loop == 1) {  // one layer pulled off the other by its whole face: no pair can close
         unit::Flexure f;
         f.along = 12;
         f.through = 1;
@@ -110,15 +106,14 @@ START_TEST(contact_left_out_changes_no_digit) {
     problem.options.contact = "always";
     expect_same_bits(without, history(problem));
 }
-END_TEST
 
-START_TEST(bodies_are_factored_once_and_displacements_recovered_on_request) {
+LOOP_TEST(bodies_are_factored_once_and_displacements_recovered_on_request, 0, 3) {
     Problem problem = unit::make_flexure({});
-    problem.options.reduction = _i == 0 ? "condensed" : "feti";
-    problem.options.subdomains = _i == 2 ? 5 : 0;
+    problem.options.reduction = loop == 0 ? "condensed" : "feti";
+    problem.options.subdomains = loop == 2 ? 5 : 0;
     Solver* solver = nullptr;
     history(problem, &solver);
-    const double factorisations = _i == 0 ? 1.0 : _i == 1 ? 2.0 : 5.0;
+    const double factorisations = loop == 0 ? 1.0 : loop == 1 ? 2.0 : 5.0;
     ck_assert(value(*solver, "bulk_factorisations") == factorisations);
     ck_assert(value(*solver, "field_recoveries") == 0.0);
     for (const char* key : {"jump", "traction", "adhesion", "mixity", "contact"}) field(solver->observer(), key, -1);
@@ -135,15 +130,14 @@ START_TEST(bodies_are_factored_once_and_displacements_recovered_on_request) {
     ck_assert(value(*solver, "bulk_factorisations") == factorisations);
     delete solver;
 }
-END_TEST
 
 // The forecast says what the solver says afterwards, but factors nothing.
 // loop: realisation, and whether all displacements are prescribed.
-START_TEST(the_plan_is_known_beforehand) {
+LOOP_TEST(the_plan_is_known_beforehand, 0, 8) {
     Problem problem = unit::make_flexure({});
     constexpr const char* ways[] = {"auto", "condensed", "iterated", "feti"};
-    problem.options.reduction = ways[_i % 4];
-    if (_i >= 4) {
+    problem.options.reduction = ways[loop % 4];
+    if (loop >= 4) {
         problem.constraints.clear();
         for (std::int64_t dof = 0; dof < 2 * problem.mesh->node_count(); ++dof)
             problem.constraints.push_back(
@@ -157,7 +151,7 @@ START_TEST(the_plan_is_known_beforehand) {
         return 0;
     };
     const Forecast before = forecast(problem, monitor);
-    ck_assert(_i >= 4 || (before.setup > 0.0 && before.memory > 0.0));
+    ck_assert(loop >= 4 || (before.setup > 0.0 && before.memory > 0.0));
     for (const char* stage : {"factor", "condense", "displacement", "subdomain"})
         ck_assert_msg(std::ranges::count(stages, stage) == 0, "%s", stage);
     const Solver solver(problem, monitor, 0.0);
@@ -165,15 +159,15 @@ START_TEST(the_plan_is_known_beforehand) {
     ck_assert_uint_eq(before.plan.size(), after.size());
     ck_assert(before.memory == solver.reduction().own().bytes);
     for (std::size_t i = 0; i < after.size(); ++i) {
-        if (ways[_i % 4] == std::string("feti") && after[i].subject == "FETI") continue;  // its partition is not known
+        if (ways[loop % 4] == std::string("feti") && after[i].subject == "FETI")
+            continue;  // its partition is not known
         const std::string forecast_words = plan_in_words({before.plan[i]}), words = plan_in_words({after[i]});
         ck_assert_str_eq(forecast_words.c_str(), words.c_str());
     }
 }
-END_TEST
 
 // Loads in proportion that damage nothing need no solve: the displacements grow with them. Alternation solves always.
-START_TEST(nothing_is_solved_where_loads_grow_alone) {
+TEST(nothing_is_solved_where_loads_grow_alone) {
     Problem problem = unit::make_flexure({});
     Monitor monitor;
     Solver grown(problem, monitor, 0.0);
@@ -199,22 +193,4 @@ START_TEST(nothing_is_solved_where_loads_grow_alone) {
     }
     ck_assert_int_ge(alone, 3);
     ck_assert(value(grown, "dissipated") > 0.0);
-}
-END_TEST
-
-int main() {
-    Suite* suite = suite_create("plan");
-    TCase* left_out = tcase_create("left out");
-    tcase_add_loop_test(left_out, mixity_left_out_changes_no_digit, 0, 2);
-    tcase_add_test(left_out, mixity_stays_where_the_law_sees_it);
-    tcase_add_loop_test(left_out, contact_left_out_changes_no_digit, 0, 2);
-    tcase_add_loop_test(left_out, bodies_are_factored_once_and_displacements_recovered_on_request, 0, 3);
-    tcase_add_test(left_out, nothing_is_solved_where_loads_grow_alone);
-    tcase_add_loop_test(left_out, the_plan_is_known_beforehand, 0, 8);
-    suite_add_tcase(suite, left_out);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? 0 : 1;
 }

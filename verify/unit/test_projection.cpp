@@ -8,6 +8,7 @@
 
 #include "all_types.hpp"
 #include "base/error.hpp"
+#include "check.hpp"
 #include "delam/delam.h"
 #include "mesh/face_point.hpp"
 #include "mesh/faces.hpp"
@@ -15,14 +16,12 @@
 #include "mesh/points.hpp"
 #include "projection.hpp"
 
-#include "quiet_check.hpp"  // last: it has a macro named fail
-
 using namespace delam;
 using namespace unit;
 
 namespace {
 
-START_TEST(flat) {
+TEST(flat) {
     for (const CellType lower : all_types) {
         for (const CellType upper : all_types) {
             if (topology(lower).dimension != topology(upper).dimension) continue;
@@ -49,10 +48,9 @@ START_TEST(flat) {
         }
     }
 }
-END_TEST
 
 // Faces that match: each node is tied to its partner alone, and the interface is that of matched faces.
-START_TEST(matching) {
+TEST(matching) {
     for (const CellType type : all_types) {
         Mesh mesh = blocks(stack(type, type, 4, 4));
         if (topology(type).dimension == 3) {
@@ -75,10 +73,9 @@ START_TEST(matching) {
         for (std::size_t k = 0; k + 1 < i.face.size(); ++k) ck_assert(i.face[k] >= 0 && i.face[k] < i.pair_count());
     }
 }
-END_TEST
 
 // Narrow in space; the square cylinder is in the long tier.
-START_TEST(curved) {
+TEST(curved) {
     for (const CellType type :
          {CellType::quad4, CellType::quad8, CellType::tri6, CellType::hex8, CellType::hex20, CellType::tet10}) {
         for (const std::int64_t n : {4, 8}) {
@@ -88,10 +85,9 @@ START_TEST(curved) {
         }
     }
 }
-END_TEST
 
 // b may end inside a; beyond a's rim only whole faces of b may lie, side by side with a.
-START_TEST(partly_covered) {
+TEST(partly_covered) {
     for (const CellType type : all_types) {
         Mesh within = blocks(stack(type, type, 3, 5, 0.1, 0.7));
         within.add_projected_interface(0, 1, 0.0);
@@ -129,10 +125,9 @@ START_TEST(partly_covered) {
                       mesh.add_conforming_cells(CellType::tri3, Indices{0, 1, tied}, Labels{7}));
     ck_assert_int_eq(mesh.node_body(tied), -1);
 }
-END_TEST
 
 // The nearest point of a curved face is the one whose offset is along the normal.
-START_TEST(nearest_points) {
+TEST(nearest_points) {
     for (const CellType type : {CellType::quad8, CellType::hex20, CellType::tet10, CellType::hex8}) {
         const std::size_t dim = index(topology(type).dimension);
         const Mesh mesh = blocks({stack(type, type, 2, 2)[0]}, [&](std::span<double> x) {
@@ -152,9 +147,8 @@ START_TEST(nearest_points) {
         }
     }
 }
-END_TEST
 
-START_TEST(obstacles) {
+TEST(obstacles) {
     for (const CellType type : all_types) {
         const std::size_t dim = index(topology(type).dimension);
         Mesh mesh = blocks({stack(type, type, 4, 4)[0]}, {}, dim == 2 ? Numbers{0.5, 9.0} : Numbers{0.5, 0.5, 9.0});
@@ -204,23 +198,5 @@ START_TEST(obstacles) {
     ck_assert_refused(DELAM_ERROR_ARGUMENT, "an obstacle of its own",
                       mesh.add_obstacle(Indices{0, 9}, Numbers{0, 1, 0, 1}, Numbers{1, 1}, mesh.node_count() - 1));
 }
-END_TEST
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("projection");
-    TCase* tests = tcase_create("interfaces");
-    tcase_add_test(tests, flat);
-    tcase_add_test(tests, matching);
-    tcase_add_test(tests, curved);
-    tcase_add_test(tests, partly_covered);
-    tcase_add_test(tests, nearest_points);
-    tcase_add_test(tests, obstacles);
-    suite_add_tcase(suite, tests);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? 0 : 1;
-}

@@ -4,18 +4,16 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <memory>
 #include <numeric>
 #include <random>
 #include <vector>
 
+#include "check.hpp"
 #include "mesh/layers.hpp"
 #include "scene/advice/process_zone.hpp"
 #include "scene/advice/proposal.hpp"
 #include "scene/problem.hpp"
-
-#include "quiet_check.hpp"  // last: it has a macro named fail
 
 using namespace delam;
 
@@ -71,7 +69,7 @@ Material ply(const Scene& scene) {
 }
 
 // One mode has the strength proposed, the other less, and so a longer zone.
-START_TEST(strengths_lead_to_the_pairs) {
+TEST(strengths_lead_to_the_pairs) {
     for (const CellType type : {CellType::quad4, CellType::tri6, CellType::hex8, CellType::hex20})
         for (const double pairs : {1.0, 3.0, 7.5})
             for (const double toughness : {20.0, 250.0, 5e4}) {  // thick arms and slender ones
@@ -87,9 +85,8 @@ START_TEST(strengths_lead_to_the_pairs) {
                 }
             }
 }
-END_TEST
 
-START_TEST(stiffness_is_that_of_the_layer) {
+TEST(stiffness_is_that_of_the_layer) {
     for (const CellType type : {CellType::quad4, CellType::hex8}) {
         const Scene scene{type, {3e-3, 1.5e-3}, 250.0, {}};
         const Proposal thin = proposal(problem_of(scene, {isotropic(scene, 75e9), isotropic(scene, 75e9)}), 0, 3.0);
@@ -103,11 +100,10 @@ START_TEST(stiffness_is_that_of_the_layer) {
         ck_assert_double_eq_tol(proposal(problem, 0, 3.0).share, 50.0 / 51.0, 1e-12);
     }
 }
-END_TEST
 
 // The modulus along the normal of plies: axis 3 without axes in space, axis 2 in the plane; of turned ones that of a
 // bar cut along the normal, from the inverse of the elasticity in space.
-START_TEST(stiffness_of_plies) {
+TEST(stiffness_of_plies) {
     const Scene space{CellType::hex8, {1e-3, 1e-3}, 250.0, {}}, plane{CellType::quad4, {1e-3, 1e-3}, 250.0, {}};
     ck_assert_double_eq_tol(proposal(problem_of(space, {ply(space), ply(space)}), 0, 3.0).stiffness / (50.0 * 8e12),
                             1.0, 1e-12);
@@ -142,9 +138,8 @@ START_TEST(stiffness_of_plies) {
         ck_assert_double_eq_tol(proposal(turned, 0, 3.0).stiffness / (50.0 * modulus / 1e-3), 1.0, 1e-9);
     }
 }
-END_TEST
 
-START_TEST(units_do_not_matter) {
+TEST(units_do_not_matter) {
     for (const CellType type : {CellType::quad4, CellType::hex8}) {
         const Scene si{type, {3e-3, 1.5e-3}, 250.0, {}}, other{type, {3e-3, 1.5e-3}, 250.0, {1e3, 1e-3}};
         const Proposal a = proposal(problem_of(si, {isotropic(si, 75e9), ply(si)}), 0, 3.0);
@@ -156,9 +151,8 @@ START_TEST(units_do_not_matter) {
             ck_assert_double_eq_tol(b.strength[mode] / a.strength[mode], stress, 1e-12 * stress);
     }
 }
-END_TEST
 
-START_TEST(nothing_to_propose) {
+TEST(nothing_to_propose) {
     const Scene scene;
     Problem problem = problem_of(scene, {isotropic(scene, 75e9), isotropic(scene, 75e9)});
     problem.interfaces[0].law->softening = GriffithSoftening{};
@@ -169,22 +163,5 @@ START_TEST(nothing_to_propose) {
     const Proposal bonded = proposal(problem, 0, 3.0);
     ck_assert(bonded.stiffness == 0.0 && bonded.share == 0.0 && bonded.strength[0] == 0.0);
 }
-END_TEST
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("proposal");
-    TCase* cases = tcase_create("proposal");
-    tcase_add_test(cases, strengths_lead_to_the_pairs);
-    tcase_add_test(cases, stiffness_is_that_of_the_layer);
-    tcase_add_test(cases, stiffness_of_plies);
-    tcase_add_test(cases, units_do_not_matter);
-    tcase_add_test(cases, nothing_to_propose);
-    suite_add_tcase(suite, cases);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
-}

@@ -8,12 +8,10 @@
 
 #include "base/archive.hpp"
 #include "base/error.hpp"
+#include "check.hpp"
 #include "evolution/analysis/snapshot.hpp"
 #include "evolution/increment/state_fields.hpp"
 #include "flexure.hpp"
-
-// Last: its macro fail() would break delam::fail().
-#include <check.h>
 
 using namespace delam;
 
@@ -124,8 +122,8 @@ constexpr const char* reductions[] = {"condensed", "feti"};
 
 }  // namespace
 
-START_TEST(numbers_that_are_not_finite) {
-    Saved saved(reductions[_i]);
+LOOP_TEST(numbers_that_are_not_finite, 0, 2) {
+    Saved saved(reductions[loop]);
     ck_assert(saved.refusal(saved.state).empty());
     constexpr double inf = std::numeric_limits<double>::infinity();
     for (const double number : {inf, -inf, std::numeric_limits<double>::quiet_NaN()}) {
@@ -144,10 +142,9 @@ START_TEST(numbers_that_are_not_finite) {
         ck_assert_uint_ge(count, 25);
     }
 }
-END_TEST
 
-START_TEST(arrays_of_other_sizes) {
-    Saved saved(reductions[_i]);
+LOOP_TEST(arrays_of_other_sizes, 0, 2) {
+    Saved saved(reductions[loop]);
     for (const bool longer : {true, false}) {
         std::size_t count = 0;
         for (std::size_t target = 0; target < 40; ++target) {
@@ -162,18 +159,4 @@ START_TEST(arrays_of_other_sizes) {
         }
         ck_assert_uint_ge(count, 8);
     }
-}
-END_TEST
-
-int main() {
-    Suite* suite = suite_create("saved fields");
-    TCase* tests = tcase_create("saved fields");
-    tcase_add_loop_test(tests, numbers_that_are_not_finite, 0, 2);
-    tcase_add_loop_test(tests, arrays_of_other_sizes, 0, 2);
-    suite_add_tcase(suite, tests);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? 0 : 1;
 }

@@ -6,14 +6,12 @@
 #include <string>
 
 #include "base/error.hpp"
+#include "check.hpp"
 #include "delam/delam.h"
 #include "law/law_parameters.hpp"
 #include "mesh/layers.hpp"
 #include "scene/check/validate.hpp"
 #include "scene/problem.hpp"
-
-// Last: its macro fail() would break delam::fail().
-#include <check.h>
 
 using namespace delam;
 
@@ -105,7 +103,7 @@ void push(Problem& problem, std::int64_t node, int component) {
 
 }  // namespace
 
-START_TEST(patterns_are_piecewise_linear) {
+TEST(patterns_are_piecewise_linear) {
     const Pattern pattern{"p", {1.0, 2.0, 4.0}, {0.0, 3.0, -1.0}};
     ck_assert_double_eq(pattern.at(-5.0), 0.0);
     ck_assert_double_eq(pattern.at(1.0), 0.0);
@@ -118,9 +116,8 @@ START_TEST(patterns_are_piecewise_linear) {
     ck_assert_double_eq(constant.at(-1.0), 2.0);
     ck_assert_double_eq(constant.at(1.0), 2.0);
 }
-END_TEST
 
-START_TEST(incomplete_scenes_are_refused_by_name) {
+TEST(incomplete_scenes_are_refused_by_name) {
     Problem good = stack(2, 2);
     hold_bottom(good);
     expect_valid(good);
@@ -162,9 +159,8 @@ START_TEST(incomplete_scenes_are_refused_by_name) {
     problem.constraints.push_back(problem.constraints.back());
     expect(problem, "constraint 4 (of 2 displacements");
 }
-END_TEST
 
-START_TEST(missing_supports_are_described) {
+TEST(missing_supports_are_described) {
     Problem problem = stack(2, 2);
     expect(problem, "missing support: no displacement is prescribed anywhere");
 
@@ -188,9 +184,8 @@ START_TEST(missing_supports_are_described) {
     }
     expect(problem, "translate along (");
 }
-END_TEST
 
-START_TEST(missing_supports_in_space_are_described) {
+TEST(missing_supports_in_space_are_described) {
     Problem problem = stack(3, 2);
     const std::int64_t a = node_at(problem, 0, {0.0, 0.0, 0.0});
     const std::int64_t b = node_at(problem, 0, {4.0, 0.0, 0.0});
@@ -203,9 +198,8 @@ START_TEST(missing_supports_in_space_are_described) {
     problem.constraints.erase(problem.constraints.begin());
     expect(problem, "bodies 0, 1 can translate along x");
 }
-END_TEST
 
-START_TEST(floating_plies_are_legal) {
+TEST(floating_plies_are_legal) {
     // The upper ply lies loose on the lower one: held by contact, or free.
     Problem loose = stack(2, 2);
     hold_bottom(loose);
@@ -238,9 +232,8 @@ START_TEST(floating_plies_are_legal) {
     hold(nothing, node_at(nothing, 0, {0.0, 0.0}), 0);
     expect(nothing, "bodies 0, 1 can translate along y");
 }
-END_TEST
 
-START_TEST(bodies_without_contact_need_their_own_supports) {
+TEST(bodies_without_contact_need_their_own_supports) {
     const std::vector<double> lengths{1.0};
     const std::vector<std::int64_t> divisions{1};
     const std::vector<double> thickness{1.0, 1.0};
@@ -254,9 +247,8 @@ START_TEST(bodies_without_contact_need_their_own_supports) {
     expect(problem,
            "body 1 can translate along x; body 1 can translate along y; body 1 can rotate about the point (0.5, 1.5)");
 }
-END_TEST
 
-START_TEST(cells_that_share_a_node_are_hinged) {
+TEST(cells_that_share_a_node_are_hinged) {
     // Two squares touch at (1, 1): one body for the host, two pieces that rotate about the common node.
     const std::vector<double> nodes{0, 0, 1, 0, 0, 1, 1, 1, 2, 1, 1, 2, 2, 2};
     auto mesh = std::make_shared<Mesh>(2, nodes);
@@ -273,9 +265,8 @@ START_TEST(cells_that_share_a_node_are_hinged) {
     hold(problem, 6, 0);
     expect_valid(problem);
 }
-END_TEST
 
-START_TEST(supports_do_not_depend_on_units) {
+TEST(supports_do_not_depend_on_units) {
     for (const double unit : {1e-6, 1.0, 1e6}) {
         const std::vector<double> lengths{120.0 * unit};
         const std::vector<std::int64_t> divisions{240};
@@ -295,7 +286,6 @@ START_TEST(supports_do_not_depend_on_units) {
         expect_valid(problem);
     }
 }
-END_TEST
 
 // Another number in each row of the table, another kind, another criterion.
 std::vector<std::function<void(Law&)>> law_changes() {
@@ -321,7 +311,7 @@ std::vector<std::function<void(Law&)>> law_changes() {
     return changes;
 }
 
-START_TEST(hash_changes_with_every_datum) {
+TEST(hash_changes_with_every_datum) {
     Problem base = stack(2, 2);
     hold_bottom(base);
     push(base, node_at(base, 0, {0.0, 1.0}), 0);
@@ -360,25 +350,4 @@ START_TEST(hash_changes_with_every_datum) {
     for (std::size_t i = 0; i < seen.size(); ++i) {
         for (std::size_t j = 0; j < i; ++j) ck_assert_msg(seen[i] != seen[j], "changes %zu and %zu hash alike", i, j);
     }
-}
-END_TEST
-
-int main() {
-    Suite* suite = suite_create("scene");
-    TCase* tests = tcase_create("scene");
-    tcase_add_test(tests, patterns_are_piecewise_linear);
-    tcase_add_test(tests, incomplete_scenes_are_refused_by_name);
-    tcase_add_test(tests, missing_supports_are_described);
-    tcase_add_test(tests, missing_supports_in_space_are_described);
-    tcase_add_test(tests, floating_plies_are_legal);
-    tcase_add_test(tests, bodies_without_contact_need_their_own_supports);
-    tcase_add_test(tests, cells_that_share_a_node_are_hinged);
-    tcase_add_test(tests, supports_do_not_depend_on_units);
-    tcase_add_test(tests, hash_changes_with_every_datum);
-    suite_add_tcase(suite, tests);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? 0 : 1;
 }

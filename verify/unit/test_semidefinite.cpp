@@ -8,12 +8,9 @@
 #include <set>
 #include <vector>
 
+#include "check.hpp"
 #include "counting_allocator.hpp"
 #include "linalg/sparse/semidefinite.hpp"
-#include "quiet_check.hpp"
-
-// Last: its macro fail() would break delam::fail().
-#include <check.h>
 
 using namespace delam;
 
@@ -89,7 +86,7 @@ void expect_rank(const Rows& rows, std::int64_t rank, const char* what) {
 
 }  // namespace
 
-START_TEST(rank_of_rigid_bodies) {
+TEST(rank_of_rigid_bodies) {
     expect_rank(squares(1, 1, 1), 2, "one square that turns about a corner");
     expect_rank(squares(1, 1, 0), 0, "one square without a row");
     for (const int n : {2, 10, 100, 400}) {
@@ -101,10 +98,9 @@ START_TEST(rank_of_rigid_bodies) {
     expect_rank(squares(20, 20, 3), 1200, "a grid held at three corners");
     expect_rank(squares(100, 6, 0), 1797, "a long floating grid");
 }
-END_TEST
 
 // Columns that do not carry: pieces come off, each with its own motions; nothing is left of all.
-START_TEST(rows_that_carry_nothing_are_out) {
+TEST(rows_that_carry_nothing_are_out) {
     const int n = 30;
     const Rows rows = squares(n, 1, 2);
     const SparseMatrix g = rows.g(), gt = transpose(g);
@@ -117,11 +113,10 @@ START_TEST(rows_that_carry_nothing_are_out) {
     std::fill(carries.begin(), carries.end(), 0.0);
     ck_assert(independent_rows(g, gt, carries, 1e-11).empty());
 }
-END_TEST
 
 // Rows that are sums of others among rows of very different sizes, in an arbitrary order. The pivots of the Gram matrix
 // alone do not tell their rank: cancellation leaves more than 1e-11.
-START_TEST(rank_of_random_rows) {
+TEST(rank_of_random_rows) {
     std::mt19937 random(20261123);
     const auto uniform = [&] { return std::uniform_real_distribution<double>(-1.0, 1.0)(random); };
     for (std::size_t round = 0; round < 20; ++round) {
@@ -151,10 +146,9 @@ START_TEST(rank_of_random_rows) {
                          static_cast<int>(base));
     }
 }
-END_TEST
 
 // Memory grows with the motions, not with their square.
-START_TEST(memory_grows_with_the_rows) {
+TEST(memory_grows_with_the_rows) {
     if (!unit::counting) return;
     const auto peak = [](int n) {
         const Rows rows = squares(n, n, 0);
@@ -170,20 +164,4 @@ START_TEST(memory_grows_with_the_rows) {
     const double small = peak(16), large = peak(48);  // 768 and 6912 motions: nine times, a dense matrix 81 times
     ck_assert_double_lt(large, 18.0 * small);
     ck_assert_double_lt(large, 0.1 * 16.0 * 6912.0 * 6912.0);
-}
-END_TEST
-
-int main() {
-    Suite* suite = suite_create("semidefinite");
-    TCase* tests = tcase_create("semidefinite");
-    tcase_add_test(tests, rank_of_rigid_bodies);
-    tcase_add_test(tests, rows_that_carry_nothing_are_out);
-    tcase_add_test(tests, rank_of_random_rows);
-    tcase_add_test(tests, memory_grows_with_the_rows);
-    suite_add_tcase(suite, tests);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? 0 : 1;
 }

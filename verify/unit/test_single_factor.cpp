@@ -8,11 +8,8 @@
 
 #include "base/numbers.hpp"
 #include "box_matrix.hpp"
+#include "check.hpp"
 #include "linalg/sparse/cholesky.hpp"
-#include "quiet_check.hpp"
-
-// Last: its macro fail() would break delam::fail().
-#include <check.h>
 
 using namespace delam;
 using unit::box;
@@ -39,7 +36,7 @@ double largest_difference(const std::vector<double>& a, const std::vector<double
 
 }  // namespace
 
-START_TEST(has_the_digits_of_single_precision) {
+TEST(has_the_digits_of_single_precision) {
     const SparseMatrix m = box(12, 11, 9);
     SparseCholesky factor(m);
     ck_assert(factor.factorise(m));
@@ -62,10 +59,9 @@ START_TEST(has_the_digits_of_single_precision) {
     ck_assert(factor.factorise(m));
     ck_assert(solution(factor, b) == exact);
 }
-END_TEST
 
 // Units are powers of two here: not a bit changes. Single precision itself ends at 2^128.
-START_TEST(is_the_same_in_any_unit) {
+TEST(is_the_same_in_any_unit) {
     const SparseMatrix m = box(12, 11, 9);
     SparseCholesky factor(m);
     ck_assert(factor.factorise(m));
@@ -84,10 +80,9 @@ START_TEST(is_the_same_in_any_unit) {
         }
     ck_assert(max_abs(solution(factor, std::vector<double>(b.size(), 0.0))) == 0.0);
 }
-END_TEST
 
 // Rows far stiffer than the rest, as held rows are; and so much stiffer that single precision cannot hold both.
-START_TEST(is_refused_where_pivots_are_too_far_apart) {
+TEST(is_refused_where_pivots_are_too_far_apart) {
     const std::vector<double> b = wave(box(12, 11, 9).rows);
     for (const double stiff : {1e10, 1e30}) {
         SparseMatrix m = box(12, 11, 9);
@@ -104,19 +99,4 @@ START_TEST(is_refused_where_pivots_are_too_far_apart) {
         else
             ck_assert(error == 0.0);
     }
-}
-END_TEST
-
-int main() {
-    Suite* suite = suite_create("single_factor");
-    TCase* tests = tcase_create("factor");
-    tcase_add_test(tests, has_the_digits_of_single_precision);
-    tcase_add_test(tests, is_the_same_in_any_unit);
-    tcase_add_test(tests, is_refused_where_pivots_are_too_far_apart);
-    suite_add_tcase(suite, tests);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? 0 : 1;
 }

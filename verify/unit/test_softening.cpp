@@ -7,11 +7,10 @@
 #include <string>
 
 #include "base/error.hpp"
+#include "check.hpp"
 #include "delam/delam.h"
 #include "law/law.hpp"
 #include "laws.hpp"
-
-#include "quiet_check.hpp"  // last: it has a macro named fail
 
 using delam::Law;
 using delam::Toughness;
@@ -53,7 +52,7 @@ double driving_at(const Law& law, const Toughness& t, double share) {
 
 }  // namespace
 
-START_TEST(minimiser_is_least) {
+TEST(minimiser_is_least) {
     constexpr int points = 1000;
     everywhere([&](const char* name, const Law& law, const Toughness& t) {
         std::vector<double> g;
@@ -78,10 +77,9 @@ START_TEST(minimiser_is_least) {
         }
     });
 }
-END_TEST
 
 // g(1) = 0, g(0) = Gc, g convex and decreasing, Y = -g' and its slope by differences inside smooth parts.
-START_TEST(energy) {
+TEST(energy) {
     everywhere([](const char* name, const Law& law, const Toughness& t) {
         ck_assert(std::abs(law.dissipated(t, 1.0)) <= 1e-15 * t.total);
         ck_assert_msg(close(law.dissipated(t, 0.0), t.total, 1e-15), "%s", name);
@@ -114,10 +112,9 @@ START_TEST(energy) {
         }
     });
 }
-END_TEST
 
 // Inside the bounds the minimiser inverts Y(zeta), with the reciprocal of its slope.
-START_TEST(inverse) {
+TEST(inverse) {
     everywhere([](const char* name, const Law& law, const Toughness& t) {
         for (int i = 1; i < 200; ++i) {
             const double z = i / 200.0, y = law.driving(t, z), slope = law.driving_slope(t, z);
@@ -137,11 +134,10 @@ START_TEST(inverse) {
         ck_assert(law.slope(t, t.onset * 1.0001, 1e-9) == 0.0);
     });
 }
-END_TEST
 
 // First loading with stiffness k: peak sqrt(2 k Go) at the onset, area Gc. The midpoint rule with 100,000 steps has an
 // error of 1e-9 where the curve is smooth, and of part of a step at a drop.
-START_TEST(traction) {
+TEST(traction) {
     constexpr double k = 125e9;
     everywhere([&](const char* name, const Law& law, const Toughness& t) {
         const double onset_jump = std::sqrt(2.0 * t.onset / k), peak = std::sqrt(2.0 * k * t.onset);
@@ -163,10 +159,9 @@ START_TEST(traction) {
         ck_assert_msg(highest <= peak * (1 + 1e-12), "%s", name);
     });
 }
-END_TEST
 
 // Close to Griffith's law every shape breaks between Go and Gc^2/Go and dissipates Gc, without a rounding accident.
-START_TEST(towards_griffith) {
+TEST(towards_griffith) {
     for (const delam::Criterion criterion : laws::criteria) {
         for (laws::Named& named : laws::shapes(criterion, 1.0)) {
             Law& law = named.law;
@@ -192,10 +187,9 @@ START_TEST(towards_griffith) {
         }
     }
 }
-END_TEST
 
 // The trapezium without plateau and the table of two points are the bilinear law.
-START_TEST(same_law) {
+TEST(same_law) {
     const auto all = laws::shapes(delam::Criterion::power, 7.0);
     const Law& bilinear = all[0].law;
     Law two = all[5].law;
@@ -215,10 +209,9 @@ START_TEST(same_law) {
             }
         }
 }
-END_TEST
 
 // dg/dB at the same zeta, by differences.
-START_TEST(mixity_slopes) {
+TEST(mixity_slopes) {
     for (const delam::Criterion criterion : laws::criteria)
         for (const double ratio : {1.02, 2.5, 40.0})
             for (const laws::Named& named : laws::shapes(criterion, ratio))
@@ -233,10 +226,9 @@ START_TEST(mixity_slopes) {
                                       g / (2.0 * h));
                     }
 }
-END_TEST
 
 // Powers of two scale doubles exactly: any dependence on units other than by a factor would show in the last bit.
-START_TEST(units) {
+TEST(units) {
     for (const laws::Named& named : laws::shapes(delam::Criterion::benzeggagh_kenane, 3.7)) {
         const Law& law = named.law;
         for (const int power : {-60, -1, 30}) {
@@ -265,10 +257,9 @@ START_TEST(units) {
         }
     }
 }
-END_TEST
 
 // Copies are independent, also of tables.
-START_TEST(values) {
+TEST(values) {
     const Law first = laws::shapes(delam::Criterion::power, 3.0)[5].law;
     Law second = first;
     const double xi[] = {0.0, 1.0}, s[] = {1.0, 0.0};
@@ -277,10 +268,9 @@ START_TEST(values) {
     ck_assert(first.dissipated(t, 0.5) != second.dissipated(t, 0.5));
     ck_assert(std::get<delam::TabulatedSoftening>(first.softening).corners().size() == 5);
 }
-END_TEST
 
 // Jumps whose energy is near or beyond the largest double.
-START_TEST(huge_jumps_break) {
+TEST(huge_jumps_break) {
     for (const laws::Named& named : laws::shapes(laws::criteria[0], 2.5))
         for (const double driving :
              {1e300, std::numeric_limits<double>::max(), std::numeric_limits<double>::infinity()})
@@ -288,26 +278,4 @@ START_TEST(huge_jumps_break) {
                 const double zeta = named.law.minimiser(named.law.toughness(0.3), driving, zeta_old);
                 ck_assert_msg(zeta >= 0.0 && zeta <= 1e-140, "%s: %g at %g", named.name.c_str(), zeta, driving);
             }
-}
-END_TEST
-
-int main() {
-    Suite* suite = suite_create("softening");
-    TCase* cases = tcase_create("softening");
-    tcase_add_test(cases, minimiser_is_least);
-    tcase_add_test(cases, energy);
-    tcase_add_test(cases, inverse);
-    tcase_add_test(cases, traction);
-    tcase_add_test(cases, towards_griffith);
-    tcase_add_test(cases, same_law);
-    tcase_add_test(cases, mixity_slopes);
-    tcase_add_test(cases, units);
-    tcase_add_test(cases, values);
-    tcase_add_test(cases, huge_jumps_break);
-    suite_add_tcase(suite, cases);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }

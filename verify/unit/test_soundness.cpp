@@ -5,13 +5,12 @@
 #include <string>
 
 #include "base/error.hpp"
+#include "check.hpp"
 #include "evolution/analysis/solver.hpp"
 #include "evolution/increment/state_fields.hpp"
 #include "evolution/observe/soundness.hpp"
 #include "flexure.hpp"
-
-// Last: its macro fail() would break delam::fail().
-#include <check.h>
+#include "refused.hpp"
 
 using namespace delam;
 
@@ -35,13 +34,7 @@ Problem small(const char* reduction) {
 
 // The message of the refusal, "" if there is none.
 std::string refusal(const Problem& problem, const State& state, bool converged) {
-    try {
-        require_sound(problem, state, converged);
-    } catch (const Error& error) {
-        ck_assert_int_eq(error.status(), DELAM_ERROR_NUMERICAL);
-        return error.what();
-    }
-    return "";
+    return unit::refusal(DELAM_ERROR_NUMERICAL, [&] { require_sound(problem, state, converged); });
 }
 
 void expect_named(const std::string& refusal, const char* name) {
@@ -72,7 +65,7 @@ private:
 
 }  // namespace
 
-START_TEST(names_what_is_not_finite) {
+TEST(names_what_is_not_finite) {
     const Problem problem = small("feti");
     const State sound = state_of(problem);
     ck_assert(refusal(problem, sound, true).empty());
@@ -111,10 +104,9 @@ START_TEST(names_what_is_not_finite) {
                 expect_named(refusal(problem, state, converged), plant.name);
             }
 }
-END_TEST
 
 // Every row of the tables of a saved state: what a call returns can be saved and loaded.
-START_TEST(refuses_every_saved_number_that_is_not_finite) {
+TEST(refuses_every_saved_number_that_is_not_finite) {
     const Problem problem = small("feti");
     const State sound = state_of(problem);
     std::size_t count = 0;
@@ -130,9 +122,8 @@ START_TEST(refuses_every_saved_number_that_is_not_finite) {
     }
     ck_assert_uint_ge(count, 25);
 }
-END_TEST
 
-START_TEST(names_the_violated_support) {
+TEST(names_the_violated_support) {
     const Problem problem = small("feti");
     State state = state_of(problem);
     const SupportError left = state.response.support;
@@ -153,27 +144,10 @@ START_TEST(names_the_violated_support) {
     state.response.support.error = 6e-5;
     expect_named(refusal(loose, state, true), "0.0001");
 }
-END_TEST
 
-START_TEST(condensed_supports_need_no_report) {
+TEST(condensed_supports_need_no_report) {
     const Problem problem = small("condensed");
     const State state = state_of(problem);
     ck_assert_int_eq(state.response.support.constraint, -1);
     ck_assert(refusal(problem, state, true).empty());
-}
-END_TEST
-
-int main() {
-    Suite* suite = suite_create("soundness");
-    TCase* test = tcase_create("states");
-    tcase_add_test(test, names_what_is_not_finite);
-    tcase_add_test(test, refuses_every_saved_number_that_is_not_finite);
-    tcase_add_test(test, names_the_violated_support);
-    tcase_add_test(test, condensed_supports_need_no_report);
-    suite_add_tcase(suite, test);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The tree of superelements against the whole, factored at once with its jumps last: the same Schur complement, the
 // same minimisers, the same digits whatever was eliminated before.
-#include <check.h>
-
 #include <cmath>
 #include <random>
 #include <set>
 
 #include "base/monitor.hpp"
 #include "base/numbers.hpp"
+#include "check.hpp"
 #include "flexure.hpp"
-#include "quiet_check.hpp"
 #include "reduction/condensed/bulk.hpp"
 #include "same_bits.hpp"
 
@@ -124,8 +122,8 @@ std::vector<double> random_states(const Superelements& bodies, std::mt19937& ran
 }  // namespace
 
 // Each variable has one owner, and no entry couples two subtrees past their common ancestors.
-START_TEST(the_tree_separates) {
-    const Case c = cases()[index(_i)];
+LOOP_TEST(the_tree_separates, 0, cases().size()) {
+    const Case c = cases()[index(loop)];
     const Problem problem = problem_of(c);
     Monitor monitor;
     const Bulk bulk(problem, monitor);
@@ -167,10 +165,9 @@ START_TEST(the_tree_separates) {
             ck_assert(low == high);
         }
 }
-END_TEST
 
-START_TEST(all_jumps_have_the_schur_complement_of_the_whole) {
-    const Case c = cases()[index(_i)];
+LOOP_TEST(all_jumps_have_the_schur_complement_of_the_whole, 0, cases().size()) {
+    const Case c = cases()[index(loop)];
     const Problem problem = problem_of(c);
     Monitor monitor;
     Bulk bulk(problem, monitor);
@@ -195,11 +192,10 @@ START_TEST(all_jumps_have_the_schur_complement_of_the_whole) {
         }
     ck_assert_msg(error < 1e-12 * largest(s), "%s: %g of %g", c.name, error, largest(s));
 }
-END_TEST
 
 // Condensed further, the energy of all jumps gives the energy of a zone, and the minimiser of all else.
-START_TEST(zones_are_those_of_the_dense_energy) {
-    const Case c = cases()[index(_i)];
+LOOP_TEST(zones_are_those_of_the_dense_energy, 0, cases().size()) {
+    const Case c = cases()[index(loop)];
     const Problem problem = problem_of(c);
     Monitor monitor;
     Bulk bulk(problem, monitor);
@@ -249,10 +245,9 @@ START_TEST(zones_are_those_of_the_dense_energy) {
         ck_assert_msg(off < 1e-8 * size, "%s: jumps off by %g of %g", c.name, off, size);
     }
 }
-END_TEST
 
-START_TEST(history_leaves_no_digit) {
-    const Case c = cases()[index(_i)];
+LOOP_TEST(history_leaves_no_digit, 0, cases().size()) {
+    const Case c = cases()[index(loop)];
     const Problem problem = problem_of(c);
     Monitor monitor;
     Bulk bulk(problem, monitor);
@@ -278,10 +273,9 @@ START_TEST(history_leaves_no_digit) {
         ck_assert(same_bits(one.energy().load.value, fresh.energy().load.value));
     }
 }
-END_TEST
 
 // Copies of a piece are condensed once; a piece of another material is no copy.
-START_TEST(copies_share_a_piece) {
+TEST(copies_share_a_piece) {
     unit::Flexure beam;
     beam.along = 1600;
     beam.through = 2;
@@ -307,23 +301,4 @@ START_TEST(copies_share_a_piece) {
     problem.mesh = graded;
     const Bulk different(problem, monitor);
     ck_assert_uint_eq(different.superelements().pieces(), different.superelements().leaves());
-}
-END_TEST
-
-int main() {
-    const auto all = static_cast<int>(cases().size());
-    Suite* suite = suite_create("superelements");
-    TCase* tests = tcase_create("tree");
-    tcase_set_timeout(tests, 60);
-    tcase_add_loop_test(tests, the_tree_separates, 0, all);
-    tcase_add_loop_test(tests, all_jumps_have_the_schur_complement_of_the_whole, 0, all);
-    tcase_add_loop_test(tests, zones_are_those_of_the_dense_energy, 0, all);
-    tcase_add_loop_test(tests, history_leaves_no_digit, 0, all);
-    tcase_add_test(tests, copies_share_a_piece);
-    suite_add_tcase(suite, tests);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? 0 : 1;
 }

@@ -9,11 +9,9 @@
 #include "base/machine/blas_threads.hpp"
 #include "base/monitor.hpp"
 #include "base/team.hpp"
+#include "check.hpp"
 #include "evolution/analysis/solver.hpp"
 #include "flexure.hpp"
-
-// Last: its macro fail() would break delam::fail().
-#include <check.h>
 
 extern "C" {
 int openblas_get_num_threads() __attribute__((weak));
@@ -26,7 +24,7 @@ namespace {
 
 constexpr std::int64_t count = 200;
 
-START_TEST(every_piece_once) {
+TEST(every_piece_once) {
     for (const std::int64_t threads : {1, 2, 3}) {
         const TeamScope team(threads);
         for (int round = 0; round < 50; ++round) {
@@ -42,10 +40,9 @@ START_TEST(every_piece_once) {
         }
     }
 }
-END_TEST
 
 // Pieces within pieces run one after another; a single piece is none.
-START_TEST(within) {
+TEST(within) {
     const TeamScope team(2);
     std::atomic<int> inner{0};
     share(4, [&](std::int64_t) {
@@ -57,10 +54,9 @@ START_TEST(within) {
     ck_assert(!in_a_piece());
     share(1, [](std::int64_t) { ck_assert(!in_a_piece()); });
 }
-END_TEST
 
 // A callback of the host, between two pieces, may call the library again.
-START_TEST(between) {
+TEST(between) {
     const TeamScope team(2);
     std::atomic<int> outer{0};
     int inner = 0;
@@ -70,9 +66,8 @@ START_TEST(between) {
     ck_assert_int_ge(inner, 3);
     ck_assert_int_eq(inner % 3, 0);
 }
-END_TEST
 
-START_TEST(exceptions) {
+TEST(exceptions) {
     for (const std::int64_t threads : {1, 2, 3}) {
         const TeamScope team(threads);
         std::string caught;
@@ -89,9 +84,8 @@ START_TEST(exceptions) {
         ck_assert_int_eq(after, count);
     }
 }
-END_TEST
 
-START_TEST(one_thread_of_the_blas) {
+TEST(one_thread_of_the_blas) {
     if (openblas_get_num_threads == nullptr || openblas_set_num_threads == nullptr) return;
     openblas_set_num_threads(2);
     if (openblas_get_num_threads() != 2) return;
@@ -101,9 +95,8 @@ START_TEST(one_thread_of_the_blas) {
         ck_assert_int_eq(openblas_get_num_threads(), 2);
     }
 }
-END_TEST
 
-START_TEST(analysis) {
+TEST(analysis) {
     unit::Flexure scene;
     scene.dimension = 3;
     scene.along = 30;
@@ -123,20 +116,5 @@ START_TEST(analysis) {
     ck_assert(march(2) == one);
     ck_assert(march(3) == one);
 }
-END_TEST
 
 }  // namespace
-
-int main() {
-    Suite* suite = suite_create("team");
-    TCase* tests = tcase_create("team");
-    tcase_set_timeout(tests, 60.0);
-    for (const TTest* test : {every_piece_once, within, between, exceptions, one_thread_of_the_blas, analysis})
-        tcase_add_test(tests, test);
-    suite_add_tcase(suite, tests);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
-}

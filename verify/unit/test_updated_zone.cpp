@@ -3,42 +3,16 @@
 // solutions, the same verdict on definiteness, and few full factorisations.
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <random>
 #include <vector>
 
 #include "base/numbers.hpp"
-#include "linalg/dense/dense.hpp"
+#include "random_dense.hpp"
 #include "reduction/dense/dense_zone.hpp"
 
-// Last: its macro fail() would break delam::fail().
-#include "quiet_check.hpp"
-
 using namespace delam;
+using namespace unit;
 
 namespace {
-
-using Index = std::int64_t;
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
-class Random {
-public:
-    explicit Random(unsigned seed) : engine_(seed) {}
-    double real(double low = -1.0, double high = 1.0) {
-        return std::uniform_real_distribution<double>(low, high)(engine_);
-    }
-    bool one_in(int n) { return std::uniform_int_distribution<int>(1, n)(engine_) == 1; }
-    Index below(Index n) { return std::uniform_int_distribution<Index>(0, n - 1)(engine_); }
-    std::vector<double> vector(Index n) {
-        std::vector<double> v(at(n));
-        for (double& x : v) x = real();
-        return v;
-    }
-
-private:
-    std::mt19937 engine_;
-};
 
 // Rows of one unknown each, then `bound` rows of two; springs and held rows that change.
 struct Case {
@@ -125,9 +99,9 @@ double compare(const Zone::Solution& a, const Zone::Solution& b) {
 
 }  // namespace
 
-START_TEST(small_changes) {
-    Random random(static_cast<unsigned>(_i) + 70U);
-    Case c = make_case(random, 40 + 40 * (_i % 4), _i % 3 == 2 ? 3 : 0, _i % 3);
+LOOP_TEST(small_changes, 0, 48) {
+    Random random(static_cast<unsigned>(loop) + 70U);
+    Case c = make_case(random, 40 + 40 * (loop % 4), loop % 3 == 2 ? 3 : 0, loop % 3);
     DenseZone zone = c.zone();
     const std::vector<double> theta = random.vector(2);
     const int changes = 60;
@@ -154,14 +128,13 @@ START_TEST(small_changes) {
     }
     ck_assert_int_ge(compared, changes / 2);
     // A matrix of 160 and more rows is factored once for several changes of four; those of small ones are cheap.
-    if (c.rows.size() >= 160 && _i % 3 != 2) ck_assert_int_le(zone.factorisations(), changes / 3);
+    if (c.rows.size() >= 160 && loop % 3 != 2) ck_assert_int_le(zone.factorisations(), changes / 3);
 }
-END_TEST
 
 // Tangents of softening rows make the matrix indefinite, and definite again.
-START_TEST(definiteness) {
-    Random random(static_cast<unsigned>(_i) + 170U);
-    Case c = make_case(random, 50, 0, _i % 2);
+LOOP_TEST(definiteness, 0, 12) {
+    Random random(static_cast<unsigned>(loop) + 170U);
+    Case c = make_case(random, 50, 0, loop % 2);
     DenseZone zone = c.zone();
     ck_assert(zone.factor(c.couplings(), c.held));
     int indefinite = 0;
@@ -178,13 +151,12 @@ START_TEST(definiteness) {
     ck_assert_int_ge(indefinite, 3);
     ck_assert(zone.factor(c.couplings(), c.held));
 }
-END_TEST
 
 // A spring that hides the bodies is never subtracted: nothing is lost when it breaks.
-START_TEST(stiff_springs) {
-    Random random(static_cast<unsigned>(_i) + 270U);
+LOOP_TEST(stiff_springs, 0, 10) {
+    Random random(static_cast<unsigned>(loop) + 270U);
     Case c = make_case(random, 40, 0, 0);
-    for (int k = 0; k < 6; ++k) c.spring[at(random.below(c.plain))] = std::pow(10.0, 4.0 + 2.0 * (_i % 5));
+    for (int k = 0; k < 6; ++k) c.spring[at(random.below(c.plain))] = std::pow(10.0, 4.0 + 2.0 * (loop % 5));
     DenseZone zone = c.zone();
     const std::vector<double> theta = random.vector(2);
     ck_assert(zone.factor(c.couplings(), c.held));
@@ -196,12 +168,11 @@ START_TEST(stiff_springs) {
     const double off = compare(zone.solve(theta, {}), fresh.solve(theta, {}));
     ck_assert_msg(off <= 1e-11, "unknowns differ by %.2e", off);
 }
-END_TEST
 
 // A zone that forgets its past continues with the bits of a new zone.
-START_TEST(forgets) {
-    Random random(static_cast<unsigned>(_i) + 370U);
-    Case c = make_case(random, 40, 0, _i % 3);
+LOOP_TEST(forgets, 0, 12) {
+    Random random(static_cast<unsigned>(loop) + 370U);
+    Case c = make_case(random, 40, 0, loop % 3);
     DenseZone used = c.zone(), fresh = c.zone();
     const std::vector<double> theta = random.vector(2);
     for (int k = 0; k < 5; ++k) {
@@ -217,12 +188,11 @@ START_TEST(forgets) {
         change(c, random);
     }
 }
-END_TEST
 
 // The work of forces on the jumps of others is that of solutions with these forces alone.
-START_TEST(flexibility) {
-    Random random(static_cast<unsigned>(_i) + 470U);
-    Case c = make_case(random, 30, _i % 2 == 0 ? 3 : 0, _i % 3);
+LOOP_TEST(flexibility, 0, 12) {
+    Random random(static_cast<unsigned>(loop) + 470U);
+    Case c = make_case(random, 30, loop % 2 == 0 ? 3 : 0, loop % 3);
     DenseZone zone = c.zone();
     const std::vector<double> theta(2, 0.0);
     for (int k = 0; k < 6; ++k) {
@@ -250,21 +220,4 @@ START_TEST(flexibility) {
                               static_cast<int>(i), static_cast<int>(j));
             }
     }
-}
-END_TEST
-
-int main() {
-    Suite* suite = suite_create("updated_zone");
-    TCase* tests = tcase_create("changes");
-    tcase_add_loop_test(tests, small_changes, 0, 48);
-    tcase_add_loop_test(tests, definiteness, 0, 12);
-    tcase_add_loop_test(tests, stiff_springs, 0, 10);
-    tcase_add_loop_test(tests, forgets, 0, 12);
-    tcase_add_loop_test(tests, flexibility, 0, 12);
-    suite_add_tcase(suite, tests);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -7,13 +7,12 @@
 #include <random>
 #include <vector>
 
+#include "check.hpp"
 #include "evolution/increment/gradient.hpp"
 #include "evolution/increment/rule/converged_increment.hpp"
 #include "evolution/increment/rule/frozen_increment.hpp"
 #include "evolution/increment/rule/variational_increment.hpp"
 #include "law/variational.hpp"
-
-#include <check.h>
 
 using namespace delam;
 
@@ -50,7 +49,7 @@ State whole(std::size_t pairs) {
 
 }  // namespace
 
-START_TEST(toughness_slopes) {
+TEST(toughness_slopes) {
     std::mt19937 random(1);
     for (int trial = 0; trial < 200; ++trial) {
         const Law law = some_law(random);
@@ -72,10 +71,9 @@ START_TEST(toughness_slopes) {
         constant.toughness_exponent_2 = 1.0;
     ck_assert(constant.toughness_slope(0.3).onset == 0.0 && constant.toughness_slope(0.3).total == 0.0);
 }
-END_TEST
 
 // Force = gradient of the energy at fixed damage; tangent = derivative of the force along the damage that minimises.
-START_TEST(force_and_tangent) {
+TEST(force_and_tangent) {
     std::mt19937 random(2);
     for (int trial = 0; trial < 300; ++trial) {
         const Law law = some_law(random);
@@ -116,9 +114,8 @@ START_TEST(force_and_tangent) {
         }
     }
 }
-END_TEST
 
-START_TEST(damage_is_the_minimiser) {
+TEST(damage_is_the_minimiser) {
     std::mt19937 random(3);
     for (int trial = 0; trial < 200; ++trial) {
         const Law law = some_law(random);
@@ -132,11 +129,10 @@ START_TEST(damage_is_the_minimiser) {
             ck_assert(pair.energy(j, old * i / 400.0) >= reached - 1e-12 * law.normal_toughness);
     }
 }
-END_TEST
 
 // Three pairs in a row, coupled by a gradient term: the middle one damages and draws its neighbours along, whose modes
 // turn to where the toughness is less, by more than their Y.
-START_TEST(coupled_damage_is_the_minimiser) {
+TEST(coupled_damage_is_the_minimiser) {
     Law law;
     law.normal_stiffness = law.tangential_stiffness = 1e11;
     law.normal_onset = law.tangential_onset = 30.0;
@@ -163,10 +159,9 @@ START_TEST(coupled_damage_is_the_minimiser) {
             ck_assert_double_ge(step.energy(other, jump), reached - 1e-10 * std::abs(reached));
         }
 }
-END_TEST
 
 // Near j the energy stays below the model with the spring mu K, and therefore linearised steps descend.
-START_TEST(proximal_spring_bounds_the_curvature) {
+TEST(proximal_spring_bounds_the_curvature) {
     std::mt19937 random(4);
     for (int trial = 0; trial < 300; ++trial) {
         const Law law = some_law(random);
@@ -190,10 +185,9 @@ START_TEST(proximal_spring_bounds_the_curvature) {
         }
     }
 }
-END_TEST
 
 // No jump, and contact: the mixity gives no traction; as the jump tends to zero the energy stays bounded.
-START_TEST(small_jumps_and_contact) {
+TEST(small_jumps_and_contact) {
     std::mt19937 random(5);
     const Law law = some_law(random);
     const VariationalPair pair{law, 0.3, law.toughness(0.3).total, law.normal_onset};
@@ -211,7 +205,6 @@ START_TEST(small_jumps_and_contact) {
                   std::abs(pair.energy(j, 0.5)) < 10.0 * law.tangential_toughness + law.normal_stiffness * size * size);
     }
 }
-END_TEST
 
 namespace {
 
@@ -231,7 +224,7 @@ std::vector<double> jump_of(double y, double b) {
 }  // namespace
 
 // A pair whose shown mixity overshoots that in use, however much: a finite number of updates.
-START_TEST(swings_end) {
+TEST(swings_end) {
     const Law law = alike_in_both_modes();
     PairLaws pairs;
     pairs.law = {&law};
@@ -250,11 +243,10 @@ START_TEST(swings_end) {
         ck_assert(mixity.held() == 0 || gain < -10.0);
     }
 }
-END_TEST
 
 // Where other pairs made a mixity swing at first, it goes the whole way once they rest: with the fraction that the
 // swings have left it would take 150 updates.
-START_TEST(an_oscillating_mixity_settles) {
+TEST(an_oscillating_mixity_settles) {
     const Law law = alike_in_both_modes();
     PairLaws pairs;
     pairs.law = {&law};
@@ -272,9 +264,8 @@ START_TEST(an_oscillating_mixity_settles) {
     }
     ck_assert_int_le(updates, 8);
 }
-END_TEST
 
-START_TEST(broken_pairs_keep_theirs) {
+TEST(broken_pairs_keep_theirs) {
     const Law law = alike_in_both_modes();
     PairLaws pairs;
     pairs.law = {&law, &law};
@@ -296,25 +287,4 @@ START_TEST(broken_pairs_keep_theirs) {
     state.adhesion = before.adhesion;
     frozen.record(state);
     ck_assert(state.ledger.mixity_error == 0.0);
-}
-END_TEST
-
-int main() {
-    Suite* suite = suite_create("variational");
-    TCase* tests = tcase_create("mixity");
-    tcase_add_test(tests, toughness_slopes);
-    tcase_add_test(tests, force_and_tangent);
-    tcase_add_test(tests, damage_is_the_minimiser);
-    tcase_add_test(tests, coupled_damage_is_the_minimiser);
-    tcase_add_test(tests, proximal_spring_bounds_the_curvature);
-    tcase_add_test(tests, small_jumps_and_contact);
-    tcase_add_test(tests, swings_end);
-    tcase_add_test(tests, an_oscillating_mixity_settles);
-    tcase_add_test(tests, broken_pairs_keep_theirs);
-    suite_add_tcase(suite, tests);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? 0 : 1;
 }

@@ -3,12 +3,10 @@
 // = a (2 - a), so that a crack of length a grows at the load u with u^2 = 2 Gc/(a (2 - a)). It is unstable up to a = 1
 // and stable beyond.
 #include <cmath>
-#include <cstdlib>
 #include <vector>
 
+#include "check.hpp"
 #include "evolution/path/within_step.hpp"
-
-#include <check.h>
 
 using namespace delam;
 
@@ -38,7 +36,7 @@ std::vector<PathPoint> path(double a, double end) {
 }  // namespace
 
 // The jump begins at the load of the initial crack and ends at the length 2 - a with the same load.
-START_TEST(jump_within_the_step) {
+TEST(jump_within_the_step) {
     const double a = 0.2, jump = critical(a), end = 1.3 * jump, begin = 0.9 * jump;
     const std::vector<PathPoint> states = path(a, end);
     const WithinStep within = within_step(states, begin / end, false);
@@ -58,10 +56,9 @@ START_TEST(jump_within_the_step) {
     ck_assert_double_eq_tol(within.work, change + within.released, 1e-12 * within.work);
     ck_assert_double_gt(within.work, 0.5 * (whole - removed(a)) * (jump * jump - begin * begin));
 }
-END_TEST
 
 // From a = 1 on growth is steady at u_c(a): nothing is released, and the work is the integral of the load.
-START_TEST(steady_growth) {
+TEST(steady_growth) {
     const double a = 1.2, begin = critical(a), end = 1.2 * begin;
     const std::vector<PathPoint> states = path(a, end);
     const WithinStep within = within_step(states, begin / end, false);
@@ -76,10 +73,9 @@ START_TEST(steady_growth) {
     ck_assert_double_eq_tol(within.work, work, 1e-3 * work);
     ck_assert_double_eq(within.jump.debonded, 0.0);
 }
-END_TEST
 
 // More than the states give is recorded nowhere: the balance shows it.
-START_TEST(a_shortfall_is_not_hidden) {
+TEST(a_shortfall_is_not_hidden) {
     const double a = 1.2, begin = critical(a), end = 1.2 * begin;
     std::vector<PathPoint> states = path(a, end);
     for (PathPoint& p : states) p.dissipated *= 1.5;
@@ -88,19 +84,4 @@ START_TEST(a_shortfall_is_not_hidden) {
     const double defect =
         states.back().energy - energy_before + states.back().dissipated + within.released - within.work;
     ck_assert_double_gt(defect, 0.05 * states.back().dissipated);
-}
-END_TEST
-
-int main() {
-    Suite* suite = suite_create("within step");
-    TCase* within = tcase_create("within");
-    tcase_add_test(within, jump_within_the_step);
-    tcase_add_test(within, steady_growth);
-    tcase_add_test(within, a_shortfall_is_not_hidden);
-    suite_add_tcase(suite, within);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }

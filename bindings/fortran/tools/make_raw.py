@@ -10,9 +10,14 @@ or many: the comment of the function does, which speaks of *name or of name.
 """
 import argparse
 import difflib
+import pathlib
 import re
 import sys
 import textwrap
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "verify" / "abi"))
+
+import header as public_header  # noqa: E402
 
 KINDS = {
     "int32_t": "integer(c_int32_t)",
@@ -23,47 +28,26 @@ KINDS = {
 
 
 class Parameter:
-    def __init__(self, text):
-        text = " ".join(text.split())
-        match = re.fullmatch(r"(const )?(\w+) ?(\**) ?(\w+)", text)
-        if not match:
-            raise SystemExit(f"make_raw.py: cannot read the parameter '{text}'")
-        self.const = bool(match[1])
-        self.type = match[2]
-        self.stars = len(match[3])
-        self.name = match[4]
-        self.single = False
+    def __init__(self, parameter, comment, name):
+        self.name = parameter.name
+        self.const = parameter.type.startswith("const ")
+        self.stars = parameter.type.count("*")
+        self.type = parameter.type.replace("const ", "").rstrip("*")
+        words = re.findall(rf"(\*?)\b{self.name}\b", comment)
+        if name and self.stars == 1 and not self.const and self.type in KINDS and not words:
+            raise SystemExit(f"make_raw.py: {name}: the comment says nothing of {self.name}: one number or many?")
+        self.single = "*" in words
 
 
 def declarations(header):
     """Macros with numbers, opaque types, callbacks and functions, in the order of the header."""
-    comments = {name: comment for comment, name in
-                re.findall(r"/\*((?:[^*]|\*(?!/))*)\*/\s*DELAM_API[^;(]*?\b(delam_\w+)\s*\(", header)}
-    text = re.sub(r"/\*.*?\*/", " ", header, flags=re.S)
-    macros = re.findall(r"^#define (DELAM_\w+) (-?\d+)\s*$", text, flags=re.M)
-    text = re.sub(r"^\s*#.*$", " ", text, flags=re.M)
-    opaque = re.findall(r"typedef struct (\w+) \1;", text)
-    callbacks, functions = [], []
-    for result, name, parameters in re.findall(r"typedef (\w+) \(\*(\w+)\)\(([^)]*)\);", text):
-        callbacks.append((result, name, parameters))
-    for result, name, parameters in re.findall(r"DELAM_API\s+([\w\s]+?\s*\**)\s*\b(delam_\w+)\s*\(([^)]*)\);", text):
-        functions.append((" ".join(result.replace("*", " *").split()), name, parameters))
-    if len(functions) != len(re.findall(r"\bDELAM_API\b", text)):
-        raise SystemExit("make_raw.py: a DELAM_API declaration could not be read")
+    def plain(function):
+        told = "" if function.callback else function.name
+        return (function.result.replace("*", " *"), function.name,
+                [Parameter(p, function.comment, told) for p in function.parameters])
 
-    def split(part):
-        return [(result, name, [Parameter(p) for p in words.split(",")] if words.strip() not in ("", "void") else [])
-                for result, name, words in part]
-
-    functions = split(functions)
-    for _, name, parameters in functions:
-        for p in parameters:
-            if p.stars == 1 and not p.const and p.type in KINDS:
-                words = re.findall(rf"(\*?)\b{p.name}\b", comments.get(name, ""))
-                if not words:
-                    raise SystemExit(f"make_raw.py: {name}: the comment says nothing of {p.name}: one number or many?")
-                p.single = "*" in words
-    return macros, opaque, split(callbacks), functions
+    return (list(header.constants.items()), header.handles, [plain(f) for f in header.callbacks.values()],
+            [plain(f) for f in header.functions.values()])
 
 
 def argument(function, p, opaque, callbacks, called_back):
@@ -155,8 +139,10 @@ def main():
     parser.add_argument("--out")
     parser.add_argument("--compare")
     arguments = parser.parse_args()
-    with open(arguments.header, encoding="utf-8") as file:
-        text = module(file.read())
+    try:
+        text = module(public_header.read(arguments.header))
+    except public_header.HeaderError as error:
+        sys.exit(f"make_raw.py: {error}")
     if arguments.compare:
         with open(arguments.compare, encoding="utf-8") as file:
             present = file.read()
