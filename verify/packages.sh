@@ -38,6 +38,8 @@ declare -A DELAM_SLICE_PACKAGES=(
     [9]="libclang-rt-dev"
     [10]="valgrind"
     [12]="valgrind"
+    [13]="valgrind"
+    [14]="valgrind"
 )
 
 # delam_install PACKAGE...: installs what is missing, as root or through sudo; else prints the command and fails.

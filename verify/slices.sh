@@ -3,7 +3,7 @@
 # To be sourced by verify/run.sh: the long tier, cut into slices of at most ten minutes on two idle cores, of which each
 # run of .ci/run takes one.
 
-slices=12
+slices=14
 # Tests of ctest, as a regular expression; each test with the label `long` is in one slice (the test style/slices).
 declare -A slice_tests=(
     [1]='^(cli_long_(studies|many)|(unit|case)/test_long_.*|case/whole_.*)$'
@@ -16,12 +16,15 @@ declare -A slice_tests=(
     [8]='^(abi/long_.*)$'
     [9]='^fuzz/.*$'
     [10]='^(fault/(long|cancel|memory)|features/).*$'
+    [12]='^valgrind/unit_test_[a-h].*$'
+    [13]='^valgrind/unit_test_[i-l].*$'
+    [14]='^valgrind/(unit_test_[m-z]|case_).*$'
 )
 # Stages of verify/stages.sh, with their arguments, separated by semicolons.
 declare -A slice_stages=(
     [8]='thread_sanitizer; each_file_alone'
     [11]='sanitized_whole'
-    [12]='clang; valgrind_unit'
+    [12]='clang'
 )
 # A run of .ci/run that has taken so long, in s, leaves its slice out: a slice takes up to ten minutes on two idle cores
 # and twenty on busy ones, and hosts end a run after 90 minutes. Half of it would leave slices out wherever the quick tier

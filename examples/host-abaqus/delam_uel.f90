@@ -8,7 +8,7 @@
 !
 ! with, in abaqus_v6.env, `-free -I FOLDER` added to compile_fortran, FOLDER being that of the modules, and `-ldelam` to
 ! link_sl. In the deck: *USER ELEMENT with all displacements of its nodes, VARIABLES=8 and UNSYMM, and *STEP with
-! UNSYMM=YES. README.md of this folder has the details, and what the element does not do; delam_uel.inp is a deck.
+! UNSYMM=YES. MANUAL.md of this folder has the details, and what the element does not do; delam_uel.inp is a deck.
 ! Units are those of the deck; the library takes any consistent set.
 !
 ! What Abaqus receives

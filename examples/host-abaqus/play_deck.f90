@@ -16,7 +16,7 @@ contains
     integer :: i
     call make_structure(s, 0, 0, 0.0_dp)
     print '(a)', '** SPDX-License-Identifier: BSD-3-Clause', &
-      '** Two strips that delaminate, as user elements between elastic elements: README.md has the picture.', &
+      '** Two strips that delaminate, as user elements between elastic elements: MANUAL.md has the picture.', &
       '**     abaqus job=delam_uel user=abaqus_user.f90', &
       '** Written by `host_abaqus deck`. Units: m, N, Pa, J, per metre of width.', '*HEADING', &
       'two user elements of libdelam in an elastic structure', '*NODE'

@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "base/error.hpp"
+#include "base/numbers.hpp"
 #include "delam/delam.h"
 
 namespace delam {
@@ -79,7 +80,7 @@ void write_file(const std::string& path, std::span<const std::uint8_t> bytes) {
         const ssize_t written =
             ::write(file.number(), bytes.data() + at, std::min<std::size_t>(bytes.size() - at, std::size_t{1} << 30));
         if (written < 0 && errno != EINTR) give_up("cannot be written");
-        if (written > 0) at += static_cast<std::size_t>(written);
+        if (written > 0) at += index(written);
     }
     if (::fsync(file.number()) != 0 && errno != EINVAL) give_up("cannot be written to disk");
     if (file.close() != 0) give_up("cannot be closed");
@@ -118,7 +119,7 @@ std::vector<std::uint8_t> InputFile::read(std::uint64_t first, std::uint64_t cou
         const ssize_t got = ::pread(number_, bytes.data() + at, bytes.size() - at, static_cast<off_t>(first + at));
         if (got < 0 && errno != EINTR) refuse(path_, "cannot be read", errno);
         if (got == 0) bytes.resize(at);  // it has been cut since
-        if (got > 0) at += static_cast<std::size_t>(got);
+        if (got > 0) at += index(got);
     }
     return bytes;
 }

@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "base/numbers.hpp"
+
 namespace delam {
 
 // Compressed adjacency of vertices numbered from 0, without loops; every edge stands at both its ends.
@@ -18,7 +20,7 @@ struct Graph {
 
     std::size_t size() const { return start.size() - 1; }
     std::span<const idx_t> around(std::size_t i) const {
-        const auto first = static_cast<std::size_t>(start[i]), end = static_cast<std::size_t>(start[i + 1]);
+        const auto first = index(start[i]), end = index(start[i + 1]);
         return std::span(neighbour).subspan(first, end - first);
     }
 };

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace delam {
@@ -21,6 +22,27 @@ struct RestartLimits {
 #define DELAM_STEERING(type, name, value, reason) type name = value;
 #include "base/restarts.inc"
 #undef DELAM_STEERING
+};
+
+// The lowest size of a recursion's residual, and for how many iterations none was noticeably lower. noticed: a part of
+// the lowest one, above which a residual has not moved.
+class Lowest {
+public:
+    explicit Lowest(double noticed) : noticed_(noticed) {}
+    // Returns true if no residual before was as low.
+    bool take(double norm) {
+        idle_ = norm < noticed_ * norm_ ? 0 : idle_ + 1;
+        const bool lower = norm < norm_;
+        norm_ = std::min(norm_, norm);
+        return lower;
+    }
+    double norm() const { return norm_; }
+    std::int64_t idle() const { return idle_; }
+
+private:
+    double noticed_;
+    double norm_ = std::numeric_limits<double>::infinity();
+    std::int64_t idle_ = 0;
 };
 
 class Restarts {

@@ -8,6 +8,7 @@
 
 #include "base/cancel_scope.hpp"
 #include "base/error.hpp"
+#include "base/numbers.hpp"
 #include "base/team.hpp"
 #include "body/cell_elasticity.hpp"
 #include "body/element.hpp"
@@ -48,7 +49,7 @@ LocalCells local_cells(const Mesh& mesh, std::span<const std::int64_t> cells, st
         for (std::size_t a = 0; a < cell.size(); ++a) {
             std::size_t place = hint[a] + 1;
             if (place >= nodes.size() || nodes[place] != cell[a])
-                place = static_cast<std::size_t>(std::lower_bound(nodes.begin(), nodes.end(), cell[a]) - nodes.begin());
+                place = index(std::lower_bound(nodes.begin(), nodes.end(), cell[a]) - nodes.begin());
             if (place == nodes.size() || nodes[place] != cell[a])
                 fail(DELAM_ERROR_INTERNAL, "node ", cell[a], " of cell ", c,
                      " is not among the nodes to assemble over");

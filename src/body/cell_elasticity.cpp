@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "body/cell_elasticity.hpp"
 
+#include "base/numbers.hpp"
+
 namespace delam {
 
 namespace {
@@ -22,14 +24,14 @@ CellElasticity::CellElasticity(const BodyModel& model, int dimension)
 
 const Axes* CellElasticity::axes(std::int64_t cell) const {
     if (model_.orientation == nullptr) return nullptr;
-    const std::int32_t own = model_.orientation->of_cell[static_cast<std::size_t>(cell)];
-    return own < 0 ? nullptr : &model_.orientation->axes[static_cast<std::size_t>(own)];
+    const std::int32_t own = model_.orientation->of_cell[index(cell)];
+    return own < 0 ? nullptr : &model_.orientation->axes[index(own)];
 }
 
 // Isotropic elasticity is the same in all axes, so it keeps the computed digits.
 void CellElasticity::turn(std::int64_t cell) {
     if (model_.orientation == nullptr || std::holds_alternative<Elastic>(model_.material)) return;
-    const std::int32_t own = model_.orientation->of_cell[static_cast<std::size_t>(cell)];
+    const std::int32_t own = model_.orientation->of_cell[index(cell)];
     if (own == orientation_) return;
     orientation_ = own;
     const Axes* axes = this->axes(cell);

@@ -5,6 +5,7 @@
 
 #include "base/cancel_scope.hpp"
 #include "base/error.hpp"
+#include "base/numbers.hpp"
 #include "body/cell_elasticity.hpp"
 #include "body/element.hpp"
 #include "delam/delam.h"
@@ -57,7 +58,7 @@ EigenstrainLoads eigenstrain_loads(const Mesh& mesh, std::span<const std::int64_
             const double* g = &integral[a * dim];
             double* f = nullptr;
             for (std::size_t k = 0; k < count; ++k) {
-                f = &loads.force[k][static_cast<std::size_t>(node - nodes.begin()) * dim];
+                f = &loads.force[k][index(node - nodes.begin()) * dim];
                 const auto& s = stress[k];
                 if (dim == 2) {
                     f[0] += s[0] * g[0] + s[3] * g[1];

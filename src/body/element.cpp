@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "base/numbers.hpp"
+
 namespace delam {
 
 namespace {
@@ -323,8 +325,8 @@ void incompatible(CellType type, const double* x, const double* elasticity, doub
 template <std::size_t place>
 struct Sizes {
     static constexpr const CellRow& row = cell_rows[place];
-    static constexpr std::size_t nodes = static_cast<std::size_t>(row.topology.nodes);
-    static constexpr std::size_t dim = static_cast<std::size_t>(row.topology.dimension);
+    static constexpr std::size_t nodes = index(row.topology.nodes);
+    static constexpr std::size_t dim = index(row.topology.dimension);
     static constexpr bool modes = !row.simplex() && row.linear();  // incompatible modes
     // The dilatation is constant already.
     static constexpr bool one_strain = row.simplex() && row.linear();
@@ -398,10 +400,10 @@ double integrate_gradients(CellType type, std::span<const double> coordinates, s
 std::vector<double> centre_strain(CellType type, std::span<const double> coordinates,
                                   std::span<const double> displacement) {
     const CellTopology& shape = topology(type);
-    const auto dim = static_cast<std::size_t>(shape.dimension);
+    const auto dim = index(shape.dimension);
     const PhysicalGradient at_centre = physical_gradient(type, coordinates, centre(type));
     std::vector<double> strain(strain_count(dim), 0.0);
-    for (std::size_t a = 0; a < static_cast<std::size_t>(shape.nodes); ++a)
+    for (std::size_t a = 0; a < index(shape.nodes); ++a)
         for (std::size_t i = 0; i < dim; ++i)
             for (std::size_t j = 0; j < dim; ++j)
                 strain[voigt(dim, i, j)] += at_centre.gradient[a * dim + j] * displacement[a * dim + i];

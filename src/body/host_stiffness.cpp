@@ -16,7 +16,7 @@ namespace {
 
 // Energy of a rigid motion relative to that of the diagonal alone: rounding below the first number, a support above the
 // second.
-constexpr double rounding = 1e-12, resisted = 1e-9;
+constexpr double free_motion = 1e-12, resisted = 1e-9;
 // Tolerances of a declared motion: its distance from a rigid one, and the force that it needs.
 constexpr double told_tolerance = 1e-6;
 // Smaller ratios of pivots are rounding.
@@ -52,7 +52,7 @@ std::vector<std::vector<std::int64_t>> components(const SparseMatrix& k, std::in
 double diagonal(const SparseMatrix& k, std::int64_t row) {
     const auto begin = k.column.begin() + k.start[index(row)], end = k.column.begin() + k.start[index(row) + 1];
     const auto found = std::lower_bound(begin, end, row);
-    return found != end && *found == row ? k.value[static_cast<std::size_t>(found - k.column.begin())] : 0.0;
+    return found != end && *found == row ? k.value[index(found - k.column.begin())] : 0.0;
 }
 
 // K Q of some nodes' DOFs; entries to other nodes are zero.
@@ -167,7 +167,7 @@ void refuse_mechanisms(const Mesh& mesh, std::int32_t body, const HostStiffness&
 SparseMatrix with_tame_supports(SparseMatrix k, std::int64_t dim) {
     const auto entry = [&](std::int64_t row) -> double& {
         const auto begin = k.column.begin() + k.start[index(row)], end = k.column.begin() + k.start[index(row) + 1];
-        return k.value[static_cast<std::size_t>(std::lower_bound(begin, end, row) - k.column.begin())];
+        return k.value[index(std::lower_bound(begin, end, row) - k.column.begin())];
     };
     std::vector<double> others(index(k.rows), 0.0);
     for (std::int64_t row = 0; row < k.rows; ++row)
@@ -229,10 +229,10 @@ Split found_split(const SparseMatrix& k, std::span<const std::int64_t> local, st
         if (ratio < -resisted)
             fail(DELAM_ERROR_ARGUMENT, where, ": a rigid motion has a negative energy, ", ratio,
                  " times that of the diagonal alone: the matrix is indefinite");
-        if (std::abs(ratio) > rounding) {
+        if (std::abs(ratio) > free_motion) {
             if (ratio >= resisted) continue;
             fail(DELAM_ERROR_ARGUMENT, where, ": the energy of a rigid motion is ", ratio,
-                 " times that of the diagonal alone, neither <= ", rounding, " (free) nor >= ", resisted,
+                 " times that of the diagonal alone, neither <= ", free_motion, " (free) nor >= ", resisted,
                  " (held): give the kernel");
         }
         std::vector<double> x(eigen.vector.value.begin() + e * q.columns,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Functions outside the promise (experimental.h).
 #include "delam/experimental.h"
+#include "base/numbers.hpp"
 
 #include <algorithm>
 #include <memory>
@@ -73,7 +74,7 @@ int32_t delam_experimental_part_matrix(delam_context* context, int64_t size, con
     return guard_read(context, [&] {
         require_count(size, "size");
         require_pointer(bytes, "bytes");
-        const Part part = load_part({bytes, static_cast<std::size_t>(size)});
+        const Part part = load_part({bytes, index(size)});
         const SoundPart sound(part);
         std::int64_t counted = 0;
         if (row_starts != nullptr || columns != nullptr || values != nullptr) {
@@ -107,7 +108,7 @@ int32_t delam_experimental_part_fields(delam_context* context, int64_t size, con
         require_array(bodies, body_count, "bodies");
         require_array(eigenstrains, body_count, "eigenstrains");
         require_finite(eigenstrains, 6 * body_count, "eigenstrains");
-        const Part part = load_part({bytes, static_cast<std::size_t>(size)});
+        const Part part = load_part({bytes, index(size)});
         const SoundPart sound(part);
         const Mesh& mesh = sound.mesh();
         if (node_count != mesh.node_count())
@@ -115,13 +116,13 @@ int32_t delam_experimental_part_fields(delam_context* context, int64_t size, con
         if (cell_count != mesh.cell_count())
             fail(DELAM_ERROR_ARGUMENT, "cell_count = ", cell_count, ", but the part has ", mesh.cell_count(), " cells");
         require_finite(displacement, node_count * mesh.dimension(), "displacement");
-        const std::span u(displacement, static_cast<std::size_t>(node_count * mesh.dimension()));
+        const std::span u(displacement, index(node_count * mesh.dimension()));
         require_labels(bodies, body_count);
         std::vector<Strain> strains(body_count > 0 ? part.labels.size() : 0);
         for (std::int64_t b = 0; b < body_count; ++b) {
             const auto at = std::lower_bound(part.labels.begin(), part.labels.end(), bodies[b]);
             if (at == part.labels.end() || *at != bodies[b]) continue;
-            std::copy_n(eigenstrains + 6 * b, 6, strains[static_cast<std::size_t>(at - part.labels.begin())].begin());
+            std::copy_n(eigenstrains + 6 * b, 6, strains[index(at - part.labels.begin())].begin());
         }
         const std::vector<double> stresses = stress == nullptr ? std::vector<double>() : sound.stress(u, strains);
         const std::vector<double> rotations = rotation == nullptr ? std::vector<double>() : sound.rotation(u);
@@ -145,8 +146,7 @@ int32_t delam_experimental_solver_eigenstrains(delam_solver* solver, int64_t cap
         require_capacity_if(bodies != nullptr || eigenstrains != nullptr, capacity, needed, "bodies, eigenstrains");
         for (std::int64_t b = 0; b < needed; ++b) {
             if (bodies != nullptr) bodies[b] = solver->core->problem().mesh->body_label(static_cast<std::int32_t>(b));
-            if (eigenstrains != nullptr)
-                std::copy_n(strains[static_cast<std::size_t>(b)].begin(), 6, eigenstrains + 6 * b);
+            if (eigenstrains != nullptr) std::copy_n(strains[index(b)].begin(), 6, eigenstrains + 6 * b);
         }
         if (count != nullptr) *count = needed;
     });

@@ -132,7 +132,7 @@ int32_t delam_law_set_table(delam_law* law, int64_t count, const double* xi, con
         require_count(count, "count", 2);
         require_array(xi, count, "xi");
         require_array(s, count, "s");
-        const auto size = static_cast<std::size_t>(count);
+        const auto size = index(count);
         std::visit(
             [&](auto& shape) {
                 if constexpr (requires { shape.set_table({xi, size}, {s, size}); })

@@ -10,6 +10,7 @@
 
 #include "base/numbers.hpp"
 #include "capi/handle/handles.hpp"
+#include "mesh/points.hpp"
 #include "scene/periodic.hpp"
 #include "scene/problem.hpp"
 
@@ -151,8 +152,6 @@ std::unordered_map<std::int64_t, std::vector<Direction>> held_directions(const P
     }
     return held;
 }
-
-double dot(const Direction& a, const Direction& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 // True if `direction` is a combination of the others, which are linearly independent (Gram-Schmidt).
 bool depends(std::vector<Direction> others, Direction direction) {

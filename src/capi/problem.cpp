@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The scene: materials, laws, options and queries. Supports and loads: loads.cpp; assembled matrices: exports.cpp.
 #include "scene/problem.hpp"
+#include "base/numbers.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -249,7 +250,7 @@ int32_t delam_problem_set_adhesion(delam_problem* problem, int64_t interface_ind
             }
             const std::int64_t pair =
                 require_index(pairs[i], static_cast<std::int64_t>(changed.size()), index_base, text("pairs[", i, "]"));
-            changed[static_cast<std::size_t>(pair)] = adhesion[i];
+            changed[index(pair)] = adhesion[i];
         }
         interface.adhesion = std::move(changed);
     });
@@ -263,12 +264,11 @@ int32_t delam_problem_set_adhesion_box(delam_problem* problem, int64_t interface
         require_box(mesh.dimension(), lower, upper);
         if (!(adhesion >= 0.0 && adhesion <= 1.0))
             fail(DELAM_ERROR_ARGUMENT, "adhesion = ", adhesion, " is outside 0 .. 1");
-        const auto axes = static_cast<std::size_t>(mesh.dimension());
+        const auto axes = index(mesh.dimension());
         const PairsInBox found = find_pairs(mesh, interface_index, {lower, axes}, {upper, axes});
         if (found.pairs.empty() && count == nullptr)
             fail(DELAM_ERROR_ARGUMENT, "lower, upper: no pair of interface ", interface_index, " is in this box");
-        for (const std::int64_t pair : found.pairs)
-            problem->core->interfaces[i].adhesion[static_cast<std::size_t>(pair)] = adhesion;
+        for (const std::int64_t pair : found.pairs) problem->core->interfaces[i].adhesion[index(pair)] = adhesion;
         if (count != nullptr) *count = static_cast<std::int64_t>(found.pairs.size());
         say_moved(*problem->context, interface_index, adhesion, found);
         if (found.pairs.empty())

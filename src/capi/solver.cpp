@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/file.hpp"
+#include "base/numbers.hpp"
 #include "base/team.hpp"
 #include "capi/handle/handles.hpp"
 #include "evolution/analysis/condensed_matrices.hpp"
@@ -96,8 +97,7 @@ int32_t delam_solver_set_history(delam_solver* solver, int64_t pattern, int64_t 
         const auto patterns = static_cast<std::int64_t>(solver->core->problem().patterns.size());
         require_index(pattern, patterns, 0, "pattern");
         require_history(count, times, values);
-        solver->core->set_history(pattern, {times, static_cast<std::size_t>(count)},
-                                  {values, static_cast<std::size_t>(count)});
+        solver->core->set_history(pattern, {times, index(count)}, {values, index(count)});
     });
 }
 
@@ -398,7 +398,7 @@ int32_t delam_solver_load(delam_solver* solver, int64_t size, const uint8_t* byt
         require_count(size, "size");
         require_array(bytes, size, "bytes");
         poll_cancel_now("load");  // a small state would be read before the first poll
-        load(*solver->core, {bytes, static_cast<std::size_t>(size)});
+        load(*solver->core, {bytes, index(size)});
     });
 }
 

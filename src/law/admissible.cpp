@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/numbers.hpp"
 #include "delam/delam.h"
 #include "law/law_parameters.hpp"
 #include "law/softening/host_check.hpp"
@@ -15,7 +16,7 @@ namespace delam {
 
 namespace {
 
-constexpr double rounding = 1e-12;  // relative amount by which Gc may fall short of Go
+constexpr double shortfall = 1e-12;  // relative amount by which Gc may fall short of Go
 
 // The natural coordinate of a mixity is x = ln(psi^2), B = 1/(1+exp(-x)): either toughness changes from one asymptote
 // to the other around its own crossing psi^2 = G_t/G_n, over a width of one over the exponents. The range is that of
@@ -64,7 +65,7 @@ std::pair<double, double> least_excess(const Law& law) {
     std::sort(dips.begin(), dips.end(), [&](std::size_t i, std::size_t j) { return y[i] < y[j]; });
     if (dips.size() > 16) dips.resize(16);
 
-    const auto first = static_cast<std::size_t>(std::min_element(y.begin(), y.end()) - y.begin());
+    const auto first = index(std::min_element(y.begin(), y.end()) - y.begin());
     std::pair<double, double> least{x[first], y[first]};
     constexpr double golden = 0.6180339887498949;
     for (const std::size_t i : dips) {
@@ -95,10 +96,10 @@ void require_admissible(const Law& law) {
                    ? text(" = s^2/(2 k) of its strength ", strength, ": give more stiffness or less strength")
                    : std::string();
     };
-    if (total.normal < onset.normal * (1.0 - rounding))
+    if (total.normal < onset.normal * (1.0 - shortfall))
         fail(DELAM_ERROR_PROBLEM, "law: normal_toughness ", total.normal, " < normal_onset ", onset.normal,
              of_strength(law.normal_strength));
-    if (total.tangential < onset.tangential * (1.0 - rounding))
+    if (total.tangential < onset.tangential * (1.0 - shortfall))
         fail(DELAM_ERROR_PROBLEM, "law: tangential_toughness ", total.tangential, " < tangential_onset ",
              onset.tangential, of_strength(law.tangential_strength));
 
@@ -106,7 +107,7 @@ void require_admissible(const Law& law) {
     // different ones Gc may dip below Go in between.
     if (law.criterion_of_onset() == law.criterion && onset.first == total.first && onset.second == total.second) return;
     const auto [x, value] = least_excess(law);
-    if (value >= -rounding) return;
+    if (value >= -shortfall) return;
     const double b = mixity_of(x);
     fail(DELAM_ERROR_PROBLEM, "law: toughness ", toughness_at(law.criterion, total, b), " < onset ",
          toughness_at(law.criterion_of_onset(), onset, b), " at mixity B = ", b,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/numbers.hpp"
 #include "law/mixity.hpp"
 
 namespace delam {
@@ -64,7 +65,7 @@ std::array<double, 9> VariationalPair::slope(std::span<const double> local_jump,
             std::copy(local_jump.begin(), local_jump.end(), j.begin());
             j[q] += s == 0 ? -step : step;
             const std::span<const double> at(j.data(), dim);
-            side[static_cast<std::size_t>(s)] = force(at, damage(at));
+            side[index(s)] = force(at, damage(at));
         }
         for (std::size_t r = 0; r < dim; ++r) h[r * dim + q] = (side[1][r] - side[0][r]) / (2.0 * step);
     }

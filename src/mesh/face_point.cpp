@@ -41,10 +41,10 @@ public:
         return {p[0], p[1]};
     }
     bool inside(const Parameters& xi) const {
-        constexpr double rounding = 1e-12;
-        if (edge_) return std::abs(xi[0]) <= 1.0 + rounding;
-        if (corners() == 3) return xi[0] >= -rounding && xi[1] >= -rounding && xi[0] + xi[1] <= 1.0 + rounding;
-        return std::abs(xi[0]) <= 1.0 + rounding && std::abs(xi[1]) <= 1.0 + rounding;
+        constexpr double on_the_edge = 1e-12;
+        if (edge_) return std::abs(xi[0]) <= 1.0 + on_the_edge;
+        if (corners() == 3) return xi[0] >= -on_the_edge && xi[1] >= -on_the_edge && xi[0] + xi[1] <= 1.0 + on_the_edge;
+        return std::abs(xi[0]) <= 1.0 + on_the_edge && std::abs(xi[1]) <= 1.0 + on_the_edge;
     }
 
     struct Value {

@@ -6,6 +6,7 @@
 
 #include "base/cancel_scope.hpp"
 #include "base/error.hpp"
+#include "base/numbers.hpp"
 #include "delam/delam.h"
 #include "mesh/points.hpp"
 
@@ -19,7 +20,7 @@ using Corners = std::array<std::int64_t, 4>;
 // Two cells on the two sides of a face traverse it in opposite directions.
 bool opposite(std::span<const std::int64_t> a, std::span<const std::int64_t> b) {
     const std::size_t n = a.size();
-    const auto k = static_cast<std::size_t>(std::find(b.begin(), b.end(), a[0]) - b.begin());
+    const auto k = index(std::find(b.begin(), b.end(), a[0]) - b.begin());
     return n == 2 ? k == 1 : b[(k + n - 1) % n] == a[1];
 }
 

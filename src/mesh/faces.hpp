@@ -21,9 +21,9 @@ struct BoundaryFace {
     int corners;
     std::array<std::int64_t, most_face_nodes> node;
 
-    std::span<const std::int64_t> all() const { return std::span(node).first(static_cast<std::size_t>(nodes)); }
-    std::span<const std::int64_t> corner() const { return all().first(static_cast<std::size_t>(corners)); }
-    std::span<const std::int64_t> middle() const { return all().subspan(static_cast<std::size_t>(corners)); }
+    std::span<const std::int64_t> all() const { return std::span(node).first(index(nodes)); }
+    std::span<const std::int64_t> corner() const { return all().first(index(corners)); }
+    std::span<const std::int64_t> middle() const { return all().subspan(index(corners)); }
 };
 // body -1: of all bodies.
 std::vector<BoundaryFace> boundary_faces(const Mesh& mesh, std::int32_t body);

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/numbers.hpp"
 #include "mesh/cell_type.hpp"
 #include "mesh/interface_geometry.hpp"
 
@@ -54,23 +55,21 @@ public:
     std::int64_t node_count() const { return static_cast<std::int64_t>(nodes_.size()) / dimension_; }
     std::span<const double> nodes() const { return nodes_; }
     std::span<const double> node(std::int64_t i) const {
-        return std::span<const double>(nodes_).subspan(static_cast<std::size_t>(i * dimension_),
-                                                       static_cast<std::size_t>(dimension_));
+        return std::span<const double>(nodes_).subspan(index(i * dimension_), index(dimension_));
     }
 
     std::int64_t cell_count() const { return static_cast<std::int64_t>(cell_type_.size()); }
-    CellType cell_type(std::int64_t c) const { return cell_type_[static_cast<std::size_t>(c)]; }
+    CellType cell_type(std::int64_t c) const { return cell_type_[index(c)]; }
     // Nodes of a cell.
     std::span<const std::int64_t> cell(std::int64_t c) const {
-        const auto i = static_cast<std::size_t>(c);
+        const auto i = index(c);
         return std::span<const std::int64_t>(connectivity_)
-            .subspan(static_cast<std::size_t>(cell_offset_[i]),
-                     static_cast<std::size_t>(cell_offset_[i + 1] - cell_offset_[i]));
+            .subspan(index(cell_offset_[i]), index(cell_offset_[i + 1] - cell_offset_[i]));
     }
     // Index of the body of a cell, 0 .. body_count-1, in ascending order of labels.
     std::int32_t cell_body(std::int64_t c) const;
     std::int32_t body_count() const { return static_cast<std::int32_t>(labels_.size()); }
-    std::int32_t body_label(std::int32_t body) const { return labels_[static_cast<std::size_t>(body)]; }
+    std::int32_t body_label(std::int32_t body) const { return labels_[index(body)]; }
     // Index of the body with a label; -1 when there is none.
     std::int32_t body_of_label(std::int32_t label) const;
     // True if the body has no cells.
@@ -78,7 +77,7 @@ public:
     // Body index of a node, -1 for a node of none.
     std::int32_t node_body(std::int64_t node) const;
     // The node that a node was doubled from, itself otherwise.
-    std::int64_t node_origin(std::int64_t node) const { return node_origin_[static_cast<std::size_t>(node)]; }
+    std::int64_t node_origin(std::int64_t node) const { return node_origin_[index(node)]; }
     // Nodes of a body, ascending.
     std::vector<std::int64_t> body_nodes(std::int32_t body) const;
     // Cells of a body (-1: of all), ascending.

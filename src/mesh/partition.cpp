@@ -12,6 +12,7 @@
 #include "base/cancel_scope.hpp"
 #include "base/error.hpp"
 #include "base/metis.hpp"
+#include "base/numbers.hpp"
 #include "delam/delam.h"
 #include "mesh/faces.hpp"
 
@@ -101,7 +102,7 @@ Tree breadth_first(const Graph& graph, const Parts& part, std::size_t root) {
 // Cuts a connected part into two connected ones: the branch of a breadth-first tree closest to half of it becomes
 // `added`. The tree starts from a vertex far out, so that its branches are long.
 void halve(const Graph& graph, Parts& part, std::int32_t old, std::int32_t added) {
-    const auto first = static_cast<std::size_t>(std::find(part.begin(), part.end(), old) - part.begin());
+    const auto first = index(std::find(part.begin(), part.end(), old) - part.begin());
     const std::size_t far = breadth_first(graph, part, first).order.back();
     const Tree tree = breadth_first(graph, part, far);
     std::vector<std::size_t> weight(graph.size(), 1);  // of the branch below a vertex

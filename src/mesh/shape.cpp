@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "base/numbers.hpp"
 
 namespace delam {
 
@@ -28,7 +29,7 @@ std::vector<ReferencePoint> node_list(const CellRow& row) {
     const CellTopology& shape = row.topology;
     const ReferencePoint* corner = corners_of(row);
     std::vector<ReferencePoint> nodes(corner, corner + shape.corners);
-    for (std::size_t k = 0; nodes.size() < static_cast<std::size_t>(shape.nodes); ++k) {
+    for (std::size_t k = 0; nodes.size() < index(shape.nodes); ++k) {
         const ReferencePoint& p = corner[shape.middle[k][0]];
         const ReferencePoint& q = corner[shape.middle[k][1]];
         nodes.push_back({0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1]), 0.5 * (p[2] + q[2])});
@@ -105,7 +106,7 @@ const Reference& reference(CellType type) {
         }
         return made;
     }();
-    return list[static_cast<std::size_t>(&cell_row(type) - cell_rows.data())];
+    return list[index(&cell_row(type) - cell_rows.data())];
 }
 
 // A shape function with its gradient.
@@ -123,7 +124,7 @@ Shape simplex_shape(const CellTopology& cell, std::size_t node, const ReferenceP
         l.gradient[a - 1] = 1.0;
         return l;
     };
-    const auto corners = static_cast<std::size_t>(cell.corners);
+    const auto corners = index(cell.corners);
     if (node < corners) {
         Shape l = barycentric(node);
         if (cell.nodes == cell.corners) return l;
@@ -131,8 +132,8 @@ Shape simplex_shape(const CellTopology& cell, std::size_t node, const ReferenceP
         return {l.value * (2.0 * l.value - 1.0), l.gradient};
     }
     const auto& [a, b] = cell.middle[node - corners];
-    const Shape p = barycentric(static_cast<std::size_t>(a));
-    const Shape q = barycentric(static_cast<std::size_t>(b));
+    const Shape p = barycentric(index(a));
+    const Shape q = barycentric(index(b));
     Shape n{4.0 * p.value * q.value, {}};
     for (std::size_t i = 0; i < 3; ++i) n.gradient[i] = 4.0 * (p.gradient[i] * q.value + p.value * q.gradient[i]);
     return n;
@@ -140,7 +141,7 @@ Shape simplex_shape(const CellTopology& cell, std::size_t node, const ReferenceP
 
 // Product of a factor for each direction; the serendipity corners carry one more factor (sum_i xi_i c_i - d + 1).
 Shape box_shape(const CellRow& row, const ReferencePoint& c, const ReferencePoint& at) {
-    const auto dim = static_cast<std::size_t>(row.topology.dimension);
+    const auto dim = index(row.topology.dimension);
     const bool lagrange = row.interpolation == Interpolation::quadratic;
     const double share = dim == 2 ? 0.25 : 0.125;
     std::array<double, 3> f{1, 1, 1};
@@ -173,7 +174,7 @@ Shape box_shape(const CellRow& row, const ReferencePoint& c, const ReferencePoin
 Shape shape(const CellRow& row, std::size_t node, const ReferencePoint& at) {
     const CellTopology& cell = row.topology;
     if (row.simplex()) return simplex_shape(cell, node, at);
-    const auto corners = static_cast<std::size_t>(cell.corners);
+    const auto corners = index(cell.corners);
     const ReferencePoint* corner = corners_of(row);
     if (node < corners) return box_shape(row, corner[node], at);
     ReferencePoint c;
@@ -187,8 +188,8 @@ using Matrix3 = std::array<double, 9>;  // row-major, the leading dimension x di
 // dx_i/dxi_j = sum_a x_ai dN_a/dxi_j
 Matrix3 tangent(int dimension, int nodes, std::span<const double> coordinates, const ShapeGradient& gradient) {
     Matrix3 j{};
-    const auto dim = static_cast<std::size_t>(dimension);
-    for (std::size_t a = 0; a < static_cast<std::size_t>(nodes); ++a)
+    const auto dim = index(dimension);
+    for (std::size_t a = 0; a < index(nodes); ++a)
         for (std::size_t r = 0; r < dim; ++r)
             for (std::size_t c = 0; c < dim; ++c) j[3 * r + c] += coordinates[a * dim + r] * gradient[a * dim + c];
     return j;
@@ -209,7 +210,7 @@ Matrix3 inverse(int dimension, const Matrix3& j, double det) {
 // Coordinates are taken relative to the first node: the sums above then do not cancel for a cell far from the origin.
 ShapeGradient local_coordinates(int dimension, std::span<const double> coordinates) {
     ShapeGradient local{};
-    const auto dim = static_cast<std::size_t>(dimension);
+    const auto dim = index(dimension);
     for (std::size_t i = 0; i < coordinates.size(); ++i) local[i] = coordinates[i] - coordinates[i % dim];
     return local;
 }
@@ -231,27 +232,27 @@ const ReferencePoint& centre(CellType type) {
 ShapeValues shape_values(CellType type, const ReferencePoint& at) {
     ShapeValues n{};
     const CellRow& row = cell_row(type);
-    for (std::size_t a = 0; a < static_cast<std::size_t>(row.topology.nodes); ++a) n[a] = shape(row, a, at).value;
+    for (std::size_t a = 0; a < index(row.topology.nodes); ++a) n[a] = shape(row, a, at).value;
     return n;
 }
 
 ShapeGradient reference_gradient(CellType type, const ReferencePoint& at) {
     const CellRow& row = cell_row(type);
-    const auto dim = static_cast<std::size_t>(row.topology.dimension);
+    const auto dim = index(row.topology.dimension);
     ShapeGradient g{};
-    for (std::size_t a = 0; a < static_cast<std::size_t>(row.topology.nodes); ++a)
+    for (std::size_t a = 0; a < index(row.topology.nodes); ++a)
         std::copy_n(shape(row, a, at).gradient.begin(), dim, g.begin() + static_cast<std::ptrdiff_t>(a * dim));
     return g;
 }
 
 PhysicalGradient physical_gradient(CellType type, std::span<const double> coordinates, const ReferencePoint& at) {
     const CellTopology& cell = topology(type);
-    const auto dim = static_cast<std::size_t>(cell.dimension);
+    const auto dim = index(cell.dimension);
     const ShapeGradient on_reference = reference_gradient(type, at);
     const Matrix3 j = tangent(cell.dimension, cell.nodes, local_coordinates(cell.dimension, coordinates), on_reference);
     PhysicalGradient result{{}, determinant(cell.dimension, j)};
     const Matrix3 inv = inverse(cell.dimension, j, result.jacobian);
-    for (std::size_t a = 0; a < static_cast<std::size_t>(cell.nodes); ++a)
+    for (std::size_t a = 0; a < index(cell.nodes); ++a)
         for (std::size_t c = 0; c < dim; ++c)
             for (std::size_t r = 0; r < dim; ++r)
                 result.gradient[a * dim + c] += on_reference[a * dim + r] * inv[3 * r + c];

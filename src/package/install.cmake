@@ -9,7 +9,8 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/delam DESTINATION ${CMAKE_INSTAL
 # The contract, and the documents that the header names, under the paths that it gives.
 install(FILES ${PROJECT_SOURCE_DIR}/include/GLOSSARY.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/include
         COMPONENT development)
-foreach(document capi/CONTRACT.md reduction/README.md reduction/condensed/README.md evolution/README.md)
+foreach(document capi/CONTRACT.md reduction/README.md reduction/NOTES.md reduction/condensed/README.md
+                 evolution/README.md evolution/NOTES.md)
   get_filename_component(folder src/${document} DIRECTORY)
   install(FILES ${PROJECT_SOURCE_DIR}/src/${document} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder}
           COMPONENT development)

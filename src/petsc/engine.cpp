@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "base/numbers.hpp"
+
 namespace delam::petsc {
 
 namespace {
@@ -118,7 +120,7 @@ bool Engine::solve(const delam_experimental_request* request, delam_experimental
     if (result.definite)
         answer(question, out);
     else
-        kept_.forget(static_cast<std::size_t>(question.place));
+        kept_.forget(index(question.place));
     return true;
 }
 
@@ -134,7 +136,7 @@ void Engine::answer(const Question& question, delam_experimental_answer* out) {
     const std::vector<double> correction = visible_.read(solve_.correction());
     operator_.apply_bodies(solve_.correction(), work);
     const std::vector<double> correction_balance = visible_.read(work);
-    kept_.keep(static_cast<std::size_t>(question.place), v, question.theta);
+    kept_.keep(index(question.place), v, question.theta);
     const std::vector<double> products = kept_.products(forces, state.lifted);
     const double rounding = relative_rounding(state, v, work);
     comm_.together([&] {
@@ -205,7 +207,7 @@ std::vector<double> Engine::here(const double* field) const {
     std::vector<std::vector<std::int64_t>> asked;
     std::vector<std::vector<double>> told;
     comm_.together([&] {
-        asked.resize(static_cast<std::size_t>(comm_.size()));
+        asked.resize(index(comm_.size()));
         told.resize(asked.size());
         asked[0].assign(local.nodes.begin(), local.nodes.begin() + local.dofs / local.dimension);
     });

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/numbers.hpp"
 #include "petsc/base/options.hpp"
 #include "petsc/part/cell_bytes.hpp"
 #include "petsc/part/glued_cells.hpp"
@@ -44,8 +45,7 @@ std::vector<int> partition_cells(const delam_mesh* mesh, int ranks) {
     check(MatPartitioningApply(partitioning, parts.out()));
     const PetscInt* part = nullptr;
     check(ISGetIndices(parts, &part));
-    for (std::size_t c = 0; c < rank.size(); ++c)
-        rank[c] = static_cast<int>(part[static_cast<std::size_t>(graph.vertex[c])]);
+    for (std::size_t c = 0; c < rank.size(); ++c) rank[c] = static_cast<int>(part[index(graph.vertex[c])]);
     check(ISRestoreIndices(parts, &part));
     return rank;
 }
@@ -69,7 +69,7 @@ std::vector<int> checked(const GivenRanks& given, const delam_mesh* mesh, int si
 // Returns the lists of rank 0; the other ranks send nothing.
 std::vector<std::vector<std::int64_t>> outgoing(const Communicator& comm,
                                                 std::vector<std::vector<std::int64_t>> lists) {
-    comm.together([&] { lists.resize(static_cast<std::size_t>(comm.size())); });
+    comm.together([&] { lists.resize(index(comm.size())); });
     return lists;
 }
 
@@ -87,9 +87,8 @@ ReceivedPart receive_part(const Communicator& comm, const delam_mesh* mesh, cons
         require_cells(mesh);
         const std::vector<int> rank =
             given != nullptr ? checked(*given, mesh, comm.size()) : partition_cells(mesh, comm.size());
-        cells.resize(static_cast<std::size_t>(comm.size()));
-        for (std::size_t c = 0; c < rank.size(); ++c)
-            cells[static_cast<std::size_t>(rank[c])].push_back(static_cast<std::int64_t>(c));
+        cells.resize(index(comm.size()));
+        for (std::size_t c = 0; c < rank.size(); ++c) cells[index(rank[c])].push_back(static_cast<std::int64_t>(c));
     });
     comm.broadcast(dimension);
     // One rank after the other, so that rank 0 holds the bytes of one part at a time.
@@ -98,7 +97,7 @@ ReceivedPart receive_part(const Communicator& comm, const delam_mesh* mesh, cons
     for (int r = comm.size() - 1; r >= 0; --r) {
         std::vector<std::uint8_t> bytes;
         comm.together([&] {
-            if (comm.root()) bytes = part_bytes(problem, cells[static_cast<std::size_t>(r)], 0);
+            if (comm.root()) bytes = part_bytes(problem, cells[index(r)], 0);
         });
         if (r == 0 && comm.root())
             mine = std::move(bytes);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/numbers.hpp"
+
 namespace delam::petsc {
 
 Session::~Session() {
@@ -175,7 +177,7 @@ std::int32_t Session::recover_parts(delam_solver* solver) {
     PartState::Eigenstrains found;
     std::int32_t status = delam_experimental_solver_eigenstrains(solver, 0, nullptr, nullptr, &count);
     if (status == DELAM_OK) {
-        found.bodies.resize(static_cast<std::size_t>(count));
+        found.bodies.resize(index(count));
         found.strains.resize(6 * found.bodies.size());
         found.known = true;
         status =

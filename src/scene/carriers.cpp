@@ -3,16 +3,18 @@
 
 #include <algorithm>
 
+#include "base/numbers.hpp"
+
 namespace delam {
 
 Carriers::Carriers(const Problem& problem) : mesh_(*problem.mesh) {
     const std::int64_t dim = mesh_.dimension();
-    kind_.assign(static_cast<std::size_t>(mesh_.node_count()), Kind::nothing);
+    kind_.assign(index(mesh_.node_count()), Kind::nothing);
     for (std::int64_t node = 0; node < mesh_.node_count(); ++node)
-        if (mesh_.node_body(node) >= 0) kind_[static_cast<std::size_t>(node)] = Kind::body;
-    for (const NodeTie& tie : mesh_.ties()) kind_[static_cast<std::size_t>(tie.node)] = Kind::tied;
+        if (mesh_.node_body(node) >= 0) kind_[index(node)] = Kind::body;
+    for (const NodeTie& tie : mesh_.ties()) kind_[index(tie.node)] = Kind::tied;
     const auto refer = [&](std::int64_t node) {
-        Kind& kind = kind_[static_cast<std::size_t>(node)];
+        Kind& kind = kind_[index(node)];
         if (kind == Kind::nothing) kind = Kind::control;
     };
     for (const Constraint& constraint : problem.constraints)
@@ -29,7 +31,7 @@ Carriers::Carriers(const Problem& problem) : mesh_(*problem.mesh) {
 }
 
 std::span<const std::pair<std::int64_t, double>> Carriers::of(std::int64_t node) const {
-    if (kind(node) != Kind::tied) return {&self_[static_cast<std::size_t>(node)], 1};
+    if (kind(node) != Kind::tied) return {&self_[index(node)], 1};
     const auto& ties = mesh_.ties();
     return std::lower_bound(ties.begin(), ties.end(), node,
                             [](const NodeTie& tie, std::int64_t n) { return tie.node < n; })

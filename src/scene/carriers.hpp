@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/numbers.hpp"
 #include "scene/problem.hpp"
 
 namespace delam {
@@ -16,7 +17,7 @@ public:
     explicit Carriers(const Problem& problem);
 
     enum class Kind : std::uint8_t { nothing, body, control, tied };
-    Kind kind(std::int64_t node) const { return kind_[static_cast<std::size_t>(node)]; }
+    Kind kind(std::int64_t node) const { return kind_[index(node)]; }
     // Nodes of no body to which a constraint, a force or a pair refers, ascending. Their displacements are unknowns
     // without stiffness.
     const std::vector<std::int64_t>& controls() const { return controls_; }

@@ -6,7 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "base/archive.hpp"
 #include "base/cancel_scope.hpp"
+#include "base/numbers.hpp"
 #include "law/law_parameters.hpp"
 #include "scene/problem.hpp"
 
@@ -15,13 +17,9 @@ namespace {
 
 class Fnv {
 public:
-    std::uint64_t value;
+    std::uint64_t value = checksum_start;
 
-    void add(std::uint64_t word) {
-        for (int i = 0; i < 8; ++i) {
-            value = (value ^ ((word >> (8 * i)) & 0xffu)) * 0x100000001b3u;
-        }
-    }
+    void add(std::uint64_t word) { value = checksum(word, value); }
     void add(std::int64_t number) { add(static_cast<std::uint64_t>(number)); }
     void add(std::int32_t number) { add(static_cast<std::int64_t>(number)); }
     void add(bool flag) { add(static_cast<std::int64_t>(flag)); }
@@ -91,7 +89,7 @@ void add_orientation(Fnv& fnv, const Orientation& orientation) {
 // Scenes without it hash as they did before there was such a thing.
 void add_stiffness(Fnv& fnv, const Problem& problem) {
     for (std::int32_t body = 0; body < problem.mesh->body_count(); ++body) {
-        const auto& own = problem.stiffness[static_cast<std::size_t>(body)];
+        const auto& own = problem.stiffness[index(body)];
         if (own == nullptr) continue;
         fnv.add(problem.mesh->body_label(body));
         fnv.add_all(problem.mesh->body_nodes(body));
@@ -175,7 +173,7 @@ std::uint64_t hash(const Options& options, std::uint64_t seed, std::span<const O
 }
 
 std::uint64_t hash(const Problem& problem) {
-    Fnv fnv{0xcbf29ce484222325u};
+    Fnv fnv;
     add_mesh(fnv, *problem.mesh);
     fnv.add(static_cast<std::int64_t>(problem.plane));
     for (const std::optional<Material>& material : problem.material) add_material(fnv, material);

@@ -14,18 +14,11 @@
 #include "base/numbers.hpp"
 #include "delam/delam.h"
 #include "linalg/dense/dense.hpp"
+#include "mesh/points.hpp"
 
 namespace delam {
 
 namespace {
-
-using Point = std::array<double, 3>;
-
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-std::string words(const Point& x, int dimension) {
-    return dimension == 2 ? text("(", x[0], ", ", x[1], ")") : text("(", x[0], ", ", x[1], ", ", x[2], ")");
-}
 
 // Vectors d_k in the span of the periods with d_k . p_l = 1 for k = l, else 0.
 std::vector<Point> dual_basis(const std::vector<Point>& periods) {
@@ -139,11 +132,6 @@ private:
             for (std::size_t d = 0; d < index(dimension); ++d) list[k][d] = given[k * index(dimension) + d];
         return list;
     }
-    Point place(std::int64_t node) const {
-        Point x{};
-        for (std::size_t d = 0; d < index(dimension_); ++d) x[d] = mesh_.node(node)[d];
-        return x;
-    }
     // dual . x changes by |dual| per length.
     double margin(std::size_t k) const { return 2.0 * distance_ * std::sqrt(dot(dual_[k], dual_[k])); }
 
@@ -172,13 +160,13 @@ void Matching::mark_upper() {
         double low = INFINITY, high = -INFINITY;
         for (const std::int64_t n : nodes_) {
             poll_cancel("loads");
-            low = std::min(low, dot(dual_[k], place(n)));
-            high = std::max(high, dot(dual_[k], place(n)));
+            low = std::min(low, dot(dual_[k], position(mesh_, n)));
+            high = std::max(high, dot(dual_[k], position(mesh_, n)));
         }
         if (std::abs(high - low - 1.0) > margin(k))
             fail(DELAM_ERROR_MESH, "periods: the mesh is ", high - low, " periods long in direction ", k, ", not 1");
         for (const std::int64_t n : nodes_)
-            if (dot(dual_[k], place(n)) >= high - margin(k)) upper_[index(n)] |= 1u << k;
+            if (dot(dual_[k], position(mesh_, n)) >= high - margin(k)) upper_[index(n)] |= 1u << k;
     }
 }
 
@@ -187,14 +175,14 @@ Matching::Gathered Matching::gather() {
     Places lower(4.0 * std::max(distance_, 1e-300), dimension_);
     for (const std::int64_t n : nodes_) {
         poll_cancel("loads");
-        if (upper_[index(n)] == 0) lower.add(n, place(n));
+        if (upper_[index(n)] == 0) lower.add(n, position(mesh_, n));
     }
     Gathered gathered;
     for (const std::int64_t n : nodes_) {
         const unsigned faces = upper_[index(n)];
         if (faces == 0) continue;
         poll_cancel("loads", 4);
-        Point shifted = place(n);
+        Point shifted = position(mesh_, n);
         for (std::size_t k = 0; k < periods_.size(); ++k)
             if ((faces >> k & 1u) != 0)
                 for (std::size_t d = 0; d < 3; ++d) shifted[d] -= periods_[k][d];
@@ -242,9 +230,9 @@ void Matching::join(std::int64_t node, std::int64_t base, unsigned directions) {
 void Matching::check_lower() {
     for (std::size_t k = 0; k < periods_.size(); ++k) {
         double low = INFINITY;
-        for (const std::int64_t n : nodes_) low = std::min(low, dot(dual_[k], place(n)));
+        for (const std::int64_t n : nodes_) low = std::min(low, dot(dual_[k], position(mesh_, n)));
         for (const std::int64_t n : nodes_)
-            if (upper_[index(n)] == 0 && dot(dual_[k], place(n)) <= low + margin(k) &&
+            if (upper_[index(n)] == 0 && dot(dual_[k], position(mesh_, n)) <= low + margin(k) &&
                 (met_[index(n)] >> (1u << k) & 1u) == 0)
                 miss(n, "");
     }
@@ -254,7 +242,7 @@ void Matching::check_lower() {
 void Matching::miss(std::int64_t node, const char* why) {
     if (++missing_count_ > 8) return;
     missing_ += text(missing_count_ == 1 ? "" : "; ", "node ", node, " of body ",
-                     mesh_.body_label(mesh_.node_body(node)), " at ", words(place(node), dimension_), why);
+                     mesh_.body_label(mesh_.node_body(node)), " at ", place(mesh_, node), why);
 }
 
 }  // namespace

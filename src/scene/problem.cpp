@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/numbers.hpp"
 #include "body/assembly.hpp"
 #include "delam/delam.h"
 
@@ -15,19 +16,19 @@ double Pattern::at(double time) const {
     const auto after = std::upper_bound(times.begin(), times.end(), time);
     if (after == times.begin()) return values.front();
     if (after == times.end()) return values.back();
-    const auto i = static_cast<std::size_t>(after - times.begin());
+    const auto i = index(after - times.begin());
     const double half = std::isfinite(times[i] - times[i - 1]) ? 1.0 : 0.5;  // for times as far apart as doubles allow
     const double s = (half * time - half * times[i - 1]) / (half * times[i] - half * times[i - 1]);
     return (1.0 - s) * values[i - 1] + s * values[i];
 }
 
 Problem::Problem(std::shared_ptr<const Mesh> mesh_) : mesh(std::move(mesh_)) {
-    material.resize(static_cast<std::size_t>(mesh->body_count()));
+    material.resize(index(mesh->body_count()));
     formulation.resize(material.size(), Formulation::standard);
     stiffness.resize(material.size());
     interfaces.resize(mesh->interfaces().size());
     for (std::size_t i = 0; i < interfaces.size(); ++i) {
-        interfaces[i].adhesion.assign(static_cast<std::size_t>(mesh->interfaces()[i].pair_count()), 1.0);
+        interfaces[i].adhesion.assign(index(mesh->interfaces()[i].pair_count()), 1.0);
     }
 }
 
@@ -38,7 +39,7 @@ std::int64_t Problem::pair_count() const {
 }
 
 BodyModel Problem::model(std::int32_t body) const {
-    const auto i = static_cast<std::size_t>(body);
+    const auto i = index(body);
     if (formulation[i] == Formulation::mean_dilatation && mesh->dimension() == 2 && plane == Plane::stress)
         fail(DELAM_ERROR_PROBLEM, "body ", mesh->body_label(body),
              ": formulation 'mean-dilatation' is for plane strain and 3D only; in plane stress no formulation "
@@ -47,13 +48,13 @@ BodyModel Problem::model(std::int32_t body) const {
 }
 
 SparseMatrix Problem::body_stiffness(std::int32_t body, const Poll& poll) const {
-    if (const auto& own = stiffness[static_cast<std::size_t>(body)]) return own->matrix;
+    if (const auto& own = stiffness[index(body)]) return own->matrix;
     return assemble_stiffness(*mesh, mesh->body_cells(body), mesh->body_nodes(body), model(body), options.threads,
                               poll);
 }
 
 void require_material(const Problem& problem, std::int32_t body) {
-    if (!problem.material[static_cast<std::size_t>(body)])
+    if (!problem.material[index(body)])
         fail(DELAM_ERROR_PROBLEM, "body ", problem.mesh->body_label(body),
              ": no material (delam_problem_set_elastic or delam_problem_set_orthotropic)");
 }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/numbers.hpp"
+
 namespace delam {
 
 StrainLoads strain_loads(const Problem& problem, std::int32_t body, std::span<const std::int64_t> cells,
@@ -15,8 +17,8 @@ StrainLoads strain_loads(const Problem& problem, std::int32_t body, std::span<co
     std::vector<Strain> strain;
     for (const Eigenstrain& e : problem.eigenstrains) {
         if (e.body != body) continue;
-        const auto p = static_cast<std::size_t>(e.pattern);
-        const auto known = static_cast<std::size_t>(std::find(pattern.begin(), pattern.end(), p) - pattern.begin());
+        const auto p = index(e.pattern);
+        const auto known = index(std::find(pattern.begin(), pattern.end(), p) - pattern.begin());
         if (known == pattern.size()) {
             pattern.push_back(p);
             strain.emplace_back();
@@ -35,7 +37,7 @@ StrainLoads strain_loads(const Problem& problem, std::int32_t body, std::span<co
 
 StrainLoads strain_loads(const Problem& problem) {
     const Mesh& mesh = *problem.mesh;
-    const std::size_t patterns = problem.patterns.size(), dim = static_cast<std::size_t>(mesh.dimension());
+    const std::size_t patterns = problem.patterns.size(), dim = index(mesh.dimension());
     StrainLoads loads{std::vector<std::vector<double>>(patterns), std::vector<double>(patterns * patterns, 0.0)};
     if (problem.eigenstrains.empty()) return loads;
     for (std::int32_t body = 0; body < mesh.body_count(); ++body) {
@@ -44,9 +46,9 @@ StrainLoads strain_loads(const Problem& problem) {
         for (std::size_t i = 0; i < own.energy.size(); ++i) loads.energy[i] += own.energy[i];
         for (std::size_t p = 0; p < patterns; ++p) {
             if (own.force[p].empty()) continue;
-            loads.force[p].resize(static_cast<std::size_t>(mesh.node_count()) * dim, 0.0);
+            loads.force[p].resize(index(mesh.node_count()) * dim, 0.0);
             for (std::size_t i = 0; i < own.force[p].size(); ++i)
-                loads.force[p][static_cast<std::size_t>(nodes[i / dim]) * dim + i % dim] += own.force[p][i];
+                loads.force[p][index(nodes[i / dim]) * dim + i % dim] += own.force[p][i];
         }
     }
     return loads;
@@ -54,7 +56,7 @@ StrainLoads strain_loads(const Problem& problem) {
 
 StrainSizes strain_sizes(const Problem& problem) {
     const Mesh& mesh = *problem.mesh;
-    const auto dim = static_cast<std::size_t>(mesh.dimension());
+    const auto dim = index(mesh.dimension());
     std::vector<double> low(dim, std::numeric_limits<double>::infinity()),
         high(dim, -std::numeric_limits<double>::infinity());
     for (std::size_t i = 0; i < mesh.nodes().size(); ++i) {
@@ -67,7 +69,7 @@ StrainSizes strain_sizes(const Problem& problem) {
                       std::vector<double>(problem.patterns.size(), 0.0)};
     for (const Eigenstrain& e : problem.eigenstrains)
         for (const double component : e.strain) {
-            double& size = sizes.displacement[static_cast<std::size_t>(e.pattern)];
+            double& size = sizes.displacement[index(e.pattern)];
             size = std::max(size, extent * std::abs(component));
         }
     const StrainLoads loads = strain_loads(problem);
@@ -79,8 +81,7 @@ StrainSizes strain_sizes(const Problem& problem) {
 Strain strain_at(const Problem& problem, std::int32_t body, std::span<const double> factors) {
     Strain strain{};
     for (const Eigenstrain& e : problem.eigenstrains)
-        for (std::size_t i = 0; i < 6 && e.body == body; ++i)
-            strain[i] += factors[static_cast<std::size_t>(e.pattern)] * e.strain[i];
+        for (std::size_t i = 0; i < 6 && e.body == body; ++i) strain[i] += factors[index(e.pattern)] * e.strain[i];
     return strain;
 }
 

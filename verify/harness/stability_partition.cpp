@@ -70,7 +70,7 @@ std::string format(const char* text, double a, double b, double c) {
     return line;
 }
 
-// Predicted cost of the dense matrices of the condensed operator: src/reduction/README.md.
+// Predicted cost of the dense matrices of the condensed operator: src/reduction/NOTES.md.
 std::string dense_cost(double pairs) {
     const double m = 2.0 * pairs, operations = (2.0 / 3.0 + 0.7 + 0.2) * m * m * m;
     return format(

@@ -48,7 +48,7 @@ if has cli; then
     belongs+='|share/man/man[15]/delam(-scene)?\.[15]|share/bash-completion/completions/delam|share/zsh/site-functions/_delam'
     belongs+='|share/fish/vendor_completions\.d/delam\.fish'
     only cli "$belongs" bin/delam lib/delam/delam-gmsh.so share/delam/plot.py share/delam/_pictures/result.py share/delam/study/fit.py \
-        share/doc/delam/bindings/cli/README.md share/doc/delam/bindings/cli/SCENE.md share/doc/delam/bindings/cli/scene.schema.json \
+        share/doc/delam/bindings/cli/MANUAL.md share/doc/delam/bindings/cli/SCENE.md share/doc/delam/bindings/cli/scene.schema.json \
         share/man/man1/delam.1 share/man/man5/delam-scene.5 share/bash-completion/completions/delam
     # Their links lead to files that are installed with them.
     documents=$work/cli/share/doc/delam/bindings/cli
@@ -94,4 +94,8 @@ fi
 if has cli; then
     place=$("$work/all/bin/delam" --help | grep -oE 'share/doc/[a-z/]+') || fail "delam --help names no documents"
     [[ -f $work/all/$place/SCENE.md ]] || fail "delam --help names $place, where SCENE.md is not"
+    # The schema that the installed example names for editors is what the installed program prints.
+    example=$work/all/share/doc/delam/examples/enf
+    schema=$(sed -n '1s/^#:schema //p' "$example/enf.toml")
+    "$work/all/bin/delam" schema | cmp - "$example/$schema" || fail "enf.toml names $schema, which is not the schema of scenes"
 fi

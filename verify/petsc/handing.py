@@ -223,7 +223,7 @@ def ways(dimension):
         ranks.take_cells(mesh, problem, None if mesh is None else sections(mesh, ranks.size))
         solved(ranks, problem, f"{name}: cells by sections", expected)
         # Each body of its own ranks: the interface is a cut from end to end. With a tolerance of 1e-13 that is too much
-        # for BDDC: in space, and in the plane on two ranks in the last step (src/petsc/README.md).
+        # for BDDC: in space, and in the plane on two ranks in the last step (src/petsc/NOTES.md).
         half = max(ranks.size // 2, 1)
         cut = None if mesh is None else sections(mesh, half) + half * (mesh.cells.bodies % max(ranks.size // half, 1))
         ranks.take_cells(mesh, problem, cut)

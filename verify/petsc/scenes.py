@@ -9,7 +9,7 @@ small_scenes.quick().
 --brief   fewer scenes, each on 1 and 2 ranks, or on 1 and 4
 --part    each N-th of the scenes, from the I-th on
 --loose   with the scenes' own damage_tolerance instead of a small one
---repeat  only: with it, two runs on the same ranks differ by no more than the README of the command line says
+--repeat  only: with it, two runs on the same ranks differ by no more than the manual of the command line says
 """
 import argparse
 import os
@@ -21,7 +21,7 @@ from comparison import ALLOWED, FIELDS, ROUNDED, Result, compared
 from launch import alone, expect, finish, folder, last_lines, on_ranks
 
 TIGHT = "1e-10"
-# Between two runs on the same ranks, of the largest value of its kind: bindings/cli/README.md promises it.
+# Between two runs on the same ranks, of the largest value of its kind: bindings/cli/MANUAL.md promises it.
 REPEATED = 1e-6
 # On several ranks only marches of so many solves: a solve takes 15 ms on 2 and 4 ranks, 0.1 s on 8 and 0.7 to 1 s on 16
 # where there are two cores, so that a march ends within a minute.

@@ -160,14 +160,13 @@ def by_name(rows: dict) -> dict:
 
 
 def past_text(stored: dict) -> str:
-    """A past as JSON, with a line for each row of numbers, so that a difference shows what has changed."""
-    def lines(data: dict, indent: str) -> str:
-        below = (f"{indent} {json.dumps(name)}: " +
-                 (lines(value, indent + " ") if isinstance(value, dict) and name in ("quick", "full", "numbers")
-                  else json.dumps(value, sort_keys=True)) for name, value in sorted(data.items()))
-        return "{\n" + ",\n".join(below) + f"\n{indent}}}"
-
-    return lines(stored, "") + "\n"
+    """A past as JSON, with a line for each row of numbers, so that a difference shows what has changed, and one for what a run says of itself."""
+    parts = [f'"id": {json.dumps(stored["id"])}']
+    for tier in sorted(set(stored) - {"id"}):
+        head = json.dumps({name: value for name, value in stored[tier].items() if name != "numbers"}, sort_keys=True)
+        rows = ",\n".join(f" {json.dumps(row)}: {json.dumps(cells, sort_keys=True)}" for row, cells in sorted(stored[tier]["numbers"].items()))
+        parts.append(f'"{tier}": {head[:-1]}, "numbers": {{\n{rows}}}}}')
+    return "{" + ",\n".join(parts) + "}\n"
 
 
 def past_path(folder: pathlib.Path, case_id: str) -> pathlib.Path:

@@ -160,6 +160,7 @@ def svg(plot: dict, size: tuple[float, float]) -> str:
     text = out.getvalue()
     text = text[text.index("<svg"):]
     text = re.sub(r"<metadata>.*?</metadata>", "", text, flags=re.DOTALL)
+    text = re.sub(r">\s+<", "><", text)  # letters are paths: no blank between elements is shown
     # Hundredths of a point are enough for lines; scales of letters keep all their digits.
     return re.sub(r' d="[^"]*"', lambda path: re.sub(r"(\d+\.\d{2})\d+", r"\1", re.sub(r"\s+", " ", path.group(0))), text)
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checks that every file of src is named in the README of its folder or of a folder above it, and that each path to a file
-of the repository, in a text or a comment, leads to one.
+"""Checks that every file of src is named in the README of its folder or of a folder above it, that each path to a file of
+the repository, in a text or a comment, leads to one, and that the functions of a load step are where src/README.md says.
 
     python3 verify/style/readmes.py
 """
@@ -10,12 +10,16 @@ import re
 import subprocess
 import sys
 
+import scanner
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 # A path to a file, from the root of the repository or from a folder above the file that names it; NAME and FAMILY stand
 # for names of the reader.
 PATH = re.compile(r"(?<![\w/.-])(?:src|verify|bindings|examples|include)/(?!NAME|FAMILY)[\w./-]+"
                   r"\.(?:cpp|hpp|h|inc|py|sh|md|cmake|toml|csv|inp|f90|jl|js)(?!\w)")
 # What is in the past tense, what names made-up paths, and what names files where they are installed.
+STEPS = 12  # lines that follow one load step in src/README.md
+STEP = re.compile(r"^(?P<number>\d+)\. `(?P<file>[\w/.]+)`: `(?P<function>[\w:]+)` ", re.M)
 UNREAD = ("CHANGELOG.md", "verify/style/test_sizes.py", "verify/packaging/components.sh")
 
 
@@ -29,6 +33,24 @@ def problems(src):
         above = [folder for folder in stem.parents if folder.is_relative_to(src)]
         if not any(stem.name in words.get(folder, ()) for folder in above):
             yield f"{stem.relative_to(src.parent)}: named in no README of its folder or of one above it"
+
+
+def defines(text, function):
+    """True if a C++ file defines this function: its qualified name stands before the parameters and the body."""
+    lines = text.splitlines()
+    heads = (" ".join(lines[first - 1:first - 1 + length]).split("{")[0] for first, length in scanner.functions(text))
+    return any(re.search(rf"(?<![\w:.>]){re.escape(function)}\(", head) for head in heads)
+
+
+def misled(src):
+    """Yields what is wrong with the lines of src/README.md that follow one load step, each with a file and a function."""
+    steps = list(STEP.finditer((src / "README.md").read_text(encoding="utf-8")))
+    if [int(step["number"]) for step in steps] != list(range(1, STEPS + 1)):
+        yield f"{src.name}/README.md: the lines of a load step are not numbered 1 to {STEPS}"
+    for step in steps:
+        path = src / step["file"]
+        if not (path.is_file() and defines(path.read_text(encoding="utf-8"), step["function"])):
+            yield f"{src.name}/README.md: {step['file']} does not define {step['function']}"
 
 
 def lost(root, names):
@@ -45,7 +67,7 @@ def lost(root, names):
 
 def main():
     names = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=False).stdout.splitlines()
-    wrong = [*problems(ROOT / "src"),
+    wrong = [*problems(ROOT / "src"), *misled(ROOT / "src"),
              *lost(ROOT, [name for name in names if name not in UNREAD and (ROOT / name).is_file()])]
     for line in wrong:
         print(line, file=sys.stderr)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checks sizes: lines of code at most 120 columns wide; in src, functions of at most 80 lines and files of at most 500.
+"""Checks sizes: lines of code at most 120 columns wide; in src, functions of at most 80 lines and files of at most 500;
+READMEs of folders of at most 40 lines, as wide as code outside tables and blocks.
 
     python3 verify/style/sizes.py [--list]
 """
@@ -12,7 +13,7 @@ import sys
 import scanner
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-WIDTH, FUNCTION, FILE = 120, 80, 500
+WIDTH, FUNCTION, FILE, README = 120, 80, 500, 40
 PYTHON = ("examples/", "verify/petsc/", "bindings/python/", "bindings/site/")  # the Python files whose width is checked
 CODE = {".c", ".h", ".cpp", ".hpp", ".cmake", ".f90", ".jl"}
 FOLDERS = ("include", "src", "bindings", "verify", "examples")
@@ -26,7 +27,7 @@ def sources():
         paths = [ROOT / line for line in listed.stdout.splitlines()]
     else:
         paths = [p for folder in FOLDERS for p in (ROOT / folder).rglob("*")]
-    kept = (p for p in paths if p.suffix in CODE or p.name == "CMakeLists.txt" or
+    kept = (p for p in paths if p.suffix in CODE or p.name in ("CMakeLists.txt", "README.md") or
             (p.suffix == ".py" and p.relative_to(ROOT).as_posix().startswith(PYTHON)))
     return sorted(p for p in kept if p.is_file() and "verify/abi/baseline/" not in p.as_posix())
 
@@ -34,8 +35,11 @@ def sources():
 def problems(name, text):
     """Lists what is too long in a file of this name, a line each."""
     lines = text.splitlines()
+    page = name.endswith("README.md")
+    if page and len(lines) > README:
+        yield f"{name}: {len(lines)} lines, at most {README} in a README"
     for n, line in enumerate(lines, 1):
-        if len(line) > WIDTH:
+        if len(line) > WIDTH and not (page and line.startswith(("|", "    "))):
             yield f"{name}:{n}: {len(line)} columns, at most {WIDTH}"
     if not name.startswith("src/") or not name.endswith((".cpp", ".hpp")):
         return

@@ -189,6 +189,26 @@ def planted_english():
     return len(refused) + 1
 
 
+def planted_steps():
+    """Plants faults in the lines that follow one load step; returns how many."""
+    source = "void Stepper::step(int a,\n                   int b) {\n    search(a);\n}\ninline int free() { return call(1); }\n"
+    with tempfile.TemporaryDirectory() as folder:
+        src = pathlib.Path(folder) / "src"
+        src.mkdir()
+        (src / "a.cpp").write_text(source, encoding="utf-8")
+
+        def found(function, path="a.cpp", lines=readmes.STEPS):
+            text = "".join(f"{n}. `{path}`: `{function}` minimises.\n" for n in range(1, lines + 1))
+            (src / "README.md").write_text(text, encoding="utf-8")
+            return list(readmes.misled(src))
+
+        assert found("Stepper::step") == found("free") == []
+        refused = [found(name) for name in ("search", "call", "step", "Search::step", "Stepper::ste")]
+        refused += [found("free", "b.cpp"), found("free", lines=readmes.STEPS - 1)]
+        assert all(refused), refused
+    return len(refused)
+
+
 def main():
     found = list(scanner.functions(CODE))
     assert found == EXPECTED, f"found {found}, expected {EXPECTED}"
@@ -199,6 +219,8 @@ def main():
         "a long function in a class": ("src/a/b.hpp", "class A {\n" + lengthy(81) + "};\n"),
         "a long function for C": ("src/a/b.cpp", 'extern "C" {\n' + lengthy(81) + "}\n"),
         "a long file": ("src/a/b.cpp", "int a;\n" * 501),
+        "a long README": ("verify/a/README.md", "- a\n" * 41),
+        "a wide README": ("verify/a/README.md", "| " + "x" * 121 + " |\n" + "x" * 121 + "\n"),
     }
     for what, (name, text) in refused.items():
         assert len(list(sizes.problems(name, text))) == 1, f"{what} was not refused"
@@ -208,6 +230,7 @@ def main():
         "two functions": ("src/a/b.cpp", lengthy(80) + lengthy(80)),
         "a long function elsewhere": ("verify/b.cpp", lengthy(200)),
         "a full file": ("src/a/b.cpp", "int a;\n" * 500),
+        "a full README": ("verify/a/README.md", "| " + "x" * 121 + " |\n" + "- a\n" * 39),
     }
     for what, (name, text) in fine.items():
         assert not list(sizes.problems(name, text)), f"{what} was refused"
@@ -224,6 +247,11 @@ def main():
     for what, text in planted.items():
         assert list(words.problems("src/a/b.cpp", text, words.RULES)), f"{what} was not refused"
         assert not list(words.problems("src/a/b.cpp", "// " + text.replace("\n", " "), words.RULES)), f"{what} in a comment was refused"
+    twin = {"src/a.cpp": "constexpr double far = 1e-3, near = 2.0;  // far = 5.0\n",
+            "src/b.cpp": "static constexpr std::int64_t far = 1e-3;\ninline constexpr double near = 3.0;\n"}
+    assert [line.split(":")[0] for line in words.twins(twin)] == ["far = 1e-3 stands in src/a.cpp, src/b.cpp"]
+    twin = {"src/a.cpp": "constexpr double noticeable = 0.01;", "bindings/cli/src/b.cpp": "constexpr double noticeable = 0.02;"}
+    assert list(words.twins(twin)) == ["noticeable has 2 values: 0.01, 0.02"]
     with tempfile.TemporaryDirectory() as folder:
         src = pathlib.Path(folder) / "src"
         (src / "law").mkdir(parents=True)
@@ -242,7 +270,7 @@ def main():
         (src / "law" / "names.hpp").write_text("// See src/law/mixity.cpp, src/lost.cpp and examples/NAME/NAME.toml.\n",
                                                encoding="utf-8")
         assert list(readmes.lost(src.parent, ["src/law/names.hpp"])) == ["src/law/names.hpp: src/lost.cpp is not there"]
-    houses = planted_arrows() + planted_imports() + planted_sentences() + planted_english()
+    houses = planted_steps() + planted_arrows() + planted_imports() + planted_sentences() + planted_english()
     print(f"{len(EXPECTED)} functions, {len(refused) + len(planted) + 2 + houses} planted")
     return 0
 

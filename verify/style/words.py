@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checks that src says some things in their own files only, and some nowhere.
+"""Checks that src says some things in their own files only, and some nowhere; and that no constant of src or of the
+command line stands in two files with one name and one value.
 
     python3 verify/style/words.py
 """
@@ -47,10 +48,44 @@ def problems(name, text, rules):
             yield f"{name}:{code.count(chr(10), 0, m.start()) + 1}: {what}"
 
 
+CONSTANTS = re.compile(r"\bconstexpr\s+(?:static\s+|const\s+)*[\w:<>]+\s+([^;(){}]*=[^;{}]*);")
+
+
+def constants(text):
+    """Yields (name, value) of the constants of a file that are numbers."""
+    for m in CONSTANTS.finditer(scanner.bare(text)):
+        for part in m.group(1).split(","):
+            name, _, value = part.partition("=")
+            value = re.sub(r"[\s']|(?<=\d)[uUlLfF]+$", "", value)
+            if re.match(r"[-\d.(]", value):
+                yield name.strip(), value
+
+
+# The command line sees nothing of src but the C interface, and repeats these of its numbers: with their values.
+REPEATED = {"noticeable", "resolving_pairs", "small_rotation"}
+
+
+def twins(texts):
+    """Yields constants that stand in more than one of the files, and repeated ones with two values: {name of the file:
+    its text}."""
+    places = {}
+    for file, text in texts.items():
+        for name, value in constants(text):
+            places.setdefault(name, {}).setdefault(value, set()).add(file)
+    for name, values in places.items():
+        for value, files in values.items():
+            if len(files) > (2 if name in REPEATED else 1):
+                yield f"{name} = {value} stands in {', '.join(sorted(files))}: one of them, with its reason, is enough"
+        if name in REPEATED and len(values) > 1:
+            yield f"{name} has {len(values)} values: {', '.join(sorted(values))}"
+
+
 def main():
     paths = sorted((ROOT / "src").rglob("*.[ch]pp"))
     wrong = [line for p in paths
              for line in problems(p.relative_to(ROOT).as_posix(), p.read_text(encoding="utf-8"), RULES)]
+    both = [*paths, *sorted((ROOT / "bindings" / "cli" / "src").rglob("*.[ch]pp"))]
+    wrong += twins({p.relative_to(ROOT).as_posix(): p.read_text(encoding="utf-8") for p in both})
     print(f"{len(paths)} files, {len(RULES)} rules")
     for line in wrong:
         print(line, file=sys.stderr)

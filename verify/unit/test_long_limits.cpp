@@ -64,6 +64,8 @@ constexpr Scene scenes[] = {
     {"plane, iterated", 2, 2, "iterated", 100.0, 1.5e-3},
     {"space, condensed", 3, 2, "condensed", 100.0, 6e-3},
     {"space, iterated", 3, 2, "iterated", 100.0, 6e-3},
+    {"plane, FETI", 2, 3, "feti", 100.0, 2e-3},
+    {"space, FETI", 3, 2, "feti", 100.0, 6e-3},
     {"stiff", 2, 2, "condensed", 1.0, 0.75e-3, 1e13},
     {"rigid", 2, 2, "condensed", 1e-2, 1.5e-3, 1e16},
     {"rigid, stack", 2, 4, "iterated", 1e-2, 5e-3, 1e16, "local", 3},

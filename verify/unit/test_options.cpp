@@ -7,6 +7,7 @@
 #include <string>
 #include <type_traits>
 
+#include "base/archive.hpp"
 #include "base/error.hpp"
 #include "check.hpp"
 #include "delam/delam.h"
@@ -17,7 +18,7 @@ using namespace delam;
 
 namespace {
 
-constexpr std::uint64_t seed = 0xcbf29ce484222325u;
+constexpr std::uint64_t seed = checksum_start;
 
 // The end of a range, or a number well inside if the end is excluded.
 double allowed_end(const Bound& end, const Bound& other) {

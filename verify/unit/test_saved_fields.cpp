@@ -106,9 +106,7 @@ struct Saved {
         writer.bytes.assign(bytes.begin(), bytes.begin() + head);
         walk(writer, changed);
         writer.bytes.insert(writer.bytes.end(), behind.begin(), behind.end());
-        std::uint64_t sum = 14695981039346656037ULL;
-        for (const std::uint8_t b : writer.bytes) sum = (sum ^ b) * 1099511628211ULL;
-        writer.item(sum);
+        writer.item(checksum(writer.bytes));
         try {
             load(solver, writer.bytes);
         } catch (const Error& error) {

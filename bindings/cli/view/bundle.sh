@@ -30,7 +30,7 @@ if ! cmp -s "$here/package-lock.json" "$work/fetched.json"; then
     command -v npm >/dev/null || absent "npm is not there (Debian: npm)"
     rm -f "$work/fetched.json"
     cp "$here/package.json" "$here/package-lock.json" "$work/"
-    if ! (cd "$work" && npm ci --ignore-scripts --omit=peer --no-audit --no-fund --fetch-retries=1 --fetch-timeout=60000) \
+    if ! (cd "$work" && npm ci --ignore-scripts --legacy-peer-deps --no-audit --no-fund --fetch-retries=1 --fetch-timeout=60000) \
         >"$work/npm.log" 2>&1; then
         cat "$work/npm.log" >&2
         if grep -q EINTEGRITY "$work/npm.log"; then

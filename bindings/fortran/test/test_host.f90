@@ -307,7 +307,8 @@ contains
     allocate(from, mold=starts)
     allocate(at, mold=columns)
     call expect(delam_solver_condensed(solver%handle(), size(s, kind=ip), s, l, c, from, at, v, o) == DELAM_OK, 'of C')
-    call expect(all(s == stiffness) .and. all(l == load_) .and. all(c == constant) .and. all(o == offset), 'matrices')
+    call expect(all(s == stiffness) .and. all(l == load_) .and. all(c == constant) .and. all(o == offset), &
+                'the matrices')
     call expect(all(v == values) .and. all(from + 1 == starts) .and. all(at + 1 == columns), 'the rows')
     call problem%set('reduction', 'feti')
     call solver%create(problem, 0.0_dp)

@@ -489,11 +489,11 @@ class Check(list):
 
 
 def package_files():
-    """{name: text} of the package, its tests, the example in its README, those of examples/ and the benchmark."""
+    """{name: text} of the package, its tests, the example in its manual, those of examples/ and the benchmark."""
     files = [path for folder in ("src", "ext", "test") for path in sorted((PACKAGE / folder).glob("*.jl"))]
     texts = {path.relative_to(PACKAGE).as_posix(): path.read_text(encoding="utf-8") for path in files}
-    readme = (PACKAGE / "README.md").read_text(encoding="utf-8")
-    texts["README.md"] = "\n".join(re.findall(r"^```julia\n(.*?)^```", readme, re.MULTILINE | re.DOTALL))
+    readme = (PACKAGE / "MANUAL.md").read_text(encoding="utf-8")
+    texts["MANUAL.md"] = "\n".join(re.findall(r"^```julia\n(.*?)^```", readme, re.MULTILINE | re.DOTALL))
     for path in sorted([*(ROOT / "examples").glob("*/*.jl"), *(ROOT / "verify" / "bench" / "calls").glob("*.jl")]):
         texts[path.relative_to(ROOT).as_posix()] = path.read_text(encoding="utf-8")
     return texts

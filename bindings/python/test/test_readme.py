@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The first scene of the README runs, and is quick to read; so does what it says of pictures and files."""
+"""The first scene of the manual runs, and is quick to read; so does what it says of pictures and files."""
 import contextlib
 import importlib.util
 import io
@@ -17,11 +17,11 @@ READY = all(map(importlib.util.find_spec, ("matplotlib", "meshio")))
 class FirstScene(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        text = (support.HERE.parent / "README.md").read_text(encoding="utf-8")
+        text = (support.HERE.parent / "MANUAL.md").read_text(encoding="utf-8")
         cls.scene, cls.more = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
         out, cls.names = io.StringIO(), {}
         with contextlib.redirect_stdout(out), contextlib.redirect_stderr(io.StringIO()):
-            exec(compile(cls.scene, "README.md", "exec"), cls.names)
+            exec(compile(cls.scene, "MANUAL.md", "exec"), cls.names)
         cls.printed = out.getvalue()
 
     def test_runs(self):
@@ -40,7 +40,7 @@ class FirstScene(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             os.chdir(folder)
             try:
-                exec(compile(self.more, "README.md", "exec"), self.names)
+                exec(compile(self.more, "MANUAL.md", "exec"), self.names)
                 self.assertEqual(sorted(os.listdir()), ["beam.png", "beam.vtu", "load.png"])
             finally:
                 os.chdir(before)

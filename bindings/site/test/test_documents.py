@@ -24,8 +24,8 @@ from stage import Stage  # noqa: E402
 
 # Languages of the blocks of each document, and what runs them.
 KNOWN = {"README.md": (["c"], "here"), "bindings/cli/SCENE.md": (["toml", "toml"], "here"),
-         "bindings/python/README.md": (["python", "python"], "python/readme"),
-         "bindings/julia/README.md": (["julia"], "julia/check (parsed, not run)"),
+         "bindings/python/MANUAL.md": (["python", "python"], "python/readme"),
+         "bindings/julia/MANUAL.md": (["julia"], "julia/check (parsed, not run)"),
          "src/petsc/CLUSTER.md": (["bash"], "nothing: it submits a job to a cluster")}
 
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <functional>
 
+#include "base/numbers.hpp"
 #include "capi/handle/handles.hpp"
 
 namespace delam {
@@ -78,7 +79,7 @@ std::vector<std::int64_t> require_indices(const std::int64_t* values, std::int64
     require_array(values, count, name);
     std::vector<std::int64_t> list(values, values + count);
     for (std::int64_t i = 0; i < count; ++i) {
-        std::int64_t& value = list[static_cast<std::size_t>(i)];
+        std::int64_t& value = list[index(i)];
         if (value < index_base || value - index_base >= size)
             require_index(value, size, index_base, text(name, "[", i, "]"));
         value -= index_base;

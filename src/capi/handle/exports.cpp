@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/numbers.hpp"
 #include "capi/handle/handles.hpp"
 #include "scene/advice/process_zone.hpp"
 #include "scene/advice/proposal.hpp"
@@ -27,7 +28,7 @@ void require_materials(const Problem& problem) {
 // The mesh of a problem is fixed, but the materials of its bodies may change between two calls.
 const SparseMatrix& body_matrix(const delam_problem& problem, std::int32_t body) {
     const Problem& core = *problem.core;
-    if (const auto& own = core.stiffness[static_cast<std::size_t>(body)]) return own->matrix;
+    if (const auto& own = core.stiffness[index(body)]) return own->matrix;
     require_material(core, body);
     const BodyModel model = core.model(body);
     delam_problem::BodyMatrix& last = problem.assembled;
@@ -86,9 +87,9 @@ int32_t delam_problem_forces(const delam_problem* problem, int64_t pattern, int6
         for (const NodalForce& force : core.forces) {
             if (force.pattern == pattern) forces[force.dof] += force.value;
         }
-        if (core.patterns[static_cast<std::size_t>(pattern)].drives != Pattern::Drives::strain) return;
+        if (core.patterns[index(pattern)].drives != Pattern::Drives::strain) return;
         require_materials(core);
-        const std::vector<double> of_strains = strain_loads(core).force[static_cast<std::size_t>(pattern)];
+        const std::vector<double> of_strains = strain_loads(core).force[index(pattern)];
         for (std::size_t i = 0; i < of_strains.size(); ++i) forces[i] += of_strains[i];
     });
 }
@@ -126,7 +127,7 @@ const char* delam_problem_pattern_name(const delam_problem* problem, int64_t pat
     const char* name = nullptr;
     guard(problem, [&] {
         const auto count = static_cast<std::int64_t>(problem->names.size());
-        name = problem->names[static_cast<std::size_t>(require_index(pattern, count, 0, "pattern"))].c_str();
+        name = problem->names[index(require_index(pattern, count, 0, "pattern"))].c_str();
     });
     return name;
 }

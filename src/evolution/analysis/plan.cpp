@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/machine/blas_threads.hpp"
+#include "base/numbers.hpp"
 #include "base/team.hpp"
 #include "evolution/analysis/solver.hpp"
 #include "scene/advice/scene_warnings.hpp"
@@ -139,8 +140,7 @@ void add_reduction(std::vector<PlanItem>& items, const Basis& basis) {
 std::int64_t prescribed_pairs(const Basis& basis, std::int64_t first, std::int64_t pairs) {
     const std::int64_t dim = basis.problem.mesh->dimension();
     std::int64_t found = 0;
-    for (std::int64_t p = first; p < first + pairs; ++p)
-        found += basis.prescribed[static_cast<std::size_t>(p * dim)] != 0 ? 1 : 0;
+    for (std::int64_t p = first; p < first + pairs; ++p) found += basis.prescribed[index(p * dim)] != 0 ? 1 : 0;
     return found;
 }
 

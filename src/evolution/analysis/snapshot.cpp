@@ -10,6 +10,7 @@
 #include "base/cancel_scope.hpp"
 #include "base/error.hpp"
 #include "base/file.hpp"
+#include "base/numbers.hpp"
 #include "delam/delam.h"
 #include "evolution/increment/state_fields.hpp"
 #include "evolution/observe/values.hpp"
@@ -54,7 +55,7 @@ void check(const State& state, const Solver& solver, std::uint32_t found_version
 void check(const JumpEvent& jump, const Solver& solver, std::uint32_t found_version) {
     const auto& interfaces = solver.problem().mesh->interfaces();
     const bool named = jump.interface >= 0 && jump.interface < static_cast<std::int64_t>(interfaces.size());
-    const std::int64_t pairs = named ? interfaces[static_cast<std::size_t>(jump.interface)].pair_count() : 0;
+    const std::int64_t pairs = named ? interfaces[index(jump.interface)].pair_count() : 0;
     const bool sound = named && jump.first_pair >= -1 && jump.first_pair < pairs && jump.last_pair >= -1 &&
                        jump.last_pair < pairs && jump.step >= 0 && jump.before <= jump.time;
     const std::size_t patterns = found_version >= 9 ? solver.problem().patterns.size() : 0;
@@ -73,7 +74,7 @@ void write_histories(Writer& w, const Solver& solver) {
     const std::vector<std::int64_t> changed = solver.changed_histories();
     w.item(static_cast<std::uint64_t>(changed.size()));
     for (const std::int64_t p : changed) {
-        const Pattern& pattern = solver.problem().patterns[static_cast<std::size_t>(p)];
+        const Pattern& pattern = solver.problem().patterns[index(p)];
         w.item(p);
         w.item(pattern.times);
         w.item(pattern.values);
@@ -90,7 +91,7 @@ std::vector<Pattern> read_histories(Reader& r, std::vector<Pattern> patterns) {
         if (p <= last || p >= static_cast<std::int64_t>(patterns.size()))
             fail(DELAM_ERROR_SNAPSHOT, "snapshot holds a history of pattern ", p, ", this scene has ", patterns.size());
         last = p;
-        Pattern& pattern = patterns[static_cast<std::size_t>(p)];
+        Pattern& pattern = patterns[index(p)];
         r.item(pattern.times);
         r.item(pattern.values);
         bool sound = !pattern.times.empty() && pattern.times.size() == pattern.values.size();

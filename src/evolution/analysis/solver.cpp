@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "base/error.hpp"
+#include "base/numbers.hpp"
 #include "base/team.hpp"
 #include "evolution/observe/balance.hpp"
 #include "evolution/observe/soundness.hpp"
@@ -173,12 +174,12 @@ void Solver::commit() {
         if (state.step == committed_.step)
             committed_ = std::move(state);
         else
-            past_[static_cast<std::size_t>(state.step - past_.front().step)] = std::move(state);
+            past_[index(state.step - past_.front().step)] = std::move(state);
     }
     if (pending_->state.step == committed_.step) past_.clear();  // a state that was set: no earlier step leads to it
     if (keeps) {
         past_.push_back(std::move(committed_));
-        if (past_.size() > static_cast<std::size_t>(problem_.options.backtracking_depth)) past_.erase(past_.begin());
+        if (past_.size() > index(problem_.options.backtracking_depth)) past_.erase(past_.begin());
     }
     committed_ = std::move(pending_->state);
     searched_ = std::move(pending_->searched);
@@ -201,7 +202,7 @@ void Solver::set_history(std::int64_t pattern, std::span<const double> times, st
     const double now = committed_.time;
     if (times.front() <= now)
         fail(DELAM_ERROR_ARGUMENT, "times[0] = ", times.front(), " is not after the committed time ", now);
-    Pattern& changed = problem_.patterns[static_cast<std::size_t>(pattern)];
+    Pattern& changed = problem_.patterns[index(pattern)];
     std::vector<double> t, v;
     for (std::size_t i = 0; i < changed.times.size() && changed.times[i] < now; ++i) {
         t.push_back(changed.times[i]);
@@ -285,8 +286,7 @@ void Solver::select(std::int64_t step) {
             for (const State& state : pending_->revised)
                 if (state.step == step) found = &state;
         }
-        if (found == nullptr)
-            found = step == committed_.step ? &committed_ : &past_[static_cast<std::size_t>(step - past_.front().step)];
+        if (found == nullptr) found = step == committed_.step ? &committed_ : &past_[index(step - past_.front().step)];
     }
     selected_ = found;
     observer_.show(state());

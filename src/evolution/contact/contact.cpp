@@ -18,7 +18,7 @@ constexpr double pressed = 1e-9;
 // closed: [pairs] or empty; constraints on many jumps may leave a closed pair no choice but to open, or to be pressed.
 void refuse_pressed(const ContactScene& scene, std::span<const std::uint8_t> prescribed,
                     std::span<const std::uint8_t> closed, const Response& response, std::span<const double> theta) {
-    const auto dim = static_cast<std::size_t>(scene.dimension);
+    const auto dim = index(scene.dimension);
     const double deepest = -pressed * std::max(max_abs(response.jump), scene.jump_floor(theta));
     for (std::size_t p = 0; p < scene.bonded.size(); ++p)
         if (scene.bonded[p] == 0 && (!scene.may_close(p, prescribed) || (!closed.empty() && closed[p] != 0)) &&
@@ -29,7 +29,7 @@ void refuse_pressed(const ContactScene& scene, std::span<const std::uint8_t> pre
 
 // The normal rows of all pairs that may close.
 ContactRows contact_rows(const ContactScene& scene, std::span<const std::uint8_t> prescribed, bool cold) {
-    const auto dim = static_cast<std::size_t>(scene.dimension);
+    const auto dim = index(scene.dimension);
     ContactRows rows;
     rows.least = rows.first = scene.least_level;
     if (cold && !scene.level.empty()) rows.first = *std::max_element(scene.level.begin(), scene.level.end());
@@ -118,7 +118,7 @@ struct ResponseSystem {
 std::vector<std::size_t> pairs_on_the_wrong_side(const JumpOperator& op, const ContactScene& scene,
                                                  std::span<const double> theta, std::span<const std::uint8_t> closed,
                                                  const Response& response) {
-    const auto dim = static_cast<std::size_t>(scene.dimension);
+    const auto dim = index(scene.dimension);
     const ContactRows rows = contact_rows(scene, op.prescribed_rows(), false);
     std::vector<std::uint8_t> set;
     for (const std::size_t row : rows.row) set.push_back(closed[row / dim]);
@@ -129,7 +129,7 @@ std::vector<std::size_t> pairs_on_the_wrong_side(const JumpOperator& op, const C
 }
 
 std::vector<std::uint8_t> held_rows(const ContactScene& scene, std::span<const std::uint8_t> closed) {
-    const auto dim = static_cast<std::size_t>(scene.dimension);
+    const auto dim = index(scene.dimension);
     std::vector<std::uint8_t> held(closed.size() * dim, 0);
     for (std::size_t p = 0; p < closed.size(); ++p)
         for (std::size_t c = 0; c < dim; ++c)
@@ -140,7 +140,7 @@ std::vector<std::uint8_t> held_rows(const ContactScene& scene, std::span<const s
 ContactResult solve_contact(JumpOperator& op, const ContactScene& scene, std::span<const double> stiffness,
                             std::span<const double> theta, std::vector<std::uint8_t>& closed, Response& response,
                             bool cold, std::span<const double> row_force) {
-    const auto dim = static_cast<std::size_t>(scene.dimension);
+    const auto dim = index(scene.dimension);
     const ContactRows rows = contact_rows(scene, op.prescribed_rows(), cold);
     if (rows.first > rows.least) std::fill(closed.begin(), closed.end(), std::uint8_t{0});
     std::vector<std::uint8_t> set;  // of the contact rows

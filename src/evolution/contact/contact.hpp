@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/monitor.hpp"
+#include "base/numbers.hpp"
 #include "reduction/operator/jump_operator.hpp"
 
 namespace delam {
@@ -36,7 +37,7 @@ struct ContactScene {
     std::vector<double> strain_jump{}, strain_force{};
     // True if the pair is neither bonded nor prescribed in its normal row. prescribed: [rows].
     bool may_close(std::size_t pair, std::span<const std::uint8_t> prescribed) const {
-        return bonded[pair] == 0 && prescribed[pair * static_cast<std::size_t>(dimension)] == 0;
+        return bonded[pair] == 0 && prescribed[pair * index(dimension)] == 0;
     }
     double jump_floor(std::span<const double> theta) const { return floor(strain_jump, theta); }
     double force_floor(std::span<const double> theta) const { return floor(strain_force, theta); }

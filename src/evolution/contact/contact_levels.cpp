@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "base/numbers.hpp"
+
 namespace delam {
 
 namespace {
@@ -15,14 +17,12 @@ constexpr std::size_t coarsest = 16;
 std::vector<std::uint8_t> contact_levels(std::span<const InterfaceGeometry> interfaces) {
     std::vector<std::uint8_t> level;
     for (const InterfaceGeometry& interface : interfaces) {
-        const std::size_t pairs = interface.node_a.size(), corners = static_cast<std::size_t>(interface.nodes_per_face);
+        const std::size_t pairs = interface.node_a.size(), corners = index(interface.nodes_per_face);
         std::vector<std::vector<std::size_t>> neighbours(pairs);
         for (std::size_t f = 0; f + corners <= interface.face.size(); f += corners)
             for (std::size_t a = 0; a < corners; ++a)
                 for (std::size_t b = 0; b < corners; ++b)
-                    if (a != b)
-                        neighbours[static_cast<std::size_t>(interface.face[f + a])].push_back(
-                            static_cast<std::size_t>(interface.face[f + b]));
+                    if (a != b) neighbours[index(interface.face[f + a])].push_back(index(interface.face[f + b]));
         std::uint8_t top = 0;
         while ((pairs >> (top + 1)) >= coarsest) ++top;
 

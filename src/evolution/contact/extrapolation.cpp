@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "evolution/contact/extrapolation.hpp"
 
+#include "base/numbers.hpp"
 #include "linalg/dense/dense.hpp"
 
 namespace delam {
@@ -33,10 +34,9 @@ std::vector<double> Extrapolation::next(std::span<const double> z, std::span<con
     DenseMatrix gram(n, n);
     std::vector<double> gamma(differences_.size());
     for (std::int64_t j = 0; j < n; ++j) {
-        const Difference& a = differences_[static_cast<std::size_t>(j)];
-        gamma[static_cast<std::size_t>(j)] = dot(a.residual, residual);
-        for (std::int64_t i = j; i < n; ++i)
-            gram(i, j) = dot(differences_[static_cast<std::size_t>(i)].residual, a.residual);
+        const Difference& a = differences_[index(j)];
+        gamma[index(j)] = dot(a.residual, residual);
+        for (std::int64_t i = j; i < n; ++i) gram(i, j) = dot(differences_[index(i)].residual, a.residual);
         gram(j, j) *= 1.0 + ridge;
     }
     if (n == 0 || !factor_definite(gram)) return out;

@@ -11,7 +11,7 @@ namespace delam {
 ZoneSystem::ZoneSystem(Zone& zone, const ContactScene& scene, std::span<const std::uint8_t> prescribed,
                        std::span<const std::uint8_t> held, std::span<const double> theta, Poll poll)
     : zone_(zone), scene_(scene), theta_(theta), poll_(std::move(poll)) {
-    const auto dim = static_cast<std::size_t>(scene.dimension);
+    const auto dim = index(scene.dimension);
     const std::vector<std::int64_t>& rows = zone.jump_rows();
     for (std::size_t z = 0; z < rows.size(); ++z) {
         const std::size_t row = index(rows[z]);

@@ -64,7 +64,7 @@ public:
           step_(step),
           damaging_(damaging),
           patterns_(patterns),
-          dim_(static_cast<std::size_t>(pairs_.dimension)),
+          dim_(index(pairs_.dimension)),
           largest_(largest_driving(pairs_, state_.response.jump)) {}
 
     // at_rest: dzeta of pairs that do not damage, mixity: dB before the step, [pairs] both.

@@ -19,7 +19,7 @@ Linearised::Linearised(JumpOperator& op, const PairLaws& pairs, const ContactSce
     : op_(op),
       pairs_(pairs),
       state_(state),
-      dim_(static_cast<std::size_t>(contact.dimension)),
+      dim_(index(contact.dimension)),
       springs_{spring_stiffness(pairs, state.adhesion), {}, {}} {
     op.recall(state.memory);
     springs_.held = held_rows(contact, state.closed);
@@ -68,7 +68,7 @@ void Linearised::add_gradient(std::span<const PairDirection> directions, DenseMa
                 if (other < term->first() || other >= term->first() + term->pairs()) continue;
                 const auto column = static_cast<std::int64_t>(other - term->first());
                 if (const auto found = std::lower_bound(begin, end, column); found != end && *found == column)
-                    system(a, b) -= k.value[static_cast<std::size_t>(found - k.column.begin())] / pairs_.weight[pair];
+                    system(a, b) -= k.value[index(found - k.column.begin())] / pairs_.weight[pair];
             }
         }
 }

@@ -3,13 +3,14 @@
 
 #include <algorithm>
 
+#include "base/numbers.hpp"
 #include "evolution/increment/coupled_damage.hpp"
 #include "law/mixity.hpp"
 
 namespace delam {
 
 Driving driving_energy(const PairLaws& pairs, std::size_t pair, std::span<const double> jump) {
-    const auto dim = static_cast<std::size_t>(pairs.dimension);
+    const auto dim = index(pairs.dimension);
     return driving_energy(*pairs.law[pair], jump.subspan(pair * dim, dim));
 }
 
@@ -43,7 +44,7 @@ bool any_jump(const PairLaws& pairs, std::span<const double> jump) {
 }
 
 std::vector<double> spring_stiffness(const PairLaws& pairs, std::span<const double> adhesion) {
-    const auto dim = static_cast<std::size_t>(pairs.dimension);
+    const auto dim = index(pairs.dimension);
     std::vector<double> s(pairs.law.size() * dim, 0.0);
     for (std::size_t p = 0; p < pairs.law.size(); ++p) {
         if (pairs.law[p] == nullptr) continue;

@@ -7,14 +7,15 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/numbers.hpp"
 #include "delam/delam.h"
+#include "mesh/points.hpp"
 #include "mesh/shape.hpp"
 
 namespace delam {
 
 namespace {
 
-using Node = std::array<double, 3>;
 using Local = std::array<double, most_face_nodes * most_face_nodes>;
 
 // The pairs of a face without padding entries (interface_geometry.hpp): those of a separate element.
@@ -26,7 +27,7 @@ std::vector<std::int64_t> unpadded(std::span<const std::int64_t> listed) {
 }
 
 // int N_a' N_b' / |x'| dxi, three Gauss points: exact on straight edges with the middle node midway.
-Local line_stiffness(std::span<const Node> x) {
+Local line_stiffness(std::span<const Point> x) {
     const double outer = std::sqrt(0.6);
     const std::array<double, 3> point{-outer, 0.0, outer}, weight{5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
     Local local{};
@@ -34,7 +35,7 @@ Local line_stiffness(std::span<const Node> x) {
         const double xi = point[q];
         const std::array<double, 3> g =
             x.size() == 2 ? std::array{-0.5, 0.5, 0.0} : std::array{xi - 0.5, xi + 0.5, -2.0 * xi};
-        Node tangent{};
+        Point tangent{};
         for (std::size_t a = 0; a < x.size(); ++a)
             for (std::size_t i = 0; i < 3; ++i) tangent[i] += g[a] * (x[a][i] - x[0][i]);
         const double length = std::hypot(tangent[0], tangent[1], tangent[2]);
@@ -45,20 +46,18 @@ Local line_stiffness(std::span<const Node> x) {
 }
 
 // int g_a^T G^-1 g_b sqrt(det G) dxi
-Local surface_stiffness(CellType type, std::span<const Node> x) {
+Local surface_stiffness(CellType type, std::span<const Point> x) {
     const Quadrature& gauss = quadrature(type);
     Local local{};
     for (std::size_t q = 0; q < gauss.points.size(); ++q) {
         const ShapeGradient& g = gauss.gradients[q];
-        Node u{}, v{};
+        Point u{}, v{};
         for (std::size_t a = 0; a < x.size(); ++a)
             for (std::size_t i = 0; i < 3; ++i) {
                 u[i] += g[2 * a] * (x[a][i] - x[0][i]);
                 v[i] += g[2 * a + 1] * (x[a][i] - x[0][i]);
             }
-        const double uu = u[0] * u[0] + u[1] * u[1] + u[2] * u[2], vv = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-        const double uv = u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
-        const double area = std::hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]);
+        const double uu = dot(u, u), vv = dot(v, v), uv = dot(u, v), area = length(cross(u, v));
         for (std::size_t a = 0; a < x.size(); ++a)
             for (std::size_t b = 0; b < x.size(); ++b)
                 local[a * x.size() + b] += gauss.weights[q] / area *
@@ -68,7 +67,7 @@ Local surface_stiffness(CellType type, std::span<const Node> x) {
     return local;
 }
 
-Local stiffness_of(int dimension, std::span<const Node> x) {
+Local stiffness_of(int dimension, std::span<const Point> x) {
     if (dimension == 2) return line_stiffness(x);
     return surface_stiffness(face_row(dimension, x.size()).surface, x);
 }
@@ -76,18 +75,17 @@ Local stiffness_of(int dimension, std::span<const Node> x) {
 }  // namespace
 
 SparseMatrix surface_stiffness(const Mesh& mesh, const InterfaceGeometry& interface, std::span<const double> adhesion) {
-    const auto per_face = static_cast<std::size_t>(interface.nodes_per_face);
+    const auto per_face = index(interface.nodes_per_face);
     std::vector<Triplet> entries;
     for (std::int64_t p = 0; p < interface.pair_count(); ++p) entries.push_back({p, p, 0.0});
     for (std::size_t f = 0; f + per_face <= interface.face.size(); f += per_face) {
         const std::vector<std::int64_t> face = unpadded(std::span(interface.face).subspan(f, per_face));
-        if (std::any_of(face.begin(), face.end(),
-                        [&](std::int64_t p) { return !(adhesion[static_cast<std::size_t>(p)] > 0.0); }))
+        if (std::any_of(face.begin(), face.end(), [&](std::int64_t p) { return !(adhesion[index(p)] > 0.0); }))
             continue;
         const std::size_t n = face.size();
-        std::vector<Node> x(n, Node{});
+        std::vector<Point> x(n, Point{});
         for (std::size_t a = 0; a < n; ++a) {
-            const auto node = mesh.node(interface.node_a[static_cast<std::size_t>(face[a])]);
+            const auto node = mesh.node(interface.node_a[index(face[a])]);
             std::copy(node.begin(), node.end(), x[a].begin());
         }
         const Local local = stiffness_of(mesh.dimension(), x);
@@ -110,8 +108,7 @@ GradientTerm::GradientTerm(double kappa, const SparseMatrix& stiffness, std::vec
         fail(DELAM_ERROR_INTERNAL, "gradient term: ", weight_.size(), " weights for ", matrix_.rows, " pairs");
     for (double& value : matrix_.value) value *= kappa;
     for (std::size_t r = 0; r < weight_.size(); ++r)
-        for (auto e = static_cast<std::size_t>(matrix_.start[r]); e < static_cast<std::size_t>(matrix_.start[r + 1]);
-             ++e)
+        for (auto e = index(matrix_.start[r]); e < index(matrix_.start[r + 1]); ++e)
             if (matrix_.column[e] == static_cast<std::int64_t>(r)) diagonal_[r] = matrix_.value[e];
 }
 
@@ -122,9 +119,8 @@ std::int64_t GradientTerm::coupled_pairs() const {
 std::vector<double> GradientTerm::force(std::span<const double> zeta) const {
     std::vector<double> out(zeta.size(), 0.0);
     for (std::size_t r = 0; r < zeta.size(); ++r)
-        for (auto e = static_cast<std::size_t>(matrix_.start[r]); e < static_cast<std::size_t>(matrix_.start[r + 1]);
-             ++e)
-            out[r] += matrix_.value[e] * (zeta[static_cast<std::size_t>(matrix_.column[e])] - zeta[r]);
+        for (auto e = index(matrix_.start[r]); e < index(matrix_.start[r + 1]); ++e)
+            out[r] += matrix_.value[e] * (zeta[index(matrix_.column[e])] - zeta[r]);
     return out;
 }
 
@@ -132,9 +128,8 @@ std::vector<double> GradientTerm::force(std::span<const double> zeta) const {
 double GradientTerm::energy(std::span<const double> zeta) const {
     double sum = 0.0;
     for (std::size_t r = 0; r < zeta.size(); ++r)
-        for (auto e = static_cast<std::size_t>(matrix_.start[r]); e < static_cast<std::size_t>(matrix_.start[r + 1]);
-             ++e) {
-            const double difference = zeta[r] - zeta[static_cast<std::size_t>(matrix_.column[e])];
+        for (auto e = index(matrix_.start[r]); e < index(matrix_.start[r + 1]); ++e) {
+            const double difference = zeta[r] - zeta[index(matrix_.column[e])];
             sum -= matrix_.value[e] * difference * difference;
         }
     return 0.25 * sum;
@@ -143,9 +138,8 @@ double GradientTerm::energy(std::span<const double> zeta) const {
 bool GradientTerm::solve(std::span<const double> diag, std::span<const std::uint8_t> held, std::span<const double> b,
                          std::span<double> x) const {
     for (std::size_t r = 0; r < diag.size(); ++r)
-        for (auto e = static_cast<std::size_t>(matrix_.start[r]); e < static_cast<std::size_t>(matrix_.start[r + 1]);
-             ++e) {
-            const auto c = static_cast<std::size_t>(matrix_.column[e]);
+        for (auto e = index(matrix_.start[r]); e < index(matrix_.start[r + 1]); ++e) {
+            const auto c = index(matrix_.column[e]);
             work_.value[e] = r == c                         ? matrix_.value[e] + diag[r]
                              : held[r] != 0 || held[c] != 0 ? 0.0
                                                             : matrix_.value[e];

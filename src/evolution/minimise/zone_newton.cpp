@@ -122,7 +122,7 @@ Descent::Descent(const ZoneNewton& newton, State& state, const Increment& increm
       state_(state),
       increment_(increment),
       mixities_(mixities),
-      dim_(static_cast<std::size_t>(newton.contact.dimension)),
+      dim_(index(newton.contact.dimension)),
       zone_(zone),
       system_(zone, newton.contact, newton.op.prescribed_rows(), springs.held, state.theta,
               [this] { newton_.monitor.progress("minimise", state_.effort.am_iterations, 0); }),
@@ -419,7 +419,7 @@ double Descent::run(std::int64_t limit, double tolerance) {
 
 // Rows of the pairs that damage, or nearly do.
 std::vector<std::uint8_t> loaded_rows(const ZoneNewton& newton, const State& state, const Increment& increment) {
-    const auto dim = static_cast<std::size_t>(newton.contact.dimension);
+    const auto dim = index(newton.contact.dimension);
     const PairLaws& pairs = increment.pairs();
     std::vector<std::uint8_t> wanted(state.adhesion.size() * dim, 0);
     for (std::size_t p = 0; p < state.adhesion.size(); ++p) {

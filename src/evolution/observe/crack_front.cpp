@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/numbers.hpp"
 #include "law/mixity.hpp"
 #include "mesh/faces.hpp"
 
@@ -44,7 +45,7 @@ double process_zone(const CrackedInterface& interface) {
 }
 
 std::vector<PairPiece> pair_pieces(const InterfaceGeometry& geometry, int dimension) {
-    const auto per_face = static_cast<std::size_t>(geometry.nodes_per_face);
+    const auto per_face = index(geometry.nodes_per_face);
     std::vector<PairPiece> pieces;
     for (std::size_t f = 0; f + per_face <= geometry.face.size(); f += per_face)
         for (const FacePiece& piece : face_pieces(dimension, per_face)) {

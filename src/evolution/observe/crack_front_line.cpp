@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/numbers.hpp"
 #include "evolution/observe/crack_front.hpp"
 #include "mesh/faces.hpp"
 
@@ -129,8 +130,8 @@ public:
 
     FrontPoint point(const Found& front) const {
         FrontPoint out;
-        const auto after = static_cast<std::size_t>(
-            std::upper_bound(chain_.arc.begin(), chain_.arc.end() - 1, front.arc) - chain_.arc.begin());
+        const auto after =
+            index(std::upper_bound(chain_.arc.begin(), chain_.arc.end() - 1, front.arc) - chain_.arc.begin());
         const std::size_t k = std::max<std::size_t>(after, 1);
         const Vector3 p = place(static_cast<std::int64_t>(k) - 1), q = place(static_cast<std::int64_t>(k));
         const double share = (front.arc - chain_.arc[k - 1]) / (chain_.arc[k] - chain_.arc[k - 1]);

@@ -8,19 +8,15 @@
 
 #include "evolution/observe/crack_front.hpp"
 #include "mesh/faces.hpp"
+#include "mesh/points.hpp"
 
 namespace delam {
 
 namespace {
 
 Vector3 operator+(const Vector3& p, const Vector3& q) { return {p[0] + q[0], p[1] + q[1], p[2] + q[2]}; }
-Vector3 operator-(const Vector3& p, const Vector3& q) { return {p[0] - q[0], p[1] - q[1], p[2] - q[2]}; }
 Vector3 operator*(double s, const Vector3& p) { return {s * p[0], s * p[1], s * p[2]}; }
-double dot(const Vector3& p, const Vector3& q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; }
 double norm(const Vector3& p) { return std::sqrt(dot(p, p)); }
-Vector3 cross(const Vector3& p, const Vector3& q) {
-    return {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
-}
 Vector3 unit(const Vector3& p) {
     const double length = norm(p);
     return length > 0.0 ? (1.0 / length) * p : p;

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "base/numbers.hpp"
 #include "body/rotation.hpp"
 #include "delam/delam.h"
 #include "scene/strain_loads.hpp"
@@ -55,9 +56,9 @@ std::vector<double> field(Observer& observer, const std::string& key, std::int64
     if (key == "reaction") return observer.reaction();
     if (key == "stress") return observer.stress();
     if (key == "rotation") return centre_rotation(*problem.mesh, observer.displacement());
-    const auto first = static_cast<std::size_t>(pair_range(observer, part).first);
-    const auto columns = static_cast<std::size_t>(shape.columns);
-    const std::size_t count = static_cast<std::size_t>(shape.rows) * columns, begin = first * columns;
+    const auto first = index(pair_range(observer, part).first);
+    const auto columns = index(shape.columns);
+    const std::size_t count = index(shape.rows) * columns, begin = first * columns;
     std::vector<double> out(count);
     for (std::size_t i = 0; i < count; ++i) {
         const std::size_t at = begin + i;

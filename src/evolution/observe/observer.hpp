@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/numbers.hpp"
 #include "body/averages.hpp"
 #include "evolution/contact/contact.hpp"
 #include "evolution/increment/damage_step.hpp"
@@ -70,7 +71,7 @@ public:
     const std::vector<CrackFront>& crack_fronts(std::int64_t interface);
 
 private:
-    bool known(std::int32_t body) const { return problem_.material[static_cast<std::size_t>(body)].has_value(); }
+    bool known(std::int32_t body) const { return problem_.material[index(body)].has_value(); }
     // Returns the model of each body; undefined where the material is unknown.
     std::vector<BodyModel> models() const;
 

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "base/numbers.hpp"
+
 namespace delam {
 
 std::vector<std::string> Record::keys() const {
@@ -21,7 +23,7 @@ const Record::Column* Record::find(const std::string& key) const {
 
 void Record::add(const std::string& key, std::int64_t step, double value) {
     const std::int64_t first = columns_.empty() ? step : first_;
-    std::vector<double> values(static_cast<std::size_t>(step - first + 1), std::numeric_limits<double>::quiet_NaN());
+    std::vector<double> values(index(step - first + 1), std::numeric_limits<double>::quiet_NaN());
     values.back() = value;
     add({key, std::move(values)}, first);
 }
@@ -38,7 +40,7 @@ void Record::reserve_row() {
 
 void Record::put(const Row& row) noexcept {
     if (row.step < first_) return;
-    const auto at = static_cast<std::size_t>(row.step - first_);
+    const auto at = index(row.step - first_);
     for (std::size_t c = 0; c < columns_.size(); ++c) {
         std::vector<double>& values = columns_[c].values;
         if (at == values.size())

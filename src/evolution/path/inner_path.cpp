@@ -60,7 +60,7 @@ PathPoint path_point(const PairLaws& pairs, const PairGraph& graph, const State&
 }
 
 void InnerPath::record(const State& at, const State& next) {
-    const auto dim = static_cast<std::size_t>(pairs_.dimension);
+    const auto dim = index(pairs_.dimension);
     const auto local = [dim](const std::vector<double>& jump, std::size_t pair) {
         return jump.empty() ? std::span<const double>() : std::span<const double>(jump).subspan(pair * dim, dim);
     };

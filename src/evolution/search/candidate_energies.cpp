@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "base/archive.hpp"
 #include "base/error.hpp"
 #include "base/numbers.hpp"
 #include "delam/delam.h"
@@ -25,10 +26,10 @@ constexpr unsigned half = 32;
 constexpr std::size_t saved_numbers = 5;  // of an energy
 
 std::uint64_t key_of(std::span<const double> adhesion) {
-    std::uint64_t h = 14695981039346656037ULL;
+    std::uint64_t h = checksum_start;
     for (const double z : adhesion) {
         h ^= std::bit_cast<std::uint64_t>(z);
-        h *= 1099511628211ULL;
+        h *= checksum_factor;
         h ^= h >> 29U;
     }
     return h;
@@ -151,7 +152,7 @@ void CandidateEnergies::from_operator(std::span<const double> adhesion, std::spa
         e.value = response_.stored_bulk + response_.load_potential + stored_energy(pairs, adhesion, response_.jump) -
                   gradient_energy(pairs, adhesion);  // this energy does not grow with the load
         if (!follow_mixity_) return;
-        const auto dim = static_cast<std::size_t>(pairs.dimension);
+        const auto dim = index(pairs.dimension);
         for (const std::int64_t p : e.next)
             e.next_mixity.push_back(breaking_mixity(index(p), adhesion, known[index(p)], [&](std::size_t q) {
                 return std::span<const double>(response_.jump).subspan(q * dim, dim);

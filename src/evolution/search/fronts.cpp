@@ -39,7 +39,7 @@ PairGraph::PairGraph(std::span<const InterfaceGeometry> interfaces) {
     std::int64_t first = 0;
     for (std::size_t i = 0; i < interfaces.size(); ++i) {
         const InterfaceGeometry& geometry = interfaces[i];
-        const auto corners = static_cast<std::size_t>(geometry.nodes_per_face);
+        const auto corners = index(geometry.nodes_per_face);
         for (std::size_t f = 0; f + corners <= geometry.face.size(); f += corners)
             for (std::size_t a = 0; a < corners; ++a)
                 for (std::size_t b = 0; b < corners; ++b)

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "base/numbers.hpp"
 #include "evolution/increment/damage_step.hpp"
 #include "mesh/interface_geometry.hpp"
 
@@ -26,7 +27,7 @@ public:
         return std::span<const std::int64_t>(neighbour_).subspan(start_[pair], start_[pair + 1] - start_[pair]);
     }
     std::int64_t interface_of(std::size_t pair) const { return interface_[pair]; }
-    std::int64_t first_pair(std::int64_t interface) const { return first_[static_cast<std::size_t>(interface)]; }
+    std::int64_t first_pair(std::int64_t interface) const { return first_[index(interface)]; }
 
 private:
     std::vector<std::size_t> start_{0};

@@ -134,8 +134,7 @@ void Trials::debond_interfaces() {
             all.adhesion[p] = 0.0;
             wanted[p] = 1;
         }
-        const auto rows =
-            static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), std::uint8_t{1}) * pairs.dimension);
+        const auto rows = index(std::count(wanted.begin(), wanted.end(), std::uint8_t{1}) * pairs.dimension);
         if (rows == 0 || search_.floor + search_.cost(all) >= search_.best) continue;
         search_.energies.lose_focus();
         if (rows <= search_.energies.largest_zone()) search_.energies.focus(wanted);
@@ -194,8 +193,7 @@ double Search::debonded_energy(const State& from, std::span<const double> direct
     std::vector<std::uint8_t> closed(nothing.size(), 0);
     std::vector<std::uint8_t> tested;  // rows
     for (std::size_t p = 0; p < closed.size(); ++p)
-        tested.insert(tested.end(), static_cast<std::size_t>(pairs_.dimension),
-                      coarse.level[p] >= coarse.least_level ? 1 : 0);
+        tested.insert(tested.end(), index(pairs_.dimension), coarse.level[p] >= coarse.least_level ? 1 : 0);
     Response response;
     try {
         // One zone for all contact sets.

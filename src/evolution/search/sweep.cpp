@@ -49,7 +49,7 @@ std::vector<std::uint8_t> reach_of_new_cracks(SearchRun& search, std::span<const
         for (std::size_t k = 0; k < std::min(ring.size(), largest_crack + 1); ++k)
             for (const std::int64_t p : ring[k]) reached[index(p)] = 1;
     }
-    const auto pairs = static_cast<std::size_t>(std::count(reached.begin(), reached.end(), std::uint8_t{1}));
+    const auto pairs = index(std::count(reached.begin(), reached.end(), std::uint8_t{1}));
     if (pairs * index(search.pairs().dimension) > small_zone) reached.clear();
     return reached;
 }
@@ -59,7 +59,7 @@ std::vector<std::uint8_t> SearchRun::with_new_cracks(std::vector<std::uint8_t> w
     for (std::size_t p = 0; p < new_cracks.size(); ++p)
         if (new_cracks[p] != 0) all[p] = 1;
     const auto rows = [&](const std::vector<std::uint8_t>& set) {
-        return static_cast<std::size_t>(std::count(set.begin(), set.end(), std::uint8_t{1})) * index(pairs().dimension);
+        return index(std::count(set.begin(), set.end(), std::uint8_t{1})) * index(pairs().dimension);
     };
     return always || rows(all) <= 2 * rows(wanted) + spare_rows ? all : wanted;
 }
@@ -88,7 +88,7 @@ void Sweep::keep_rings() {
     std::vector<std::uint8_t> wanted(base_.adhesion.size(), 0);
     for (std::size_t p = 0; p < wanted.size(); ++p)
         if (base_.adhesion[p] != search_.increment.adhesion_before()[p]) wanted[p] = 1;
-    auto rows = static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), std::uint8_t{1}));
+    auto rows = index(std::count(wanted.begin(), wanted.end(), std::uint8_t{1}));
     std::size_t keep = 0;
     while (keep < ring_.size() && (keep < 2 || search_.floor + cost < search_.best)) {
         rows += ring_[keep].size();

@@ -29,7 +29,7 @@ bool ZoneEnergies::focus(const State& known, std::span<const std::uint8_t> wante
 }
 
 bool ZoneEnergies::choose() {
-    const auto dim = static_cast<std::size_t>(pairs_.dimension);
+    const auto dim = index(pairs_.dimension);
     Springs springs{spring_stiffness(pairs_, known_->adhesion), held_rows(contact_, known_->closed)};
     std::vector<std::uint8_t> rows;
     for (std::size_t p = 0; p < wanted_.size(); ++p) rows.insert(rows.end(), dim, wants(p) ? 1 : 0);
@@ -87,7 +87,7 @@ bool ZoneEnergies::serves(std::span<const std::uint8_t> wanted) const {
     for (std::size_t p = 0; p < wanted.size(); ++p) {
         if (wanted[p] == 0 && (joined_.empty() || joined_[p] == 0)) continue;
         if (!inside(p)) return false;
-        rows += static_cast<std::size_t>(pairs_.dimension);
+        rows += index(pairs_.dimension);
     }
     return whole_ || system_->zone().jump_rows().size() <= 2 * rows + spare_rows;
 }
@@ -102,7 +102,7 @@ std::vector<std::uint8_t> ZoneEnergies::start_of_contact(std::span<const double>
         nearest.emplace_back(differ, &s);
     }
     std::stable_sort(nearest.begin(), nearest.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-    const auto dim = static_cast<std::size_t>(pairs_.dimension);
+    const auto dim = index(pairs_.dimension);
     std::vector<std::uint8_t> closed;
     for (const std::size_t row : system_->contact_rows().row) {
         const std::size_t p = index(system_->zone().jump_rows()[row]) / dim;
@@ -123,7 +123,7 @@ std::vector<std::uint8_t> ZoneEnergies::start_of_contact(std::span<const double>
 }
 
 void ZoneEnergies::remember(std::span<const double> adhesion, const std::vector<std::uint8_t>& closed) {
-    const auto dim = static_cast<std::size_t>(pairs_.dimension);
+    const auto dim = index(pairs_.dimension);
     Solved solved{{adhesion.begin(), adhesion.end()}, known_->closed};
     for (std::size_t i = 0; i < closed.size(); ++i)
         solved.closed[index(system_->zone().jump_rows()[system_->contact_rows().row[i]]) / dim] = closed[i];
@@ -132,7 +132,7 @@ void ZoneEnergies::remember(std::span<const double> adhesion, const std::vector<
 }
 
 std::optional<double> ZoneEnergies::zone_energy(std::span<const double> adhesion) {
-    const auto dim = static_cast<std::size_t>(pairs_.dimension);
+    const auto dim = index(pairs_.dimension);
     const std::vector<std::int64_t>& rows = system_->zone().jump_rows();
     std::vector<double> spring(rows.size());
     std::vector<Zone::Coupling> couplings;

@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "base/numbers.hpp"
 #include "evolution/contact/zone_system.hpp"
 #include "evolution/increment/damage_step.hpp"
 #include "evolution/increment/state.hpp"
@@ -52,8 +53,7 @@ public:
     double error() const { return system_->energy_error() + system_->doubt().above + system_->doubt().below; }
     // Local jump of a pair inside the zone, in the last energy().
     std::span<const double> jump(std::size_t pair) const {
-        return system_->jump().subspan(static_cast<std::size_t>(place_[pair]),
-                                       static_cast<std::size_t>(pairs_.dimension));
+        return system_->jump().subspan(index(place_[pair]), index(pairs_.dimension));
     }
 
 private:

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <optional>
 
+#include "base/numbers.hpp"
+
 namespace delam {
 
 const State& Chain::at(std::int64_t step) const {
     if (const auto it = revised_.find(step); it != revised_.end()) return it->second;
-    return step == last_.step ? last_ : past_[static_cast<std::size_t>(step - past_.front().step)];
+    return step == last_.step ? last_ : past_[index(step - past_.front().step)];
 }
 
 Stepper::Result backtracked_step(Stepper& stepper, Chain& chain, std::int64_t last_step, double time,

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/numbers.hpp"
 #include "delam/delam.h"
 
 namespace delam {
@@ -40,13 +41,11 @@ Lift::Lift(JumpOperator& op, std::span<const std::uint8_t> bonded_rows, std::spa
     std::vector<std::uint8_t> moving(op.prescribed_rows().begin(), op.prescribed_rows().end());
     // In each equation among jumps one row must give way: its own, or one that is not bonded.
     for (const BoundRow& equation : bound) {
-        std::int64_t gives = bonded_rows[static_cast<std::size_t>(equation.row)] == 0 ? equation.row : -1;
+        std::int64_t gives = bonded_rows[index(equation.row)] == 0 ? equation.row : -1;
         for (const std::int64_t other : equation.others)
-            if (gives < 0 && bonded_rows[static_cast<std::size_t>(other)] == 0 &&
-                moving[static_cast<std::size_t>(other)] == 0)
-                gives = other;
+            if (gives < 0 && bonded_rows[index(other)] == 0 && moving[index(other)] == 0) gives = other;
         if (gives >= 0)
-            moving[static_cast<std::size_t>(gives)] = 1;
+            moving[index(gives)] = 1;
         else if (std::any_of(equation.offset.begin(), equation.offset.end(), [](double o) { return o != 0.0; }))
             fail(DELAM_ERROR_PROBLEM, "prescribed displacements open jump row ", equation.row, " or one of the ",
                  equation.others.size(), " rows bound to it, but all of their interfaces are bonded permanently");

@@ -104,12 +104,11 @@ Stepper::Stepper(const Problem& problem, Monitor& monitor) : problem_(problem), 
     design_ = design_operator(problem_, monitor_);
     operator_ = build_operator(design_, problem_, monitor_);
     std::vector<std::uint8_t> bonded_rows;
-    for (const std::uint8_t b : contact_.bonded)
-        bonded_rows.insert(bonded_rows.end(), static_cast<std::size_t>(mesh.dimension()), b);
+    for (const std::uint8_t b : contact_.bonded) bonded_rows.insert(bonded_rows.end(), index(mesh.dimension()), b);
     lift_ = Lift(*operator_, bonded_rows, design_.bound, problem_.patterns.size());
     const double largest = max_abs(problem_.prescribed_matrix());
     for (const std::size_t row : lift_.driven_rows(1e-9 * largest)) {
-        const std::size_t pair = row / static_cast<std::size_t>(mesh.dimension());
+        const std::size_t pair = row / index(mesh.dimension());
         if (contact_.bonded[pair] != 0)
             fail(DELAM_ERROR_PROBLEM, "prescribed displacements open pair ", pair,
                  ", but its interface is bonded permanently");

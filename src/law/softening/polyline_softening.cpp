@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/numbers.hpp"
 #include "delam/delam.h"
 
 namespace delam {
@@ -37,8 +38,7 @@ PolylineSoftening::Place PolylineSoftening::place_of(const Toughness& t, double 
     const double w = scale(t);
     const auto next = std::partition_point(corners_.begin(), corners_.end(),
                                            [&](const Corner& c) { return c.s >= zeta * (1.0 + w * c.xi); });
-    const auto segment =
-        std::clamp<std::size_t>(static_cast<std::size_t>(next - corners_.begin()), 1, corners_.size() - 1);
+    const auto segment = std::clamp<std::size_t>(index(next - corners_.begin()), 1, corners_.size() - 1);
     const Corner &from = corners_[segment - 1], &to = corners_[segment];
     const double before = from.s - zeta * (1.0 + w * from.xi), after = zeta * (1.0 + w * to.xi) - to.s;
     return {segment, std::clamp(before / (before + after), 0.0, 1.0), w};
@@ -74,7 +74,7 @@ PolylineSoftening::Place PolylineSoftening::place_at(const Toughness& t, double 
     if (!(xi < corners_.back().xi)) return {corners_.size(), 0.0, w};  // also where what drives overflows
     const auto to = std::partition_point(corners_.begin(), corners_.end(), [&](const Corner& c) { return c.xi <= xi; });
     const Corner& from = *(to - 1);
-    return {static_cast<std::size_t>(to - corners_.begin()), (xi - from.xi) / (to->xi - from.xi), w};
+    return {index(to - corners_.begin()), (xi - from.xi) / (to->xi - from.xi), w};
 }
 
 double PolylineSoftening::minimiser(const Toughness& t, double driving, double zeta_old) const {
@@ -128,7 +128,7 @@ void TabulatedSoftening::set_table(std::span<const double> xi, std::span<const d
     if (xi[last] != 1.0 || s[last] != 0.0)
         fail(DELAM_ERROR_ARGUMENT, "point ", last, " = (", xi[last], ", ", s[last], "): the end (1, 0) is expected");
     const auto second = std::find_if(xi.begin(), xi.end(), [](double v) { return v > 0.0; }) - xi.begin();
-    if (s[static_cast<std::size_t>(second) - 1] == 0.0)
+    if (s[index(second) - 1] == 0.0)
         fail(DELAM_ERROR_ARGUMENT, "s falls to 0 at xi = 0, so that the area under the table is 0: use kind griffith");
     set_corners(xi, s);
 }

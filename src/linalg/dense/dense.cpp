@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "base/error.hpp"
+#include "base/numbers.hpp"
 #include "base/team.hpp"
 #include "delam/delam.h"
 #include "linalg/dense/blas.hpp"
@@ -18,7 +19,7 @@ namespace {
 constexpr int one = 1;
 
 // LAPACK factorises up to `small` rows without a poll in between; larger matrices are treated in panels of `width`
-// columns (README.md has the times).
+// columns. (Measured on 500 to 3500 rows: 0.95 to 1.0 times the time of LAPACK, panels of 256 columns up to 1.14.)
 constexpr std::int64_t small = 384, width = 96;
 // Inverses: from these on.
 constexpr std::int64_t small_inverse = 1024, wide = 256;
@@ -133,9 +134,9 @@ void mirror_lower(DenseMatrix& a) {
 // Multiplies by column panels of the product: rows behind a panel have L's columns up to its end in common with it.
 DenseMatrix lower_times_transpose(const DenseMatrix& lower, const Poll& poll) {
     DenseMatrix product;
-    make_room(product.value, static_cast<std::size_t>(lower.rows * lower.rows));
+    make_room(product.value, index(lower.rows * lower.rows));
     product.rows = product.columns = lower.rows;
-    product.value.resize(static_cast<std::size_t>(lower.rows * lower.rows));
+    product.value.resize(index(lower.rows * lower.rows));
     const int lda = leading(lower);
     const double unit = 1.0, none = 0.0;
     const auto panel = [&](std::int64_t p) {
@@ -336,9 +337,9 @@ DenseMatrix inverse_definite(DenseMatrix a, const Poll& poll) {
 }
 
 DenseMatrix orthonormalised(DenseMatrix a) {
-    const auto rows = static_cast<std::size_t>(a.rows);
+    const auto rows = index(a.rows);
     const auto column = [&a, rows](std::int64_t j) {
-        return std::span<double>(a.value).subspan(static_cast<std::size_t>(j) * rows, rows);
+        return std::span<double>(a.value).subspan(index(j) * rows, rows);
     };
     for (std::int64_t j = 0; j < a.columns; ++j) {
         for (int pass = 0; pass < 2; ++pass)
@@ -350,14 +351,14 @@ DenseMatrix orthonormalised(DenseMatrix a) {
 }
 
 Eigen eigen_symmetric(DenseMatrix a) {
-    Eigen result{std::vector<double>(static_cast<std::size_t>(a.rows)), std::move(a)};
+    Eigen result{std::vector<double>(index(a.rows)), std::move(a)};
     const int n = blas_size(result.vector.rows), lda = leading(result.vector);
     if (n == 0) return result;
     int info = 0, query = -1;
     double size = 0.0;
     blas::syev("V", "L", &n, result.vector.value.data(), &lda, result.value.data(), &size, &query, &info);
     const int lwork = static_cast<int>(size);
-    std::vector<double> work(static_cast<std::size_t>(lwork));
+    std::vector<double> work(index(lwork));
     blas::syev("V", "L", &n, result.vector.value.data(), &lda, result.value.data(), work.data(), &lwork, &info);
     if (info != 0) fail(DELAM_ERROR_NUMERICAL, "the eigenvalues of a block of ", n, " rows did not converge");
     return result;
@@ -368,20 +369,20 @@ PivotedColumns pivoted_columns(DenseMatrix a, double tolerance) {
     if (a.columns > 2000000000)
         fail(DELAM_ERROR_MEMORY, "too many columns in a rank-revealing factorisation: ", a.columns);
     const int n = static_cast<int>(a.columns);
-    PivotedColumns result{std::vector<std::int64_t>(static_cast<std::size_t>(n)), 0};
+    PivotedColumns result{std::vector<std::int64_t>(index(n)), 0};
     if (m == 0 || n == 0) {
         std::iota(result.order.begin(), result.order.end(), std::int64_t{0});
         return result;
     }
-    std::vector<int> pivot(static_cast<std::size_t>(n), 0);
-    std::vector<double> tau(static_cast<std::size_t>(std::min(m, n)));
+    std::vector<int> pivot(index(n), 0);
+    std::vector<double> tau(index(std::min(m, n)));
     int info = 0, query = -1;
     double size = 0.0;
     blas::geqp3(&m, &n, a.value.data(), &lda, pivot.data(), tau.data(), &size, &query, &info);
     const int lwork = static_cast<int>(size);
-    std::vector<double> work(static_cast<std::size_t>(lwork));
+    std::vector<double> work(index(lwork));
     blas::geqp3(&m, &n, a.value.data(), &lda, pivot.data(), tau.data(), work.data(), &lwork, &info);
-    for (int j = 0; j < n; ++j) result.order[static_cast<std::size_t>(j)] = pivot[static_cast<std::size_t>(j)] - 1;
+    for (int j = 0; j < n; ++j) result.order[index(j)] = pivot[index(j)] - 1;
     const double largest = std::abs(a(0, 0));
     for (int j = 0; j < std::min(m, n); ++j)
         if (std::abs(a(j, j)) > tolerance * largest) result.rank = j + 1;
@@ -398,7 +399,7 @@ bool solve_general(DenseMatrix& a, DenseMatrix& b, double tolerance) {
         for (std::int64_t j = 0; j < a.columns; ++j) a(i, j) /= largest;
         for (std::int64_t j = 0; j < b.columns; ++j) b(i, j) /= largest;
     }
-    std::vector<int> pivot(static_cast<std::size_t>(n));
+    std::vector<int> pivot(index(n));
     int info = 0;
     blas::getrf(&n, &n, a.value.data(), &lda, pivot.data(), &info);
     double least = std::numeric_limits<double>::infinity(), most = 0.0;

@@ -8,6 +8,7 @@
 
 #include "base/machine/large_pages.hpp"
 #include "base/monitor.hpp"
+#include "base/numbers.hpp"
 
 namespace delam {
 
@@ -17,17 +18,17 @@ struct DenseMatrix {
     LargeVector<double> value;  // column-major
 
     DenseMatrix() = default;
-    DenseMatrix(std::int64_t r, std::int64_t c) : rows(r), columns(c), value(static_cast<std::size_t>(r * c), 0.0) {}
+    DenseMatrix(std::int64_t r, std::int64_t c) : rows(r), columns(c), value(index(r * c), 0.0) {}
     // Its entries have no value yet.
     static DenseMatrix unset(std::int64_t r, std::int64_t c) {
         DenseMatrix a;
         a.rows = r;
         a.columns = c;
-        a.value.resize(static_cast<std::size_t>(r * c));
+        a.value.resize(index(r * c));
         return a;
     }
-    double& operator()(std::int64_t i, std::int64_t j) { return value[static_cast<std::size_t>(i + j * rows)]; }
-    double operator()(std::int64_t i, std::int64_t j) const { return value[static_cast<std::size_t>(i + j * rows)]; }
+    double& operator()(std::int64_t i, std::int64_t j) { return value[index(i + j * rows)]; }
+    double operator()(std::int64_t i, std::int64_t j) const { return value[index(i + j * rows)]; }
 };
 
 // Large products, factors and solves are shared by the threads of a TeamScope; no digit depends on their number.

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/numbers.hpp"
+
 namespace delam {
 
 Echelon reduced_echelon(DenseMatrix q, std::int64_t preferred, double tolerance) {
@@ -17,20 +19,20 @@ Echelon reduced_echelon(DenseMatrix q, std::int64_t preferred, double tolerance)
         op(i, i) = scale;
     }
     std::vector<std::int64_t> pivot_row, pivot;
-    std::vector<std::uint8_t> used(static_cast<std::size_t>(rows), 0);
+    std::vector<std::uint8_t> used(index(rows), 0);
     const auto eliminate = [&](std::int64_t begin, std::int64_t end) {
         while (true) {
             std::int64_t at_row = -1, at_column = -1;
             double best = tolerance;
             for (std::int64_t j = begin; j < end; ++j)
                 for (std::int64_t i = 0; i < rows; ++i)
-                    if (used[static_cast<std::size_t>(i)] == 0 && std::abs(q(i, j)) > best) {
+                    if (used[index(i)] == 0 && std::abs(q(i, j)) > best) {
                         best = std::abs(q(i, j));
                         at_row = i;
                         at_column = j;
                     }
             if (at_row < 0) return;
-            used[static_cast<std::size_t>(at_row)] = 1;
+            used[index(at_row)] = 1;
             pivot_row.push_back(at_row);
             pivot.push_back(at_column);
             const double inverse = 1.0 / q(at_row, at_column);

@@ -6,17 +6,17 @@
 #include <cstdint>
 #include <span>
 
+#include "base/numbers.hpp"
 #include "linalg/dense/dense.hpp"
 #include "linalg/sparse/sparse.hpp"
 
 namespace delam {
 
 inline std::span<double> column(DenseMatrix& a, std::int64_t c) {
-    return std::span<double>(a.value).subspan(static_cast<std::size_t>(c * a.rows), static_cast<std::size_t>(a.rows));
+    return std::span<double>(a.value).subspan(index(c * a.rows), index(a.rows));
 }
 inline std::span<const double> column(const DenseMatrix& a, std::int64_t c) {
-    return std::span<const double>(a.value).subspan(static_cast<std::size_t>(c * a.rows),
-                                                    static_cast<std::size_t>(a.rows));
+    return std::span<const double>(a.value).subspan(index(c * a.rows), index(a.rows));
 }
 
 // Y = S X on the rows from `first` on, as many as the square S has; the other rows of X and Y are not touched. S is

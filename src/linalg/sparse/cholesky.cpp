@@ -247,14 +247,14 @@ void SparseCholesky::solve(std::span<const double> b, std::span<double> x) const
     }
     const FactorThreads threads(0.0);
     cholmod_dense rhs = view(b);
-    rhs.nrow = rhs.d = static_cast<std::size_t>(impl.size);
+    rhs.nrow = rhs.d = index(impl.size);
     rhs.ncol = b.size() / rhs.nrow;
     std::memcpy(x.data(), impl.solve(CHOLMOD_A, rhs), b.size() * sizeof(double));
 }
 
 void SparseCholesky::solve_leading(std::span<const double> b, std::span<double> x) const {
     const Impl& impl = *impl_;
-    const auto leading = static_cast<std::size_t>(impl.size - impl.trailing);
+    const auto leading = index(impl.size - impl.trailing);
     if (leading == 0) return;
     if (impl.factor->is_super != 0) {
         const Supernodes nodes = impl.supernodes();
@@ -266,7 +266,7 @@ void SparseCholesky::solve_leading(std::span<const double> b, std::span<double> 
         return;
     }
     const FactorThreads threads(0.0);
-    std::vector<double> v(static_cast<std::size_t>(impl.size), 0.0);
+    std::vector<double> v(index(impl.size), 0.0);
     std::copy(b.begin(), b.end(), v.begin());
     for (const int system : {CHOLMOD_P, CHOLMOD_L, CHOLMOD_Lt, CHOLMOD_Pt}) {
         if (system == CHOLMOD_L || system == CHOLMOD_Lt) poll_cancel("solve", impl.size / 64);

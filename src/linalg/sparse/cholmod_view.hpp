@@ -8,6 +8,7 @@
 #include <new>
 
 #include "base/error.hpp"
+#include "base/numbers.hpp"
 #include "delam/delam.h"
 #include "linalg/sparse/sparse.hpp"
 
@@ -18,9 +19,9 @@ static_assert(sizeof(SuiteSparse_long) == sizeof(std::int64_t));
 // A view of our rows as CHOLMOD's columns; the matrix is symmetric, and CHOLMOD reads its upper triangle.
 inline cholmod_sparse view(const SparseMatrix& m) {
     cholmod_sparse a{};
-    a.nrow = static_cast<std::size_t>(m.rows);
-    a.ncol = static_cast<std::size_t>(m.columns);
-    a.nzmax = static_cast<std::size_t>(m.entries());
+    a.nrow = index(m.rows);
+    a.ncol = index(m.columns);
+    a.nzmax = index(m.entries());
     a.p = const_cast<std::int64_t*>(m.start.data());
     a.i = const_cast<std::int64_t*>(m.column.data());
     a.x = const_cast<double*>(m.value.data());

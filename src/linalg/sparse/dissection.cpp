@@ -17,7 +17,7 @@ constexpr std::size_t few_vertices = 200;  // METIS itself orders smaller graphs
 
 // False: too many edges for METIS' integers.
 bool graph_between(const SparseMatrix& m, std::int64_t leading, const EqualRows& groups, Graph& graph) {
-    constexpr auto most = static_cast<std::size_t>(std::numeric_limits<idx_t>::max());
+    constexpr auto most = index(std::numeric_limits<idx_t>::max());
     std::vector<std::int64_t> seen(groups.count(), -1);
     for (std::size_t v = 0; v < groups.count(); ++v) {
         poll_cancel("order");

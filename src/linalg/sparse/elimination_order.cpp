@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "base/archive.hpp"
 #include "base/numbers.hpp"
 #include "linalg/sparse/cholmod_view.hpp"
 #include "linalg/sparse/dissection.hpp"
@@ -47,7 +48,7 @@ Order shortest_first(const SparseMatrix& m) {
     for (std::size_t r = 0; r < index(m.rows); ++r) {
         std::uint64_t sum = 0;
         for (std::int64_t e = m.start[r]; e < m.start[r + 1]; ++e)
-            sum = sum * 1099511628211u + static_cast<std::uint64_t>(m.column[index(e)]);
+            sum = sum * checksum_factor + static_cast<std::uint64_t>(m.column[index(e)]);
         rows.push_back({static_cast<std::uint64_t>(m.start[r + 1] - m.start[r]), sum, r});
     }
     std::sort(rows.begin(), rows.end());
@@ -82,8 +83,9 @@ Order minimum_degree(const EqualRows& groups, const SparseMatrix& pattern, std::
     return members(groups, trailing, of_groups);
 }
 
-// Nested dissection is tried where minimum degree costs more operations per stored entry of the matrix; README.md has
-// the data. The triangle of the trailing variables costs the same in every order.
+// Nested dissection is tried where minimum degree costs more operations per stored entry of the matrix. METIS takes 0.1
+// us per stored entry in space and 0.2 us in the plane; a third of these operations takes 0.08 us. The triangle of the
+// trailing variables costs the same in every order.
 constexpr double worth_dissecting = 5e3;
 
 bool may_gain(double operations, const SparseMatrix& m, std::int64_t trailing) {

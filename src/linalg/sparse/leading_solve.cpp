@@ -42,8 +42,8 @@ void poll(const Part& p) { poll_cancel_reading("solve", static_cast<std::int64_t
 void solve_leading_block(const Supernodes& nodes, const double* values, std::int64_t leading, std::span<double> y,
                          std::vector<double>& below) {
     const BlasThreads one;  // it waits for memory, supernode after supernode
-    const auto count = static_cast<std::size_t>(std::lower_bound(nodes.first.begin(), nodes.first.end() - 1, leading) -
-                                                nodes.first.begin());
+    const auto count =
+        index(std::lower_bound(nodes.first.begin(), nodes.first.end() - 1, leading) - nodes.first.begin());
     poll_cancel("solve", leading / 64);
     for (std::size_t s = 0; s < count; ++s) {
         const Part p = part_at(nodes, values, leading, s);

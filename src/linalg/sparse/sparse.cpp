@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/numbers.hpp"
 #include "delam/delam.h"
 
 namespace delam {
@@ -14,7 +15,7 @@ namespace delam {
 // duplicates (Gustavson, ACM TOMS 4, 1978) and only the distinct columns are sorted. The cost is linear in the
 // triplets, and every sum runs in the given order.
 SparseMatrix from_triplets(std::int64_t rows, std::int64_t columns, std::vector<Triplet> triplets) {
-    const auto at = [](std::int64_t i) { return static_cast<std::size_t>(i); };
+    const auto at = [](std::int64_t i) { return index(i); };
     SparseMatrix m;
     m.rows = rows;
     m.columns = columns;
@@ -61,7 +62,7 @@ SparseMatrix from_triplets(std::int64_t rows, std::int64_t columns, std::vector<
 }
 
 void multiply(const SparseMatrix& a, std::span<const double> x, std::span<double> y) {
-    const auto at = [](std::int64_t i) { return static_cast<std::size_t>(i); };
+    const auto at = [](std::int64_t i) { return index(i); };
     for (std::size_t r = 0; r < at(a.rows); ++r) {
         double sum = 0.0;
         for (std::size_t e = at(a.start[r]); e < at(a.start[r + 1]); ++e) sum += a.value[e] * x[at(a.column[e])];
@@ -70,7 +71,7 @@ void multiply(const SparseMatrix& a, std::span<const double> x, std::span<double
 }
 
 void multiply_transposed(const SparseMatrix& a, std::span<const double> x, std::span<double> y) {
-    const auto at = [](std::int64_t i) { return static_cast<std::size_t>(i); };
+    const auto at = [](std::int64_t i) { return index(i); };
     std::fill(y.begin(), y.end(), 0.0);
     for (std::size_t r = 0; r < at(a.rows); ++r)
         for (std::size_t e = at(a.start[r]); e < at(a.start[r + 1]); ++e) y[at(a.column[e])] += a.value[e] * x[r];
@@ -80,8 +81,8 @@ SparseMatrix transpose(const SparseMatrix& a) {
     SparseMatrix t;
     t.rows = a.columns;
     t.columns = a.rows;
-    t.start.assign(static_cast<std::size_t>(a.columns) + 1, 0);
-    for (const std::int64_t c : a.column) ++t.start[static_cast<std::size_t>(c) + 1];
+    t.start.assign(index(a.columns) + 1, 0);
+    for (const std::int64_t c : a.column) ++t.start[index(c) + 1];
     for (std::size_t i = 1; i < t.start.size(); ++i) t.start[i] += t.start[i - 1];
     make_room(t.column, a.column.size());
     make_room(t.value, a.value.size());
@@ -89,11 +90,10 @@ SparseMatrix transpose(const SparseMatrix& a) {
     t.value.resize(a.value.size());
     std::vector<std::int64_t> next(t.start.begin(), t.start.end() - 1);
     for (std::int64_t r = 0; r < a.rows; ++r) {
-        for (std::int64_t e = a.start[static_cast<std::size_t>(r)]; e < a.start[static_cast<std::size_t>(r) + 1]; ++e) {
-            const auto at =
-                static_cast<std::size_t>(next[static_cast<std::size_t>(a.column[static_cast<std::size_t>(e)])]++);
+        for (std::int64_t e = a.start[index(r)]; e < a.start[index(r) + 1]; ++e) {
+            const auto at = index(next[index(a.column[index(e)])]++);
             t.column[at] = r;
-            t.value[at] = a.value[static_cast<std::size_t>(e)];
+            t.value[at] = a.value[index(e)];
         }
     }
     return t;
@@ -101,7 +101,7 @@ SparseMatrix transpose(const SparseMatrix& a) {
 
 // Row i of T^T K T gathers the rows of K that variable i moves; a marker finds equal columns (Gustavson, as above).
 SparseMatrix congruence(const SparseMatrix& k, const SparseMatrix& t, const Poll& poll) {
-    const auto at = [](std::int64_t i) { return static_cast<std::size_t>(i); };
+    const auto at = [](std::int64_t i) { return index(i); };
     const SparseMatrix tt = transpose(t);
     SparseMatrix m;
     m.rows = m.columns = t.columns;

@@ -8,6 +8,7 @@
 
 #include "base/cancel_scope.hpp"
 #include "base/error.hpp"
+#include "base/numbers.hpp"
 #include "delam/delam.h"
 #include "mesh/faces.hpp"
 #include "mesh/mesh.hpp"
@@ -87,7 +88,7 @@ std::int64_t Mesh::add_pairs(std::int32_t label_a, std::int32_t label_b, std::sp
     if (!face.empty()) {
         const FaceRow& kind = face_row(dimension_, index(nodes_per_face));
         made.nodes_per_face = nodes_per_face;
-        const auto per_face = static_cast<std::size_t>(nodes_per_face);
+        const auto per_face = index(nodes_per_face);
         for (std::size_t i = 0; i < face.size(); ++i) {
             if (face[i] < 0 || face[i] >= made.pair_count())
                 fail(DELAM_ERROR_ARGUMENT, "faces[", i / per_face, "][", i % per_face, "] = ", face[i],

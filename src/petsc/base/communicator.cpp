@@ -7,6 +7,8 @@
 
 #include <petscsys.h>
 
+#include "base/numbers.hpp"
+
 namespace delam::petsc {
 
 namespace {
@@ -63,7 +65,7 @@ void Communicator::agree(std::int32_t status, std::string text, Waits waits) con
     MPI_Bcast(&status, 1, MPI_INT32_T, lowest, agreed_);
     int length = static_cast<int>(text.size());
     MPI_Bcast(&length, 1, MPI_INT, lowest, agreed_);
-    text.resize(static_cast<std::size_t>(length));
+    text.resize(index(length));
     MPI_Bcast(text.data(), length, MPI_CHAR, lowest, agreed_);
     throw Failure(status, text);
 }
@@ -122,7 +124,7 @@ void Communicator::send(int to, const std::vector<std::uint8_t>& bytes) const {
 std::vector<std::uint8_t> Communicator::receive() const {
     std::int64_t total = 0;
     MPI_Recv(&total, 1, MPI_INT64_T, 0, tag, comm_, MPI_STATUS_IGNORE);
-    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(total));
+    std::vector<std::uint8_t> bytes(index(total));
     for (std::int64_t at = 0; at < total; at += piece)
         MPI_Recv(bytes.data() + at, static_cast<int>(std::min(piece, total - at)), MPI_BYTE, 0, tag, comm_,
                  MPI_STATUS_IGNORE);

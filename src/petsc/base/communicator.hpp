@@ -8,6 +8,7 @@
 
 #include <mpi.h>
 
+#include "base/numbers.hpp"
 #include "petsc/base/failure.hpp"
 
 namespace delam::petsc {
@@ -56,7 +57,7 @@ public:
         static_assert(std::is_trivially_copyable_v<Value>);
         std::int64_t count = static_cast<std::int64_t>(values.size());
         broadcast(count);
-        together([&] { values.resize(static_cast<std::size_t>(count)); });
+        together([&] { values.resize(index(count)); });
         send_all(values.data(), values.size() * sizeof(Value));
     }
     void broadcast(std::string& text) const;
@@ -75,8 +76,7 @@ public:
         std::vector<std::vector<Value>> incoming(outgoing.size());
         std::vector<void*> places;
         together([&] {
-            for (std::size_t r = 0; r < incoming.size(); ++r)
-                incoming[r].resize(static_cast<std::size_t>(arriving[r]) / sizeof(Value));
+            for (std::size_t r = 0; r < incoming.size(); ++r) incoming[r].resize(index(arriving[r]) / sizeof(Value));
         });
         for (std::vector<Value>& part : incoming) places.push_back(part.data());
         exchange_bytes(data, bytes, places, arriving);

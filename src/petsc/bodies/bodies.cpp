@@ -1,21 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "petsc/bodies/bodies.hpp"
-#include "base/numbers.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+
+#include "base/numbers.hpp"
 
 namespace delam::petsc {
-
-namespace {
-
-double dot(std::span<const double> a, std::span<const double> b) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
-    return sum;
-}
-
-}  // namespace
 
 Bodies::Bodies(const Communicator& comm, const Part& part, const SceneVariables& scene)
     : comm_(comm),
@@ -145,7 +137,7 @@ BodyState Bodies::state(std::span<const double> theta, Vec v) const {
             for (std::size_t i = 0; i < local_.lift[p].dof.size(); ++i)
                 u[index(local_.lift[p].dof[i])] += theta[p] * local_.lift[p].value[i];
         state.force = stiffness_times(u);
-        sums.push_back(dot(u, state.force));
+        sums.push_back(std::inner_product(u.begin(), u.end(), state.force.begin(), 0.0));
         for (std::size_t p = 0; p < theta.size(); ++p) {
             double work = 0.0, lifted = 0.0;
             for (std::size_t i = 0; i < local_.force[p].dof.size(); ++i)

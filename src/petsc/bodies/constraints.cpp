@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "petsc/bodies/constraints.hpp"
 
+#include "base/numbers.hpp"
+
 namespace delam::petsc {
 
 Constraints::Constraints(const Bodies& bodies, const Visible& visible)
@@ -32,8 +34,8 @@ void Constraints::set(const std::vector<std::int64_t>& fixed, const Expressed& e
     int any = expressed.pivots.empty() ? 0 : 1;
     comm.together([&] {
         bound.assign(visible_.count(), 0.0);
-        for (const std::int64_t place : fixed) bound[static_cast<std::size_t>(place)] = 1.0;
-        for (const std::int64_t place : expressed.pivots) bound[static_cast<std::size_t>(place)] = 1.0;
+        for (const std::int64_t place : fixed) bound[index(place)] = 1.0;
+        for (const std::int64_t place : expressed.pivots) bound[index(place)] = 1.0;
         pivots_ = expressed.pivots;
     });
     visible_.write(bound, work_);
@@ -45,7 +47,7 @@ void Constraints::set(const std::vector<std::int64_t>& fixed, const Expressed& e
     std::vector<PetscInt> rows, columns;
     comm.together([&] {
         for (std::size_t e = 0; e < expressed.values.size(); ++e) {
-            rows.push_back(visible_.number(expressed.pivots[static_cast<std::size_t>(expressed.rows[e])]));
+            rows.push_back(visible_.number(expressed.pivots[index(expressed.rows[e])]));
             columns.push_back(visible_.number(expressed.columns[e]));
         }
     });
@@ -76,7 +78,7 @@ void Constraints::rest(const std::vector<double>& right, Vec r) const {
     bodies_.comm().together([&] {
         if (!has_pivots_ || visible_.count() == 0) return;
         values.assign(visible_.count(), 0.0);
-        for (std::size_t i = 0; i < pivots_.size(); ++i) values[static_cast<std::size_t>(pivots_[i])] = right[i];
+        for (std::size_t i = 0; i < pivots_.size(); ++i) values[index(pivots_[i])] = right[i];
     });
     if (has_pivots_)
         visible_.write(values, r);

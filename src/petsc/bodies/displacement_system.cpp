@@ -67,7 +67,7 @@ DisplacementSystem::DisplacementSystem(const Bodies& bodies, const Visible& visi
 }
 
 std::int64_t DisplacementSystem::dof_of(std::size_t place) const {
-    const auto d = static_cast<std::size_t>(bodies_.local().dimension);
+    const auto d = index(bodies_.local().dimension);
     return nodes_[place / d] * static_cast<std::int64_t>(d) + static_cast<std::int64_t>(place % d);
 }
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "petsc/bodies/jump_expansion.hpp"
-#include "base/numbers.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+
+#include "base/numbers.hpp"
 
 namespace delam::petsc {
 
@@ -58,7 +59,7 @@ void JumpExpansion::expand_node(std::int64_t node) {
             const std::int64_t variable = scene_.home[index(e)];
             const double coefficient = scene_.coefficient[index(e)];
             if (const auto k = std::find(homes.begin(), homes.end(), variable); k != homes.end())
-                own[i][static_cast<std::size_t>(k - homes.begin())] += coefficient;
+                own[i][index(k - homes.begin())] += coefficient;
             else
                 for (const auto& [home, value] : row(variable)) rest[i][home] -= coefficient * value;
         }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/numbers.hpp"
+
 namespace delam::petsc {
 
 MeshFields::MeshFields(const Bodies& bodies, std::int64_t dofs) : bodies_(bodies), field_(bodies.vector()) {
@@ -11,7 +13,7 @@ MeshFields::MeshFields(const Bodies& bodies, std::int64_t dofs) : bodies_(bodies
     std::vector<std::int64_t> nodes;
     bodies.comm().together([&] {
         if (!bodies.comm().root()) return;
-        nodes.resize(static_cast<std::size_t>(dofs / dimension));
+        nodes.resize(index(dofs / dimension));
         std::iota(nodes.begin(), nodes.end(), std::int64_t{0});
     });
     const std::vector<PetscInt> blocks = bodies.numbering().find(nodes);
@@ -46,7 +48,7 @@ void MeshFields::gather(const BodyState& state, double* displacement, double* fo
     std::vector<double> places;
     bodies_.comm().together([&] {
         places = state.force;
-        places.resize(static_cast<std::size_t>(local.places()), 0.0);
+        places.resize(index(local.places()), 0.0);
     });
     bodies_.assemble(places, field_);
     to_root(field_, force);

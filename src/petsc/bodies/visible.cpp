@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "base/numbers.hpp"
+
 namespace delam::petsc {
 
 Visible::Visible(const Bodies& bodies, const std::vector<std::int64_t>& homes) {
@@ -25,7 +27,7 @@ Visible::Visible(const Bodies& bodies, const std::vector<std::int64_t>& homes) {
 PetscInt Visible::number(std::int64_t place) const {
     if (place < 0 || place >= static_cast<std::int64_t>(number_.size()))
         fail(DELAM_ERROR_ARGUMENT, "place ", place, " in `visible` is not in [0, ", number_.size(), ")");
-    return number_[static_cast<std::size_t>(place)];
+    return number_[index(place)];
 }
 
 std::vector<double> Visible::read(Vec from) const {

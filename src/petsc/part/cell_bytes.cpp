@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "base/numbers.hpp"
 #include "delam/experimental.h"
 
 namespace delam::petsc {
@@ -11,8 +12,7 @@ namespace delam::petsc {
 void require_cells(const delam_mesh* mesh) {
     std::int64_t nodes = 0, cells = 0;
     if (delam_mesh_size(mesh, nullptr, &nodes, &cells, nullptr, nullptr) != DELAM_OK) return;
-    std::vector<std::int32_t> of_node(static_cast<std::size_t>(nodes)), of_cell(static_cast<std::size_t>(cells)),
-        types(of_cell.size());
+    std::vector<std::int32_t> of_node(index(nodes)), of_cell(index(cells)), types(of_cell.size());
     std::vector<std::int64_t> offsets(of_cell.size() + 1);
     std::int64_t entries = 0;
     const std::int32_t first = delam_mesh_node_bodies(mesh, nodes, of_node.data()),
@@ -33,7 +33,7 @@ std::vector<std::uint8_t> part_bytes(const delam_problem* problem, const std::ve
     std::int32_t status = delam_experimental_problem_part(problem, count, cells.data(), 0, nullptr, &size);
     std::vector<std::uint8_t> bytes;
     if (status == DELAM_OK) {
-        bytes.resize(static_cast<std::size_t>(size));
+        bytes.resize(index(size));
         status = delam_experimental_problem_part(problem, count, cells.data(), size, bytes.data(), &size);
     }
     if (status != DELAM_OK)
@@ -61,11 +61,11 @@ Part part_of_bytes(std::int32_t dimension, const std::vector<std::uint8_t>& byte
     };
     if (delam_context_create(&context.handle) != DELAM_OK) fail(DELAM_ERROR_MEMORY, "not enough memory");
     call(false);
-    node.resize(static_cast<std::size_t>(nodes));
-    place.resize(static_cast<std::size_t>(nodes * dimensions));
-    start.resize(static_cast<std::size_t>(nodes * dimensions) + 1);
-    column.resize(static_cast<std::size_t>(entries));
-    value.resize(static_cast<std::size_t>(entries));
+    node.resize(index(nodes));
+    place.resize(index(nodes * dimensions));
+    start.resize(index(nodes * dimensions) + 1);
+    column.resize(index(entries));
+    value.resize(index(entries));
     call(true);
     return make_part(static_cast<std::int32_t>(dimensions), nodes, node.data(), place.data(), start.data(),
                      column.data(), value.data());

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 
+#include "base/numbers.hpp"
+
 namespace delam::petsc {
 
 std::vector<std::vector<std::int64_t>> Numbering::by_keeper(std::span<const std::int64_t> nodes) const {
-    std::vector<std::vector<std::int64_t>> asked(static_cast<std::size_t>(comm_.size()));
+    std::vector<std::vector<std::int64_t>> asked(index(comm_.size()));
     for (const std::int64_t node : nodes) asked[keeper(node)].push_back(node);
     return asked;
 }
@@ -23,17 +25,17 @@ Numbering::Numbering(const Communicator& comm, std::span<const std::int64_t> nod
     std::vector<int> owner;
     std::vector<std::vector<std::int64_t>> yours(announced.size());
     comm.together([&] {
-        owner.assign(static_cast<std::size_t>(share_), -1);
+        owner.assign(index(share_), -1);
         for (std::size_t r = 0; r < announced.size(); ++r)
             for (const std::int64_t node : announced[r]) {
-                int& o = owner[static_cast<std::size_t>(node - begin)];
+                int& o = owner[index(node - begin)];
                 if (o < 0) o = static_cast<int>(r);
             }
         for (std::int64_t node = begin; node < begin + share_ && node < total; ++node) {
-            const int o = owner[static_cast<std::size_t>(node - begin)];
+            const int o = owner[index(node - begin)];
             if (o < 0 && node >= mesh_nodes) continue;
             // An orphan is encoded as -1 - node.
-            yours[o < 0 ? 0 : static_cast<std::size_t>(o)].push_back(o < 0 ? -1 - node : node);
+            yours[o < 0 ? 0 : index(o)].push_back(o < 0 ? -1 - node : node);
         }
     });
     std::vector<std::int64_t> mine;
@@ -63,12 +65,11 @@ Numbering::Numbering(const Communicator& comm, std::span<const std::int64_t> nod
     comm.together([&] {
         PetscInt next = first_;
         for (const std::int64_t node : mine) numbers[keeper(node)].push_back(next++);
-        number_.assign(static_cast<std::size_t>(share_), -1);
+        number_.assign(index(share_), -1);
     });
     const auto arrived = comm.exchange(numbers);
     for (std::size_t r = 0; r < numbered.size(); ++r)
-        for (std::size_t i = 0; i < numbered[r].size(); ++i)
-            number_[static_cast<std::size_t>(numbered[r][i] - begin)] = arrived[r][i];
+        for (std::size_t i = 0; i < numbered[r].size(); ++i) number_[index(numbered[r][i] - begin)] = arrived[r][i];
 }
 
 std::vector<PetscInt> Numbering::find(std::span<const std::int64_t> nodes) const {
@@ -77,8 +78,7 @@ std::vector<PetscInt> Numbering::find(std::span<const std::int64_t> nodes) const
     const std::int64_t begin = share_ * comm_.rank();
     comm_.together([&] {
         for (std::size_t r = 0; r < questions.size(); ++r)
-            for (const std::int64_t node : questions[r])
-                answers[r].push_back(number_[static_cast<std::size_t>(node - begin)]);
+            for (const std::int64_t node : questions[r]) answers[r].push_back(number_[index(node - begin)]);
     });
     const auto arrived = comm_.exchange(answers);
     std::vector<std::size_t> next(arrived.size(), 0);

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "base/numbers.hpp"
 #include "petsc/base/communicator.hpp"
 
 namespace delam::petsc {
@@ -26,7 +27,7 @@ public:
 
 private:
     std::vector<std::vector<std::int64_t>> by_keeper(std::span<const std::int64_t> nodes) const;
-    std::size_t keeper(std::int64_t node) const { return static_cast<std::size_t>(node / share_); }
+    std::size_t keeper(std::int64_t node) const { return index(node / share_); }
 
     const Communicator& comm_;
     std::int64_t share_ = 1;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/numbers.hpp"
 #include "petsc/base/failure.hpp"
 
 namespace delam::petsc {
@@ -30,7 +31,7 @@ LocalMatrix copy_rows(std::int64_t rows, const std::int64_t* row_starts, const s
     if (rows == 0) return matrix;
     const std::int64_t entries = row_starts[rows];
     matrix.start.assign(row_starts, row_starts + rows + 1);
-    matrix.column.reserve(static_cast<std::size_t>(entries));
+    matrix.column.reserve(index(entries));
     for (std::int64_t e = 0; e < entries; ++e) {
         if (columns[e] < 0 || columns[e] >= rows)
             fail(DELAM_ERROR_ARGUMENT, "columns: ", columns[e], " of entry ", e, " is not in [0, ", rows, ")");

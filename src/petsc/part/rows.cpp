@@ -55,9 +55,9 @@ public:
     }
 
 private:
-    std::size_t keeper(std::int64_t node) const { return static_cast<std::size_t>(node % comm_.size()); }
+    std::size_t keeper(std::int64_t node) const { return index(node % comm_.size()); }
     std::vector<std::vector<std::int64_t>> by_keeper(std::span<const std::int64_t> nodes) const {
-        std::vector<std::vector<std::int64_t>> lists(static_cast<std::size_t>(comm_.size()));
+        std::vector<std::vector<std::int64_t>> lists(index(comm_.size()));
         for (const std::int64_t node : nodes) lists[keeper(node)].push_back(node);
         return lists;
     }

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/numbers.hpp"
 #include "petsc/base/options.hpp"
 #include "petsc/solve/corners.hpp"
 
@@ -83,13 +84,13 @@ void BddcPreconditioner::give_coordinates() {
     const LocalVariables& local = bodies_.local();
     const std::vector<double>& places = bodies_.part().coordinates;
     if (!has_coordinates_) return;
-    const auto d = static_cast<std::size_t>(local.dimension);
+    const auto d = index(local.dimension);
     std::vector<PetscReal> points;
     bodies_.comm().together([&] {
-        points.assign(static_cast<std::size_t>(local.owned) * d, 0.0);
+        points.assign(index(local.owned) * d, 0.0);
         for (std::size_t i = 0; i < bodies_.part().nodes.size() * d; ++i)
             for (std::size_t c = 0; c < d && local.owns(i); ++c)
-                points[static_cast<std::size_t>(local.number[i] - local.first) * d + c] = places[i / d * d + c];
+                points[index(local.number[i] - local.first) * d + c] = places[i / d * d + c];
     });
     check(PCSetCoordinates(bddc_, local.dimension, local.owned, points.data()));
 }

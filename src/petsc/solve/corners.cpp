@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "petsc/solve/corners.hpp"
-#include "base/numbers.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
+
+#include "base/numbers.hpp"
 
 namespace delam::petsc {
 
@@ -70,7 +71,7 @@ std::vector<std::size_t> spread_out(const std::vector<std::size_t>& nodes, const
 }  // namespace
 
 std::vector<PetscInt> corners(const Bodies& bodies, const DisplacementSystem& system, bool has_coordinates) {
-    const auto d = static_cast<std::size_t>(bodies.local().dimension);
+    const auto d = index(bodies.local().dimension);
     const std::size_t count = bodies.part().nodes.size();
     const std::vector<PetscInt>& number = bodies.local().number;  // the part's nodes come first here and there
     PetscInt neighbours = 0, *ranks = nullptr, *counts = nullptr, **shared = nullptr;

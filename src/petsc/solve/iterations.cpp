@@ -6,14 +6,11 @@
 
 #include "petsc/base/options.hpp"
 
-#include "base/restarts.hpp"
-
 namespace delam::petsc {
 
 namespace {
 
 constexpr PetscInt longest_run = 10000;  // KSP keeps some numbers of each iteration
-constexpr int most_idle = 20;            // iterations without gain: rounding
 // Iterations beyond the target, for the components that it hides: this number at least, and one for so many of those
 // before.
 constexpr PetscInt most_beyond = 5;
@@ -86,14 +83,15 @@ PetscErrorCode Iterations::test(KSP, PetscInt iteration, PetscReal norm, KSPConv
 
 bool Iterations::exhausted(PetscInt iteration, double norm) const {
     const bool long_beyond = met_ >= 0 && iteration - met_ >= std::max(most_beyond, met_ / beyond_of);
-    return iteration >= limits_.iterations || idle_ > most_idle || long_beyond || !std::isfinite(norm);
+    return iteration >= limits_.iterations || lowest_.idle() > RestartLimits{}.restart_idle || long_beyond ||
+           !std::isfinite(norm);
 }
 
 KSPConvergedReason Iterations::decide(PetscInt iteration, double norm) {
     // KSPCG only sees changes of sign.
     if (iteration == 1 && met_ < 0 && operator_.last_curvature() <= 0.0) return KSP_DIVERGED_INDEFINITE_MAT;
-    idle_ = iteration == 0 || norm < 0.9 * lowest_ ? 0 : idle_ + 1;
-    lowest_ = iteration == 0 ? norm : std::min(lowest_, norm);
+    if (iteration == 0) lowest_ = Lowest(RestartLimits{}.restart_noticed);
+    lowest_.take(norm);
     outcome_.norm = norm;
     outcome_.iterations = iteration;
     int decision = KSP_CONVERGED_ITERATING;
@@ -136,8 +134,6 @@ void Iterations::iterate(Vec r, Vec x) {
 Iterations::Outcome Iterations::run(Vec r, Vec z, Vec x, const Limits& limits) {
     limits_ = limits;
     outcome_ = {};
-    lowest_ = 0.0;
-    idle_ = 0;
     met_ = -1;
     preconditioner_.expect(z);
     iterate(r, x);

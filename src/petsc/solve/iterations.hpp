@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "base/restarts.hpp"
 #include "petsc/solve/operator.hpp"
 #include "petsc/solve/preconditioner.hpp"
 
@@ -52,9 +53,8 @@ private:
     OwnedKsp ksp_;
     Limits limits_;
     Outcome outcome_;
-    double lowest_ = 0.0;
+    Lowest lowest_{RestartLimits{}.restart_noticed};
     OwnedVec residual_, z_;
-    int idle_ = 0;
     PetscInt met_ = -1;  // the iteration that met the target, but not `largest`; -1: none
 };
 

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "base/numbers.hpp"
+
 namespace delam::petsc {
 
 namespace {
@@ -61,8 +63,7 @@ double Operator::coupled(Vec v) const {
     const std::vector<double> values = visible_.read(v);
     double sum = 0.0;
     for (std::size_t e = 0; e < entries_.values.size(); ++e)
-        sum += std::abs(values[static_cast<std::size_t>(entries_.rows[e])] * entries_.values[e] *
-                        values[static_cast<std::size_t>(entries_.columns[e])]);
+        sum += std::abs(values[index(entries_.rows[e])] * entries_.values[e] * values[index(entries_.columns[e])]);
     bodies_.comm().broadcast(sum);
     return sum;
 }
@@ -71,8 +72,7 @@ void Operator::add_coupling_sizes(Vec v, Vec out) const {
     const std::vector<double> values = visible_.read(v);
     std::vector<double> sizes(values.size(), 0.0);
     for (std::size_t e = 0; e < entries_.values.size(); ++e)
-        sizes[static_cast<std::size_t>(entries_.rows[e])] +=
-            std::abs(entries_.values[e] * values[static_cast<std::size_t>(entries_.columns[e])]);
+        sizes[index(entries_.rows[e])] += std::abs(entries_.values[e] * values[index(entries_.columns[e])]);
     visible_.write(sizes, of_couplings_);
     check(VecAXPY(out, 1.0, of_couplings_));
 }

@@ -25,7 +25,7 @@ double number(std::int64_t n) { return static_cast<double>(n); }
 double square(double x) { return x * x; }
 double cube(double x) { return x * x * x; }
 
-// Fitted constants; README.md describes the data.
+// Fitted constants; src/reduction/NOTES.md describes the data.
 // of the squares of all jumps: zones and what they take along to the root of the tree
 constexpr double zone_squares = 2.2;
 // Operations outside dense kernels: assembly, checks and ordering per displacement, a load step per jump (measured on
@@ -64,20 +64,20 @@ std::string seconds(double operations) {
 // Nodes on the cuts through a box of `nodes` nodes in that many parts: the longest side is cut repeatedly.
 double cut_nodes(const std::array<double, 3>& side, int dimension, double nodes, double parts) {
     double volume = 1.0;
-    for (int i = 0; i < dimension; ++i) volume *= side[static_cast<std::size_t>(i)];
+    for (int i = 0; i < dimension; ++i) volume *= side[index(i)];
     if (!(volume > 0.0) || parts < 1.5) return 0.0;
     const double spacing = std::pow(volume / nodes, 1.0 / dimension);
     std::array<double, 3> pieces{1.0, 1.0, 1.0};
     while (pieces[0] * pieces[1] * pieces[2] < parts) {
         std::size_t longest = 0;
-        for (std::size_t i = 1; i < static_cast<std::size_t>(dimension); ++i)
+        for (std::size_t i = 1; i < index(dimension); ++i)
             if (side[i] / pieces[i] > side[longest] / pieces[longest]) longest = i;
         pieces[longest] += 1.0;
     }
     double cut = 0.0;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(dimension); ++i) {
+    for (std::size_t i = 0; i < index(dimension); ++i) {
         double area = 1.0;  // in nodes
-        for (std::size_t j = 0; j < static_cast<std::size_t>(dimension); ++j)
+        for (std::size_t j = 0; j < index(dimension); ++j)
             if (j != i) area *= side[j] / spacing + 1.0;
         cut += (pieces[i] - 1.0) * area;
     }
@@ -186,12 +186,12 @@ ReductionCost predict_feti(const Problem& problem, std::int64_t subdomains, doub
         std::array<double, 3> low{}, high{}, side{1.0, 1.0, 1.0};
         const std::vector<std::int64_t> nodes = mesh.body_nodes(body);
         for (std::size_t i = 0; i < nodes.size(); ++i)
-            for (std::size_t k = 0; k < static_cast<std::size_t>(dim); ++k) {
+            for (std::size_t k = 0; k < index(dim); ++k) {
                 const double x = mesh.node(nodes[i])[k];
                 low[k] = i == 0 ? x : std::min(low[k], x);
                 high[k] = i == 0 ? x : std::max(high[k], x);
             }
-        for (std::size_t k = 0; k < static_cast<std::size_t>(dim); ++k) side[k] = high[k] - low[k];
+        for (std::size_t k = 0; k < index(dim); ++k) side[k] = high[k] - low[k];
         const double size = number(static_cast<std::int64_t>(nodes.size()));
         const double share = std::max(1.0, std::round(parts * size / number(mesh.node_count())));
         copies += 2.0 * dim * cut_nodes(side, dim, size, share);

@@ -14,7 +14,7 @@ namespace delam {
 namespace {
 
 std::size_t count(const std::vector<std::uint8_t>& set) {
-    return static_cast<std::size_t>(std::count_if(set.begin(), set.end(), [](std::uint8_t v) { return v != 0; }));
+    return index(std::count_if(set.begin(), set.end(), [](std::uint8_t v) { return v != 0; }));
 }
 
 }  // namespace
@@ -50,7 +50,7 @@ Condensed::Condensed(std::shared_ptr<Bulk> bulk, const Problem& problem, Monitor
     std::vector<Triplet> links;
     std::int64_t first = 0;
     for (const InterfaceGeometry& face : problem_.mesh->interfaces()) {
-        const auto nodes = static_cast<std::size_t>(face.nodes_per_face);
+        const auto nodes = index(face.nodes_per_face);
         for (std::size_t f = 0; f + nodes <= face.face.size(); f += nodes)
             for (std::size_t a = 0; a < nodes; ++a)
                 for (std::size_t b = 0; b < nodes; ++b)
@@ -205,7 +205,7 @@ void Condensed::condense() {
 DenseZone* Condensed::zone(const Springs& springs, std::span<const std::uint8_t> wanted, bool tight) {
     std::vector<std::uint8_t> unknowns(always_.size(), 0);
     bool inside = covers(springs);
-    const auto rows = static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), std::uint8_t{1}));
+    const auto rows = index(std::count(wanted.begin(), wanted.end(), std::uint8_t{1}));
     if (tight && inside && energy_->unknowns().size() > 2 * rows + index(limits().zone_small)) {
         age_.assign(age_.size(), forgotten());
         inside = false;

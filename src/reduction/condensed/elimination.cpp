@@ -26,8 +26,7 @@ void clear(DenseMatrix& a, std::int64_t rows, std::int64_t columns) {
 }
 
 void clear_lower(DenseMatrix& a) {
-    for (std::int64_t j = 0; j < a.rows; ++j)
-        std::fill_n(a.value.begin() + j * (a.rows + 1), static_cast<std::size_t>(a.rows - j), 0.0);
+    for (std::int64_t j = 0; j < a.rows; ++j) std::fill_n(a.value.begin() + j * (a.rows + 1), index(a.rows - j), 0.0);
 }
 
 void sort_unique(std::vector<std::int64_t>& list) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "base/numbers.hpp"
 #include "delam/delam.h"
 
 namespace delam {
@@ -23,7 +24,7 @@ DenseMatrix block(const DenseMatrix& a, std::span<const std::int64_t> rows, std:
 DenseMatrix rows_of(const DenseMatrix& a, std::span<const std::int64_t> rows) {
     DenseMatrix b(static_cast<std::int64_t>(rows.size()), a.columns);
     for (std::int64_t c = 0; c < a.columns; ++c)
-        for (std::int64_t i = 0; i < b.rows; ++i) b(i, c) = a(rows[static_cast<std::size_t>(i)], c);
+        for (std::int64_t i = 0; i < b.rows; ++i) b(i, c) = a(rows[index(i)], c);
     return b;
 }
 
@@ -33,8 +34,7 @@ Condensation::Condensation(const DenseEnergy& parent, std::vector<std::int64_t> 
                            std::vector<std::int64_t> eliminated, std::span<const double> stiffness, const Poll& poll)
     : kept_(std::move(kept)), eliminated_(std::move(eliminated)) {
     factor_ = block(parent.stiffness, eliminated_, eliminated_);
-    for (std::int64_t i = 0; i < factor_.rows; ++i)
-        factor_(i, i) += stiffness[static_cast<std::size_t>(eliminated_[static_cast<std::size_t>(i)])];
+    for (std::int64_t i = 0; i < factor_.rows; ++i) factor_(i, i) += stiffness[index(eliminated_[index(i)])];
     if (!factor_definite(factor_, poll))
         fail(DELAM_ERROR_NUMERICAL, "the condensed stiffness of ", factor_.rows, " jumps is not positive definite");
     call_if_set(poll);
@@ -57,8 +57,8 @@ void Condensation::recover(std::span<const double> theta, std::span<const double
     multiply(coupling_, kept_values, coupled);
     for (std::size_t i = 0; i < x.size(); ++i) x[i] -= coupled[i];
     solve_lower_transposed(factor_, x);
-    for (std::size_t i = 0; i < x.size(); ++i) parent[static_cast<std::size_t>(eliminated_[i])] = x[i];
-    for (std::size_t i = 0; i < kept_.size(); ++i) parent[static_cast<std::size_t>(kept_[i])] = kept_values[i];
+    for (std::size_t i = 0; i < x.size(); ++i) parent[index(eliminated_[i])] = x[i];
+    for (std::size_t i = 0; i < kept_.size(); ++i) parent[index(kept_[i])] = kept_values[i];
 }
 
 }  // namespace delam

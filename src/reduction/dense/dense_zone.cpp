@@ -20,7 +20,7 @@ constexpr double unbalanced = 1e-8;  // largest part of a load that may remain o
 
 // y = S x, cheap where few x are not zero.
 void multiply_few(const DenseMatrix& s, std::span<const double> x, std::span<double> y) {
-    const auto zeros = static_cast<std::size_t>(std::count(x.begin(), x.end(), 0.0));
+    const auto zeros = index(std::count(x.begin(), x.end(), 0.0));
     if (2 * zeros < x.size()) {
         multiply_symmetric(s, x, y);
         return;

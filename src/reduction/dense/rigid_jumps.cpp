@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "base/numbers.hpp"
 #include "scene/carriers.hpp"
 #include "scene/pieces.hpp"
 
@@ -25,18 +26,16 @@ template <class Image>
 DenseMatrix null_vectors(const Eigen& eigen, double limit, const Image& image) {
     const std::int64_t size = eigen.vector.rows;
     std::int64_t count = 0;
-    while (count < size && eigen.value[static_cast<std::size_t>(count)] <= limit) ++count;
+    while (count < size && eigen.value[index(count)] <= limit) ++count;
     DenseMatrix null(size, count);
     std::copy_n(eigen.vector.value.begin(), null.value.size(), null.value.begin());
     for (int pass = 0; pass < 2; ++pass)
         for (std::int64_t c = 0; c < count; ++c) {
-            const auto v = std::span<double>(null.value)
-                               .subspan(static_cast<std::size_t>(c * size), static_cast<std::size_t>(size));
+            const auto v = std::span<double>(null.value).subspan(index(c * size), index(size));
             const std::vector<double> off = image(std::span<const double>(v));
             for (std::int64_t h = count; h < size; ++h) {
-                const auto held = std::span<const double>(eigen.vector.value)
-                                      .subspan(static_cast<std::size_t>(h * size), static_cast<std::size_t>(size));
-                add_scaled(-dot(held, off) / eigen.value[static_cast<std::size_t>(h)], held, v);
+                const auto held = std::span<const double>(eigen.vector.value).subspan(index(h * size), index(size));
+                add_scaled(-dot(held, off) / eigen.value[index(h)], held, v);
             }
         }
     return null;
@@ -45,15 +44,14 @@ DenseMatrix null_vectors(const Eigen& eigen, double limit, const Image& image) {
 // Motions that no row resists. Control nodes have units of their own (a strain, a length), scaled by their coefficients
 // in the rows.
 DenseMatrix unresisted(std::vector<Row> rows, std::int64_t count, std::int64_t first_control) {
-    std::vector<double> unit(static_cast<std::size_t>(count), 0.0);
+    std::vector<double> unit(index(count), 0.0);
     for (const Row& row : rows)
-        for (const auto& [i, a] : row)
-            unit[static_cast<std::size_t>(i)] = std::max(unit[static_cast<std::size_t>(i)], std::abs(a));
+        for (const auto& [i, a] : row) unit[index(i)] = std::max(unit[index(i)], std::abs(a));
     for (std::int64_t i = 0; i < count; ++i)
-        if (double& u = unit[static_cast<std::size_t>(i)]; i < first_control || !(u > 0.0)) u = 1.0;
+        if (double& u = unit[index(i)]; i < first_control || !(u > 0.0)) u = 1.0;
     DenseMatrix gram(count, count);
     for (Row& row : rows) {
-        for (auto& [i, a] : row) a /= unit[static_cast<std::size_t>(i)];
+        for (auto& [i, a] : row) a /= unit[index(i)];
         for (const auto& [i, a] : row)
             for (const auto& [j, b] : row) gram(i, j) += a * b;
     }
@@ -62,14 +60,14 @@ DenseMatrix unresisted(std::vector<Row> rows, std::int64_t count, std::int64_t f
         std::vector<double> off(v.size(), 0.0);
         for (const Row& row : rows) {
             double moved = 0.0;
-            for (const auto& [i, a] : row) moved += a * v[static_cast<std::size_t>(i)];
-            for (const auto& [i, a] : row) off[static_cast<std::size_t>(i)] += a * moved;
+            for (const auto& [i, a] : row) moved += a * v[index(i)];
+            for (const auto& [i, a] : row) off[index(i)] += a * moved;
         }
         return off;
     };
     DenseMatrix null = null_vectors(eigen, eigen.value.empty() ? 0.0 : zero * eigen.value.back(), image);
     for (std::int64_t c = 0; c < null.columns; ++c)
-        for (std::int64_t i = 0; i < count; ++i) null(i, c) /= unit[static_cast<std::size_t>(i)];
+        for (std::int64_t i = 0; i < count; ++i) null(i, c) /= unit[index(i)];
     return null;
 }
 
@@ -95,14 +93,14 @@ public:
         std::vector<std::array<std::array<double, 3>, 2>> box(pieces_.size());
         for (std::size_t p = 0; p < pieces_.size(); ++p)
             for (const std::int64_t node : parts.nodes[p])
-                for (std::size_t k = 0; k < static_cast<std::size_t>(dim_); ++k) {
+                for (std::size_t k = 0; k < index(dim_); ++k) {
                     const double x = mesh_.node(node)[k];
                     const bool first = node == parts.nodes[p].front();
                     box[p][0][k] = first ? x : std::min(box[p][0][k], x);
                     box[p][1][k] = first ? x : std::max(box[p][1][k], x);
                 }
         for (std::size_t p = 0; p < pieces_.size(); ++p)
-            for (std::size_t k = 0; k < static_cast<std::size_t>(dim_); ++k) {
+            for (std::size_t k = 0; k < index(dim_); ++k) {
                 pieces_[p].centre[k] = 0.5 * (box[p][0][k] + box[p][1][k]);
                 pieces_[p].size = std::max(pieces_[p].size, 0.5 * (box[p][1][k] - box[p][0][k]));
             }
@@ -118,19 +116,19 @@ public:
 
     // row += factor * (component k of all motions at a node of a piece)
     void add(Row& row, std::int64_t node, std::int64_t piece, std::int64_t k, double factor) const {
-        const Piece& p = pieces_[static_cast<std::size_t>(piece)];
+        const Piece& p = pieces_[index(piece)];
         row[piece * modes_ + k] += factor;
         for (std::int64_t m = dim_; m < modes_; ++m) {
             const std::int64_t axis = dim_ == 2 ? 2 : m - dim_, u = (axis + 1) % 3, v = (axis + 2) % 3;
             if (k != u && k != v) continue;
-            const auto other = static_cast<std::size_t>(k == u ? v : u);
+            const auto other = index(k == u ? v : u);
             const double arm = (mesh_.node(node)[other] - p.centre[other]) / p.size;
             row[piece * modes_ + m] += factor * (k == u ? -arm : arm);
         }
     }
     void add(Row& row, std::int64_t node, std::int64_t k, double factor) const {
         for (const auto& [carrier, weight] : carriers_.of(node)) {
-            const std::int64_t piece = piece_of_[static_cast<std::size_t>(carrier)];
+            const std::int64_t piece = piece_of_[index(carrier)];
             if (piece >= 0) {
                 add(row, carrier, piece, k, factor * weight);
                 continue;
@@ -200,9 +198,7 @@ RigidMotions::RigidMotions(const Problem& problem) : impl_(std::make_unique<Impl
             for (std::int64_t r = 0; r < dim; ++r, ++at) {
                 Row row;
                 for (std::int64_t k = 0; k < dim; ++k) {
-                    const double q = face.frame[(p * static_cast<std::size_t>(dim) + static_cast<std::size_t>(r)) *
-                                                    static_cast<std::size_t>(dim) +
-                                                static_cast<std::size_t>(k)];
+                    const double q = face.frame[(p * index(dim) + index(r)) * index(dim) + index(k)];
                     motions.add(row, face.node_b[p], k, q);
                     motions.add(row, face.node_a[p], k, -q);
                 }
@@ -214,7 +210,7 @@ RigidMotions::RigidMotions(const Problem& problem) : impl_(std::make_unique<Impl
     const double largest = eigen.value.back();
     DenseMatrix basis(null.columns, 0);
     for (std::int64_t c = 0; c < null.columns; ++c) {
-        const double value = eigen.value[static_cast<std::size_t>(c)];
+        const double value = eigen.value[index(c)];
         if (!(value > zero * largest)) continue;
         for (std::int64_t i = 0; i < null.columns; ++i) basis.value.push_back(eigen.vector(i, c) / std::sqrt(value));
         ++basis.columns;
@@ -228,17 +224,16 @@ RigidMotions::RigidMotions(RigidMotions&&) noexcept = default;
 
 std::vector<double> RigidMotions::displacement(std::span<const double> combination) const {
     const std::int64_t dim = impl_->motions.dimension();
-    std::vector<double> of_piece(static_cast<std::size_t>(impl_->null.rows));
+    std::vector<double> of_piece(index(impl_->null.rows));
     multiply(impl_->null, combination, of_piece);
-    std::vector<double> u(static_cast<std::size_t>(impl_->nodes * dim), 0.0);
+    std::vector<double> u(index(impl_->nodes * dim), 0.0);
     Row row;
     for (std::int64_t node = 0; node < impl_->nodes; ++node) {
         if (impl_->carriers.kind(node) == Carriers::Kind::nothing) continue;
         for (std::int64_t k = 0; k < dim; ++k) {
             row.clear();
             impl_->motions.add(row, node, k, 1.0);
-            for (const auto& [i, value] : row)
-                u[static_cast<std::size_t>(node * dim + k)] += value * of_piece[static_cast<std::size_t>(i)];
+            for (const auto& [i, value] : row) u[index(node * dim + k)] += value * of_piece[index(i)];
         }
     }
     return u;
@@ -249,7 +244,7 @@ DenseMatrix rigid_jumps(const Problem& problem) { return RigidMotions(problem).j
 Combinations split_motions(const DenseMatrix& z, std::span<const std::uint8_t> active) {
     DenseMatrix gram(z.columns, z.columns);
     for (std::int64_t r = 0; r < z.rows; ++r) {
-        if (active[static_cast<std::size_t>(r)] == 0) continue;
+        if (active[index(r)] == 0) continue;
         for (std::int64_t j = 0; j < z.columns; ++j)
             for (std::int64_t i = 0; i < z.columns; ++i) gram(i, j) += z(r, i) * z(r, j);
     }
@@ -258,10 +253,10 @@ Combinations split_motions(const DenseMatrix& z, std::span<const std::uint8_t> a
     const auto image = [&](std::span<const double> v) {
         std::vector<double> off(v.size(), 0.0);
         for (std::int64_t r = 0; r < z.rows; ++r) {
-            if (active[static_cast<std::size_t>(r)] == 0) continue;
+            if (active[index(r)] == 0) continue;
             double moved = 0.0;
-            for (std::int64_t i = 0; i < z.columns; ++i) moved += z(r, i) * v[static_cast<std::size_t>(i)];
-            for (std::int64_t i = 0; i < z.columns; ++i) off[static_cast<std::size_t>(i)] += z(r, i) * moved;
+            for (std::int64_t i = 0; i < z.columns; ++i) moved += z(r, i) * v[index(i)];
+            for (std::int64_t i = 0; i < z.columns; ++i) off[index(i)] += z(r, i) * moved;
         }
         return off;
     };

@@ -15,8 +15,6 @@ namespace delam {
 
 namespace {
 
-// Residuals below this part of the loads' own energy norm are rounding.
-constexpr double rounding = 1e-14;
 // A warm start larger than the load by 2^900 is not used: its squares would not be finite.
 constexpr int largest_start = 900;
 
@@ -121,9 +119,11 @@ void Feti::find_forces(Team& team, const DualLoads::Sum& load, double resultant,
     double size = 0.0;  // energy of the loads if nothing could give way: the scale of rounding
     for (std::size_t i = 0; i < right.size(); ++i) size += dual_.weight()[i] * right[i] * right[i];
     // Eigenstrains that are free to act cancel in B u: their rounding is that of larger numbers.
-    const double floor = (problem_.eigenstrains.empty() ? 1.0 : 100.0) * rounding * std::sqrt(size);
+    const Options& options = problem_.options;
+    const double cancelled = problem_.eigenstrains.empty() ? 1.0 : options.limits.feti_eigenstrains;
+    const double floor = cancelled * options.limits.feti_rounding * std::sqrt(size);
     const CgResult cg =
-        projected_cg(system, right, lambda, problem_.options.linear_tolerance, floor, problem_.options.linear_limit,
+        projected_cg(system, right, lambda, {options.linear_tolerance, floor, options.linear_limit, options.limits},
                      [&](std::int64_t iteration) { monitor_.progress("linear solve", iteration, 0); });
     response.iterations = cg.iterations;
     response.residual = cg.residual;

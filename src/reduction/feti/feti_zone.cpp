@@ -12,13 +12,6 @@
 
 namespace delam {
 
-namespace {
-
-// Rows of A: its dense energy takes a few seconds and 0.3 GB to find.
-constexpr std::size_t largest = 3000;
-constexpr double largest_bytes = 512.0 * 1048576.0;  // of the columns
-}  // namespace
-
 FetiZone::FetiZone(const Problem& problem, const std::vector<Subdomain>& subdomains, DualOperator& dual,
                    const DualLoads& loads, Monitor& monitor)
     : problem_(problem),
@@ -46,9 +39,10 @@ std::vector<std::int64_t> FetiZone::changed(const Springs& springs, std::span<co
 // Rows that depend on each other have no flexibility in some direction: all of them together cannot be unknowns. A
 // dependency without springs, of supports on both faces of a pair, leaves no unknown.
 bool FetiZone::allowed(std::span<const std::int64_t> rows) const {
-    if (rows.empty() || rows.size() > largest) return false;
+    const Limits& limits = problem_.options.limits;
+    if (rows.empty() || rows.size() > index(limits.feti_zone_rows)) return false;
     const std::size_t width = columns_.group_rows();
-    if (columns_.bytes((rows.size() + width - 1) / width) > largest_bytes) return false;
+    if (columns_.bytes((rows.size() + width - 1) / width) > limits.feti_zone_bytes) return false;
     for (const Scaling::Dependency& dependency : dual_.scaling().dependencies) {
         std::int64_t outside = 0, unknown = 0;
         for (const std::int64_t r : dependency.row) {

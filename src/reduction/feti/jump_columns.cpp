@@ -12,9 +12,7 @@ namespace delam {
 
 namespace {
 
-constexpr std::int64_t pairs_a_group = 16;
-constexpr std::int64_t few_rows = 4000;  // up to here a dense factor of F + C is cheaper than the iterations
-constexpr double tolerance = 1e-12;      // of the columns; soft motions of S are small differences of them
+constexpr double tolerance = 1e-12;  // of the columns; soft motions of S are small differences of them
 
 // Every row of a law at its full stiffness, rows that only touch at the bodies' own, bonded rows held.
 Springs base_springs(const Problem& problem, std::span<const double> flexibility) {
@@ -44,7 +42,7 @@ JumpColumns::JumpColumns(const Problem& problem, const std::vector<Subdomain>& s
       dual_(dual),
       loads_(loads),
       monitor_(monitor),
-      width_(index(pairs_a_group * problem.mesh->dimension())),
+      width_(index(problem.options.limits.feti_group * problem.mesh->dimension())),
       base_(base_springs(problem, dual.flexibility_diagonal())),
       root_(base_.stiffness.size(), 0.0),
       soft_(root_.size(), 0),
@@ -65,12 +63,12 @@ bool JumpColumns::solve(const DenseMatrix& right, const DenseMatrix& resultant, 
                         DenseMatrix& kept) {
     Team team(useful_threads(problem_.options.threads));
     dual_.set(base_);
-    if (dense_ == nullptr && right.rows <= few_rows)
+    if (dense_ == nullptr && right.rows <= problem_.options.limits.feti_dense_rows)
         dense_ = std::make_unique<DenseDual>(dual_, subdomains_, [this] { monitor_.progress("zone", 0, 0); });
     DenseMatrix lambda = dense_ != nullptr ? dense_->solve(right, resultant) : DenseMatrix(right.rows, right.columns);
     DenseMatrix jumps(right.rows, right.columns);
     const auto iterate = [&] {
-        return lockstep_cg(dual_, team, right, resultant, tolerance, lambda,
+        return lockstep_cg(dual_, team, right, resultant, tolerance, problem_.options.limits, lambda,
                            [&](std::int64_t iteration) { monitor_.progress("zone", iteration, 0); });
     };
     if (!iterate()) {  // a guess at the limit of rounding may leave no way down

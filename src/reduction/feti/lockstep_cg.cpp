@@ -6,38 +6,36 @@
 
 #include "base/numbers.hpp"
 #include "linalg/sparse/block.hpp"
+#include "reduction/feti/descent.hpp"
 #include "reduction/feti/projected_cg.hpp"
 
 namespace delam {
 
 namespace {
 
-constexpr int descents = 4;          // descents, each from a newly computed residual
-constexpr std::int64_t limit = 400;  // iterations of a descent
-constexpr int idle_iterations = 25;  // iterations without a lower residual
-constexpr double slack = 100.0;      // times the tolerance: what a column that rounding has ended may have left
-
 // State of one column in a descent.
 struct Column {
+    explicit Column(const Limits& limits) : lowest(limits.feti_noticed) {}
     double rz = 0.0;
-    double lowest = INFINITY;
-    int idle = 0;
+    Lowest lowest;
     bool done = false;
 };
 
 class Descent {
 public:
-    Descent(const DualOperator& op, Team& team, const DenseMatrix& right, double tolerance, DenseMatrix& lambda)
+    Descent(const DualOperator& op, Team& team, const DenseMatrix& right, double tolerance, const Limits& limits,
+            DenseMatrix& lambda)
         : op_(op),
           team_(team),
           tolerance_(tolerance),
+          limits_(limits),
           lambda_(lambda),
           a_lambda_(right.rows, right.columns),
           r_(right),
           z_(right.rows, right.columns),
           p_(right.rows, right.columns),
           ap_(right.rows, right.columns),
-          columns_(index(right.columns)) {
+          columns_(index(right.columns), Column(limits)) {
         op_.apply(team_, lambda_, a_lambda_);
         for (std::size_t i = 0; i < r_.value.size(); ++i) r_.value[i] -= a_lambda_.value[i];
         project_transposed(r_);
@@ -55,13 +53,15 @@ public:
     }
     void run(const std::function<void(std::int64_t)>& each_iteration) {
         p_ = z_;
-        for (std::int64_t iteration = 1; iteration <= limit && advance(); ++iteration) each_iteration(iteration);
+        for (std::int64_t iteration = 1; iteration <= limits_.feti_column_iterations && advance(); ++iteration)
+            each_iteration(iteration);
     }
 
 private:
     const DualOperator& op_;
     Team& team_;
     double tolerance_;
+    const Limits& limits_;
     DenseMatrix& lambda_;
     DenseMatrix a_lambda_, r_, z_, p_, ap_;
     std::vector<Column> columns_;
@@ -81,7 +81,8 @@ private:
         op_.precondition(team_, r_, z_);
         for (std::int64_t c = 0; c < z_.columns; ++c) op_.coarse().project(column(z_, c));
     }
-    // One step of all columns that are not done; false: none is left.
+    // One step of all columns that are not done: s = r^T z / p^T A p,  lambda <- lambda + s p,  r <- r - s P^T A p,
+    // z = P M r,  p <- z + (r^T z / r^T z before) p.  False: none is left.
     bool advance() {
         op_.apply(team_, p_, ap_);
         project_transposed(ap_);
@@ -102,9 +103,8 @@ private:
             if (own.done) continue;
             const double rz = dot(column(r_, c), column(z_, c)), ratio = rz / own.rz;
             own.rz = rz;
-            own.idle = rz < 0.98 * own.lowest ? 0 : own.idle + 1;
-            own.lowest = std::min(own.lowest, rz);
-            own.done = !(rz > 0.0) || relative(c) <= tolerance_ || own.idle > idle_iterations;
+            own.lowest.take(std::sqrt(std::max(rz, 0.0)));
+            own.done = !(rz > 0.0) || relative(c) <= tolerance_ || own.lowest.idle() > limits_.feti_column_idle;
             if (own.done) continue;
             any = true;
             const std::span<double> p = column(p_, c);
@@ -130,23 +130,19 @@ bool balance(const DualOperator& op, const DenseMatrix& resultant, DenseMatrix& 
 }  // namespace
 
 bool lockstep_cg(const DualOperator& op, Team& team, const DenseMatrix& right, const DenseMatrix& resultant,
-                 double tolerance, DenseMatrix& lambda, const std::function<void(std::int64_t)>& each_iteration) {
-    double best = INFINITY;
-    DenseMatrix best_lambda = lambda;
-    for (int round = 0; round <= descents; ++round) {
-        if (!balance(op, resultant, lambda) && round == 0) return false;
-        Descent descent(op, team, right, tolerance, lambda);
-        const double residual = descent.residual();
-        const bool stagnated = !(residual < 0.5 * best);
-        if (residual < best) {
-            best = residual;
-            best_lambda = lambda;
-        }
-        if (best <= tolerance || stagnated || round == descents) break;
+                 double tolerance, const Limits& limits, DenseMatrix& lambda,
+                 const std::function<void(std::int64_t)>& each_iteration) {
+    Rounds rounds(limits);
+    DenseMatrix best = lambda;
+    while (true) {
+        if (!balance(op, resultant, lambda) && rounds.begun() == 0) return false;
+        Descent descent(op, team, right, tolerance, limits, lambda);
+        if (rounds.begin(descent.residual())) best = lambda;
+        if (rounds.best() <= tolerance || rounds.over()) break;
         descent.run(each_iteration);
     }
-    lambda = std::move(best_lambda);
-    return best <= slack * tolerance;
+    lambda = std::move(best);
+    return rounds.best() <= limits.feti_slack * tolerance;
 }
 
 }  // namespace delam

@@ -8,15 +8,16 @@
 #include <functional>
 
 #include "reduction/feti/dual/dual_operator.hpp"
+#include "scene/limits.hpp"
 
 namespace delam {
 
-// (F + C) lambda = right + G^T alpha, G lambda = resultant, at the springs that `op` has. resultant: [coarse][columns];
-// lambda: [rows][columns], the first
-// guess on entry. Each column ends at sqrt(r^T z) <= tolerance * sqrt(lambda^T (F + C) lambda)
-// of its true residual. False: some column ends, by rounding or after too many iterations, above 100 times that, or
-// nothing can balance its resultant.
+// Solves (F + C) lambda = right + G^T alpha, G lambda = resultant, at the springs that `op` has.
+// resultant: [coarse][columns]; lambda: [rows][columns], the first guess on entry. Each column ends at
+// sqrt(r^T z) <= tolerance * sqrt(lambda^T (F + C) lambda) of its true residual. Returns false where some column ends,
+// by rounding or after too many iterations, above limits.feti_slack times that, or nothing can balance its resultant.
 bool lockstep_cg(const DualOperator& op, Team& team, const DenseMatrix& right, const DenseMatrix& resultant,
-                 double tolerance, DenseMatrix& lambda, const std::function<void(std::int64_t)>& each_iteration);
+                 double tolerance, const Limits& limits, DenseMatrix& lambda,
+                 const std::function<void(std::int64_t)>& each_iteration);
 
 }  // namespace delam

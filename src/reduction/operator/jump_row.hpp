@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/numbers.hpp"
+
 namespace delam {
 
 using SparseVector = std::vector<std::pair<std::int64_t, double>>;
@@ -25,7 +27,7 @@ inline double held_jump(const JumpRow& row, double offset, std::span<const doubl
     constexpr double rounded = 1e-9;
     double sum = offset, size = std::abs(offset);
     for (const auto& [i, n] : row.unknowns) {
-        const double term = n * x[static_cast<std::size_t>(i)];
+        const double term = n * x[index(i)];
         sum += term;
         size += std::abs(term);
     }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "base/numbers.hpp"
 #include "linalg/dense/echelon.hpp"
 #include "linalg/sparse/sparse_elimination.hpp"
 #include "scene/carriers.hpp"
@@ -21,13 +22,12 @@ using Row = SparseElimination::Row;
 // Modulus of a body, precise enough to rank bodies; 0 if nothing is given. Entries of a given matrix are about E, in
 // space E times an edge; its diagonal may contain supports of the host of any size.
 double modulus(const Problem& problem, std::int32_t body) {
-    const auto b = static_cast<std::size_t>(body);
+    const auto b = index(body);
     if (problem.stiffness[b] != nullptr) {
         const SparseMatrix& k = problem.stiffness[b]->matrix;
         double largest = 0.0;
         for (std::int64_t row = 0; row < k.rows; ++row)
-            for (auto e = static_cast<std::size_t>(k.start[static_cast<std::size_t>(row)]);
-                 e < static_cast<std::size_t>(k.start[static_cast<std::size_t>(row) + 1]); ++e)
+            for (auto e = index(k.start[index(row)]); e < index(k.start[index(row) + 1]); ++e)
                 if (k.column[e] != row) largest = std::max(largest, std::abs(k.value[e]));
         const double rows = static_cast<double>(std::max<std::int64_t>(1, k.rows / 3));
         return problem.mesh->dimension() == 2 ? largest : largest * std::cbrt(rows) / problem.mesh->size();
@@ -92,8 +92,7 @@ void Builder::find_pairs() {
     std::int64_t row = 0;
     for (const InterfaceGeometry& face : problem_.mesh->interfaces())
         for (std::size_t p = 0; p < face.node_a.size(); ++p, row += dim_)
-            pairs_.push_back(
-                {face.node_a[p], face.node_b[p], row, &face.frame[p * static_cast<std::size_t>(dim_ * dim_)]});
+            pairs_.push_back({face.node_a[p], face.node_b[p], row, &face.frame[p * index(dim_ * dim_)]});
 }
 
 // Control nodes are the first roots, so that the nodes they move depend on them; then nodes of the stiffest bodies.
@@ -117,7 +116,7 @@ void Builder::hang_nodes() {
     for (std::int32_t b = 0; b < problem_.mesh->body_count(); ++b) rank.push_back(modulus(problem_, b));
     const auto rank_of = [&](std::int64_t node) {
         const std::int32_t body = problem_.mesh->node_body(node);
-        return body < 0 ? 0.0 : rank[static_cast<std::size_t>(body)];
+        return body < 0 ? 0.0 : rank[index(body)];
     };
     std::stable_sort(roots.begin() + first_body, roots.end(),
                      [&](std::int64_t a, std::int64_t b) { return rank_of(a) > rank_of(b); });
@@ -125,7 +124,7 @@ void Builder::hang_nodes() {
     std::size_t pieces = 0;
     for (const std::int64_t root : roots) {
         if (met[root]) continue;
-        if (++pieces % static_cast<std::size_t>(steps_per_poll) == 0) call_if_set(poll_);
+        if (++pieces % index(steps_per_poll) == 0) call_if_set(poll_);
         met[root] = true;
         std::vector<std::int64_t> front{root};
         while (!front.empty()) {
@@ -173,7 +172,7 @@ void Builder::close_ring(const Pair& pair) {
     for (std::int64_t i = 0; i < dim_; ++i) {
         Row row{{}, nothing()};
         if (moves) {
-            row = apart[static_cast<std::size_t>(i)];
+            row = apart[index(i)];
             for (std::int64_t r = 0; r < dim_; ++r)
                 if (const double q = pair.frame[r * dim_ + i]; q != 0.0) row.terms[dofs_ + pair.first_row + r] -= q;
             solved_.reduce(row);
@@ -181,8 +180,7 @@ void Builder::close_ring(const Pair& pair) {
             continue;
         }
         for (std::int64_t k = 0; k < dim_; ++k)
-            for (const auto& [id, c] : apart[static_cast<std::size_t>(k)].terms)
-                row.terms[id] -= pair.frame[i * dim_ + k] * c;
+            for (const auto& [id, c] : apart[index(k)].terms) row.terms[id] -= pair.frame[i * dim_ + k] * c;
         solved_.reduce(row);
         row.terms[dofs_ + pair.first_row + i] = 1.0;
         solved_.solve(row, dofs_ + pair.first_row + i);
@@ -250,51 +248,49 @@ JumpVariables Builder::build() const {
     JumpVariables v;
     const std::size_t patterns = problem_.patterns.size();
     constexpr std::int64_t absent = -1, kept = -2;
-    std::vector<std::int64_t> index(static_cast<std::size_t>(dofs_), absent);
+    std::vector<std::int64_t> number(index(dofs_), absent);
     for (std::int64_t dof = 0; dof < dofs_; ++dof) {
         const Carriers::Kind kind = carriers_.kind(dof / dim_);
         if (solved_.solved(dof) || kind == Carriers::Kind::nothing || kind == Carriers::Kind::tied) continue;
-        index[static_cast<std::size_t>(dof)] = kind == Carriers::Kind::control ? kept : 0;
+        number[index(dof)] = kind == Carriers::Kind::control ? kept : 0;
     }
     for (const Row& row : open_)
         for (const auto& [id, value] : row.terms)
-            if (displacement(id)) index[static_cast<std::size_t>(id)] = kept;
-    for (std::int64_t& i : index)
+            if (displacement(id)) number[index(id)] = kept;
+    for (std::int64_t& i : number)
         if (i == 0) i = v.leading++;
-    for (std::int64_t& i : index)
+    for (std::int64_t& i : number)
         if (i == kept) i = v.leading + v.kept++;
 
     const std::int64_t rows = problem_.jump_count();
-    std::vector<std::int64_t> jump(static_cast<std::size_t>(rows), absent);
+    std::vector<std::int64_t> jump(index(rows), absent);
     for (std::int64_t r = 0; r < rows; ++r)
-        if (!solved_.solved(dofs_ + r)) jump[static_cast<std::size_t>(r)] = v.jumps++;
-    v.row_offset.resize(static_cast<std::size_t>(rows));
+        if (!solved_.solved(dofs_ + r)) jump[index(r)] = v.jumps++;
+    v.row_offset.resize(index(rows));
     for (std::int64_t r = 0; r < rows; ++r) {
         const SparseElimination::Solution* solution = solved_.find(dofs_ + r);
         if (solution == nullptr) {
-            v.row.push_back({{jump[static_cast<std::size_t>(r)], 1.0}});
+            v.row.push_back({{jump[index(r)], 1.0}});
             continue;
         }
         SparseVector entries;
-        for (const auto& [id, value] : solution->terms)
-            entries.emplace_back(jump[static_cast<std::size_t>(id - dofs_)], value);
+        for (const auto& [id, value] : solution->terms) entries.emplace_back(jump[index(id - dofs_)], value);
         v.row.push_back(std::move(entries));
         if (std::any_of(solution->right.begin(), solution->right.end(), [](double d) { return d != 0.0; }))
-            v.row_offset[static_cast<std::size_t>(r)] = solution->right;
+            v.row_offset[index(r)] = solution->right;
     }
     v.bound = bound_;
     const std::int64_t first_jump = v.leading + v.kept;
     const auto variable = [&](std::int64_t id) {
-        return displacement(id) ? index[static_cast<std::size_t>(id)]
-                                : first_jump + jump[static_cast<std::size_t>(id - dofs_)];
+        return displacement(id) ? number[index(id)] : first_jump + jump[index(id - dofs_)];
     };
 
-    v.lift.assign(patterns, std::vector<double>(static_cast<std::size_t>(dofs_), 0.0));
+    v.lift.assign(patterns, std::vector<double>(index(dofs_), 0.0));
     v.transform.rows = dofs_;
     v.transform.columns = v.count();
-    v.transform.column.reserve(static_cast<std::size_t>(dofs_ + 2 * rows));
-    v.transform.value.reserve(static_cast<std::size_t>(dofs_ + 2 * rows));
-    v.transform.start.reserve(static_cast<std::size_t>(dofs_) + 1);
+    v.transform.column.reserve(index(dofs_ + 2 * rows));
+    v.transform.value.reserve(index(dofs_ + 2 * rows));
+    v.transform.start.reserve(index(dofs_) + 1);
     std::map<std::int64_t, double> entries;
     for (std::int64_t dof = 0; dof < dofs_; ++dof) {
         if (dof % (16 * steps_per_poll) == 0) call_if_set(poll_);
@@ -303,10 +299,9 @@ JumpVariables Builder::build() const {
             const std::int64_t at = carrier * dim_ + dof % dim_;
             if (const SparseElimination::Solution* solution = solved_.find(at); solution != nullptr) {
                 for (const auto& [id, value] : solution->terms) entries[variable(id)] += weight * value;
-                for (std::size_t p = 0; p < patterns; ++p)
-                    v.lift[p][static_cast<std::size_t>(dof)] += weight * solution->right[p];
-            } else if (index[static_cast<std::size_t>(at)] >= 0) {
-                entries[index[static_cast<std::size_t>(at)]] += weight;
+                for (std::size_t p = 0; p < patterns; ++p) v.lift[p][index(dof)] += weight * solution->right[p];
+            } else if (number[index(at)] >= 0) {
+                entries[number[index(at)]] += weight;
             }
         }
         for (const auto& [column, value] : entries) {
@@ -343,7 +338,7 @@ std::vector<SolvedEquation> solve_equations(const JumpVariables& variables) {
     DenseMatrix q(equations, static_cast<std::int64_t>(column.size())),
         value(equations, static_cast<std::int64_t>(patterns));
     for (std::int64_t i = 0; i < equations; ++i) {
-        const JumpVariables::Equation& e = variables.equations[static_cast<std::size_t>(i)];
+        const JumpVariables::Equation& e = variables.equations[index(i)];
         for (const auto& [t, c] : e.entries)
             q(i, std::lower_bound(column.begin(), column.end(), t) - column.begin()) += c;
         for (std::size_t p = 0; p < patterns; ++p) value(i, static_cast<std::int64_t>(p)) = e.prescribed[p];
@@ -352,7 +347,7 @@ std::vector<SolvedEquation> solve_equations(const JumpVariables& variables) {
     const DenseMatrix prescribed = multiply(echelon.operations, value);
     for (std::size_t i = 0; i < echelon.pivot.size(); ++i) {
         const auto row = static_cast<std::int64_t>(i);
-        SolvedEquation equation{column[static_cast<std::size_t>(echelon.pivot[i])], {}, {}};
+        SolvedEquation equation{column[index(echelon.pivot[i])], {}, {}};
         for (std::size_t j = 0; j < column.size(); ++j) {
             const double c = echelon.rows(row, static_cast<std::int64_t>(j));
             if (column[j] != equation.pivot && std::abs(c) > dependent_equation)

@@ -70,7 +70,9 @@ SparseMatrix pair_links(const std::vector<JumpRow>& rows, std::size_t dim, std::
 }  // namespace
 
 JumpSystem::JumpSystem(const BodySystem& bodies, SparseMatrix transformed, const Poll& poll)
-    : patterns_(bodies.problem().patterns.size()), matrix_(std::move(transformed)) {
+    : limits_(bodies.problem().options.limits),
+      patterns_(bodies.problem().patterns.size()),
+      matrix_(std::move(transformed)) {
     express_rows(bodies);
     call_if_set(poll);
     matrix_ =
@@ -83,7 +85,9 @@ JumpSystem::JumpSystem(const BodySystem& bodies, SparseMatrix transformed, const
 }
 
 JumpSystem::JumpSystem(const BodySystem& bodies)
-    : patterns_(bodies.problem().patterns.size()), first_(bodies.variables().leading) {
+    : limits_(bodies.problem().options.limits),
+      patterns_(bodies.problem().patterns.size()),
+      first_(bodies.variables().leading) {
     matrix_.rows = matrix_.columns = bodies.variables().trailing();
     matrix_.start.assign(index(matrix_.rows) + 1, 0);
     diagonal_.assign(index(matrix_.rows), 0.0);

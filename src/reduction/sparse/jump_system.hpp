@@ -33,6 +33,7 @@ public:
     explicit JumpSystem(const BodySystem& bodies);
     void set_diagonal(std::vector<double> diagonal) { diagonal_ = std::move(diagonal); }
 
+    const Limits& limits() const { return limits_; }
     std::int64_t count() const { return matrix_.rows; }
     // T^T K T; entries exist for all variables that a pair's rows connect.
     const SparseMatrix& matrix() const { return matrix_; }
@@ -101,6 +102,7 @@ private:
     void bind(std::span<const std::int64_t> others, std::vector<std::uint8_t>& out);
     void factor_binding() const;
 
+    const Limits& limits_;
     std::size_t patterns_;
     std::int64_t first_ = 0;
     SparseMatrix matrix_;

@@ -18,8 +18,8 @@ constexpr double farthest = 1e4;  // times the largest variable of the state: no
 
 }  // namespace
 
-LocalZone::LocalZone(const JumpSystem& system, std::int64_t dimension, const Limits& limits)
-    : system_(system), limits_(limits), dim_(index(dimension)), barred_(index(system.count()), 0) {
+LocalZone::LocalZone(const JumpSystem& system, std::int64_t dimension)
+    : system_(system), dim_(index(dimension)), barred_(index(system.count()), 0) {
     for (const SparseVector& equation : system.equations())
         for (const auto& [i, c] : equation) barred_[index(i)] = 1;
 }
@@ -53,15 +53,15 @@ bool LocalZone::enter(std::span<const std::uint8_t> wanted, std::span<const doub
     for (std::size_t r = 0; r < wanted.size(); ++r)
         if (wanted[r] != 0)
             for (const auto& [i, n] : rows[r].unknowns) seeds.push_back(i);
-    const std::vector<std::int64_t> ring = rings(system_.matrix(), seeds, barred_, limits_.local_margin);
+    const std::vector<std::int64_t> ring = rings(system_.matrix(), seeds, barred_, system_.limits().local_margin);
     std::vector<std::uint8_t> member(ring.size());
-    for (std::size_t i = 0; i < ring.size(); ++i) member[i] = ring[i] <= limits_.local_margin ? 1 : 0;
+    for (std::size_t i = 0; i < ring.size(); ++i) member[i] = ring[i] <= system_.limits().local_margin ? 1 : 0;
     take_pairs(member);
     std::vector<std::int64_t> variables;
     for (std::size_t i = 0; i < member.size(); ++i)
         if (member[i] != 0) variables.push_back(static_cast<std::int64_t>(i));
     if (jump_rows_.empty() ||
-        static_cast<double>(variables.size()) > limits_.local_largest_part * static_cast<double>(ring.size()))
+        static_cast<double>(variables.size()) > system_.limits().local_largest_part * static_cast<double>(ring.size()))
         return false;
     if (variables != variables_) {
         variables_.clear();

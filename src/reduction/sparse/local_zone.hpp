@@ -24,7 +24,7 @@ namespace delam {
 class LocalZone final : public Zone {
 public:
     // dimension: rows of a pair.
-    LocalZone(const JumpSystem& system, std::int64_t dimension, const Limits& limits);
+    LocalZone(const JumpSystem& system, std::int64_t dimension);
 
     // The bodies about the wanted rows [rows] at this state, under the loads g and theta. False: they are no small
     // part.
@@ -50,7 +50,6 @@ private:
     double change(std::size_t z, std::span<const double> unknowns) const;  // N d
 
     const JumpSystem& system_;
-    const Limits& limits_;
     std::size_t dim_;
     std::vector<std::uint8_t> barred_;     // [variables] of constraints on many variables
     std::vector<std::int64_t> variables_;  // ascending

@@ -18,10 +18,6 @@ namespace {
 // A start larger than the load by 2^900 is not used: it would hardly be finite.
 constexpr int largest_start_power = 900;
 
-// A rough solve's. 3e-3 and 1e-2 need about the same iterations to find a first contact set, 3e-2 twice as many: pairs
-// then close and open again.
-constexpr double rough_tolerance = 1e-2;
-
 bool any_of(std::span<const double> values) {
     return std::any_of(values.begin(), values.end(), [](double v) { return v != 0.0; });
 }
@@ -99,7 +95,7 @@ bool SparseOperator::aim(Accuracy accuracy) {
 
 double SparseOperator::tolerance() const {
     const double usual = problem_.options.linear_tolerance;
-    if (accuracy_ == Accuracy::rough) return std::max(usual, rough_tolerance);
+    if (accuracy_ == Accuracy::rough) return std::max(usual, problem_.options.limits.sparse_rough);
     return accuracy_ == Accuracy::tight ? BodySolver::finest : std::max(usual, BodySolver::finest);
 }
 

@@ -43,7 +43,7 @@ std::vector<std::uint8_t> differing_rows(const JumpSystem& system, std::span<con
     for (std::size_t r = 0; r < now.size(); ++r) {
         if (system.prescribed()[r] != 0 || now[r] == springs[r]) continue;
         const double body = row_diagonal(system, r), old = body + springs[r], present = body + now[r];
-        const double share = now[r] < 0.0 ? differs_in_kind : differs;
+        const double share = now[r] < 0.0 ? system.limits().spring_differs_in_kind : system.limits().spring_differs;
         row[r] = present > (1.0 + share) * old || old > (1.0 + share) * present ? 1 : 0;
     }
     for (const Zone::Coupling& c : system.couplings()) {
@@ -51,7 +51,8 @@ std::vector<std::uint8_t> differing_rows(const JumpSystem& system, std::span<con
         if (r == q || system.prescribed()[r] != 0 || system.prescribed()[q] != 0) continue;
         if (system.held()[r] != 0 || system.held()[q] != 0) continue;
         const double own = (row_diagonal(system, r) + springs[r]) * (row_diagonal(system, q) + springs[q]);
-        if (c.value * c.value > differs_in_kind * differs_in_kind * own) row[r] = row[q] = 1;
+        const double kind = system.limits().spring_differs_in_kind;
+        if (c.value * c.value > kind * kind * own) row[r] = row[q] = 1;
     }
     return row;
 }
@@ -61,7 +62,7 @@ bool any_softer(const JumpSystem& system, std::span<const double> springs) {
     for (std::size_t r = 0; r < now.size(); ++r) {
         if (system.prescribed()[r] != 0 || now[r] >= springs[r]) continue;
         const double body = row_diagonal(system, r);
-        if (body + springs[r] > (1.0 + differs) * (body + now[r])) return true;
+        if (body + springs[r] > (1.0 + system.limits().spring_differs) * (body + now[r])) return true;
     }
     return false;
 }

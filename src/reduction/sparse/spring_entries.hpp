@@ -29,11 +29,9 @@ std::vector<Triplet> spring_entries(const JumpSystem& system, std::span<const Zo
 // Returns the present springs on the rows, with those that stand for held rows: [rows].
 std::vector<double> springs_of(const JumpSystem& system);
 
-// A spring differs from an earlier one if bodies and spring together are stiffer or softer by this share.
-inline constexpr double differs = 0.1;
-// The same for tangents that soften or couple rows, which no preconditioner can have: small ones of many thin cells
-// together leave little of a soft motion.
-inline constexpr double differs_in_kind = 0.03;
+// A spring differs from an earlier one if bodies and spring together are stiffer or softer by a share of
+// Limits::spring_differs; of spring_differs_in_kind where tangents soften or couple rows, which no preconditioner can
+// have.
 // [rows] 1: what acts on it differs from these springs [rows].
 std::vector<std::uint8_t> differing_rows(const JumpSystem& system, std::span<const double> springs);
 // True if the spring on some row is softer than these springs.

@@ -16,6 +16,7 @@
 #include "base/cancel_scope.hpp"
 #include "base/error.hpp"
 #include "base/numbers.hpp"
+#include "mesh/points.hpp"
 #include "scene/carriers.hpp"
 #include "scene/pieces.hpp"
 
@@ -86,8 +87,6 @@ std::vector<std::vector<double>> null_space(std::vector<double> g, std::size_t n
     return basis;
 }
 
-using Point = std::array<double, 3>;
-
 struct Tie {
     std::size_t piece_a;
     std::size_t piece_b;
@@ -145,11 +144,6 @@ private:
     std::vector<Extent> box_;             // of the pieces, then of the control nodes
     std::map<std::size_t, Frame> frame_;  // of each group
 
-    Point place(std::int64_t node) const {
-        Point p{};
-        for (std::size_t d = 0; d < dimension_; ++d) p[d] = mesh_.node(node)[d];
-        return p;
-    }
     std::size_t group(std::int64_t node) { return groups_.find(index(node_piece_[index(node)])); }
     bool control(std::int64_t node) const { return carriers_.kind(node) == Carriers::Kind::control; }
     bool control_group(std::size_t group) const { return group >= pieces_.count(); }
@@ -180,7 +174,7 @@ private:
 void MotionFinder::take_pieces() {
     node_piece_ = pieces_.of_node;
     for (const Pieces::Hinge& hinge : pieces_.hinges)
-        ties_.push_back({index(hinge.piece_a), index(hinge.piece_b), place(hinge.node)});
+        ties_.push_back({index(hinge.piece_a), index(hinge.piece_b), position(mesh_, hinge.node)});
     rows_ = pieces_.resisted;
     for (std::size_t c = 0; c < carriers_.controls().size(); ++c)
         node_piece_[index(carriers_.controls()[c])] = static_cast<std::int64_t>(pieces_.count() + c);
@@ -199,7 +193,8 @@ void MotionFinder::find_ties(bool tied) {
             const std::int64_t a = carriers_.of(face.node_a[p]).front().first,
                                b = carriers_.of(face.node_b[p]).front().first;
             if (glued && !control(a) && !control(b)) {
-                ties_.push_back({index(node_piece_[index(a)]), index(node_piece_[index(b)]), place(face.node_a[p])});
+                ties_.push_back(
+                    {index(node_piece_[index(a)]), index(node_piece_[index(b)]), position(mesh_, face.node_a[p])});
                 continue;
             }
             for (std::size_t c = 0; c < (glued ? dimension_ : 1); ++c) {
@@ -232,7 +227,7 @@ void MotionFinder::measure() {
         for (std::int64_t node = 0; node < mesh_.node_count(); ++node) {
             if (node_piece_[index(node)] < 0) continue;
             poll_cancel("check");
-            box_[index(node_piece_[index(node)])].take(place(node));
+            box_[index(node_piece_[index(node)])].take(position(mesh_, node));
         }
     }
     std::map<std::size_t, Extent> box;
@@ -328,8 +323,8 @@ std::vector<double> MotionFinder::gram(const std::vector<std::size_t>& cluster) 
     for (const Row& constraint : rows_) {
         if (offset.find(group(constraint.front().first / mesh_.dimension())) == offset.end()) continue;
         for (const auto& [dof, coefficient] : constraint)
-            add(group(dof / mesh_.dimension()), index(dof % mesh_.dimension()), place(dof / mesh_.dimension()),
-                coefficient);
+            add(group(dof / mesh_.dimension()), index(dof % mesh_.dimension()),
+                position(mesh_, dof / mesh_.dimension()), coefficient);
         close();
     }
     for (std::size_t i = 0; i < cluster.size(); ++i)
@@ -348,13 +343,10 @@ std::string MotionFinder::words(const Frame& f, const double* motion) const {
     for (std::size_t d = 0; d < dimension_; ++d) t[d] = motion[d];
     for (std::size_t r = 0; r + dimension_ < modes_; ++r)
         w[dimension_ == 2 ? 2 : r] = motion[dimension_ + r] / f.length;
-    const auto norm = [](const Point& a) { return std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]); };
-    const auto list = [this](const Point& a) {
-        return dimension_ == 2 ? text("(", a[0], ", ", a[1], ")") : text("(", a[0], ", ", a[1], ", ", a[2], ")");
-    };
+    const auto norm = [](const Point& a) { return std::sqrt(dot(a, a)); };
     const auto tidy = [&](Point a, double scale) {
         for (double& value : a) value = std::abs(value) < 1e-6 * scale ? 0.0 : value;
-        return list(a);
+        return place(static_cast<int>(dimension_), a);
     };
     const auto direction = [&](Point a) {
         const double length = norm(a);
@@ -368,13 +360,10 @@ std::string MotionFinder::words(const Frame& f, const double* motion) const {
     if (turn * f.length < 1e-6 * norm(t)) return "translate along " + direction(t);
     // The centre of the motion (the foot of its axis): c + w x t / |w|^2.
     Point foot = f.centre;
-    for (std::size_t d = 0; d < 3; ++d) {
-        const std::size_t u = (d + 1) % 3;
-        const std::size_t v = (d + 2) % 3;
-        foot[d] += (w[u] * t[v] - w[v] * t[u]) / (turn * turn);
-    }
+    const Point arm = cross(w, t);
+    for (std::size_t d = 0; d < 3; ++d) foot[d] += arm[d] / (turn * turn);
     if (dimension_ == 2) return "rotate about the point " + tidy(foot, f.length);
-    const double slide = (t[0] * w[0] + t[1] * w[1] + t[2] * w[2]) / turn;
+    const double slide = dot(t, w) / turn;
     return text(std::abs(slide) > 1e-6 * turn * f.length ? "screw" : "rotate", " about the axis along ", direction(w),
                 " through ", tidy(foot, f.length));
 }
@@ -397,7 +386,7 @@ FreeMotion MotionFinder::describe(const std::vector<std::size_t>& cluster, const
     free.description = words(frame_[cluster[mover]], &motion[mover * modes_]);
     for (std::size_t piece = 0; piece < pieces_.count(); ++piece) {
         const auto found = std::find(cluster.begin(), cluster.end(), groups_.find(piece));
-        if (found != cluster.end() && size[static_cast<std::size_t>(found - cluster.begin())] > 1e-6 * largest) {
+        if (found != cluster.end() && size[index(found - cluster.begin())] > 1e-6 * largest) {
             free.bodies.push_back(pieces_.body[piece]);
         }
     }
@@ -413,11 +402,11 @@ FreeMotion MotionFinder::describe(const std::vector<std::size_t>& cluster, const
         const std::int64_t node = force.dof / mesh_.dimension();
         const auto found = std::find(cluster.begin(), cluster.end(), group(node));
         if (found == cluster.end()) continue;
-        const std::size_t first = static_cast<std::size_t>(found - cluster.begin()) * modes_;
+        const std::size_t first = index(found - cluster.begin()) * modes_;
         for (std::size_t m = 0; m < modes_; ++m) {
             work[index(force.pattern)] +=
                 force.value * motion[first + m] / largest *
-                mode(frame_[*found], dimension_, m, index(force.dof % mesh_.dimension()), place(node));
+                mode(frame_[*found], dimension_, m, index(force.dof % mesh_.dimension()), position(mesh_, node));
         }
         scale[index(force.pattern)] += std::abs(force.value);
     }

@@ -24,12 +24,12 @@ void check_bodies(const Problem& problem) {
     const Mesh& mesh = *problem.mesh;
     if (mesh.body_count() == 0) fail(DELAM_ERROR_PROBLEM, "mesh: no bodies");
     for (std::int32_t body = 0; body < mesh.body_count(); ++body) {
-        if (problem.stiffness[static_cast<std::size_t>(body)] != nullptr) {
+        if (problem.stiffness[index(body)] != nullptr) {
             for (const Eigenstrain& e : problem.eigenstrains)
                 if (e.body == body)
                     fail(DELAM_ERROR_PROBLEM, "body ", mesh.body_label(body),
                          " has the host's stiffness and an eigenstrain of pattern '",
-                         problem.patterns[static_cast<std::size_t>(e.pattern)].name,
+                         problem.patterns[index(e.pattern)].name,
                          "': give its forces instead (delam_problem_add_forces)");
             continue;
         }
@@ -38,7 +38,7 @@ void check_bodies(const Problem& problem) {
             fail(DELAM_ERROR_PROBLEM, "body ", mesh.body_label(body),
                  ": no cells and no stiffness (delam_problem_set_stiffness)");
         require_material(problem, body);
-        require_formulation(mesh, body, problem.formulation[static_cast<std::size_t>(body)], DELAM_ERROR_PROBLEM);
+        require_formulation(mesh, body, problem.formulation[index(body)], DELAM_ERROR_PROBLEM);
         (void)problem.model(body);
     }
 }
@@ -77,7 +77,8 @@ void check_interfaces(const Problem& problem) {
 // Under the variational rule a partly damaged pair gains up to the difference between the largest toughness of any mode
 // and that of its own when its jump turns there. Turning costs the energy zeta Y of the pair, at most about the onset,
 // and none as the jump goes to 0, where the mixity is not defined: with a larger gain pairs close in the tougher mode
-// instead of breaking. Measured limit: src/evolution/README.md, "Ledger and mixity".
+// instead of breaking. (Measured peak loads on beams against those of mixity_rule = converged: up to 0.9 % higher at
+// 2.0, 29 % at 2.07, 101 % at 5. A test in one mode alone, such as ENF, does not show it.)
 constexpr double weak_dependence = 2.0;  // difference of the toughnesses over the smallest onset
 
 void check_mixity_rule(const Problem& problem) {
@@ -168,7 +169,7 @@ void check_supports(const Problem& problem) {
         if (motion.force_work > 1e-9) {
             fail(DELAM_ERROR_PROBLEM, "missing support: ", names(*problem.mesh, motion), " can ", motion.description,
                  " at the initial adhesion, and the dead forces of pattern '",
-                 problem.patterns[static_cast<std::size_t>(motion.force_pattern)].name, "' do work in this motion");
+                 problem.patterns[index(motion.force_pattern)].name, "' do work in this motion");
         }
     }
 }

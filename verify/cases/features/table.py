@@ -3,7 +3,7 @@
 """table.py plane|space [--write]
 
 Runs every feature with every other, and three at a time, in the plane or in space, and compares the table with the one
-in README.md, or writes it there. Fails if an entry fails or the page is stale. table.py plane FEATURE ... runs these
+in TABLE.md, or writes it there. Fails if an entry fails or the page is stale. table.py plane FEATURE ... runs these
 features together and says what comes of them."""
 import itertools
 import logging
@@ -15,7 +15,7 @@ import textwrap
 from judge import FAILED, REFUSED, WORKS, outcome
 from scene import DEFAULTS, ENGINE, FEATURES, FETI, SPACE
 
-PAGE = pathlib.Path(__file__).resolve().parent / "README.md"
+PAGE = pathlib.Path(__file__).resolve().parent / "TABLE.md"
 WIDTH = 120
 
 

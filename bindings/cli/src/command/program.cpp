@@ -28,7 +28,7 @@ namespace cli {
 namespace {
 
 constexpr const char* footer =
-    "SCENE.md and README.md are installed in share/doc/delam/bindings/cli.\n"
+    "SCENE.md and MANUAL.md are installed in share/doc/delam/bindings/cli.\n"
     "\n"
     "Exit codes\n"
     "  0    done\n"
@@ -214,7 +214,7 @@ void add_fit(CLI::App& app, Arguments& into, Commands& of) {
 
 // Hidden from people: the studies call it.
 void add_own(CLI::App& app, Arguments& into, Commands& of) {
-    of.own = app.add_subcommand("own", "which files are the program's own (study/README.md)")->group("");
+    of.own = app.add_subcommand("own", "which files are the program's own (study/MANUAL.md)")->group("");
     of.own->add_option("action", into.page)->required()->check(CLI::IsMember({"claim", "discard"}));
     of.own->add_option("names", into.names)->required();
     of.own->add_flag("--known", into.known);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The reasons for which the program ends early, with the exit codes documented in --help and the README.
+// The reasons for which the program ends early, with the exit codes documented in --help and MANUAL.md.
 #pragma once
 
 #include <stdexcept>

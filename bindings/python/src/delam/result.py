@@ -67,7 +67,7 @@ class Result:
         result.fields()["interface_0"]["zeta"]         adhesion at the last step that has fields
 
     folder: its path; about: result.json as a dict (status, units, options, closing lines ...). FileNotFoundError: the
-    folder holds no result. ValueError: a file of it is damaged, no regular one, or too large (bindings/cli/README.md,
+    folder holds no result. ValueError: a file of it is damaged, no regular one, or too large (bindings/cli/MANUAL.md,
     Limits)."""
 
     def __init__(self, folder: str | os.PathLike[str]) -> None:
@@ -95,7 +95,7 @@ class Result:
     @property
     def history(self) -> NDArray[np.void]:
         """history.csv as a structured array [steps + 1], row 0 the initial state: history["reaction"],
-        history.dtype.names. Its columns and their units are described in bindings/cli/README.md."""
+        history.dtype.names. Its columns and their units are described in bindings/cli/MANUAL.md."""
         return self._history
 
     @property

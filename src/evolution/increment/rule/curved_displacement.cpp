@@ -59,10 +59,9 @@ bool CurvedDisplacement::plain() const {
 }
 
 CurvedDisplacement::Model CurvedDisplacement::model(std::span<const double> jump) const {
-    Model m{spring_stiffness(pairs_, adhesion_),
-            std::vector<double>(adhesion_.size() * static_cast<std::size_t>(pairs_.dimension), 0.0)};
+    Model m{spring_stiffness(pairs_, adhesion_), std::vector<double>(adhesion_.size() * index(pairs_.dimension), 0.0)};
     if (jump.empty()) return m;
-    const auto dim = static_cast<std::size_t>(pairs_.dimension);
+    const auto dim = index(pairs_.dimension);
     const double scale = largest_driving(pairs_, jump);
     for (std::size_t p = 0; p < adhesion_.size(); ++p) {
         if (!pairs_.mixed(p) || !(adhesion_[p] > 0.0 && adhesion_[p] < 1.0)) continue;
@@ -84,7 +83,7 @@ double CurvedDisplacement::interface_energy(std::span<const double> jump) const 
 }
 
 double CurvedDisplacement::mismatch(const std::vector<std::uint8_t>& closed, const Response& response) const {
-    const auto dim = static_cast<std::size_t>(pairs_.dimension);
+    const auto dim = index(pairs_.dimension);
     const double scale = largest_driving(pairs_, response.jump);
     double worst = 0.0;
     for (std::size_t p = 0; p < adhesion_.size(); ++p) {
@@ -100,7 +99,7 @@ double CurvedDisplacement::mismatch(const std::vector<std::uint8_t>& closed, con
 
 bool CurvedDisplacement::run(const DisplacementSolve& solve, std::vector<std::uint8_t>& closed,
                              Response& response) const {
-    const auto dim = static_cast<std::size_t>(pairs_.dimension);
+    const auto dim = index(pairs_.dimension);
     std::vector<std::size_t> rows;  // that bend
     for (std::size_t p = 0; p < adhesion_.size(); ++p)
         if (pairs_.mixed(p) && adhesion_[p] > 0.0 && adhesion_[p] < 1.0)

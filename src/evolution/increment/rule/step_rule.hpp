@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "base/numbers.hpp"
 #include "evolution/increment/increment.hpp"
 #include "evolution/increment/step_account.hpp"
 #include "evolution/increment/step_mixities.hpp"
@@ -67,7 +68,7 @@ protected:
     virtual void begin_observation() {}
     // Records the split of PANM 15 (2010), at the mixities of the state.
     virtual void record_rule(State& next, double energy_change_linear) const = 0;
-    std::size_t dimension() const { return static_cast<std::size_t>(pairs_.dimension); }
+    std::size_t dimension() const { return index(pairs_.dimension); }
     // The part of the jumps that belongs to a pair.
     std::span<const double> local(std::span<const double> jump, std::size_t pair) const {
         return jump.subspan(pair * dimension(), dimension());

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/numbers.hpp"
+
 namespace delam {
 
 CoarseProblem::CoarseProblem(const DualRows& rows, std::span<const Subdomain> subdomains) {
     std::int64_t size = 0;
-    std::vector<std::int64_t> first, owner(static_cast<std::size_t>(rows.boundary_count()));
+    std::vector<std::int64_t> first, owner(index(rows.boundary_count()));
     for (std::size_t s = 0; s < subdomains.size(); ++s) {
         first.push_back(size);
         size += subdomains[s].rigid_count;
@@ -16,13 +18,11 @@ CoarseProblem::CoarseProblem(const DualRows& rows, std::span<const Subdomain> su
     }
     std::vector<Triplet> forward, backward;
     for (std::int64_t r = 0; r < rows.b.rows; ++r) {
-        for (std::int64_t e = rows.b.start[static_cast<std::size_t>(r)];
-             e < rows.b.start[static_cast<std::size_t>(r) + 1]; ++e) {
-            const std::int64_t dof = rows.b.column[static_cast<std::size_t>(e)];
-            const auto s = static_cast<std::size_t>(owner[static_cast<std::size_t>(dof)]);
+        for (std::int64_t e = rows.b.start[index(r)]; e < rows.b.start[index(r) + 1]; ++e) {
+            const std::int64_t dof = rows.b.column[index(e)];
+            const auto s = index(owner[index(dof)]);
             for (std::int64_t k = 0; k < subdomains[s].rigid_count; ++k) {
-                const double value =
-                    rows.b.value[static_cast<std::size_t>(e)] * subdomains[s].rigid_boundary(dof - rows.offset[s], k);
+                const double value = rows.b.value[index(e)] * subdomains[s].rigid_boundary(dof - rows.offset[s], k);
                 forward.push_back({first[s] + k, r, value});
                 backward.push_back({r, first[s] + k, value});
             }
@@ -51,13 +51,13 @@ void CoarseProblem::set_weights(std::span<const double> weight) {
 }
 
 std::vector<double> CoarseProblem::apply(std::span<const double> lambda) const {
-    std::vector<double> out(static_cast<std::size_t>(g_.rows));
+    std::vector<double> out(index(g_.rows));
     multiply(g_, lambda, out);
     return out;
 }
 
 std::vector<double> CoarseProblem::apply_transposed(std::span<const double> alpha) const {
-    std::vector<double> out(static_cast<std::size_t>(gt_.rows));
+    std::vector<double> out(index(gt_.rows));
     multiply(gt_, alpha, out);
     return out;
 }

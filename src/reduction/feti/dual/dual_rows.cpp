@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/numbers.hpp"
 #include "delam/delam.h"
 #include "scene/carriers.hpp"
 
@@ -14,10 +15,10 @@ DualRowBuilder::DualRowBuilder(const Problem& problem, std::span<const Subdomain
                                const std::string& gluing) {
     const Mesh& mesh = *problem.mesh;
     const int dim = mesh.dimension();
-    copies_.resize(static_cast<std::size_t>(mesh.node_count()));
+    copies_.resize(index(mesh.node_count()));
     for (std::size_t s = 0; s < subdomains.size(); ++s)
         for (std::size_t i = 0; i < subdomains[s].nodes.size(); ++i)
-            copies_[static_cast<std::size_t>(subdomains[s].nodes[i])].push_back(
+            copies_[index(subdomains[s].nodes[i])].push_back(
                 {static_cast<std::int32_t>(s), static_cast<std::int64_t>(i)});
 
     // Any copy may stand for its node in jumps and constraints, since the copies are glued: the first one does.
@@ -25,7 +26,7 @@ DualRowBuilder::DualRowBuilder(const Problem& problem, std::span<const Subdomain
     const Carriers carriers(problem);
     const auto append = [&](std::vector<Entry>& row, std::int64_t node, int component, double coefficient) {
         for (const auto& [carrier, weight] : carriers.of(node)) {
-            const NodeCopy& copy = copies_[static_cast<std::size_t>(carrier)].front();
+            const NodeCopy& copy = copies_[index(carrier)].front();
             row.push_back({copy.subdomain, copy.local * dim + component, coefficient * weight});
         }
     };
@@ -35,10 +36,10 @@ DualRowBuilder::DualRowBuilder(const Problem& problem, std::span<const Subdomain
             for (int c = 0; c < dim; ++c) {
                 std::vector<Entry> row;
                 for (int k = 0; k < dim; ++k) {
-                    const double direction = interface.frame[static_cast<std::size_t>((p * dim + c) * dim + k)];
+                    const double direction = interface.frame[index((p * dim + c) * dim + k)];
                     if (direction == 0.0) continue;
-                    append(row, interface.node_b[static_cast<std::size_t>(p)], k, direction);
-                    append(row, interface.node_a[static_cast<std::size_t>(p)], k, -direction);
+                    append(row, interface.node_b[index(p)], k, direction);
+                    append(row, interface.node_a[index(p)], k, -direction);
                 }
                 rows_.push_back(std::move(row));
             }
@@ -80,7 +81,7 @@ DualRowBuilder::DualRowBuilder(const Problem& problem, std::span<const Subdomain
 std::vector<std::vector<std::int64_t>> DualRowBuilder::touched(std::size_t subdomains) const {
     std::vector<std::vector<std::int64_t>> dofs(subdomains);
     for (const auto& row : rows_)
-        for (const Entry& e : row) dofs[static_cast<std::size_t>(e.subdomain)].push_back(e.dof);
+        for (const Entry& e : row) dofs[index(e.subdomain)].push_back(e.dof);
     for (auto& list : dofs) {
         std::sort(list.begin(), list.end());
         list.erase(std::unique(list.begin(), list.end()), list.end());
@@ -89,10 +90,10 @@ std::vector<std::vector<std::int64_t>> DualRowBuilder::touched(std::size_t subdo
 }
 
 std::vector<double> DualRowBuilder::scale(std::int32_t subdomain, std::int64_t dofs) const {
-    std::vector<double> touching(static_cast<std::size_t>(dofs), 0.0);
+    std::vector<double> touching(index(dofs), 0.0);
     for (const auto& row : rows_)
         for (const Entry& e : row)
-            if (e.subdomain == subdomain) touching[static_cast<std::size_t>(e.dof)] += e.coefficient * e.coefficient;
+            if (e.subdomain == subdomain) touching[index(e.dof)] += e.coefficient * e.coefficient;
     for (double& t : touching) t = t > 0.0 ? 1.0 / std::sqrt(t) : 1.0;
     return touching;
 }
@@ -110,10 +111,9 @@ DualRows DualRowBuilder::finish(std::span<const Subdomain> subdomains) const {
     std::vector<Triplet> triplets;
     for (std::size_t r = 0; r < rows_.size(); ++r) {
         for (const Entry& e : rows_[r]) {
-            const auto& boundary = subdomains[static_cast<std::size_t>(e.subdomain)].boundary;
+            const auto& boundary = subdomains[index(e.subdomain)].boundary;
             const auto at = std::lower_bound(boundary.begin(), boundary.end(), e.dof) - boundary.begin();
-            triplets.push_back({static_cast<std::int64_t>(r), result.offset[static_cast<std::size_t>(e.subdomain)] + at,
-                                e.coefficient});
+            triplets.push_back({static_cast<std::int64_t>(r), result.offset[index(e.subdomain)] + at, e.coefficient});
         }
     }
     result.b = from_triplets(result.count(), result.boundary_count(), std::move(triplets));

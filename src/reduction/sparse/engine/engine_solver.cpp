@@ -16,12 +16,6 @@ namespace delam {
 
 namespace {
 
-// Iterations beyond those of a new preconditioner after which an old one is given up.
-constexpr std::int64_t least_attempt = 20;
-constexpr double highest_cost = 1e6;
-// Residual and iterations of the search for a direction without a minimum.
-constexpr double probed = 1e-3;
-constexpr std::int64_t longest_probe = 60;
 // Arguments of the callbacks of a solve. An exception waits until the engine has returned.
 struct Calls {
     const BodySolver::Forcing& forcing;
@@ -171,7 +165,7 @@ void EngineSolver::renew() {
     const delam_experimental_engine& engine = engine_->functions();
     ++renewals_;
     engine_->require(engine.renew(&view, &cost_, engine.user), "renew");
-    cost_ = cost_ >= 1.0 ? std::min(cost_, highest_cost) : 1.0;
+    cost_ = cost_ >= 1.0 ? std::min(cost_, renewal_.limits().engine_highest_cost) : 1.0;
     renewed_ = true;
 }
 
@@ -224,7 +218,8 @@ bool EngineSolver::has_minimum() {
     }
     const std::vector<double> rest(bodies_.problem().patterns.size(), 0.0), right(system_.slaves().size(), 0.0);
     const std::size_t before = newest_;
-    const Raw raw = ask(rest, force, right, {}, probed, longest_probe, {}, state);
+    const Raw raw =
+        ask(rest, force, right, {}, renewal_.limits().engine_probed, renewal_.limits().engine_longest_probe, {}, state);
     if (raw.answer.definite == 0) return false;
     kept_[newest_].forget();
     newest_ = before;
@@ -352,7 +347,7 @@ BodySolver::Answer EngineSolver::solve(std::span<const double> theta, std::span<
     const bool old = renewal_.used();
     const auto attempt = static_cast<std::int64_t>(
         std::min(renewal_.first() + std::max(0.0, cost_ - renewal_.excess()), static_cast<double>(most)));
-    const std::int64_t limit = old ? std::min(most, std::max(least_attempt, attempt)) : most;
+    const std::int64_t limit = old ? std::min(most, std::max(renewal_.limits().engine_least_attempt, attempt)) : most;
     Raw raw = ask(theta, force, right, start, target, limit, forcing ? carefully : Forcing{}, x);
     std::int64_t iterations = raw.answer.iterations;
     if (raw.answer.definite != 0 && raw.answer.converged == 0 && old && iterations < most) {

@@ -12,23 +12,18 @@ namespace delam {
 
 namespace {
 
-constexpr std::size_t most_directions = 60;  // kept conjugate; older ones are forgotten
-constexpr std::size_t judged = 5;            // iterations, before their gain says anything about the others
-constexpr double accelerates = 1.5;          // conjugate gradients become faster
-// An error of less than this part of the size of the state does not change that size.
-constexpr double same_size = 0.03;
-
 // True if the gain of the iterations so far shows that the limit will not suffice.
-bool hopeless(double gained_by_now, double needed, std::size_t iterations, std::int64_t limit) {
-    if (iterations < judged) return false;
+bool hopeless(double gained_by_now, double needed, std::size_t iterations, std::int64_t limit, const Limits& limits) {
+    if (iterations < index(limits.cg_judged)) return false;
     const double per_iteration = std::log(gained_by_now) / static_cast<double>(iterations);
-    return !(per_iteration < 0.0) || std::log(needed) / per_iteration > accelerates * static_cast<double>(limit);
+    return !(per_iteration < 0.0) ||
+           std::log(needed) / per_iteration > limits.cg_accelerates * static_cast<double>(limit);
 }
 
 // Returns the least eigenvalue of the tridiagonal matrix that the recursion implies (Lanczos; G. Golub, C. Van Loan,
 // Matrix Computations, 10.2).
-double least_eigenvalue(std::span<const double> steps, std::span<const double> shares) {
-    const std::size_t n = std::min(steps.size(), most_directions);
+double least_eigenvalue(std::span<const double> steps, std::span<const double> shares, std::int64_t most) {
+    const std::size_t n = std::min(steps.size(), index(most));
     if (n == 0) return 1.0;
     DenseMatrix t(static_cast<std::int64_t>(n), static_cast<std::int64_t>(n));
     for (std::size_t j = 0; j < n; ++j) {
@@ -46,9 +41,9 @@ bool descend(const CgSystem& system, std::span<double> x, std::vector<double>& r
              std::int64_t limit, CgOutcome& outcome, double& reached) {
     std::vector<Direction> directions;
     std::vector<double> ap(r.size());
-    double lowest = infinite, first = 0.0;
+    double first = 0.0;
+    Lowest lowest(system.limits.restart_noticed);
     std::vector<double> steps, shares;  // alpha and beta of the recursion
-    int idle = 0;
     double rz_before = 0.0;
     const auto conjugate = [&](const Direction& d) { add_scaled(-dot(d.ap, z) / d.pap, d.p, z); };
     while (true) {
@@ -57,18 +52,18 @@ bool descend(const CgSystem& system, std::span<double> x, std::vector<double>& r
             for (const Direction& d : directions) conjugate(d);
         }
         const double rz = dot(r, z), norm = std::sqrt(std::abs(rz));
-        idle = norm < 0.9 * lowest ? 0 : idle + 1;
-        lowest = std::min(lowest, norm);
+        lowest.take(norm);
         reached = norm;
         if (steps.empty())
             first = norm;
         else
             shares.push_back(rz / rz_before);
         rz_before = rz;
-        const bool over = outcome.iterations >= limit || idle > 20 ||
-                          (system.attempt && hopeless(norm / first, target / first, steps.size(), limit));
+        const bool over =
+            outcome.iterations >= limit || lowest.idle() > system.limits.restart_idle ||
+            (system.attempt && hopeless(norm / first, target / first, steps.size(), limit, system.limits));
         if (norm <= target || over) {
-            outcome.least = std::min(outcome.least, least_eigenvalue(steps, shares));
+            outcome.least = std::min(outcome.least, least_eigenvalue(steps, shares, system.limits.cg_directions));
             return true;
         }
         system.apply(z, ap);
@@ -79,7 +74,7 @@ bool descend(const CgSystem& system, std::span<double> x, std::vector<double>& r
         steps.push_back(step);
         add_scaled(step, z, x);
         add_scaled(-step, ap, r);
-        if (directions.size() == most_directions) directions.erase(directions.begin());
+        if (directions.size() == index(system.limits.cg_directions)) directions.erase(directions.begin());
         directions.push_back({z, ap, pap});
         system.each_iteration(++outcome.iterations);
         system.precondition(r, z);
@@ -123,7 +118,7 @@ CgOutcome conjugate_gradients(const CgSystem& system, std::span<double> x, doubl
         if (!outcome.definite) return outcome;
         // The recursion's residual is taken for the true one where both agree to rounding.
         if (!restarts.may_end() || recursion > goal || !system.confirm(x, r)) continue;
-        if (norm > same_size * std::sqrt(outcome.least) * size) size = system.size(x);
+        if (norm > system.limits.cg_same_size * std::sqrt(outcome.least) * size) size = system.size(x);
         const double left = restarts.left(recursion, size);
         if (!restarts.accepts(left, size)) continue;
         outcome.correction = z;

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "base/restarts.hpp"
+#include "scene/limits.hpp"
 
 namespace delam {
 
@@ -34,7 +34,7 @@ struct CgSystem {
     // Returns a norm that may stay, given the norm of the first residual, where it is more than what the tolerance
     // allows.
     std::function<double(double first)> enough;  // or none
-    RestartLimits limits{};
+    Limits limits{};
     bool attempt = false;          // the limit is how many iterations are worth while: ends as soon as they will not do
     std::vector<Direction> given;  // conjugate to each other; the residual of restart() is orthogonal to them
 };

@@ -17,9 +17,7 @@ Iterated::Iterated(const Problem& problem, AssembledBodies assembled, Monitor& m
 
 Zone* Iterated::part(std::span<const double> theta, const Response& response, std::span<const std::uint8_t> wanted) {
     if (!reanalysis().floating().free().empty()) return nullptr;  // the whole knows how to solve then
-    if (part_ == nullptr)
-        part_ =
-            std::make_unique<LocalZone>(reanalysis().system(), problem().mesh->dimension(), problem().options.limits);
+    if (part_ == nullptr) part_ = std::make_unique<LocalZone>(reanalysis().system(), problem().mesh->dimension());
     const auto poll = [this] { monitor().progress("patch", 0, 0); };
     return part_->enter(wanted, theta, reanalysis().load(theta), response.multipliers, poll) ? part_.get() : nullptr;
 }

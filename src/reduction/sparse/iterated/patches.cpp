@@ -15,9 +15,6 @@ namespace delam {
 
 namespace {
 
-// Operations of the symbolic analysis per entry of a patch's matrix (an ordering takes that long).
-constexpr double analysis_operations = 300.0;
-
 // Springs that are nowhere softer than these and pull nothing apart: negative ones are left out, and what couples two
 // variables stiffens both.
 std::vector<Triplet> stiffened(std::span<const Triplet> springs) {
@@ -32,10 +29,10 @@ std::vector<Triplet> stiffened(std::span<const Triplet> springs) {
 
 }  // namespace
 
-Patches::Patches(const JumpSystem& system, const Limits& limits)
+Patches::Patches(const JumpSystem& system)
     : system_(system),
-      margin_(limits.patch_margin),
-      share_(limits.patch_largest),
+      margin_(system.limits().patch_margin),
+      share_(system.limits().patch_largest),
       barred_(index(system.count()), 0),
       inner_(barred_),
       member_(barred_) {
@@ -45,7 +42,7 @@ Patches::Patches(const JumpSystem& system, const Limits& limits)
         for (const auto& [i, c] : equation)
             barred_[index(i)] =
                 !(system.diagonal()[index(i)] > 0.0) ||
-                static_cast<double>(a.start[index(i) + 1] - a.start[index(i)]) > limits.patch_crowded * mean;
+                static_cast<double>(a.start[index(i) + 1] - a.start[index(i)]) > system.limits().patch_crowded * mean;
 }
 
 // The widest margin, of 5, 2 and 1 rings, whose patches have no more than the share; 0: none.
@@ -122,7 +119,7 @@ bool Patches::cover(std::span<const std::int64_t> seeds, bool any_size, const Po
         const auto same =
             std::find_if(patches_.begin(), patches_.end(), [&](const Patch& p) { return p.variables == part; });
         if (same != patches_.end())
-            stay.push_back(static_cast<std::size_t>(same - patches_.begin()));
+            stay.push_back(index(same - patches_.begin()));
         else
             chosen.push_back(make(std::move(part), poll));
     }
@@ -145,7 +142,7 @@ Patches::Patch Patches::make(std::vector<std::int64_t> variables, const Poll& po
     patch.matrix = submatrix(system_.matrix(), patch.variables);
     take_equations(patch);
     patch.factor = std::make_unique<SparseCholesky>(patch.matrix, 0, poll);
-    cost_ += analysis_operations * static_cast<double>(patch.matrix.entries());
+    cost_ += system_.limits().patch_analysis * static_cast<double>(patch.matrix.entries());
     return patch;
 }
 

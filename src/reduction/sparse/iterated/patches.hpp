@@ -18,9 +18,9 @@ namespace delam {
 
 class Patches {
 public:
-    // margin: rings of elements about the variables that differ, fewer where the patches would otherwise have more than
-    // `share` of all variables.
-    Patches(const JumpSystem& system, const Limits& limits);
+    // Takes from system.limits() the rings of elements about the variables that differ, fewer where the patches would
+    // otherwise have more than a share of all variables.
+    explicit Patches(const JumpSystem& system);
 
     // Chooses patches where those at hand do not cover the seeds, variables whose springs differ, ascending. False:
     // they would have more than that share with a single ring, and are only chosen if any size will do.

@@ -29,7 +29,7 @@ Reanalysis::Reanalysis(const BodySystem& bodies, SparseMatrix transformed, Monit
       monitor_(monitor),
       system_(bodies, std::move(transformed), [&monitor] { monitor.progress("assemble", 0, 0); }),
       floating_(bodies, system_),
-      patches_(system_, bodies.problem().options.limits),
+      patches_(system_),
       renewal_(bodies.problem().options.limits, bodies.problem().options.limits.renewal_most_first),
       comes_back_(keeps_two_factors(bodies.problem())) {
     const std::size_t patterns = bodies_.problem().patterns.size();

@@ -15,7 +15,7 @@ import stat
 from collections.abc import Iterator
 from typing import Any, BinaryIO
 
-# In bytes, by what a file holds; bindings/cli/README.md, Limits, has the same.
+# In bytes, by what a file holds; bindings/cli/MANUAL.md, Limits, has the same.
 MOST_SCENE = 16 << 20
 MOST_MESH = 1 << 30  # a deck, without what it includes
 MOST_CURVE = 64 << 20
