@@ -28,9 +28,7 @@ FlexureScene make(const reference::Flexure& data, const char* backtracking, cons
 }
 double time_of(int k, int steps) { return 2.0 * k / steps; }
 
-void select_step(const Solver& solver, int step) {
-    solver.scene().require(delam_solver_look(solver.get(), step), "delam_solver_look");
-}
+void select_step(const Solver& solver, int step) { REQUIRE(solver.scene(), delam_solver_look, solver.get(), step); }
 
 // The values of a step, as a host reads them.
 cases::StepLedger read(const Solver& s, int k, int steps) {
@@ -308,7 +306,7 @@ LOOP_TEST(returns_of_fine_marches_end, 0, 6) {
     }
     int violated = 0;
     for (int k = 1; k <= steps; ++k) {
-        scene.require(delam_solver_look(solver.get(), k), "delam_solver_look");
+        REQUIRE(scene, delam_solver_look, solver.get(), k);
         const double size = std::max(std::abs(solver.value("stored_bulk")), solver.value("work"));
         violated += solver.value("lower") - solver.value("increment") > 1e-3 * size ? 1 : 0;
     }

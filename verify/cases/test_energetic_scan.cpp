@@ -53,7 +53,7 @@ LOOP_TEST(no_step_above_the_scan, 0, std::size(runs)) {
     }
     // Read again, so that replaced steps count with their final values.
     for (int k = 1; k <= scan_steps; ++k) {
-        flexure.scene.require(delam_solver_look(solver.get(), k), "delam_solver_look");
+        REQUIRE(flexure.scene, delam_solver_look, solver.get(), k);
         const reference::ScanStep& s = scan[static_cast<std::size_t>(k - 1)];
         const std::string where = "step " + std::to_string(k) + ": ";
         cases::expect_below(scan_total(solver) / s.total(), 1.0 + 1e-6, where + "energy over the scan's");
@@ -86,12 +86,11 @@ LOOP_TEST(jump_is_located_where_the_energies_cross, 0, std::size(runs)) {
         solver.commit();
     }
     std::int64_t count = 0;
-    scene.require(delam_solver_jump_count(solver.get(), &count), "delam_solver_jump_count");
+    REQUIRE(scene, delam_solver_jump_count, solver.get(), &count);
     cases::expect(count > 0, "no jump was located");
     double time = 0.0, dissipated = 0.0, released = 0.0;
-    scene.require(delam_solver_jump(solver.get(), 0, nullptr, nullptr, &time, nullptr, &dissipated, &released, nullptr,
-                                    nullptr, nullptr, nullptr),
-                  "delam_solver_jump");
+    REQUIRE(scene, delam_solver_jump, solver.get(), 0, nullptr, nullptr, &time, nullptr, &dissipated, &released,
+            nullptr, nullptr, nullptr, nullptr);
     cases::expect_near(data.load(time), crossing.load, 1e-3, crossing.load, "load of the jump");
     cases::expect_near(dissipated, crossing.dissipated, 1.0, 3.0 * data.h * data.law.tangential_toughness,
                        "energy that the jump takes");

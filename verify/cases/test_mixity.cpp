@@ -251,7 +251,7 @@ LOOP_TEST(variational_traction, 0, 4) {
         cases::expect_below(accepted.worst(), 1e-9, accepted.text());
     }
     delam_law* raw = nullptr;
-    scene.require(delam_law_create(scene.context(), "piecewise-linear", &raw), "delam_law_create");
+    REQUIRE(scene, delam_law_create, scene.context(), "piecewise-linear", &raw);
     const reference::Law law(raw);
     const std::pair<const char*, double> parameters[] = {
         {"normal_stiffness", turned.normal_stiffness}, {"tangential_stiffness", turned.tangential_stiffness},
@@ -266,7 +266,7 @@ LOOP_TEST(variational_traction, 0, 4) {
         for (std::size_t c = 1; c < j.size(); ++c) slip += 0.5 * turned.tangential_stiffness * j[c] * j[c];
         const double b = slip / (normal + slip);
         double onset = 0.0, total = 0.0;
-        scene.require(delam_law_toughness(raw, 1, &b, &onset, &total), "delam_law_toughness");
+        REQUIRE(scene, delam_law_toughness, raw, 1, &b, &onset, &total);
         const double more = total - onset;
         return zeta * (normal + slip) - total * more * zeta * (1.0 - zeta) / (onset + more * zeta);
     };

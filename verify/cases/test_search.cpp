@@ -194,9 +194,8 @@ TEST(dead_load) {
     Scene scene = cases::make_beam(b);
     const auto tip = scene.find(1, {0.0, 2 * cases::beam_layer}, {0.0, 2 * cases::beam_layer});
     const std::vector<double> force{0.0, 2e4};
-    scene.require(delam_problem_add_forces(scene.problem(), scene.pattern("hang", {0.0, 1.0}, {0.0, 1.0}), 1,
-                                           tip.data(), force.data(), 0),
-                  "delam_problem_add_forces");
+    REQUIRE(scene, delam_problem_add_forces, scene.problem(), scene.pattern("hang", {0.0, 1.0}, {0.0, 1.0}), 1,
+            tip.data(), force.data(), 0);
     cases::set_energetic(scene);
     Solver solver(scene, 0.0);
     double worst = 0.0;
