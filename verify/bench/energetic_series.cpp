@@ -146,21 +146,9 @@ struct SeriesEntry {
 Json measure_concepts(const std::string& scene, int repeat, double cap) {
     Stage stage = make_mesh(find_scene(scene));
     declare(stage, {});
-    std::int64_t primal = 0;
-    std::int64_t dual = 0;
-    REQUIRE(stage.scene, delam_problem_dofs, stage.scene.problem(), &primal, &dual);
     Lse lse(stage);
-    Json result;
-    result["scene"] = scene;
-    result["primal_dofs"] = primal;
-    result["dual_dofs"] = dual;
-    result["steps"] = stage.data.steps;
-    result["delta"] = 1e-5;
+    Json result = facts_of(stage, lse, scene, cap);
     result["eta"] = violation;
-    result["cap_s"] = cap;
-    result["machine"] = machine();
-    result["lse_index_width"] = lse.choose();
-    result["lse_facts"] = lse.facts();
 
     // Round 0 warms up and records the history.
     std::map<std::string, SeriesEntry> entries;

@@ -6,12 +6,15 @@
 #include <limits>
 #include <string>
 
+#include "lse.hpp"
 #include "march.hpp"
 
 namespace bench {
 
 inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
+// What the JSON of a series begins with: the scene, its sizes, the machine (series.cpp).
+Json facts_of(const Stage& stage, Lse& lse, const std::string& scene, double cap);
 // All methods and the LSE in turn, `repeat` rounds: times, counts, histories, agreement (series.cpp).
 Json measure_series(const std::string& scene, int repeat, double cap);
 // Peak memory of one method, or of one monolithic factorisation ("lse") (memory.cpp).

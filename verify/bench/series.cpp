@@ -72,13 +72,9 @@ Price price(const March& counted, double factor_seconds, double solve_seconds) {
     return p;
 }
 
-Json measure_series(const std::string& scene, int repeat, double cap) {
-    Stage stage = make_mesh(find_scene(scene));
-    declare(stage, {});
-    std::int64_t primal = 0;
-    std::int64_t dual = 0;
+Json facts_of(const Stage& stage, Lse& lse, const std::string& scene, double cap) {
+    std::int64_t primal = 0, dual = 0;
     REQUIRE(stage.scene, delam_problem_dofs, stage.scene.problem(), &primal, &dual);
-    Lse lse(stage);
     Json result;
     result["scene"] = scene;
     result["primal_dofs"] = primal;
@@ -89,6 +85,14 @@ Json measure_series(const std::string& scene, int repeat, double cap) {
     result["machine"] = machine();
     result["lse_index_width"] = lse.choose();
     result["lse_facts"] = lse.facts();
+    return result;
+}
+
+Json measure_series(const std::string& scene, int repeat, double cap) {
+    Stage stage = make_mesh(find_scene(scene));
+    declare(stage, {});
+    Lse lse(stage);
+    Json result = facts_of(stage, lse, scene, cap);
 
     std::map<std::string, Entry> entries;
     for (const Method& method : methods()) {
