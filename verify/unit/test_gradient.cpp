@@ -17,6 +17,7 @@
 #include "evolution/increment/coupled_damage.hpp"
 #include "evolution/increment/gradient.hpp"
 #include "mesh/layers.hpp"
+#include "mesh/pairing/interfaces.hpp"
 
 using namespace delam;
 
@@ -47,7 +48,7 @@ Mesh two_layers(CellType type, const Numbers& lengths, const std::vector<std::in
     Mesh mesh(straight.dimension(), nodes);
     for (std::int64_t c = 0; c < straight.cell_count(); ++c)
         mesh.add_cells(type, straight.cell(c), std::vector<std::int32_t>{straight.cell_body(c)});
-    mesh.add_interface(0, 1, 0.0);
+    add_interface(mesh, 0, 1, 0.0);
     return mesh;
 }
 
@@ -253,7 +254,7 @@ TEST(mixed_faces) {
             for (std::int64_t& n : cell) n += bricks.node_count();
             mesh.add_cells(tetrahedra.cell_type(c), cell, std::vector<std::int32_t>{tetrahedra.cell_body(c)});
         }
-        mesh.add_interface(0, 1, 0.0);
+        add_interface(mesh, 0, 1, 0.0);
         const SparseMatrix a = stiffness_of(mesh);
         ck_laplacian(a);
         ck_near(quadratic_form(a, field(mesh, [](const Point& x) { return 2.0 * x[0] + x[1]; })), 10.0, 1e-12,
