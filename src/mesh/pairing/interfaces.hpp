@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How interfaces come about. Each function adds to the mesh or, on an error, leaves it unchanged; bodies are given by
-// their labels, and what returns a number returns that of the interface.
+// Adds interfaces to a mesh. On an error each function leaves the mesh unchanged. Bodies are given by their labels;
+// except where a comment says otherwise, a function returns the number of its interface.
 #pragma once
 
 #include <cstdint>
