@@ -6,7 +6,6 @@ or a test that names what it provokes, or a reason why there is nothing to obser
 without a sentence, a row that is not there and a file that does not hold the words given: each fails. --list prints all.
 With --base, HEADER is petsc.h, whose entries are in PETSC_SENTENCES.
 """
-import importlib
 import os
 import re
 import sys
@@ -17,8 +16,7 @@ import contract_lint as lint  # noqa: E402
 import header as headers  # noqa: E402
 import table  # noqa: E402
 
-for module in ("mesh", "law", "problem", "solver", "values", "options", "operators", "calls"):
-    importlib.import_module(f"rows_{module}")
+table.load()
 
 VERIFY = os.path.dirname(HERE)
 WORDS = re.compile(r"\b(?:until|before|only|restores|replaces)\b")

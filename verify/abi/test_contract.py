@@ -14,6 +14,7 @@ The calls are a table (CALLS); a function of the header that is missing there is
 line.
 """
 import ctypes
+import functools
 import math
 import os
 import re
@@ -194,20 +195,7 @@ class Scene:
             call(kind + "_destroy", c_void_p(getattr(self, kind)))
 
 
-def loose():
-    return Scene(joined=False)
-
-
-def bare():
-    return Scene(complete=False)
-
-
-def full():
-    return Scene()
-
-
-def host_law(s):
-    return [s.context, words("host"), on_adhesion, on_dissipation, None, c_void_p()]
+loose, bare, full = functools.partial(Scene, joined=False), functools.partial(Scene, complete=False), Scene
 
 
 def table_law(s):
@@ -285,7 +273,8 @@ CALLS = {
     "law_parameter_info": (loose, lambda s: [words("griffith"), 0] + [c_void_p() for _ in range(6)]),
     "law_parameter_bounds": (loose, lambda s: [words("griffith"), 1, real(0), real(0), short(0), short(0)]),
     "law_kind_info": (bare, lambda s: [0, c_void_p(), c_void_p(), short(0)]),
-    "law_create_host": (loose, host_law),
+    "law_create_host": (loose, lambda s: [s.context, words("host"), on_adhesion, on_dissipation, None,
+                                            c_void_p()]),
     "law_check": (loose, lambda s: [s.law]),
     "law_toughness": (loose, lambda s: [s.law, 1, real(0.5), real(0), real(0)]),
     "law_respond": (loose, lambda s: [s.law, 2, 1, real(1e-3, 0), real(0.5), real(1), real(0), real(0, 0)]),

@@ -23,7 +23,7 @@ double largest(const std::vector<double>& values) {
 
 reference::Law make_law(const reference::Scene& scene, const reference::LawData& data) {
     delam_law* raw = nullptr;
-    scene.require(delam_law_create(scene.context(), "piecewise-linear", &raw), "delam_law_create");
+    REQUIRE(scene, delam_law_create, scene.context(), "piecewise-linear", &raw);
     reference::Law law(raw);
     const auto set = [&](const char* key, double value) { scene.require(delam_law_set(raw, key, value), key); };
     set("normal_stiffness", data.normal_stiffness);
@@ -39,8 +39,7 @@ reference::Law make_law(const reference::Scene& scene, const reference::LawData&
 
 std::vector<double> factors(const reference::Scene& scene, std::size_t patterns, double time) {
     std::vector<double> theta(patterns);
-    scene.require(delam_problem_factors(scene.problem(), time, static_cast<std::int64_t>(patterns), theta.data()),
-                  "delam_problem_factors");
+    REQUIRE(scene, delam_problem_factors, scene.problem(), time, static_cast<std::int64_t>(patterns), theta.data());
     return theta;
 }
 
@@ -150,19 +149,16 @@ void Baseline::damage_step(const std::vector<double>& old, std::vector<double>& 
     std::vector<double> jump = jump_;
     for (std::size_t p = 0; p < old.size(); ++p) jump[p * dimension_] = std::max(0.0, jump[p * dimension_]);
     next.resize(old.size());
-    scene_->require(
-        delam_law_respond(law_.get(), static_cast<std::int32_t>(dimension_), static_cast<std::int64_t>(old.size()),
-                          jump.data(), mixity_.data(), old.data(), next.data(), nullptr),
-        "delam_law_respond");
+    REQUIRE(*scene_, delam_law_respond, law_.get(), static_cast<std::int32_t>(dimension_),
+            static_cast<std::int64_t>(old.size()), jump.data(), mixity_.data(), old.data(), next.data(), nullptr);
 }
 
 // Largest change of a pair's traction relative to its peak traction, |next - zeta| max(1, sqrt(Y/Go)).
 double Baseline::traction_change(const std::vector<double>& next) const {
     std::vector<double> onset(next.size());
     std::vector<double> total(next.size());
-    scene_->require(delam_law_toughness(law_.get(), static_cast<std::int64_t>(next.size()), mixity_.data(),
-                                        onset.data(), total.data()),
-                    "delam_law_toughness");
+    REQUIRE(*scene_, delam_law_toughness, law_.get(), static_cast<std::int64_t>(next.size()), mixity_.data(),
+            onset.data(), total.data());
     double change = 0.0;
     for (std::size_t p = 0; p < next.size(); ++p) {
         const double energy = driving(p, 0) + driving(p, 1);
@@ -192,9 +188,8 @@ double Baseline::stored_bulk(const std::vector<double>& theta) const {
 double Baseline::dissipation(const std::vector<double>& old) const {
     std::vector<double> onset(old.size());
     std::vector<double> total(old.size());
-    scene_->require(delam_law_toughness(law_.get(), static_cast<std::int64_t>(old.size()), mixity_.data(), onset.data(),
-                                        total.data()),
-                    "delam_law_toughness");
+    REQUIRE(*scene_, delam_law_toughness, law_.get(), static_cast<std::int64_t>(old.size()), mixity_.data(),
+            onset.data(), total.data());
     double sum = 0.0;
     for (std::size_t p = 0; p < old.size(); ++p) {
         if (adhesion_[p] == old[p]) continue;

@@ -20,9 +20,8 @@ double damage_defect(const reference::Scene& scene, const delam_law* law, const 
     std::vector<double> open = jump;
     for (std::size_t p = 0; p < old.size(); ++p) open[p * d] = std::max(0.0, open[p * d]);
     std::vector<double> next(old.size());
-    scene.require(delam_law_respond(law, scene.dimension(), static_cast<std::int64_t>(old.size()), open.data(),
-                                    mixity.data(), old.data(), next.data(), nullptr),
-                  "delam_law_respond");
+    REQUIRE(scene, delam_law_respond, law, scene.dimension(), static_cast<std::int64_t>(old.size()), open.data(),
+            mixity.data(), old.data(), next.data(), nullptr);
     double change = 0.0;
     for (std::size_t p = 0; p < old.size(); ++p) change = std::max(change, std::abs(next[p] - adhesion[p]));
     return change;
@@ -45,7 +44,7 @@ Json measure_critical(const std::string& scene, double cap) {
     declare(stage, {});
     delam_law* raw = nullptr;
     const reference::Scene& s = stage.scene;
-    s.require(delam_law_create(s.context(), "piecewise-linear", &raw), "delam_law_create");
+    REQUIRE(s, delam_law_create, s.context(), "piecewise-linear", &raw);
     const reference::Law law(raw);
     const auto& data = stage.data.law;
     const std::pair<const char*, double> parameters[] = {

@@ -67,12 +67,12 @@ struct Course {
         const double from = steps[at(k)].at("revised_from");
         if (!(from < k)) return;
         for (int i = static_cast<int>(from); i < k; ++i) {
-            solver.scene().require(delam_solver_look(solver.get(), i), "delam_solver_look");
+            REQUIRE(solver.scene(), delam_solver_look, solver.get(), i);
             Values again = read(solver);
             if (again.at("revisions") != steps[at(i)].at("revisions")) count(again);
             steps[at(i)] = std::move(again);
         }
-        solver.scene().require(delam_solver_look(solver.get(), -1), "delam_solver_look");
+        REQUIRE(solver.scene(), delam_solver_look, solver.get(), -1);
     }
 };
 
@@ -148,7 +148,7 @@ Json measure_concepts(const std::string& scene, int repeat, double cap) {
     declare(stage, {});
     std::int64_t primal = 0;
     std::int64_t dual = 0;
-    stage.scene.require(delam_problem_dofs(stage.scene.problem(), &primal, &dual), "delam_problem_dofs");
+    REQUIRE(stage.scene, delam_problem_dofs, stage.scene.problem(), &primal, &dual);
     Lse lse(stage);
     Json result;
     result["scene"] = scene;

@@ -76,11 +76,8 @@ int main(int argc, char** argv) {
         try {
             bench::Json result;
             result["table"] = table;
-            std::string command;
-            for (int i = 0; i < argc; ++i) {
-                if (i > 0) command += ' ';
-                command += argv[i];
-            }
+            std::string command = argv[0];
+            for (int i = 1; i < argc; ++i) command += std::string(" ") + argv[i];
             result["command"] = command;
             result["machine"] = bench::machine();
             const auto& m = result["machine"];

@@ -10,7 +10,7 @@ namespace {
 class Deadline {
 public:
     Deadline(const reference::Scene& scene, double seconds) : scene_(&scene), seconds_(seconds) {
-        scene.require(delam_context_set_progress(scene.context(), &Deadline::ask, this), "delam_context_set_progress");
+        REQUIRE(scene, delam_context_set_progress, scene.context(), &Deadline::ask, this);
     }
     ~Deadline() { delam_context_set_progress(scene_->context(), nullptr, nullptr); }
     Deadline(const Deadline&) = delete;
@@ -100,7 +100,7 @@ March run_library(Stage& stage, const Choice& choice, double cap,
     Clock clock;
     std::string refusal;
     if (!declare(stage, choice, &refusal)) throw reference::Failure(0, refusal);
-    stage.scene.require(delam_problem_check(stage.scene.problem()), "delam_problem_check");
+    REQUIRE(stage.scene, delam_problem_check, stage.scene.problem());
     march.setup = clock.lap();
     std::optional<reference::Solver> solver;
     try {
@@ -141,7 +141,7 @@ March run_baseline(Stage& stage, const BaselineOptions& options, double cap, std
     const Clock whole;
     Clock clock;
     if (!declare(stage, {nullptr, nullptr, options.delta})) throw reference::Failure(0, "baseline: scene refused");
-    stage.scene.require(delam_problem_check(stage.scene.problem()), "delam_problem_check");
+    REQUIRE(stage.scene, delam_problem_check, stage.scene.problem());
     march.setup = clock.lap();
     Baseline baseline(stage.scene, stage.data.law, stage.adhesion, options);
     march.factor = clock.lap();

@@ -73,15 +73,11 @@ void prescribe(Stage& stage, const Place& where, const Point& direction, std::in
     std::vector<std::int64_t> nodes(scene.node_count());
     std::vector<double> weights(nodes.size());
     std::int64_t count = 0;
-    scene.require(
-        delam_mesh_find_patch(scene.mesh(), where.body, where.lower.data(), where.upper.data(), outward.data(),
-                              static_cast<std::int64_t>(nodes.size()), nodes.data(), weights.data(), &count),
-        "delam_mesh_find_patch");
+    REQUIRE(scene, delam_mesh_find_patch, scene.mesh(), where.body, where.lower.data(), where.upper.data(),
+            outward.data(), static_cast<std::int64_t>(nodes.size()), nodes.data(), weights.data(), &count);
     const double one = 1.0;
-    scene.require(delam_problem_prescribe_mean(scene.problem(), count, nodes.data(), weights.data(), direction.data(),
-                                               pattern < 0 ? 0 : 1, pattern < 0 ? nullptr : &pattern,
-                                               pattern < 0 ? nullptr : &one, 0),
-                  "delam_problem_prescribe_mean");
+    REQUIRE(scene, delam_problem_prescribe_mean, scene.problem(), count, nodes.data(), weights.data(), direction.data(),
+            pattern < 0 ? 0 : 1, pattern < 0 ? nullptr : &pattern, pattern < 0 ? nullptr : &one, 0);
 }
 
 reference::Scene layers(const SceneData& data) {

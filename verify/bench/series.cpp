@@ -77,7 +77,7 @@ Json measure_series(const std::string& scene, int repeat, double cap) {
     declare(stage, {});
     std::int64_t primal = 0;
     std::int64_t dual = 0;
-    stage.scene.require(delam_problem_dofs(stage.scene.problem(), &primal, &dual), "delam_problem_dofs");
+    REQUIRE(stage.scene, delam_problem_dofs, stage.scene.problem(), &primal, &dual);
     Lse lse(stage);
     Json result;
     result["scene"] = scene;

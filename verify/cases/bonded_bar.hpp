@@ -42,7 +42,7 @@ inline reference::Scene make_bar(const Bar& bar) {
     reference::Scene scene(2, {bar.length}, {bar.cells}, {thickness, thickness}, {1, 1}, DELAM_QUAD4);
     scene.interface(0, 1);
     scene.begin();
-    scene.require(delam_problem_set_plane(scene.problem(), "plane-stress"), "delam_problem_set_plane");
+    REQUIRE(scene, delam_problem_set_plane, scene.problem(), "plane-stress");
     scene.elastic(-1, bar.membrane / thickness, 0.0);
     const double k = bar.membrane / (bar.bond_length * bar.bond_length);
     scene.law(0, {k, k, bar.toughness, bar.toughness, bar.toughness, bar.toughness});

@@ -193,10 +193,10 @@ inline std::vector<double> march_below(const reference::Scene& scene, const Riva
         const std::string where = "step " + std::to_string(k) + ": ";
         solver.step(time);
         // The step's own start, after the steps that it replaced.
-        scene.require(delam_solver_look(solver.get(), k - 1), "delam_solver_look");
+        REQUIRE(scene, delam_solver_look, solver.get(), k - 1);
         const std::vector<double> before = solver.field("adhesion");
         const double spent = solver.value("dissipated");
-        scene.require(delam_solver_look(solver.get(), -1), "delam_solver_look");
+        REQUIRE(scene, delam_solver_look, solver.get(), -1);
         const double rival = rivals.least(time, before) + spent;
         expect_below((total(solver) - rival) / scale(solver), tolerance, where + "energy above the rivals'");
         expect_below(-solver.value("search_margin") / scale(solver), 1e-9,
@@ -215,14 +215,12 @@ struct Jump {
 inline std::vector<Jump> jumps(const reference::Solver& solver) {
     std::int64_t count = 0;
     const reference::Scene& scene = solver.scene();
-    scene.require(delam_solver_jump_count(solver.get(), &count), "delam_solver_jump_count");
+    REQUIRE(scene, delam_solver_jump_count, solver.get(), &count);
     std::vector<Jump> all(static_cast<std::size_t>(count));
     for (std::size_t i = 0; i < all.size(); ++i) {
         Jump& j = all[i];
-        scene.require(
-            delam_solver_jump(solver.get(), static_cast<std::int64_t>(i), &j.step, &j.before, &j.time, &j.stored,
-                              &j.dissipated, &j.released, &j.debonded, &j.interface, &j.first, &j.last),
-            "delam_solver_jump");
+        REQUIRE(scene, delam_solver_jump, solver.get(), static_cast<std::int64_t>(i), &j.step, &j.before, &j.time,
+                &j.stored, &j.dissipated, &j.released, &j.debonded, &j.interface, &j.first, &j.last);
     }
     return all;
 }

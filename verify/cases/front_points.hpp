@@ -25,15 +25,13 @@ inline std::vector<CrackFront> crack_fronts(const reference::Solver& solver, std
     const reference::Scene& scene = solver.scene();
     const auto dim = static_cast<std::size_t>(scene.dimension());
     std::int64_t fronts = 0, points = 0;
-    scene.require(delam_solver_front_count(solver.get(), interface, &fronts, &points), "delam_solver_front_count");
+    REQUIRE(scene, delam_solver_front_count, solver.get(), interface, &fronts, &points);
     const auto n = static_cast<std::size_t>(points);
     std::vector<std::int64_t> starts(static_cast<std::size_t>(fronts) + 1);
     std::vector<std::int32_t> closed(static_cast<std::size_t>(fronts));
     std::vector<double> places(n * dim), directions(n * dim), lengths(n), rates(3 * n), zones(n), pairs(n);
-    scene.require(
-        delam_solver_front(solver.get(), interface, fronts, points, starts.data(), closed.data(), places.data(),
-                           directions.data(), lengths.data(), rates.data(), zones.data(), pairs.data()),
-        "delam_solver_front");
+    REQUIRE(scene, delam_solver_front, solver.get(), interface, fronts, points, starts.data(), closed.data(),
+            places.data(), directions.data(), lengths.data(), rates.data(), zones.data(), pairs.data());
     std::vector<CrackFront> found;
     for (std::size_t f = 0; f < closed.size(); ++f) {
         found.push_back({closed[f] != 0, {}});

@@ -21,21 +21,18 @@ struct Csr {
 
 inline Csr body_matrix(const Scene& scene, std::int32_t body) {
     std::int64_t rows = 0, entries = 0;
-    scene.require(delam_problem_body_matrix(scene.problem(), body, &rows, &entries, nullptr, nullptr, nullptr),
-                  "delam_problem_body_matrix");
+    REQUIRE(scene, delam_problem_body_matrix, scene.problem(), body, &rows, &entries, nullptr, nullptr, nullptr);
     Csr k{std::vector<std::int64_t>(static_cast<std::size_t>(rows) + 1),
           std::vector<std::int64_t>(static_cast<std::size_t>(entries)),
           std::vector<double>(static_cast<std::size_t>(entries))};
-    scene.require(delam_problem_body_matrix(scene.problem(), body, nullptr, nullptr, k.start.data(), k.column.data(),
-                                            k.value.data()),
-                  "delam_problem_body_matrix");
+    REQUIRE(scene, delam_problem_body_matrix, scene.problem(), body, nullptr, nullptr, k.start.data(), k.column.data(),
+            k.value.data());
     return k;
 }
 
 inline std::vector<std::int64_t> nodes_of(const Scene& scene, std::int32_t body) {
     std::vector<std::int32_t> bodies(scene.node_count());
-    scene.require(delam_mesh_node_bodies(scene.mesh(), static_cast<std::int64_t>(bodies.size()), bodies.data()),
-                  "delam_mesh_node_bodies");
+    REQUIRE(scene, delam_mesh_node_bodies, scene.mesh(), static_cast<std::int64_t>(bodies.size()), bodies.data());
     std::vector<std::int64_t> nodes;
     for (std::size_t n = 0; n < bodies.size(); ++n)
         if (bodies[n] == body) nodes.push_back(static_cast<std::int64_t>(n));
@@ -87,7 +84,7 @@ inline Scene without_cells(const Scene& own, const std::vector<std::int32_t>& bo
     for (const std::int32_t body : bodies) made.add_host_body(body, nodes_of(own, body));
     const auto dim = static_cast<std::size_t>(own.dimension());
     std::int64_t interfaces = 0;
-    own.require(delam_mesh_size(own.mesh(), nullptr, nullptr, nullptr, nullptr, &interfaces), "delam_mesh_size");
+    REQUIRE(own, delam_mesh_size, own.mesh(), nullptr, nullptr, nullptr, nullptr, &interfaces);
     for (std::int64_t i = 0; i < interfaces; ++i) {
         const reference::Pairs pairs = own.pairs(i);
         std::vector<double> normals;

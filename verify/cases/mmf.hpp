@@ -44,7 +44,7 @@ inline reference::Scene make_mmf(double h, const reference::LawData& law, const 
 class Warnings {
 public:
     explicit Warnings(const reference::Scene& scene) : scene_(scene) {
-        scene.require(delam_context_set_log(scene.context(), &Warnings::hear, this), "delam_context_set_log");
+        REQUIRE(scene, delam_context_set_log, scene.context(), &Warnings::hear, this);
     }
     Warnings(const Warnings&) = delete;
     Warnings& operator=(const Warnings&) = delete;

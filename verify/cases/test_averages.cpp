@@ -25,7 +25,7 @@ reference::Scene affine(int dimension, std::int32_t cell, const char* plane) {
     scene.begin();
     scene.elastic(0, 10.0, 0.3);
     scene.elastic(1, 20.0, 0.2);
-    if (!space) scene.require(delam_problem_set_plane(scene.problem(), plane), "delam_problem_set_plane");
+    if (!space) REQUIRE(scene, delam_problem_set_plane, scene.problem(), plane);
     scene.bonded(0);
     const auto pattern = scene.pattern("stretch", {0.0, 1.0}, {0.0, 1.0});
     const std::vector<std::int64_t> nodes =
@@ -52,8 +52,7 @@ reference::Scene affine(int dimension, std::int32_t cell, const char* plane) {
 std::int64_t scene_pattern(const reference::Scene& scene, const char* name) {
     const double times[] = {0.0, 1.0};
     std::int64_t pattern = 0;
-    scene.require(delam_problem_add_pattern(scene.problem(), name, 2, times, times, &pattern),
-                  "delam_problem_add_pattern");
+    REQUIRE(scene, delam_problem_add_pattern, scene.problem(), name, 2, times, times, &pattern);
     return pattern;
 }
 
@@ -89,8 +88,7 @@ LOOP_TEST(affine_averages, 0, 18) {
         if (own.plane == std::string("plane-stress")) exact[2] = -nu / (1 - nu) * (g[0][0] + g[1][1]);
         std::array<double, 6> strain{}, stress{};
         double volume = 0.0;
-        scene.require(delam_solver_average(solver.get(), body, &volume, strain.data(), stress.data()),
-                      "delam_solver_average");
+        REQUIRE(scene, delam_solver_average, solver.get(), body, &volume, strain.data(), stress.data());
         expect_near(volume, body == 0 ? 2.0 : 1.0, 1e-12, 1.0, "volume");
         for (std::size_t i = 0; i < 6; ++i) {
             expect_near(strain[i], exact[i], 1e-12, 1.0, "strain");
@@ -101,7 +99,7 @@ LOOP_TEST(affine_averages, 0, 18) {
         all += volume;
     }
     std::array<double, 6> stress{};
-    scene.require(delam_solver_average(solver.get(), -1, nullptr, nullptr, stress.data()), "delam_solver_average");
+    REQUIRE(scene, delam_solver_average, solver.get(), -1, nullptr, nullptr, stress.data());
     for (std::size_t i = 0; i < 6; ++i) expect_near(stress[i], sum[i] / all, 1e-12, 1.0, "stress of all bodies");
     expect(delam_solver_average(solver.get(), 7, nullptr, nullptr, nullptr) == DELAM_ERROR_ARGUMENT, "no such body");
 
@@ -123,17 +121,17 @@ LOOP_TEST(eigenstrains, 0, 9) {
     reference::Scene scene = affine(dim, dim == 3 ? DELAM_HEX8 : DELAM_QUAD4, stress ? "plane-stress" : "plane-strain");
     const double warm = 2e-3, strain[] = {warm, warm, warm, 0.0, 0.0, 0.0};
     const auto heat = scene_pattern(scene, "heat");
-    scene.require(delam_problem_add_eigenstrain(scene.problem(), heat, 0, strain), "delam_problem_add_eigenstrain");
+    REQUIRE(scene, delam_problem_add_eigenstrain, scene.problem(), heat, 0, strain);
     std::array<double, 6> with{}, without{}, cold{}, all{};
     scene.text("reduction", realisations[loop / 3]);
     reference::Solver solver(scene, 0.0);
     solver.step(1.0);
-    scene.require(delam_solver_average(solver.get(), 0, nullptr, all.data(), with.data()), "delam_solver_average");
+    REQUIRE(scene, delam_solver_average, solver.get(), 0, nullptr, all.data(), with.data());
     const reference::Scene plain =
         affine(dim, dim == 3 ? DELAM_HEX8 : DELAM_QUAD4, stress ? "plane-stress" : "plane-strain");
     reference::Solver other(plain, 0.0);
     other.step(1.0);
-    scene.require(delam_solver_average(other.get(), 0, nullptr, cold.data(), without.data()), "delam_solver_average");
+    REQUIRE(scene, delam_solver_average, other.get(), 0, nullptr, cold.data(), without.data());
     const double young = 10.0, nu = 0.3, bulk = stress ? young / (1 - nu) : young / (1 - 2 * nu);
     for (std::size_t i = 0; i < 6; ++i) {
         const bool zero = i > 2 || (stress && i == 2);
@@ -167,7 +165,7 @@ LOOP_TEST(warnings, 0, 3) {
     expect(solver.value("rotation_max") > 0.1 && solver.value("rotation_max") > 0.1, "large rotations");
     expect(count("rad") == 1, "a warning of rotations, once");
     double length = 0.0, spacing = 0.0;
-    scene.require(delam_problem_process_zone(scene.problem(), 0, &length, &spacing), "delam_problem_process_zone");
+    REQUIRE(scene, delam_problem_process_zone, scene.problem(), 0, &length, &spacing);
     const double modulus = 75e9 / 0.91,
                  thick = brittle ? modulus * 25.0 / (50e6 * 50e6) : modulus * 250.0 / (5e6 * 5e6);
     const double exact = brittle ? thick : std::pow(thick, 0.25) * std::pow(3e-3, 0.75);

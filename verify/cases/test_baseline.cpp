@@ -89,8 +89,8 @@ TEST(same_scene) {
     }
     char ours[17];
     char theirs[17];
-    known.require(delam_problem_hash(known.problem(), theirs), "delam_problem_hash");
-    known.require(delam_problem_hash(stage.scene.problem(), ours), "delam_problem_hash");
+    REQUIRE(known, delam_problem_hash, known.problem(), theirs);
+    REQUIRE(known, delam_problem_hash, stage.scene.problem(), ours);
     cases::expect(std::string(ours) == theirs, std::string("hash ") + ours + " instead of " + theirs);
 }
 

@@ -23,9 +23,7 @@ struct Watch {
         if (++w.polls == 3) w.act();
         return 0;
     }
-    void listen(const Scene& scene) {
-        scene.require(delam_context_set_progress(scene.context(), poll, this), "delam_context_set_progress");
-    }
+    void listen(const Scene& scene) { REQUIRE(scene, delam_context_set_progress, scene.context(), poll, this); }
 };
 
 // Calls that a callback may try; each of them is refused.
@@ -65,7 +63,7 @@ TEST(in_progress) {
     watch.act = [&] { try_everything(scene, watched.get()); };
     watch.listen(scene);
     watched.step(cases::small_time(6));
-    scene.require(delam_context_set_progress(scene.context(), nullptr, nullptr), "delam_context_set_progress");
+    REQUIRE(scene, delam_context_set_progress, scene.context(), nullptr, nullptr);
     watched.commit();
     cases::expect(watch.polls >= 3, "nothing was tried");
     cases::expect_same(watched, cases::read_bits(watched), cases::read_bits(plain), "after the step");
@@ -88,14 +86,14 @@ TEST(in_the_log) {
     (void)loop;
     Scene scene = cases::small_enf(0);
     Log log{&scene};
-    scene.require(delam_context_set_log(scene.context(), Log::line, &log), "delam_context_set_log");
+    REQUIRE(scene, delam_context_set_log, scene.context(), Log::line, &log);
     cases::expect(delam_problem_set_number(scene.problem(), "no_such_option", 1.0) == DELAM_ERROR_ARGUMENT,
                   "an option that is none");
     cases::expect(log.lines == 1 && log.status == DELAM_ERROR_STATE,
                   std::to_string(log.lines) + " lines, " + delam_status_name(log.status));
     cases::expect(std::string(delam_context_message(scene.context())).find("no_such_option") != std::string::npos,
                   "the message is another one's");
-    scene.require(delam_context_set_log(scene.context(), nullptr, nullptr), "delam_context_set_log");
+    REQUIRE(scene, delam_context_set_log, scene.context(), nullptr, nullptr);
     scene.number("damage_tolerance", 1e-7);
 }
 
@@ -122,13 +120,12 @@ TEST(in_a_law) {
     const Scene scene = cases::small_enf(0);
     Asking asking;
     delam_law* law = nullptr;
-    scene.require(
-        delam_law_create_host(scene.context(), "asking", Asking::adhesion, Asking::dissipation, &asking, &law),
-        "delam_law_create_host");
+    REQUIRE(scene, delam_law_create_host, scene.context(), "asking", Asking::adhesion, Asking::dissipation, &asking,
+            &law);
     const reference::Law owned(law);
     for (const char* key : {"normal_stiffness", "tangential_stiffness"})
         scene.require(delam_law_set(law, key, 1e14), key);
-    scene.require(delam_problem_set_law(scene.problem(), 0, law), "delam_problem_set_law");
+    REQUIRE(scene, delam_problem_set_law, scene.problem(), 0, law);
     Solver solver(scene, 0.0);
     asking.solver = solver.get();
     cases::walk(solver, 1, 6);
@@ -157,12 +154,11 @@ TEST(law_that_ends_itself) {
     (void)loop;
     const Scene scene = cases::small_enf(0), elsewhere = cases::small_enf(0);
     Ending ending;
-    scene.require(delam_law_create_host(elsewhere.context(), "ending", Ending::adhesion, Ending::dissipation, &ending,
-                                        &ending.handle),
-                  "delam_law_create_host");
+    REQUIRE(scene, delam_law_create_host, elsewhere.context(), "ending", Ending::adhesion, Ending::dissipation, &ending,
+            &ending.handle);
     for (const char* key : {"normal_stiffness", "tangential_stiffness"})
         scene.require(delam_law_set(ending.handle, key, 1e14), key);
-    scene.require(delam_problem_set_law(scene.problem(), 0, ending.handle), "delam_problem_set_law");
+    REQUIRE(scene, delam_problem_set_law, scene.problem(), 0, ending.handle);
     cases::expect(ending.handle == nullptr && ending.later > 0, "it has not ended, or was not needed any more");
     Solver solver(scene, 0.0);
     cases::walk(solver, 1, 2);
@@ -176,8 +172,8 @@ TEST(destroyed_at_work) {
         if (energetic) scene.text("solution", "energetic");
         delam_solver* solver = nullptr;
         delam_law* law = nullptr;
-        scene.require(delam_solver_create(scene.problem(), 0.0, &solver), "delam_solver_create");
-        scene.require(delam_law_create(scene.context(), "griffith", &law), "delam_law_create");
+        REQUIRE(scene, delam_solver_create, scene.problem(), 0.0, &solver);
+        REQUIRE(scene, delam_law_create, scene.context(), "griffith", &law);
         Watch watch;
         delam_solver* const at_work = solver;
         watch.act = [&] {
@@ -189,9 +185,9 @@ TEST(destroyed_at_work) {
                           "an ended handle was taken");
         };
         watch.listen(scene);
-        scene.require(delam_solver_advance(solver, cases::small_time(6)), "delam_solver_advance");
+        REQUIRE(scene, delam_solver_advance, solver, cases::small_time(6));
         cases::expect(watch.polls >= 3 && solver == nullptr, "nothing was destroyed");
-        scene.require(delam_context_set_progress(scene.context(), nullptr, nullptr), "delam_context_set_progress");
+        REQUIRE(scene, delam_context_set_progress, scene.context(), nullptr, nullptr);
         Solver again(scene, 0.0);
         cases::walk(again, 1, 2);
     }
@@ -205,7 +201,7 @@ TEST(another_island) {
     watch.act = [&] { cases::walk(plain, 1, 6); };
     watch.listen(scene);
     cases::walk(solver, 1, 6);
-    scene.require(delam_context_set_progress(scene.context(), nullptr, nullptr), "delam_context_set_progress");
+    REQUIRE(scene, delam_context_set_progress, scene.context(), nullptr, nullptr);
     cases::expect_same(solver, cases::read_bits(solver), cases::read_bits(plain), "both");
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The condensed jump operator against FETI, the iterated operator and the direct reference, scene by scene, at random
-// adhesion and under reversed loads. Then long sequences in which a few pairs change at a time, so that zones are newly
-// chosen, released and renewed: every state is compared with that of a solver without history.
+// adhesion and under reversed loads.
 #include <algorithm>
 #include <array>
 #include <functional>
@@ -9,14 +8,15 @@
 
 #include "acceptance.hpp"
 #include "comparison.hpp"
-#include "condensed_scenes.hpp"
+#include "controlled_scenes.hpp"
 #include "direct.hpp"
-#include "enf.hpp"
-#include "support.hpp"
+#include "same_fields.hpp"
 
 namespace {
 
 using cases::block_law;
+using cases::expect_equal;
+using cases::largest;
 using cases::LawData;
 using cases::Scene;
 using reference::DirectReference;
@@ -130,29 +130,6 @@ std::vector<double> random_adhesion(const Scene& scene, std::mt19937& random, co
             zeta[pair] = x < 0.25 ? 0.0 : x < 0.35 ? 1e-12 : x < 0.5 ? 1.0 : x < 0.6 ? 1e-4 : draw(random);
         }
     return zeta;
-}
-
-double largest(const std::vector<double>& v) {
-    double m = 0.0;
-    for (const double x : v) m = std::max(m, std::abs(x));
-    return m;
-}
-
-// Fields of two solvers at the same state, over the largest value of the second.
-void expect_equal(const Solver& a, const Solver& b, const std::vector<const char*>& fields, double tolerance,
-                  const std::string& where) {
-    for (const char* key : fields) {
-        const auto x = a.field(key), y = b.field(key);
-        const double scale = largest(y);
-        double worst = 0.0;
-        for (std::size_t i = 0; i < x.size(); ++i) worst = std::max(worst, std::abs(x[i] - y[i]));
-        cases::expect(std::isfinite(largest(x)), where + ": " + key + " is not finite");
-        if (worst > 0.0) cases::expect_below(worst / scale, tolerance, where + ": " + key);
-    }
-    const double energy = std::abs(b.value("stored_bulk")) + std::abs(b.value("stored_interface"));
-    for (const char* key : {"stored_bulk", "stored_interface", "load_potential"})
-        cases::expect_near(a.value(key), b.value(key), tolerance, energy + std::abs(b.value("load_potential")),
-                           where + ": " + key);
 }
 
 void expect_accepted(const Solver& solver, const Exported& exported, double tolerance, const std::string& where) {
@@ -418,125 +395,6 @@ LOOP_TEST(bound_jumps_of_a_bond, 0, 3) {
     delam_solver_destroy(&solver);
     cases::expect(status == DELAM_ERROR_PROBLEM,
                   std::string("create: ") + delam_status_name(status) + ", advance: " + delam_status_name(advanced));
-}
-
-// ---- zones ---------------------------------------------------------------------------------------------------------
-
-struct Walk {
-    const char* name;
-    Scene (*make)();
-    int states;
-    double time;
-};
-const Walk walks[] = {
-    {"ENF",
-     [] {
-         cases::Enf e;
-         e.h = 1.5e-3;
-         e.subdomains = 0;
-         return cases::make_enf(e);
-     },
-     80, 1.0},
-    {"ENF of k = 1e18",
-     [] {
-         cases::Enf e;
-         e.h = 1.5e-3;
-         e.subdomains = 0;
-         e.law.normal_stiffness = e.law.tangential_stiffness = 1e18;
-         return cases::make_enf(e);
-     },
-     80, 1.0},
-    {"plies 3D", [] { return cases::make_plies(3, 2, DELAM_HEX8, "standard", block_law, 24); }, 50, 1.0},
-    {"four plies", [] { return cases::make_plies(2, 4, DELAM_QUAD4, "standard", block_law, 40); }, 50, -1.0},
-    {"opened", [] { return cases::make_opened(2, 33.0); }, 60, 1.0},
-};
-constexpr int walk_count = static_cast<int>(std::size(walks));
-
-// A front that advances slowly, sometimes with a change elsewhere, a jump back, or a change everywhere.
-LOOP_TEST(long_walk, 0, walk_count) {
-    const Walk& w = walks[loop];
-    Scene scene = w.make();
-    scene.text("reduction", "condensed");
-    Solver walker(scene, 0.0);
-    std::mt19937 random(5U + static_cast<unsigned>(loop));
-    std::uniform_real_distribution<double> draw(0.0, 1.0);
-    auto zeta = walker.field("adhesion");
-    const auto initial = zeta;
-    const auto pairs = zeta.size();
-    std::size_t front = pairs / 4;
-    const int states = cases::whole() ? w.states : w.states / 3;
-    for (int k = 0; k < states; ++k) {
-        const double kind = draw(random);
-        if (kind < 0.75) {
-            for (std::size_t i = 0; i < 3; ++i) {
-                zeta[front % pairs] = i == 0 ? 0.0 : draw(random);
-                ++front;
-            }
-            front -= 2;
-        } else if (kind < 0.9) {
-            zeta[static_cast<std::size_t>(draw(random) * static_cast<double>(pairs))] =
-                draw(random) < 0.5 ? 1e-12 : draw(random);
-        } else if (kind < 0.95) {
-            front = static_cast<std::size_t>(draw(random) * static_cast<double>(pairs));
-        } else {
-            zeta = initial;
-        }
-        const double time = w.time * (0.2 + 0.8 * draw(random));
-        walker.equilibrate(time, zeta);
-        Solver fresh(scene, 0.0);
-        fresh.equilibrate(time, zeta);
-        const std::string where = std::string(w.name) + ", state " + std::to_string(k);
-        expect_equal(walker, fresh, {"displacement", "jump", "traction", "reaction"}, 1e-8, where);
-        cases::expect_below(walker.value("kkt_equilibrium"), 1e-10, where + ": equilibrium");
-        walker.commit();
-    }
-}
-
-// Nothing adheres: the first step is computed, rolled back, and another one computed.
-TEST(rollback_of_the_first_step) {
-    const auto make = [] {
-        Scene scene = cases::make_plies(2, 2, DELAM_QUAD4, "standard", block_law, 60);
-        std::vector<std::int64_t> all(scene.pair_count());
-        for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<std::int64_t>(i);
-        scene.adhesion(0, all, std::vector<double>(all.size(), 0.0));
-        return scene;
-    };
-    const Scene scene = make();
-    Solver solver(scene, 0.0), fresh(scene, 0.0);
-    solver.step(0.4);
-    solver.rollback();
-    solver.step(0.7);
-    fresh.step(0.7);
-    cases::expect(solver.field("jump") == fresh.field("jump") && solver.field("traction") == fresh.field("traction"),
-                  "bits of the step");
-    solver.commit();
-    fresh.commit();
-    cases::expect(solver.save() == fresh.save(), "bytes of the snapshot");
-}
-
-// A soft arm below or above one 1e8 times stiffer: its tractions result from its own stiffness, whichever side it is
-// on.
-LOOP_TEST(soft_on_stiff, 0, 2) {
-    const double ratio = loop == 0 ? 1e8 : 1e-8;
-    Scene scene(2, {0.04}, {40}, {2e-3, 2e-3}, {2, 2}, DELAM_QUAD4);
-    scene.interface(0, 1);
-    scene.begin();
-    scene.elastic(0, 70e9 * std::min(1.0, 1.0 / ratio), 0.3);
-    scene.elastic(1, 70e9 * std::min(1.0, ratio), 0.3);
-    scene.law(0, {1e14, 1e14, 1e30, 1e30, 1e30, 1e30});
-    const auto right = scene.find(-1, {0.04, 0.0}, {0.04, 4e-3});
-    scene.hold(right, {1.0, 0.0});
-    scene.hold(right, {0.0, 1.0});
-    scene.drive(scene.find(1, {0.0, 4e-3}, {0.0, 4e-3}), {0.0, 1.0}, scene.pattern("lift", {0.0, 1.0}, {0.0, 1e-5}),
-                {1.0});
-    scene.text("reduction", "condensed");
-    Solver solver(scene, 0.0);
-    solver.step(1.0);
-    DirectReference direct(scene);
-    const auto comparison =
-        reference::compare(solver, direct.solve(1.0, solver.field("adhesion")), direct.exported(), 1e-10);
-    cases::expect_below(comparison.traction, 1e-7,
-                        "E upper / E lower " + std::to_string(ratio) + ": " + comparison.text());
 }
 
 }  // namespace

@@ -75,7 +75,7 @@ LOOP_TEST(statically_determinate_layer, 0, 4) {
     const auto load = scene.pattern("load", {0.0, 1.0}, {0.0, 1.0});
     const auto top = scene.find(0, {0.04, 0.01}, {0.04, 0.01});
     const double force[2] = {0.0, -1000.0};
-    scene.require(delam_problem_add_forces(scene.problem(), load, 1, top.data(), force, 0), "delam_problem_add_forces");
+    REQUIRE(scene, delam_problem_add_forces, scene.problem(), load, 1, top.data(), force, 0);
     Solver solver(scene, 0.0);
     solver.step(1.0);
     const auto reaction = solver.field("reaction");

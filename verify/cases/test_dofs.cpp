@@ -19,14 +19,14 @@ LOOP_TEST(slides_table, 0, 3) {
     const auto scene = cases::make_enf(e);
     std::int64_t primal = 0;
     std::int64_t dual = 0;
-    scene.require(delam_problem_dofs(scene.problem(), &primal, &dual), "delam_problem_dofs");
+    REQUIRE(scene, delam_problem_dofs, scene.problem(), &primal, &dual);
     cases::expect(primal == row.primal, "primal DOFs " + std::to_string(primal));
     cases::expect(dual == row.dual, "dual DOFs " + std::to_string(dual));
 
     double length = 0.0;
     for (const double w : scene.pairs(0).weight) length += w;
     cases::expect_near(length, cases::enf_length, 1e-14, cases::enf_length, "sum of the pairs' weights");
-    scene.require(delam_problem_check(scene.problem()), "delam_problem_check");
+    REQUIRE(scene, delam_problem_check, scene.problem());
 }
 
 }  // namespace

@@ -24,13 +24,11 @@ constexpr double ply[] = {135e9, 9e9, 9e9, 0.24, 0.24, 0.46, 5.2e9, 5.2e9, 9e9 /
 std::size_t size(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 void eigenstrain(Scene& scene, std::int64_t pattern, std::int32_t body, const std::array<double, 6>& strain) {
-    scene.require(delam_problem_add_eigenstrain(scene.problem(), pattern, body, strain.data()),
-                  "delam_problem_add_eigenstrain");
+    REQUIRE(scene, delam_problem_add_eigenstrain, scene.problem(), pattern, body, strain.data());
 }
 
 void turn(Scene& scene, std::int32_t body, const std::array<double, 6>& axes) {
-    scene.require(delam_problem_set_orientation(scene.problem(), body, 1, nullptr, axes.data(), 0),
-                  "delam_problem_set_orientation");
+    REQUIRE(scene, delam_problem_set_orientation, scene.problem(), body, 1, nullptr, axes.data(), 0);
 }
 
 struct Element {

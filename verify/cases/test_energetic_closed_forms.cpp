@@ -107,12 +107,11 @@ struct Jump {
 Jump only_jump(const Solver& solver) {
     const Scene& scene = solver.scene();
     std::int64_t count = 0;
-    scene.require(delam_solver_jump_count(solver.get(), &count), "delam_solver_jump_count");
+    REQUIRE(scene, delam_solver_jump_count, solver.get(), &count);
     cases::expect(count == 1, "jumps located: " + std::to_string(count));
     Jump jump;
-    scene.require(delam_solver_jump(solver.get(), 0, nullptr, &jump.before, &jump.time, nullptr, nullptr,
-                                    &jump.released, nullptr, nullptr, nullptr, nullptr),
-                  "delam_solver_jump");
+    REQUIRE(scene, delam_solver_jump, solver.get(), 0, nullptr, &jump.before, &jump.time, nullptr, nullptr,
+            &jump.released, nullptr, nullptr, nullptr, nullptr);
     return jump;
 }
 

@@ -41,7 +41,7 @@ Checked walk(Solver& solver, const std::vector<double>& times) {
     std::vector<double> before;
     double energy = 0.0, dissipated = 0.0;
     for (int k = 0; k <= static_cast<int>(times.size()); ++k) {
-        scene.require(delam_solver_look(solver.get(), k), "delam_solver_look");
+        REQUIRE(scene, delam_solver_look, solver.get(), k);
         const auto adhesion = solver.field("adhesion");
         const std::string where = "step " + std::to_string(k) + ": ";
         for (std::size_t p = 0; p < before.size(); ++p)
@@ -60,7 +60,7 @@ Checked walk(Solver& solver, const std::vector<double>& times) {
         energy = cases::stored(solver);
         dissipated = solver.value("dissipated");
     }
-    scene.require(delam_solver_look(solver.get(), -1), "delam_solver_look");
+    REQUIRE(scene, delam_solver_look, solver.get(), -1);
     return c;
 }
 
@@ -115,7 +115,7 @@ TEST(rest_reversal_and_reloading) {
     // The decreasing load and the rest have added nothing.
     double at_top = -1.0, at_rest = -1.0;
     for (int k = 0; k <= 40; ++k) {
-        scene.require(delam_solver_look(solver.get(), k), "delam_solver_look");
+        REQUIRE(scene, delam_solver_look, solver.get(), k);
         if (k <= 4) cases::expect(cases::total(solver) == 0.0, "nothing happens without a load");
         if (k == 16) at_top = solver.value("dissipated");
         if (k == 20) at_rest = solver.value("dissipated");
@@ -184,7 +184,7 @@ LOOP_TEST(laws_that_soften, 0, 6) {
     b.press = 6e-3;
     Scene scene = cases::make_beam(b);
     delam_law* raw = nullptr;
-    scene.require(delam_law_create(scene.context(), s.kind, &raw), "delam_law_create");
+    REQUIRE(scene, delam_law_create, scene.context(), s.kind, &raw);
     const Law law(raw);
     const auto set = [&](const char* key, double value) { scene.require(delam_law_set(raw, key, value), key); };
     set("normal_stiffness", s.k);
@@ -197,7 +197,7 @@ LOOP_TEST(laws_that_soften, 0, 6) {
     set("tangential_toughness", 150.0);
     if (s.plateau > 0.0) set("plateau", s.plateau);
     if (s.gradient > 0.0) set("gradient", s.gradient);
-    scene.require(delam_problem_set_law(scene.problem(), 0, raw), "delam_problem_set_law");
+    REQUIRE(scene, delam_problem_set_law, scene.problem(), 0, raw);
     scene.text("solution", "energetic");
     Solver solver(scene, 0.0);
     const Checked c = walk(solver, times(20));

@@ -162,9 +162,8 @@ void lift_by_force(Scene& scene, double force) {
     std::vector<double> forces;
     for (std::size_t i = 0; i < top.size(); ++i)
         forces.insert(forces.end(), {0.0, force / static_cast<double>(top.size())});
-    scene.require(delam_problem_add_forces(scene.problem(), load, static_cast<std::int64_t>(top.size()), top.data(),
-                                           forces.data(), 0),
-                  "delam_problem_add_forces");
+    REQUIRE(scene, delam_problem_add_forces, scene.problem(), load, static_cast<std::int64_t>(top.size()), top.data(),
+            forces.data(), 0);
 }
 
 // A dead load on a ply that is loose from the start is refused with the scene.

@@ -76,10 +76,8 @@ void march(Solver& solver, int first, int last, const std::string& name) {
     for (int k = first; k <= last; ++k) {
         const double times[] = {0.6, 1.0}, values[] = {2e-5, 9e-5};
         if (name == "told" && k == 4)
-            solver.scene().require(delam_solver_set_history(solver.get(), 1, 2, times, values),
-                                   "delam_solver_set_history");
-        if (name == "recorded" && k == 3)
-            solver.scene().require(delam_solver_record(solver.get(), "work"), "delam_solver_record");
+            REQUIRE(solver.scene(), delam_solver_set_history, solver.get(), 1, 2, times, values);
+        if (name == "recorded" && k == 3) REQUIRE(solver.scene(), delam_solver_record, solver.get(), "work");
         solver.step(static_cast<double>(k) / steps);
         solver.commit();
     }
@@ -93,9 +91,9 @@ std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path) {
 
 std::vector<double> recorded_work(const Solver& solver) {
     std::int64_t first = 0, count = 0;
-    solver.scene().require(delam_solver_recorded_size(solver.get(), &first, &count), "delam_solver_recorded_size");
+    REQUIRE(solver.scene(), delam_solver_recorded_size, solver.get(), &first, &count);
     std::vector<double> work(static_cast<std::size_t>(count));
-    solver.scene().require(delam_solver_recorded(solver.get(), "work", count, work.data()), "delam_solver_recorded");
+    REQUIRE(solver.scene(), delam_solver_recorded, solver.get(), "work", count, work.data());
     return work;
 }
 

@@ -275,7 +275,7 @@ TEST(kappa_zero_changes_no_digit) {
     cases::expect(std::string(delam_context_message(zero.context())).find("'gradient' = -1 must be finite and >= 0") !=
                       std::string::npos,
                   delam_context_message(zero.context()));
-    zero.require(delam_problem_set_law(zero.problem(), 0, law), "delam_problem_set_law");
+    REQUIRE(zero, delam_problem_set_law, zero.problem(), 0, law);
     delam_law_destroy(&law);
     std::vector<std::int64_t> open;
     for (std::int64_t i = 0; i < 10; ++i) open.push_back(i);

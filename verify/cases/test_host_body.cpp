@@ -49,10 +49,8 @@ void give_shuffled(const Scene& scene, const Scene& own, const std::vector<std::
         k.start.push_back(static_cast<std::int64_t>(k.column.size()) + 1);
     }
     cases::expect(nodes.size() * dim == rows, "rows");
-    scene.require(
-        delam_problem_set_stiffness(scene.problem(), static_cast<std::int64_t>(nodes.size()), one_based.data(),
-                                    dofs.data(), k.start.data(), k.column.data(), k.value.data(), -1, nullptr, 1),
-        "delam_problem_set_stiffness");
+    REQUIRE(scene, delam_problem_set_stiffness, scene.problem(), static_cast<std::int64_t>(nodes.size()),
+            one_based.data(), dofs.data(), k.start.data(), k.column.data(), k.value.data(), -1, nullptr, 1);
 }
 
 constexpr const char* keys[] = {

@@ -149,7 +149,7 @@ TEST(no_faces) {
     Solver solver(scene, 0.0);
     solver.step(1.0);
     std::int64_t fronts = -1;
-    scene.require(delam_solver_front_count(solver.get(), 0, &fronts, nullptr), "delam_solver_front_count");
+    REQUIRE(scene, delam_solver_front_count, solver.get(), 0, &fronts, nullptr);
     cases::expect(fronts == 0, "fronts without faces");
     const auto stress = solver.field("stress");
     cases::expect(stress.empty(), "stresses without cells");

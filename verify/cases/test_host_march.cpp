@@ -40,9 +40,8 @@ Scene bar(const std::vector<double>& times, const std::vector<double>& values, c
 }
 
 void set(const Solver& solver, const std::vector<double>& times, const std::vector<double>& values) {
-    solver.scene().require(
-        delam_solver_set_history(solver.get(), 0, static_cast<std::int64_t>(times.size()), times.data(), values.data()),
-        "delam_solver_set_history");
+    REQUIRE(solver.scene(), delam_solver_set_history, solver.get(), 0, static_cast<std::int64_t>(times.size()),
+            times.data(), values.data());
 }
 
 void to(Solver& solver, double time) {
@@ -101,10 +100,10 @@ TEST(history_refused) {
     cases::expect(delam_solver_set_history(s, 0, 2, twice, values) == DELAM_ERROR_ARGUMENT,
                   "times that do not increase");
     std::int32_t pending = -1;
-    scene.require(delam_solver_pending(s, &pending), "delam_solver_pending");
+    REQUIRE(scene, delam_solver_pending, s, &pending);
     cases::expect(pending == 0, "nothing is pending");
     solver.step(0.75);
-    scene.require(delam_solver_pending(s, &pending), "delam_solver_pending");
+    REQUIRE(scene, delam_solver_pending, s, &pending);
     cases::expect(pending == 1, "a step is pending");
     cases::expect(delam_solver_set_history(s, 0, 1, &ok, &value) == DELAM_ERROR_STATE, "a step is pending");
     cases::expect(solver.value("load:pull") == 0.75 * 5e-5, "refusals change nothing");
@@ -133,17 +132,17 @@ TEST(states_as_files) {
     const Scene scene = bar({0.0, 1.0}, {0.0, 9e-5});
     Solver solver(scene, 0.0);
     to(solver, 0.5);
-    scene.require(delam_solver_save_file(solver.get(), path.c_str()), "delam_solver_save_file");
+    REQUIRE(scene, delam_solver_save_file, solver.get(), path.c_str());
     const auto bits = cases::read_bits(solver);
     to(solver, 1.0);
     const auto end = cases::read_bits(solver);
     Solver again(scene, 0.0);
-    scene.require(delam_solver_load_file(again.get(), path.c_str()), "delam_solver_load_file");
+    REQUIRE(scene, delam_solver_load_file, again.get(), path.c_str());
     cases::expect_same(again, cases::read_bits(again), bits, "loaded");
     to(again, 1.0);
     cases::expect_same(again, cases::read_bits(again), end, "gone on");
     // Over an older file.
-    scene.require(delam_solver_save_file(again.get(), path.c_str()), "delam_solver_save_file");
+    REQUIRE(scene, delam_solver_save_file, again.get(), path.c_str());
     cases::expect(folder.files() == 1, "something was left beside it");
     std::ifstream file(path, std::ios::binary);
     const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
@@ -258,7 +257,7 @@ TEST(full_disk) {
     const Scene scene = bar({0.0, 1.0}, {0.0, 9e-5});
     Solver solver(scene, 0.0);
     to(solver, 0.5);
-    scene.require(delam_solver_save_file(solver.get(), path.c_str()), "delam_solver_save_file");
+    REQUIRE(scene, delam_solver_save_file, solver.get(), path.c_str());
     to(solver, 1.0);
     rlimit before{};
     getrlimit(RLIMIT_FSIZE, &before);

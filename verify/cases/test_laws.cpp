@@ -53,7 +53,7 @@ constexpr int kind_count = 5;
 
 Law make_law(const Scene& scene, const Kind& kind, const char* criterion = "power") {
     delam_law* raw = nullptr;
-    scene.require(delam_law_create(scene.context(), kind.kind, &raw), "delam_law_create");
+    REQUIRE(scene, delam_law_create, scene.context(), kind.kind, &raw);
     Law law(raw);
     scene.require(delam_law_set_text(raw, "criterion", criterion), "criterion");
     const auto set = [&](const char* key, double value) { scene.require(delam_law_set(raw, key, value), key); };
@@ -67,14 +67,12 @@ Law make_law(const Scene& scene, const Kind& kind, const char* criterion = "powe
     }
     if (kind.plateau >= 0.0) set("plateau", kind.plateau);
     const auto count = static_cast<std::int64_t>(kind.xi.size());
-    if (count > 0) scene.require(delam_law_set_table(raw, count, kind.xi.data(), kind.s.data()), "delam_law_set_table");
-    scene.require(delam_law_check(raw), "delam_law_check");
+    if (count > 0) REQUIRE(scene, delam_law_set_table, raw, count, kind.xi.data(), kind.s.data());
+    REQUIRE(scene, delam_law_check, raw);
     return law;
 }
 
-void use(const Scene& scene, const Law& law) {
-    scene.require(delam_problem_set_law(scene.problem(), 0, law.get()), "delam_problem_set_law");
-}
+void use(const Scene& scene, const Law& law) { REQUIRE(scene, delam_problem_set_law, scene.problem(), 0, law.get()); }
 
 // Two rigid blocks, the upper one moved by `direction` times the load: forces are tractions.
 Scene imposed(const std::vector<double>& direction, const std::vector<double>& times,
@@ -216,10 +214,9 @@ Scene flexure(int dimension) {
 Law bilinear(const Scene& scene, laws::Bilinear& data, bool host) {
     delam_law* raw = nullptr;
     if (host) {
-        scene.require(delam_law_create_host(scene.context(), "mine", laws::adhesion, laws::dissipation, &data, &raw),
-                      "delam_law_create_host");
+        REQUIRE(scene, delam_law_create_host, scene.context(), "mine", laws::adhesion, laws::dissipation, &data, &raw);
     } else {
-        scene.require(delam_law_create(scene.context(), "piecewise-linear", &raw), "delam_law_create");
+        REQUIRE(scene, delam_law_create, scene.context(), "piecewise-linear", &raw);
         scene.require(delam_law_set_text(raw, "criterion", "benzeggagh-kenane"), "criterion");
     }
     Law law(raw);
@@ -288,7 +285,7 @@ TEST(callback_fails) {
 
 std::string hash_of(const Scene& scene) {
     char out[17];
-    scene.require(delam_problem_hash(scene.problem(), out), "delam_problem_hash");
+    REQUIRE(scene, delam_problem_hash, scene.problem(), out);
     return out;
 }
 
@@ -316,8 +313,7 @@ TEST(hash_and_keys) {
     laws::Bilinear data;
     fresh(bilinear(scene, data, true), "host");
     delam_law* raw = nullptr;
-    scene.require(delam_law_create_host(scene.context(), "other", laws::adhesion, laws::dissipation, &data, &raw),
-                  "delam_law_create_host");
+    REQUIRE(scene, delam_law_create_host, scene.context(), "other", laws::adhesion, laws::dissipation, &data, &raw);
     const Law named(raw);
     scene.require(delam_law_set(raw, "normal_stiffness", 125e9), "key");
     scene.require(delam_law_set(raw, "tangential_stiffness", 60e9), "key");
@@ -369,7 +365,7 @@ TEST(hash_and_keys) {
 Law listed_law(const Scene& scene, std::int64_t i) {
     const char *kind = nullptr, *meaning = nullptr;
     std::int32_t hosted = -1;
-    scene.require(delam_law_kind_info(i, &kind, &meaning, &hosted), "delam_law_kind_info");
+    REQUIRE(scene, delam_law_kind_info, i, &kind, &meaning, &hosted);
     cases::expect(*meaning != '\0' && hosted == (kind == std::string("host") ? 1 : 0), kind);
     delam_law* raw = nullptr;
     scene.require(hosted == 1
@@ -429,7 +425,7 @@ TEST(strengths_and_onset_criterion) {
     const double kn = 4e14, kt = 1e14, sn = 60e6, st = 90e6, gn = 300.0, gt = 800.0, eta = 2.3;
     for (const bool onset_first : {false, true}) {
         delam_law* raw = nullptr;
-        scene.require(delam_law_create(scene.context(), "piecewise-linear", &raw), "delam_law_create");
+        REQUIRE(scene, delam_law_create, scene.context(), "piecewise-linear", &raw);
         const Law law(raw);
         const auto text = [&](const char* key, const char* value) {
             scene.require(delam_law_set_text(raw, key, value), key);
@@ -451,7 +447,7 @@ TEST(strengths_and_onset_criterion) {
         if (!onset_first) set_onset();
         std::vector<double> mixity, go(11), gc(11);
         for (int i = 0; i <= 10; ++i) mixity.push_back(i / 10.0);
-        scene.require(delam_law_toughness(raw, 11, mixity.data(), go.data(), gc.data()), "delam_law_toughness");
+        REQUIRE(scene, delam_law_toughness, raw, 11, mixity.data(), go.data(), gc.data());
         for (std::size_t i = 0; i < mixity.size(); ++i) {
             const double b = mixity[i];
             // (t_n/s_n)^2 + (t_t/s_t)^2 = 1 with t^2 = 2 k Y of each mode.
@@ -471,7 +467,7 @@ TEST(strengths_and_onset_criterion) {
         const double jump[] = {sn / kn, 0.0};
         double adhesion = 0.0, traction[2] = {};
         const double zero = 0.0, one = 1.0;
-        scene.require(delam_law_respond(raw, 2, 1, jump, &zero, &one, &adhesion, traction), "delam_law_respond");
+        REQUIRE(scene, delam_law_respond, raw, 2, 1, jump, &zero, &one, &adhesion, traction);
         cases::expect_near(traction[0], sn, 1e-12, sn, "peak");
         set("normal_strength", 1e3 * sn);
         cases::expect(delam_law_check(raw) == DELAM_ERROR_PROBLEM, "a strength beyond the toughness");

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "condensed_scenes.hpp"
+#include "controlled_scenes.hpp"
 #include "support.hpp"
 
 namespace {

@@ -60,13 +60,12 @@ struct March {
 
 std::vector<std::int64_t> steps_of_jumps(const Scene& scene, const Solver& solver) {
     std::int64_t count = 0;
-    scene.require(delam_solver_jump_count(solver.get(), &count), "delam_solver_jump_count");
+    REQUIRE(scene, delam_solver_jump_count, solver.get(), &count);
     std::vector<std::int64_t> steps;
     for (std::int64_t i = 0; i < count; ++i) {
         std::int64_t step = 0;
-        scene.require(delam_solver_jump(solver.get(), i, &step, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr,
-                                        nullptr, nullptr, nullptr),
-                      "delam_solver_jump");
+        REQUIRE(scene, delam_solver_jump, solver.get(), i, &step, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr,
+                nullptr, nullptr, nullptr);
         steps.push_back(step);
     }
     return steps;

@@ -49,7 +49,7 @@ std::vector<Listed> listed() {
 
 std::string hash_of(const Scene& scene) {
     char out[17] = "";
-    scene.require(delam_problem_hash(scene.problem(), out), "delam_problem_hash");
+    REQUIRE(scene, delam_problem_hash, scene.problem(), out);
     return out;
 }
 
@@ -152,7 +152,7 @@ TEST(aliases_are_taken) {
     int aliases = 0;
     for (std::size_t i = 0; i < all.size(); ++i) {
         const char* alias = nullptr;
-        scene.require(delam_option_alias(static_cast<std::int64_t>(i), &alias), "delam_option_alias");
+        REQUIRE(scene, delam_option_alias, static_cast<std::int64_t>(i), &alias);
         if (*alias == '\0') continue;
         ++aliases;
         Listed renamed = all[i];

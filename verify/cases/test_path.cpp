@@ -131,16 +131,14 @@ March march(const reference::Flexure& data, int steps, const char* reduction = "
     m.work = solver.value("work");
     m.adhesion = solver.field("adhesion");
     std::int64_t jumps = 0;
-    f.scene.require(delam_solver_jump_count(solver.get(), &jumps), "delam_solver_jump_count");
+    REQUIRE(f.scene, delam_solver_jump_count, solver.get(), &jumps);
     m.jumps = static_cast<double>(jumps);
     if (jumps > 0) {
         std::int64_t step = 0;
         double carried = 0.0;
-        f.scene.require(delam_solver_jump(solver.get(), jumps - 1, &step, &m.before, &m.time, nullptr, nullptr, nullptr,
-                                          nullptr, nullptr, nullptr, nullptr),
-                        "delam_solver_jump");
-        f.scene.require(delam_solver_jump_reactions(solver.get(), jumps - 1, 1, &carried, nullptr),
-                        "delam_solver_jump_reactions");
+        REQUIRE(f.scene, delam_solver_jump, solver.get(), jumps - 1, &step, &m.before, &m.time, nullptr, nullptr,
+                nullptr, nullptr, nullptr, nullptr, nullptr);
+        REQUIRE(f.scene, delam_solver_jump_reactions, solver.get(), jumps - 1, 1, &carried, nullptr);
         m.step = static_cast<std::size_t>(step);
         m.carried = std::abs(carried);
         std::printf("jump of step %d at %.9g to %.9g, load before it %.7g\n", static_cast<int>(step), m.before, m.time,

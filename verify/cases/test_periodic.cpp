@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "condensed_scenes.hpp"
+#include "controlled_scenes.hpp"
 #include "support.hpp"
 
 namespace {
@@ -92,8 +92,8 @@ void realise(Scene& scene, int which) {
 
 std::vector<double> tangent(const Solver& solver, std::size_t patterns) {
     std::vector<double> matrix(patterns * patterns);
-    solver.scene().require(delam_solver_tangent(solver.get(), static_cast<std::int64_t>(matrix.size()), matrix.data()),
-                           "delam_solver_tangent");
+    REQUIRE(solver.scene(), delam_solver_tangent, solver.get(), static_cast<std::int64_t>(matrix.size()),
+            matrix.data());
     return matrix;
 }
 

@@ -39,8 +39,7 @@ struct Size {
 };
 Size size_of(const Solver& solver) {
     Size size;
-    solver.scene().require(delam_solver_recorded_size(solver.get(), &size.first, &size.steps),
-                           "delam_solver_recorded_size");
+    REQUIRE(solver.scene(), delam_solver_recorded_size, solver.get(), &size.first, &size.steps);
     return size;
 }
 
@@ -59,7 +58,7 @@ void walk(Solver& solver, int first, int last) {
 }
 
 void select_step(const Solver& solver, std::int64_t step) {
-    solver.scene().require(delam_solver_look(solver.get(), step), "delam_solver_look");
+    REQUIRE(solver.scene(), delam_solver_look, solver.get(), step);
 }
 
 // The values of the kept steps when they are read again.
@@ -196,7 +195,7 @@ TEST(descriptions_and_aliases) {
     const reference::Scene scene = cases::small_enf();
     Solver solver(scene, 0.0);
     std::int64_t count = 0;
-    scene.require(delam_solver_value_count(solver.get(), &count), "delam_solver_value_count");
+    REQUIRE(scene, delam_solver_value_count, solver.get(), &count);
     std::vector<std::pair<std::string, std::string>> names;
     for (std::int64_t i = 0; i < count; ++i) {
         const std::string name = delam_solver_value_name(solver.get(), i);

@@ -18,7 +18,7 @@ LOOP_TEST(fields_after_a_selected_step, 0, 1) {
         s->commit();
         s->step(cases::small_time(2));
     }
-    scene.require(delam_solver_look(solver.get(), 1), "delam_solver_look");
+    REQUIRE(scene, delam_solver_look, solver.get(), 1);
     const auto earlier = solver.field("displacement");
     solver.commit();
     plain.commit();
@@ -37,7 +37,7 @@ LOOP_TEST(gradient_term_in_the_search, 0, 2) {
         scene.text("solution", "energetic");
         scene.text("reduction", feti != 0 ? "feti" : "condensed");
         delam_law* handle = nullptr;
-        scene.require(delam_law_create(scene.context(), "piecewise-linear", &handle), "delam_law_create");
+        REQUIRE(scene, delam_law_create, scene.context(), "piecewise-linear", &handle);
         for (const auto& [key, value] :
              std::initializer_list<std::pair<const char*, double>>{{"normal_stiffness", 125e13},
                                                                    {"tangential_stiffness", 125e13},
@@ -47,7 +47,7 @@ LOOP_TEST(gradient_term_in_the_search, 0, 2) {
                                                                    {"tangential_toughness", 25.0},
                                                                    {"gradient", loop == 0 ? 0.0 : 1e-4}})
             scene.require(delam_law_set(handle, key, value), key);
-        scene.require(delam_problem_set_law(scene.problem(), 0, handle), "delam_problem_set_law");
+        REQUIRE(scene, delam_problem_set_law, scene.problem(), 0, handle);
         delam_law_destroy(&handle);
         Solver solver(scene, 0.0);
         for (int k = 1; k <= 2; ++k) {

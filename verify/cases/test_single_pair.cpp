@@ -152,14 +152,14 @@ LOOP_TEST(law_function, 0, 2) {
     const Mode& m = modes[loop];
     const Scene scene = imposed(m, {0.0, 1.0});
     delam_law* raw = nullptr;
-    scene.require(delam_law_create(scene.context(), "piecewise-linear", &raw), "delam_law_create");
+    REQUIRE(scene, delam_law_create, scene.context(), "piecewise-linear", &raw);
     const reference::Law owned(raw);
     const std::pair<const char*, double> parameters[] = {
         {"normal_stiffness", law.normal_stiffness}, {"tangential_stiffness", law.tangential_stiffness},
         {"normal_onset", law.normal_onset},         {"tangential_onset", law.tangential_onset},
         {"normal_toughness", law.normal_toughness}, {"tangential_toughness", law.tangential_toughness}};
     for (const auto& [key, value] : parameters) scene.require(delam_law_set(raw, key, value), key);
-    scene.require(delam_law_check(raw), "delam_law_check");
+    REQUIRE(scene, delam_law_check, raw);
     const double mixity = loop == 0 ? 0.0 : 1.0;
     for (int i = 0; i <= 100; ++i) {
         const double w = 0.012 * i * final_jump(m);
@@ -167,7 +167,7 @@ LOOP_TEST(law_function, 0, 2) {
         const double old = 1.0;
         double zeta = -1.0;
         double traction[2] = {0.0, 0.0};
-        scene.require(delam_law_respond(raw, 2, 1, jump, &mixity, &old, &zeta, traction), "delam_law_respond");
+        REQUIRE(scene, delam_law_respond, raw, 2, 1, jump, &mixity, &old, &zeta, traction);
         cases::expect_near(zeta, secant(m, w), 1e-12, 1.0, "adhesion");
         const double peak = m.stiffness * onset_jump(m);
         cases::expect_near(traction[loop], secant(m, w) * m.stiffness * jump[loop], 1e-12, peak, "traction");

@@ -31,9 +31,7 @@ Scene make(const Specimen& specimen, int dimension) {
     scene.interface(0, 1);
     scene.begin();
     scene.elastic(-1, 75e9, 0.3);
-    if (specimen.incompatible)
-        scene.require(delam_problem_set_formulation(scene.problem(), -1, "incompatible"),
-                      "delam_problem_set_formulation");
+    if (specimen.incompatible) REQUIRE(scene, delam_problem_set_formulation, scene.problem(), -1, "incompatible");
     scene.law(0, {125e9, 250e9, 100.0, 120.0, 250.0, 400.0});
     const reference::Pairs pairs = scene.pairs(0);
     std::vector<std::int64_t> open;

@@ -246,10 +246,9 @@ TEST(cancelled_leaps) {
     for (int k = 12; k <= 14; ++k) {
         for (int stage = 1;; stage = stage < 12 ? stage + 1 : stage + 7) {
             Countdown countdown{stage};
-            scene.require(delam_context_set_progress(scene.context(), count_down, &countdown),
-                          "delam_context_set_progress");
+            REQUIRE(scene, delam_context_set_progress, scene.context(), count_down, &countdown);
             const std::int32_t status = cancelled.advance(cases::enf_time(k, leaps));
-            scene.require(delam_context_set_progress(scene.context(), nullptr, nullptr), "delam_context_set_progress");
+            REQUIRE(scene, delam_context_set_progress, scene.context(), nullptr, nullptr);
             if (status == DELAM_OK) break;
             cases::expect(status == DELAM_CANCELLED, std::string("status ") + delam_status_name(status));
             ++cancellations;

@@ -219,10 +219,10 @@ LOOP_TEST(all_that_is_missing_was_released, open() ? 0 : 1, 2) {
         if (loop == 1) released += solver.value("released");
     }
     for (int k = 1; loop == 0 && k <= steps; ++k) {
-        f.scene.require(delam_solver_look(solver.get(), k), "delam_solver_look");
+        REQUIRE(f.scene, delam_solver_look, solver.get(), k);
         released += solver.value("released");
     }
-    f.scene.require(delam_solver_look(solver.get(), -1), "delam_solver_look");
+    REQUIRE(f.scene, delam_solver_look, solver.get(), -1);
     const double missing = solver.value("work") - cases::stored(solver) - solver.value("dissipated");
     std::printf("brittle ENF, backtracking %s: released %.5g, missing %.5g, work %.5g\n", loop == 0 ? "on" : "off",
                 released, missing, solver.value("work"));
@@ -333,12 +333,12 @@ LOOP_TEST(cancelled_anywhere, 0, 4) {
     const auto bytes = solver.save();
     const auto known = jumps(solver).size();
     Countdown all{0, false}, search{0, true};
-    scene.require(delam_context_set_progress(scene.context(), &Countdown::hear, &all), "delam_context_set_progress");
+    REQUIRE(scene, delam_context_set_progress, scene.context(), &Countdown::hear, &all);
     solver.step(0.8);
     const auto pending = cases::read_bits(solver);
     const auto found = jumps(solver).size();
     solver.rollback();
-    scene.require(delam_context_set_progress(scene.context(), &Countdown::hear, &search), "delam_context_set_progress");
+    REQUIRE(scene, delam_context_set_progress, scene.context(), &Countdown::hear, &search);
     solver.step(0.8);
     cases::expect_same(solver, cases::read_bits(solver), pending, "taken again");
     solver.rollback();
@@ -347,8 +347,7 @@ LOOP_TEST(cancelled_anywhere, 0, 4) {
         const std::int64_t seen = only ? search.seen : all.seen;
         for (std::int64_t stop = 1; stop <= seen; stop += 1 + seen / 7) {
             Countdown c{stop, only};
-            scene.require(delam_context_set_progress(scene.context(), &Countdown::hear, &c),
-                          "delam_context_set_progress");
+            REQUIRE(scene, delam_context_set_progress, scene.context(), &Countdown::hear, &c);
             const std::string where =
                 std::string(only ? "search " : "") + "call " + std::to_string(stop) + " of " + std::to_string(seen);
             cases::expect(solver.advance(0.8) == DELAM_CANCELLED, where + ": cancelled");
@@ -357,7 +356,7 @@ LOOP_TEST(cancelled_anywhere, 0, 4) {
             cases::expect_same(solver, cases::read_bits(solver), bits, where);
         }
     }
-    scene.require(delam_context_set_progress(scene.context(), nullptr, nullptr), "delam_context_set_progress");
+    REQUIRE(scene, delam_context_set_progress, scene.context(), nullptr, nullptr);
     solver.step(0.8);
     cases::expect_same(solver, cases::read_bits(solver), pending, "after all cancelled ones");
     cases::expect(jumps(solver).size() == found, "jumps after all cancelled ones");

@@ -96,7 +96,7 @@ constexpr double ends[] = {2.5e-4, -4e-5, 1.0};
 
 std::vector<double> step_tangent(const Solver& solver) {
     std::vector<double> matrix(9);
-    solver.scene().require(delam_solver_step_tangent(solver.get(), 9, matrix.data()), "delam_solver_step_tangent");
+    REQUIRE(solver.scene(), delam_solver_step_tangent, solver.get(), 9, matrix.data());
     return matrix;
 }
 
@@ -112,18 +112,17 @@ LOOP_TEST(tangent_is_the_derivative, 0, setting_count) {
         const double time = static_cast<double>(k) / steps;
         for (std::size_t p = 0; p < 3; ++p) {
             factors[p] = ends[p] * time;
-            scene.require(delam_solver_set_history(solver.get(), static_cast<std::int64_t>(p), 1, &time, &factors[p]),
-                          "delam_solver_set_history");
+            REQUIRE(scene, delam_solver_set_history, solver.get(), static_cast<std::int64_t>(p), 1, &time, &factors[p]);
         }
         solver.step(time);
         const std::vector<double> tangent = step_tangent(solver);
         std::vector<double> secant(9);
-        scene.require(delam_solver_tangent(solver.get(), 9, secant.data()), "delam_solver_tangent");
+        REQUIRE(scene, delam_solver_tangent, solver.get(), 9, secant.data());
         damaged = damaged || (k > 2 && solver.value("dissipated") > 0.0);
         const auto at = [&](int q, double change) {
             for (int p = 0; p < 3; ++p) {
                 const double value = factors[static_cast<std::size_t>(p)] + (p == q ? change : 0.0);
-                scene.require(delam_solver_set_history(solver.get(), p, 1, &time, &value), "delam_solver_set_history");
+                REQUIRE(scene, delam_solver_set_history, solver.get(), p, 1, &time, &value);
             }
             solver.step(time);
             std::vector<double> reactions;
@@ -156,8 +155,7 @@ LOOP_TEST(tangent_is_the_derivative, 0, setting_count) {
         }
         // Changed histories that were rolled back leave the planned value.
         for (int p = 0; p < 3; ++p)
-            scene.require(delam_solver_set_history(solver.get(), p, 1, &time, &factors[static_cast<std::size_t>(p)]),
-                          "delam_solver_set_history");
+            REQUIRE(scene, delam_solver_set_history, solver.get(), p, 1, &time, &factors[static_cast<std::size_t>(p)]);
         solver.step(time);
         solver.commit();
     }
@@ -178,17 +176,17 @@ LOOP_TEST(load_tangent_is_the_derivative, 0, setting_count) {
         solver.step(time);
         solver.commit();
         std::vector<double> tangent(9);
-        scene.require(delam_solver_tangent(solver.get(), 9, tangent.data()), "delam_solver_tangent");
+        REQUIRE(scene, delam_solver_tangent, solver.get(), 9, tangent.data());
         double size = 0.0;
         for (std::size_t p = 0; p < 3; ++p) size = std::max(size, std::abs(tangent[4 * p]) * ends[p] * ends[p]);
         const double beside = time + 1e-3;
         const auto at = [&](std::size_t q, double change) {
             for (std::size_t p = 0; p < 3; ++p) {
                 const double value = ends[p] * (time + (p == q ? change : 0.0));
-                scene.require(delam_solver_set_history(solver.get(), static_cast<std::int64_t>(p), 1, &beside, &value),
-                              "delam_solver_set_history");
+                REQUIRE(scene, delam_solver_set_history, solver.get(), static_cast<std::int64_t>(p), 1, &beside,
+                        &value);
             }
-            scene.require(delam_solver_equilibrate(solver.get(), beside, nullptr), "delam_solver_equilibrate");
+            REQUIRE(scene, delam_solver_equilibrate, solver.get(), beside, nullptr);
             std::vector<double> reactions;
             for (const char* name : names) reactions.push_back(solver.value(std::string("reaction:") + name));
             solver.rollback();
@@ -204,8 +202,7 @@ LOOP_TEST(load_tangent_is_the_derivative, 0, setting_count) {
         }
         for (std::size_t p = 0; p < 3; ++p) {
             const double end = 1.0;
-            scene.require(delam_solver_set_history(solver.get(), static_cast<std::int64_t>(p), 1, &end, &ends[p]),
-                          "delam_solver_set_history");
+            REQUIRE(scene, delam_solver_set_history, solver.get(), static_cast<std::int64_t>(p), 1, &end, &ends[p]);
         }
     }
 }
@@ -260,8 +257,8 @@ LOOP_TEST(operator_is_the_energy, 0, 2) {
     const Scene scene = strip(settings[loop == 0 ? 0 : 5]);
     Solver solver(scene, 0.0);
     std::int64_t n = 0, entries = 0, patterns = 0;
-    scene.require(delam_solver_condensed_size(solver.get(), &n, &entries), "delam_solver_condensed_size");
-    scene.require(delam_problem_pattern_count(scene.problem(), &patterns), "delam_problem_pattern_count");
+    REQUIRE(scene, delam_solver_condensed_size, solver.get(), &n, &entries);
+    REQUIRE(scene, delam_problem_pattern_count, scene.problem(), &patterns);
     const auto un = static_cast<std::size_t>(n), up = static_cast<std::size_t>(patterns);
     const std::size_t rows = scene.pair_count() * static_cast<std::size_t>(scene.dimension());
     std::vector<double> s(un * un), load(up * un), constant(up * up), value(static_cast<std::size_t>(entries)),
@@ -270,9 +267,8 @@ LOOP_TEST(operator_is_the_energy, 0, 2) {
     cases::expect(delam_solver_condensed(solver.get(), n * n - 1, s.data(), nullptr, nullptr, nullptr, nullptr, nullptr,
                                          nullptr) == DELAM_ERROR_ARGUMENT,
                   "capacity");
-    scene.require(delam_solver_condensed(solver.get(), n * n, s.data(), load.data(), constant.data(), start.data(),
-                                         column.data(), value.data(), offset.data()),
-                  "delam_solver_condensed");
+    REQUIRE(scene, delam_solver_condensed, solver.get(), n * n, s.data(), load.data(), constant.data(), start.data(),
+            column.data(), value.data(), offset.data());
     for (int k = 1; k <= 5; ++k) {
         solver.step(0.2 * k);
         const auto jump = solver.field("jump");

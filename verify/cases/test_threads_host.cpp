@@ -70,7 +70,7 @@ TEST(cancel_through_progress) {
 
     Watch w;
     w.thread = std::this_thread::get_id();
-    scene.require(delam_context_set_progress(scene.context(), watch, &w), "delam_context_set_progress");
+    REQUIRE(scene, delam_context_set_progress, scene.context(), watch, &w);
     solver.step(cases::small_time(few + 1));
     const auto pending = cases::read_bits(solver);
     solver.rollback();
@@ -89,7 +89,7 @@ TEST(cancel_through_progress) {
     w.stop_at = -1;
     solver.step(cases::small_time(few + 1));
     cases::expect_same(solver, cases::read_bits(solver), pending, "the step after all");
-    scene.require(delam_context_set_progress(scene.context(), nullptr, nullptr), "delam_context_set_progress");
+    REQUIRE(scene, delam_context_set_progress, scene.context(), nullptr, nullptr);
     solver.commit();
     solver.step(cases::small_time(few + 2));
 }
@@ -123,15 +123,14 @@ LOOP_TEST(polls_while_assembling, 0, 2) {
         scene.number("subdomains", static_cast<double>(subdomains));
     }
     Assembly assembly;
-    scene.require(delam_context_set_progress(scene.context(), Assembly::count, &assembly),
-                  "delam_context_set_progress");
+    REQUIRE(scene, delam_context_set_progress, scene.context(), Assembly::count, &assembly);
     delam_solver* solver = nullptr;
     const std::int32_t status = delam_solver_create(scene.problem(), 0.0, &solver);
     cases::expect(status == DELAM_CANCELLED && solver == nullptr, std::string("status ") + delam_status_name(status));
     const std::int64_t cells = 2 * columns * rows * layers / subdomains;
     cases::expect(assembly.polls >= cells / 256,
                   std::to_string(assembly.polls) + " polls while " + std::to_string(cells) + " cells were assembled");
-    scene.require(delam_context_set_progress(scene.context(), nullptr, nullptr), "delam_context_set_progress");
+    REQUIRE(scene, delam_context_set_progress, scene.context(), nullptr, nullptr);
 }
 
 struct Handshake {
@@ -153,7 +152,7 @@ TEST(cancel_from_another_thread) {
     cases::walk(solver, 1, few);
     const auto committed = cases::read_bits(solver);
     Handshake h;
-    scene.require(delam_context_set_progress(scene.context(), meet, &h), "delam_context_set_progress");
+    REQUIRE(scene, delam_context_set_progress, scene.context(), meet, &h);
     std::atomic<bool> over{false};
     std::thread other([&] {
         while (!h.inside && !over) std::this_thread::yield();
@@ -165,7 +164,7 @@ TEST(cancel_from_another_thread) {
     other.join();
     cases::expect(status == DELAM_CANCELLED, std::string("status ") + delam_status_name(status));
     cases::expect_same(solver, cases::read_bits(solver), committed, "after cancelling");
-    scene.require(delam_context_set_progress(scene.context(), nullptr, nullptr), "delam_context_set_progress");
+    REQUIRE(scene, delam_context_set_progress, scene.context(), nullptr, nullptr);
     solver.step(cases::small_time(few + 1));  // the request was consumed
 }
 

@@ -55,8 +55,7 @@ struct Stresses {
 Stresses stresses(int d, std::int64_t lower, std::int64_t upper, const char* reduction) {
     Scene scene = blocks(d, lower, upper);
     std::int64_t index = -1;
-    scene.require(delam_mesh_add_projected_interface(scene.mesh(), 0, 1, 0.0, &index),
-                  "delam_mesh_add_projected_interface");
+    REQUIRE(scene, delam_mesh_add_projected_interface, scene.mesh(), 0, 1, 0.0, &index);
     scene.begin();
     scene.elastic(-1, 10e9, 0.3);
     scene.bonded(0);

@@ -58,9 +58,8 @@ Arms arms(const Setting& setting, bool with_machine) {
     std::vector<std::int32_t> types(80), bodies(80);
     std::vector<std::int64_t> offsets(81), cells(space ? 640 : 320);
     std::int64_t needed = 0;
-    layers.require(delam_mesh_cells(layers.mesh(), types.data(), bodies.data(), offsets.data(),
-                                    static_cast<std::int64_t>(cells.size()), cells.data(), &needed),
-                   "delam_mesh_cells");
+    REQUIRE(layers, delam_mesh_cells, layers.mesh(), types.data(), bodies.data(), offsets.data(),
+            static_cast<std::int64_t>(cells.size()), cells.data(), &needed);
     const auto at = [&](double x, double y, double z) {
         return space ? std::vector<double>{x, y, z} : std::vector<double>{x, z};
     };
@@ -151,9 +150,8 @@ LOOP_TEST(newton_of_a_host, 0, setting_count) {
         for (;;) {
             cases::expect(history.size() < 8, where + ": Newton's method of the host does not converge");
             for (std::size_t p = 0; p < unknowns; ++p)
-                element.scene.require(
-                    delam_solver_set_history(solver.get(), static_cast<std::int64_t>(p), 1, &time, &u[p]),
-                    "delam_solver_set_history");
+                REQUIRE(element.scene, delam_solver_set_history, solver.get(), static_cast<std::int64_t>(p), 1, &time,
+                        &u[p]);
             solver.step(time);
             std::array<double, unknowns> residual{};
             double norm = 0.0, scale = 0.0;
@@ -165,8 +163,7 @@ LOOP_TEST(newton_of_a_host, 0, setting_count) {
             history.push_back(norm / scale);
             if (history.back() <= setting.force_tolerance) break;
             std::vector<double> tangent(unknowns * unknowns);
-            element.scene.require(delam_solver_step_tangent(solver.get(), 9, tangent.data()),
-                                  "delam_solver_step_tangent");
+            REQUIRE(element.scene, delam_solver_step_tangent, solver.get(), 9, tangent.data());
             solver.rollback();
             std::array<std::array<double, unknowns>, unknowns> matrix{};
             for (std::size_t p = 0; p < unknowns; ++p)
@@ -218,8 +215,8 @@ TEST(warned_once) {
     const auto trial = [&](double turned) {
         const double u[unknowns] = {4e-4 * (1.0 - turned), -2e-4 * turned, 0.0};
         for (std::size_t p = 0; p < unknowns; ++p)
-            element.scene.require(delam_solver_set_history(solver.get(), static_cast<std::int64_t>(p), 1, &time, &u[p]),
-                                  "delam_solver_set_history");
+            REQUIRE(element.scene, delam_solver_set_history, solver.get(), static_cast<std::int64_t>(p), 1, &time,
+                    &u[p]);
         solver.advance(time);
         const double error = solver.value("mixity_error");
         solver.rollback();

@@ -23,7 +23,7 @@ public:
         for (std::size_t i = 0; i < scene.stiffness().size(); ++i) {
             delam_law* raw = nullptr;
             const reference::LawData& data = laws[std::min(i, laws.size() - 1)];
-            scene.require(delam_law_create(scene.context(), "piecewise-linear", &raw), "delam_law_create");
+            REQUIRE(scene, delam_law_create, scene.context(), "piecewise-linear", &raw);
             laws_.emplace_back(raw);
             const std::pair<const char*, double> parameters[] = {
                 {"normal_stiffness", data.normal_stiffness}, {"tangential_stiffness", data.tangential_stiffness},
@@ -48,10 +48,9 @@ public:
         for (std::size_t i = 0; i < laws_.size(); first += counts_[i++]) {
             if (scene_.stiffness()[i].bonded) continue;
             std::vector<double> next(counts_[i]);
-            scene_.require(delam_law_respond(laws_[i].get(), scene_.dimension(), static_cast<std::int64_t>(counts_[i]),
-                                             jump.data() + first * d, mixity.data() + first, old.data() + first,
-                                             next.data(), nullptr),
-                           "delam_law_respond");
+            REQUIRE(scene_, delam_law_respond, laws_[i].get(), scene_.dimension(),
+                    static_cast<std::int64_t>(counts_[i]), jump.data() + first * d, mixity.data() + first,
+                    old.data() + first, next.data(), nullptr);
             for (std::size_t p = 0; p < next.size(); ++p)
                 change = std::max(change, std::abs(next[p] - adhesion[first + p]));
         }

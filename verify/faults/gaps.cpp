@@ -58,7 +58,7 @@ struct Watch {
 
 void watched(const reference::Scene& scene, const std::vector<double>& times) {
     Watch watch;
-    scene.require(delam_context_set_progress(scene.context(), Watch::poll, &watch), "delam_context_set_progress");
+    REQUIRE(scene, delam_context_set_progress, scene.context(), Watch::poll, &watch);
     std::unique_ptr<reference::Solver> solver;
     watch.during("create", [&] { solver = std::make_unique<reference::Solver>(scene, 0.0); });
     watch.during("march", [&] {
@@ -70,11 +70,10 @@ void watched(const reference::Scene& scene, const std::vector<double>& times) {
     watch.during("kkt_equilibrium", [&] { solver->value("kkt_equilibrium"); });
     watch.during("stress", [&] { solver->field("stress"); });
     std::vector<double> matrix(1);
-    watch.during("tangent",
-                 [&] { scene.require(delam_solver_tangent(solver->get(), 1, matrix.data()), "delam_solver_tangent"); });
+    watch.during("tangent", [&] { REQUIRE(scene, delam_solver_tangent, solver->get(), 1, matrix.data()); });
     const std::vector<std::uint8_t> bytes = solver->save();
     watch.during("load", [&] { scene.require(solver->load(bytes), "delam_solver_load"); });
-    scene.require(delam_context_set_progress(scene.context(), nullptr, nullptr), "delam_context_set_progress");
+    REQUIRE(scene, delam_context_set_progress, scene.context(), nullptr, nullptr);
 }
 
 reference::Scene plane(double h, const std::string& reduction, bool brittle, const char* solution) {

@@ -11,6 +11,10 @@
 
 namespace faults {
 
+// host.query("f", [&] { return f(...); }), or change.
+#define QUERY(function, ...) host.query(#function, [&] { return function(__VA_ARGS__); })
+#define CHANGE(function, ...) host.change(#function, [&] { return function(__VA_ARGS__); })
+
 namespace {
 
 constexpr double length = 0.070, notch = 0.030, layer = 3e-3, width = 7e-3, end = 2e-3;
@@ -83,7 +87,7 @@ void make_mesh(Host& host, Handles& h, const Strip& s) {
                                                 thickness.data(), layer_cells.data(), type, &h.mesh);
             },
             [&] { return delam_mesh_destroy(&h.mesh), DELAM_OK; });
-        host.change("delam_mesh_add_interface", [&] { return delam_mesh_add_interface(h.mesh, 0, 1, 0.0, &index); });
+        CHANGE(delam_mesh_add_interface, h.mesh, 0, 1, 0.0, &index);
         return;
     }
     const bool conforming = s.mesh == "conforming";
@@ -94,19 +98,12 @@ void make_mesh(Host& host, Handles& h, const Strip& s) {
         "delam_mesh_create", [&] { return delam_mesh_create(h.context, 2, nodes, c.nodes.data(), &h.mesh); },
         [&] { return delam_mesh_destroy(&h.mesh), DELAM_OK; });
     if (conforming) {
-        host.change("delam_mesh_add_conforming_cells", [&] {
-            return delam_mesh_add_conforming_cells(h.mesh, DELAM_QUAD4, cells, c.connectivity.data(), c.bodies.data(),
-                                                   0);
-        });
-        host.change("delam_mesh_add_all_interfaces",
-                    [&] { return delam_mesh_add_all_interfaces(h.mesh, 0.0, &index); });
+        CHANGE(delam_mesh_add_conforming_cells, h.mesh, DELAM_QUAD4, cells, c.connectivity.data(), c.bodies.data(), 0);
+        CHANGE(delam_mesh_add_all_interfaces, h.mesh, 0.0, &index);
         return;
     }
-    host.change("delam_mesh_add_cells", [&] {
-        return delam_mesh_add_cells(h.mesh, DELAM_QUAD4, cells, c.connectivity.data(), c.bodies.data(), 0);
-    });
-    host.change("delam_mesh_add_projected_interface",
-                [&] { return delam_mesh_add_projected_interface(h.mesh, 0, 1, 0.0, &index); });
+    CHANGE(delam_mesh_add_cells, h.mesh, DELAM_QUAD4, cells, c.connectivity.data(), c.bodies.data(), 0);
+    CHANGE(delam_mesh_add_projected_interface, h.mesh, 0, 1, 0.0, &index);
 }
 
 void make_law(Host& host, Handles& h, const Strip& s, laws::Bilinear& bilinear) {
@@ -132,55 +129,57 @@ void make_law(Host& host, Handles& h, const Strip& s, laws::Bilinear& bilinear) 
     }
     set("normal_stiffness", s.brittle ? 125e15 : 125e9);
     set("tangential_stiffness", s.brittle ? 125e15 : 125e9);
-    host.query("delam_law_check", [&] { return delam_law_check(h.law); });
+    QUERY(delam_law_check, h.law);
 }
 
 // Nodes in a box.
 std::vector<std::int64_t> find(Host& host, Handles& h, std::int32_t body, const std::array<double, 3>& lower,
                                const std::array<double, 3>& upper) {
     std::int64_t count = 0;
-    host.query("delam_mesh_find_nodes",
-               [&] { return delam_mesh_find_nodes(h.mesh, body, lower.data(), upper.data(), 0, nullptr, &count); });
+    QUERY(delam_mesh_find_nodes, h.mesh, body, lower.data(), upper.data(), 0, nullptr, &count);
     std::vector<std::int64_t> nodes(at(count));
-    host.query("delam_mesh_find_nodes", [&] {
-        return delam_mesh_find_nodes(h.mesh, body, lower.data(), upper.data(), count, nodes.data(), &count);
-    });
+    QUERY(delam_mesh_find_nodes, h.mesh, body, lower.data(), upper.data(), count, nodes.data(), &count);
     return nodes;
+}
+
+// The upper body as a host would provide it: with the stiffness that the library itself assembles.
+void give_stiffness(Host& host, Handles& h) {
+    std::int64_t rows = 0, entries = 0;
+    QUERY(delam_problem_body_matrix, h.problem, 1, &rows, &entries, nullptr, nullptr, nullptr);
+    std::vector<std::int64_t> starts(at(rows) + 1), columns(at(entries));
+    std::vector<double> values(at(entries));
+    QUERY(delam_problem_body_matrix, h.problem, 1, &rows, &entries, starts.data(), columns.data(), values.data());
+    const std::vector<std::int64_t> own = find(host, h, 1, {-1.0, -1.0, -1.0}, {1.0, 1.0, 1.0});
+    QUERY(delam_problem_set_stiffness, h.problem, static_cast<std::int64_t>(own.size()), own.data(), nullptr,
+          starts.data(), columns.data(), values.data(), -1, nullptr, 0);
 }
 
 void make_problem(Host& host, Handles& h, const Strip& s) {
     host.create(
         "delam_problem_create", [&] { return delam_problem_create(h.context, h.mesh, &h.problem); },
         [&] { return delam_problem_destroy(&h.problem), DELAM_OK; });
-    host.query("delam_problem_set_elastic", [&] { return delam_problem_set_elastic(h.problem, -1, 75e9, 0.3); });
-    host.query("delam_problem_set_law", [&] { return delam_problem_set_law(h.problem, 0, h.law); });
+    QUERY(delam_problem_set_elastic, h.problem, -1, 75e9, 0.3);
+    QUERY(delam_problem_set_law, h.problem, 0, h.law);
 
     const auto dim = at(s.dimension);
     std::int64_t pairs = 0;
-    host.query("delam_mesh_interface_size",
-               [&] { return delam_mesh_interface_size(h.mesh, 0, nullptr, nullptr, &pairs, nullptr, nullptr); });
+    QUERY(delam_mesh_interface_size, h.mesh, 0, nullptr, nullptr, &pairs, nullptr, nullptr);
     std::vector<std::int64_t> node_b(at(pairs));
-    host.query("delam_mesh_interface_pairs",
-               [&] { return delam_mesh_interface_pairs(h.mesh, 0, nullptr, node_b.data(), nullptr, nullptr); });
+    QUERY(delam_mesh_interface_pairs, h.mesh, 0, nullptr, node_b.data(), nullptr, nullptr);
     std::int64_t node_count = 0;
-    host.query("delam_mesh_size",
-               [&] { return delam_mesh_size(h.mesh, nullptr, &node_count, nullptr, nullptr, nullptr); });
+    QUERY(delam_mesh_size, h.mesh, nullptr, &node_count, nullptr, nullptr, nullptr);
     std::vector<double> nodes(at(node_count) * dim);
-    host.query("delam_mesh_nodes",
-               [&] { return delam_mesh_nodes(h.mesh, static_cast<std::int64_t>(nodes.size()), nodes.data()); });
+    QUERY(delam_mesh_nodes, h.mesh, static_cast<std::int64_t>(nodes.size()), nodes.data());
     std::vector<std::int64_t> open;
     for (std::int64_t p = 0; p < pairs; ++p)
         if (nodes[at(node_b[at(p)]) * dim] < notch - 1e-4) open.push_back(p);
     const std::vector<double> zero(open.size(), 0.0);
-    host.query("delam_problem_set_adhesion", [&] {
-        return delam_problem_set_adhesion(h.problem, 0, static_cast<std::int64_t>(open.size()), open.data(),
-                                          zero.data(), 0);
-    });
+    QUERY(delam_problem_set_adhesion, h.problem, 0, static_cast<std::int64_t>(open.size()), open.data(), zero.data(),
+          0);
 
     const std::array<double, 2> times{0.0, 2.0}, peel{0.0, end};
     std::int64_t pull = -1;
-    host.change("delam_problem_add_pattern",
-                [&] { return delam_problem_add_pattern(h.problem, "peel", 2, times.data(), peel.data(), &pull); });
+    CHANGE(delam_problem_add_pattern, h.problem, "peel", 2, times.data(), peel.data(), &pull);
     const std::array<double, 3> low{0.0, 0.0, 0.0};
     const std::array<double, 3> bottom =
         s.dimension == 2 ? std::array{length, 0.0, 0.0} : std::array{length, width, 0.0};
@@ -188,10 +187,8 @@ void make_problem(Host& host, Handles& h, const Strip& s) {
     for (std::size_t axis = 0; axis < dim; ++axis) {
         std::array<double, 3> direction{};
         direction[axis] = 1.0;
-        host.change("delam_problem_prescribe_nodes", [&] {
-            return delam_problem_prescribe_nodes(h.problem, static_cast<std::int64_t>(held.size()), held.data(),
-                                                 direction.data(), 0, nullptr, nullptr, 0);
-        });
+        CHANGE(delam_problem_prescribe_nodes, h.problem, static_cast<std::int64_t>(held.size()), held.data(),
+               direction.data(), 0, nullptr, nullptr, 0);
     }
     std::array<double, 3> top_left{0.0, 2 * layer, 0.0}, top_right = top_left, up{0.0, 1.0, 0.0};
     const std::array<double, 3> along{1.0, 0.0, 0.0};
@@ -202,33 +199,24 @@ void make_problem(Host& host, Handles& h, const Strip& s) {
     }
     const std::vector<std::int64_t> edge = find(host, h, 1, top_left, top_right);
     const std::vector<double> one(edge.size(), 1.0);
-    host.change("delam_problem_prescribe_nodes", [&] {
-        return delam_problem_prescribe_nodes(h.problem, static_cast<std::int64_t>(edge.size()), edge.data(), up.data(),
-                                             1, &pull, one.data(), 0);
-    });
+    CHANGE(delam_problem_prescribe_nodes, h.problem, static_cast<std::int64_t>(edge.size()), edge.data(), up.data(), 1,
+           &pull, one.data(), 0);
     if (s.strained) {
         std::array<double, 3> right = top_left, far = top_right;
         right[0] = far[0] = length;
         const std::vector<std::int64_t> stop = find(host, h, 1, right, far);
-        host.change("delam_problem_prescribe_nodes", [&] {
-            return delam_problem_prescribe_nodes(h.problem, static_cast<std::int64_t>(stop.size()), stop.data(),
-                                                 along.data(), 0, nullptr, nullptr, 0);
-        });
+        CHANGE(delam_problem_prescribe_nodes, h.problem, static_cast<std::int64_t>(stop.size()), stop.data(),
+               along.data(), 0, nullptr, nullptr, 0);
         const std::array<double, 2> ramp{0.0, 1.0};
         std::int64_t dead = -1, heat = -1;
-        host.change("delam_problem_add_pattern",
-                    [&] { return delam_problem_add_pattern(h.problem, "push", 2, times.data(), ramp.data(), &dead); });
+        CHANGE(delam_problem_add_pattern, h.problem, "push", 2, times.data(), ramp.data(), &dead);
         std::vector<double> force(edge.size() * dim, 0.0);
         for (std::size_t i = 0; i < edge.size(); ++i) force[i * dim] = 1e3;
-        host.change("delam_problem_add_forces", [&] {
-            return delam_problem_add_forces(h.problem, dead, static_cast<std::int64_t>(edge.size()), edge.data(),
-                                            force.data(), 0);
-        });
-        host.change("delam_problem_add_pattern",
-                    [&] { return delam_problem_add_pattern(h.problem, "heat", 2, times.data(), ramp.data(), &heat); });
+        CHANGE(delam_problem_add_forces, h.problem, dead, static_cast<std::int64_t>(edge.size()), edge.data(),
+               force.data(), 0);
+        CHANGE(delam_problem_add_pattern, h.problem, "heat", 2, times.data(), ramp.data(), &heat);
         const std::array<double, 6> strain{1e-4, 1e-4, 1e-4, 0.0, 0.0, 0.0};
-        host.change("delam_problem_add_eigenstrain",
-                    [&] { return delam_problem_add_eigenstrain(h.problem, heat, 1, strain.data()); });
+        CHANGE(delam_problem_add_eigenstrain, h.problem, heat, 1, strain.data());
     }
     for (const auto& option : s.texts)
         host.query("delam_problem_set_text " + option.first,
@@ -236,25 +224,10 @@ void make_problem(Host& host, Handles& h, const Strip& s) {
     for (const auto& option : s.numbers)
         host.query("delam_problem_set_number " + option.first,
                    [&] { return delam_problem_set_number(h.problem, option.first.c_str(), option.second); });
-    if (s.given) {  // the upper body as a host would provide it: with the stiffness that the library itself assembles
-        std::int64_t rows = 0, entries = 0;
-        host.query("delam_problem_body_matrix",
-                   [&] { return delam_problem_body_matrix(h.problem, 1, &rows, &entries, nullptr, nullptr, nullptr); });
-        std::vector<std::int64_t> starts(at(rows) + 1), columns(at(entries));
-        std::vector<double> values(at(entries));
-        host.query("delam_problem_body_matrix", [&] {
-            return delam_problem_body_matrix(h.problem, 1, &rows, &entries, starts.data(), columns.data(),
-                                             values.data());
-        });
-        const std::vector<std::int64_t> own = find(host, h, 1, {-1.0, -1.0, -1.0}, {1.0, 1.0, 1.0});
-        host.query("delam_problem_set_stiffness", [&] {
-            return delam_problem_set_stiffness(h.problem, static_cast<std::int64_t>(own.size()), own.data(), nullptr,
-                                               starts.data(), columns.data(), values.data(), -1, nullptr, 0);
-        });
-    }
-    host.query("delam_problem_check", [&] { return delam_problem_check(h.problem); });
+    if (s.given) give_stiffness(host, h);
+    QUERY(delam_problem_check, h.problem);
     std::array<char, 17> hash{};
-    host.query("delam_problem_hash", [&] { return delam_problem_hash(h.problem, hash.data()); });
+    QUERY(delam_problem_hash, h.problem, hash.data());
     host.transcript.add("hash", hash.data(), hash.size());
 }
 
@@ -272,7 +245,7 @@ std::string words(Host& host, const std::string& name, const std::function<const
 void read(Host& host, Handles& h, const Strip& s) {
     delam_solver* solver = h.solver;
     std::int64_t count = 0;
-    host.query("delam_solver_value_count", [&] { return delam_solver_value_count(solver, &count); });
+    QUERY(delam_solver_value_count, solver, &count);
     for (std::int64_t i = 0; i < count; ++i) {
         const char* name = delam_solver_value_name(solver, i);
         if (std::strcmp(name, "bulk_factorisations") == 0 || std::strcmp(name, "field_recoveries") == 0) continue;
@@ -283,48 +256,38 @@ void read(Host& host, Handles& h, const Strip& s) {
     for (const char* key :
          {"displacement", "stress", "rotation", "jump", "traction", "adhesion", "mixity", "contact", "reaction"}) {
         std::int64_t rows = 0, columns = 0;
-        host.query("delam_solver_field_shape",
-                   [&] { return delam_solver_field_shape(solver, key, -1, &rows, &columns); });
+        QUERY(delam_solver_field_shape, solver, key, -1, &rows, &columns);
         std::vector<double> values(at(rows * columns));
         host.query(std::string("delam_solver_field ") + key,
                    [&] { return delam_solver_field(solver, key, -1, rows * columns, values.data()); });
         host.transcript.add(key, values);
     }
     std::int64_t fronts = 0, points = 0;
-    host.query("delam_solver_front_count", [&] { return delam_solver_front_count(solver, 0, &fronts, &points); });
+    QUERY(delam_solver_front_count, solver, 0, &fronts, &points);
     std::vector<double> places(at(points) * at(s.dimension)), rates(at(points) * 3);
-    host.query("delam_solver_front", [&] {
-        return delam_solver_front(solver, 0, fronts, points, nullptr, nullptr, places.data(), nullptr, nullptr,
-                                  rates.data(), nullptr, nullptr);
-    });
+    QUERY(delam_solver_front, solver, 0, fronts, points, nullptr, nullptr, places.data(), nullptr, nullptr,
+          rates.data(), nullptr, nullptr);
     host.transcript.add("places", places);
     host.transcript.add("rates", rates);
     std::vector<double> average(13);
-    host.query("delam_solver_average",
-               [&] { return delam_solver_average(solver, 1, &average[0], &average[1], &average[7]); });
+    QUERY(delam_solver_average, solver, 1, &average[0], &average[1], &average[7]);
     host.transcript.add("average", average);
     const std::size_t patterns = s.strained ? 3 : 1;
     std::vector<double> tangent(patterns * patterns);
-    host.query("delam_solver_tangent",
-               [&] { return delam_solver_tangent(solver, static_cast<std::int64_t>(tangent.size()), tangent.data()); });
+    QUERY(delam_solver_tangent, solver, static_cast<std::int64_t>(tangent.size()), tangent.data());
     host.transcript.add("tangent", tangent);
     std::int32_t pending = 0;
-    host.query("delam_solver_pending", [&] { return delam_solver_pending(solver, &pending); });
+    QUERY(delam_solver_pending, solver, &pending);
     if (pending != 0) {
-        host.query("delam_solver_step_tangent", [&] {
-            return delam_solver_step_tangent(solver, static_cast<std::int64_t>(tangent.size()), tangent.data());
-        });
+        QUERY(delam_solver_step_tangent, solver, static_cast<std::int64_t>(tangent.size()), tangent.data());
         host.transcript.add("step tangent", tangent);
     }
     if (s.condensed()) {
         std::int64_t unknowns = 0, entries = 0;
-        host.query("delam_solver_condensed_size",
-                   [&] { return delam_solver_condensed_size(solver, &unknowns, &entries); });
+        QUERY(delam_solver_condensed_size, solver, &unknowns, &entries);
         std::vector<double> stiffness(at(unknowns * unknowns)), load(at(unknowns) * patterns);
-        host.query("delam_solver_condensed", [&] {
-            return delam_solver_condensed(solver, unknowns * unknowns, stiffness.data(), load.data(), nullptr, nullptr,
-                                          nullptr, nullptr, nullptr);
-        });
+        QUERY(delam_solver_condensed, solver, unknowns * unknowns, stiffness.data(), load.data(), nullptr, nullptr,
+              nullptr, nullptr, nullptr);
         host.transcript.add("condensed", stiffness);
         host.transcript.add("condensed", load);
     }
@@ -332,23 +295,21 @@ void read(Host& host, Handles& h, const Strip& s) {
     host.transcript.add(
         "option", words(host, "delam_solver_option", [&] { return delam_solver_option(solver, "damage_tolerance"); }));
     std::int64_t jumps = 0;
-    host.query("delam_solver_jump_count", [&] { return delam_solver_jump_count(solver, &jumps); });
+    QUERY(delam_solver_jump_count, solver, &jumps);
     host.transcript.add("jumps", &jumps, sizeof jumps);
     for (std::int64_t j = 0; j < jumps; ++j) {
         std::array<double, 2> place{};
-        host.query("delam_solver_jump", [&] {
-            return delam_solver_jump(solver, j, nullptr, &place[0], &place[1], nullptr, nullptr, nullptr, nullptr,
-                                     nullptr, nullptr, nullptr);
-        });
+        QUERY(delam_solver_jump, solver, j, nullptr, &place[0], &place[1], nullptr, nullptr, nullptr, nullptr, nullptr,
+              nullptr, nullptr);
         host.transcript.add("jump", place.data(), sizeof place);
     }
 }
 
 std::vector<std::uint8_t> save(Host& host, delam_solver* solver) {
     std::int64_t needed = 0;
-    host.query("delam_solver_save", [&] { return delam_solver_save(solver, 0, nullptr, &needed); });
+    QUERY(delam_solver_save, solver, 0, nullptr, &needed);
     std::vector<std::uint8_t> bytes(at(needed));
-    host.query("delam_solver_save", [&] { return delam_solver_save(solver, needed, bytes.data(), &needed); });
+    QUERY(delam_solver_save, solver, needed, bytes.data(), &needed);
     return bytes;
 }
 
@@ -374,9 +335,8 @@ void march(Host& host, const Strip& s) {
         host.create(
             "delam_solver_advance", [&] { return delam_solver_advance(h.solver, time); }, rollback);
     };
-    for (const char* key : {"time", "dissipated", "energy_release_rate"})
-        host.change("delam_solver_record", [&] { return delam_solver_record(h.solver, key); });
-    const auto commit = [&] { host.change("delam_solver_commit", [&] { return delam_solver_commit(h.solver); }); };
+    for (const char* key : {"time", "dissipated", "energy_release_rate"}) CHANGE(delam_solver_record, h.solver, key);
+    const auto commit = [&] { CHANGE(delam_solver_commit, h.solver); };
     const auto time = [&](int k) { return 2.0 * k / s.steps; };
     std::vector<std::uint8_t> half;
     for (int k = 1; k <= s.steps; ++k) {
@@ -396,25 +356,23 @@ void march(Host& host, const Strip& s) {
     read(host, h, s);
     const std::vector<std::uint8_t> last = save(host, h.solver);
     host.transcript.add("saved bytes", last);
-    host.query("delam_solver_look", [&] { return delam_solver_look(h.solver, s.steps); });
-    host.query("delam_solver_look", [&] { return delam_solver_look(h.solver, -1); });
+    QUERY(delam_solver_look, h.solver, s.steps);
+    QUERY(delam_solver_look, h.solver, -1);
 
     // Through files, and with another load history from here on.
     const std::string path = "delam-fault-" + s.name + "-" + std::to_string(gettid()) + ".state";
-    host.query("delam_solver_save_file", [&] { return delam_solver_save_file(h.solver, path.c_str()); });
-    host.query("delam_solver_load_file", [&] { return delam_solver_load_file(h.solver, path.c_str()); });
+    QUERY(delam_solver_save_file, h.solver, path.c_str());
+    QUERY(delam_solver_load_file, h.solver, path.c_str());
     std::remove(path.c_str());
     expect(save(host, h.solver) == last, s.name + ": a file holds something else");
     const std::array<double, 1> later{3.0}, back{0.5 * end};
-    host.query("delam_solver_set_history",
-               [&] { return delam_solver_set_history(h.solver, 0, 1, later.data(), back.data()); });
+    QUERY(delam_solver_set_history, h.solver, 0, 1, later.data(), back.data());
     advance(2.5);
     commit();
     host.transcript.add("saved bytes", save(host, h.solver));
 
     // Back to the middle, in this solver and in a new one, and on from there.
-    host.query("delam_solver_load",
-               [&] { return delam_solver_load(h.solver, static_cast<std::int64_t>(half.size()), half.data()); });
+    QUERY(delam_solver_load, h.solver, static_cast<std::int64_t>(half.size()), half.data());
     host.transcript.add("loaded bytes", save(host, h.solver));
     for (int k = (s.steps + 1) / 2 + 1; k <= s.steps; ++k) {
         advance(time(k));
@@ -425,8 +383,7 @@ void march(Host& host, const Strip& s) {
     host.create(
         "delam_solver_create", [&] { return delam_solver_create(h.problem, 0.0, &h.other); },
         [&] { return delam_solver_destroy(&h.other), DELAM_OK; });
-    host.query("delam_solver_load",
-               [&] { return delam_solver_load(h.other, static_cast<std::int64_t>(last.size()), last.data()); });
+    QUERY(delam_solver_load, h.other, static_cast<std::int64_t>(last.size()), last.data());
     expect(save(host, h.other) == last, s.name + ": what a new solver has loaded is something else");
 }
 

@@ -71,22 +71,21 @@ March run(const reference::Flexure& data, int steps, const Choice& choice) {
         march.steps.resize(static_cast<std::size_t>(k));
         march.steps.back().converged = status == DELAM_OK;
         for (int i = first; i <= k; ++i) {
-            if (first < k) scene.require(delam_solver_look(solver.get(), i), "delam_solver_look");
+            if (first < k) REQUIRE(scene, delam_solver_look, solver.get(), i);
             Record& r = march.steps[static_cast<std::size_t>(i - 1)];
             const bool converged = r.converged;
             r = read(solver);
             r.converged = converged;
             r.load = data.load(data.end_time * i / steps);
         }
-        if (first < k) scene.require(delam_solver_look(solver.get(), -1), "delam_solver_look");
+        if (first < k) REQUIRE(scene, delam_solver_look, solver.get(), -1);
     }
     std::int64_t jumps = 0;
     double time = std::numeric_limits<double>::quiet_NaN();
-    scene.require(delam_solver_jump_count(solver.get(), &jumps), "delam_solver_jump_count");
+    REQUIRE(scene, delam_solver_jump_count, solver.get(), &jumps);
     if (jumps > 0)
-        scene.require(delam_solver_jump(solver.get(), 0, nullptr, nullptr, &time, nullptr, nullptr, nullptr, nullptr,
-                                        nullptr, nullptr, nullptr),
-                      "delam_solver_jump");
+        REQUIRE(scene, delam_solver_jump, solver.get(), 0, nullptr, nullptr, &time, nullptr, nullptr, nullptr, nullptr,
+                nullptr, nullptr, nullptr);
     march.first_jump = data.load(time);
     return march;
 }

@@ -7,6 +7,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "acceptance.hpp"
@@ -69,6 +70,14 @@ struct Trial {
     // A scene for the reference alone, with the same answer, in which every body is supported. None: the scene itself.
     std::function<reference::Scene()> held;
 };
+
+inline Trial trial_of(std::string subject, std::string parameter_name, double parameter) {
+    Trial t;
+    t.subject = std::move(subject);
+    t.parameter_name = std::move(parameter_name);
+    t.parameter = parameter;
+    return t;
+}
 
 // The states of an analysis of the trial; throws Failure if it ends early.
 std::vector<Result> states_of(const Trial& trial, Realisation realisation);

@@ -35,10 +35,7 @@ void contrast(Study& study) {
             // The stiffer arm has 70 GPa.
             c.young_upper *= std::min(1.0, ratio);
             c.young_lower *= std::min(1.0, 1.0 / ratio);
-            Trial t;
-            t.subject = subject;
-            t.parameter_name = "E upper / E lower";
-            t.parameter = ratio;
+            Trial t = trial_of(subject, "E upper / E lower", ratio);
             t.scene = [=] { return make_cantilever(c); };
             t.limit = t.acceptance_limit = 1e-8;  // 1e-16 of the stiffer arm is 1e-8 of the softer one
             t.defect_limit = closed_balance;
@@ -64,13 +61,12 @@ Scene make_ring(std::int32_t cell, std::int64_t corners, const std::string& form
     const double quarter = 0.5 * std::acos(-1.0);
     const Scene plain(2, {quarter}, {24}, {0.5, 0.5}, {6, 6}, cell);
     std::int64_t needed = 0, count = 0;
-    plain.require(delam_mesh_size(plain.mesh(), nullptr, nullptr, &count, nullptr, nullptr), "delam_mesh_size");
+    REQUIRE(plain, delam_mesh_size, plain.mesh(), nullptr, nullptr, &count, nullptr, nullptr);
     const auto n = static_cast<std::size_t>(count);
     std::vector<std::int64_t> offsets(n + 1), cells(n * static_cast<std::size_t>(corners));
     std::vector<std::int32_t> types(n), bodies(n);
-    plain.require(delam_mesh_cells(plain.mesh(), types.data(), bodies.data(), offsets.data(),
-                                   static_cast<std::int64_t>(cells.size()), cells.data(), &needed),
-                  "delam_mesh_cells");
+    REQUIRE(plain, delam_mesh_cells, plain.mesh(), types.data(), bodies.data(), offsets.data(),
+            static_cast<std::int64_t>(cells.size()), cells.data(), &needed);
     std::vector<double> nodes = plain.nodes();
     for (std::size_t i = 0; i < nodes.size(); i += 2) {
         const double angle = nodes[i], r = inner + nodes[i + 1];
@@ -81,8 +77,7 @@ Scene make_ring(std::int32_t cell, std::int64_t corners, const std::string& form
     scene.interface(0, 1);
     scene.begin();
     scene.elastic(-1, young, nu);
-    scene.require(delam_problem_set_formulation(scene.problem(), -1, formulation.c_str()),
-                  "delam_problem_set_formulation");
+    REQUIRE(scene, delam_problem_set_formulation, scene.problem(), -1, formulation.c_str());
     scene.bonded(0);
     const auto load = scene.pattern("push", {0.0, 1.0}, {0.0, push});
     for (std::size_t i = 0; i < nodes.size(); i += 2) {
@@ -107,10 +102,7 @@ void poisson(Study& study) {
             c.lift = 1e-5;
             c.poisson = nu;
             c.formulation = formulation;
-            Trial t;
-            t.subject = subject;
-            t.parameter_name = "Poisson's ratio";
-            t.parameter = nu;
+            Trial t = trial_of(subject, "Poisson's ratio", nu);
             t.scene = [=] { return make_cantilever(c); };
             // The condition number of the bodies grows with 1 / (1 - 2 nu).
             t.limit = 3e-9 + 2e-11 / (1.0 - 2.0 * nu);
@@ -132,10 +124,7 @@ void poisson(Study& study) {
         for (const double nu : study.range(ratios, 4)) {
             constexpr double young = 1e9;
             const double exact = ring_energy(young, nu);
-            Trial t;
-            t.subject = ring.subject;
-            t.parameter_name = "Poisson's ratio";
-            t.parameter = nu;
+            Trial t = trial_of(ring.subject, "Poisson's ratio", nu);
             t.scene = [=] { return make_ring(ring.cell, ring.corners, ring.formulation, young, nu); };
             t.reference = "closed form (Lame), energy";
             t.error = [=](const Result& r) { return std::abs(r.stored_bulk / exact - 1.0); };
@@ -198,10 +187,7 @@ void aspect(Study& study) {
         const std::string subject = tall ? "aspect-tall" : "aspect-flat";
         if (!study.wanted(subject)) continue;
         for (const double ratio : study.range(ratios, tall ? 4 : 8)) {
-            Trial t;
-            t.subject = subject;
-            t.parameter_name = "aspect ratio of cells";
-            t.parameter = ratio;
+            Trial t = trial_of(subject, "aspect ratio of cells", ratio);
             t.in_unit = [=](double unit) {
                 if (!tall) return make_graded(2, ratio, unit);
                 Cantilever c;
@@ -223,10 +209,7 @@ void aspect(Study& study) {
     // The thin layers as whole subdomains of FETI: 40 cells times the ratio longer than thick.
     if (study.wanted("aspect-flat-whole"))
         for (const double ratio : study.range(ratios, 4)) {
-            Trial t;
-            t.subject = "aspect-flat-whole";
-            t.parameter_name = "aspect ratio of cells";
-            t.parameter = ratio;
+            Trial t = trial_of("aspect-flat-whole", "aspect ratio of cells", ratio);
             t.in_unit = [=](double unit) { return make_graded(2, ratio, unit); };
             t.scene = [in_unit = t.in_unit] { return in_unit(1.0); };
             t.condensed = false;
@@ -239,10 +222,7 @@ void aspect(Study& study) {
         }
     if (study.wanted("aspect-3d"))
         for (const double ratio : study.range({1, 10, 100, 1e3, 1e4}, 2)) {
-            Trial t;
-            t.subject = "aspect-3d";
-            t.parameter_name = "aspect ratio of cells";
-            t.parameter = ratio;
+            Trial t = trial_of("aspect-3d", "aspect ratio of cells", ratio);
             t.in_unit = [=](double unit) { return make_graded(3, ratio, unit); };
             t.scene = [in_unit = t.in_unit] { return in_unit(1.0); };
             t.limit = flat_limit(ratio);
@@ -253,10 +233,7 @@ void aspect(Study& study) {
         }
     if (!study.wanted("slender-3d")) return;
     for (const double ratio : study.range({1, 10, 100, 1e3}, 3)) {
-        Trial t;
-        t.subject = "slender-3d";
-        t.parameter_name = "length / thickness";
-        t.parameter = 8.0 * ratio;
+        Trial t = trial_of("slender-3d", "length / thickness", 8.0 * ratio);
         t.in_unit = [=](double unit) {
             Cantilever c;
             c.dimension = 3;
@@ -300,10 +277,7 @@ void slender(Study& study) {
         const double lam = 20.0 / span, crack = 0.5 * span, opening = 1e-3 * span;
         const double k = 2.0 * young * inertia * std::pow(lam, 4);
         const double compliance = beams_on_springs(crack, lam) / (young * inertia);
-        Trial t;
-        t.subject = "slender";
-        t.parameter_name = "length / thickness";
-        t.parameter = ratio;
+        Trial t = trial_of("slender", "length / thickness", ratio);
         t.in_unit = [=](double unit) {
             const double length = span * unit, thickness = length / ratio;
             Scene scene(2, {length}, {columns}, {thickness, thickness}, {1, 1}, DELAM_QUAD8);
@@ -359,17 +333,13 @@ void host_stiffness(Study& study) {
         Cantilever c;
         c.law = {k, k, 1e30, 1e30, 1e30, 1e30};
         c.lift = 1e-5;
-        Trial t;
-        t.subject = "host-stiffness";
-        t.parameter_name = "k, N/m3";
-        t.parameter = k;
+        Trial t = trial_of("host-stiffness", "k, N/m3", k);
         t.held = [=] { return make_cantilever(c); };
         t.scene = [=] {
             Scene scene = make_cantilever(c);
             std::int64_t rows = 0, entries = 0;
             const auto matrix = [&](std::int64_t* start, std::int64_t* column, double* value) {
-                scene.require(delam_problem_body_matrix(scene.problem(), 1, &rows, &entries, start, column, value),
-                              "delam_problem_body_matrix");
+                REQUIRE(scene, delam_problem_body_matrix, scene.problem(), 1, &rows, &entries, start, column, value);
             };
             matrix(nullptr, nullptr, nullptr);
             std::vector<std::int64_t> start(static_cast<std::size_t>(rows) + 1);
@@ -377,10 +347,8 @@ void host_stiffness(Study& study) {
             std::vector<double> value(column.size());
             matrix(start.data(), column.data(), value.data());
             const auto nodes = scene.find(1, {-1.0, -1.0}, {1.0, 1.0});
-            scene.require(
-                delam_problem_set_stiffness(scene.problem(), static_cast<std::int64_t>(nodes.size()), nodes.data(),
-                                            nullptr, start.data(), column.data(), value.data(), -1, nullptr, 0),
-                "delam_problem_set_stiffness");
+            REQUIRE(scene, delam_problem_set_stiffness, scene.problem(), static_cast<std::int64_t>(nodes.size()),
+                    nodes.data(), nullptr, start.data(), column.data(), value.data(), -1, nullptr, 0);
             return scene;
         };
         t.reference = "direct solver, of cells";

@@ -49,9 +49,8 @@ Scene plies(int loose, double push, bool pinned, double dead = 0.0) {
         const auto nodes = scene.find(loose, {0.3 * length, top}, {0.6 * length, top});
         std::vector<double> forces;
         for (std::size_t i = 0; i < nodes.size(); ++i) forces.insert(forces.end(), {0.0, 1.0});
-        scene.require(delam_problem_add_forces(scene.problem(), scene.pattern("dead", {0.0, 1.0}, {0.0, -dead}),
-                                               static_cast<std::int64_t>(nodes.size()), nodes.data(), forces.data(), 0),
-                      "delam_problem_add_forces");
+        REQUIRE(scene, delam_problem_add_forces, scene.problem(), scene.pattern("dead", {0.0, 1.0}, {0.0, -dead}),
+                static_cast<std::int64_t>(nodes.size()), nodes.data(), forces.data(), 0);
     }
     for (std::int32_t b = 1; b <= loose && pinned; ++b)
         scene.hold(scene.find(b, {0.0, (b + 0.5) * ply}, {0.0, (b + 0.5) * ply}), {1.0, 0.0});
@@ -59,16 +58,12 @@ Scene plies(int loose, double push, bool pinned, double dead = 0.0) {
 }
 
 void floating(Study& study) {
-    const std::vector<double> counts{1, 2, 3, 4, 6, 8, 12, 16};
     for (const bool lifted : {false, true}) {
         const std::string subject = lifted ? "floating-lifted" : "floating-pressed";
         if (!study.wanted(subject)) continue;
-        for (const double count : study.range(counts, 4)) {
+        for (const double count : study.range({1, 2, 3, 4, 6, 8, 12, 16}, 4)) {
             const int loose = static_cast<int>(count);
-            Trial t;
-            t.subject = subject;
-            t.parameter_name = "loose plies";
-            t.parameter = count;
+            Trial t = trial_of(subject, "loose plies", count);
             t.subdomains = 2 * (loose + 1);
             t.scene = [=] { return plies(loose, lifted ? -press : press, false); };
             t.compared = sliding;
@@ -90,10 +85,7 @@ void floating(Study& study) {
     // A dead load along a motion that only contact could resist is refused before the analysis.
     if (study.wanted("dead-load-on-loose-ply"))
         for (const double force : study.range({1e-12, 1e-6, 1, 1e6}, 3)) {
-            Trial t;
-            t.subject = "dead-load-on-loose-ply";
-            t.parameter_name = "force, N/m";
-            t.parameter = force;
+            Trial t = trial_of("dead-load-on-loose-ply", "force, N/m", force);
             t.scene = [=] { return plies(2, 0.0, false, force); };
             t.direct = false;
             t.refused = "missing support";
@@ -105,10 +97,7 @@ void floating(Study& study) {
     for (const double part : study.range({1e-9, 1e-3, 0.5, 0.9, 0.999, 1.001, 1.1, 10, 1e6}, 3)) {
         const LawData law{1e13, 1e13, 50.0, 50.0, 200.0, 200.0};
         const double strength = std::sqrt(2.0 * law.normal_stiffness * law.normal_onset);
-        Trial t;
-        t.subject = "dead-load-lifts";
-        t.parameter_name = "load / strength";
-        t.parameter = part;
+        Trial t = trial_of("dead-load-lifts", "load / strength", part);
         t.law = law;
         t.scene = [=] {
             Scene scene(2, {length}, {20}, {ply, ply}, {2, 2}, DELAM_QUAD4);
@@ -127,9 +116,8 @@ void floating(Study& study) {
                 const bool end = x < 0.5 * h || x > length - 0.5 * h;
                 forces.insert(forces.end(), {0.0, (end ? 0.5 : 1.0) * h * part * strength});
             }
-            scene.require(delam_problem_add_forces(scene.problem(), scene.pattern("dead", {0.0, 1.0}, {0.0, 1.0}),
-                                                   static_cast<std::int64_t>(top.size()), top.data(), forces.data(), 0),
-                          "delam_problem_add_forces");
+            REQUIRE(scene, delam_problem_add_forces, scene.problem(), scene.pattern("dead", {0.0, 1.0}, {0.0, 1.0}),
+                    static_cast<std::int64_t>(top.size()), top.data(), forces.data(), 0);
             return scene;
         };
         t.reference = "closed form (uniform tension)";
@@ -154,10 +142,7 @@ void floating(Study& study) {
 void corner(Study& study) {
     if (!study.wanted("held-by-contact")) return;
     for (const double degrees : study.range({1, 5, 15, 30, 45, 60, 75, 85, 89}, 4)) {
-        Trial t;
-        t.subject = "held-by-contact";
-        t.parameter_name = "direction, degrees";
-        t.parameter = degrees;
+        Trial t = trial_of("held-by-contact", "direction, degrees", degrees);
         t.scene = [=] {
             constexpr std::int64_t n = 10;
             constexpr double side = 0.01;
@@ -191,9 +176,8 @@ void corner(Study& study) {
             const double angle = degrees * std::acos(-1.0) / 180.0;
             const std::int64_t far = (n + 1) * (n + 1) - 1;
             const std::vector<double> force{-std::cos(angle), -std::sin(angle)};
-            scene.require(delam_problem_add_forces(scene.problem(), scene.pattern("push", {0.0, 1.0}, {0.0, 1e5}), 1,
-                                                   &far, force.data(), 0),
-                          "delam_problem_add_forces");
+            REQUIRE(scene, delam_problem_add_forces, scene.problem(), scene.pattern("push", {0.0, 1.0}, {0.0, 1e5}), 1,
+                    &far, force.data(), 0);
             return scene;
         };
         t.defect_limit = closed_balance;
@@ -206,10 +190,7 @@ void corner(Study& study) {
 void reversed(Study& study) {
     if (!study.wanted("open-and-close")) return;
     for (const double ratio : study.range({1e-6, 1e-4, 1e-2, 0.1, 0.5, 1, 2, 10, 1e2, 1e4, 1e6}, 5)) {
-        Trial t;
-        t.subject = "open-and-close";
-        t.parameter_name = "reverse / first load";
-        t.parameter = ratio;
+        Trial t = trial_of("open-and-close", "reverse / first load", ratio);
         t.times = {1.0, 2.0, 3.0};
         t.scene = [=] {
             Scene scene(2, {length}, {40}, {ply, ply}, {3, 3}, DELAM_QUAD4);
@@ -285,10 +266,7 @@ void crossings(Study& study) {
     for (const auto& kind : kinds) {
         if (!study.wanted(kind.subject)) continue;
         for (const double n : study.range({2, 3, 4, 6, 8}, 4)) {
-            Trial t;
-            t.subject = kind.subject;
-            t.parameter_name = "blocks a side";
-            t.parameter = n;
+            Trial t = trial_of(kind.subject, "blocks a side", n);
             // Some blocks are cut as well.
             t.subdomains = static_cast<int>(n * n) + 4;
             t.scene = [=] { return blocks(std::lround(n), kind.bonded, kind.gluing, false); };
@@ -300,10 +278,7 @@ void crossings(Study& study) {
     }
     if (!study.wanted("supports-twice")) return;
     for (const double n : study.range({1, 2, 3}, 2)) {
-        Trial t;
-        t.subject = "supports-twice";
-        t.parameter_name = "blocks a side";
-        t.parameter = n;
+        Trial t = trial_of("supports-twice", "blocks a side", n);
         t.subdomains = static_cast<int>(n * n) + 4;
         t.scene = [=] { return blocks(std::lround(n), n == 1, "orthonormal", true); };
         t.direct = false;

@@ -30,10 +30,7 @@ void stiffness(Study& study) {
         const std::string subject = dimension == 2 ? "stiffness" : "stiffness-3d";
         if (!study.wanted(subject)) continue;
         for (const double k : study.range(decades(1e6, 1e22, dimension == 2 ? 1 : 2), 4)) {
-            Trial t;
-            t.subject = subject;
-            t.parameter_name = "k, N/m3";
-            t.parameter = k;
+            Trial t = trial_of(subject, "k, N/m3", k);
             t.scene = [=] {
                 Cantilever c;
                 c.dimension = dimension;
@@ -64,10 +61,7 @@ void rigid(Study& study) {
     reference::DirectReference direct(bonded);
     const reference::State limit = direct.solve(1.0, std::vector<double>(bonded.pair_count(), 1.0));
     for (const double k : study.range(decades(1e15, 1e22), 3)) {
-        Trial t;
-        t.subject = "rigid";
-        t.parameter_name = "k, N/m3";
-        t.parameter = k;
+        Trial t = trial_of("rigid", "k, N/m3", k);
         t.scene = [=] { return scene(k); };
         t.reference = "bonded, direct solver";
         t.error = [&](const Result& r) {
@@ -87,10 +81,7 @@ void rigid(Study& study) {
 void bonded(Study& study) {
     if (!study.wanted("bonded")) return;
     for (const double columns : study.range({10, 40, 160}, 2)) {
-        Trial t;
-        t.subject = "bonded";
-        t.parameter_name = "columns";
-        t.parameter = columns;
+        Trial t = trial_of("bonded", "columns", columns);
         t.scene = [=] {
             Cantilever c;
             c.bonded = true;
@@ -215,9 +206,8 @@ Scene make_layer(double k, std::int64_t columns) {
         forces.push_back((end ? 0.5 : 1.0) * h * Layer::load * (2.0 + std::cos(std::acos(-1.0) * x / Layer::length)));
     }
     const auto pull = scene.pattern("pull", {0.0, 1.0}, {0.0, 1.0});
-    scene.require(delam_problem_add_forces(scene.problem(), pull, static_cast<std::int64_t>(face.size()), face.data(),
-                                           forces.data(), 0),
-                  "delam_problem_add_forces");
+    REQUIRE(scene, delam_problem_add_forces, scene.problem(), pull, static_cast<std::int64_t>(face.size()), face.data(),
+            forces.data(), 0);
     return scene;
 }
 
@@ -236,10 +226,7 @@ void oscillation(Study& study) {
         constexpr std::int64_t columns = 64;
         for (const double k : study.range(decades(1e6, 1e22), 4)) {
             const auto exact = std::make_shared<Layer>(k);
-            Trial t;
-            t.subject = subject;
-            t.parameter_name = "k, N/m3";
-            t.parameter = k;
+            Trial t = trial_of(subject, "k, N/m3", k);
             t.scene = [=] { return make_layer(k, columns); };
             t.reference = "closed form (Airy)";
             t.error = [=](const Result& r) {
@@ -303,10 +290,7 @@ std::vector<PairState> own_scheme(const LawData& data, const std::vector<double>
 
 Trial driven(const std::string& subject, const std::string& parameter_name, double parameter, const LawData& law,
              const std::vector<double>& open, const std::vector<double>& slide) {
-    Trial t;
-    t.subject = subject;
-    t.parameter_name = parameter_name;
-    t.parameter = parameter;
+    Trial t = trial_of(subject, parameter_name, parameter);
     t.times.clear();
     std::vector<double> times{0.0}, opens{0.0}, slides{0.0};
     for (std::size_t k = 0; k < open.size(); ++k) {
@@ -405,10 +389,7 @@ void brittleness(Study& study) {
         const double d0 = std::sqrt(2.0 * onset / k), dc = 2.0 * toughness / peak;
         const double start = peak * (1.0 / spring + 1.0 / k);
         const double end = 1.1 * std::max(dc, start);
-        Trial t;
-        t.subject = "brittleness";
-        t.parameter_name = "Gc/Go";
-        t.parameter = ratio;
+        Trial t = trial_of("brittleness", "Gc/Go", ratio);
         t.times.clear();
         constexpr int steps = 20;
         // Not at the ends of branches.
@@ -461,10 +442,7 @@ void brittleness_cantilever(Study& study) {
         Cantilever c;
         c.law = {1e13, 1e13, 200.0 / ratio, 400.0 / ratio, 200.0, 400.0};
         c.delta = 1e-9;
-        Trial t;
-        t.subject = "brittleness-cantilever";
-        t.parameter_name = "Gc/Go";
-        t.parameter = ratio;
+        Trial t = trial_of("brittleness-cantilever", "Gc/Go", ratio);
         t.times = {0.25, 0.5, 0.75, 1.0};
         t.law = c.law;
         t.delta = c.delta;

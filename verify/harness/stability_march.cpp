@@ -62,10 +62,7 @@ void giant_step(Study& study) {
         for (const double load : study.range({0.1, 0.5, 0.9, 1.001, 1.5, 10, 1e2, 1e4, 1e6}, 4)) {
             const Series series;
             const double w = load * series.dc;
-            Trial t;
-            t.subject = "one-step";
-            t.parameter_name = "load / load of full debond";
-            t.parameter = load;
+            Trial t = trial_of("one-step", "load / load of full debond", load);
             t.law = series.law;
             t.delta = 1e-12;
             t.scene = [=] { return series.scene({0.0, 1.0}, {0.0, w}, 1e-12); };
@@ -84,10 +81,7 @@ void giant_step(Study& study) {
         c.law = brittle;
         c.lift *= load;
         c.delta = 1e-9;
-        Trial t;
-        t.subject = "one-step-cantilever";
-        t.parameter_name = "lift / 1.5 mm";
-        t.parameter = load;
+        Trial t = trial_of("one-step-cantilever", "lift / 1.5 mm", load);
         t.law = c.law;
         t.delta = c.delta;
         t.scene = [=] { return make_cantilever(c); };
@@ -108,10 +102,7 @@ void cycles(Study& study) {
                 times.push_back(static_cast<double>(times.size()));
                 ends.push_back(part * most);
             }
-        Trial t;
-        t.subject = "cycles";
-        t.parameter_name = "cycles";
-        t.parameter = count;
+        Trial t = trial_of("cycles", "cycles", count);
         t.times.assign(times.begin() + 1, times.end());
         t.law = series.law;
         t.delta = 1e-12;
@@ -128,10 +119,7 @@ void cycles_cantilever(Study& study) {
     if (!study.wanted("cycles-cantilever")) return;
     for (const double count : study.range({1, 3, 10, 30}, 2)) {
         if (study.options().quick && count > 10) continue;
-        Trial t;
-        t.subject = "cycles-cantilever";
-        t.parameter_name = "cycles";
-        t.parameter = count;
+        Trial t = trial_of("cycles-cantilever", "cycles", count);
         Cantilever c;
         c.delta = 1e-9;
         c.lift = 1.2e-3;
@@ -161,10 +149,7 @@ void cycles_cantilever(Study& study) {
 void no_load(Study& study) {
     if (!study.wanted("no-load")) return;
     for (const double steps : study.range({1, 2, 10, 100}, 3)) {
-        Trial t;
-        t.subject = "no-load";
-        t.parameter_name = "steps";
-        t.parameter = steps;
+        Trial t = trial_of("no-load", "steps", steps);
         t.times.clear();
         for (int i = 1; i <= static_cast<int>(steps); ++i) t.times.push_back(i);
         Cantilever c;
@@ -204,10 +189,7 @@ void tolerances(Study& study) {
         for (const double delta : study.range(deltas, 5)) {
             const Series series;
             const double w = 0.8 * series.dc;
-            Trial t;
-            t.subject = "damage-tolerance";
-            t.parameter_name = "delta";
-            t.parameter = delta;
+            Trial t = trial_of("damage-tolerance", "delta", delta);
             t.times = {0.35, 0.7, 1.0};
             t.law = series.law;
             t.delta = delta;
@@ -225,10 +207,7 @@ void tolerances(Study& study) {
             if (study.options().quick && delta < 1e-16) continue;  // 0 is a subject of its own
             Cantilever c;
             c.delta = delta;
-            Trial t;
-            t.subject = "damage-tolerance-cantilever";
-            t.parameter_name = "delta";
-            t.parameter = delta;
+            Trial t = trial_of("damage-tolerance-cantilever", "delta", delta);
             t.times = {0.25, 0.5, 0.75, 1.0};
             t.law = c.law;
             t.delta = delta;
@@ -240,10 +219,7 @@ void tolerances(Study& study) {
     if (study.wanted("damage-tolerance-0")) {
         Cantilever c;
         c.delta = 0.0;
-        Trial t;
-        t.subject = "damage-tolerance-0";
-        t.parameter_name = "delta";
-        t.parameter = 0.0;
+        Trial t = trial_of("damage-tolerance-0", "delta", 0.0);
         t.times = {0.25, 0.5, 0.75, 1.0};
         t.law = c.law;
         t.delta = 0.0;
@@ -257,10 +233,7 @@ void tolerances(Study& study) {
         Cantilever c;
         c.lift = 1e-5;
         c.law = {1e14, 1e14, 1e30, 1e30, 1e30, 1e30};
-        Trial t;
-        t.subject = "linear-tolerance";
-        t.parameter_name = "linear_tolerance";
-        t.parameter = tolerance;
+        Trial t = trial_of("linear-tolerance", "linear_tolerance", tolerance);
         t.scene = [=] {
             Scene scene = make_cantilever(c);
             scene.number("linear_tolerance", tolerance);

@@ -39,8 +39,7 @@ Scene one_pair(double pull) {
     const std::int64_t a = 2, b = 3;
     const double normal[2] = {0.0, 1.0}, weight = 1e-3;
     std::int64_t index = -1;
-    scene.require(delam_mesh_add_pairs(scene.mesh(), 0, 1, 1, &a, &b, normal, &weight, 0, 2, nullptr, 0, &index),
-                  "delam_mesh_add_pairs");
+    REQUIRE(scene, delam_mesh_add_pairs, scene.mesh(), 0, 1, 1, &a, &b, normal, &weight, 0, 2, nullptr, 0, &index);
     scene.begin();
     scene.elastic(-1, modulus, 0.0);
     scene.law(0, intact);
@@ -87,10 +86,7 @@ void pairs(Study& study) {
     for (const double count : study.range({1, 2, 11, 101, 1001, 10001, 30001, 100001}, 3)) {
         if (study.options().quick && count > 200) continue;
         const auto cells = std::lround(count) - 1;
-        Trial t;
-        t.subject = "pairs";
-        t.parameter_name = "pairs";
-        t.parameter = count;
+        Trial t = trial_of("pairs", "pairs", count);
         t.scene = [=] { return cells == 0 ? one_pair(pull) : strip(cells, spring, pull); };
         t.subdomains = static_cast<int>(std::max<long>(2, 2 * cells / piece));
         if (cells > 0) {
@@ -122,10 +118,7 @@ void pieces(Study& study) {
     constexpr std::int64_t cells = 400;
     for (const double length : study.range({5, 10, 20, 50, 100, 200, 400}, 3)) {
         if (study.options().quick && length > 50) continue;
-        Trial t;
-        t.subject = "pairs-pieces";
-        t.parameter_name = "cells of a piece";
-        t.parameter = length;
+        Trial t = trial_of("pairs-pieces", "cells of a piece", length);
         t.scene = [=] { return strip(cells, spring, pull); };
         t.subdomains = static_cast<int>(std::lround(2.0 * cells / length));
         t.reference = "closed form (uniform tension)";
@@ -151,10 +144,7 @@ void subdomains(Study& study) {
             c.columns = 160, c.rows = 4, c.notch = 48;
             c.law = intact;
             c.lift = 1e-5;
-            Trial t;
-            t.subject = subject;
-            t.parameter_name = "subdomains";
-            t.parameter = count;
+            Trial t = trial_of(subject, "subdomains", count);
             t.subdomains = static_cast<int>(count);
             t.scene = [=] {
                 Scene scene = make_cantilever(c);
@@ -172,10 +162,7 @@ void subdomains(Study& study) {
     if (!study.wanted("subdomains-1")) return;
     // One body on a rigid obstacle, in one subdomain.
     for (const double count : study.range({1, 2, 4, 8}, 3)) {
-        Trial t;
-        t.subject = "subdomains-1";
-        t.parameter_name = "subdomains";
-        t.parameter = count;
+        Trial t = trial_of("subdomains-1", "subdomains", count);
         t.subdomains = static_cast<int>(count);
         t.scene = [] {
             const Scene plain(2, {0.04}, {20}, {4e-3}, {4}, DELAM_QUAD4);
@@ -250,10 +237,7 @@ void poor_cuts(Study& study) {
         if (!study.wanted(subject)) continue;
         for (const double teeth : study.range({1, 2, 4, 8, 16, 32}, 3)) {
             if (study.options().quick && teeth > 8) continue;
-            Trial t;
-            t.subject = subject;
-            t.parameter_name = "teeth";
-            t.parameter = teeth;
+            Trial t = trial_of(subject, "teeth", teeth);
             t.subdomains = 2;
             t.scene = [=] { return combs(std::lround(teeth), bonded); };
             t.acceptance_limit = 5e-9;
@@ -264,10 +248,7 @@ void poor_cuts(Study& study) {
     }
     if (!study.wanted("combs-cut")) return;
     for (const double count : study.range({2, 8, 32, 128, 256, 512}, 5)) {
-        Trial t;
-        t.subject = "combs-cut";
-        t.parameter_name = "subdomains";
-        t.parameter = count;
+        Trial t = trial_of("combs-cut", "subdomains", count);
         t.subdomains = static_cast<int>(count);
         t.scene = [] { return combs(16, true); };
         t.condensed = count < 4;

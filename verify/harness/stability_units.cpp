@@ -93,10 +93,7 @@ void scaled_marches(Study& study, const Range& range) {
     for (const double factor : study.range(range.factors, range.stride)) {
         const Scale by = range.scale(factor);
         const Cantilever c = scaled(by, range.dimension);
-        Trial t;
-        t.subject = range.subject;
-        t.parameter_name = range.parameter_name;
-        t.parameter = factor;
+        Trial t = trial_of(range.subject, range.parameter_name, factor);
         t.times = times;
         t.law = c.law;
         t.delta = delta;

@@ -47,9 +47,8 @@ Scene::Scene(int dimension, const std::vector<double>& nodes, std::int32_t cell_
 Scene Scene::conforming(int dimension, const std::vector<double>& nodes, std::int32_t cell_type,
                         const std::vector<std::int64_t>& cells, const std::vector<std::int32_t>& bodies) {
     Scene scene(dimension, nodes);
-    scene.require(delam_mesh_add_conforming_cells(scene.mesh(), cell_type, static_cast<std::int64_t>(bodies.size()),
-                                                  cells.data(), bodies.data(), 0),
-                  "delam_mesh_add_conforming_cells");
+    REQUIRE(scene, delam_mesh_add_conforming_cells, scene.mesh(), cell_type, static_cast<std::int64_t>(bodies.size()),
+            cells.data(), bodies.data(), 0);
     scene.adopt_mesh();
     return scene;
 }
@@ -61,7 +60,7 @@ Scene Scene::adopt(Context context, Mesh mesh, Problem problem, std::vector<Inte
     scene.problem_ = std::move(problem);
     scene.stiffness_ = std::move(stiffness);
     std::int32_t dimension = 0;
-    scene.require(delam_mesh_size(scene.mesh(), &dimension, nullptr, nullptr, nullptr, nullptr), "delam_mesh_size");
+    REQUIRE(scene, delam_mesh_size, scene.mesh(), &dimension, nullptr, nullptr, nullptr, nullptr);
     scene.dimension_ = dimension;
     scene.adopt_mesh();
     return scene;
@@ -226,19 +225,18 @@ std::size_t Scene::pair_count() const {
 
 Solver::Solver(const Scene& scene, double time) : scene_(&scene) {
     delam_solver* raw = nullptr;
-    scene.require(delam_solver_create(scene.problem(), time, &raw), "delam_solver_create");
+    REQUIRE(scene, delam_solver_create, scene.problem(), time, &raw);
     handle_.reset(raw);
 }
 
 void Solver::step(double time) { scene_->require(advance(time), "delam_solver_advance"); }
 
-void Solver::commit() { scene_->require(delam_solver_commit(get()), "delam_solver_commit"); }
+void Solver::commit() { REQUIRE(*scene_, delam_solver_commit, get()); }
 
-void Solver::rollback() { scene_->require(delam_solver_rollback(get()), "delam_solver_rollback"); }
+void Solver::rollback() { REQUIRE(*scene_, delam_solver_rollback, get()); }
 
 void Solver::equilibrate(double time, const std::vector<double>& adhesion) {
-    scene_->require(delam_solver_equilibrate(get(), time, adhesion.empty() ? nullptr : adhesion.data()),
-                    "delam_solver_equilibrate");
+    REQUIRE(*scene_, delam_solver_equilibrate, get(), time, adhesion.empty() ? nullptr : adhesion.data());
 }
 
 double Solver::value(const std::string& key) const {
@@ -249,7 +247,7 @@ double Solver::value(const std::string& key) const {
 
 std::vector<double> Solver::values() const {
     std::int64_t count = 0;
-    scene_->require(delam_solver_value_count(get(), &count), "delam_solver_value_count");
+    REQUIRE(*scene_, delam_solver_value_count, get(), &count);
     std::vector<double> all;
     for (std::int64_t i = 0; i < count; ++i) all.push_back(value(delam_solver_value_name(get(), i)));
     return all;
@@ -266,9 +264,9 @@ std::vector<double> Solver::field(const char* key) const {
 
 std::vector<std::uint8_t> Solver::save() const {
     std::int64_t needed = 0;
-    scene_->require(delam_solver_save(get(), 0, nullptr, &needed), "delam_solver_save");
+    REQUIRE(*scene_, delam_solver_save, get(), 0, nullptr, &needed);
     std::vector<std::uint8_t> bytes(static_cast<std::size_t>(needed));
-    scene_->require(delam_solver_save(get(), needed, bytes.data(), &needed), "delam_solver_save");
+    REQUIRE(*scene_, delam_solver_save, get(), needed, bytes.data(), &needed);
     return bytes;
 }
 

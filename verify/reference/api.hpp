@@ -10,6 +10,9 @@
 
 #include "delam/delam.h"
 
+// scene.require(function(...), "function")
+#define REQUIRE(scene, function, ...) (scene).require(function(__VA_ARGS__), #function)
+
 namespace reference {
 
 // Thrown at any status other than the expected DELAM_OK.

@@ -11,8 +11,7 @@ Csr global_stiffness(const Scene& scene) {
     const auto d = static_cast<std::size_t>(scene.dimension());
     const std::size_t nodes = scene.node_count();
     std::vector<std::int32_t> label(nodes);
-    scene.require(delam_mesh_node_bodies(scene.mesh(), static_cast<std::int64_t>(nodes), label.data()),
-                  "delam_mesh_node_bodies");
+    REQUIRE(scene, delam_mesh_node_bodies, scene.mesh(), static_cast<std::int64_t>(nodes), label.data());
     std::map<std::int32_t, std::vector<std::int64_t>> members;
     for (std::size_t i = 0; i < nodes; ++i) {
         if (label[i] >= 0) members[label[i]].push_back(static_cast<std::int64_t>(i));
@@ -22,17 +21,16 @@ Csr global_stiffness(const Scene& scene) {
     for (const auto& [body, list] : members) {
         std::int64_t row_count = 0;
         std::int64_t entries = 0;
-        scene.require(delam_problem_body_matrix(scene.problem(), body, &row_count, &entries, nullptr, nullptr, nullptr),
-                      "delam_problem_body_matrix");
+        REQUIRE(scene, delam_problem_body_matrix, scene.problem(), body, &row_count, &entries, nullptr, nullptr,
+                nullptr);
         if (static_cast<std::size_t>(row_count) != list.size() * d)
             throw Failure(0, "body matrix: rows do not match the body");
         Csr local;
         local.start.resize(static_cast<std::size_t>(row_count) + 1);
         local.column.resize(static_cast<std::size_t>(entries));
         local.value.resize(static_cast<std::size_t>(entries));
-        scene.require(delam_problem_body_matrix(scene.problem(), body, &row_count, &entries, local.start.data(),
-                                                local.column.data(), local.value.data()),
-                      "delam_problem_body_matrix");
+        REQUIRE(scene, delam_problem_body_matrix, scene.problem(), body, &row_count, &entries, local.start.data(),
+                local.column.data(), local.value.data());
         const auto global = [d, &nodes_of = list](std::size_t i) {
             return nodes_of[i / d] * static_cast<std::int64_t>(d) + static_cast<std::int64_t>(i % d);
         };
@@ -67,14 +65,12 @@ Exported::Exported(const Scene& scene) : dimension(scene.dimension()), dofs(scen
 
     std::int64_t tied = 0;
     std::int64_t tie_entries = 0;
-    scene.require(delam_mesh_node_ties(scene.mesh(), &tied, &tie_entries, nullptr, nullptr, nullptr, nullptr),
-                  "delam_mesh_node_ties");
+    REQUIRE(scene, delam_mesh_node_ties, scene.mesh(), &tied, &tie_entries, nullptr, nullptr, nullptr, nullptr);
     std::vector<std::int64_t> tie_nodes(static_cast<std::size_t>(tied)), starts(tie_nodes.size() + 1),
         of(static_cast<std::size_t>(tie_entries));
     std::vector<double> weights(of.size());
-    scene.require(delam_mesh_node_ties(scene.mesh(), &tied, &tie_entries, tie_nodes.data(), starts.data(), of.data(),
-                                       weights.data()),
-                  "delam_mesh_node_ties");
+    REQUIRE(scene, delam_mesh_node_ties, scene.mesh(), &tied, &tie_entries, tie_nodes.data(), starts.data(), of.data(),
+            weights.data());
     for (std::size_t i = 0; i < tie_nodes.size(); ++i) {
         ties.push_back({tie_nodes[i], {}});
         for (auto e = static_cast<std::size_t>(starts[i]); e < static_cast<std::size_t>(starts[i + 1]); ++e)
@@ -84,17 +80,15 @@ Exported::Exported(const Scene& scene) : dimension(scene.dimension()), dofs(scen
     std::int64_t rows = 0;
     std::int64_t entries = 0;
     std::int64_t pattern_count = 0;
-    scene.require(
-        delam_problem_constraints(scene.problem(), &rows, &entries, &pattern_count, nullptr, nullptr, nullptr, nullptr),
-        "delam_problem_constraints");
+    REQUIRE(scene, delam_problem_constraints, scene.problem(), &rows, &entries, &pattern_count, nullptr, nullptr,
+            nullptr, nullptr);
     constraints.start.resize(static_cast<std::size_t>(rows) + 1);
     constraints.column.resize(static_cast<std::size_t>(entries));
     constraints.value.resize(static_cast<std::size_t>(entries));
     patterns = static_cast<std::size_t>(pattern_count);
     prescribed.resize(static_cast<std::size_t>(rows) * patterns);
-    scene.require(delam_problem_constraints(scene.problem(), &rows, &entries, &pattern_count, constraints.start.data(),
-                                            constraints.column.data(), constraints.value.data(), prescribed.data()),
-                  "delam_problem_constraints");
+    REQUIRE(scene, delam_problem_constraints, scene.problem(), &rows, &entries, &pattern_count,
+            constraints.start.data(), constraints.column.data(), constraints.value.data(), prescribed.data());
 
     // A node without cells that something refers to is a control node: an unknown without stiffness.
     const auto refer = [&](std::int64_t node) {
@@ -107,20 +101,17 @@ Exported::Exported(const Scene& scene) : dimension(scene.dimension()), dofs(scen
     }
     for (std::size_t p = 0; p < patterns; ++p) {
         forces.emplace_back(dofs);
-        scene.require(delam_problem_forces(scene.problem(), static_cast<std::int64_t>(p),
-                                           static_cast<std::int64_t>(dofs), forces.back().data()),
-                      "delam_problem_forces");
+        REQUIRE(scene, delam_problem_forces, scene.problem(), static_cast<std::int64_t>(p),
+                static_cast<std::int64_t>(dofs), forces.back().data());
     }
     strain_energy.resize(patterns * patterns);
-    scene.require(delam_problem_eigenstrain_energy(scene.problem(), static_cast<std::int64_t>(strain_energy.size()),
-                                                   strain_energy.data()),
-                  "delam_problem_eigenstrain_energy");
+    REQUIRE(scene, delam_problem_eigenstrain_energy, scene.problem(), static_cast<std::int64_t>(strain_energy.size()),
+            strain_energy.data());
 }
 
 std::vector<double> Exported::factors(const Scene& scene, double time) const {
     std::vector<double> factor(patterns);
-    scene.require(delam_problem_factors(scene.problem(), time, static_cast<std::int64_t>(patterns), factor.data()),
-                  "delam_problem_factors");
+    REQUIRE(scene, delam_problem_factors, scene.problem(), time, static_cast<std::int64_t>(patterns), factor.data());
     return factor;
 }
 

@@ -30,14 +30,11 @@ void prescribe(FlexureScene& s, std::int32_t arm, double x, double level, const 
     std::vector<std::int64_t> nodes(scene.node_count());
     std::vector<double> weights(nodes.size());
     std::int64_t count = 0;
-    scene.require(delam_mesh_find_patch(scene.mesh(), arm, lower.data(), upper.data(), outward.data(),
-                                        static_cast<std::int64_t>(nodes.size()), nodes.data(), weights.data(), &count),
-                  "delam_mesh_find_patch");
+    REQUIRE(scene, delam_mesh_find_patch, scene.mesh(), arm, lower.data(), upper.data(), outward.data(),
+            static_cast<std::int64_t>(nodes.size()), nodes.data(), weights.data(), &count);
     const double one = 1.0;
-    scene.require(delam_problem_prescribe_mean(scene.problem(), count, nodes.data(), weights.data(), direction.data(),
-                                               pattern < 0 ? 0 : 1, pattern < 0 ? nullptr : &pattern,
-                                               pattern < 0 ? nullptr : &one, 0),
-                  "delam_problem_prescribe_mean");
+    REQUIRE(scene, delam_problem_prescribe_mean, scene.problem(), count, nodes.data(), weights.data(), direction.data(),
+            pattern < 0 ? 0 : 1, pattern < 0 ? nullptr : &pattern, pattern < 0 ? nullptr : &one, 0);
 }
 
 }  // namespace
@@ -70,9 +67,7 @@ FlexureScene make_flexure(const Flexure& data) {
     scene.interface(0, 1);
     scene.begin();
     scene.elastic(-1, 75e9, 0.3);
-    if (incompatible)
-        scene.require(delam_problem_set_formulation(scene.problem(), -1, "incompatible"),
-                      "delam_problem_set_formulation");
+    if (incompatible) REQUIRE(scene, delam_problem_set_formulation, scene.problem(), -1, "incompatible");
     scene.law(0, data.law);
 
     const Pairs pairs = scene.pairs(0);

@@ -73,7 +73,7 @@ Fronts::Fronts(const Flexure& data, double load, std::size_t kept) : flexure_(ma
                                  std::to_string(fronts_[f].stored / stored - 1.0) + " off a solution from scratch");
     }
     delam_law* raw = nullptr;
-    scene.require(delam_law_create(scene.context(), "piecewise-linear", &raw), "delam_law_create");
+    REQUIRE(scene, delam_law_create, scene.context(), "piecewise-linear", &raw);
     const Law law(raw);
     const LawData& d = data.law;
     const std::pair<const char*, double> parameters[] = {
@@ -85,9 +85,8 @@ Fronts::Fronts(const Flexure& data, double load, std::size_t kept) : flexure_(ma
     for (const auto& [key, value] : parameters) scene.require(delam_law_set(raw, key, value), key);
     for (const Front& front : fronts_) {
         std::vector<double> cost(pairs);
-        scene.require(
-            delam_law_toughness(raw, static_cast<std::int64_t>(pairs), front.mixity.data(), nullptr, cost.data()),
-            "delam_law_toughness");
+        REQUIRE(scene, delam_law_toughness, raw, static_cast<std::int64_t>(pairs), front.mixity.data(), nullptr,
+                cost.data());
         for (std::size_t p = 0; p < pairs; ++p) cost[p] *= flexure_.weight[p];
         cost_.push_back(std::move(cost));
     }

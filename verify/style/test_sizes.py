@@ -219,6 +219,11 @@ def main():
         "a long function in a class": ("src/a/b.hpp", "class A {\n" + lengthy(81) + "};\n"),
         "a long function for C": ("src/a/b.cpp", 'extern "C" {\n' + lengthy(81) + "}\n"),
         "a long file": ("src/a/b.cpp", "int a;\n" * 501),
+        "a long test": ("verify/a/test_b.cpp", "int a;\n" * 501),
+        "a long script": ("verify/a/b.sh", "true\n" * 501),
+        "a long function of a test": ("verify/a/b.c", lengthy(81)),
+        "a long test in a test": ("verify/a/b.cpp", "TEST(a) {\n" + "    g();\n" * 79 + "}\n"),
+        "a long function of Python": ("verify/a/b.py", "def f():\n" + "    g()\n" * 80),
         "a long README": ("verify/a/README.md", "- a\n" * 41),
         "a wide README": ("verify/a/README.md", "| " + "x" * 121 + " |\n" + "x" * 121 + "\n"),
     }
@@ -228,12 +233,18 @@ def main():
         "a full line": ("verify/a.jl", "x" * 120 + "\n"),
         "a full function": ("src/a/b.cpp", lengthy(80)),
         "two functions": ("src/a/b.cpp", lengthy(80) + lengthy(80)),
-        "a long function elsewhere": ("verify/b.cpp", lengthy(200)),
+        "a long function elsewhere": ("bindings/b.cpp", lengthy(200)),
+        "a long function of a host that was released": ("verify/kept/8aed94c5/hosts/b.c", lengthy(200)),
         "a full file": ("src/a/b.cpp", "int a;\n" * 500),
         "a full README": ("verify/a/README.md", "| " + "x" * 121 + " |\n" + "- a\n" * 39),
     }
     for what, (name, text) in fine.items():
         assert not list(sizes.problems(name, text)), f"{what} was refused"
+    for lines, more, what in ((120, 0, None), (121, 0, "at most 120"), (119, 0, "lower it"), (80, 0, "lower it"),
+                              (120, 81, "at most 80")):
+        text = lengthy(lines) + (lengthy(more) if more else "")
+        said = list(sizes.problems("verify/b.cpp", text, {"verify/b.cpp": [120]}))
+        assert len(said) == (what is not None) and all(what in line for line in said), f"{lines}, {more}: {said}"
     planted = {
         "a cast": "auto* c = dynamic_cast<Condensed*>(op);\n",
         "a copy of index()": "std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }\n",
@@ -271,7 +282,7 @@ def main():
                                                encoding="utf-8")
         assert list(readmes.lost(src.parent, ["src/law/names.hpp"])) == ["src/law/names.hpp: src/lost.cpp is not there"]
     houses = planted_steps() + planted_arrows() + planted_imports() + planted_sentences() + planted_english()
-    print(f"{len(EXPECTED)} functions, {len(refused) + len(planted) + 2 + houses} planted")
+    print(f"{len(EXPECTED)} functions, {len(refused) + 4 + len(planted) + 2 + houses} planted")
     return 0
 
 

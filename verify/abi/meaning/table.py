@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The table: rows that observe what arguments and options mean, and what a row can say of a library."""
+import importlib
 import math
+
+MODULES = ("mesh", "law", "problem", "loads", "solver", "values", "options", "energetic", "operators", "calls")
 
 
 class Row:
@@ -12,6 +15,12 @@ class Row:
 
 
 ROWS = []
+
+
+def load():
+    """Fills ROWS, from all files of rows."""
+    for module in MODULES:
+        importlib.import_module(f"rows_{module}")
 
 
 def row(name, tells=(), options=(), says=()):

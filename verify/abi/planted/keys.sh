@@ -2,112 +2,36 @@
 # Breaks of keys, sentences and statuses; ../test_planted.sh sources this.
 # shellcheck shell=bash disable=SC2154
 # ---- keys ----
-# A library in front of the real one that says something else of its keys. lying NAME: compiled with -DNAME.
-mkdir "$work/keys"
-cat >"$work/keys/lying.c" <<'CODE'
-#define _GNU_SOURCE
-#include <delam/delam.h>
-#include <dlfcn.h>
-#include <string.h>
-#define BEHIND(name) __typeof__(&name) behind = (__typeof__(&name))dlsym(RTLD_NEXT, #name)
-#ifdef FEWER_OPTIONS
-int64_t delam_option_count(void) { BEHIND(delam_option_count); return behind() - 1; }
-#endif
-#ifdef CELL
-int32_t delam_cell_type_info(int64_t index, const char **name, int32_t *cell_type, int32_t *dimension, int32_t *nodes,
-                             int32_t *corners, int32_t *faces, int32_t *face_nodes, int32_t *face_corners) {
-    BEHIND(delam_cell_type_info);
-    const int32_t status =
-        behind(index, name, cell_type, dimension, nodes, corners, faces, face_nodes, face_corners);
-    if (strcmp(*name, CELL) == 0) *PLACE = NUMBER;
-    return status;
-}
-#endif
-#ifdef OPTION
-int32_t delam_option_info(int64_t index, const char **key, const char **type, const char **unit, const char **initial,
-                          const char **range, const char **meaning) {
-    BEHIND(delam_option_info);
-    const int32_t status = behind(index, key, type, unit, initial, range, meaning);
-    if (strcmp(*key, OPTION) == 0) *PLACE = TEXT;
-    return status;
-}
-#endif
-#ifdef PARAMETER
-int32_t delam_law_parameter_info(const char *kind, int64_t index, const char **key, const char **type,
-                                 const char **unit, const char **initial, const char **range, const char **meaning) {
-    BEHIND(delam_law_parameter_info);
-    const int32_t status = behind(kind, index, key, type, unit, initial, range, meaning);
-    if (strcmp(*key, PARAMETER) == 0) *PLACE = TEXT;
-    return status;
-}
-#endif
-#ifdef FEWER_VALUES
-int32_t delam_solver_value_count(const delam_solver *solver, int64_t *count) {
-    BEHIND(delam_solver_value_count);
-    const int32_t status = behind(solver, count);
-    --*count;
-    return status;
-}
-#endif
-#ifdef UNRECORDED
-int32_t delam_solver_record(delam_solver *solver, const char *key) {
-    BEHIND(delam_solver_record);
-    int64_t rows = 0, dimension = 0;
-    delam_solver_field_shape(solver, "displacement", -1, &rows, &dimension);
-    const int here = strcmp(key, UNRECORDED) == 0 && dimension == IN;
-    return here ? DELAM_ERROR_ARGUMENT : behind(solver, key);
-}
-#endif
-#ifdef UNKNOWN
-int32_t delam_solver_value(delam_solver *solver, const char *key, double *value) {
-    BEHIND(delam_solver_value);
-    const int32_t status = behind(solver, key, value);
-    if (strcmp(key, UNKNOWN) == 0) *value = 0.0 / 0.0;
-    return status;
-}
-#endif
-#ifdef FLAT
-int32_t delam_solver_field_shape(const delam_solver *solver, const char *key, int64_t part, int64_t *rows,
-                                 int64_t *columns) {
-    BEHIND(delam_solver_field_shape);
-    return strcmp(key, "stress") == 0 ? DELAM_ERROR_ARGUMENT : behind(solver, key, part, rows, columns);
-}
-#endif
-CODE
 keys() { "$python" "$here/keys.py" "$@"; }
-lying() {
-    gcc -std=gnu99 -fPIC -shared -I"$root/include" "$@" "$work/keys/lying.c" -o "$work/keys/liblying.so" \
-        -Wl,--no-as-needed "$library" -Wl,-rpath,"$(dirname "$library")" -ldl
-    keys "$work/keys/liblying.so" "$root/include/delam/delam.h" "${more[@]}"
-}
+lying() { "$python" "$here/planted/lying.py" "$@" -- "$library" "$root/include/delam/delam.h" "${more[@]}"; }
 more=()
-accepted lying -DNONE
-refused '^option memory_limit: in the baseline, gone' lying -DFEWER_OPTIONS
+accepted lying
+refused '^option memory_limit: in the baseline, gone' lying fewer option_count
 if [[ $tier == all ]]; then
     refused '^option contact_limit: type real, in the baseline integer' \
-        lying '-DOPTION="contact_limit"' -DPLACE=type '-DTEXT="real"'
+        lying turn option_info key contact_limit type 'real'
     refused "^option damage_tolerance: range '0 <= value < 0.1' does not allow all of '0 <= value < 1'" \
-        lying '-DOPTION="damage_tolerance"' -DPLACE=range '-DTEXT="0 <= value < 0.1"'
-    accepted lying '-DOPTION="damage_tolerance"' -DPLACE=range '-DTEXT="0 <= value <= 1"'
-    refused "^option contact: range 'auto' does not allow" lying '-DOPTION="contact"' -DPLACE=range '-DTEXT="auto"'
-    accepted lying '-DOPTION="contact"' -DPLACE=range '-DTEXT="auto | always | never"'
+        lying turn option_info key damage_tolerance range '0 <= value < 0.1'
+    accepted lying turn option_info key damage_tolerance range '0 <= value <= 1'
+    refused "^option contact: range 'auto' does not allow" lying turn option_info key contact range 'auto'
+    accepted lying turn option_info key contact range 'auto | always | never'
     refused "^option threads: default '2', in the baseline '1': run .*update.sh, and name it" \
-        lying '-DOPTION="threads"' -DPLACE=initial '-DTEXT="2"'
+        lying turn option_info key threads initial '2'
     more=(--new-defaults)
-    accepted lying '-DOPTION="threads"' -DPLACE=initial '-DTEXT="2"'
+    accepted lying turn option_info key threads initial '2'
     refused "^law griffith gradient: default '', .*: it must be given now" \
-        lying '-DPARAMETER="gradient"' -DPLACE=initial '-DTEXT=""'
+        lying turn law_parameter_info key gradient initial ''
     more=()
     refused '^law trapezoidal normal_stiffness: unit F/L2, in the baseline F/L3' \
-        lying '-DPARAMETER="normal_stiffness"' -DPLACE=unit '-DTEXT="F/L2"'
-    refused "^law trapezoidal plateau: in the baseline, gone" lying '-DPARAMETER="plateau"' -DPLACE=key '-DTEXT="level"'
-    refused '^cell hex8: shape \[9\]\[3\], in the baseline \[8\]\[3\]' lying '-DCELL="hex8"' -DPLACE=nodes -DNUMBER=9
-    refused '^cell hex8: number 3, by the header 4' lying '-DCELL="hex8"' -DPLACE=cell_type -DNUMBER=3
-    refused '^value reaction:NAME: in the header, delam_solver_value_name does not give it' lying -DFEWER_VALUES
-    refused '^value crack_length: is not recorded any more' lying '-DUNRECORDED="crack_length"' -DIN=2
-    refused '^value crack_length: is not recorded any more' lying '-DUNRECORDED="crack_length"' -DIN=3
-    refused '^value dissipated: is -?nan in 2D' lying '-DUNKNOWN="dissipated"'
-    refused '^field stress: shape None, by the header' lying -DFLAT
+        lying turn law_parameter_info key normal_stiffness unit 'F/L2'
+    refused "^law trapezoidal plateau: in the baseline, gone" lying turn law_parameter_info key plateau key 'level'
+    refused '^cell hex8: shape \[9\]\[3\], in the baseline \[8\]\[3\]' lying turn cell_type_info name hex8 nodes 9
+    refused '^cell hex8: number 3, by the header 4' lying turn cell_type_info name hex8 cell_type 3
+    refused '^value reaction:NAME: in the header, delam_solver_value_name does not give it' lying fewer solver_value_count
+    refused '^value crack_length: is not recorded any more' lying refuse solver_record crack_length 2
+    refused '^value crack_length: is not recorded any more' lying refuse solver_record crack_length 3
+    refused '^value dissipated: is -?nan in 2D' lying turn solver_value key dissipated value nan
+    refused '^field stress: shape None, by the header' lying refuse solver_field_shape stress 2 3
 fi
 
 # table SED MESSAGE: another table in the header.
@@ -134,7 +58,7 @@ if [[ $tier == all ]]; then
     # New keys are free.
     sed -i '/^option contact;/d; /^value released;/d' "$work/table/keys.txt"
     more=(--baseline "$work/table/keys.txt")
-    accepted lying -DNONE
+    accepted lying
 fi
 
 # ---- sentences about order, and statuses that are listed ----

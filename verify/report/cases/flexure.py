@@ -5,10 +5,25 @@ import types
 
 import numpy as np
 
+from case import reference
+
 LENGTH, ARM, NOTCH, LOAD, END = 120e-3, 3e-3, 30e-3, 6e-3, 2.0  # m; LOAD at time END
 LAWS = {"ductile": (125e9, 100.0, 250.0), "brittle": (125e15, 0.01, 25.0)}  # stiffness, N/m3; onset and toughness, J/m2
 ENERGIES = ("stored_bulk", "stored_interface", "dissipated", "work")
 VALUES = (*ENERGIES, "lower", "upper", "increment", "increment_lower", "mixity_error", "reaction:load")
+
+ENF = dict(geometry="two arms 120 mm x 3 mm, notch 30 mm, 4-node cells, plane strain",
+           supports="bottom corners (ENF), the notched end at the "
+           "interface (MMF); midspan pressed by 6 mm", units="energies in J per metre of width; loads in mm")
+DUCTILE = "E = 75 GPa, nu = 0.3; k = 125e9 N/m3, Go = 100, Gc = 250 J/m2"
+BRITTLE = "E = 75 GPa, nu = 0.3; k = 125e15 N/m3, Go = 0.01, Gc = 25 J/m2"
+BALANCE = reference("physics", "stored + dissipated = work of the loads for a continuous evolution; the discrete "
+                               "defect is O(tau)",
+                    "none: an identity; the work inside a step is (lower + upper)/2, with an error of the order of "
+                    "the band")
+RULES = {"frozen": {"mixity_rule": "frozen"}, "converged": {"mixity_rule": "converged"}, "variational": {"mixity_rule": "variational"}}
+ETA = 1e-3  # tolerance of the two-sided estimate
+ROUNDING = 1e-12  # of a defect, over the work
 
 
 def scene(delam, specimen, h, patch=0.0, element="quad4", **options):
