@@ -8,6 +8,7 @@
 #include "capi/handle/handles.hpp"
 #include "mesh/cell_type.hpp"
 #include "mesh/layers.hpp"
+#include "mesh/pairing/interfaces.hpp"
 #include "mesh/selection.hpp"
 
 namespace {
@@ -180,14 +181,14 @@ int32_t delam_mesh_add_interface(delam_mesh* mesh, int32_t body_a, int32_t body_
         require_pointer(out_interface, "out_interface");
         require_tolerance(tolerance);
         require_two_bodies(*mesh->core, body_a, body_b);
-        *out_interface = mesh->core->add_interface(body_a, body_b, tolerance);
+        *out_interface = add_interface(*mesh->core, body_a, body_b, tolerance);
     });
 }
 
 int32_t delam_mesh_add_all_interfaces(delam_mesh* mesh, double tolerance, int64_t* out_count) {
     return guard_build(mesh, [&] {
         require_pointer(out_count, "out_count");
-        *out_count = mesh->core->add_all_interfaces(require_tolerance(tolerance));
+        *out_count = add_all_interfaces(*mesh->core, require_tolerance(tolerance));
     });
 }
 
@@ -197,7 +198,7 @@ int32_t delam_mesh_add_projected_interface(delam_mesh* mesh, int32_t body_a, int
         require_pointer(out_interface, "out_interface");
         if (!(gap >= 0.0 && std::isfinite(gap))) fail(DELAM_ERROR_ARGUMENT, "gap = ", gap, " must be >= 0 and finite");
         require_two_bodies(*mesh->core, body_a, body_b);
-        *out_interface = mesh->core->add_projected_interface(body_a, body_b, gap);
+        *out_interface = add_projected_interface(*mesh->core, body_a, body_b, gap);
     });
 }
 
@@ -212,8 +213,8 @@ int32_t delam_mesh_add_obstacle(delam_mesh* mesh, int64_t count, const int64_t* 
         require_base(index_base);
         const std::vector<std::int64_t> own = require_indices(nodes, count, core.node_count(), index_base, "nodes");
         require_index(control_node, core.node_count(), 0, "control_node");
-        *out_interface = core.add_obstacle(own, view(normals, count * core.dimension()),
-                                           view(weights, weights == nullptr ? 0 : count), control_node);
+        *out_interface = add_obstacle(core, own, view(normals, count * core.dimension()),
+                                      view(weights, weights == nullptr ? 0 : count), control_node);
     });
 }
 
@@ -244,10 +245,10 @@ int32_t delam_mesh_add_pairs(delam_mesh* mesh, int32_t body_a, int32_t body_b, i
         require_base(index_base);
         const std::int64_t corners = face_count > 0 ? face_count * nodes_per_face : 0;
         *out_interface =
-            core.add_pairs(body_a, body_b, require_indices(nodes_a, count, core.node_count(), index_base, "nodes_a"),
-                           require_indices(nodes_b, count, core.node_count(), index_base, "nodes_b"),
-                           view(normals, count * core.dimension()), view(weights, count), nodes_per_face,
-                           require_indices(faces, corners, count, index_base, "faces"));
+            add_pairs(core, body_a, body_b, require_indices(nodes_a, count, core.node_count(), index_base, "nodes_a"),
+                      require_indices(nodes_b, count, core.node_count(), index_base, "nodes_b"),
+                      view(normals, count * core.dimension()), view(weights, count), nodes_per_face,
+                      require_indices(faces, corners, count, index_base, "faces"));
     });
 }
 

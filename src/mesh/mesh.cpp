@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
+#include <set>
 
 #include "base/cancel_scope.hpp"
 #include "base/error.hpp"
@@ -195,6 +197,108 @@ double Mesh::size() const {
         largest = std::max(largest, high - low);
     }
     return largest;
+}
+
+// The node that represents this one in a body: itself, an existing copy, or a new one.
+std::int64_t Mesh::node_for(std::int64_t node, std::int32_t label, std::vector<std::int64_t>& taken) {
+    const std::int64_t origin = node_origin_[index(node)];
+    if (node_label_[index(origin)] == -1) {
+        taken.push_back(origin);
+        node_label_[index(origin)] = label;
+    }
+    std::int64_t last = origin;
+    for (std::int64_t n = origin; n >= 0; n = next_copy_[index(n)]) {
+        if (node_label_[index(n)] == label) return n;
+        last = n;
+    }
+    const std::int64_t copy = node_count();
+    for (int k = 0; k < dimension_; ++k) nodes_.push_back(nodes_[index(origin * dimension_ + k)]);
+    node_label_.push_back(label);
+    node_origin_.push_back(origin);
+    next_copy_.push_back(-1);
+    next_copy_[index(last)] = copy;
+    return copy;
+}
+
+void Mesh::add_conforming_cells(CellType type, std::span<const std::int64_t> connectivity,
+                                std::span<const std::int32_t> labels) {
+    const std::size_t per_cell = index(topology(type).nodes);
+    const std::int64_t before = node_count();
+    std::vector<std::int64_t> taken;  // nodes that had no body before
+    std::vector<std::int64_t> own(connectivity.begin(), connectivity.end());
+    try {
+        for (std::size_t i = 0; i < own.size(); ++i) {
+            const std::size_t c = i / per_cell;
+            if (i % per_cell == 0) poll_cancel("mesh");
+            const std::int32_t label = c < labels.size() ? labels[c] : 0;
+            // Other errors stay, so that add_cells reports them.
+            if (label < 0) continue;
+            if (own[i] < 0 || own[i] >= before)
+                fail(DELAM_ERROR_ARGUMENT, "cell ", cell_type_.size() + c, " (body ", label, "): node ", own[i],
+                     ": must be in 0..", before - 1);
+            if (node_label_[index(own[i])] != reserved) own[i] = node_for(own[i], label, taken);
+        }
+        add_cells(type, own, labels);
+    } catch (...) {
+        for (const std::int64_t node : taken) node_label_[index(node)] = -1;
+        node_label_.resize(index(before));
+        node_origin_.resize(index(before));
+        next_copy_.resize(index(before));
+        nodes_.resize(index(before * dimension_));
+        for (std::int64_t& next : next_copy_)
+            if (next >= before) next = -1;
+        throw;
+    }
+}
+
+void Mesh::add_host_body(std::int32_t label, std::span<const std::int64_t> nodes) {
+    if (label < 0) fail(DELAM_ERROR_ARGUMENT, "body = ", label, ": must be >= 0");
+    if (nodes.empty()) fail(DELAM_ERROR_ARGUMENT, "nodes: a body needs at least one");
+    if (body_of_label(label) >= 0) fail(DELAM_ERROR_MESH, "body ", label, " exists already");
+    std::set<std::int64_t> listed;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        poll_cancel("mesh");
+        const std::int64_t node = nodes[i];
+        if (node < 0 || node >= node_count())
+            fail(DELAM_ERROR_ARGUMENT, "nodes[", i, "] = ", node, ": must be in 0..", node_count() - 1);
+        if (!listed.insert(node).second) fail(DELAM_ERROR_ARGUMENT, "nodes[", i, "] = ", node, " occurs twice");
+        if (node_label_[index(node)] == reserved)
+            fail(DELAM_ERROR_MESH, "nodes[", i, "] = ", node,
+                 " is tied to an interface or the control node of an obstacle");
+        if (node_label_[index(node)] >= 0)
+            fail(DELAM_ERROR_MESH, "nodes[", i, "] = ", node, " belongs to body ", node_label_[index(node)]);
+    }
+    std::vector<std::int32_t> labels = labels_, host = host_labels_;
+    labels.insert(std::lower_bound(labels.begin(), labels.end(), label), label);
+    host.insert(std::lower_bound(host.begin(), host.end(), label), label);
+    // Nothing below can fail.
+    rename_bodies(labels);
+    labels_.swap(labels);
+    host_labels_.swap(host);
+    for (const std::int64_t node : nodes) node_label_[index(node)] = label;
+}
+
+std::int64_t Mesh::append(InterfaceGeometry interface, std::vector<NodeTie> ties, std::span<const double> places) {
+    nodes_.reserve(nodes_.size() + places.size());
+    node_label_.reserve(node_label_.size() + ties.size());
+    node_origin_.reserve(node_origin_.size() + ties.size());
+    next_copy_.reserve(next_copy_.size() + ties.size());
+    ties_.reserve(ties_.size() + ties.size());
+    interfaces_.push_back(std::move(interface));
+    // From here on nothing can fail.
+    nodes_.insert(nodes_.end(), places.begin(), places.end());
+    for (NodeTie& t : ties) {
+        node_label_.push_back(reserved);
+        node_origin_.push_back(t.node);
+        next_copy_.push_back(-1);
+        ties_.push_back(std::move(t));
+    }
+    return static_cast<std::int64_t>(interfaces_.size()) - 1;
+}
+
+void Mesh::append_all(std::vector<InterfaceGeometry>& interfaces) {
+    interfaces_.reserve(interfaces_.size() + interfaces.size());
+    std::move(interfaces.begin(), interfaces.end(), std::back_inserter(interfaces_));
 }
 
 }  // namespace delam

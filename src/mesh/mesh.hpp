@@ -27,29 +27,18 @@ public:
     // Labels >= 0; checks indices, orientation and that no node serves two bodies. Leaves the mesh unchanged on error.
     void add_cells(CellType type, std::span<const std::int64_t> connectivity, std::span<const std::int32_t> labels);
     // The same, but a node that another body has is doubled: a node of this body's own is appended at its place, one
-    // for each body and original node (conforming.cpp).
+    // for each body and original node.
     void add_conforming_cells(CellType type, std::span<const std::int64_t> connectivity,
                               std::span<const std::int32_t> labels);
-    // Pairs matching boundary faces of two bodies (pairing.cpp); returns the index of the interface.
-    std::int64_t add_interface(std::int32_t label_a, std::int32_t label_b, double tolerance);
-    // Adds an interface between every two bodies that share matching faces and have none yet, in the order of their
-    // labels; returns how many it has added.
-    std::int64_t add_all_interfaces(double tolerance);
-    // Ties the nodes of b's faces to their projections on a's faces, within `gap`; appends a tied node for each
-    // (projected_interface.cpp).
-    std::int64_t add_projected_interface(std::int32_t label_a, std::int32_t label_b, double gap);
-    // Pairs of a control node of no body with nodes of one body (obstacle.cpp). normals: [nodes][dimension] into the
-    // body, any length; weights empty: those of the faces whose nodes are all there.
-    std::int64_t add_obstacle(std::span<const std::int64_t> nodes, std::span<const double> normals,
-                              std::span<const double> weights, std::int64_t control);
-
-    // A body without cells, whose stiffness the host gives, and interfaces of pairs that the host knows
-    // (host_body.cpp).
+    // A body without cells, whose stiffness the host gives.
     void add_host_body(std::int32_t label, std::span<const std::int64_t> nodes);
-    // normals: [pairs][dimension] from a to b, any length; face: indices of pairs, [faces][nodes_per_face].
-    std::int64_t add_pairs(std::int32_t label_a, std::int32_t label_b, std::span<const std::int64_t> nodes_a,
-                           std::span<const std::int64_t> nodes_b, std::span<const double> normals,
-                           std::span<const double> weights, int nodes_per_face, std::span<const std::int64_t> face);
+    // Appends an interface that pairing/interfaces.hpp has made, with tied nodes and their places; returns its index.
+    std::int64_t append(InterfaceGeometry interface, std::vector<NodeTie> ties = {},
+                        std::span<const double> places = {});
+    // Appends all of them or, when memory ends, none.
+    void append_all(std::vector<InterfaceGeometry>& interfaces);
+    // Makes a node of no body the control node of an obstacle, which no body takes any more.
+    void reserve(std::int64_t node) { node_label_[index(node)] = reserved; }
 
     int dimension() const { return dimension_; }
     std::int64_t node_count() const { return static_cast<std::int64_t>(nodes_.size()) / dimension_; }
@@ -90,10 +79,6 @@ public:
     double size() const;
 
 private:
-    // Body indices of two labels that differ and have no interface.
-    std::pair<std::int32_t, std::int32_t> require_unjoined(std::int32_t label_a, std::int32_t label_b) const;
-    // Error(DELAM_ERROR_MESH) where a body has no faces.
-    void require_cells(std::int32_t body) const;
     // Labels of the bodies that have an interface, ascending.
     std::vector<std::int32_t> joined_labels() const;
     // Check cell `number`: check_label refuses a label that takes no more cells; take_node refuses a node that the
@@ -102,8 +87,6 @@ private:
     void take_node(std::int64_t node, std::int32_t label, std::size_t number, std::vector<std::int64_t>& taken);
     // Room for a label in labels_: indices of bodies above it move up by one.
     void rename_bodies(const std::vector<std::int32_t>& new_labels);
-    // Tied nodes with their places, and the interface that pairs them; unchanged when memory ends.
-    void append_tied(std::vector<NodeTie> ties, std::span<const double> places, InterfaceGeometry interface);
     std::int64_t node_for(std::int64_t node, std::int32_t label, std::vector<std::int64_t>& taken);
 
     int dimension_;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mesh/layers.hpp"
+#include "mesh/pairing/interfaces.hpp"
 #include "scene/problem.hpp"
 
 namespace unit {
@@ -48,7 +49,7 @@ inline delam::Problem make_flexure(const Flexure& f) {
         mesh = std::move(with);
     }
     for (std::size_t i = 0; i + 1 < f.layers; ++i)
-        mesh->add_interface(static_cast<std::int32_t>(i), static_cast<std::int32_t>(i + 1), 1e-6);
+        add_interface(*mesh, static_cast<std::int32_t>(i), static_cast<std::int32_t>(i + 1), 1e-6);
     Problem problem(mesh);
     for (auto& material : problem.material) material = Elastic{75e9, 0.3};
     for (std::size_t i = 0; i < problem.interfaces.size(); ++i) {

@@ -13,6 +13,7 @@
 #include "check.hpp"
 #include "evolution/increment/gradient.hpp"
 #include "mesh/layers.hpp"
+#include "mesh/pairing/interfaces.hpp"
 
 namespace unit {
 
@@ -43,7 +44,7 @@ inline Mesh two_layers(CellType type, const Numbers& lengths, const std::vector<
     Mesh mesh(straight.dimension(), nodes);
     for (std::int64_t c = 0; c < straight.cell_count(); ++c)
         mesh.add_cells(type, straight.cell(c), std::vector<std::int32_t>{straight.cell_body(c)});
-    mesh.add_interface(0, 1, 0.0);
+    add_interface(mesh, 0, 1, 0.0);
     return mesh;
 }
 

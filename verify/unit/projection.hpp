@@ -15,6 +15,7 @@
 #include "delam/delam.h"
 #include "mesh/layers.hpp"
 #include "mesh/mesh.hpp"
+#include "mesh/pairing/interfaces.hpp"
 #include "refused.hpp"
 
 namespace unit {
@@ -129,7 +130,7 @@ inline void expect_curved(CellType type, std::int64_t n, const std::vector<Block
     // Sagitta of the chords; of parabolas through three points of the arc, far less.
     const double chord = radius * (1.0 - std::cos(0.5 * turn));
     const double gap = quadratic(type) ? 0.05 * chord : 1.01 * chord;
-    mesh.add_projected_interface(0, 1, gap);
+    add_projected_interface(mesh, 0, 1, gap);
     const InterfaceGeometry& i = mesh.interfaces()[0];
     expect_ties(mesh, i);
     const double exact = 0.5 * std::numbers::pi * radius;
@@ -148,7 +149,7 @@ inline void expect_curved(CellType type, std::int64_t n, const std::vector<Block
     }
     if (quadratic(type)) return;
     Mesh close = blocks(rings, bend);
-    ck_assert_refused(DELAM_ERROR_MESH, "only in part", close.add_projected_interface(0, 1, 0.5 * chord));
+    ck_assert_refused(DELAM_ERROR_MESH, "only in part", add_projected_interface(close, 0, 1, 0.5 * chord));
     ck_assert_int_eq(close.node_count(), mesh.node_count() - i.pair_count());
 }
 

@@ -10,6 +10,7 @@
 #include "base/monitor.hpp"
 #include "check.hpp"
 #include "mesh/layers.hpp"
+#include "mesh/pairing/interfaces.hpp"
 #include "reduction/condensed/condensed.hpp"
 #include "same_bits.hpp"
 #include "scene/problem.hpp"
@@ -28,7 +29,7 @@ Problem peel() {
     const std::vector<double> thickness(2, thickness_of[0]);
     const std::vector<std::int64_t> across(2, 1);
     auto mesh = std::make_shared<Mesh>(make_layers(2, lengths, divisions, thickness, across, CellType::quad4));
-    mesh->add_interface(0, 1, 1e-6);
+    add_interface(*mesh, 0, 1, 1e-6);
     Problem problem(mesh);
     for (auto& material : problem.material) material = Elastic{1000.0, 0.3};
     problem.patterns.push_back({"lift", {0.0, 1.0}, {0.0, 1.0}, Pattern::Drives::displacement});

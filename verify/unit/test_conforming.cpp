@@ -18,6 +18,7 @@
 #include "mesh/faces.hpp"
 #include "mesh/layers.hpp"
 #include "mesh/mesh.hpp"
+#include "mesh/pairing/interfaces.hpp"
 #include "refused.hpp"
 
 using namespace delam;
@@ -134,7 +135,7 @@ void expect_doubled(const Written& w, const Mesh& mesh) {
 
 void expect_joined(const Written& w, Mesh& mesh) {
     const auto wanted = shared(w);
-    ck_assert_int_eq(mesh.add_all_interfaces(0.0), static_cast<std::int64_t>(wanted.size()));
+    ck_assert_int_eq(add_all_interfaces(mesh, 0.0), static_cast<std::int64_t>(wanted.size()));
     ck_assert_uint_eq(mesh.interfaces().size(), wanted.size());
     std::size_t k = 0;
     for (const auto& [labels, s] : wanted) {
@@ -151,7 +152,7 @@ void expect_joined(const Written& w, Mesh& mesh) {
         }
         ck_assert(met == s.nodes);
     }
-    ck_assert_int_eq(mesh.add_all_interfaces(0.0), 0);
+    ck_assert_int_eq(add_all_interfaces(mesh, 0.0), 0);
 }
 
 std::vector<LabelOf> layouts(int dim, std::int64_t n) {
@@ -178,7 +179,7 @@ TEST(triple_junction) {
     for (const CellType type : all_types) {
         const int dim = topology(type).dimension;
         Mesh mesh = written(type, 4, [&](const auto& box) { return tee(box, 4, dim); }).doubled();
-        ck_assert_int_eq(mesh.add_all_interfaces(0.0), 3);
+        ck_assert_int_eq(add_all_interfaces(mesh, 0.0), 3);
         std::size_t at_junction = 0;
         for (const InterfaceGeometry& i : mesh.interfaces()) {
             double area = 0.0;
@@ -246,7 +247,7 @@ TEST(several_calls) {
     ck_assert_int_eq(mesh.node_count(), 15);
     ck_assert_int_eq(mesh.cell(5)[0], mesh.cell(1)[2]);
     // Bodies 0 and 2 share a corner only.
-    ck_assert_int_eq(mesh.add_all_interfaces(0.0), 2);
+    ck_assert_int_eq(add_all_interfaces(mesh, 0.0), 2);
     for (const InterfaceGeometry& i : mesh.interfaces()) ck_assert_int_eq(i.face_count(), 2);
 }
 
@@ -279,7 +280,7 @@ TEST(refused_cells) {
         std::swap(more[0], more[1]);
         ck_assert_refused(DELAM_ERROR_MESH, "inverted", mesh.add_conforming_cells(type, more, Labels{9}));
         ck_assert_int_eq(mesh.node_count(), nodes);
-        ck_assert_int_eq(mesh.add_all_interfaces(0.0), 1);
+        ck_assert_int_eq(add_all_interfaces(mesh, 0.0), 1);
         ck_assert_refused(DELAM_ERROR_STATE, "has an interface already",
                           mesh.add_conforming_cells(type, more, Labels{1}));
         // The rule for plain cells stays.
@@ -295,12 +296,12 @@ TEST(all_interfaces) {
         const Written w = written(type, 4, [&](const auto& box) { return octants(box, 4); });
         Mesh all = w.doubled();
         Mesh single = w.doubled();
-        single.add_interface(1, 0, 0.0);
-        const std::int64_t rest = all.add_all_interfaces(0.0) - 1;
-        ck_assert_int_eq(single.add_all_interfaces(0.0), rest);
+        add_interface(single, 1, 0, 0.0);
+        const std::int64_t rest = add_all_interfaces(all, 0.0) - 1;
+        ck_assert_int_eq(add_all_interfaces(single, 0.0), rest);
         for (const InterfaceGeometry& i : all.interfaces()) {
             Mesh alone = w.doubled();
-            alone.add_interface(all.body_label(i.body_a), all.body_label(i.body_b), 0.0);
+            add_interface(alone, all.body_label(i.body_a), all.body_label(i.body_b), 0.0);
             const InterfaceGeometry& one = alone.interfaces()[0];
             ck_assert(one.node_a == i.node_a && one.node_b == i.node_b && one.weight == i.weight &&
                       one.frame == i.frame && one.face == i.face);
@@ -311,11 +312,11 @@ TEST(all_interfaces) {
                       return static_cast<std::int32_t>(box[0] + n * (box[1] + n * box[2]));
                   }).doubled();
     ck_assert_int_eq(grains.node_count(), 8 * n * n * n);
-    ck_assert_int_eq(grains.add_all_interfaces(0.0), 3 * n * n * (n - 1));
+    ck_assert_int_eq(add_all_interfaces(grains, 0.0), 3 * n * n * (n - 1));
     Mesh apart = written(CellType::quad4, 4, [](const auto& box) { return box[0] < 2 ? 0 : 1; }).empty();
-    ck_assert_int_eq(apart.add_all_interfaces(0.0), 0);
+    ck_assert_int_eq(add_all_interfaces(apart, 0.0), 0);
     for (const double bad : {-0.1, 0.5, std::nan("")})
-        ck_assert_refused(DELAM_ERROR_ARGUMENT, "[0, 0.5)", apart.add_all_interfaces(bad));
+        ck_assert_refused(DELAM_ERROR_ARGUMENT, "[0, 0.5)", add_all_interfaces(apart, bad));
 }
 
 // Two cells on top of one, beside bodies that match: refused as a whole.
@@ -323,9 +324,9 @@ TEST(unmatched_among_matched) {
     Mesh mesh(2, Numbers{0, 0, 1, 0, 1, 1, 0, 1, 2, 0, 2, 1, 0, 1, 1, 1, 1, 2, 0, 2, 0.5, 1, 0.5, 2});
     mesh.add_conforming_cells(CellType::quad4, Indices{0, 1, 2, 3, 1, 4, 5, 2, 6, 10, 11, 9, 10, 7, 8, 11},
                               Labels{0, 1, 2, 2});
-    ck_assert_refused(DELAM_ERROR_MESH, "bodies 0 and 2: a face of cell", mesh.add_all_interfaces(0.0));
+    ck_assert_refused(DELAM_ERROR_MESH, "bodies 0 and 2: a face of cell", add_all_interfaces(mesh, 0.0));
     ck_assert_uint_eq(mesh.interfaces().size(), 0);
-    ck_assert_int_eq(mesh.add_interface(0, 1, 0.0), 0);
+    ck_assert_int_eq(add_interface(mesh, 0, 1, 0.0), 0);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "check.hpp"
 #include "evolution/observe/crack_front.hpp"
 #include "mesh/layers.hpp"
+#include "mesh/pairing/interfaces.hpp"
 
 using namespace delam;
 
@@ -36,7 +37,7 @@ struct Bed {
         const std::vector<double> thickness{1.0, 1.0};
         const std::vector<std::int64_t> through{1, 1};
         Mesh mesh = make_layers(static_cast<int>(lengths.size()) + 1, lengths, divisions, thickness, through, type);
-        mesh.add_interface(0, 1, 1e-6);
+        add_interface(mesh, 0, 1, 1e-6);
         return Bed(std::move(mesh));
     }
     const InterfaceGeometry& geometry() const { return mesh.interfaces()[0]; }
@@ -134,7 +135,7 @@ LOOP_TEST(ring, 0, 4) {
         }
     Mesh mesh(2, nodes);
     mesh.add_cells(CellType::quad4, cells, bodies);
-    mesh.add_interface(0, 1, 1e-6);
+    add_interface(mesh, 0, 1, 1e-6);
     Bed bed(std::move(mesh));
     const double start = 2.0 * M_PI * loop / 4.0;
     const auto inside = [&](double x, double y) { return std::cos(std::atan2(y, x) - start) > std::cos(0.9); };

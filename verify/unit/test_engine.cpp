@@ -13,6 +13,7 @@
 #include "check.hpp"
 #include "evolution/analysis/solver.hpp"
 #include "layer_states.hpp"
+#include "mesh/pairing/interfaces.hpp"
 #include "reduction/condensed/condensed.hpp"
 #include "reduction/sparse/engine/engine_operator.hpp"
 #include "refused.hpp"
@@ -192,7 +193,7 @@ std::pair<Problem, SparseMatrix> skeleton_of(const Problem& whole) {
             b.push_back(place[index(face.node_b[p])]);
             for (std::size_t k = 0; k < index(dim); ++k) normals.push_back(face.frame[p * index(dim * dim) + k]);
         }
-        own->add_pairs(mesh.body_label(face.body_a), mesh.body_label(face.body_b), a, b, normals, face.weight, 0, {});
+        add_pairs(*own, mesh.body_label(face.body_a), mesh.body_label(face.body_b), a, b, normals, face.weight, 0, {});
     }
     Problem problem(own);
     problem.plane = whole.plane;

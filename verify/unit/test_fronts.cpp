@@ -7,6 +7,7 @@
 #include "evolution/search/fronts.hpp"
 #include "mesh/layers.hpp"
 #include "mesh/mesh.hpp"
+#include "mesh/pairing/interfaces.hpp"
 
 using namespace delam;
 
@@ -27,7 +28,7 @@ struct Stack {
         : mesh(make_layers(dimension, std::vector<double>(divisions.begin(), divisions.end()), divisions,
                            std::vector<double>(layers, 1.0), std::vector<std::int64_t>(layers, 1), type)) {
         for (std::size_t i = 0; i + 1 < layers; ++i)
-            mesh.add_interface(static_cast<std::int32_t>(i), static_cast<std::int32_t>(i + 1), 1e-6);
+            add_interface(mesh, static_cast<std::int32_t>(i), static_cast<std::int32_t>(i + 1), 1e-6);
         law.normal_stiffness = law.tangential_stiffness = 1.0;
         law.normal_onset = law.tangential_onset = law.normal_toughness = law.tangential_toughness = 1.0;
         pairs.dimension = dimension;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gradients.hpp"
+#include "mesh/pairing/interfaces.hpp"
 
 using namespace delam;
 using namespace unit;
@@ -154,7 +155,7 @@ TEST(mixed_faces) {
             for (std::int64_t& n : cell) n += bricks.node_count();
             mesh.add_cells(tetrahedra.cell_type(c), cell, std::vector<std::int32_t>{tetrahedra.cell_body(c)});
         }
-        mesh.add_interface(0, 1, 0.0);
+        add_interface(mesh, 0, 1, 0.0);
         const SparseMatrix a = stiffness_of(mesh);
         ck_laplacian(a);
         ck_near(quadratic_form(a, field(mesh, [](const Point& x) { return 2.0 * x[0] + x[1]; })), 10.0, 1e-12,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mesh/layers.hpp"
+#include "mesh/pairing/interfaces.hpp"
 #include "random_dense.hpp"
 #include "reduction/dense/rigid_jumps.hpp"
 #include "reduction/operator/jump_variables.hpp"
@@ -52,7 +53,7 @@ Problem junction(int kind, bool slanted) {
     }
     auto mesh = std::make_shared<Mesh>(2, nodes);
     mesh->add_cells(CellType::quad4, cells, bodies);
-    for (const auto& [a, b] : faces) mesh->add_interface(a, b, 1e-6);
+    for (const auto& [a, b] : faces) add_interface(*mesh, a, b, 1e-6);
     return Problem(mesh);
 }
 
@@ -64,7 +65,7 @@ Problem plies(int dimension, std::size_t layers) {
         dimension, std::span(lengths).first(axes), std::span(divisions).first(axes), std::vector<double>(layers, 1.0),
         std::vector<Index>(layers, 1), dimension == 2 ? CellType::quad8 : CellType::hex8));
     for (std::size_t i = 0; i + 1 < layers; ++i)
-        mesh->add_interface(static_cast<std::int32_t>(i), static_cast<std::int32_t>(i + 1), 1e-6);
+        add_interface(*mesh, static_cast<std::int32_t>(i), static_cast<std::int32_t>(i + 1), 1e-6);
     return Problem(mesh);
 }
 

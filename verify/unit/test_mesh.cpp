@@ -17,6 +17,7 @@
 #include "delam/delam.h"
 #include "mesh/faces.hpp"
 #include "mesh/mesh.hpp"
+#include "mesh/pairing/interfaces.hpp"
 #include "mesh/selection.hpp"
 #include "meshes.hpp"
 #include "refused.hpp"
@@ -70,7 +71,7 @@ TEST(two_arms) {
         Mesh mesh = layers(CellType::quad4, {0.12}, {c.along - 1}, {3e-3, 3e-3}, {c.through - 1, c.through - 1});
         ck_assert_int_eq(mesh.body_count(), 2);
         for (std::int32_t b = 0; b < 2; ++b) ck_assert_uint_eq(mesh.body_nodes(b).size(), at(c.along * c.through));
-        ck_assert_int_eq(mesh.add_interface(0, 1, 0.0), 0);
+        ck_assert_int_eq(add_interface(mesh, 0, 1, 0.0), 0);
         const InterfaceGeometry& i = mesh.interfaces()[0];
         ck_assert_int_eq(i.pair_count(), c.along);
         ck_assert_int_eq(i.face_count(), c.along - 1);
@@ -126,8 +127,8 @@ TEST(layered_blocks) {
                 }
             ck_assert(std::abs(found - extent) <= 1e-14 * extent);
         }
-        ck_assert_int_eq(mesh.add_interface(0, 1, 0.0), 0);
-        ck_assert_int_eq(mesh.add_interface(2, 1, 0.0), 1);
+        ck_assert_int_eq(add_interface(mesh, 0, 1, 0.0), 0);
+        ck_assert_int_eq(add_interface(mesh, 2, 1, 0.0), 1);
         const InterfaceGeometry& up = mesh.interfaces()[0];
         const InterfaceGeometry& down = mesh.interfaces()[1];
         for (const InterfaceGeometry* i : {&up, &down}) {
@@ -178,7 +179,7 @@ TEST(shuffled_nodes) {
             upright(x);
             for (double& v : x) v += jitter(random);
         });
-        for (Mesh* mesh : {&first, &second, &third}) mesh->add_interface(0, 1, 0.0);
+        for (Mesh* mesh : {&first, &second, &third}) add_interface(*mesh, 0, 1, 0.0);
         const InterfaceGeometry& a = first.interfaces()[0];
         const InterfaceGeometry& b = second.interfaces()[0];
         const InterfaceGeometry& c = third.interfaces()[0];
@@ -217,7 +218,7 @@ TEST(curved_interface) {
         }
     Mesh mesh(2, nodes);
     mesh.add_cells(CellType::quad4, cells, labels);
-    mesh.add_interface(4, 3, 0.0);
+    add_interface(mesh, 4, 3, 0.0);
     const InterfaceGeometry& i = mesh.interfaces()[0];
     ck_assert_int_eq(i.pair_count(), n);
     ck_assert(std::abs(sum(i.weight) - 2 * n * 1.5 * std::sin(M_PI / n)) < 1e-12);
@@ -237,7 +238,7 @@ TEST(weights_of_distorted_faces) {
         x[0] += 0.3 * bump;
         x[1] -= 0.4 * bump;
     });
-    mesh.add_interface(0, 1, 0.0);
+    add_interface(mesh, 0, 1, 0.0);
     const InterfaceGeometry& i = mesh.interfaces()[0];
     ck_assert(std::abs(sum(i.weight) - 2.0) < 1e-14);
     ck_assert(*std::min_element(i.weight.begin(), i.weight.end()) > 0.0);
@@ -259,7 +260,7 @@ TEST(curved_cells) {
             x[0] = -radius * std::cos(angle);
             x[1] = radius * std::sin(angle);
         });
-        mesh.add_interface(0, 1, 0.0);
+        add_interface(mesh, 0, 1, 0.0);
         const InterfaceGeometry& i = mesh.interfaces()[0];
         ck_assert_int_eq(i.nodes_per_face, 3);
         ck_assert_int_eq(i.face_count(), n);
@@ -287,7 +288,7 @@ TEST(weights_of_quadratic_faces) {
         Mesh mesh = rebuilt(
             layers(type, plane ? Numbers{1} : Numbers{1, 1}, plane ? Indices{1} : Indices{1, 1}, {1, 1}, {1, 1}), 0,
             map);
-        mesh.add_interface(0, 1, 0.0);
+        add_interface(mesh, 0, 1, 0.0);
         check_frames(mesh, mesh.interfaces()[0]);
         return mesh.interfaces()[0];
     };
@@ -347,7 +348,7 @@ TEST(mixed_faces) {
         for (std::int64_t& n : cell) n += bricks.node_count();
         mesh.add_cells(CellType::tet10, cell, Labels{tetrahedra.cell_body(c)});
     }
-    mesh.add_interface(0, 1, 0.0);
+    add_interface(mesh, 0, 1, 0.0);
     const InterfaceGeometry& i = mesh.interfaces()[0];
     ck_assert_int_eq(i.nodes_per_face, 8);
     ck_assert_int_eq(i.face_count(), 3);
@@ -389,7 +390,7 @@ TEST(missing_middle_nodes) {
         for (std::int64_t c = 0; c < plain.cell_count(); ++c)
             moved.add_cells(type, plain.cell(c), Labels{plain.cell_body(c)});
         const std::string named = "mid-side node " + std::to_string(middle) + " at (0.27";
-        ck_assert_refused(DELAM_ERROR_MESH, named.c_str(), moved.add_interface(0, 1, 0.0));
+        ck_assert_refused(DELAM_ERROR_MESH, named.c_str(), add_interface(moved, 0, 1, 0.0));
         // Linear cells above quadratic ones, and the other way round.
         const CellType other = plane ? (triangles(type) ? CellType::tri3 : CellType::quad4)
                                      : (triangles(type) ? CellType::tet4 : CellType::hex8);
@@ -408,7 +409,7 @@ TEST(missing_middle_nodes) {
                 for (std::int64_t& n : cell) n += first.node_count();
                 mesh.add_cells(second.cell_type(c), cell, Labels{1});
             }
-            ck_assert_refused(DELAM_ERROR_MESH, "has no partner on the other side", mesh.add_interface(0, 1, 0.0));
+            ck_assert_refused(DELAM_ERROR_MESH, "has no partner on the other side", add_interface(mesh, 0, 1, 0.0));
         }
     }
     // Two quad8 of one body, side by side; the edge between them has two middle nodes.

@@ -10,6 +10,7 @@
 #include "check.hpp"
 #include "mesh/layers.hpp"
 #include "mesh/mesh.hpp"
+#include "mesh/pairing/interfaces.hpp"
 #include "mesh/selection.hpp"
 
 using namespace delam;
@@ -28,7 +29,7 @@ Mesh block(CellType type, std::int64_t nx, std::int64_t ny) {
     const Numbers thickness{height, height};
     const Indices through{1, 1};
     Mesh mesh = make_layers(dimension, lengths, divisions, thickness, through, type);
-    mesh.add_interface(0, 1, 0.0);
+    add_interface(mesh, 0, 1, 0.0);
     return mesh;
 }
 
@@ -112,7 +113,7 @@ TEST(pairs_without_faces) {
     const Indices a{0, 1, 2, 3}, b{4, 5, 6, 7};
     mesh.add_host_body(0, a);
     mesh.add_host_body(1, b);
-    mesh.add_pairs(0, 1, a, b, Numbers{0, 1, 0, 1, 0, 1, 0, 1}, Numbers{0.5, 1, 1, 0.5}, 0, {});
+    add_pairs(mesh, 0, 1, a, b, Numbers{0, 1, 0, 1, 0, 1, 0, 1}, Numbers{0.5, 1, 1, 0.5}, 0, {});
     ck_assert(find_pairs(mesh, 0, Numbers{0, 0}, Numbers{2, 0}).pairs == (Indices{0, 1}));
     ck_assert(find_pairs(mesh, 0, Numbers{1, -1}, Numbers{3, 1}).pairs == (Indices{2, 3}));
     ck_assert(find_pairs(mesh, 0, Numbers{0, -1}, Numbers{3, 0}).pairs == (Indices{0, 1, 2, 3}));

@@ -13,6 +13,7 @@
 #include "mesh/face_point.hpp"
 #include "mesh/faces.hpp"
 #include "mesh/mesh.hpp"
+#include "mesh/pairing/interfaces.hpp"
 #include "mesh/points.hpp"
 #include "projection.hpp"
 
@@ -29,7 +30,7 @@ TEST(flat) {
             const auto list = dim == 2 ? stack(lower, upper, 3, 5) : stack(lower, upper, 2, 3);
             Mesh mesh = blocks(list);
             const std::int64_t before = mesh.node_count();
-            ck_assert_int_eq(mesh.add_projected_interface(0, 1, 0.0), 0);
+            ck_assert_int_eq(add_projected_interface(mesh, 0, 1, 0.0), 0);
             const InterfaceGeometry& i = mesh.interfaces()[0];
             expect_ties(mesh, i);
             ck_assert_int_eq(mesh.node_count(), before + i.pair_count());
@@ -41,7 +42,7 @@ TEST(flat) {
             }
             // With the two bodies exchanged it is another interface, with the same area and the opposite normal.
             Mesh back = blocks(list);
-            back.add_projected_interface(1, 0, 0.0);
+            add_projected_interface(back, 1, 0, 0.0);
             expect_ties(back, back.interfaces()[0]);
             ck_assert(std::abs(area(back.interfaces()[0]) - 1.0) < 1e-13);
             ck_assert(std::abs(back.interfaces()[0].frame[dim - 1] + 1.0) < 1e-14);
@@ -59,8 +60,8 @@ TEST(matching) {
             mesh = blocks(list);
         }
         Mesh matched = mesh;
-        matched.add_interface(0, 1, 0.0);
-        mesh.add_projected_interface(0, 1, 0.0);
+        add_interface(matched, 0, 1, 0.0);
+        add_projected_interface(mesh, 0, 1, 0.0);
         const InterfaceGeometry& i = mesh.interfaces()[0];
         const InterfaceGeometry& m = matched.interfaces()[0];
         ck_assert(i.node_b == m.node_b && i.face.size() == m.face.size() && i.nodes_per_face == m.nodes_per_face);
@@ -90,11 +91,11 @@ TEST(curved) {
 TEST(partly_covered) {
     for (const CellType type : all_types) {
         Mesh within = blocks(stack(type, type, 3, 5, 0.1, 0.7));
-        within.add_projected_interface(0, 1, 0.0);
+        add_projected_interface(within, 0, 1, 0.0);
         ck_assert(std::abs(area(within.interfaces()[0]) - 0.7) < 1e-13);
         expect_ties(within, within.interfaces()[0]);
         Mesh beside = blocks(stack(type, type, 3, 4, 0.5, 1.0));
-        beside.add_projected_interface(0, 1, 0.0);
+        add_projected_interface(beside, 0, 1, 0.0);
         ck_assert(std::abs(area(beside.interfaces()[0]) - 0.5) < 1e-13);
         const struct {
             double start, length;
@@ -103,22 +104,22 @@ TEST(partly_covered) {
         for (const auto& r : refused) {
             Mesh mesh = blocks(stack(type, type, 4, r.upper, r.start, r.length));
             const std::int64_t before = mesh.node_count();
-            ck_assert_refused(DELAM_ERROR_MESH, "only in part", mesh.add_projected_interface(0, 1, 0.0));
+            ck_assert_refused(DELAM_ERROR_MESH, "only in part", add_projected_interface(mesh, 0, 1, 0.0));
             ck_assert(mesh.interfaces().empty() && mesh.ties().empty() && mesh.node_count() == before);
         }
         Mesh apart = blocks(stack(type, type, 4, 4, 1.25, 1.0));
-        ck_assert_refused(DELAM_ERROR_MESH, "come as close as 0.25", apart.add_projected_interface(0, 1, 0.0));
+        ck_assert_refused(DELAM_ERROR_MESH, "come as close as 0.25", add_projected_interface(apart, 0, 1, 0.0));
         Mesh twice = blocks(stack(type, type, 3, 4));
-        twice.add_projected_interface(0, 1, 0.0);
+        add_projected_interface(twice, 0, 1, 0.0);
         ck_assert_refused(DELAM_ERROR_ARGUMENT, "already joined by interface 0",
-                          twice.add_projected_interface(1, 0, 0.0));
-        ck_assert_int_eq(twice.add_all_interfaces(0.0), 0);
+                          add_projected_interface(twice, 1, 0, 0.0));
+        ck_assert_int_eq(add_all_interfaces(twice, 0.0), 0);
         for (const double bad : {-1e-3, std::nan(""), HUGE_VAL})
-            ck_assert_refused(DELAM_ERROR_ARGUMENT, "gap", apart.add_projected_interface(0, 1, bad));
+            ck_assert_refused(DELAM_ERROR_ARGUMENT, "gap", add_projected_interface(apart, 0, 1, bad));
     }
     // Tied nodes belong to no cell.
     Mesh mesh = blocks(stack(CellType::quad4, CellType::quad4, 1, 2));
-    mesh.add_projected_interface(0, 1, 0.0);
+    add_projected_interface(mesh, 0, 1, 0.0);
     const std::int64_t tied = mesh.ties()[0].node;
     ck_assert_refused(DELAM_ERROR_MESH, "is tied", mesh.add_cells(CellType::tri3, Indices{tied, 0, 1}, Labels{7}));
     ck_assert_refused(DELAM_ERROR_MESH, "is tied",
@@ -160,7 +161,7 @@ TEST(obstacles) {
             top.push_back(n);
             for (std::size_t i = 0; i < dim; ++i) down.push_back(i == dim - 1 ? -3.0 : 0.0);
         }
-        ck_assert_int_eq(mesh.add_obstacle(top, down, {}, control), 0);
+        ck_assert_int_eq(add_obstacle(mesh, top, down, {}, control), 0);
         const InterfaceGeometry& i = mesh.interfaces()[0];
         ck_assert(i.body_a == -1 && i.body_b == 0 && i.node_b == top);
         ck_assert(std::all_of(i.node_a.begin(), i.node_a.end(), [&](std::int64_t n) { return n == control; }));
@@ -171,32 +172,32 @@ TEST(obstacles) {
         // A single node needs a weight.
         const Indices one{top[0]};
         const Numbers normal(down.begin(), down.begin() + static_cast<std::ptrdiff_t>(dim));
-        ck_assert_refused(DELAM_ERROR_MESH, "give weights", mesh.add_obstacle(one, normal, {}, control));
-        ck_assert_int_eq(mesh.add_obstacle(one, normal, Numbers{0.25}, control), 1);
+        ck_assert_refused(DELAM_ERROR_MESH, "give weights", add_obstacle(mesh, one, normal, {}, control));
+        ck_assert_int_eq(add_obstacle(mesh, one, normal, Numbers{0.25}, control), 1);
         ck_assert(mesh.interfaces()[1].weight == Numbers{0.25} && mesh.interfaces()[1].face_count() == 0);
 
         // A later body changes no index of the obstacle, and the control node belongs to no cell.
         ck_assert_refused(DELAM_ERROR_MESH, "control node",
                           mesh.add_cells(type, Indices(index(topology(type).nodes), control), Labels{3}));
         ck_assert_refused(DELAM_ERROR_ARGUMENT, "length 0",
-                          mesh.add_obstacle(one, Numbers(dim, 0.0), Numbers{1.0}, control));
+                          add_obstacle(mesh, one, Numbers(dim, 0.0), Numbers{1.0}, control));
         ck_assert_refused(DELAM_ERROR_ARGUMENT, "weights[0] = 0",
-                          mesh.add_obstacle(one, normal, Numbers{0.0}, control));
-        ck_assert_refused(DELAM_ERROR_MESH, "belongs to body 0", mesh.add_obstacle(one, normal, Numbers{1.0}, top[0]));
+                          add_obstacle(mesh, one, normal, Numbers{0.0}, control));
+        ck_assert_refused(DELAM_ERROR_MESH, "belongs to body 0", add_obstacle(mesh, one, normal, Numbers{1.0}, top[0]));
         ck_assert_refused(DELAM_ERROR_ARGUMENT, "belongs to no body",
-                          mesh.add_obstacle(Indices{control}, normal, Numbers{1.0}, control));
+                          add_obstacle(mesh, Indices{control}, normal, Numbers{1.0}, control));
         ck_assert_refused(DELAM_ERROR_ARGUMENT, "control_node",
-                          mesh.add_obstacle(one, normal, Numbers{1.0}, control + 1));
+                          add_obstacle(mesh, one, normal, Numbers{1.0}, control + 1));
         Numbers both = normal;
         both.insert(both.end(), normal.begin(), normal.end());
         ck_assert_refused(DELAM_ERROR_ARGUMENT, "twice",
-                          mesh.add_obstacle(Indices{top[0], top[0]}, both, Numbers{1, 1}, control));
+                          add_obstacle(mesh, Indices{top[0], top[0]}, both, Numbers{1, 1}, control));
         ck_assert_uint_eq(mesh.interfaces().size(), 2);
     }
     Mesh mesh = blocks(stack(CellType::quad4, CellType::quad4, 2, 2), {}, Numbers{0, 9});
-    mesh.add_all_interfaces(0.0);
+    add_all_interfaces(mesh, 0.0);
     ck_assert_refused(DELAM_ERROR_ARGUMENT, "an obstacle of its own",
-                      mesh.add_obstacle(Indices{0, 9}, Numbers{0, 1, 0, 1}, Numbers{1, 1}, mesh.node_count() - 1));
+                      add_obstacle(mesh, Indices{0, 9}, Numbers{0, 1, 0, 1}, Numbers{1, 1}, mesh.node_count() - 1));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 
 #include "check.hpp"
 #include "mesh/layers.hpp"
+#include "mesh/pairing/interfaces.hpp"
 #include "scene/advice/process_zone.hpp"
 #include "scene/advice/proposal.hpp"
 #include "scene/problem.hpp"
@@ -55,7 +56,7 @@ Problem problem_of(const Scene& scene, const std::vector<Material>& materials) {
     Numbers thickness = scene.thickness;
     for (double& t : thickness) t *= l;
     Mesh mesh = make_layers(dimension, lengths, divisions, thickness, Indices{1, 1}, scene.type);
-    mesh.add_interface(0, 1, 0.0);
+    add_interface(mesh, 0, 1, 0.0);
     Problem problem(std::make_shared<const Mesh>(std::move(mesh)));
     for (std::size_t i = 0; i < 2; ++i) problem.material[i] = materials[i];
     problem.interfaces[0].law = bilinear(scene, 40e6 * scene.units.stress(), 60e6 * scene.units.stress());

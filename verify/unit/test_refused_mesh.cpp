@@ -11,6 +11,7 @@
 #include "delam/delam.h"
 #include "mesh/faces.hpp"
 #include "mesh/mesh.hpp"
+#include "mesh/pairing/interfaces.hpp"
 #include "meshes.hpp"
 #include "refused.hpp"
 
@@ -88,37 +89,37 @@ TEST(refused_interfaces) {
                          {4, 3, 0.9, 0.0}, {1, 1, 1.0, 0.99}, {4, 1, 0.3, 0.0}};
         for (const auto& u : unmatched) {
             Mesh mesh = two_blocks(type, u.lower, u.upper, u.length, u.shift, 0.0);
-            ck_assert_refused(DELAM_ERROR_MESH, "do not match", mesh.add_interface(0, 1, 0.0));
+            ck_assert_refused(DELAM_ERROR_MESH, "do not match", add_interface(mesh, 0, 1, 0.0));
             ck_assert_uint_eq(mesh.interfaces().size(), 0);
         }
         Mesh apart = two_blocks(type, 4, 4, 1.0, 0.0, 0.125);
-        ck_assert_refused(DELAM_ERROR_MESH, "as close as 0.125", apart.add_interface(0, 1, 0.0));
+        ck_assert_refused(DELAM_ERROR_MESH, "as close as 0.125", add_interface(apart, 0, 1, 0.0));
         Mesh corner = two_blocks(type, 4, 4, 1.0, 1.0, 0.0);
-        ck_assert_refused(DELAM_ERROR_MESH, "as close as 0", corner.add_interface(0, 1, 0.0));
+        ck_assert_refused(DELAM_ERROR_MESH, "as close as 0", add_interface(corner, 0, 1, 0.0));
         // A shorter body on a longer one is accepted, and so is one that overhangs by whole cells.
         Mesh shorter = two_blocks(type, 4, 2, 0.5, 0.25, 0.0);
-        shorter.add_interface(0, 1, 0.0);
+        add_interface(shorter, 0, 1, 0.0);
         ck_assert(std::abs(sum(shorter.interfaces()[0].weight) - 0.5) < 1e-14);
         Mesh overhanging = two_blocks(type, 4, 4, 1.0, 0.25, 0.0);
-        overhanging.add_interface(0, 1, 0.0);
+        add_interface(overhanging, 0, 1, 0.0);
         ck_assert(std::abs(sum(overhanging.interfaces()[0].weight) - 0.75) < 1e-14);
         // Tolerance is relative to the shortest edge, 1/4 or, from corner to middle, 1/8.
         Mesh near = two_blocks(type, 4, 4, 1.0, 0.0, quadratic(type) ? 0.012 : 0.024);
         ck_assert_refused(DELAM_ERROR_MESH, quadratic(type) ? "as close as 0.012" : "as close as 0.024",
-                          near.add_interface(0, 1, 0.09));
-        near.add_interface(0, 1, 0.1);
+                          add_interface(near, 0, 1, 0.09));
+        add_interface(near, 0, 1, 0.1);
         // One inside the other.
         Mesh inside = two_blocks(type, 4, 4, 1.0, 0.0, -0.5);
-        ck_assert_refused(DELAM_ERROR_MESH, "overlap", inside.add_interface(0, 1, 0.0));
+        ck_assert_refused(DELAM_ERROR_MESH, "overlap", add_interface(inside, 0, 1, 0.0));
     }
     Mesh mesh = two_blocks(CellType::quad4, 4, 4, 1.0, 0.0, 0.0);
     for (const double bad : {-0.1, 0.5, std::nan("")})
-        ck_assert_refused(DELAM_ERROR_ARGUMENT, "[0, 0.5)", mesh.add_interface(0, 1, bad));
-    ck_assert_refused(DELAM_ERROR_ARGUMENT, "body_b 3", mesh.add_interface(0, 3, 0.0));
-    ck_assert_refused(DELAM_ERROR_ARGUMENT, "both 1", mesh.add_interface(1, 1, 0.0));
-    mesh.add_interface(0, 1, 0.0);
-    ck_assert_refused(DELAM_ERROR_ARGUMENT, "already joined by interface 0", mesh.add_interface(0, 1, 0.0));
-    ck_assert_refused(DELAM_ERROR_ARGUMENT, "already joined by interface 0", mesh.add_interface(1, 0, 0.0));
+        ck_assert_refused(DELAM_ERROR_ARGUMENT, "[0, 0.5)", add_interface(mesh, 0, 1, bad));
+    ck_assert_refused(DELAM_ERROR_ARGUMENT, "body_b 3", add_interface(mesh, 0, 3, 0.0));
+    ck_assert_refused(DELAM_ERROR_ARGUMENT, "both 1", add_interface(mesh, 1, 1, 0.0));
+    add_interface(mesh, 0, 1, 0.0);
+    ck_assert_refused(DELAM_ERROR_ARGUMENT, "already joined by interface 0", add_interface(mesh, 0, 1, 0.0));
+    ck_assert_refused(DELAM_ERROR_ARGUMENT, "already joined by interface 0", add_interface(mesh, 1, 0, 0.0));
     ck_assert_refused(DELAM_ERROR_STATE, "has an interface already",
                       mesh.add_cells(CellType::tri3, Indices{0, 1, 5}, Labels{1}));
 }
@@ -128,7 +129,7 @@ TEST(late_bodies) {
     const Numbers nodes{0, 0, 1, 0, 1, 1, 0, 1, 0, 1, 1, 1, 1, 2, 0, 2, 5, 5, 6, 5, 6, 6, 5, 6};
     Mesh mesh(2, nodes);
     mesh.add_cells(CellType::quad4, Indices{0, 1, 2, 3, 4, 5, 6, 7}, Labels{2, 9});
-    mesh.add_interface(9, 2, 0.0);
+    add_interface(mesh, 9, 2, 0.0);
     ck_assert_int_eq(mesh.interfaces()[0].body_a, 1);
     mesh.add_cells(CellType::quad4, Indices{8, 9, 10, 11}, Labels{4});
     ck_assert_int_eq(mesh.body_label(mesh.interfaces()[0].body_a), 9);

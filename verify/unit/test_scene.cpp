@@ -10,6 +10,7 @@
 #include "delam/delam.h"
 #include "law/law_parameters.hpp"
 #include "mesh/layers.hpp"
+#include "mesh/pairing/interfaces.hpp"
 #include "scene/check/validate.hpp"
 #include "scene/problem.hpp"
 
@@ -63,7 +64,7 @@ Problem stack(int dimension, std::size_t layers) {
                                                    std::span(divisions).first(axes), thickness, layer_divisions,
                                                    dimension == 2 ? CellType::quad4 : CellType::hex8));
     for (std::size_t i = 0; i + 1 < layers; ++i) {
-        mesh->add_interface(static_cast<std::int32_t>(i), static_cast<std::int32_t>(i + 1), 1e-6);
+        add_interface(*mesh, static_cast<std::int32_t>(i), static_cast<std::int32_t>(i + 1), 1e-6);
     }
     Problem problem(mesh);
     for (auto& material : problem.material) material = Elastic{75e9, 0.3};
@@ -274,7 +275,7 @@ TEST(supports_do_not_depend_on_units) {
         const std::vector<std::int64_t> layer_divisions{6, 6};
         auto mesh =
             std::make_shared<Mesh>(make_layers(2, lengths, divisions, thickness, layer_divisions, CellType::quad4));
-        mesh->add_interface(0, 1, 1e-6);
+        add_interface(*mesh, 0, 1, 1e-6);
         Problem problem(mesh);
         for (auto& material : problem.material) material = Elastic{75e9, 0.3};
         problem.interfaces[0].law = ductile();

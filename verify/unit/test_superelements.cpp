@@ -9,6 +9,7 @@
 #include "base/numbers.hpp"
 #include "check.hpp"
 #include "flexure.hpp"
+#include "mesh/pairing/interfaces.hpp"
 #include "reduction/condensed/bulk.hpp"
 #include "same_bits.hpp"
 
@@ -297,7 +298,7 @@ TEST(copies_share_a_piece) {
         const std::int32_t label = mesh.body_label(mesh.cell_body(cell));
         graded->add_cells(mesh.cell_type(cell), mesh.cell(cell), std::span(&label, 1));
     }
-    graded->add_interface(0, 1, 1e-6);
+    add_interface(*graded, 0, 1, 1e-6);
     problem.mesh = graded;
     const Bulk different(problem, monitor);
     ck_assert_uint_eq(different.superelements().pieces(), different.superelements().leaves());

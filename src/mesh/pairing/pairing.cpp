@@ -15,6 +15,7 @@
 #include "mesh/faces.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/pairing/assemble_interface.hpp"
+#include "mesh/pairing/interfaces.hpp"
 #include "mesh/pairing/overlap.hpp"
 #include "mesh/points.hpp"
 
@@ -174,63 +175,62 @@ struct Skin {
 
 }  // namespace
 
-std::pair<std::int32_t, std::int32_t> Mesh::require_unjoined(std::int32_t label_a, std::int32_t label_b) const {
-    const std::int32_t a = body_of_label(label_a);
-    const std::int32_t b = body_of_label(label_b);
+std::pair<std::int32_t, std::int32_t> require_unjoined(const Mesh& mesh, std::int32_t label_a, std::int32_t label_b) {
+    const std::int32_t a = mesh.body_of_label(label_a);
+    const std::int32_t b = mesh.body_of_label(label_b);
     if (a < 0) fail(DELAM_ERROR_ARGUMENT, "body_a ", label_a, ": no body has this label");
     if (b < 0) fail(DELAM_ERROR_ARGUMENT, "body_b ", label_b, ": no body has this label");
     if (a == b)
         fail(DELAM_ERROR_ARGUMENT, "body_a and body_b are both ", label_a, ": an interface joins two different bodies");
-    for (std::size_t i = 0; i < interfaces_.size(); ++i)
-        if (std::minmax(interfaces_[i].body_a, interfaces_[i].body_b) == std::minmax(a, b))
+    for (std::size_t i = 0; i < mesh.interfaces().size(); ++i)
+        if (std::minmax(mesh.interfaces()[i].body_a, mesh.interfaces()[i].body_b) == std::minmax(a, b))
             fail(DELAM_ERROR_ARGUMENT, "bodies ", label_a, " and ", label_b, " are already joined by interface ", i);
     return {a, b};
 }
 
-void Mesh::require_cells(std::int32_t body) const {
-    if (host_body(body))
-        fail(DELAM_ERROR_MESH, "body ", body_label(body),
+void require_cells(const Mesh& mesh, std::int32_t body) {
+    if (mesh.host_body(body))
+        fail(DELAM_ERROR_MESH, "body ", mesh.body_label(body),
              " has no cells and so no faces: give its pairs (delam_mesh_add_pairs)");
 }
 
-std::int64_t Mesh::add_interface(std::int32_t label_a, std::int32_t label_b, double tolerance) {
-    const auto [a, b] = require_unjoined(label_a, label_b);
-    require_cells(a);
-    require_cells(b);
+std::int64_t add_interface(Mesh& mesh, std::int32_t label_a, std::int32_t label_b, double tolerance) {
+    const auto [a, b] = require_unjoined(mesh, label_a, label_b);
+    require_cells(mesh, a);
+    require_cells(mesh, b);
     require_tolerance(tolerance);
-    const double edge = std::min(shortest_edge(*this, body_cells(a)), shortest_edge(*this, body_cells(b)));
+    const double edge = std::min(shortest_edge(mesh, mesh.body_cells(a)), shortest_edge(mesh, mesh.body_cells(b)));
     const double distance = relative(tolerance) * edge;
-    const std::vector<BoundaryFace> faces_a = boundary_faces(*this, a);
-    const std::vector<BoundaryFace> faces_b = boundary_faces(*this, b);
-    const Matching m = match_bodies(*this, faces_a, faces_b, distance);
+    const std::vector<BoundaryFace> faces_a = boundary_faces(mesh, a);
+    const std::vector<BoundaryFace> faces_b = boundary_faces(mesh, b);
+    const Matching m = match_bodies(mesh, faces_a, faces_b, distance);
     if (m.on_a.empty()) {
-        const BoxTree tree = tree_of(*this, distinct_nodes(faces_a));
+        const BoxTree tree = tree_of(mesh, distinct_nodes(faces_a));
         std::pair nearest{std::numeric_limits<double>::infinity(), std::int64_t{-1}};
         for (const std::int64_t node : distinct_nodes(faces_b))
-            nearest = std::min(nearest, {tree.nearest(position(*this, node), nearest.first).distance, node});
+            nearest = std::min(nearest, {tree.nearest(position(mesh, node), nearest.first).distance, node});
         fail(DELAM_ERROR_MESH, "bodies ", label_a, " and ", label_b,
              ": no boundary faces coincide; their boundary nodes come as close as ", nearest.first, " (node ",
              nearest.second, "), faces coincide within ", distance);
     }
-    interfaces_.push_back(interface_of(*this, m, a, b, distance));
-    return static_cast<std::int64_t>(interfaces_.size()) - 1;
+    return mesh.append(interface_of(mesh, m, a, b, distance));
 }
 
 // Two bodies can share a face only where boxes around their boundary faces meet, and only the faces with such boxes are
 // matched. The effort therefore grows with the number of faces, whatever the number of bodies.
-std::int64_t Mesh::add_all_interfaces(double tolerance) {
+std::int64_t add_all_interfaces(Mesh& mesh, double tolerance) {
     require_tolerance(tolerance);
-    std::vector<Skin> skins(index(body_count()));
-    for (std::int64_t c = 0; c < cell_count(); ++c) {
-        double& edge = skins[index(cell_body(c))].edge;
-        edge = std::min(edge, shortest_edge(*this, std::span(&c, 1)));
+    std::vector<Skin> skins(index(mesh.body_count()));
+    for (std::int64_t c = 0; c < mesh.cell_count(); ++c) {
+        double& edge = skins[index(mesh.cell_body(c))].edge;
+        edge = std::min(edge, shortest_edge(mesh, std::span(&c, 1)));
     }
-    const std::vector<BoundaryFace> faces = boundary_faces(*this, -1);
+    const std::vector<BoundaryFace> faces = boundary_faces(mesh, -1);
     std::vector<std::int32_t> body(faces.size());
     std::vector<Box> boxes(faces.size());
     for (std::size_t f = 0; f < faces.size(); ++f) {
-        body[f] = cell_body(faces[f].cell);
-        boxes[f] = box_of(*this, faces[f], relative(tolerance) * skins[index(body[f])].edge);
+        body[f] = mesh.cell_body(faces[f].cell);
+        boxes[f] = box_of(mesh, faces[f], relative(tolerance) * skins[index(body[f])].edge);
     }
     const BoxTree tree(boxes);
     struct Meeting {
@@ -248,7 +248,7 @@ std::int64_t Mesh::add_all_interfaces(double tolerance) {
               [](const Meeting& x, const Meeting& y) { return std::pair(x.a, x.b) < std::pair(y.a, y.b); });
 
     std::set<std::pair<std::int32_t, std::int32_t>> joined;
-    for (const InterfaceGeometry& i : interfaces_)
+    for (const InterfaceGeometry& i : mesh.interfaces())
         joined.insert(std::minmax(i.body_a, i.body_b));  // obstacles have no such pair of bodies
     const auto those = [&](std::vector<std::size_t> list) {
         std::sort(list.begin(), list.end());
@@ -268,11 +268,10 @@ std::int64_t Mesh::add_all_interfaces(double tolerance) {
         }
         if (joined.contains({a, b})) continue;
         const double distance = relative(tolerance) * std::min(skins[index(a)].edge, skins[index(b)].edge);
-        const Matching m = match_bodies(*this, those(std::move(on_a)), those(std::move(on_b)), distance);
-        if (!m.on_a.empty()) found.push_back(interface_of(*this, m, a, b, distance));
+        const Matching m = match_bodies(mesh, those(std::move(on_a)), those(std::move(on_b)), distance);
+        if (!m.on_a.empty()) found.push_back(interface_of(mesh, m, a, b, distance));
     }
-    interfaces_.reserve(interfaces_.size() + found.size());
-    std::move(found.begin(), found.end(), std::back_inserter(interfaces_));
+    mesh.append_all(found);
     return static_cast<std::int64_t>(found.size());
 }
 

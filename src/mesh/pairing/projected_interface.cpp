@@ -19,6 +19,7 @@
 #include "mesh/faces.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/pairing/assemble_interface.hpp"
+#include "mesh/pairing/interfaces.hpp"
 #include "mesh/points.hpp"
 
 namespace delam {
@@ -198,14 +199,14 @@ private:
 
 }  // namespace
 
-std::int64_t Mesh::add_projected_interface(std::int32_t label_a, std::int32_t label_b, double gap) {
-    const auto [a, b] = require_unjoined(label_a, label_b);
-    require_cells(a);
-    require_cells(b);
+std::int64_t add_projected_interface(Mesh& mesh, std::int32_t label_a, std::int32_t label_b, double gap) {
+    const auto [a, b] = require_unjoined(mesh, label_a, label_b);
+    require_cells(mesh, a);
+    require_cells(mesh, b);
     if (!(gap >= 0.0 && std::isfinite(gap))) fail(DELAM_ERROR_ARGUMENT, "gap ", gap, ": must be >= 0 and finite");
-    const double edge = std::min(shortest_edge(*this, body_cells(a)), shortest_edge(*this, body_cells(b)));
+    const double edge = std::min(shortest_edge(mesh, mesh.body_cells(a)), shortest_edge(mesh, mesh.body_cells(b)));
     const double rim = 1e-6 * edge;
-    const Projection projection(*this, a, b, std::max(gap, rim), rim);
+    const Projection projection(mesh, a, b, std::max(gap, rim), rim);
     const Split faces = projection.split_faces();
     projection.refuse_covered(faces.off);
     Projected projected = projection.project_nodes(faces.on);
@@ -216,39 +217,21 @@ std::int64_t Mesh::add_projected_interface(std::int32_t label_a, std::int32_t la
     std::vector<double> places;
     for (auto& [node, entry] : projected) {
         NodeTie made = std::move(entry.second);
-        made.node = node_count() + static_cast<std::int64_t>(ties.size());
+        made.node = mesh.node_count() + static_cast<std::int64_t>(ties.size());
         pairs.emplace_back(made.node, node);
-        for (std::size_t i = 0; i < index(dimension_); ++i) {
+        for (std::size_t i = 0; i < index(mesh.dimension()); ++i) {
             double x = 0.0;
-            for (const auto& [other, weight] : made.of) x += weight * this->node(other)[i];
+            for (const auto& [other, weight] : made.of) x += weight * mesh.node(other)[i];
             places.push_back(x);
         }
         ties.push_back(std::move(made));
     }
     std::vector<BoundaryFace> outward_of_a;
     for (const BoundaryFace& face : faces.on) outward_of_a.push_back(turned(face));
-    InterfaceGeometry made = assemble_interface(*this, pairs, outward_of_a, FaceSide::b, rim);
+    InterfaceGeometry made = assemble_interface(mesh, pairs, outward_of_a, FaceSide::b, rim);
     made.body_a = a;
     made.body_b = b;
-    append_tied(std::move(ties), places, std::move(made));
-    return static_cast<std::int64_t>(interfaces_.size()) - 1;
-}
-
-// Allocates everything first, so that nothing after that can fail.
-void Mesh::append_tied(std::vector<NodeTie> ties, std::span<const double> places, InterfaceGeometry interface) {
-    nodes_.reserve(nodes_.size() + places.size());
-    node_label_.reserve(node_label_.size() + ties.size());
-    node_origin_.reserve(node_origin_.size() + ties.size());
-    next_copy_.reserve(next_copy_.size() + ties.size());
-    ties_.reserve(ties_.size() + ties.size());
-    interfaces_.push_back(std::move(interface));
-    nodes_.insert(nodes_.end(), places.begin(), places.end());
-    for (NodeTie& t : ties) {
-        node_label_.push_back(reserved);
-        node_origin_.push_back(t.node);
-        next_copy_.push_back(-1);
-        ties_.push_back(std::move(t));
-    }
+    return mesh.append(std::move(made), std::move(ties), places);
 }
 
 }  // namespace delam

@@ -25,35 +25,9 @@ double number(std::int64_t n) { return static_cast<double>(n); }
 double square(double x) { return x * x; }
 double cube(double x) { return x * x * x; }
 
-// Fitted constants; src/reduction/NOTES.md describes the data.
-// of the squares of all jumps: zones and what they take along to the root of the tree
-constexpr double zone_squares = 2.2;
-// Operations outside dense kernels: assembly, checks and ordering per displacement, a load step per jump (measured on
-// beams with cells of 1 to 0.1 mm: 1.5 to 2.5 us, 0.9 to 1.1 us).
-constexpr double setup_overhead = 4e4, step_overhead = 2e4;
-constexpr double condensed_step = 1.5;  // of the operations of a condensation of all of the skeleton, per load step
-constexpr double supernodes = 1.25;     // numbers stored per entry of a factor
-constexpr double series_bytes = 32.0;  // per square of a subdomain's jumps: the series preconditioner while it is built
-constexpr double feti_solves = 16.0;   // displacement solves per load step
-constexpr double feti_iterations = 20.0;  // Krylov iterations per solve
-// Constants of the iterated operator: solves per load step; products of each, those of its iterations and those beside
-// them; operations of the patches of a load step per variable, up to so many variables (beyond them patches grow no
-// more); factors of the whole per load step.
-constexpr double iterated_solves = 12.0;
-constexpr double many_interfaces = 2.0;  // times as many where more than one interface may soften
-constexpr double iterated_products = 6.4;
-constexpr double patch_operations = 2e6;
-constexpr double patch_variables = 25e3;
-constexpr double iterated_renewals = 0.5;
-constexpr double iterated_vectors = 46.0;  // states and directions of an iteration
-constexpr double most_vectors = 156.0;     // with the 60 pairs that conjugate gradients keep at most
-// Operations per variable: METIS takes 1.1 s for 354,000 displacements, 3 s for a million.
-constexpr double ordering_operations = 6e4;
-constexpr double relaxed_supernodes = 1.5;  // numbers stored per entry of its factor
-// Operations of a factor, times variables over the square of its entries (1: all columns alike).
-constexpr double column_spread = 6.0;
-// A matrix-vector product waits for memory: its operations are this many times slower than a factorisation's.
-constexpr double from_memory = 5.0;
+#define DELAM_PRICE(name, value, reason) constexpr double name = value;
+#include "reduction/choice/prices.inc"
+#undef DELAM_PRICE
 
 std::string mebibytes(double bytes) { return text(std::round(bytes / 1048576.0), " MiB"); }
 std::string seconds(double operations) {

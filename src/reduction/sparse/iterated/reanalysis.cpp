@@ -11,6 +11,7 @@
 #include "base/numbers.hpp"
 #include "base/restarts.hpp"
 #include "linalg/dense/dense.hpp"
+#include "reduction/sparse/body_states.hpp"
 #include "reduction/sparse/spring_entries.hpp"
 
 namespace delam {
@@ -450,6 +451,21 @@ Reanalysis::Answer Reanalysis::solve(std::span<const double> theta, std::span<co
     answer.converged = outcome.converged;
     answer.definite = outcome.definite;
     return answer;
+}
+
+double Reanalysis::load_size(std::span<const double> theta) const { return max_abs(load(theta)); }
+
+void Reanalysis::recover(std::span<const double> theta, std::span<const double> x, std::vector<double>& displacement,
+                         std::vector<double>& stressed) {
+    recover_state(bodies_, theta, x, displacement, stressed);
+}
+
+BodySolver::Work Reanalysis::work(std::span<const double> theta, std::span<const double> x) {
+    return work_of_state(bodies_, theta, x);
+}
+
+double Reanalysis::energy_rounding(std::span<const double> theta, std::span<const double> x) {
+    return energy_rounding_of_state(bodies_, theta, x);
 }
 
 }  // namespace delam

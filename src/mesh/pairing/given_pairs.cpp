@@ -13,42 +13,16 @@
 #include "mesh/faces.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/pairing/assemble_interface.hpp"
+#include "mesh/pairing/interfaces.hpp"
 #include "mesh/points.hpp"
 
 namespace delam {
 
-void Mesh::add_host_body(std::int32_t label, std::span<const std::int64_t> nodes) {
-    if (label < 0) fail(DELAM_ERROR_ARGUMENT, "body = ", label, ": must be >= 0");
-    if (nodes.empty()) fail(DELAM_ERROR_ARGUMENT, "nodes: a body needs at least one");
-    if (body_of_label(label) >= 0) fail(DELAM_ERROR_MESH, "body ", label, " exists already");
-    std::set<std::int64_t> listed;
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-        poll_cancel("mesh");
-        const std::int64_t node = nodes[i];
-        if (node < 0 || node >= node_count())
-            fail(DELAM_ERROR_ARGUMENT, "nodes[", i, "] = ", node, ": must be in 0..", node_count() - 1);
-        if (!listed.insert(node).second) fail(DELAM_ERROR_ARGUMENT, "nodes[", i, "] = ", node, " occurs twice");
-        if (node_label_[index(node)] == reserved)
-            fail(DELAM_ERROR_MESH, "nodes[", i, "] = ", node,
-                 " is tied to an interface or the control node of an obstacle");
-        if (node_label_[index(node)] >= 0)
-            fail(DELAM_ERROR_MESH, "nodes[", i, "] = ", node, " belongs to body ", node_label_[index(node)]);
-    }
-    std::vector<std::int32_t> labels = labels_, host = host_labels_;
-    labels.insert(std::lower_bound(labels.begin(), labels.end(), label), label);
-    host.insert(std::lower_bound(host.begin(), host.end(), label), label);
-    // Nothing below can fail.
-    rename_bodies(labels);
-    labels_.swap(labels);
-    host_labels_.swap(host);
-    for (const std::int64_t node : nodes) node_label_[index(node)] = label;
-}
-
-std::int64_t Mesh::add_pairs(std::int32_t label_a, std::int32_t label_b, std::span<const std::int64_t> nodes_a,
-                             std::span<const std::int64_t> nodes_b, std::span<const double> normals,
-                             std::span<const double> weights, int nodes_per_face, std::span<const std::int64_t> face) {
-    const auto dim = index(dimension_);
-    const auto [a, b] = require_unjoined(label_a, label_b);
+std::int64_t add_pairs(Mesh& mesh, std::int32_t label_a, std::int32_t label_b, std::span<const std::int64_t> nodes_a,
+                       std::span<const std::int64_t> nodes_b, std::span<const double> normals,
+                       std::span<const double> weights, int nodes_per_face, std::span<const std::int64_t> face) {
+    const auto dim = index(mesh.dimension());
+    const auto [a, b] = require_unjoined(mesh, label_a, label_b);
     InterfaceGeometry made;
     made.body_a = a;
     made.body_b = b;
@@ -58,10 +32,11 @@ std::int64_t Mesh::add_pairs(std::int32_t label_a, std::int32_t label_b, std::sp
         for (std::size_t p = 0; p < nodes.size(); ++p) {
             poll_cancel("pairs");
             const std::int64_t node = nodes[p];
-            if (node < 0 || node >= node_count())
-                fail(DELAM_ERROR_ARGUMENT, name, "[", p, "] = ", node, ": must be in 0..", node_count() - 1);
-            if (node_body(node) != body)
-                fail(DELAM_ERROR_ARGUMENT, name, "[", p, "] = ", node, " does not belong to body ", body_label(body));
+            if (node < 0 || node >= mesh.node_count())
+                fail(DELAM_ERROR_ARGUMENT, name, "[", p, "] = ", node, ": must be in 0..", mesh.node_count() - 1);
+            if (mesh.node_body(node) != body)
+                fail(DELAM_ERROR_ARGUMENT, name, "[", p, "] = ", node, " does not belong to body ",
+                     mesh.body_label(body));
             if (!listed.insert(node).second) fail(DELAM_ERROR_ARGUMENT, name, "[", p, "] = ", node, " occurs twice");
         }
     };
@@ -78,15 +53,15 @@ std::int64_t Mesh::add_pairs(std::int32_t label_a, std::int32_t label_b, std::sp
         if (!(weights[p] > 0.0 && std::isfinite(weights[p])))
             fail(DELAM_ERROR_ARGUMENT, "weights[", p, "] = ", weights[p], ": must be > 0 and finite");
         made.frame.resize(made.frame.size() + dim * dim);
-        write_frame(dimension_, normal, &made.frame[p * dim * dim]);
+        write_frame(mesh.dimension(), normal, &made.frame[p * dim * dim]);
     }
     made.node_a.assign(nodes_a.begin(), nodes_a.end());
     made.node_b.assign(nodes_b.begin(), nodes_b.end());
     made.weight.assign(weights.begin(), weights.end());
 
-    made.nodes_per_face = dimension_;
+    made.nodes_per_face = mesh.dimension();
     if (!face.empty()) {
-        const FaceRow& kind = face_row(dimension_, index(nodes_per_face));
+        const FaceRow& kind = face_row(mesh.dimension(), index(nodes_per_face));
         made.nodes_per_face = nodes_per_face;
         const auto per_face = index(nodes_per_face);
         for (std::size_t i = 0; i < face.size(); ++i) {
@@ -102,8 +77,7 @@ std::int64_t Mesh::add_pairs(std::int32_t label_a, std::int32_t label_b, std::sp
         }
         made.face.assign(face.begin(), face.end());
     }
-    interfaces_.push_back(std::move(made));
-    return static_cast<std::int64_t>(interfaces_.size()) - 1;
+    return mesh.append(std::move(made));
 }
 
 }  // namespace delam
