@@ -63,7 +63,6 @@ private:
 TEST(contact_settles_on_answers_of_any_accuracy) {
     const unit::LayerCase c{.name = "contact", .layers = 3};
     const unit::LayerState scene(c, 3);
-    Monitor monitor;
     unit::Reference condensed(scene.problem);
     ContactScene contact;
     contact.bonded.assign(scene.springs.held.size() / scene.dim, 0);
@@ -85,7 +84,6 @@ TEST(doubtful_contact_is_solved_again) {
     for (const unit::LayerCase& c : unit::layer_cases) {
         if (c.floating || c.touching || c.clamped || c.opening != unit::LayerCase::Opening::none) continue;
         const unit::LayerState scene(c, 3);
-        Monitor monitor;
         unit::Reference condensed(scene.problem);
         ContactScene contact;
         contact.dimension = c.dimension;
@@ -117,7 +115,6 @@ TEST(first_contact_is_found_roughly) {
     for (const unit::LayerCase& c : unit::layer_cases) {
         if (c.floating || c.touching || c.opening != unit::LayerCase::Opening::none) continue;
         const unit::LayerState scene(c, 3);
-        Monitor monitor;
         unit::Reference condensed(scene.problem);
         Iterated first(scene.problem, monitor), second(scene.problem, monitor);
         Disturbed unable(second, 0.0);

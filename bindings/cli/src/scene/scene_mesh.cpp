@@ -10,6 +10,7 @@
 #include "mesh/body_pieces.hpp"
 #include "mesh/cell_shape.hpp"
 #include "mesh/mesh_file.hpp"
+#include "scene/read_mesh.hpp"
 #include "scene/scene_generators.hpp"
 #include "scene/scene_parts.hpp"
 #include "text/wildcard.hpp"
