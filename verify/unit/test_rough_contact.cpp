@@ -116,6 +116,7 @@ TEST(first_contact_is_found_roughly) {
         if (c.floating || c.touching || c.opening != unit::LayerCase::Opening::none) continue;
         const unit::LayerState scene(c, 3);
         unit::Reference condensed(scene.problem);
+        Monitor monitor;
         Iterated first(scene.problem, monitor), second(scene.problem, monitor);
         Disturbed unable(second, 0.0);
         ContactScene contact;
