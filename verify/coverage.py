@@ -40,7 +40,7 @@ def measure():
 def files():
     """Yields (path from src, lines of gcovr) of each file."""
     for file in json.loads(FOUND.read_text(encoding="utf-8"))["files"]:
-        yield file["file"].removeprefix("src/"), file["lines"]
+        yield file["file"].removeprefix("src/"), [line for line in file["lines"] if not line["gcovr/noncode"]]
 
 
 def rooms():
