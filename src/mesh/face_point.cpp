@@ -41,7 +41,7 @@ public:
         return {p[0], p[1]};
     }
     bool inside(const Parameters& xi) const {
-        constexpr double on_the_edge = 1e-12;
+        constexpr double on_the_edge = 1e-12;  // rounding of parameters of size 1, which Newton's method has found
         if (edge_) return std::abs(xi[0]) <= 1.0 + on_the_edge;
         if (corners() == 3) return xi[0] >= -on_the_edge && xi[1] >= -on_the_edge && xi[0] + xi[1] <= 1.0 + on_the_edge;
         return std::abs(xi[0]) <= 1.0 + on_the_edge && std::abs(xi[1]) <= 1.0 + on_the_edge;

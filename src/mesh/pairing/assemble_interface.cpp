@@ -8,6 +8,7 @@
 
 #include "base/cancel_scope.hpp"
 #include "base/error.hpp"
+#include "base/numbers.hpp"
 #include "delam/delam.h"
 #include "mesh/faces.hpp"
 #include "mesh/pairing/nodal_rule.hpp"
@@ -168,6 +169,23 @@ InterfaceGeometry assemble_interface(const Mesh& mesh, std::span<const NodePair>
         write_frame(mesh.dimension(), area[p], &result.frame[p * dim * dim]);
     }
     return result;
+}
+
+Point require_normal(int dimension, std::span<const double> normals, std::size_t pair) {
+    const std::size_t dim = index(dimension);
+    Point normal{};
+    for (std::size_t i = 0; i < dim; ++i) {
+        normal[i] = normals[pair * dim + i];
+        if (!std::isfinite(normal[i]))
+            fail(DELAM_ERROR_ARGUMENT, "normals[", pair, "][", i, "] = ", normal[i], " is not finite");
+    }
+    if (!(length(normal) > 0.0)) fail(DELAM_ERROR_ARGUMENT, "normals[", pair, "] has length 0");
+    return normal;
+}
+
+void require_weight(std::span<const double> weights, std::size_t pair) {
+    if (!(weights[pair] > 0.0 && std::isfinite(weights[pair])))
+        fail(DELAM_ERROR_ARGUMENT, "weights[", pair, "] = ", weights[pair], ": must be > 0 and finite");
 }
 
 }  // namespace delam

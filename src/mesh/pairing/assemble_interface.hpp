@@ -29,6 +29,12 @@ std::vector<std::array<double, 3>> lay_faces(const Mesh& mesh, std::span<const B
 // The same face with the opposite orientation.
 BoundaryFace turned(const BoundaryFace& face);
 
+// Returns the normal that the host gives for a pair, of any length; refuses one that is not finite or has length 0.
+// normals: [pairs][dimension]
+std::array<double, 3> require_normal(int dimension, std::span<const double> normals, std::size_t pair);
+// Refuses a weight that the host gives and that is not positive and finite. weights: [pairs]
+void require_weight(std::span<const double> weights, std::size_t pair);
+
 // Rows normal, tangent(s), from any vector along the normal: [dimension][dimension].
 void write_frame(int dimension, const std::array<double, 3>& along, double* frame);
 

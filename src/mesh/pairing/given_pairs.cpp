@@ -3,7 +3,6 @@
 // Bodies that the library knows by their nodes alone, and interfaces whose pairs the host gives, like those of an
 // obstacle but with two deformable sides.
 #include <algorithm>
-#include <cmath>
 #include <set>
 
 #include "base/cancel_scope.hpp"
@@ -43,15 +42,8 @@ std::int64_t add_pairs(Mesh& mesh, std::int32_t label_a, std::int32_t label_b, s
     take(nodes_a, a, "nodes_a");
     take(nodes_b, b, "nodes_b");
     for (std::size_t p = 0; p < nodes_a.size(); ++p) {
-        Point normal{};
-        for (std::size_t i = 0; i < dim; ++i) {
-            normal[i] = normals[p * dim + i];
-            if (!std::isfinite(normal[i]))
-                fail(DELAM_ERROR_ARGUMENT, "normals[", p, "][", i, "] = ", normal[i], " is not finite");
-        }
-        if (!(length(normal) > 0.0)) fail(DELAM_ERROR_ARGUMENT, "normals[", p, "] has length 0");
-        if (!(weights[p] > 0.0 && std::isfinite(weights[p])))
-            fail(DELAM_ERROR_ARGUMENT, "weights[", p, "] = ", weights[p], ": must be > 0 and finite");
+        const Point normal = require_normal(mesh.dimension(), normals, p);
+        require_weight(weights, p);
         made.frame.resize(made.frame.size() + dim * dim);
         write_frame(mesh.dimension(), normal, &made.frame[p * dim * dim]);
     }

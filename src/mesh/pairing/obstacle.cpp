@@ -3,7 +3,6 @@
 // An obstacle is rigid and only translates, with its control node: each node that may touch it forms a pair with this
 // node.
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 #include "base/cancel_scope.hpp"
@@ -46,15 +45,8 @@ std::int64_t add_obstacle(Mesh& mesh, std::span<const std::int64_t> nodes, std::
             fail(DELAM_ERROR_ARGUMENT, "nodes[", p, "] = ", node, " belongs to body ", mesh.body_label(body),
                  ", nodes[0] to ", mesh.body_label(made.body_b), ": each body needs an obstacle of its own");
         if (!listed.emplace(node, p).second) fail(DELAM_ERROR_ARGUMENT, "nodes[", p, "] = ", node, " occurs twice");
-        Point normal{};
-        for (std::size_t i = 0; i < dim; ++i) {
-            normal[i] = normals[p * dim + i];
-            if (!std::isfinite(normal[i]))
-                fail(DELAM_ERROR_ARGUMENT, "normals[", p, "][", i, "] = ", normal[i], " is not finite");
-        }
-        if (!(length(normal) > 0.0)) fail(DELAM_ERROR_ARGUMENT, "normals[", p, "] has length 0");
-        if (!weights.empty() && !(weights[p] > 0.0 && std::isfinite(weights[p])))
-            fail(DELAM_ERROR_ARGUMENT, "weights[", p, "] = ", weights[p], ": must be > 0 and finite");
+        const Point normal = require_normal(mesh.dimension(), normals, p);
+        if (!weights.empty()) require_weight(weights, p);
         made.node_a.push_back(control);
         made.node_b.push_back(node);
         made.frame.resize(made.frame.size() + dim * dim);
