@@ -10,6 +10,7 @@
 #include "evolution/contact/zone_system.hpp"
 #include "linalg/dense/dense.hpp"
 #include "reduction/dense/dense_zone.hpp"
+#include "zone_motions.hpp"
 
 using namespace delam;
 
@@ -52,7 +53,8 @@ struct Found {
 };
 
 Found find(const Case& c, double allowed) {
-    DenseZone zone(c.energy, c.row, c.jump_row, DenseMatrix(rows, 0));
+    TestMotions motions(DenseMatrix(rows, 0));
+    DenseZone zone(c.energy, c.row, c.jump_row, motions.of(c.energy));
     const std::vector<std::uint8_t> none(index(rows), 0);
     ZoneSystem system(zone, c.scene, none, none, c.theta);
     system.load(c.springs, {});

@@ -204,13 +204,13 @@ LOOP_TEST(variables, 0, 60) {
 // Motions that no support resists, as seen at the interfaces: the freedoms of the bodies less those of the whole.
 LOOP_TEST(rigid_motions, 0, 2) {
     Problem problem = junction(1, loop == 1);
-    DenseMatrix z = rigid_jumps(problem);
+    DenseMatrix z = RigidMotions(problem).jumps();
     ck_assert_int_eq(z.columns, 9);  // four bodies of three motions; the common ones open nothing
     const DenseMatrix unit = multiply_transposed(z, z);
     for (Index j = 0; j < unit.columns; ++j)
         for (Index i = 0; i < unit.rows; ++i) ck_assert(std::abs(unit(i, j) - (i == j ? 1.0 : 0.0)) < 1e-10);
     for (const Index dof : {2, 3, 5}) problem.constraints.push_back({{dof}, {1.0}, {}});  // body 0 is held
-    ck_assert_int_eq(rigid_jumps(problem).columns, 9);
+    ck_assert_int_eq(RigidMotions(problem).jumps().columns, 9);
     std::vector<std::uint8_t> active(at(z.rows), 0);
     ck_assert_int_eq(split_motions(z, active).free.columns, 9);
     std::fill(active.begin(), active.end(), std::uint8_t{1});

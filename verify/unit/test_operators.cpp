@@ -87,7 +87,7 @@ LOOP_TEST(answers_as_the_condensed_operator, 0, runs) {
     Condensed& condensed = *both.condensed;
     JumpOperator& op = *both.op;
     ck_assert(std::ranges::equal(condensed.prescribed_rows(), op.prescribed_rows()));
-    const DenseMatrix motions = rigid_jumps(both.scene.problem);
+    const DenseMatrix motions = RigidMotions(both.scene.problem).jumps();
     Response a, b, first, first_condensed;
     std::vector<double> theta = both.scene.theta, first_theta;
     std::int64_t iterations = 0;

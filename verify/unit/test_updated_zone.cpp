@@ -8,6 +8,7 @@
 #include "base/numbers.hpp"
 #include "random_dense.hpp"
 #include "reduction/dense/dense_zone.hpp"
+#include "zone_motions.hpp"
 
 using namespace delam;
 using namespace unit;
@@ -18,7 +19,7 @@ namespace {
 struct Case {
     DenseEnergy energy;
     std::vector<JumpRow> rows;
-    DenseMatrix rigid;
+    TestMotions motions;
     std::vector<double> spring, cross;  // of all rows; of the rows of one unknown (0, 1), (2, 3) ...
     std::vector<std::uint8_t> held;
     Index plain = 0;
@@ -34,29 +35,29 @@ struct Case {
         }
         return c;
     }
-    DenseZone zone() const { return {energy, rows, {}, rigid}; }
+    DenseZone zone() { return {energy, rows, {}, motions.of(energy)}; }
 };
 
 // S = sum of squares, without resistance to the motions.
 Case make_case(Random& random, Index n, Index bound, Index motions) {
     Case c;
     c.plain = n;
-    c.rigid = DenseMatrix(n, motions);
-    for (double& v : c.rigid.value) v = random.real();
-    if (motions > 0) c.rigid = orthonormalised(std::move(c.rigid));
+    c.motions.rigid = DenseMatrix(n, motions);
+    for (double& v : c.motions.rigid.value) v = random.real();
+    if (motions > 0) c.motions.rigid = orthonormalised(std::move(c.motions.rigid));
     DenseMatrix g(n, n);
     for (double& v : g.value) v = random.real();
     for (Index row = 0; row < n; ++row)
         for (Index m = 0; m < motions; ++m) {
             double along = 0.0;
-            for (Index i = 0; i < n; ++i) along += g(row, i) * c.rigid(i, m);
-            for (Index i = 0; i < n; ++i) g(row, i) -= along * c.rigid(i, m);
+            for (Index i = 0; i < n; ++i) along += g(row, i) * c.motions.rigid(i, m);
+            for (Index i = 0; i < n; ++i) g(row, i) -= along * c.motions.rigid(i, m);
         }
     c.energy.stiffness = multiply_transposed(g, g);
     for (Index j = 0; j < n; ++j)
         for (Index i = 0; i < n; ++i) {
             double unit = i == j ? 1.0 : 0.0;
-            for (Index m = 0; m < motions; ++m) unit -= c.rigid(i, m) * c.rigid(j, m);
+            for (Index m = 0; m < motions; ++m) unit -= c.motions.rigid(i, m) * c.motions.rigid(j, m);
             c.energy.stiffness(i, j) += unit;
         }
     mirror_lower(c.energy.stiffness);

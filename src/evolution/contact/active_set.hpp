@@ -13,6 +13,7 @@
 #include <cmath>
 #include <concepts>
 #include <cstdint>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -50,13 +51,15 @@ concept ContactSystem = requires(S system, const std::vector<std::uint8_t>& clos
 struct ActiveSet {
     ContactSolve last = ContactSolve::solved;  // anything else: the search ended there
     bool settled = false;                      // no row violates its side
-    bool exchanged = false;                    // least-index exchanges were needed
+    bool descended = false;                    // the feasible descent was needed
     std::int64_t solves = 0;
     std::int64_t doubts = 0;  // sets of which a solve left open whether a row violates its side
 };
 
 // Violations below this part of the largest jump or force are rounding of the solve.
 inline constexpr double contact_rounding = 1e-11;
+// Forces below this part of the forces of which they are the difference are rounding, too.
+inline constexpr double force_rounding = 4e-15;
 
 // Answers of an iteration: error() is what the last one leaves open. rough(): a set cannot end with such an answer.
 // tighten(): the next ones leave less open; false: they cannot. guesses: so many sets may follow from signs that are in
@@ -80,6 +83,13 @@ SolveError left_open(const S& system) {
         return {};
 }
 
+// Returns the least jump and force that say something about contact.
+template <ContactSystem S>
+SolveError least_of_contact(const S& system, const SolveError& open = {}) {
+    return {std::max(open.jump, contact_rounding * std::max(max_abs(system.jump()), system.jump_floor())),
+            std::max(open.force, contact_rounding * std::max(max_abs(system.force()), system.force_floor()))};
+}
+
 // Contact rows on the wrong side by more than `open` and rounding, as positions in `rows`; only those on this level or
 // above.
 template <ContactSystem S>
@@ -87,8 +97,7 @@ std::vector<std::size_t> contact_violators(const S& system, const ContactRows& r
                                            const std::vector<std::uint8_t>& closed, std::uint8_t level,
                                            const SolveError& open = {}) {
     const std::span<const double> jump = system.jump(), force = system.force();
-    const double least_jump = std::max(open.jump, contact_rounding * std::max(max_abs(jump), system.jump_floor()));
-    const double least_force = std::max(open.force, contact_rounding * std::max(max_abs(force), system.force_floor()));
+    const auto [least_jump, least_force] = least_of_contact(system, open);
     std::vector<std::size_t> found;
     for (std::size_t i = 0; i < rows.row.size(); ++i) {
         if (!rows.on(i, level)) continue;
@@ -148,6 +157,57 @@ concept EnergySystem = requires(S system, const std::vector<std::uint8_t>& close
     { system.negligible(closed, wrong) } -> std::same_as<bool>;
 };
 
+// Systems with parts that may float. settle() moves those that nothing holds, by as little as keeps their faces from
+// penetrating: its jumps are then those of the moved parts. Rows that are closed without a force do not hold a part;
+// where they open, settle() changes `closed`. Returns rows to close, because no motion keeps them apart.
+template <class S>
+concept FloatingSystem = requires(S system, const ContactRows& rows, std::vector<std::uint8_t>& closed,
+                                  std::uint8_t level, const SolveError& least) {
+    { system.settle(rows, closed, level, least) } -> std::same_as<std::vector<std::size_t>>;
+};
+
+// The active set that cannot cycle (Nocedal, Wright, Numerical Optimization, 2nd ed., 16.5). A point without
+// penetration moves towards the minimiser of the present set as far as no open row penetrates; rows that stop it close,
+// and where nothing does, rows that pull open. Energy is convex along the way to a minimiser, so that it falls in each
+// step of some length, whatever rigid motions of free parts that minimiser has, and no set whose minimiser was reached
+// comes back. In steps of no length (several rows at one corner) a set may come back; from then on rows open one at a
+// time, that of least index (R. Bland, Math. Oper. Res. 2, 1977).
+class FeasibleDescent {
+public:
+    // Starts with all contact rows at zero.
+    explicit FeasibleDescent(std::size_t rows) : at_(rows, 0.0) {}
+
+    // jump, force: of the contact rows at the minimiser of this set. Changes the set; false: it is the contact set.
+    bool step(std::span<const double> jump, std::span<const double> force, const SolveError& least,
+              std::vector<std::uint8_t>& closed) {
+        double part = 1.0;
+        std::vector<double> stop(at_.size(), 2.0);  // part of the way at which an open row is at zero
+        for (std::size_t i = 0; i < at_.size(); ++i)
+            if (closed[i] == 0 && jump[i] < -least.jump) part = std::min(part, stop[i] = at_[i] / (at_[i] - jump[i]));
+        bool changed = false;
+        for (std::size_t i = 0; i < at_.size(); ++i) {
+            at_[i] = closed[i] != 0 ? 0.0 : std::max(0.0, at_[i] + part * (jump[i] - at_[i]));
+            if (!(stop[i] <= part)) continue;
+            closed[i] = 1;
+            at_[i] = 0.0;
+            changed = true;
+        }
+        if (changed) return true;
+        for (std::size_t i = 0; i < at_.size(); ++i) {
+            if (closed[i] == 0 || !(force[i] > least.force) || (changed && one_at_a_time_)) continue;
+            closed[i] = 0;
+            changed = true;
+        }
+        one_at_a_time_ = one_at_a_time_ || (changed && !seen_.emplace(closed.begin(), closed.end()).second);
+        return changed;
+    }
+
+private:
+    std::vector<double> at_;      // jumps of the contact rows, none negative
+    std::set<std::string> seen_;  // sets from which rows have been opened
+    bool one_at_a_time_ = false;
+};
+
 // closed: [contact rows], on entry the starting set, on return the contact set. Where a loaded part floats, contact may
 // hold it: with close_once the search begins once more with everything closed.
 template <ContactSystem S>
@@ -157,7 +217,7 @@ ActiveSet find_active_set(S& system, const ContactRows& rows, std::vector<std::u
     std::set<std::string> seen;  // contact sets, as bytes
     [[maybe_unused]] Curvature curvature;
     std::uint8_t level = rows.first;
-    bool exchange = false;
+    std::optional<FeasibleDescent> descent;
     [[maybe_unused]] std::int64_t guesses = 0;
     while (true) {
         result.last = system.solve(closed);
@@ -170,16 +230,28 @@ ActiveSet find_active_set(S& system, const ContactRows& rows, std::vector<std::u
         }
         if (result.last != ContactSolve::solved) return result;
         const SolveError open = left_open(system);
-        std::vector<std::size_t> wrong = contact_violators(system, rows, closed, level, open);
+        const auto wrong_rows = [&] {
+            std::vector<std::size_t> blocked;
+            if constexpr (FloatingSystem<S>)
+                blocked = system.settle(rows, closed, level, least_of_contact(system, open));
+            std::vector<std::size_t> wrong = contact_violators(system, rows, closed, level, open);
+            for (const std::size_t i : blocked)
+                if (closed[i] == 0) wrong.push_back(i);
+            std::sort(wrong.begin(), wrong.end());
+            wrong.erase(std::unique(wrong.begin(), wrong.end()), wrong.end());
+            return wrong;
+        };
+        std::vector<std::size_t> wrong = wrong_rows();
         while (wrong.empty() && level > rows.least) {
-            wrong = contact_violators(system, rows, closed, --level, open);
+            --level;
+            wrong = wrong_rows();
             seen.clear();
-            exchange = false;
+            descent.reset();
         }
         if constexpr (InexactSystem<S>) {
             if (wrong.empty() && system.rough() && system.tighten()) {
                 seen.clear();
-                exchange = false;
+                descent.reset();
                 continue;
             }
             const bool doubtful = wrong.empty() && !contact_violators(system, rows, closed, level).empty();
@@ -198,11 +270,22 @@ ActiveSet find_active_set(S& system, const ContactRows& rows, std::vector<std::u
         result.settled = wrong.empty();
         if constexpr (EnergySystem<S>) result.settled = system.negligible(closed, wrong);
         if (result.settled || result.solves >= limit) return result;
-        if (!seen.emplace(closed.begin(), closed.end()).second) result.exchanged = exchange = true;
-        for (const std::size_t i : wrong) {
-            closed[i] ^= 1;
-            if (exchange) break;
+        if (!descent && !seen.emplace(closed.begin(), closed.end()).second) {
+            result.descended = true;
+            descent.emplace(rows.row.size());
         }
+        if (!descent) {
+            for (const std::size_t i : wrong) closed[i] ^= 1;
+            continue;
+        }
+        std::vector<double> jump, force;
+        for (std::size_t i = 0; i < rows.row.size(); ++i) {
+            const bool in = rows.on(i, level);
+            jump.push_back(in ? system.jump()[rows.row[i]] : 0.0);
+            force.push_back(in ? system.force()[rows.row[i]] : 0.0);
+        }
+        if (!descent->step(jump, force, least_of_contact(system, open), closed))
+            for (const std::size_t i : wrong) closed[i] = 1;
     }
 }
 

@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "base/numbers.hpp"
 #include "evolution/contact/active_set.hpp"
+#include "evolution/contact/loose_rows.hpp"
 
 namespace delam {
 
@@ -47,14 +48,16 @@ public:
 
     // cold: nothing is known of the set, and any row may change.
     OperatorSystem(JumpOperator& op, const ContactScene& scene, const ContactRows& rows, Springs springs,
-                   std::span<const double> theta, Response& response, ContactResult& result, bool cold)
+                   std::span<const double> theta, Response& response, ContactResult& result, bool cold,
+                   const PlacesBefore* before)
         : op_(op),
           scene_(scene),
           rows_(rows),
           springs_(std::move(springs)),
           theta_(theta),
           response_(response),
-          result_(result) {
+          result_(result),
+          before_(before) {
         // Hundreds of rows change from one of the first sets to the next: rough answers tell which.
         if (rows.first > rows.least && op_.aim(Accuracy::rough)) accuracy_ = Accuracy::rough;
         if (cold) op_.expect_changes(rows.row);
@@ -79,7 +82,11 @@ public:
     std::span<const double> jump() const { return response_.jump; }
     std::span<const double> force() const { return response_.force; }
     double jump_floor() const { return scene_.jump_floor(theta_); }
-    double force_floor() const { return scene_.force_floor(theta_); }
+    double force_floor() const {
+        return std::max(scene_.force_floor(theta_), force_rounding / contact_rounding * op_.force_size(response_));
+    }
+    std::vector<std::size_t> settle(const ContactRows& rows, std::vector<std::uint8_t>& closed, std::uint8_t level,
+                                    const SolveError& least);
     SolveError error() const { return response_.error; }
     bool rough() const { return accuracy_ == Accuracy::rough; }
     bool tighten() {
@@ -97,11 +104,46 @@ private:
     std::span<const double> theta_;
     Response& response_;
     ContactResult& result_;
+    const PlacesBefore* before_;
     Accuracy accuracy_ = Accuracy::usual;
 };
 
+std::vector<std::size_t> OperatorSystem::settle(const ContactRows& rows, std::vector<std::uint8_t>& closed,
+                                                std::uint8_t level, const SolveError& least) {
+    if (scene_.parts == nullptr) return {};
+    const FreeParts& parts = *scene_.parts;
+    const LooseRows loose(rows, closed, response_.force, level, least.force);
+    const DenseMatrix free = parts.free(loose.active(springs_.held, springs_.stiffness));
+    if (free.columns == 0) return {};
+
+    // Least change of the places: min int |u + D a - u_before|^2 dV.
+    const std::vector<double> now = op_.displacement(theta_, response_);
+    std::vector<double> change(now.size(), 0.0);
+    if (before_ != nullptr) {
+        if (!before_->response.jump.empty()) change = op_.displacement(before_->theta, before_->response);
+        add_scaled(-1.0, now, change);
+    }
+    std::vector<std::vector<double>> moved;
+    DenseMatrix gram(free.columns, free.columns);
+    std::vector<double> pull;
+    for (std::int64_t c = 0; c < free.columns; ++c) {
+        moved.push_back(parts.motions().displacement(column(free, c)));
+        pull.push_back(parts.product(moved.back(), change));
+        for (std::int64_t d = 0; d <= c; ++d) gram(c, d) = gram(d, c) = parts.product(moved[index(c)], moved[index(d)]);
+    }
+    const DenseMatrix jumps = multiply(parts.motions().jumps(), free);
+    const LeastMotion found = loose.keep_apart(gram, pull, jumps, response_.jump, least.jump);
+    std::vector<double> combination(index(free.rows)), jump(index(jumps.rows)), displacement(now.size(), 0.0);
+    multiply(free, found.motion, combination);
+    multiply(jumps, found.motion, jump);
+    for (std::size_t c = 0; c < moved.size(); ++c) add_scaled(found.motion[c], moved[c], displacement);
+    op_.move(displacement, combination, jump, response_);
+    return loose.settled(found, closed, response_.jump, response_.force, least.jump);
+}
+
 // A response that is there already.
 struct ResponseSystem {
+    const JumpOperator& op;
     const ContactScene& scene;
     std::span<const double> theta;
     const Response& response;
@@ -110,10 +152,23 @@ struct ResponseSystem {
     std::span<const double> jump() const { return response.jump; }
     std::span<const double> force() const { return response.force; }
     double jump_floor() const { return scene.jump_floor(theta); }
-    double force_floor() const { return scene.force_floor(theta); }
+    double force_floor() const {
+        return std::max(scene.force_floor(theta), force_rounding / contact_rounding * op.force_size(response));
+    }
 };
 
 }  // namespace
+
+bool parts_float(const JumpOperator& op, const ContactScene& scene, std::span<const double> stiffness,
+                 std::span<const double> theta, std::span<const std::uint8_t> closed, const Response& response) {
+    if (scene.parts == nullptr) return false;
+    const ContactRows rows = contact_rows(scene, op.prescribed_rows(), false);
+    std::vector<std::uint8_t> set;
+    for (const std::size_t row : rows.row) set.push_back(closed[row / index(scene.dimension)]);
+    const double least = least_of_contact(ResponseSystem{op, scene, theta, response}).force;
+    const LooseRows loose(rows, set, response.force, rows.least, least);
+    return scene.parts->free(loose.active(held_rows(scene, closed), stiffness)).columns > 0;
+}
 
 std::vector<std::size_t> pairs_on_the_wrong_side(const JumpOperator& op, const ContactScene& scene,
                                                  std::span<const double> theta, std::span<const std::uint8_t> closed,
@@ -123,7 +178,7 @@ std::vector<std::size_t> pairs_on_the_wrong_side(const JumpOperator& op, const C
     std::vector<std::uint8_t> set;
     for (const std::size_t row : rows.row) set.push_back(closed[row / dim]);
     std::vector<std::size_t> pairs;
-    for (const std::size_t i : contact_violators(ResponseSystem{scene, theta, response}, rows, set, rows.least))
+    for (const std::size_t i : contact_violators(ResponseSystem{op, scene, theta, response}, rows, set, rows.least))
         pairs.push_back(rows.row[i] / dim);
     return pairs;
 }
@@ -139,7 +194,7 @@ std::vector<std::uint8_t> held_rows(const ContactScene& scene, std::span<const s
 
 ContactResult solve_contact(JumpOperator& op, const ContactScene& scene, std::span<const double> stiffness,
                             std::span<const double> theta, std::vector<std::uint8_t>& closed, Response& response,
-                            bool cold, std::span<const double> row_force) {
+                            bool cold, std::span<const double> row_force, const PlacesBefore* before) {
     const auto dim = index(scene.dimension);
     const ContactRows rows = contact_rows(scene, op.prescribed_rows(), cold);
     if (rows.first > rows.least) std::fill(closed.begin(), closed.end(), std::uint8_t{0});
@@ -149,11 +204,11 @@ ContactResult solve_contact(JumpOperator& op, const ContactScene& scene, std::sp
     OperatorSystem system(
         op, scene, rows,
         {{stiffness.begin(), stiffness.end()}, held_rows(scene, closed), {row_force.begin(), row_force.end()}}, theta,
-        response, result, cold);
+        response, result, cold, before);
     const ActiveSet found = find_active_set(system, rows, set, scene.limit, true);
     result.solves = found.solves;
     result.doubts = found.doubts;
-    result.fallback = found.exchanged;
+    result.fallback = found.descended;
     if (found.last != ContactSolve::solved)
         fail(DELAM_LIMIT,
              "no equilibrium: a dead force acts on a part that neither adhesion, supports nor contact hold");

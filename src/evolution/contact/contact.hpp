@@ -9,6 +9,7 @@
 
 #include "base/monitor.hpp"
 #include "base/numbers.hpp"
+#include "evolution/contact/free_parts.hpp"
 #include "reduction/operator/jump_operator.hpp"
 
 namespace delam {
@@ -19,7 +20,13 @@ struct ContactResult {
     std::int64_t linear_iterations = 0;
     double linear_residual = 0.0;  // worst of the solves
     bool converged = true;
-    bool fallback = false;  // least-index exchanges were needed
+    bool fallback = false;  // the feasible descent was needed
+};
+
+// The state before a load step, whose places free parts keep.
+struct PlacesBefore {
+    std::span<const double> theta;
+    const Response& response;
 };
 
 struct ContactScene {
@@ -35,6 +42,8 @@ struct ContactScene {
     // are free, jumps and forces are only the rounding of these numbers and say nothing about contact. Empty: no
     // eigenstrains.
     std::vector<double> strain_jump{}, strain_force{};
+    // Parts that may float; null: none. It outlives the scene.
+    const FreeParts* parts = nullptr;
     // True if the pair is neither bonded nor prescribed in its normal row. prescribed: [rows].
     bool may_close(std::size_t pair, std::span<const std::uint8_t> prescribed) const {
         return bonded[pair] == 0 && prescribed[pair * index(dimension)] == 0;
@@ -56,10 +65,14 @@ std::vector<std::uint8_t> held_rows(const ContactScene& scene, std::span<const s
 // stiffness: [rows] of the springs. closed: [pairs], on entry the warm start, on return the contact set. row_force:
 // Springs::force. cold: searches the set from coarse levels to fine ones, with all pairs open at first. Throws
 // Error(DELAM_LIMIT) if no contact set balances the loads, Error(DELAM_ERROR_PROBLEM) if prescribed displacements press
-// faces into each other.
+// faces into each other. before: null: free parts may be anywhere (only energies are asked for).
 ContactResult solve_contact(JumpOperator& op, const ContactScene& scene, std::span<const double> stiffness,
                             std::span<const double> theta, std::vector<std::uint8_t>& closed, Response& response,
-                            bool cold, std::span<const double> row_force = {});
+                            bool cold, std::span<const double> row_force = {}, const PlacesBefore* before = nullptr);
+
+// True if parts float in a response with these springs and this contact set.
+bool parts_float(const JumpOperator& op, const ContactScene& scene, std::span<const double> stiffness,
+                 std::span<const double> theta, std::span<const std::uint8_t> closed, const Response& response);
 
 // Pairs that this response shows on the wrong side of contact, ascending; empty: the contact set is its own, as far as
 // rounding lets it be known.

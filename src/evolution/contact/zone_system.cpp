@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "base/numbers.hpp"
+#include "evolution/contact/loose_rows.hpp"
+#include "reduction/dense/rigid_jumps.hpp"
 
 namespace delam {
 
@@ -78,6 +80,35 @@ bool ZoneSystem::negligible(const std::vector<std::uint8_t>& closed, std::span<c
     if (!(doubt.above + doubt.below <= allowed_)) return false;
     doubt_ = doubt;
     return true;
+}
+
+void ZoneSystem::stay_near(std::span<const double> jump) {
+    near_.clear();
+    for (const std::int64_t row : zone_.jump_rows()) near_.push_back(jump[index(row)]);
+}
+
+// The operator, which follows the zone, decides about places; here jumps change least.
+std::vector<std::size_t> ZoneSystem::settle(const ContactRows& rows, std::vector<std::uint8_t>& closed,
+                                            std::uint8_t level, const SolveError& least) {
+    const DenseMatrix* motions = zone_.motions();
+    if (motions == nullptr || motions->columns == 0) return {};
+    const LooseRows loose(rows, closed, force_, level, least.force);
+    std::vector<double> spring(jump_.size(), 0.0);
+    for (const Zone::Coupling& c : couplings_)
+        if (c.value != 0.0) spring[index(c.row)] = 1.0;
+    const DenseMatrix free = split_motions(*motions, loose.active(held_, spring)).free;
+    if (free.columns == 0) return {};
+    const DenseMatrix jumps = multiply(*motions, free);
+    std::vector<double> change(jump_.size(), 0.0), pull(index(free.columns));
+    for (std::size_t z = 0; z < near_.size(); ++z) change[z] = near_[z] - jump_[z];
+    multiply_transposed(jumps, change, pull);
+    const LeastMotion found = loose.keep_apart(multiply_transposed(jumps, jumps), pull, jumps, jump_, least.jump);
+    std::vector<double> combination(index(free.rows)), jump(jump_.size());
+    multiply(free, found.motion, combination);
+    multiply(jumps, found.motion, jump);
+    zone_.move(combination, solution_.unknowns);
+    add_scaled(1.0, jump, jump_);
+    return loose.settled(found, closed, jump_, force_, least.jump);
 }
 
 std::optional<DenseMatrix> ZoneSystem::flexibility(const std::vector<std::uint8_t>& closed,

@@ -51,7 +51,14 @@ public:
     // pulls at a jump of zero, the force of the pair would open the row, and the open row would penetrate.
     std::span<const double> force() const { return force_; }
     double jump_floor() const { return scene_.jump_floor(theta_); }
-    double force_floor() const { return scene_.force_floor(theta_); }
+    double force_floor() const {
+        return std::max(scene_.force_floor(theta_),
+                        force_rounding / contact_rounding * zone_.force_size(solution_.unknowns));
+    }
+    // Jumps of the rows of the whole scene, near which free parts stay.
+    void stay_near(std::span<const double> jump);
+    std::vector<std::size_t> settle(const ContactRows& rows, std::vector<std::uint8_t>& closed, std::uint8_t level,
+                                    const SolveError& least);
     bool softens() const;
     // Asks for energies only, within so much, F L: contact may then be left undecided where it matters less.
     void ask_for_energies(double allowed) { allowed_ = allowed; }
@@ -91,6 +98,7 @@ private:
     std::vector<Zone::Coupling> couplings_;
     std::vector<double> row_force_;
     std::vector<double> jump_, force_;
+    std::vector<double> near_;  // [zone rows] or empty
     Zone::Solution solution_;
     double allowed_ = 0.0;  // of energies
     ContactDoubt doubt_;

@@ -127,6 +127,7 @@ Descent::Descent(const ZoneNewton& newton, State& state, const Increment& increm
       system_(zone, newton.contact, newton.op.prescribed_rows(), springs.held, state.theta,
               [this] { newton_.monitor.progress("minimise", state_.effort.am_iterations, 0); }),
       closed_(system_.entered_closed()) {
+    system_.stay_near(state.response.jump);
     for (const std::int64_t row : zone.jump_rows()) spring_.push_back(springs.stiffness[index(row)]);
     for (const ZoneSystem::Pair& p : system_.pairs()) {
         if (increment.pairs().law[p.pair] == nullptr || increment.adhesion_before()[p.pair] <= 0.0) continue;

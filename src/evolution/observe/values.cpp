@@ -231,7 +231,7 @@ constexpr Row table[] = {
     row("contact_iterations_max", "-", "active-set steps of the worst displacement solve of the step",
         [](const State& s) { return count(s.effort.contact_iterations_max); }),
     row("contact_fallbacks", "-",
-        "displacement solves that exchanged one pair at a time because an active set recurred",
+        "displacement solves whose active sets recurred, so that the feasible descent went on",
         [](const State& s) { return count(s.effort.contact_fallbacks); }),
     row("linear_iterations", "-", "Krylov iterations of the step",
         [](const State& s) { return count(s.effort.linear_iterations); }),

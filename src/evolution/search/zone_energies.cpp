@@ -36,6 +36,7 @@ bool ZoneEnergies::choose() {
     Zone* zone = zones_.zone(springs, rows, true);
     if (zone == nullptr) return false;
     system_.emplace(*zone, contact_, op_.prescribed_rows(), springs.held, known_->theta);
+    system_->stay_near(known_->response.jump);
     if (solved_.empty()) solved_.push_back({known_->adhesion, known_->closed});
     place_.assign(wanted_.size(), -1);
     for (const ZoneSystem::Pair& p : system_->pairs()) place_[p.pair] = static_cast<std::int64_t>(p.first);

@@ -75,6 +75,8 @@ Stepper::Stepper(const Problem& problem, Monitor& monitor) : problem_(problem), 
     validate(problem_, checking);
     const Mesh& mesh = *problem_.mesh;
     pairs_.dimension = contact_.dimension = mesh.dimension();
+    parts_ = std::make_unique<const FreeParts>(problem_);
+    if (parts_->any()) contact_.parts = parts_.get();
     contact_.limit = problem_.options.contact_limit;
     contact_.always = problem_.options.contact == "always";
     for (std::size_t i = 0; i < mesh.interfaces().size(); ++i) {
@@ -257,11 +259,13 @@ double Stepper::lower_excess(const State& state) const {
 }
 
 // The state before answers loads in proportion with displacements in proportion, at its adhesion and with its contact
-// set: the bodies, springs and frictionless contact without a gap have no other length.
+// set: the bodies, springs and frictionless contact without a gap have no other length. (Free parts keep their places.)
 bool Stepper::displaced_in_proportion(State& next, const State& before) const {
     const std::optional<double> a = load_ratio(before.theta, next.theta);
     if (!a || !operator_->traits().proportional || before.response.jump.empty() ||
-        !pairs_on_the_wrong_side(*operator_, contact_, before.theta, before.closed, before.response).empty())
+        !pairs_on_the_wrong_side(*operator_, contact_, before.theta, before.closed, before.response).empty() ||
+        parts_float(*operator_, contact_, spring_stiffness(pairs_, before.adhesion), before.theta, before.closed,
+                    before.response))
         return false;
     const double grown = 1.0 / *a;
     Response& response = next.response;

@@ -115,6 +115,7 @@ private:
     Monitor& monitor_;
     std::vector<FollowedParameter> followed_;
     PairLaws pairs_;
+    std::unique_ptr<const FreeParts> parts_;
     ContactScene contact_;
     std::optional<MixityRule> rule_;  // set together with the pairs
     PairGraph graph_;

@@ -337,17 +337,26 @@ DenseMatrix inverse_definite(DenseMatrix a, const Poll& poll) {
 }
 
 DenseMatrix orthonormalised(DenseMatrix a) {
-    const auto rows = index(a.rows);
-    const auto column = [&a, rows](std::int64_t j) {
-        return std::span<double>(a.value).subspan(index(j) * rows, rows);
+    DenseMatrix none(0, a.columns);
+    orthonormalise(a, none);
+    return a;
+}
+
+void orthonormalise(DenseMatrix& a, DenseMatrix& with) {
+    const auto column = [](DenseMatrix& m, std::int64_t j) {
+        return std::span<double>(m.value).subspan(index(j * m.rows), index(m.rows));
     };
     for (std::int64_t j = 0; j < a.columns; ++j) {
         for (int pass = 0; pass < 2; ++pass)
-            for (std::int64_t i = 0; i < j; ++i) add_scaled(-dot(column(i), column(j)), column(i), column(j));
-        const double norm = std::sqrt(dot(column(j), column(j)));
-        for (double& v : column(j)) v /= norm;
+            for (std::int64_t i = 0; i < j; ++i) {
+                const double share = -dot(column(a, i), column(a, j));
+                add_scaled(share, column(a, i), column(a, j));
+                add_scaled(share, column(with, i), column(with, j));
+            }
+        const double norm = std::sqrt(dot(column(a, j), column(a, j)));
+        for (double& v : column(a, j)) v /= norm;
+        for (double& v : column(with, j)) v /= norm;
     }
-    return a;
 }
 
 Eigen eigen_symmetric(DenseMatrix a) {

@@ -34,6 +34,12 @@ struct DenseMatrix {
 // Large products, factors and solves are shared by the threads of a TeamScope; no digit depends on their number.
 // poll: called every few milliseconds in operations that take longer than that.
 
+inline std::span<double> column(DenseMatrix& a, std::int64_t c) {
+    return std::span<double>(a.value).subspan(index(c * a.rows), index(a.rows));
+}
+inline std::span<const double> column(const DenseMatrix& a, std::int64_t c) {
+    return std::span<const double>(a.value).subspan(index(c * a.rows), index(a.rows));
+}
 double dot(std::span<const double> x, std::span<const double> y);
 // y += a x
 void add_scaled(double a, std::span<const double> x, std::span<double> y);
@@ -72,6 +78,8 @@ bool invert_definite(DenseMatrix& a, const Poll& poll = {});
 bool solve_general(DenseMatrix& a, DenseMatrix& b, double tolerance);
 // Orthonormal basis of the span of the columns, which must be independent (modified Gram-Schmidt, twice).
 DenseMatrix orthonormalised(DenseMatrix a);
+// The same in place; the columns of `with` are combined as those of a.
+void orthonormalise(DenseMatrix& a, DenseMatrix& with);
 // Eigenpairs of a symmetric matrix, ascending; vectors in columns (LAPACK dsyev).
 struct Eigen {
     std::vector<double> value;

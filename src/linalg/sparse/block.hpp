@@ -12,13 +12,6 @@
 
 namespace delam {
 
-inline std::span<double> column(DenseMatrix& a, std::int64_t c) {
-    return std::span<double>(a.value).subspan(index(c * a.rows), index(a.rows));
-}
-inline std::span<const double> column(const DenseMatrix& a, std::int64_t c) {
-    return std::span<const double>(a.value).subspan(index(c * a.rows), index(a.rows));
-}
-
 // Y = S X on the rows from `first` on, as many as the square S has; the other rows of X and Y are not touched. S is
 // full (BLAS dgemm).
 void multiply_rows(const DenseMatrix& s, const DenseMatrix& x, std::int64_t first, DenseMatrix& y);

@@ -32,7 +32,9 @@ void Bulk::condense(Monitor& monitor) {
     std::vector<std::vector<double>> bonded = condense_loads(condensing);
     call_if_set(condensing);
     find_pattern_stiffness(std::move(bonded), strained, condensing);
-    const DenseMatrix motions = rigid_jumps(problem_);
+    const RigidMotions known(problem_);
+    const DenseMatrix& motions = known.jumps();
+    dead_work_ = known.dead_work();
     rigid_ = DenseMatrix(unknowns(), motions.columns);
     for (std::int64_t c = 0; c < motions.columns; ++c)
         for (std::int64_t i = 0; i < rigid_.rows; ++i) rigid_(i, c) = motions(row_of_unknown_[index(i)], c);

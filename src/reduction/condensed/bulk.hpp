@@ -21,6 +21,7 @@
 #include "reduction/condensed/elimination.hpp"
 #include "reduction/condensed/superelements.hpp"
 #include "reduction/dense/dense_energy.hpp"
+#include "reduction/dense/rigid_jumps.hpp"
 #include "reduction/operator/body_system.hpp"
 #include "reduction/operator/jump_row.hpp"
 #include "scene/problem.hpp"
@@ -45,6 +46,8 @@ public:
     const DenseMatrix& pattern_stiffness() const { return pattern_stiffness_; }
     // Jumps of the rigid motions that the supports leave free, [unknowns][motions], orthonormal.
     const DenseMatrix& rigid() const { return rigid_; }
+    // The work of dead forces along the same motions.
+    const DeadWork& dead_work() const { return dead_work_; }
     // [unknowns] 1: a constraint binds it to other variables.
     const std::vector<std::uint8_t>& bound() const { return bound_unknown_; }
 
@@ -151,6 +154,7 @@ private:
     DenseMatrix pattern_stiffness_;
     std::vector<double> left_over_;  // [patterns] work of the forces that solve_bonded() left, with random signs
     DenseMatrix rigid_;
+    DeadWork dead_work_;
 };
 
 }  // namespace delam

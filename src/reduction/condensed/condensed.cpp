@@ -186,18 +186,9 @@ void Condensed::condense() {
         zone_rows.push_back(static_cast<std::int64_t>(r));
         rows.push_back(std::move(local));
     }
-    // Rigid motions that no active row outside the zone resists.
-    const DenseMatrix& rigid = bulk_->rigid();
-    DenseMatrix floating(static_cast<std::int64_t>(zone_unknowns.size()), 0);
-    if (rigid.columns > 0) {
-        std::vector<std::uint8_t> active(unknowns, 0);
-        for (std::size_t i = 0; i < unknowns; ++i) active[i] = place[i] < 0 && spring_[i] != 0.0 ? 1 : 0;
-        const DenseMatrix free = multiply(rigid, split_motions(rigid, active).free);
-        floating = DenseMatrix(floating.rows, free.columns);
-        for (std::int64_t c = 0; c < free.columns; ++c)
-            for (std::int64_t z = 0; z < floating.rows; ++z) floating(z, c) = free(zone_unknowns[index(z)], c);
-        floating = orthonormalised(std::move(floating));
-    }
+    std::vector<std::uint8_t> active(unknowns, 0);
+    for (std::size_t i = 0; i < unknowns; ++i) active[i] = place[i] < 0 && spring_[i] != 0.0 ? 1 : 0;
+    ZoneMotions floating = ZoneMotions::of(bulk_->rigid(), bulk_->dead_work(), active, zone_unknowns);
     zone_ = std::make_unique<DenseZone>(energy_->energy(), std::move(rows), std::move(zone_rows), std::move(floating),
                                         poll());
 }
@@ -405,6 +396,14 @@ double Condensed::rounding_energy(std::span<const double> theta, const Response&
     double sum = 0.0;
     for (std::size_t i = 0; i < x.size(); ++i) sum += bulk_->diagonal(static_cast<std::int64_t>(i)) * x[i] * x[i];
     return std::numeric_limits<double>::epsilon() * sum + bulk_->rounding_energy(theta);
+}
+
+double Condensed::force_size(const Response& response) const {
+    const std::vector<double> x = unknowns_of(response);
+    double size = 0.0;
+    for (std::size_t i = 0; i < x.size(); ++i)
+        size = std::max(size, bulk_->diagonal(static_cast<std::int64_t>(i)) * std::abs(x[i]));
+    return size;
 }
 
 std::string Condensed::description_of(const Bulk& bulk) {

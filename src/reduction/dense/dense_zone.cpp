@@ -15,8 +15,7 @@ namespace delam {
 namespace {
 
 constexpr double dependent = 1e-10;  // coefficients of dependent rows below this are rounding
-constexpr double rounded = 1e-11;    // of motion times load, which counts as rounding (measured: up to 5e-13)
-constexpr double unbalanced = 1e-8;  // largest part of a load that may remain on a free motion
+constexpr double rounded = 1e-11;    // of the largest jump of a motion: the jump of a row that it does not move
 
 // y = S x, cheap where few x are not zero.
 void multiply_few(const DenseMatrix& s, std::span<const double> x, std::span<double> y) {
@@ -32,12 +31,29 @@ void multiply_few(const DenseMatrix& s, std::span<const double> x, std::span<dou
 
 }  // namespace
 
+ZoneMotions ZoneMotions::of(const DenseMatrix& rigid, const DeadWork& dead_work, std::span<const std::uint8_t> active,
+                            std::span<const std::int64_t> row_of) {
+    ZoneMotions motions{DenseMatrix(static_cast<std::int64_t>(row_of.size()), 0), DenseMatrix(rigid.columns, 0),
+                        &dead_work};
+    if (rigid.columns == 0) return motions;
+    motions.combination = split_motions(rigid, active).free;
+    const DenseMatrix free = multiply(rigid, motions.combination);
+    motions.unknowns = DenseMatrix(motions.unknowns.rows, free.columns);
+    for (std::int64_t c = 0; c < free.columns; ++c)
+        for (std::size_t i = 0; i < row_of.size(); ++i)
+            motions.unknowns(static_cast<std::int64_t>(i), c) = free(row_of[i], c);
+    orthonormalise(motions.unknowns, motions.combination);
+    return motions;
+}
+
 DenseZone::DenseZone(const DenseEnergy& energy, std::vector<JumpRow> rows, std::vector<std::int64_t> jump_rows,
-                     DenseMatrix rigid, Poll poll)
+                     ZoneMotions motions, Poll poll)
     : energy_(&energy),
       rows_(std::move(rows)),
       jump_rows_(std::move(jump_rows)),
-      rigid_(std::move(rigid)),
+      rigid_(std::move(motions.unknowns)),
+      combination_(std::move(motions.combination)),
+      dead_work_(motions.dead_work),
       poll_(std::move(poll)) {
     std::vector<std::uint8_t> taken(index(energy.rows()), 0);
     rows_of_.assign(index(energy.rows()), 0);
@@ -277,21 +293,23 @@ bool DenseZone::factor_motions() {
     return factor_definite(motion_factor_);
 }
 
-// True if no free motion carries a part of this load.
-bool DenseZone::balances(std::span<const double> load) const {
+// True if no free motion gets work of the loads.
+bool DenseZone::balances(std::span<const double> theta, std::span<const double> row_force) const {
     for (std::int64_t c = 0; rigid_.columns > 0 && c < motions_.free.columns; ++c) {
-        double total = 0.0, size = 0.0, motion = 0.0, pull_size = 0.0;
-        for (std::int64_t i = 0; i < rigid_.rows; ++i) {
-            double z = 0.0;
-            for (std::int64_t k = 0; k < rigid_.columns; ++k) z += rigid_(i, k) * motions_.free(k, c);
-            total += z * load[index(i)];
-            size += std::abs(z * load[index(i)]);
-            motion += z * z;
-            pull_size += load[index(i)] * load[index(i)];
+        const auto free = std::span<const double>(motions_.free.value)
+                              .subspan(index(c * motions_.free.rows), index(motions_.free.rows));
+        std::vector<double> whole(index(combination_.rows));
+        multiply(combination_, free, whole);
+        double work = 0.0, magnitude = 0.0;
+        for (std::size_t r = 0; r < row_force.size(); ++r) {
+            if (held_[r] != 0 || row_force[r] == 0.0) continue;
+            double moved = 0.0;
+            for (std::size_t k = 0; k < free.size(); ++k)
+                moved += rigid_rows_(static_cast<std::int64_t>(r), static_cast<std::int64_t>(k)) * free[k];
+            work += moved * row_force[r];
+            magnitude += std::abs(row_force[r]) * std::max(std::abs(moved), rounded * max_abs(rigid_rows_.value));
         }
-        // A load orthogonal to the motion everywhere (a pressed fibre that may rotate) leaves only rounding in both
-        // sums.
-        if (std::abs(total) > std::max(unbalanced * size, rounded * std::sqrt(motion * pull_size))) return false;
+        if (!dead_work_->balances(theta, whole, work, magnitude)) return false;
     }
     return true;
 }
@@ -334,11 +352,14 @@ DenseZone::Solution DenseZone::solve(std::span<const double> theta, std::span<co
     std::vector<double> start(g.size(), 0.0);
     for (std::size_t b = 0; b < bound_.size(); ++b) start[index(bound_[b])] = fixed[b];
     if (std::any_of(fixed.begin(), fixed.end(), [](double v) { return v != 0.0; })) {
-        const std::vector<double> image = apply(start);
+        // Of the energy itself: the shift of y does not act on it.
+        std::vector<double> image(g.size());
+        multiply_few(energy_->stiffness, start, image);
+        for (const Triplet& t : springs_) image[index(t.row)] += t.value * start[index(t.column)];
         for (std::size_t i = 0; i < g.size(); ++i) g[i] -= image[i];
     }
 
-    solution.balanced = balances(g);
+    solution.balanced = balances(theta, row_force);
     if (!solution.balanced) return solution;
 
     std::vector<double> y = reduce(g), alpha(index(rigid_.columns > 0 ? motion_x_.columns : 0)), moved(g.size(), 0.0);
@@ -436,6 +457,13 @@ double DenseZone::energy_of(std::span<const double> theta, std::span<const doubl
     multiply(energy_->load, theta, load);
     multiply_symmetric(energy_->stiffness, unknowns, image);
     return 0.5 * dot(unknowns, image) - dot(unknowns, load);
+}
+
+double DenseZone::force_size(std::span<const double> unknowns) const {
+    double size = 0.0;
+    for (std::size_t i = 0; i < unknowns.size(); ++i)
+        size = std::max(size, energy_->stiffness.value[i * (unknowns.size() + 1)] * std::abs(unknowns[i]));
+    return size;
 }
 
 double DenseZone::energy_of_moving(std::span<const std::size_t> rows, std::span<const double> d) const {

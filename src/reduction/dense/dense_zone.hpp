@@ -19,12 +19,24 @@
 
 namespace delam {
 
+// Rigid motions that nothing outside a zone resists.
+struct ZoneMotions {
+    DenseMatrix unknowns;         // Z, [unknowns][motions], orthonormal
+    DenseMatrix combination;      // of the motions of the whole, [motions of the whole][motions]
+    const DeadWork* dead_work{};  // along the motions of the whole; must outlive the zone
+
+    // rigid: the motions of the whole, [rows][motions of the whole]; active: rows that resist them outside the zone;
+    // row_of: the row of each unknown of the zone.
+    static ZoneMotions of(const DenseMatrix& rigid, const DeadWork& dead_work, std::span<const std::uint8_t> active,
+                          std::span<const std::int64_t> row_of);
+};
+
 class DenseZone final : public Zone {
 public:
-    // rows: in unknowns of the zone; jump_rows: the operator's jump row of each of them, ascending. rigid:
-    // [unknowns][motions], orthonormal. poll: called within factor(). `energy` must outlive the zone.
+    // rows: in unknowns of the zone; jump_rows: the operator's jump row of each of them, ascending. poll: called
+    // within factor(). `energy` must outlive the zone.
     DenseZone(const DenseEnergy& energy, std::vector<JumpRow> rows, std::vector<std::int64_t> jump_rows,
-              DenseMatrix rigid, Poll poll = {});
+              ZoneMotions motions, Poll poll = {});
 
     // An energy at its minimum needs half of the digits of its solution.
     void ask_for_energies(double allowed) override { refine_ = !(allowed > 0.0); }
@@ -43,6 +55,13 @@ public:
     double energy_of(std::span<const double> theta, std::span<const double> unknowns) override;
     double energy_of_moving(std::span<const std::size_t> rows, std::span<const double> d) const override;
     double energy_rounding() const override { return 1e-14; }
+    double force_size(std::span<const double> unknowns) const override;
+    const DenseMatrix* motions() const override { return &rigid_rows_; }
+    void move(std::span<const double> combination, std::span<double> unknowns) const override {
+        for (std::size_t c = 0; c < combination.size(); ++c)
+            add_scaled(combination[c],
+                       std::span<const double>(rigid_.value).subspan(c * unknowns.size(), unknowns.size()), unknowns);
+    }
 
     const DenseEnergy& energy() const { return *energy_; }
     // Discards the results of earlier solves, on which the last digits of the next one depend.
@@ -62,7 +81,7 @@ private:
     void solve_free(std::span<double> x, bool again);
     void solve_together(std::vector<double>& y, std::vector<double>& alpha, bool again);
     bool factor_motions();
-    bool balances(std::span<const double> load) const;
+    bool balances(std::span<const double> theta, std::span<const double> row_force) const;
     // y = (S + C) x over all unknowns
     std::vector<double> apply(std::span<const double> x) const;
     std::vector<double> expand(std::span<const double> reduced) const;
@@ -75,7 +94,9 @@ private:
     std::vector<std::int64_t> plain_;    // [rows] unknown that the row is, -1: none
     std::vector<std::int64_t> rows_of_;  // [unknowns] number of rows in which it appears
     bool with_offsets_ = false;
-    DenseMatrix rigid_;       // Z
+    DenseMatrix rigid_;  // Z
+    DenseMatrix combination_;
+    const DeadWork* dead_work_;
     DenseMatrix rigid_rows_;  // N Z
     DenseMatrix shifted_;     // S + rho Z Z^T where Z is not empty
 

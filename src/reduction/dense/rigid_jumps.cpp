@@ -17,6 +17,9 @@ namespace {
 // Eigenvalues of a Gram matrix below this fraction of the largest one are zero: singular values below 1e-6. Lever arms
 // of supports are longer.
 constexpr double zero = 1e-12;
+// The largest part of its terms that the work of dead forces along a motion may reach and still be zero.
+constexpr double unbalanced = 1e-8;
+constexpr double still = 1e-8;  // entries of motions below this part of the largest one are rounding
 
 using Row = std::map<std::int64_t, double>;
 
@@ -217,10 +220,45 @@ RigidMotions::RigidMotions(const Problem& problem) : impl_(std::make_unique<Impl
     }
     jumps_ = multiply(jumps_, basis);
     impl_->null = multiply(null, basis);
+    const auto patterns = static_cast<std::int64_t>(problem.patterns.size());
+    dead_ = {DenseMatrix(patterns, basis.columns), DenseMatrix(patterns, basis.columns)};
+    for (const NodalForce& force : problem.forces) {
+        Row row;
+        motions.add(row, force.dof / dim, force.dof % dim, force.value);
+        for (std::int64_t c = 0; c < basis.columns; ++c) {
+            double work = 0.0;
+            for (const auto& [i, value] : row) work += value * impl_->null(i, c);
+            dead_.work(force.pattern, c) += work;
+            dead_.magnitudes(force.pattern, c) += std::abs(work);
+        }
+    }
 }
 
 RigidMotions::~RigidMotions() = default;
 RigidMotions::RigidMotions(RigidMotions&&) noexcept = default;
+RigidMotions& RigidMotions::operator=(RigidMotions&&) noexcept = default;
+
+bool DeadWork::balances(std::span<const double> theta, std::span<const double> combination, double added,
+                        double magnitude) const {
+    double total = added, size = magnitude;
+    for (std::size_t p = 0; p < theta.size(); ++p)
+        for (std::size_t c = 0; c < combination.size(); ++c) {
+            const auto at = static_cast<std::int64_t>(p), motion = static_cast<std::int64_t>(c);
+            total += theta[p] * work(at, motion) * combination[c];
+            size += std::abs(theta[p] * magnitudes(at, motion) * combination[c]);
+        }
+    return std::abs(total) <= unbalanced * size;
+}
+
+bool RigidMotions::holds(std::size_t piece) const {
+    const std::int64_t modes = impl_->motions.dimension() == 2 ? 3 : 6;
+    for (std::int64_t c = 0; c < impl_->null.columns; ++c) {
+        const auto motion =
+            std::span<const double>(impl_->null.value).subspan(index(c * impl_->null.rows), index(impl_->null.rows));
+        if (max_abs(motion.subspan(piece * index(modes), index(modes))) > still * max_abs(motion)) return false;
+    }
+    return true;
+}
 
 std::vector<double> RigidMotions::displacement(std::span<const double> combination) const {
     const std::int64_t dim = impl_->motions.dimension();
@@ -238,8 +276,6 @@ std::vector<double> RigidMotions::displacement(std::span<const double> combinati
     }
     return u;
 }
-
-DenseMatrix rigid_jumps(const Problem& problem) { return RigidMotions(problem).jumps(); }
 
 Combinations split_motions(const DenseMatrix& z, std::span<const std::uint8_t> active) {
     DenseMatrix gram(z.columns, z.columns);

@@ -12,6 +12,16 @@
 
 namespace delam {
 
+// Work of the dead forces, at factor 1, along rigid motions. Other loads do no work there: prescribed displacements and
+// eigenstrains balance within each part.
+struct DeadWork {
+    DenseMatrix work;        // [patterns][motions]
+    DenseMatrix magnitudes;  // the same, sums of the absolute terms
+    // True if a combination of the motions gets no work, but for rounding. added, magnitude: of other forces.
+    bool balances(std::span<const double> theta, std::span<const double> combination, double added = 0.0,
+                  double magnitude = 0.0) const;
+};
+
 // The motions in which parts float once their interfaces have separated: none if the supports hold every part by
 // themselves.
 class RigidMotions {
@@ -19,10 +29,15 @@ public:
     explicit RigidMotions(const Problem& problem);
     ~RigidMotions();
     RigidMotions(RigidMotions&&) noexcept;
+    RigidMotions& operator=(RigidMotions&&) noexcept;
     // Orthonormal columns, [jump rows][motions].
     const DenseMatrix& jumps() const { return jumps_; }
     // [mesh DOFs] of a combination of the motions.
     std::vector<double> displacement(std::span<const double> combination) const;
+    // True if no motion moves this piece of rigid_pieces().
+    bool holds(std::size_t piece) const;
+    // What the loads do along the motions.
+    const DeadWork& dead_work() const { return dead_; }
 
 private:
     struct Piece;
@@ -30,10 +45,8 @@ private:
     struct Impl;
     std::unique_ptr<Impl> impl_;
     DenseMatrix jumps_;
+    DeadWork dead_;
 };
-
-// Their jumps alone.
-DenseMatrix rigid_jumps(const Problem& problem);
 
 // Combinations of the columns of z (of unit length over rows that include these) that vanish on all active rows, and
 // their orthogonal complement: [columns of z][combinations].

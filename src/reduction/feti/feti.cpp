@@ -108,6 +108,28 @@ double Feti::equilibrium_defect(std::span<const double> theta, const Response& r
     return max_abs(defect);
 }
 
+// The rigid modes of subdomains are orthonormal and contain the motions of parts.
+void Feti::move(std::span<const double> displacement, std::span<const double> combination, std::span<const double> jump,
+                Response& response) const {
+    JumpOperator::move(displacement, combination, jump, response);
+    const auto dim = index(problem_.mesh->dimension());
+    std::size_t at = 0;
+    for (const Subdomain& s : parts_.subdomains)
+        for (std::int64_t c = 0; c < s.rigid.columns; ++c, ++at)
+            for (std::size_t i = 0; i < s.nodes.size(); ++i)
+                for (std::size_t k = 0; k < dim; ++k)
+                    response.rigid[at] +=
+                        s.rigid(static_cast<std::int64_t>(i * dim + k), c) * displacement[index(s.nodes[i]) * dim + k];
+}
+
+double Feti::force_size(const Response& response) const {
+    double size = 0.0;
+    for (std::size_t r = 0; r < response.jump.size(); ++r)
+        if (const double flexibility = dual_.flexibility_diagonal()[r]; flexibility > 0.0)
+            size = std::max(size, std::abs(response.jump[r]) / flexibility);
+    return size;
+}
+
 std::string Feti::description() const {
     std::int64_t largest = 0;
     double bytes = 0.0;

@@ -19,7 +19,8 @@ FetiZone::FetiZone(const Problem& problem, const std::vector<Subdomain>& subdoma
       loads_(loads),
       monitor_(monitor),
       columns_(problem, subdomains, dual, loads, monitor),
-      rigid_(rigid_jumps(problem)) {}
+      motions_(problem),
+      rigid_(motions_.jumps()) {}
 
 // A.
 std::vector<std::int64_t> FetiZone::changed(const Springs& springs, std::span<const std::uint8_t> wanted) const {
@@ -123,16 +124,12 @@ std::vector<double> FetiZone::driven(std::size_t row) const {
 }
 
 // Motions that nothing outside the zone holds, over the zone's unknowns.
-DenseMatrix FetiZone::floating() const {
-    const auto unknowns = static_cast<std::int64_t>(split_.kept.size());
-    if (rigid_.columns == 0) return DenseMatrix(unknowns, 0);
+ZoneMotions FetiZone::floating() const {
     std::vector<std::uint8_t> active(index(rigid_.rows), 1);
+    std::vector<std::int64_t> row_of;
     for (std::size_t i = 0; i < rows_.size(); ++i) active[index(rows_[i])] = split_.spring[i] != 0.0 ? 1 : 0;
-    const DenseMatrix free = multiply(rigid_, split_motions(rigid_, active).free);
-    DenseMatrix z(unknowns, free.columns);
-    for (std::int64_t c = 0; c < z.columns; ++c)
-        for (std::int64_t k = 0; k < unknowns; ++k) z(k, c) = free(rows_[index(split_.kept[index(k)])], c);
-    return orthonormalised(std::move(z));
+    for (const std::int64_t kept : split_.kept) row_of.push_back(rows_[index(kept)]);
+    return ZoneMotions::of(rigid_, motions_.dead_work(), active, row_of);
 }
 
 bool FetiZone::minimise_out(Split split) {

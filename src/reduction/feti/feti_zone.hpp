@@ -39,14 +39,15 @@ private:
     Split split(const Springs& springs, std::span<const std::uint8_t> wanted) const;
     bool minimise_out(Split split);
     std::vector<double> driven(std::size_t row) const;
-    DenseMatrix floating() const;
+    ZoneMotions floating() const;
 
     const Problem& problem_;
     DualOperator& dual_;
     const DualLoads& loads_;
     Monitor& monitor_;
     JumpColumns columns_;
-    DenseMatrix rigid_;  // jumps of the motions that no support holds, [jump rows][motions]
+    RigidMotions motions_;
+    const DenseMatrix& rigid_;  // their jumps, [jump rows][motions]
 
     std::vector<std::int64_t> rows_;     // A; empty: none is known
     DenseEnergy energy_;                 // of A

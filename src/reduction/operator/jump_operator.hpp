@@ -40,6 +40,14 @@ public:
     virtual std::vector<double> reaction(std::span<const double> theta, const Response& response) const = 0;
     // Displacements [mesh DOFs] of a response of this operator.
     virtual std::vector<double> displacement(std::span<const double> theta, const Response& response) const = 0;
+    // Adds rigid motions that nothing active resists to a response. displacement: theirs, [mesh DOFs]; combination: of
+    // the columns of RigidMotions(problem).jumps(); jump: theirs, [rows].
+    virtual void move(std::span<const double> /*displacement*/, std::span<const double> /*combination*/,
+                      std::span<const double> jump, Response& response) const {
+        for (std::size_t r = 0; r < jump.size(); ++r) response.jump[r] += jump[r];
+    }
+    // Size of the forces whose small differences are the forces of a response, F: its rounding comes from there.
+    virtual double force_size(const Response& response) const = 0;
     // Largest out-of-balance force, F, at a node for the displacements above, with the response's interface forces and
     // reactions.
     virtual double equilibrium_defect(std::span<const double> theta, const Response& response) const = 0;

@@ -90,6 +90,12 @@ public:
     virtual double energy_of_moving(std::span<const std::size_t> /*rows*/, std::span<const double> /*d*/) const {
         return std::numeric_limits<double>::infinity();
     }
+    // Returns the jumps of rigid motions that nothing outside the zone resists, [rows][motions]; null: there are none.
+    virtual const DenseMatrix* motions() const { return nullptr; }
+    // Adds a combination of these motions to the unknowns.
+    virtual void move(std::span<const double> /*combination*/, std::span<double> /*unknowns*/) const {}
+    // Returns the size of the forces whose small differences are forces of rows, F.
+    virtual double force_size(std::span<const double> unknowns) const = 0;
     // Returns the rounding of such energies: differences below this part of them are rounding.
     virtual double energy_rounding() const = 0;
 };

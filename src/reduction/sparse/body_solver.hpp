@@ -6,6 +6,8 @@
 // states whose weights sum to 1 are states, too.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -13,6 +15,7 @@
 
 #include "base/restarts.hpp"
 #include "reduction/operator/zone.hpp"
+#include "reduction/sparse/floating.hpp"
 #include "reduction/sparse/jump_system.hpp"
 
 namespace delam {
@@ -68,6 +71,19 @@ public:
     // u and K u of a state, over all DOFs of the mesh.
     virtual void recover(std::span<const double> theta, std::span<const double> x, std::vector<double>& displacement,
                          std::vector<double>& stressed) = 0;
+
+    // Adds rigid motions to a state. displacement: theirs [mesh DOFs]; combination: of RigidMotions::jumps().
+    virtual void move(std::span<const double> displacement, std::span<const double> combination,
+                      std::span<double> x) const = 0;
+    virtual const Floating& floating() const = 0;
+    // Returns the largest force of the diagonal of the interface's variables, F: rounding of forces is relative to it.
+    double force_size(std::span<const double> x) const {
+        const std::span<const double> diagonal = system().diagonal();
+        double size = 0.0;
+        for (const JumpRow& row : system().rows())
+            for (const auto& [i, n] : row.unknowns) size = std::max(size, diagonal[index(i)] * std::abs(x[index(i)]));
+        return size;
+    }
 
     virtual std::int64_t factorisations() const = 0;
     // Saved data on which the last digits of the next solution depend.

@@ -14,11 +14,8 @@ namespace {
 
 // Springs that resist a motion by less than this part of the bodies' stiffness hold it weakly.
 constexpr double weakly = 1e-7;
-constexpr double anchored = 1e-2;  // of the bodies' stiffness: a spring that replaces a support
-// Same constants as in zone.cpp: the largest part of a load that may remain on a free motion, and the part that counts
-// as rounding.
-constexpr double unbalanced_load = 1e-8;
-constexpr double rounded_load = 1e-11;
+constexpr double anchored = 1e-2;       // of the bodies' stiffness: a spring that replaces a support
+constexpr double rounded_load = 1e-11;  // as in dense_zone.cpp
 
 // Returns the eigenvalues and eigenvectors of Z^T W Z with a diagonal W; the product is formed block by block of rows.
 Eigen weighted_gram(const DenseMatrix& z, std::span<const double> weight) {
@@ -182,21 +179,19 @@ std::vector<Zone::Coupling> Floating::anchors_of(const DenseMatrix& jumps) const
     return anchors;
 }
 
-bool Floating::balances(std::span<const double> load) const {
-    const double pull = dot(load, load);
-    for (const std::vector<double>& motion : free_) {
-        double total = 0.0, size = 0.0;
-        for (std::size_t i = 0; i < load.size(); ++i) {
-            total += motion[i] * load[i];
-            size += std::abs(motion[i] * load[i]);
+bool Floating::balances(std::span<const double> theta, std::span<const double> row_force) const {
+    std::vector<double> jump(system_.rows().size());
+    for (const std::vector<double>& combination : combination_) {
+        double work = 0.0, magnitude = 0.0;
+        if (!row_force.empty()) multiply(rigid_.jumps(), combination, jump);
+        for (std::size_t r = 0; r < row_force.size(); ++r) {
+            if (held_[r] != 0 || row_force[r] == 0.0) continue;
+            work += jump[r] * row_force[r];
+            magnitude += std::abs(row_force[r]) * std::max(std::abs(jump[r]), rounded_load * max_abs(jump));
         }
-        if (!balances(total, size, std::sqrt(dot(motion, motion)), std::sqrt(pull))) return false;
+        if (!rigid_.dead_work().balances(theta, combination, work, magnitude)) return false;
     }
     return true;
-}
-
-bool Floating::balances(double work, double magnitudes, double motion, double load) {
-    return std::abs(work) <= std::max(unbalanced_load * magnitudes, rounded_load * motion * load);
 }
 
 std::vector<double> Floating::settle(std::span<double> x) const {

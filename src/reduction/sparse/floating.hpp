@@ -30,6 +30,7 @@ public:
     // As many springs as there are free motions, which hold these: a load that balances leaves them without force.
     std::span<const Zone::Coupling> free_anchors() const { return free_anchors_; }
     // Rigid motions, of which all others are combinations [motions]; a free one's; u [mesh DOFs] and variables of one.
+    const DenseMatrix& jumps() const { return rigid_.jumps(); }
     std::int64_t motions() const { return rigid_.jumps().columns; }
     std::span<const double> free_combination(std::size_t i) const { return combination_[i]; }
     std::vector<double> free_displacement(std::size_t i) const { return rigid_.displacement(combination_[i]); }
@@ -37,10 +38,8 @@ public:
         return rigid_.displacement(combination);
     }
     std::vector<double> in_variables(std::span<const double> combination) const;
-    // False: a free motion carries a load. load: forces on all variables.
-    bool balances(std::span<const double> load) const;
-    // The same from the work of a load along a motion, the sum of its magnitudes, and the lengths of motion and load.
-    static bool balances(double work, double magnitudes, double motion, double load);
+    // False: a free motion gets work of the dead forces, or of row_force: h, [rows] or empty.
+    bool balances(std::span<const double> theta, std::span<const double> row_force) const;
     // Takes the free motions out of the jumps of x. How much of each it has added; empty: nothing.
     std::vector<double> settle(std::span<double> x) const;
 

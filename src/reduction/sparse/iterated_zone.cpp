@@ -42,6 +42,10 @@ bool IteratedZone::factor(std::span<const Coupling> couplings, std::span<const s
     return solver_.set(std::move(acting), held);
 }
 
+void IteratedZone::move(std::span<const double> combination, std::span<double> unknowns) const {
+    solver_.move(solver_.floating().rigid_displacement(combination), combination, unknowns);
+}
+
 Zone::Solution IteratedZone::solve(std::span<const double> theta, std::span<const double> row_force) {
     Solution solution;
     solution.unknowns = start_;

@@ -189,6 +189,14 @@ double SparseOperator::equilibrium_defect(std::span<const double> theta, const R
     return bodies_->defect(theta, force, response.force, bodies_->reaction(theta, force, response.force));
 }
 
+void SparseOperator::move(std::span<const double> displacement, std::span<const double> combination,
+                          std::span<const double> jump, Response& response) const {
+    JumpOperator::move(displacement, combination, jump, response);
+    solver_.move(displacement, combination, response.multipliers);
+}
+
+double SparseOperator::force_size(const Response& response) const { return solver_.force_size(response.multipliers); }
+
 // Estimates the rounding as the condensed operator does: entries of the stiffness have an error of the rounding unit
 // times the diagonal.
 double SparseOperator::rounding_energy(std::span<const double>, const Response& response) const {

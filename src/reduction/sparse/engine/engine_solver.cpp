@@ -243,29 +243,6 @@ std::vector<double> EngineSolver::rights(std::span<const double> theta) const {
     return right;
 }
 
-// The bodies do not resist a free motion: the loads along it are dead forces and those on rows.
-bool EngineSolver::balanced(std::span<const double> theta, std::span<const double> force) const {
-    for (std::size_t i = 0; i < floating_.free().size(); ++i) {
-        const std::vector<double>& motion = floating_.free()[i];
-        const std::vector<double> u = floating_.free_displacement(i);
-        double work = 0.0, magnitudes = 0.0, square = dot(force, force);
-        const auto add = [&](std::span<const double> moved, std::span<const double> forces, double factor) {
-            for (std::size_t k = 0; k < forces.size(); ++k) {
-                work += factor * moved[k] * forces[k];
-                magnitudes += std::abs(factor * moved[k] * forces[k]);
-            }
-        };
-        add(motion, force, 1.0);
-        for (std::size_t p = 0; p < theta.size(); ++p) {
-            if (bodies_.force()[p].empty()) continue;
-            add(u, bodies_.force()[p], theta[p]);
-            square += theta[p] * theta[p] * dot(bodies_.force()[p], bodies_.force()[p]);
-        }
-        if (!Floating::balances(work, magnitudes, std::sqrt(dot(u, u)), std::sqrt(square))) return false;
-    }
-    return true;
-}
-
 // The oldest place that the start does not need.
 std::size_t EngineSolver::free_place(std::span<const double> start) const {
     std::size_t place = newest_;
@@ -326,7 +303,7 @@ BodySolver::Answer EngineSolver::solve(std::span<const double> theta, std::span<
     claim();
     Answer answer;
     const std::vector<double> force = forces(theta, row_force), right = rights(theta);
-    answer.balanced = balanced(theta, force);
+    answer.balanced = floating_.balances(theta, row_force);
     if (!answer.balanced) return answer;
     if (!renewed_) renew();
     if (!applied_) apply();
@@ -395,12 +372,24 @@ void EngineSolver::settle(std::vector<double>& x) const {
     const std::span<double> variables = std::span<double>(x).first(index(system_.count()));
     const std::vector<double> moved = floating_.settle(variables);
     for (std::size_t i = 0; i < moved.size(); ++i) {
-        add_scaled(moved[i], floating_.free_combination(i),
-                   std::span<double>(x).subspan(at_.rigid, at_.size - at_.rigid));
-        const std::vector<double> u = floating_.free_displacement(i);
-        for (std::size_t p = 0; p < bodies_.force().size(); ++p)
-            if (!bodies_.force()[p].empty()) x[at_.done + p] += moved[i] * dot(bodies_.force()[p], u);
+        std::vector<double> combination(floating_.free_combination(i).begin(), floating_.free_combination(i).end());
+        for (double& c : combination) c *= moved[i];
+        count_motion(floating_.rigid_displacement(combination), combination, x);
     }
+}
+
+void EngineSolver::move(std::span<const double> displacement, std::span<const double> combination,
+                        std::span<double> x) const {
+    add_scaled(1.0, floating_.in_variables(combination), x.first(index(system_.count())));
+    count_motion(displacement, combination, x);
+}
+
+// The parts of a state that its variables do not show: its rigid motions, and what dead forces do along them.
+void EngineSolver::count_motion(std::span<const double> displacement, std::span<const double> combination,
+                                std::span<double> x) const {
+    add_scaled(1.0, combination, x.subspan(at_.rigid, at_.size - at_.rigid));
+    for (std::size_t p = 0; p < bodies_.force().size(); ++p)
+        if (!bodies_.force()[p].empty()) x[at_.done + p] += dot(bodies_.force()[p], displacement);
 }
 
 void EngineSolver::require_numbers(const Raw& raw, std::span<const double> state,

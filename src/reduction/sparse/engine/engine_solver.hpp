@@ -45,6 +45,9 @@ public:
                  std::vector<double>& stressed) override;
     // The same, but the engine keeps them.
     void recover_in_engine(std::span<const double> theta, std::span<const double> x);
+    void move(std::span<const double> displacement, std::span<const double> combination,
+              std::span<double> x) const override;
+    const Floating& floating() const override { return floating_; }
     std::int64_t factorisations() const override { return renewals_; }
     std::vector<double> memory() override;
     void recall(std::span<const double> memory) override;
@@ -64,7 +67,6 @@ private:
     void renew();  // at lagged_
     // True if tangents that soften leave a minimum.
     bool has_minimum();
-    bool balanced(std::span<const double> theta, std::span<const double> force) const;
     std::vector<double> forces(std::span<const double> theta, std::span<const double> row_force) const;
     std::vector<double> rights(std::span<const double> theta) const;
     // Answer of the engine.
@@ -85,6 +87,8 @@ private:
     // Solves for the state whose variables are those of x, without its rigid motions or with them; its weights.
     std::vector<double> solve_again(std::span<const double> theta, std::span<const double> x, bool with_rigid = false);
     void settle(std::vector<double>& x) const;
+    void count_motion(std::span<const double> displacement, std::span<const double> combination,
+                      std::span<double> x) const;
 
     const BodySystem& bodies_;
     std::shared_ptr<Engine> engine_;

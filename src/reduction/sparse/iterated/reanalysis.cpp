@@ -187,11 +187,16 @@ double Reanalysis::work_of_couplings(std::span<const double> x) const {
 }
 
 // sqrt of u^T K u and the work of the springs.
+// Returns the root of twice the energy, or of what rounding makes of no energy: parts that move as a whole have none.
 double Reanalysis::size_of(std::span<const double> theta, std::span<const double> x) const {
     std::vector<double> u = bodies_.lift(theta), force(u.size());
     bodies_.add_variables(x, u);
     multiply(bodies_.stiffness(), u, force);
-    return std::sqrt(std::abs(dot(u, force)) + work_of_couplings(x));
+    const std::span<const double> diagonal = system_.diagonal();
+    double restrained = 0.0;  // twice the energy if every variable moved alone
+    for (std::size_t i = 0; i < x.size(); ++i) restrained += diagonal[i] * x[i] * x[i];
+    return std::sqrt(
+        std::max(std::abs(dot(u, force)) + work_of_couplings(x), std::numeric_limits<double>::epsilon() * restrained));
 }
 
 // Estimates the jumps and forces of the missing correction A^-1 r. The preconditioner M is nearly A^-1, so that the
@@ -384,7 +389,7 @@ Reanalysis::Answer Reanalysis::solve(std::span<const double> theta, std::span<co
                                      std::vector<double>& x, const Forcing& forcing) {
     Answer answer;
     const std::vector<double> right = right_side(theta, row_force);
-    answer.balanced = floating_.balances(right);
+    answer.balanced = floating_.balances(theta, row_force);
     if (!answer.balanced) return answer;
     std::vector<double> image;  // A x at the start, where it is known
     if (x.size() != right.size())

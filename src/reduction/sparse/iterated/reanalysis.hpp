@@ -42,7 +42,10 @@ public:
 
     const JumpSystem& system() const override { return system_; }
     std::int64_t state_size() const override { return system_.count(); }
-    const Floating& floating() const { return floating_; }
+    const Floating& floating() const override { return floating_; }
+    void move(std::span<const double>, std::span<const double> combination, std::span<double> x) const override {
+        add_scaled(1.0, floating_.in_variables(combination), x);
+    }
     // g = T^T (f - K U theta)
     std::vector<double> load(std::span<const double> theta) const;
     std::int64_t factorisations() const override { return factorisations_; }

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evolution/contact/free_parts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "base/numbers.hpp"
+#include "body/element.hpp"
+#include "scene/carriers.hpp"
+#include "scene/pieces.hpp"
+
+namespace delam {
+
+namespace {
+
+// Points hold a part if they lie farther apart than this part of its size; fewer are left to the exact test.
+constexpr double apart = 1e-3;
+
+// Points at which two places hold each other in all directions: one, two, and in space three that span a plane.
+struct Hold {
+    std::array<std::array<double, 3>, 2> point{};
+    int count = 0;
+
+    // Takes in a point; true: the two places move as one.
+    bool add(std::span<const double> x, double size) {
+        std::array<double, 3> at{};
+        std::copy(x.begin(), x.end(), at.begin());
+        const auto from = [&](std::size_t k) {
+            std::array<double, 3> d{};
+            for (std::size_t i = 0; i < 3; ++i) d[i] = at[i] - point[k][i];
+            return d;
+        };
+        const auto length = [](const std::array<double, 3>& d) { return std::sqrt(dot(d, d)); };
+        const double least = apart * size;
+        if (count == 0 || (count == 1 && length(from(0)) > least)) {
+            if (count == 1 && x.size() == 2) return true;
+            point[index(count++)] = at;
+            return false;
+        }
+        if (count < 2) return false;
+        const std::array<double, 3> a = from(0), b = from(1);
+        const std::array<double, 3> across{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
+                                           a[0] * b[1] - a[1] * b[0]};
+        return length(across) > least * least;
+    }
+};
+
+class Components {
+public:
+    explicit Components(std::int64_t count) : root_(index(count)) { std::iota(root_.begin(), root_.end(), 0); }
+    std::int64_t of(std::int64_t i) {
+        while (root_[index(i)] != i) i = root_[index(i)] = root_[index(root_[index(i)])];
+        return i;
+    }
+    void join(std::int64_t a, std::int64_t b) { root_[index(std::max(of(a), of(b)))] = std::min(of(a), of(b)); }
+
+private:
+    std::vector<std::int64_t> root_;
+};
+
+}  // namespace
+
+FreeParts::FreeParts(const Problem& problem) : dimension_(problem.mesh->dimension()), motions_(problem) {
+    if (!any()) return;
+    const Mesh& mesh = *problem.mesh;
+    const Pieces& pieces = rigid_pieces(problem);
+    const auto dim = index(dimension_);
+    std::vector<std::int64_t> place(pieces.count(), 0);
+    std::vector<double> share(index(mesh.node_count()), 0.0);
+    size_.assign(1, 0.0);
+    for (std::size_t p = 0; p < pieces.count(); ++p) {
+        if (motions_.holds(p)) continue;
+        place[p] = places_++;
+        double size = 0.0;
+        for (const std::int64_t node : pieces.nodes[p])
+            for (std::size_t k = 0; k < dim; ++k)
+                size = std::max(size, std::abs(mesh.node(node)[k] - mesh.node(pieces.nodes[p].front())[k]));
+        size_.push_back(size);
+        // The nodes of a body without cells count alike.
+        if (mesh.host_body(pieces.body[p]))
+            for (const std::int64_t node : pieces.nodes[p]) share[index(node)] += 1.0;
+    }
+    std::vector<double> coordinates, gradients;
+    for (std::int64_t c = 0; c < mesh.cell_count(); ++c) {
+        const std::span<const std::int64_t> cell = mesh.cell(c);
+        const std::int64_t piece = pieces.of_node[index(cell.front())];
+        if (piece < 0 || place[index(piece)] == 0) continue;
+        coordinates.clear();
+        for (const std::int64_t node : cell)
+            coordinates.insert(coordinates.end(), mesh.node(node).begin(), mesh.node(node).end());
+        gradients.assign(coordinates.size(), 0.0);
+        const double volume = integrate_gradients(mesh.cell_type(c), coordinates, gradients);
+        for (const std::int64_t node : cell) share[index(node)] += volume / static_cast<double>(cell.size());
+    }
+    for (std::size_t node = 0; node < share.size(); ++node)
+        if (share[node] > 0.0) share_.emplace_back(static_cast<std::int64_t>(node), share[node]);
+
+    const Carriers carriers(problem);
+    const auto side = [&](std::int64_t node) -> std::int64_t {
+        const auto of = carriers.of(node);
+        std::int64_t found = -2;
+        for (const auto& [carrier, weight] : of) {
+            const std::int64_t piece = pieces.of_node[index(carrier)];
+            const std::int64_t own = piece < 0 ? -1 : place[index(piece)];
+            found = found == -2 || found == own ? own : -1;
+        }
+        return std::max<std::int64_t>(found, -1);
+    };
+    for (const InterfaceGeometry& face : mesh.interfaces())
+        for (std::size_t p = 0; p < face.node_a.size(); ++p) {
+            side_.emplace_back(side(face.node_a[p]), side(face.node_b[p]));
+            const auto at = mesh.node(face.node_b[p]);
+            place_.insert(place_.end(), at.begin(), at.end());
+        }
+}
+
+// True if pairs that hold in all directions join all pieces that could move to one, or to what supports hold. False: it
+// takes the exact test.
+bool FreeParts::connected(std::span<const std::uint8_t> active) const {
+    const auto dim = index(dimension_);
+    Components components(places_);
+    std::map<std::pair<std::int64_t, std::int64_t>, Hold> holds;
+    bool grounded = false;
+    for (std::size_t p = 0; p < side_.size(); ++p) {
+        const auto [a, b] = side_[p];
+        grounded = grounded || a == 0 || b == 0;
+        if (a < 0 || b < 0 || components.of(a) == components.of(b)) continue;
+        const auto rows = active.subspan(p * dim, dim);
+        if (std::any_of(rows.begin(), rows.end(), [](std::uint8_t on) { return on == 0; })) continue;
+        const double size = std::max(size_[index(a)], size_[index(b)]);
+        if (holds[std::minmax(a, b)].add(std::span<const double>(place_).subspan(p * dim, dim), size))
+            components.join(a, b);
+    }
+    const std::int64_t first = grounded ? 0 : 1;
+    for (std::int64_t place = first; place < places_; ++place)
+        if (components.of(place) != components.of(first)) return false;
+    return true;
+}
+
+DenseMatrix FreeParts::free(std::span<const std::uint8_t> active) const {
+    if (!any() || connected(active)) return DenseMatrix(motions_.jumps().columns, 0);
+    return split_motions(motions_.jumps(), active).free;
+}
+
+double FreeParts::product(std::span<const double> u, std::span<const double> v) const {
+    double sum = 0.0;
+    for (const auto& [node, share] : share_)
+        for (std::int64_t k = 0; k < dimension_; ++k)
+            sum += share * u[index(node * dimension_ + k)] * v[index(node * dimension_ + k)];
+    return sum;
+}
+
+}  // namespace delam

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Parts that nothing holds: neither adhesion, nor supports, nor contact that presses. Their rigid motions have no
+// energy. A free part keeps the place that it had: of all motions that avoid penetration, the one of least change,
+// int |u - u_before|^2 dV over the parts, whatever units or meshes are.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "reduction/dense/rigid_jumps.hpp"
+#include "scene/problem.hpp"
+
+namespace delam {
+
+class FreeParts {
+public:
+    explicit FreeParts(const Problem& problem);
+
+    // False: the supports hold every part by themselves.
+    bool any() const { return motions_.jumps().columns > 0; }
+    const RigidMotions& motions() const { return motions_; }
+    // Combinations of the motions that no active row resists, [motions][combinations]. active: [jump rows].
+    DenseMatrix free(std::span<const std::uint8_t> active) const;
+    // int u.v dV over the parts that move.
+    double product(std::span<const double> u, std::span<const double> v) const;
+
+private:
+    bool connected(std::span<const std::uint8_t> active) const;
+
+    std::int64_t dimension_;
+    RigidMotions motions_;
+    std::vector<std::pair<std::int64_t, double>> share_;  // of the volume: nodes of the parts that move
+    // Sides of each pair: places of pieces, 0 for all that supports hold, -1 for a node of several pieces or of none.
+    std::vector<std::pair<std::int64_t, std::int64_t>> side_;
+    std::vector<double> place_;  // [pairs][dimension]
+    std::vector<double> size_;   // [places] of the pieces, L
+    std::int64_t places_ = 1;
+};
+
+}  // namespace delam

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evolution/contact/loose_rows.hpp"
+
+#include <cmath>
+
+#include "base/numbers.hpp"
+
+namespace delam {
+
+namespace {
+
+// A motion that moves a row by less than this part of its largest jump does not move it.
+constexpr double not_moved = 1e-10;
+
+}  // namespace
+
+LooseRows::LooseRows(const ContactRows& contact, std::span<const std::uint8_t> closed, std::span<const double> force,
+                     std::uint8_t level, double least_force)
+    : contact_(contact) {
+    for (std::size_t i = 0; i < contact.row.size(); ++i)
+        if (closed[i] != 0 ? std::abs(force[contact.row[i]]) <= least_force : contact.on(i, level)) rows.push_back(i);
+}
+
+std::vector<std::uint8_t> LooseRows::active(std::span<const std::uint8_t> held, std::span<const double> spring) const {
+    std::vector<std::uint8_t> active(held.begin(), held.end());
+    for (const std::size_t i : rows) active[contact_.row[i]] = 0;
+    for (std::size_t r = 0; r < active.size(); ++r)
+        if (spring[r] != 0.0) active[r] = 1;
+    return active;
+}
+
+LeastMotion LooseRows::keep_apart(const DenseMatrix& gram, std::span<const double> pull, const DenseMatrix& jumps,
+                                  std::span<const double> jump, double least_jump) const {
+    DenseMatrix normals(static_cast<std::int64_t>(rows.size()), jumps.columns);
+    std::vector<double> gap;
+    for (const std::size_t i : rows) gap.push_back(jump[contact_.row[i]]);
+    for (std::int64_t c = 0; c < jumps.columns; ++c) {
+        const double rounding = not_moved * max_abs(column(jumps, c));
+        for (std::size_t k = 0; k < rows.size(); ++k)
+            if (const double n = jumps(static_cast<std::int64_t>(contact_.row[rows[k]]), c); std::abs(n) > rounding)
+                normals(static_cast<std::int64_t>(k), c) = n;
+    }
+    return least_motion(gram, pull, normals, gap, 0.5 * least_jump);
+}
+
+std::vector<std::size_t> LooseRows::settled(const LeastMotion& motion, std::vector<std::uint8_t>& closed,
+                                            std::span<const double> jump, std::span<double> force,
+                                            double least_jump) const {
+    std::vector<std::size_t> blocked;
+    for (const std::size_t k : motion.blocked) blocked.push_back(rows[k]);
+    if (!blocked.empty()) return blocked;
+    for (const std::size_t i : rows) {
+        const std::size_t r = contact_.row[i];
+        if (closed[i] == 0 || !(jump[r] > least_jump)) continue;
+        closed[i] = 0;
+        force[r] = 0.0;
+    }
+    return blocked;
+}
+
+}  // namespace delam

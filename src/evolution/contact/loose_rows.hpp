@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The contact rows that do not hold a part: open ones, and closed ones without a force.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "evolution/contact/active_set.hpp"
+#include "evolution/contact/least_motion.hpp"
+#include "linalg/dense/dense.hpp"
+
+namespace delam {
+
+class LooseRows {
+public:
+    // force: of all rows of the system; no force beyond least_force presses.
+    LooseRows(const ContactRows& contact, std::span<const std::uint8_t> closed, std::span<const double> force,
+              std::uint8_t level, double least_force);
+
+    // Positions in the contact rows.
+    std::vector<std::size_t> rows;
+
+    // Rows that hold, [rows of the system]: what is held, but for these rows, and what has a spring.
+    std::vector<std::uint8_t> active(std::span<const std::uint8_t> held, std::span<const double> spring) const;
+    // The least motion (least_motion.hpp) that keeps these rows apart. jumps: of the motions, [rows of the
+    // system][motions]; jump: before it.
+    LeastMotion keep_apart(const DenseMatrix& gram, std::span<const double> pull, const DenseMatrix& jumps,
+                           std::span<const double> jump, double least_jump) const;
+    // After that motion: opens closed rows that it has opened, whose force becomes zero. Returns the rows that block
+    // each other, as positions in the contact rows.
+    std::vector<std::size_t> settled(const LeastMotion& motion, std::vector<std::uint8_t>& closed,
+                                     std::span<const double> jump, std::span<double> force, double least_jump) const;
+
+private:
+    const ContactRows& contact_;
+};
+
+}  // namespace delam
