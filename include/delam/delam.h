@@ -1022,6 +1022,7 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  *   kkt_complementarity       -        largest |gap * force| of a closed contact over (largest jump * largest force)
  *   kkt_equilibrium           -        largest out-of-balance nodal force over the largest reaction or nodal force of
  *                                      eigenstrains
+ *   free_bodies               -        number of bodies of which nothing holds all motions (field free_since)
  * Values of the fronts of all interfaces with a law or, with :I appended (crack_length:0), of interface I:
  *   crack_length              L or L2  initially open part, plus sum of w (1 - zeta) over the pairs with initial
  *                                      adhesion > 0
@@ -1069,7 +1070,8 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  * the pair still adhered. Except with `variational`, the solver warns (log level 1) once of a value above 0.1.
  * The solver counts `newton_solves` and `debond_moves` where the minimisation is accelerated and no law has a gradient
  * term. With `reduction = iterated`, the solves are those of all bodies, or of those about the process zone alone. In
- * the displacement solves of `contact_fallbacks`, pairs had to be exchanged one at a time.
+ * the displacement solves of `contact_fallbacks`, an active set came back, and a descent from a state without
+ * penetration went on.
  * `search_margin` is >= 0 up to rounding. `search_gap` is a bound, because the search does not try every position of a
  * front. The states at the other positions have at least the energy of the accepted state minus this value (0: none of
  * them has less). The estimate assumes the mixities that the search has found, and outside the zone about each front
@@ -1154,6 +1156,10 @@ DELAM_API int32_t delam_solver_recorded(const delam_solver *solver, const char *
  *   mixity        [pairs][1]          -     the B = Y_t/Y that the last step used
  *   contact       [pairs][1]          -     1 if the pair is closed
  *   reaction      [constraints][1]    F     force that the testing machine exerts, positive along the constraint
+ *   free_since    [bodies][1]         -     step since which neither adhesion, supports nor contact hold all motions of
+ *                                           the body; -1: they are held
+ *   free_motion   [bodies][3 or 6]    -     1 where nothing holds a motion of the body: translation in x and y, rotation
+ *                                           (2D), or translations in x, y, z, rotations about x, y, z
  * An open pair has the traction zeta k [u] (and with `mixity_rule = variational` the traction that this rule adds). A
  * closed pair has the contact pressure as normal component, which is negative.
  * mixity is 0 where the law does not depend on it, unless the option `mixity` is `always`. With `mixity_rule = frozen`,

@@ -61,7 +61,7 @@ Found find(const Case& c, double allowed) {
     system.ask_for_energies(allowed);
     std::vector<std::uint8_t> closed(index(pairs), 0);
     for (std::size_t p = 0; p < closed.size(); p += 3) closed[p] = 1;
-    const ActiveSet set = find_active_set(system, system.contact_rows(), closed, steps, false);
+    const ActiveSet set = find_active_set(system, system.contact_rows(), closed, steps);
     ck_assert(set.settled);
     double energy = zone.energy_of(c.theta, system.unknowns());
     for (const Zone::Coupling& s : c.springs)

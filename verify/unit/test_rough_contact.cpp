@@ -48,7 +48,7 @@ public:
     double equilibrium_defect(std::span<const double> t, const Response& r) const override {
         return op_.equilibrium_defect(t, r);
     }
-    double force_size(const Response& r) const override { return op_.force_size(r); }
+    std::vector<double> row_stiffness() const override { return op_.row_stiffness(); }
     std::span<const std::uint8_t> prescribed_rows() const override { return op_.prescribed_rows(); }
     std::string description() const override { return op_.description(); }
 

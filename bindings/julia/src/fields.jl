@@ -13,7 +13,7 @@ A field of the step that `look!` has selected, otherwise of the pending state, o
 pending: one column per entry, or a vector of numbers.
 
 Over nodes: displacement. Cells: stress, rotation. Pairs of an interface, or of all one after another: jump, traction,
-adhesion, mixity, contact. Constraints: reaction.
+adhesion, mixity, contact. Constraints: reaction. Bodies: free_since, free_motion.
 """
 function field(solver::Solver, key, interface=nothing)
     part = from_zero(interface)

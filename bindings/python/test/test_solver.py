@@ -164,7 +164,8 @@ class Reading(unittest.TestCase):
         mesh, pairs = self.problem.mesh, self.problem.mesh.interfaces[0].pair_count
         for name, shape in (("displacement", (mesh.node_count, 2)), ("stress", (mesh.cell_count, 4)),
                             ("rotation", (mesh.cell_count,)), ("jump", (pairs, 2)), ("traction", (pairs, 2)),
-                            ("adhesion", (pairs,)), ("mixity", (pairs,)), ("contact", (pairs,)), ("reaction", (6,))):
+                            ("adhesion", (pairs,)), ("mixity", (pairs,)), ("contact", (pairs,)), ("reaction", (6,)),
+                            ("free_since", (2,)), ("free_motion", (2, 3))):
             field = self.solver.field(name)
             self.assertEqual((field.shape, field.dtype), (shape, np.float64), name)
             self.assertTrue(field.flags.owndata and field.flags.writeable)

@@ -59,7 +59,7 @@ struct ActiveSet {
 // Violations below this part of the largest jump or force are rounding of the solve.
 inline constexpr double contact_rounding = 1e-11;
 // Forces below this part of the forces of which they are the difference are rounding, too.
-inline constexpr double force_rounding = 4e-15;
+inline constexpr double force_rounding = 1e-13;
 
 // Answers of an iteration: error() is what the last one leaves open. rough(): a set cannot end with such an answer.
 // tighten(): the next ones leave less open; false: they cannot. guesses: so many sets may follow from signs that are in
@@ -159,11 +159,14 @@ concept EnergySystem = requires(S system, const std::vector<std::uint8_t>& close
 
 // Systems with parts that may float. settle() moves those that nothing holds, by as little as keeps their faces from
 // penetrating: its jumps are then those of the moved parts. Rows that are closed without a force do not hold a part;
-// where they open, settle() changes `closed`. Returns rows to close, because no motion keeps them apart.
+// where they open, settle() changes `closed`. Returns rows to close, because no motion keeps them apart. After a solve
+// that a dead force has left unbalanced, caught() returns open rows that stop the part which it moves; none: nothing
+// does.
 template <class S>
 concept FloatingSystem = requires(S system, const ContactRows& rows, std::vector<std::uint8_t>& closed,
                                   std::uint8_t level, const SolveError& least) {
     { system.settle(rows, closed, level, least) } -> std::same_as<std::vector<std::size_t>>;
+    { system.caught(rows, closed) } -> std::same_as<std::vector<std::size_t>>;
 };
 
 // The active set that cannot cycle (Nocedal, Wright, Numerical Optimization, 2nd ed., 16.5). A point without
@@ -208,11 +211,9 @@ private:
     bool one_at_a_time_ = false;
 };
 
-// closed: [contact rows], on entry the starting set, on return the contact set. Where a loaded part floats, contact may
-// hold it: with close_once the search begins once more with everything closed.
+// closed: [contact rows], on entry the starting set, on return the contact set.
 template <ContactSystem S>
-ActiveSet find_active_set(S& system, const ContactRows& rows, std::vector<std::uint8_t>& closed, std::int64_t limit,
-                          bool close_once) {
+ActiveSet find_active_set(S& system, const ContactRows& rows, std::vector<std::uint8_t>& closed, std::int64_t limit) {
     ActiveSet result;
     std::set<std::string> seen;  // contact sets, as bytes
     [[maybe_unused]] Curvature curvature;
@@ -222,11 +223,12 @@ ActiveSet find_active_set(S& system, const ContactRows& rows, std::vector<std::u
     while (true) {
         result.last = system.solve(closed);
         ++result.solves;
-        if (result.last == ContactSolve::unbalanced && close_once) {
-            close_once = false;
-            level = rows.least;
-            std::fill(closed.begin(), closed.end(), std::uint8_t{1});
-            continue;
+        if constexpr (FloatingSystem<S>) {
+            if (result.last == ContactSolve::unbalanced && result.solves < limit) {
+                const std::vector<std::size_t> caught = system.caught(rows, closed);
+                for (const std::size_t i : caught) closed[i] = 1;
+                if (!caught.empty()) continue;
+            }
         }
         if (result.last != ContactSolve::solved) return result;
         const SolveError open = left_open(system);

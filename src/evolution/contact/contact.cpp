@@ -2,6 +2,7 @@
 #include "evolution/contact/contact.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "base/error.hpp"
@@ -28,6 +29,38 @@ void refuse_pressed(const ContactScene& scene, std::span<const std::uint8_t> pre
                  " (normal jump ", response.jump[p * dim], " < 0)");
 }
 
+// Names the load that no contact set balances, and the motion along which it acts.
+[[noreturn]] void refuse_free_load(const ContactScene& scene, const Springs& springs, std::span<const double> theta) {
+    std::string load = "a dead force", parts = "a part";
+    if (scene.parts != nullptr) {
+        std::vector<std::uint8_t> active(springs.held);
+        for (std::size_t r = 0; r < active.size(); ++r)
+            if (springs.stiffness[r] > 0.0) active[r] = 1;
+        const FreeParts& known = *scene.parts;
+        const DenseMatrix free = known.free(active);
+        const DeadWork& dead = known.motions().dead_work();
+        double most = 0.0;
+        for (std::int64_t c = 0; c < free.columns; ++c) {
+            const auto combination = column(free, c);
+            if (dead.balances(theta, combination)) continue;
+            for (std::size_t p = 0; p < theta.size(); ++p) {
+                double work = 0.0;
+                for (std::size_t i = 0; i < combination.size(); ++i)
+                    work += theta[p] * dead.work(static_cast<std::int64_t>(p), static_cast<std::int64_t>(i)) *
+                            combination[i];
+                if (!(std::abs(work) > most)) continue;
+                most = std::abs(work);
+                load = text("the dead force of pattern '", known.pattern(p), "'");
+                DenseMatrix one(free.rows, 1);
+                std::copy(combination.begin(), combination.end(), one.value.begin());
+                parts = known.described(known.moves(one));
+            }
+        }
+    }
+    fail(DELAM_LIMIT, "no equilibrium: ", load, " acts on ", parts,
+         ", which neither adhesion, supports nor contact hold");
+}
+
 // The normal rows of all pairs that may close.
 ContactRows contact_rows(const ContactScene& scene, std::span<const std::uint8_t> prescribed, bool cold) {
     const auto dim = index(scene.dimension);
@@ -49,7 +82,7 @@ public:
     // cold: nothing is known of the set, and any row may change.
     OperatorSystem(JumpOperator& op, const ContactScene& scene, const ContactRows& rows, Springs springs,
                    std::span<const double> theta, Response& response, ContactResult& result, bool cold,
-                   const PlacesBefore* before)
+                   PlacesBefore* before)
         : op_(op),
           scene_(scene),
           rows_(rows),
@@ -71,22 +104,29 @@ public:
 
     ContactSolve solve(const std::vector<std::uint8_t>& closed) {
         for (std::size_t i = 0; i < closed.size(); ++i) springs_.held[rows_.row[i]] = closed[i];
+        jump_before_ = response_.jump;
         op_.solve(springs_, theta_, response_);
-        if (!response_.balanced) return ContactSolve::unbalanced;
+        if (!response_.balanced) {
+            response_.jump = jump_before_;
+            return ContactSolve::unbalanced;
+        }
         result_.linear_iterations += response_.iterations;
         if (!rough()) result_.linear_residual = std::max(result_.linear_residual, response_.residual);
         result_.converged = result_.converged && response_.converged;
         if (scene_.always) refuse_pressed(scene_, op_.prescribed_rows(), {}, response_, theta_);
         return ContactSolve::solved;
     }
+    const Springs& springs() const { return springs_; }
     std::span<const double> jump() const { return response_.jump; }
     std::span<const double> force() const { return response_.force; }
     double jump_floor() const { return scene_.jump_floor(theta_); }
     double force_floor() const {
-        return std::max(scene_.force_floor(theta_), force_rounding / contact_rounding * op_.force_size(response_));
+        return std::max(scene_.force_floor(theta_),
+                        scene_.rounding_of_forces(theta_, response_.jump) / contact_rounding);
     }
     std::vector<std::size_t> settle(const ContactRows& rows, std::vector<std::uint8_t>& closed, std::uint8_t level,
                                     const SolveError& least);
+    std::vector<std::size_t> caught(const ContactRows& rows, const std::vector<std::uint8_t>& closed) const;
     SolveError error() const { return response_.error; }
     bool rough() const { return accuracy_ == Accuracy::rough; }
     bool tighten() {
@@ -104,7 +144,8 @@ private:
     std::span<const double> theta_;
     Response& response_;
     ContactResult& result_;
-    const PlacesBefore* before_;
+    PlacesBefore* before_;
+    std::vector<double> jump_before_;  // the last solve; empty: there was none
     Accuracy accuracy_ = Accuracy::usual;
 };
 
@@ -120,30 +161,41 @@ std::vector<std::size_t> OperatorSystem::settle(const ContactRows& rows, std::ve
     const std::vector<double> now = op_.displacement(theta_, response_);
     std::vector<double> change(now.size(), 0.0);
     if (before_ != nullptr) {
-        if (!before_->response.jump.empty()) change = op_.displacement(before_->theta, before_->response);
+        if (!before_->displacement().empty()) change = before_->displacement();
         add_scaled(-1.0, now, change);
     }
-    std::vector<std::vector<double>> moved;
-    DenseMatrix gram(free.columns, free.columns);
+    const PlaceChanges places = parts.changes(free);
     std::vector<double> pull;
-    for (std::int64_t c = 0; c < free.columns; ++c) {
-        moved.push_back(parts.motions().displacement(column(free, c)));
-        pull.push_back(parts.product(moved.back(), change));
-        for (std::int64_t d = 0; d <= c; ++d) gram(c, d) = gram(d, c) = parts.product(moved[index(c)], moved[index(d)]);
-    }
+    for (const std::vector<double>& moved : places.moved) pull.push_back(parts.product(moved, change));
     const DenseMatrix jumps = multiply(parts.motions().jumps(), free);
-    const LeastMotion found = loose.keep_apart(gram, pull, jumps, response_.jump, least.jump);
+    const LeastMotion found = loose.keep_apart(places.gram, pull, jumps, response_.jump, least.jump);
     std::vector<double> combination(index(free.rows)), jump(index(jumps.rows)), displacement(now.size(), 0.0);
     multiply(free, found.motion, combination);
     multiply(jumps, found.motion, jump);
-    for (std::size_t c = 0; c < moved.size(); ++c) add_scaled(found.motion[c], moved[c], displacement);
+    for (std::size_t c = 0; c < places.moved.size(); ++c) add_scaled(found.motion[c], places.moved[c], displacement);
     op_.move(displacement, combination, jump, response_);
     return loose.settled(found, closed, response_.jump, response_.force, least.jump);
 }
 
+std::vector<std::size_t> OperatorSystem::caught(const ContactRows& rows,
+                                                const std::vector<std::uint8_t>& closed) const {
+    if (scene_.parts == nullptr) return {};
+    const FreeParts& parts = *scene_.parts;
+    const std::vector<double> none(springs_.stiffness.size(), 0.0);
+    // Closed rows hold, whatever their force.
+    LooseRows loose(rows, closed, none, rows.least, -1.0);
+    const DenseMatrix free = parts.free(loose.active(springs_.held, springs_.stiffness));
+    if (free.columns == 0) return {};
+    const DeadWork& dead = parts.motions().dead_work();
+    std::vector<double> work(index(free.rows)), pull(index(free.columns));
+    multiply_transposed(dead.work, theta_, work);
+    multiply_transposed(free, work, pull);
+    return loose.stopping(parts.changes(free).gram, pull, multiply(parts.motions().jumps(), free),
+                          response_.jump.empty() ? none : response_.jump);
+}
+
 // A response that is there already.
 struct ResponseSystem {
-    const JumpOperator& op;
     const ContactScene& scene;
     std::span<const double> theta;
     const Response& response;
@@ -153,21 +205,22 @@ struct ResponseSystem {
     std::span<const double> force() const { return response.force; }
     double jump_floor() const { return scene.jump_floor(theta); }
     double force_floor() const {
-        return std::max(scene.force_floor(theta), force_rounding / contact_rounding * op.force_size(response));
+        return std::max(scene.force_floor(theta), scene.rounding_of_forces(theta, response.jump) / contact_rounding);
     }
 };
 
 }  // namespace
 
-bool parts_float(const JumpOperator& op, const ContactScene& scene, std::span<const double> stiffness,
-                 std::span<const double> theta, std::span<const std::uint8_t> closed, const Response& response) {
-    if (scene.parts == nullptr) return false;
+DenseMatrix free_motions(const JumpOperator& op, const ContactScene& scene, std::span<const double> stiffness,
+                         std::span<const double> theta, std::span<const std::uint8_t> closed,
+                         const Response& response) {
+    if (scene.parts == nullptr) return {};
     const ContactRows rows = contact_rows(scene, op.prescribed_rows(), false);
     std::vector<std::uint8_t> set;
     for (const std::size_t row : rows.row) set.push_back(closed[row / index(scene.dimension)]);
-    const double least = least_of_contact(ResponseSystem{op, scene, theta, response}).force;
+    const double least = least_of_contact(ResponseSystem{scene, theta, response}).force;
     const LooseRows loose(rows, set, response.force, rows.least, least);
-    return scene.parts->free(loose.active(held_rows(scene, closed), stiffness)).columns > 0;
+    return scene.parts->free(loose.active(held_rows(scene, closed), stiffness));
 }
 
 std::vector<std::size_t> pairs_on_the_wrong_side(const JumpOperator& op, const ContactScene& scene,
@@ -178,9 +231,17 @@ std::vector<std::size_t> pairs_on_the_wrong_side(const JumpOperator& op, const C
     std::vector<std::uint8_t> set;
     for (const std::size_t row : rows.row) set.push_back(closed[row / dim]);
     std::vector<std::size_t> pairs;
-    for (const std::size_t i : contact_violators(ResponseSystem{op, scene, theta, response}, rows, set, rows.least))
+    for (const std::size_t i : contact_violators(ResponseSystem{scene, theta, response}, rows, set, rows.least))
         pairs.push_back(rows.row[i] / dim);
     return pairs;
+}
+
+double ContactScene::rounding_of_forces(std::span<const double> theta, std::span<const double> jump,
+                                        std::span<const std::int64_t> row_of) const {
+    double size = floor(carried_force, theta);
+    for (std::size_t r = 0; r < jump.size() && !row_stiffness.empty(); ++r)
+        size = std::max(size, row_stiffness[row_of.empty() ? r : index(row_of[r])] * std::abs(jump[r]));
+    return force_rounding * size;
 }
 
 std::vector<std::uint8_t> held_rows(const ContactScene& scene, std::span<const std::uint8_t> closed) {
@@ -194,7 +255,7 @@ std::vector<std::uint8_t> held_rows(const ContactScene& scene, std::span<const s
 
 ContactResult solve_contact(JumpOperator& op, const ContactScene& scene, std::span<const double> stiffness,
                             std::span<const double> theta, std::vector<std::uint8_t>& closed, Response& response,
-                            bool cold, std::span<const double> row_force, const PlacesBefore* before) {
+                            bool cold, std::span<const double> row_force, PlacesBefore* before) {
     const auto dim = index(scene.dimension);
     const ContactRows rows = contact_rows(scene, op.prescribed_rows(), cold);
     if (rows.first > rows.least) std::fill(closed.begin(), closed.end(), std::uint8_t{0});
@@ -205,13 +266,11 @@ ContactResult solve_contact(JumpOperator& op, const ContactScene& scene, std::sp
         op, scene, rows,
         {{stiffness.begin(), stiffness.end()}, held_rows(scene, closed), {row_force.begin(), row_force.end()}}, theta,
         response, result, cold, before);
-    const ActiveSet found = find_active_set(system, rows, set, scene.limit, true);
+    const ActiveSet found = find_active_set(system, rows, set, scene.limit);
     result.solves = found.solves;
     result.doubts = found.doubts;
     result.fallback = found.descended;
-    if (found.last != ContactSolve::solved)
-        fail(DELAM_LIMIT,
-             "no equilibrium: a dead force acts on a part that neither adhesion, supports nor contact hold");
+    if (found.last != ContactSolve::solved) refuse_free_load(scene, system.springs(), theta);
     result.converged = result.converged && found.settled;
     for (std::size_t i = 0; i < set.size(); ++i) closed[rows.row[i] / dim] = set[i];
     refuse_pressed(scene, op.prescribed_rows(), closed, response, theta);

@@ -23,10 +23,23 @@ struct ContactResult {
     bool fallback = false;  // the feasible descent was needed
 };
 
-// The state before a load step, whose places free parts keep.
-struct PlacesBefore {
-    std::span<const double> theta;
-    const Response& response;
+// The places of a state before a load step, which free parts keep.
+class PlacesBefore {
+public:
+    // All must outlive this object; a response without jumps: nothing has moved.
+    PlacesBefore(const JumpOperator& op, std::span<const double> theta, const Response& response)
+        : op_(op), theta_(theta), response_(response) {}
+    // Displacements [mesh DOFs], recovered when they are first asked for; empty: nothing has moved.
+    const std::vector<double>& displacement() {
+        if (displacement_.empty() && !response_.jump.empty()) displacement_ = op_.displacement(theta_, response_);
+        return displacement_;
+    }
+
+private:
+    const JumpOperator& op_;
+    std::span<const double> theta_;
+    const Response& response_;
+    std::vector<double> displacement_;
 };
 
 struct ContactScene {
@@ -44,12 +57,18 @@ struct ContactScene {
     std::vector<double> strain_jump{}, strain_force{};
     // Parts that may float; null: none. It outlives the scene.
     const FreeParts* parts = nullptr;
+    // The bodies' stiffness against each row [rows], and the forces K u of displacements that the patterns cause at
+    // factor 1 [patterns]: forces below force_rounding times these sizes are rounding. Empty: not known.
+    std::vector<double> row_stiffness{}, carried_force{};
     // True if the pair is neither bonded nor prescribed in its normal row. prescribed: [rows].
     bool may_close(std::size_t pair, std::span<const std::uint8_t> prescribed) const {
         return bonded[pair] == 0 && prescribed[pair * index(dimension)] == 0;
     }
     double jump_floor(std::span<const double> theta) const { return floor(strain_jump, theta); }
     double force_floor(std::span<const double> theta) const { return floor(strain_force, theta); }
+    // What rounding leaves of forces at these jumps, F. row_of: the row of each jump; empty: all rows.
+    double rounding_of_forces(std::span<const double> theta, std::span<const double> jump,
+                              std::span<const std::int64_t> row_of = {}) const;
 
 private:
     static double floor(std::span<const double> size, std::span<const double> theta) {
@@ -68,11 +87,12 @@ std::vector<std::uint8_t> held_rows(const ContactScene& scene, std::span<const s
 // faces into each other. before: null: free parts may be anywhere (only energies are asked for).
 ContactResult solve_contact(JumpOperator& op, const ContactScene& scene, std::span<const double> stiffness,
                             std::span<const double> theta, std::vector<std::uint8_t>& closed, Response& response,
-                            bool cold, std::span<const double> row_force = {}, const PlacesBefore* before = nullptr);
+                            bool cold, std::span<const double> row_force = {}, PlacesBefore* before = nullptr);
 
-// True if parts float in a response with these springs and this contact set.
-bool parts_float(const JumpOperator& op, const ContactScene& scene, std::span<const double> stiffness,
-                 std::span<const double> theta, std::span<const std::uint8_t> closed, const Response& response);
+// Rigid motions that nothing resists in a response with these springs and this contact set (FreeParts::free); no
+// columns: there are none.
+DenseMatrix free_motions(const JumpOperator& op, const ContactScene& scene, std::span<const double> stiffness,
+                         std::span<const double> theta, std::span<const std::uint8_t> closed, const Response& response);
 
 // Pairs that this response shows on the wrong side of contact, ascending; empty: the contact set is its own, as far as
 // rounding lets it be known.

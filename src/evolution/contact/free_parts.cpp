@@ -7,6 +7,7 @@
 #include <map>
 #include <numeric>
 
+#include "base/error.hpp"
 #include "base/numbers.hpp"
 #include "body/element.hpp"
 #include "scene/carriers.hpp"
@@ -18,6 +19,7 @@ namespace {
 
 // Points hold a part if they lie farther apart than this part of its size; fewer are left to the exact test.
 constexpr double apart = 1e-3;
+constexpr double still = 1e-6;  // a displacement below this part of the largest one of a motion is none
 
 // Points at which two places hold each other in all directions: one, two, and in space three that span a plane.
 struct Hold {
@@ -63,9 +65,12 @@ private:
 
 }  // namespace
 
-FreeParts::FreeParts(const Problem& problem) : dimension_(problem.mesh->dimension()), motions_(problem) {
-    if (!any()) return;
+FreeParts::FreeParts(const Problem& problem)
+    : dimension_(problem.mesh->dimension()), motions_(problem), body_(rigid_pieces(problem).body) {
     const Mesh& mesh = *problem.mesh;
+    for (std::int32_t b = 0; b < mesh.body_count(); ++b) label_.push_back(mesh.body_label(b));
+    for (const Pattern& pattern : problem.patterns) patterns_.push_back(pattern.name);
+    if (!any()) return;
     const Pieces& pieces = rigid_pieces(problem);
     const auto dim = index(dimension_);
     std::vector<std::int64_t> place(pieces.count(), 0);
@@ -143,6 +148,76 @@ bool FreeParts::connected(std::span<const std::uint8_t> active) const {
 DenseMatrix FreeParts::free(std::span<const std::uint8_t> active) const {
     if (!any() || connected(active)) return DenseMatrix(motions_.jumps().columns, 0);
     return split_motions(motions_.jumps(), active).free;
+}
+
+std::vector<std::uint8_t> FreeParts::moves(const DenseMatrix& free) const {
+    const auto dim = index(dimension_);
+    const std::size_t modes = dim == 2 ? 3 : 6;
+    std::vector<std::uint8_t> moves(label_.size() * modes, 0);
+    std::vector<DenseMatrix> motion(body_.size(), DenseMatrix(static_cast<std::int64_t>(modes), free.columns));
+    double largest = 0.0;
+    for (std::size_t p = 0; p < body_.size(); ++p)
+        for (std::int64_t c = 0; c < free.columns; ++c) {
+            const std::vector<double> own = motions_.of_piece(p, column(free, c));
+            std::copy(own.begin(), own.end(), column(motion[p], c).begin());
+            largest = std::max(largest, max_abs(own));
+        }
+    const auto mark = [&](std::size_t p, const DenseMatrix& own, std::size_t first, std::size_t last) {
+        for (std::int64_t c = 0; c < own.columns; ++c)
+            for (std::size_t m = first; m < last; ++m)
+                if (std::abs(own(static_cast<std::int64_t>(m), c)) > still * largest)
+                    moves[index(body_[p]) * modes + m] = 1;
+    };
+    for (std::size_t p = 0; p < body_.size(); ++p) {
+        mark(p, motion[p], dim, modes);
+        // Translations: the combinations of these motions without a rotation.
+        DenseMatrix turning(free.columns, free.columns);
+        for (std::size_t m = dim; m < modes; ++m)
+            for (std::int64_t c = 0; c < free.columns; ++c)
+                for (std::int64_t d = 0; d < free.columns; ++d)
+                    turning(c, d) +=
+                        motion[p](static_cast<std::int64_t>(m), c) * motion[p](static_cast<std::int64_t>(m), d);
+        const Eigen eigen = eigen_symmetric(std::move(turning));
+        DenseMatrix straight(free.columns, 0);
+        for (std::int64_t c = 0; c < free.columns && std::sqrt(std::max(0.0, eigen.value[index(c)])) <= still * largest;
+             ++c) {
+            const auto vector = column(eigen.vector, c);
+            straight.value.insert(straight.value.end(), vector.begin(), vector.end());
+            ++straight.columns;
+        }
+        mark(p, multiply(motion[p], straight), 0, dim);
+    }
+    return moves;
+}
+
+std::string FreeParts::described(std::span<const std::uint8_t> moves) const {
+    const std::size_t modes = dimension_ == 2 ? 3 : 6;
+    std::vector<std::uint8_t> all(modes, 0);
+    std::string bodies, ways;
+    std::size_t count = 0;
+    for (std::size_t b = 0; b < label_.size(); ++b) {
+        const auto own = moves.subspan(b * modes, modes);
+        if (std::all_of(own.begin(), own.end(), [](std::uint8_t m) { return m == 0; })) continue;
+        bodies += text(count++ == 0 ? "" : ", ", label_[b]);
+        for (std::size_t m = 0; m < modes; ++m) all[m] |= own[m];
+    }
+    const auto add = [&](const std::string& way) { ways += (ways.empty() ? "" : " and ") + way; };
+    std::string axes;
+    for (std::size_t k = 0; k < index(dimension_); ++k)
+        if (all[k] != 0) axes += (axes.empty() ? "" : ", ") + std::string(1, "xyz"[k]);
+    if (!axes.empty()) add("move in " + axes);
+    if (std::any_of(all.begin() + dimension_, all.end(), [](std::uint8_t m) { return m != 0; })) add("turn");
+    return text("bodies ", bodies, " (free to ", ways, ")");
+}
+
+PlaceChanges FreeParts::changes(const DenseMatrix& free) const {
+    PlaceChanges changes{{}, DenseMatrix(free.columns, free.columns)};
+    for (std::int64_t c = 0; c < free.columns; ++c) {
+        changes.moved.push_back(motions_.displacement(column(free, c)));
+        for (std::int64_t d = 0; d <= c; ++d)
+            changes.gram(c, d) = changes.gram(d, c) = product(changes.moved.back(), changes.moved[index(d)]);
+    }
+    return changes;
 }
 
 double FreeParts::product(std::span<const double> u, std::span<const double> v) const {

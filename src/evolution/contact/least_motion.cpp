@@ -120,6 +120,8 @@ LeastMotion least_motion(const DenseMatrix& gram, std::span<const double> pull, 
     solve_lower_transposed(lower, b);
     result.motion = std::move(b);
     std::sort(result.blocked.begin(), result.blocked.end());
+    result.touched = std::move(active);
+    std::sort(result.touched.begin(), result.touched.end());
     return result;
 }
 

@@ -20,6 +20,8 @@ struct LeastMotion {
     std::vector<double> motion;  // a; where rows block each other, the last one tried
     // Rows that no motion keeps apart together; empty: the motion keeps all rows apart.
     std::vector<std::size_t> blocked;
+    // Rows that the motion touches and that hold it there.
+    std::vector<std::size_t> touched;
 };
 
 // gram: G, positive definite. normals: [rows][motions]; gap: [rows]. slack: a row may be left violated by so much.

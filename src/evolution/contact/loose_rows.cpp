@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "evolution/contact/loose_rows.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/numbers.hpp"
 
@@ -11,6 +13,7 @@ namespace {
 
 // A motion that moves a row by less than this part of its largest jump does not move it.
 constexpr double not_moved = 1e-10;
+constexpr double farther = 1e3;  // than all gaps: what stops a part before stops it for ever
 
 }  // namespace
 
@@ -41,6 +44,26 @@ LeastMotion LooseRows::keep_apart(const DenseMatrix& gram, std::span<const doubl
                 normals(static_cast<std::int64_t>(k), c) = n;
     }
     return least_motion(gram, pull, normals, gap, 0.5 * least_jump);
+}
+
+std::vector<std::size_t> LooseRows::stopping(const DenseMatrix& gram, std::span<const double> pull,
+                                             const DenseMatrix& jumps, std::span<const double> jump) const {
+    DenseMatrix factor = gram;
+    std::vector<double> far(pull.begin(), pull.end()), moved(index(jumps.rows));
+    if (!factor_definite(factor)) return {};
+    solve_lower(factor, far);
+    solve_lower_transposed(factor, far);
+    multiply(jumps, far, moved);
+    const double size = max_abs(jump), distance = size > 0.0 ? farther * size : 1.0;
+    std::vector<double> along(pull.begin(), pull.end());
+    for (double& p : along) p *= distance / std::max(max_abs(moved), std::numeric_limits<double>::min());
+    const LeastMotion found = keep_apart(gram, along, jumps, jump, 0.0);
+    std::vector<std::size_t> stops;
+    for (const std::size_t k : found.touched) stops.push_back(rows[k]);
+    for (const std::size_t k : found.blocked) stops.push_back(rows[k]);
+    std::sort(stops.begin(), stops.end());
+    stops.erase(std::unique(stops.begin(), stops.end()), stops.end());
+    return stops;
 }
 
 std::vector<std::size_t> LooseRows::settled(const LeastMotion& motion, std::vector<std::uint8_t>& closed,

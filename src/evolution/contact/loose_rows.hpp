@@ -27,6 +27,10 @@ public:
     // system][motions]; jump: before it.
     LeastMotion keep_apart(const DenseMatrix& gram, std::span<const double> pull, const DenseMatrix& jumps,
                            std::span<const double> jump, double least_jump) const;
+    // The open rows that stop a motion along `pull`, however far it goes, as positions in the contact rows. jump:
+    // before.
+    std::vector<std::size_t> stopping(const DenseMatrix& gram, std::span<const double> pull, const DenseMatrix& jumps,
+                                      std::span<const double> jump) const;
     // After that motion: opens closed rows that it has opened, whose force becomes zero. Returns the rows that block
     // each other, as positions in the contact rows.
     std::vector<std::size_t> settled(const LeastMotion& motion, std::vector<std::uint8_t>& closed,

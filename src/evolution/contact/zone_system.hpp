@@ -53,10 +53,12 @@ public:
     double jump_floor() const { return scene_.jump_floor(theta_); }
     double force_floor() const {
         return std::max(scene_.force_floor(theta_),
-                        force_rounding / contact_rounding * zone_.force_size(solution_.unknowns));
+                        scene_.rounding_of_forces(theta_, jump_, zone_.jump_rows()) / contact_rounding);
     }
     // Jumps of the rows of the whole scene, near which free parts stay.
     void stay_near(std::span<const double> jump);
+    // The operator has to tell what stops a part.
+    std::vector<std::size_t> caught(const ContactRows&, const std::vector<std::uint8_t>&) const { return {}; }
     std::vector<std::size_t> settle(const ContactRows& rows, std::vector<std::uint8_t>& closed, std::uint8_t level,
                                     const SolveError& least);
     bool softens() const;

@@ -143,6 +143,8 @@ struct State {
     StepHistory history;
     JumpWithin jump_within;
     Sensitivity sensitivity;
+    // [bodies] the step since which nothing holds all of a body's motions; negative: something does.
+    std::vector<std::int64_t> free_since;
 };
 
 }  // namespace delam

@@ -110,7 +110,9 @@ inline constexpr auto saved_fields<State> = std::tuple_cat(
     saved_since(11,
         any_size(&State::search_energies)),
     saved_since(unsaved,  // followed from the initial state on
-        &State::sensitivity));
+        &State::sensitivity),
+    saved_since(12,
+        &State::free_since));
 // clang-format on
 
 static_assert(complete<Response>(saved_fields<Response>) && complete<Ledger>(saved_fields<Ledger>) &&

@@ -60,9 +60,8 @@ private:
 bool Minimiser::displace(State& state, const Increment& increment, bool cold) const {
     const auto solve = [&](std::span<const double> stiffness, std::span<const double> row_force,
                            std::vector<std::uint8_t>& closed, Response& response) {
-        const PlacesBefore places{increment.before().theta, increment.before().response};
         const ContactResult result =
-            solve_contact(op, contact, stiffness, state.theta, closed, response, cold, row_force, &places);
+            solve_contact(op, contact, stiffness, state.theta, closed, response, cold, row_force, places);
         Effort one;
         one.displacement_solves = 1;
         one.contact_iterations = one.contact_iterations_first = one.contact_iterations_max = result.solves;

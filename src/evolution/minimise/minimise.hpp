@@ -21,8 +21,9 @@ struct Minimiser {
     const ContactScene& contact;
     Monitor& monitor;
     const Limits& limits;
-    double tolerance;    // of the tractions (Increment::change)
-    std::int64_t limit;  // of alternations
+    double tolerance;      // of the tractions (Increment::change)
+    std::int64_t limit;    // of alternations
+    PlacesBefore* places;  // of the state before the load step
 
     // Displacements and contact at the state's adhesion and theta; effort is added up. cold: the contact set at hand
     // says nothing. False: a limit of the linear or contact iteration was met.

@@ -188,8 +188,7 @@ bool Descent::minimise(const Point& at, std::span<const double> adhesion, double
                        Point& out) {
     model(at, adhesion, fraction, debonded);
     std::vector<std::uint8_t> closed = closed_;
-    const ActiveSet found =
-        find_active_set(system_, system_.contact_rows(), closed, limits_.newton_contact_steps, false);
+    const ActiveSet found = find_active_set(system_, system_.contact_rows(), closed, limits_.newton_contact_steps);
     state_.effort.newton_solves += found.solves;
     indefinite_ = found.last == ContactSolve::failed;
     if (!found.settled) return false;

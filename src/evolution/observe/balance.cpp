@@ -39,6 +39,10 @@ double strained(const Problem& problem, std::span<const double> displacement) {
 
 }  // namespace
 
+bool without_strain(const Problem& problem, std::span<const double> displacement) {
+    return strained(problem, displacement) <= rigid * max_abs(displacement);
+}
+
 double largest_reaction(const JumpOperator& op, const State& state, double force_floor) {
     return std::max(force_floor, max_abs(op.reaction(state.theta, state.response)));
 }
@@ -51,7 +55,7 @@ double out_of_balance(const Problem& problem, const JumpOperator& op, const Stat
     if (op.rounding_energy(state.theta, state.response) <= doubtful * energies) return 0.0;
     const std::vector<double> displacement = op.displacement(state.theta, state.response);
     const double motion = max_abs(displacement);
-    if (strained(problem, displacement) <= rigid * motion) return 0.0;
+    if (without_strain(problem, displacement)) return 0.0;
     const double left = op.equilibrium_defect(state.theta, state.response);
     const double reaction = largest_reaction(op, state, force_floor);
     return std::min(left / std::max(reaction, tiny), left * motion / std::max(energies, tiny));

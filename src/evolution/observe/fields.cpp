@@ -43,9 +43,12 @@ FieldShape field_shape(const Observer& observer, const std::string& key, std::in
     if (key == "displacement") return {mesh.node_count(), dim};
     if (key == "stress") return {mesh.cell_count(), dim == 2 ? 4 : 6};
     if (key == "rotation") return {mesh.cell_count(), dim == 2 ? 1 : 3};
+    if (key == "free_since") return {mesh.body_count(), 1};
+    if (key == "free_motion") return {mesh.body_count(), dim == 2 ? 3 : 6};
     if (key == "reaction") return {static_cast<std::int64_t>(observer.problem().constraints.size()), 1};
     fail(DELAM_ERROR_ARGUMENT, "unknown field '", key,
-         "'; known: displacement, stress, rotation, jump, traction, adhesion, mixity, contact, reaction");
+         "'; known: displacement, stress, rotation, jump, traction, adhesion, mixity, contact, reaction, free_since, "
+         "free_motion");
 }
 
 std::vector<double> field(Observer& observer, const std::string& key, std::int64_t part) {
@@ -56,6 +59,12 @@ std::vector<double> field(Observer& observer, const std::string& key, std::int64
     if (key == "reaction") return observer.reaction();
     if (key == "stress") return observer.stress();
     if (key == "rotation") return centre_rotation(*problem.mesh, observer.displacement());
+    if (key == "free_since") {
+        std::vector<double> since(index(shape.rows), -1.0);
+        for (std::size_t b = 0; b < state.free_since.size(); ++b) since[b] = static_cast<double>(state.free_since[b]);
+        return since;
+    }
+    if (key == "free_motion") return observer.free_motions();
     const auto first = index(pair_range(observer, part).first);
     const auto columns = index(shape.columns);
     const std::size_t count = index(shape.rows) * columns, begin = first * columns;

@@ -60,6 +60,17 @@ std::vector<Strain> Observer::eigenstrains() const {
     return strains;
 }
 
+std::vector<double> Observer::free_motions() const {
+    const std::int64_t modes = problem_.mesh->dimension() == 2 ? 3 : 6;
+    std::vector<double> out(index(problem_.mesh->body_count() * modes), 0.0);
+    if (contact_.parts == nullptr) return out;
+    const DenseMatrix free = delam::free_motions(op_, contact_, spring_stiffness(pairs_, state().adhesion),
+                                                 state().theta, state().closed, state().response);
+    const std::vector<std::uint8_t> moves = contact_.parts->moves(free);
+    std::copy(moves.begin(), moves.end(), out.begin());
+    return out;
+}
+
 std::vector<double> Observer::stress() {
     const Mesh& mesh = *problem_.mesh;
     std::vector<double> stress = centre_stress(mesh, models(), displacement(), eigenstrains());
@@ -111,7 +122,8 @@ bool Observer::recover_in_engine() {
     return true;
 }
 
-double Observer::equilibrium_defect(const State& state) const {
+double Observer::equilibrium_defect(const State& state) {
+    if (without_strain(problem_, displacement(state))) return 0.0;
     const double reaction = largest_reaction(op_, state, contact_.force_floor(state.theta));
     const double defect = op_.equilibrium_defect(state.theta, state.response);
     return reaction > 0.0 ? defect / reaction : defect;

@@ -53,8 +53,10 @@ public:
     std::int64_t recoveries() const { return recoveries_; }
     // Reactions of the constraints, [constraints].
     std::vector<double> reaction() const { return op_.reaction(state().theta, state().response); }
+    // 1 where nothing holds a motion of a body (FreeParts::moves), else 0.
+    std::vector<double> free_motions() const;
     // Out-of-balance force over the largest reaction.
-    double equilibrium_defect(const State& state) const;
+    double equilibrium_defect(const State& state);
     // Returns the stress at the centres of the cells (centre_stress); NaN for bodies with a stiffness of the host and
     // no material.
     std::vector<double> stress();

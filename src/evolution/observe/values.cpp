@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <variant>
 
@@ -86,8 +87,11 @@ std::vector<double> gaps(const Reading& r) {
 double ratio(double a, double b) { return b > 0.0 ? a / b : a; }
 
 double kkt_gap(const Reading& r) {
+    // Gaps are differences of displacements.
+    const double rounding =
+        4.0 * std::numeric_limits<double>::epsilon() * max_abs(r.observer().displacement(r.state()));
     double deepest = 0.0;
-    for (const double gap : gaps(r)) deepest = std::max(deepest, -gap);
+    for (const double gap : gaps(r)) deepest = -gap > rounding ? std::max(deepest, -gap) : deepest;
     return ratio(deepest, max_abs(r.state().response.jump));
 }
 
@@ -95,20 +99,28 @@ bool in_contact(const Reading& r, std::size_t pair) {
     return r.observer().contact().bonded[pair] == 0 && r.state().closed[pair] != 0;
 }
 
+// Normal forces of the pairs in contact, [pairs]; 0 for the others, and where they are rounding.
+std::vector<double> contact_forces(const Reading& r) {
+    const Response& response = r.state().response;
+    const double rounding = r.observer().contact().rounding_of_forces(r.state().theta, response.jump);
+    std::vector<double> forces(r.state().closed.size(), 0.0);
+    for (std::size_t p = 0; p < forces.size(); ++p)
+        if (const double f = response.force[p * r.dimension()]; in_contact(r, p) && std::abs(f) > rounding)
+            forces[p] = f;
+    return forces;
+}
+
 double kkt_pressure(const Reading& r) {
-    const std::vector<double>& force = r.state().response.force;
     double pull = 0.0;
-    for (std::size_t p = 0; p < r.state().closed.size(); ++p)
-        if (in_contact(r, p)) pull = std::max(pull, force[p * r.dimension()]);
-    return ratio(pull, max_abs(force));
+    for (const double f : contact_forces(r)) pull = std::max(pull, f);
+    return ratio(pull, max_abs(r.state().response.force));
 }
 
 double kkt_complementarity(const Reading& r) {
     const Response& response = r.state().response;
-    const std::vector<double> gap = gaps(r);
+    const std::vector<double> gap = gaps(r), force = contact_forces(r);
     double product = 0.0;
-    for (std::size_t p = 0; p < r.state().closed.size(); ++p)
-        if (in_contact(r, p)) product = std::max(product, std::abs(gap[p] * response.force[p * r.dimension()]));
+    for (std::size_t p = 0; p < force.size(); ++p) product = std::max(product, std::abs(gap[p] * force[p]));
     return ratio(product, max_abs(response.jump) * max_abs(response.force));
 }
 
@@ -292,6 +304,11 @@ constexpr Row table[] = {
     recovered_row("kkt_equilibrium", "-",
                   "largest out-of-balance nodal force over the largest reaction or nodal force of eigenstrains",
                   [](const Reading& r) { return r.observer().equilibrium_defect(r.state()); }),
+    row("free_bodies", "-", "bodies of which nothing holds all motions: neither adhesion, supports nor contact",
+        [](const State& s) {
+            return count(
+                std::count_if(s.free_since.begin(), s.free_since.end(), [](std::int64_t k) { return k >= 0; }));
+        }),
     front_row("crack_length", "L or L2", "initially open length or area plus the advance of its fronts",
               [](const Reading& r, std::int64_t i) { return over_interfaces(r, i, crack_length); }),
     front_row("energy_release_rate", "F/L", "largest energy release rate of a front point; 0: there is no front",

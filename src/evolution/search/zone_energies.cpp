@@ -147,8 +147,7 @@ std::optional<double> ZoneEnergies::zone_energy(std::span<const double> adhesion
     }
     system_->load(std::move(couplings), {});
     std::vector<std::uint8_t> closed = start_of_contact(adhesion);
-    if (!find_active_set(*system_, system_->contact_rows(), closed, energy_contact_steps, false).settled)
-        return std::nullopt;
+    if (!find_active_set(*system_, system_->contact_rows(), closed, energy_contact_steps).settled) return std::nullopt;
     remember(adhesion, closed);
     double energy = system_->doubt().above + system_->zone().energy_of(system_->theta(), system_->unknowns());
     const std::span<const double> jump = system_->jump();

@@ -35,7 +35,7 @@ std::optional<EnergyBounds> reduced_bounds(const PairLaws& pairs, const State& b
 }
 
 Lift::Lift(JumpOperator& op, std::span<const std::uint8_t> bonded_rows, std::span<const BoundRow> bound,
-           std::size_t patterns)
+           std::size_t patterns, const Take& take)
     : a_(static_cast<std::int64_t>(patterns), static_cast<std::int64_t>(patterns)) {
     const std::size_t rows = bonded_rows.size();
     std::vector<std::uint8_t> moving(op.prescribed_rows().begin(), op.prescribed_rows().end());
@@ -65,6 +65,7 @@ Lift::Lift(JumpOperator& op, std::span<const std::uint8_t> bonded_rows, std::spa
         if (!response.balanced)
             fail(DELAM_ERROR_PROBLEM,
                  "a dead force acts on a part that no support holds even when all interfaces are bonded");
+        if (take) take(unit, response);
         for (std::size_t q = 0; q < patterns; ++q)
             a_(static_cast<std::int64_t>(q), static_cast<std::int64_t>(p)) = response.conjugate[q];
         for (std::size_t i = 0; i < prescribed_.size(); ++i) jump_[i][p] = response.jump[prescribed_[i]];

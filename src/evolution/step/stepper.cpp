@@ -107,7 +107,8 @@ Stepper::Stepper(const Problem& problem, Monitor& monitor) : problem_(problem), 
     operator_ = build_operator(design_, problem_, monitor_);
     std::vector<std::uint8_t> bonded_rows;
     for (const std::uint8_t b : contact_.bonded) bonded_rows.insert(bonded_rows.end(), index(mesh.dimension()), b);
-    lift_ = Lift(*operator_, bonded_rows, design_.bound, problem_.patterns.size());
+    lift_ = Lift(*operator_, bonded_rows, design_.bound, problem_.patterns.size(),
+                 [this](std::span<const double> theta, const Response& response) { note_carried(theta, response); });
     const double largest = max_abs(problem_.prescribed_matrix());
     for (const std::size_t row : lift_.driven_rows(1e-9 * largest)) {
         const std::size_t pair = row / index(mesh.dimension());
@@ -117,9 +118,33 @@ Stepper::Stepper(const Problem& problem, Monitor& monitor) : problem_(problem), 
     }
 }
 
+// The forces that the displacements of a pattern take at the pairs, were each row to follow them alone.
+void Stepper::note_carried(std::span<const double> theta, const Response& response) {
+    const auto dim = index(contact_.dimension);
+    if (contact_.row_stiffness.empty()) contact_.row_stiffness = operator_->row_stiffness();
+    double size = 0.0;
+    if (contact_.parts != nullptr) {
+        const std::vector<double> u = operator_->displacement(theta, response);
+        std::size_t pair = 0;
+        for (const InterfaceGeometry& face : problem_.mesh->interfaces())
+            for (const std::int64_t node : face.node_b) {
+                const double moved = max_abs(std::span<const double>(u).subspan(index(node) * dim, dim));
+                const auto rows = std::span<const double>(contact_.row_stiffness).subspan(pair++ * dim, dim);
+                size = std::max(size, moved * max_abs(rows));
+            }
+    }
+    contact_.carried_force.push_back(size);
+}
+
 Minimiser Stepper::minimiser() {
     const Options& options = problem_.options;
-    return {*operator_, contact_, monitor_, options.limits, options.damage_tolerance, options.minimisation_limit};
+    return {*operator_,
+            contact_,
+            monitor_,
+            options.limits,
+            options.damage_tolerance,
+            options.minimisation_limit,
+            places_ ? &*places_ : nullptr};
 }
 
 std::unique_ptr<StepRule> Stepper::increment(const State& before, std::span<const double> mixity) const {
@@ -136,7 +161,10 @@ Stepper::Result Stepper::initial(double time) {
     for (std::size_t p = 0; p < state.adhesion.size(); ++p)
         state.closed.push_back(state.adhesion[p] == 0.0 && contact_.may_close(p, operator_->prescribed_rows()) ? 1 : 0);
     state.mixity.assign(state.adhesion.size(), 0.0);
+    const Response none;
+    places_.emplace(*operator_, state.theta, none);
     result.converged = minimiser().displace(state, *increment(state, state.mixity));
+    places_.reset();
     state.mixity = mixities(pairs_, state.response.jump, state.mixity);
     state.mixity_before = state.mixity;
     state.loaded = any_jump(pairs_, state.response.jump) ? 1 : 0;
@@ -144,6 +172,7 @@ Stepper::Result Stepper::initial(double time) {
     state.ledger.initial = state.ledger.energy();
     state.ledger.initial_linear = state.ledger.energy_linear();
     state.memory = operator_->memory();
+    note_free(state, {});
     return result;
 }
 
@@ -170,6 +199,21 @@ double Stepper::largest_loss(const StepRule& step, const State& next) const {
 // pair abruptly, the part of the work that is neither stored nor dissipated is released, into a motion that a
 // quasi-static model does not have. A step that was followed in parts knows when they happen, and records the work of
 // the load between them (within_step.hpp).
+void Stepper::note_free(State& next, const State& before) const {
+    next.free_since.assign(index(problem_.mesh->body_count()), -1);
+    const DenseMatrix free = free_motions(*operator_, contact_, spring_stiffness(pairs_, next.adhesion), next.theta,
+                                          next.closed, next.response);
+    if (free.columns == 0) return;
+    const std::vector<std::uint8_t> moves = parts_->moves(free);
+    const std::size_t modes = moves.size() / next.free_since.size();
+    for (std::size_t b = 0; b < next.free_since.size(); ++b) {
+        const auto own = std::span<const std::uint8_t>(moves).subspan(b * modes, modes);
+        if (std::all_of(own.begin(), own.end(), [](std::uint8_t m) { return m == 0; })) continue;
+        const bool was = b < before.free_since.size() && before.free_since[b] >= 0;
+        next.free_since[b] = was ? before.free_since[b] : next.step;
+    }
+}
+
 void Stepper::record_step(State& next, const StepRule& step, const InnerPath* path) const {
     step.record_ledger(next, path != nullptr ? &path->dissipated() : nullptr);
     const State& before = step.before();
@@ -264,8 +308,9 @@ bool Stepper::displaced_in_proportion(State& next, const State& before) const {
     const std::optional<double> a = load_ratio(before.theta, next.theta);
     if (!a || !operator_->traits().proportional || before.response.jump.empty() ||
         !pairs_on_the_wrong_side(*operator_, contact_, before.theta, before.closed, before.response).empty() ||
-        parts_float(*operator_, contact_, spring_stiffness(pairs_, before.adhesion), before.theta, before.closed,
-                    before.response))
+        free_motions(*operator_, contact_, spring_stiffness(pairs_, before.adhesion), before.theta, before.closed,
+                     before.response)
+                .columns > 0)
         return false;
     const double grown = 1.0 / *a;
     Response& response = next.response;
@@ -295,6 +340,7 @@ bool Stepper::start(State& next, const State& before, double time) {
 }
 
 Stepper::Result Stepper::step(const State& before, double time, std::span<const Start> also) {
+    places_.emplace(*operator_, before.theta, before.response);
     State first;
     const bool converged = start(first, before, time);
     const std::unique_ptr<StepRule> step = increment(before, first.mixity);
@@ -317,6 +363,8 @@ Stepper::Result Stepper::step(const State& before, double time, std::span<const 
         keep_lower(best, std::move(other), *step, from.descends && later ? &dissipated : nullptr);
     }
     if (problem_.options.solution == "energetic") search(best, *step);
+    note_free(best.state, before);
+    places_.reset();
     if (before.sensitivity.known())
         best.state.sensitivity = sensitivity(Linearised(*operator_, pairs_, contact_, best.state), followed_,
                                              problem_.patterns, increment(before, best.state.mixity).get());
@@ -482,12 +530,15 @@ Stepper::Result Stepper::equilibrate(const State& before, double time, std::span
         if (!(next.adhesion[p] >= 0.0 && next.adhesion[p] <= 1.0))
             fail(DELAM_ERROR_ARGUMENT, "adhesion of pair ", p, " is ", next.adhesion[p], ", allowed: 0 to 1");
     const std::unique_ptr<StepRule> still = increment(before, next.mixity);
+    places_.emplace(*operator_, before.theta, before.response);
     result.converged = minimiser().displace(next, *still);
+    places_.reset();
     next.mixity = still->shown(next.response.jump, std::move(next.mixity));
     record_energies(pairs_, next);
     next.ledger.initial += next.ledger.energy() - before.ledger.energy();
     next.ledger.initial_linear += next.ledger.energy_linear() - before.ledger.energy_linear();
     next.memory = operator_->memory();
+    note_free(next, before);
     return result;
 }
 

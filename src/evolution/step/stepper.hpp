@@ -82,6 +82,8 @@ public:
 
 private:
     Minimiser minimiser();
+    // Adds a pattern to ContactScene::carried_force.
+    void note_carried(std::span<const double> theta, const Response& response);
     void begin(State& next, const State& before, double time);
     std::unique_ptr<StepRule> increment(const State& before, std::span<const double> mixity) const;
     // The state from which the minimisations of a step begin; false: its elastic displacements reached a limit.
@@ -95,6 +97,8 @@ private:
     void refuse_runaway(const State& state, const StepRule& step);
     // The largest part of its toughness that a pair loses in a step.
     double largest_loss(const StepRule& step, const State& next) const;
+    // Finds the bodies that nothing holds.
+    void note_free(State& next, const State& before) const;
     void record_step(State& next, const StepRule& step, const InnerPath* path = nullptr) const;
     void keep_lower(Result& best, State other, const StepRule& step, const Dissipation* begun = nullptr);
     // Result of continue_fronts(), which is needed where the dissipated energy depends on the path: how far fronts run
@@ -116,6 +120,7 @@ private:
     std::vector<FollowedParameter> followed_;
     PairLaws pairs_;
     std::unique_ptr<const FreeParts> parts_;
+    std::optional<PlacesBefore> places_;  // of the state before the present step
     ContactScene contact_;
     std::optional<MixityRule> rule_;  // set together with the pairs
     PairGraph graph_;

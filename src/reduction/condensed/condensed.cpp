@@ -398,12 +398,11 @@ double Condensed::rounding_energy(std::span<const double> theta, const Response&
     return std::numeric_limits<double>::epsilon() * sum + bulk_->rounding_energy(theta);
 }
 
-double Condensed::force_size(const Response& response) const {
-    const std::vector<double> x = unknowns_of(response);
-    double size = 0.0;
-    for (std::size_t i = 0; i < x.size(); ++i)
-        size = std::max(size, bulk_->diagonal(static_cast<std::int64_t>(i)) * std::abs(x[i]));
-    return size;
+std::vector<double> Condensed::row_stiffness() const {
+    std::vector<double> stiffness(bulk_->rows().size(), 0.0);
+    for (std::int64_t i = 0; i < bulk_->unknowns(); ++i)
+        stiffness[index(bulk_->row_of_unknown()[index(i)])] = bulk_->diagonal(i);
+    return stiffness;
 }
 
 std::string Condensed::description_of(const Bulk& bulk) {

@@ -25,7 +25,7 @@ public:
     std::vector<double> reaction(std::span<const double> theta, const Response& response) const override;
     double equilibrium_defect(std::span<const double> theta, const Response& response) const override;
     double rounding_energy(std::span<const double> theta, const Response& response) const override;
-    double force_size(const Response& response) const override;
+    std::vector<double> row_stiffness() const override;
     std::span<const std::uint8_t> prescribed_rows() const override { return prescribed_; }
     std::int64_t factorisations() const override { return bulk_->factorisations(); }
     std::unique_ptr<JumpOperator> twin() const override {

@@ -459,13 +459,6 @@ double DenseZone::energy_of(std::span<const double> theta, std::span<const doubl
     return 0.5 * dot(unknowns, image) - dot(unknowns, load);
 }
 
-double DenseZone::force_size(std::span<const double> unknowns) const {
-    double size = 0.0;
-    for (std::size_t i = 0; i < unknowns.size(); ++i)
-        size = std::max(size, energy_->stiffness.value[i * (unknowns.size() + 1)] * std::abs(unknowns[i]));
-    return size;
-}
-
 double DenseZone::energy_of_moving(std::span<const std::size_t> rows, std::span<const double> d) const {
     double sum = 0.0;
     for (std::size_t j = 0; j < rows.size(); ++j) {

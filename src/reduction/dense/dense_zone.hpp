@@ -55,7 +55,6 @@ public:
     double energy_of(std::span<const double> theta, std::span<const double> unknowns) override;
     double energy_of_moving(std::span<const std::size_t> rows, std::span<const double> d) const override;
     double energy_rounding() const override { return 1e-14; }
-    double force_size(std::span<const double> unknowns) const override;
     const DenseMatrix* motions() const override { return &rigid_rows_; }
     void move(std::span<const double> combination, std::span<double> unknowns) const override {
         for (std::size_t c = 0; c < combination.size(); ++c)

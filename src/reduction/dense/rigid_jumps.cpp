@@ -17,7 +17,7 @@ namespace {
 // Eigenvalues of a Gram matrix below this fraction of the largest one are zero: singular values below 1e-6. Lever arms
 // of supports are longer.
 constexpr double zero = 1e-12;
-// The largest part of its terms that the work of dead forces along a motion may reach and still be zero.
+// The largest part that the work of dead forces along a motion may reach of what it could be, and still be zero.
 constexpr double unbalanced = 1e-8;
 constexpr double still = 1e-8;  // entries of motions below this part of the largest one are rounding
 
@@ -222,6 +222,8 @@ RigidMotions::RigidMotions(const Problem& problem) : impl_(std::make_unique<Impl
     impl_->null = multiply(null, basis);
     const auto patterns = static_cast<std::int64_t>(problem.patterns.size());
     dead_ = {DenseMatrix(patterns, basis.columns), DenseMatrix(patterns, basis.columns)};
+    std::vector<double> farthest;  // displacement of each motion
+    for (std::int64_t c = 0; c < basis.columns; ++c) farthest.push_back(max_abs(column(impl_->null, c)));
     for (const NodalForce& force : problem.forces) {
         Row row;
         motions.add(row, force.dof / dim, force.dof % dim, force.value);
@@ -229,7 +231,7 @@ RigidMotions::RigidMotions(const Problem& problem) : impl_(std::make_unique<Impl
             double work = 0.0;
             for (const auto& [i, value] : row) work += value * impl_->null(i, c);
             dead_.work(force.pattern, c) += work;
-            dead_.magnitudes(force.pattern, c) += std::abs(work);
+            dead_.magnitudes(force.pattern, c) += std::abs(force.value) * farthest[index(c)];
         }
     }
 }
@@ -248,6 +250,16 @@ bool DeadWork::balances(std::span<const double> theta, std::span<const double> c
             size += std::abs(theta[p] * magnitudes(at, motion) * combination[c]);
         }
     return std::abs(total) <= unbalanced * size;
+}
+
+std::vector<double> RigidMotions::of_piece(std::size_t piece, std::span<const double> combination) const {
+    const std::size_t modes = impl_->motions.dimension() == 2 ? 3 : 6;
+    std::vector<double> motion(modes, 0.0);
+    for (std::size_t c = 0; c < combination.size(); ++c)
+        for (std::size_t m = 0; m < modes; ++m)
+            motion[m] += combination[c] *
+                         impl_->null(static_cast<std::int64_t>(piece * modes + m), static_cast<std::int64_t>(c));
+    return motion;
 }
 
 bool RigidMotions::holds(std::size_t piece) const {

@@ -16,7 +16,7 @@ namespace delam {
 // eigenstrains balance within each part.
 struct DeadWork {
     DenseMatrix work;        // [patterns][motions]
-    DenseMatrix magnitudes;  // the same, sums of the absolute terms
+    DenseMatrix magnitudes;  // the same if all forces acted along the largest displacement of the motion
     // True if a combination of the motions gets no work, but for rounding. added, magnitude: of other forces.
     bool balances(std::span<const double> theta, std::span<const double> combination, double added = 0.0,
                   double magnitude = 0.0) const;
@@ -34,7 +34,10 @@ public:
     const DenseMatrix& jumps() const { return jumps_; }
     // [mesh DOFs] of a combination of the motions.
     std::vector<double> displacement(std::span<const double> combination) const;
-    // True if no motion moves this piece of rigid_pieces().
+    // Translations of a piece of rigid_pieces(), then its rotations, as displacements at its edge, in a combination of
+    // the motions.
+    std::vector<double> of_piece(std::size_t piece, std::span<const double> combination) const;
+    // True if no motion moves this piece.
     bool holds(std::size_t piece) const;
     // What the loads do along the motions.
     const DeadWork& dead_work() const { return dead_; }

@@ -122,12 +122,12 @@ void Feti::move(std::span<const double> displacement, std::span<const double> co
                         s.rigid(static_cast<std::int64_t>(i * dim + k), c) * displacement[index(s.nodes[i]) * dim + k];
 }
 
-double Feti::force_size(const Response& response) const {
-    double size = 0.0;
-    for (std::size_t r = 0; r < response.jump.size(); ++r)
+std::vector<double> Feti::row_stiffness() const {
+    std::vector<double> stiffness(index(dual_.rows().jump_count), 0.0);
+    for (std::size_t r = 0; r < stiffness.size(); ++r)
         if (const double flexibility = dual_.flexibility_diagonal()[r]; flexibility > 0.0)
-            size = std::max(size, std::abs(response.jump[r]) / flexibility);
-    return size;
+            stiffness[r] = 1.0 / flexibility;
+    return stiffness;
 }
 
 std::string Feti::description() const {

@@ -32,7 +32,7 @@ public:
     double equilibrium_defect(std::span<const double> theta, const Response& response) const override;
     void move(std::span<const double> displacement, std::span<const double> combination, std::span<const double> jump,
               Response& response) const override;
-    double force_size(const Response& response) const override;
+    std::vector<double> row_stiffness() const override;
     std::span<const std::uint8_t> prescribed_rows() const override { return dual_.scaling().prescribed; }
     std::int64_t factorisations() const override {
         return static_cast<std::int64_t>(parts_.subdomains.size()) - (parts_.subdomains.back().body < 0 ? 1 : 0);

@@ -46,8 +46,9 @@ public:
                       std::span<const double> jump, Response& response) const {
         for (std::size_t r = 0; r < jump.size(); ++r) response.jump[r] += jump[r];
     }
-    // Size of the forces whose small differences are the forces of a response, F: its rounding comes from there.
-    virtual double force_size(const Response& response) const = 0;
+    // The bodies' stiffness against the jump of each row alone, F/L; 0: not known. Forces are differences of jumps and
+    // displacements times as much, and have the rounding of these.
+    virtual std::vector<double> row_stiffness() const = 0;
     // Largest out-of-balance force, F, at a node for the displacements above, with the response's interface forces and
     // reactions.
     virtual double equilibrium_defect(std::span<const double> theta, const Response& response) const = 0;

@@ -94,8 +94,6 @@ public:
     virtual const DenseMatrix* motions() const { return nullptr; }
     // Adds a combination of these motions to the unknowns.
     virtual void move(std::span<const double> /*combination*/, std::span<double> /*unknowns*/) const {}
-    // Returns the size of the forces whose small differences are forces of rows, F.
-    virtual double force_size(std::span<const double> unknowns) const = 0;
     // Returns the rounding of such energies: differences below this part of them are rounding.
     virtual double energy_rounding() const = 0;
 };

@@ -6,8 +6,6 @@
 // states whose weights sum to 1 are states, too.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -76,14 +74,6 @@ public:
     virtual void move(std::span<const double> displacement, std::span<const double> combination,
                       std::span<double> x) const = 0;
     virtual const Floating& floating() const = 0;
-    // Returns the largest force of the diagonal of the interface's variables, F: rounding of forces is relative to it.
-    double force_size(std::span<const double> x) const {
-        const std::span<const double> diagonal = system().diagonal();
-        double size = 0.0;
-        for (const JumpRow& row : system().rows())
-            for (const auto& [i, n] : row.unknowns) size = std::max(size, diagonal[index(i)] * std::abs(x[index(i)]));
-        return size;
-    }
 
     virtual std::int64_t factorisations() const = 0;
     // Saved data on which the last digits of the next solution depend.

@@ -26,7 +26,6 @@ public:
     // The energy of the bodies, from their displacements.
     double energy_of(std::span<const double> theta, std::span<const double> unknowns) override;
     double energy_rounding() const override;
-    double force_size(std::span<const double> unknowns) const override { return solver_.force_size(unknowns); }
     const DenseMatrix* motions() const override { return &solver_.floating().jumps(); }
     void move(std::span<const double> combination, std::span<double> unknowns) const override;
     // The next solve does not depend on those before.

@@ -168,15 +168,6 @@ void LocalZone::complete_forces(std::span<const double>, const Solution& solutio
         if (held_as_[z] != 0.0) row_force[z] = solution.multiplier[z];
 }
 
-double LocalZone::force_size(std::span<const double> unknowns) const {
-    double size = 0.0;
-    for (std::int64_t i = 0; i < matrix_.rows; ++i)
-        for (std::int64_t e = matrix_.start[index(i)]; e < matrix_.start[index(i) + 1]; ++e)
-            if (matrix_.column[index(e)] == i)
-                size = std::max(size, matrix_.value[index(e)] * std::abs(unknowns[index(i)]));
-    return size;
-}
-
 double LocalZone::energy_of(std::span<const double>, std::span<const double> unknowns) {
     std::vector<double> image(unknowns.size());
     multiply(matrix_, unknowns, image);

@@ -42,7 +42,6 @@ public:
                          std::span<double> row_force) const override;
     double energy_of(std::span<const double> theta, std::span<const double> unknowns) override;
     double energy_rounding() const override { return 1e-13; }
-    double force_size(std::span<const double> unknowns) const override;
 
 private:
     // Whole pairs of the marked variables; unmarks variables of pairs that are not whole.

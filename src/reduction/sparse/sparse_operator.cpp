@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "base/numbers.hpp"
 #include "linalg/dense/dense.hpp"
+#include "reduction/sparse/spring_entries.hpp"
 
 namespace delam {
 
@@ -195,7 +196,13 @@ void SparseOperator::move(std::span<const double> displacement, std::span<const 
     solver_.move(displacement, combination, response.multipliers);
 }
 
-double SparseOperator::force_size(const Response& response) const { return solver_.force_size(response.multipliers); }
+std::vector<double> SparseOperator::row_stiffness() const {
+    const JumpSystem& system = solver_.system();
+    std::vector<double> stiffness(system.rows().size(), 0.0);
+    for (std::size_t r = 0; r < stiffness.size() && !system.diagonal().empty(); ++r)
+        if (system.prescribed()[r] == 0) stiffness[r] = row_diagonal(system, r);
+    return stiffness;
+}
 
 // Estimates the rounding as the condensed operator does: entries of the stiffness have an error of the rounding unit
 // times the diagonal.

@@ -24,7 +24,7 @@ public:
     double rounding_energy(std::span<const double> theta, const Response& response) const override;
     void move(std::span<const double> displacement, std::span<const double> combination, std::span<const double> jump,
               Response& response) const override;
-    double force_size(const Response& response) const override;
+    std::vector<double> row_stiffness() const override;
     std::span<const std::uint8_t> prescribed_rows() const override { return solver_.system().prescribed(); }
     std::int64_t factorisations() const override { return solver_.factorisations(); }
     std::vector<double> memory() override { return solver_.memory(); }

@@ -293,6 +293,30 @@ def numbers(host, see):
                                                      if decision == "left out"))
 
 
+@row("free bodies", says=["solver_field_shape: -1: they are held"])
+def free_bodies(host, see):
+    """A block that another one carries, and that a support at a corner lets slide and turn: nothing holds these."""
+    mesh = host("mesh_create", host.context, 2, 8, [0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0,
+                                                    0.0, 1.0, 1.0, 1.0, 1.0, 2.0, 0.0, 2.0], Out())
+    host("mesh_add_cells", mesh, TYPES["quad4"], 2, list(range(8)), [0, 1], 0)
+    host("mesh_add_interface", mesh, 0, 1, 0.0, Out())
+    problem = host("problem_create", host.context, mesh, Out())
+    host("problem_set_elastic", problem, -1, 10.0, 0.0)
+    host("problem_set_contact", problem, 0)
+    slide = scenes.ramp(host, problem)
+    scenes.hold(host, problem, [0, 1, 2, 3], [[0.0, 1.0]])
+    scenes.drive(host, problem, [0, 1, 2, 3], [1.0, 0.0], slide, [0.1] * 4)
+    scenes.hold(host, problem, [7], [[0.0, 1.0]])
+    solver = host("solver_create", problem, 0.0, Out())
+    host("solver_advance", solver, 1.0)
+    host("solver_commit", solver)
+    see.equal("free_bodies", value(host, solver, "free_bodies"), 1)
+    see.equal("free_since", field(host, solver, "free_since"), [[-1], [0]])
+    see.equal("free_motion", field(host, solver, "free_motion"), [[0, 0, 0], [1, 0, 1]])
+    moved = [abs(c) for u in field(host, solver, "displacement")[4:] for c in u]
+    see.that(f"the carried block stays: {max(moved)}", max(moved) < 1e-14)
+
+
 @row("a plan beforehand", tells=["problem_plan setup", "problem_plan memory", "problem_value_count count"])
 def plan_beforehand(host, see):
     """What the solver says once it exists."""

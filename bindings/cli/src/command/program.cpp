@@ -32,10 +32,10 @@ constexpr const char* footer =
     "\n"
     "Exit codes\n"
     "  0    done\n"
-    "  1    finished, but at least one step did not converge\n"
+    "  1    finished, but at least one step did not converge; or ended at the limit load\n"
     "  2    wrong usage or an error in the scene\n"
     "  3    output cannot be written (full disk, folder not writable)\n"
-    "  4    numerical failure, out of memory or limit load; finished steps are kept\n"
+    "  4    numerical failure, or out of memory; finished steps are kept\n"
     "  130  interrupted (Ctrl-C, SIGTERM); finished steps are kept, go on with --resume\n";
 
 constexpr double largest_factor = 1e150;  // its square is a number

@@ -128,8 +128,9 @@ public:
             if (status == DELAM_CANCELLED) return stopped(outcome);
             if (status != DELAM_OK && status != DELAM_NOT_CONVERGED) {
                 outcome.reason = fmt::format("step {}, time {}: {} ({})", state_.step + 1, time,
-                                             delam_context_message(model_.context.get()), delam_status_name(status));
-                return exit_numerical;
+                                             named(delam_context_message(model_.context.get()), scene_, model_),
+                                             delam_status_name(status));
+                return status == DELAM_LIMIT ? exit_not_converged : exit_numerical;
             }
             call(model_.context.get(), delam_solver_commit(solver_.get()), std::string("commit"));
             state_.step += 1;
@@ -351,7 +352,7 @@ int analyse(const Analysis& of) {
     }
     const auto total = static_cast<std::int64_t>(scene.step_count());
     say_lines(outcome.closing_lines);
-    if (code == exit_interrupted || code == exit_numerical) {
+    if (code == exit_interrupted || !outcome.reason.empty()) {
         const std::int64_t done = work.state().step;
         const char* how = code == exit_interrupted ? "interrupted" : "stopped";
         if (done > 0)

@@ -76,6 +76,13 @@ Json load_drops_json(const LoadDrops& drops) {
               {"to", drops.to}}}};
 }
 
+Json free_bodies_json(const std::vector<FreeBody>& bodies) {
+    Json out = Json::array();
+    for (const FreeBody& body : bodies)
+        out.push_back({{"name", body.name}, {"since", body.since}, {"axes", body.axes}, {"turns", body.turns}});
+    return out;
+}
+
 // Infinite gaps become null.
 Json search_json(const SearchLimits& limits) {
     Json gap = nullptr;
@@ -171,6 +178,7 @@ std::string result_text(const Model& model, delam_solver* solver, const Scene& s
         {"estimate_violated", outcome.closing.estimate_violated},
         {"estimate_hollow", outcome.closing.estimate_inconclusive},
         {"front_unresolved", outcome.closing.front_unresolved},
+        {"free_bodies", free_bodies_json(outcome.closing.free_bodies)},
         {"rotation_max", outcome.closing.rotation_max},
         {"scene",
          {{"file", scene.file},

@@ -7,7 +7,7 @@
 
 namespace cli {
 
-Closing closing_of(const Model& model, const delam_solver* solver, const Scene& scene, std::string_view history,
+Closing closing_of(const Model& model, delam_solver* solver, const Scene& scene, std::string_view history,
                    double rotation_max) {
     const Rows rows = rows_of(history);
     Closing out;
@@ -20,6 +20,7 @@ Closing closing_of(const Model& model, const delam_solver* solver, const Scene& 
     out.estimate_violated = violated_steps(rows, out.estimate_tolerance);
     out.estimate_inconclusive = inconclusive_steps(rows);
     out.front_unresolved = unresolved_steps(rows, model, scene);
+    out.free_bodies = free_bodies_of(model, solver, scene);
     out.rotation_max = rotation_max;
     return out;
 }
@@ -32,6 +33,7 @@ std::vector<std::string> closing_lines(const Closing& closing, const Scene& scen
     out.push_back(mixity_error_line(closing.mixity_error, scene));
     out.push_back(load_drops_line(closing.load_drops));
     for (std::string& line : search_lines(closing.search, scene)) out.push_back(std::move(line));
+    for (std::string& line : free_body_lines(closing.free_bodies, scene)) out.push_back(std::move(line));
     out.push_back(unresolved_line(closing.front_unresolved));
     out.push_back(rotation_line(closing.rotation_max));
     std::erase(out, "");

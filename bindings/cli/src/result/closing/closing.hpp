@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "result/closing/balance.hpp"
+#include "result/closing/free_bodies.hpp"
 #include "result/closing/load_drops.hpp"
 #include "result/closing/mixity_error.hpp"
 #include "result/closing/search_limits.hpp"
@@ -25,10 +26,11 @@ struct Closing {
     std::vector<std::int64_t> estimate_violated, estimate_inconclusive;
     double estimate_tolerance = 0;
     std::vector<std::int64_t> front_unresolved;  // steps in which a crack grew with too few pairs in its process zone
+    std::vector<FreeBody> free_bodies;           // at the end
     double rotation_max = 0;                     // rad, in the steps with fields
 };
 
-Closing closing_of(const Model& model, const delam_solver* solver, const Scene& scene, std::string_view history,
+Closing closing_of(const Model& model, delam_solver* solver, const Scene& scene, std::string_view history,
                    double rotation_max);
 // Each fact once, without ends of line.
 std::vector<std::string> closing_lines(const Closing& closing, const Scene& scene);
