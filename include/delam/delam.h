@@ -1158,8 +1158,8 @@ DELAM_API int32_t delam_solver_recorded(const delam_solver *solver, const char *
  *   reaction      [constraints][1]    F     force that the testing machine exerts, positive along the constraint
  *   free_since    [bodies][1]         -     step since which neither adhesion, supports nor contact hold all motions of
  *                                           the body; -1: they are held
- *   free_motion   [bodies][3 or 6]    -     1 where nothing holds a motion of the body: translation in x and y, rotation
- *                                           (2D), or translations in x, y, z, rotations about x, y, z
+ *   free_motion   [bodies][3 or 6]    -     1: nothing holds this motion. x, y, rotation; or x, y, z, rotations about
+ *                                           x, y, z
  * An open pair has the traction zeta k [u] (and with `mixity_rule = variational` the traction that this rule adds). A
  * closed pair has the contact pressure as normal component, which is negative.
  * mixity is 0 where the law does not depend on it, unless the option `mixity` is `always`. With `mixity_rule = frozen`,

@@ -9,6 +9,7 @@
 #include "base/numbers.hpp"
 #include "base/team.hpp"
 #include "evolution/analysis/solver.hpp"
+#include "evolution/step/pairs_of_scene.hpp"
 #include "scene/advice/scene_warnings.hpp"
 #include "scene/check/validate.hpp"
 

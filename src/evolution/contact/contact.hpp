@@ -44,6 +44,7 @@ private:
 
 struct ContactScene {
     int dimension = 2;
+    std::size_t bodies = 0;
     std::vector<std::uint8_t> bonded;  // [pairs] bonded permanently: held in every direction
     std::vector<std::uint8_t> level;   // [pairs] of contact_levels.hpp
     // Pairs below this level are not tested and may pass through each other: less energy than any contact leaves.
@@ -66,7 +67,7 @@ struct ContactScene {
     }
     double jump_floor(std::span<const double> theta) const { return floor(strain_jump, theta); }
     double force_floor(std::span<const double> theta) const { return floor(strain_force, theta); }
-    // What rounding leaves of forces at these jumps, F. row_of: the row of each jump; empty: all rows.
+    // Returns what rounding leaves of forces at these jumps, F. row_of: the row of each jump; empty: all rows.
     double rounding_of_forces(std::span<const double> theta, std::span<const double> jump,
                               std::span<const std::int64_t> row_of = {}) const;
 

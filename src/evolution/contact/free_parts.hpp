@@ -30,8 +30,8 @@ public:
     const RigidMotions& motions() const { return motions_; }
     // Combinations of the motions that no active row resists, [motions][combinations]. active: [jump rows].
     DenseMatrix free(std::span<const std::uint8_t> active) const;
-    // How bodies move in these combinations, [bodies][2D: x, y, turning; 3D: x, y, z, turning about x, y, z], 1 or 0:
-    // translations without a rotation, and rotations about whatever point.
+    // Tells how bodies move in these combinations, [bodies][2D: x, y, turning; 3D: x, y, z, turning about x, y, z], 1
+    // or 0: translations without a rotation, and rotations about whatever point.
     std::vector<std::uint8_t> moves(const DenseMatrix& free) const;
     // The bodies that move, and how, for messages; moves: as above.
     std::string described(std::span<const std::uint8_t> moves) const;

@@ -40,6 +40,19 @@ Split split(std::span<const double> vector, const std::vector<std::span<const do
     return result;
 }
 
+// The row that is open least, by less than -slack; `rows`: there is none.
+template <class Opening>
+std::size_t deepest(const Opening& opening, std::size_t rows, double slack) {
+    std::size_t worst = rows;
+    double least = -slack;
+    for (std::size_t r = 0; r < rows; ++r)
+        if (const double own = opening(r); own < least) {
+            least = own;
+            worst = r;
+        }
+    return worst;
+}
+
 }  // namespace
 
 LeastMotion least_motion(const DenseMatrix& gram, std::span<const double> pull, const DenseMatrix& normals,
@@ -73,16 +86,12 @@ LeastMotion least_motion(const DenseMatrix& gram, std::span<const double> pull, 
     };
     const std::size_t most = 50 * (rows + motions);  // far above what exact arithmetic needs
     for (std::size_t step = 0; step < most && result.blocked.empty(); ++step) {
-        std::size_t worst = rows;
-        double deepest = 0.0;
-        for (std::size_t r = 0; r < rows; ++r) {
-            if (!moved(r) || std::find(active.begin(), active.end(), r) != active.end()) continue;
-            const double opening = gap[r] + length[r] * dot(normal[r], b);
-            if (opening < -slack && opening < deepest) {
-                deepest = opening;
-                worst = r;
-            }
-        }
+        const std::size_t worst = deepest(
+            [&](std::size_t r) {
+                const bool passed = !moved(r) || std::find(active.begin(), active.end(), r) != active.end();
+                return passed ? 0.0 : gap[r] + length[r] * dot(normal[r], b);
+            },
+            rows, slack);
         if (worst == rows) break;
         double own = 0.0;  // multiplier of the row that enters
         while (true) {

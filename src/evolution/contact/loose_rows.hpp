@@ -31,7 +31,7 @@ public:
     // before.
     std::vector<std::size_t> stopping(const DenseMatrix& gram, std::span<const double> pull, const DenseMatrix& jumps,
                                       std::span<const double> jump) const;
-    // After that motion: opens closed rows that it has opened, whose force becomes zero. Returns the rows that block
+    // Opens the closed rows that this motion has opened; their force becomes zero. Returns the rows that block
     // each other, as positions in the contact rows.
     std::vector<std::size_t> settled(const LeastMotion& motion, std::vector<std::uint8_t>& closed,
                                      std::span<const double> jump, std::span<double> force, double least_jump) const;

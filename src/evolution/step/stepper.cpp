@@ -8,10 +8,9 @@
 #include "base/error.hpp"
 #include "base/numbers.hpp"
 #include "delam/delam.h"
-#include "evolution/contact/contact_levels.hpp"
 #include "evolution/derivative/step_tangent.hpp"
+#include "evolution/step/pairs_of_scene.hpp"
 #include "scene/check/validate.hpp"
-#include "scene/strain_loads.hpp"
 
 namespace delam {
 
@@ -55,52 +54,16 @@ bool within_zone(std::span<const double> candidate, std::span<const double> from
 
 }  // namespace
 
-std::vector<std::shared_ptr<const GradientTerm>> gradient_terms(const Problem& problem) {
-    std::vector<std::shared_ptr<const GradientTerm>> terms;
-    std::size_t first = 0;
-    for (std::size_t i = 0; i < problem.interfaces.size(); ++i) {
-        const InterfaceGeometry& face = problem.mesh->interfaces()[i];
-        const InterfaceProperties& properties = problem.interfaces[i];
-        if (properties.law && properties.law->gradient > 0.0)
-            terms.push_back(std::make_shared<const GradientTerm>(
-                properties.law->gradient, surface_stiffness(*problem.mesh, face, properties.adhesion), face.weight,
-                first));
-        first += face.weight.size();
-    }
-    return terms;
-}
-
 Stepper::Stepper(const Problem& problem, Monitor& monitor) : problem_(problem), monitor_(monitor) {
     const Poll checking = [this] { monitor_.progress("check", 0, 0); };
     validate(problem_, checking);
     const Mesh& mesh = *problem_.mesh;
-    pairs_.dimension = contact_.dimension = mesh.dimension();
     parts_ = std::make_unique<const FreeParts>(problem_);
-    if (parts_->any()) contact_.parts = parts_.get();
-    contact_.limit = problem_.options.contact_limit;
-    contact_.always = problem_.options.contact == "always";
-    for (std::size_t i = 0; i < mesh.interfaces().size(); ++i) {
-        const InterfaceProperties& properties = problem_.interfaces[i];
-        std::optional<Toughness> fixed;
-        const Law* law = properties.law ? &*properties.law : nullptr;  // none: bonded permanently, or contact alone
-        if (law != nullptr && problem_.options.mixity == "auto" && !law->depends_on_mixity())
-            fixed = law->toughness(0.0);
-        for (const double weight : mesh.interfaces()[i].weight) {
-            pairs_.weight.push_back(weight);
-            pairs_.law.push_back(law);
-            pairs_.fixed.push_back(fixed);
-            contact_.bonded.push_back(properties.bonded ? 1 : 0);
-        }
-        initial_adhesion_.insert(initial_adhesion_.end(), properties.adhesion.begin(), properties.adhesion.end());
-    }
-    pairs_.gradient = gradient_terms(problem_);
+    pairs_ = pair_laws(problem_);
+    contact_ = contact_scene(problem_, *parts_);
+    for (const InterfaceProperties& own : problem_.interfaces)
+        initial_adhesion_.insert(initial_adhesion_.end(), own.adhesion.begin(), own.adhesion.end());
     graph_ = PairGraph(mesh.interfaces());
-    contact_.level = contact_levels(mesh.interfaces());
-    if (!problem_.eigenstrains.empty()) {
-        StrainSizes sizes = strain_sizes(problem_);
-        contact_.strain_jump = std::move(sizes.displacement);
-        contact_.strain_force = std::move(sizes.force);
-    }
     rule_.emplace(pairs_, problem_.options.mixity_rule);
     call_if_set(checking);
     design_ = design_operator(problem_, monitor_);
@@ -108,7 +71,10 @@ Stepper::Stepper(const Problem& problem, Monitor& monitor) : problem_(problem), 
     std::vector<std::uint8_t> bonded_rows;
     for (const std::uint8_t b : contact_.bonded) bonded_rows.insert(bonded_rows.end(), index(mesh.dimension()), b);
     lift_ = Lift(*operator_, bonded_rows, design_.bound, problem_.patterns.size(),
-                 [this](std::span<const double> theta, const Response& response) { note_carried(theta, response); });
+                 [this](std::span<const double> theta, const Response& response) {
+                     if (contact_.row_stiffness.empty()) contact_.row_stiffness = operator_->row_stiffness();
+                     contact_.carried_force.push_back(carried_force(problem_, *operator_, contact_, theta, response));
+                 });
     const double largest = max_abs(problem_.prescribed_matrix());
     for (const std::size_t row : lift_.driven_rows(1e-9 * largest)) {
         const std::size_t pair = row / index(mesh.dimension());
@@ -116,24 +82,6 @@ Stepper::Stepper(const Problem& problem, Monitor& monitor) : problem_(problem), 
             fail(DELAM_ERROR_PROBLEM, "prescribed displacements open pair ", pair,
                  ", but its interface is bonded permanently");
     }
-}
-
-// The forces that the displacements of a pattern take at the pairs, were each row to follow them alone.
-void Stepper::note_carried(std::span<const double> theta, const Response& response) {
-    const auto dim = index(contact_.dimension);
-    if (contact_.row_stiffness.empty()) contact_.row_stiffness = operator_->row_stiffness();
-    double size = 0.0;
-    if (contact_.parts != nullptr) {
-        const std::vector<double> u = operator_->displacement(theta, response);
-        std::size_t pair = 0;
-        for (const InterfaceGeometry& face : problem_.mesh->interfaces())
-            for (const std::int64_t node : face.node_b) {
-                const double moved = max_abs(std::span<const double>(u).subspan(index(node) * dim, dim));
-                const auto rows = std::span<const double>(contact_.row_stiffness).subspan(pair++ * dim, dim);
-                size = std::max(size, moved * max_abs(rows));
-            }
-    }
-    contact_.carried_force.push_back(size);
 }
 
 Minimiser Stepper::minimiser() {
@@ -172,7 +120,7 @@ Stepper::Result Stepper::initial(double time) {
     state.ledger.initial = state.ledger.energy();
     state.ledger.initial_linear = state.ledger.energy_linear();
     state.memory = operator_->memory();
-    note_free(state, {});
+    state.free_since = free_since(*operator_, contact_, pairs_, state, {});
     return result;
 }
 
@@ -199,21 +147,6 @@ double Stepper::largest_loss(const StepRule& step, const State& next) const {
 // pair abruptly, the part of the work that is neither stored nor dissipated is released, into a motion that a
 // quasi-static model does not have. A step that was followed in parts knows when they happen, and records the work of
 // the load between them (within_step.hpp).
-void Stepper::note_free(State& next, const State& before) const {
-    next.free_since.assign(index(problem_.mesh->body_count()), -1);
-    const DenseMatrix free = free_motions(*operator_, contact_, spring_stiffness(pairs_, next.adhesion), next.theta,
-                                          next.closed, next.response);
-    if (free.columns == 0) return;
-    const std::vector<std::uint8_t> moves = parts_->moves(free);
-    const std::size_t modes = moves.size() / next.free_since.size();
-    for (std::size_t b = 0; b < next.free_since.size(); ++b) {
-        const auto own = std::span<const std::uint8_t>(moves).subspan(b * modes, modes);
-        if (std::all_of(own.begin(), own.end(), [](std::uint8_t m) { return m == 0; })) continue;
-        const bool was = b < before.free_since.size() && before.free_since[b] >= 0;
-        next.free_since[b] = was ? before.free_since[b] : next.step;
-    }
-}
-
 void Stepper::record_step(State& next, const StepRule& step, const InnerPath* path) const {
     step.record_ledger(next, path != nullptr ? &path->dissipated() : nullptr);
     const State& before = step.before();
@@ -363,7 +296,7 @@ Stepper::Result Stepper::step(const State& before, double time, std::span<const 
         keep_lower(best, std::move(other), *step, from.descends && later ? &dissipated : nullptr);
     }
     if (problem_.options.solution == "energetic") search(best, *step);
-    note_free(best.state, before);
+    best.state.free_since = free_since(*operator_, contact_, pairs_, best.state, before);
     places_.reset();
     if (before.sensitivity.known())
         best.state.sensitivity = sensitivity(Linearised(*operator_, pairs_, contact_, best.state), followed_,
@@ -538,7 +471,7 @@ Stepper::Result Stepper::equilibrate(const State& before, double time, std::span
     next.ledger.initial += next.ledger.energy() - before.ledger.energy();
     next.ledger.initial_linear += next.ledger.energy_linear() - before.ledger.energy_linear();
     next.memory = operator_->memory();
-    note_free(next, before);
+    next.free_since = free_since(*operator_, contact_, pairs_, next, before);
     return result;
 }
 

@@ -24,9 +24,6 @@
 
 namespace delam {
 
-// Returns the gradient terms of the interfaces whose law has kappa > 0.
-std::vector<std::shared_ptr<const GradientTerm>> gradient_terms(const Problem& problem);
-
 class Stepper {
 public:
     // problem and monitor must outlive it. Checks the problem, and cuts and factors the bodies.
@@ -82,8 +79,6 @@ public:
 
 private:
     Minimiser minimiser();
-    // Adds a pattern to ContactScene::carried_force.
-    void note_carried(std::span<const double> theta, const Response& response);
     void begin(State& next, const State& before, double time);
     std::unique_ptr<StepRule> increment(const State& before, std::span<const double> mixity) const;
     // The state from which the minimisations of a step begin; false: its elastic displacements reached a limit.
@@ -97,8 +92,6 @@ private:
     void refuse_runaway(const State& state, const StepRule& step);
     // The largest part of its toughness that a pair loses in a step.
     double largest_loss(const StepRule& step, const State& next) const;
-    // Finds the bodies that nothing holds.
-    void note_free(State& next, const State& before) const;
     void record_step(State& next, const StepRule& step, const InnerPath* path = nullptr) const;
     void keep_lower(Result& best, State other, const StepRule& step, const Dissipation* begun = nullptr);
     // Result of continue_fronts(), which is needed where the dissipated energy depends on the path: how far fronts run

@@ -352,7 +352,7 @@ DenseZone::Solution DenseZone::solve(std::span<const double> theta, std::span<co
     std::vector<double> start(g.size(), 0.0);
     for (std::size_t b = 0; b < bound_.size(); ++b) start[index(bound_[b])] = fixed[b];
     if (std::any_of(fixed.begin(), fixed.end(), [](double v) { return v != 0.0; })) {
-        // Of the energy itself: the shift of y does not act on it.
+        // The shift of y does not act on what is fixed.
         std::vector<double> image(g.size());
         multiply_few(energy_->stiffness, start, image);
         for (const Triplet& t : springs_) image[index(t.row)] += t.value * start[index(t.column)];

@@ -39,7 +39,7 @@ public:
     std::vector<double> of_piece(std::size_t piece, std::span<const double> combination) const;
     // True if no motion moves this piece.
     bool holds(std::size_t piece) const;
-    // What the loads do along the motions.
+    // Returns the work of the loads along the motions.
     const DeadWork& dead_work() const { return dead_; }
 
 private:

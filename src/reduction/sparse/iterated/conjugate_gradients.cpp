@@ -109,7 +109,7 @@ CgOutcome conjugate_gradients(const CgSystem& system, std::span<double> x, doubl
         if (outcome.converged) return outcome;
         if (restarts.over() || outcome.iterations >= limit) {
             std::copy(best.begin(), best.end(), x.begin());
-            // What an earlier state has shown of rounding may be too little for this one.
+            // The rounding of an earlier state may be too little for this one.
             if (!restarts.excused() && system.rounded > 0.0 && size > 0.0)
                 restarts.set_rounded(std::max(restarts.rounded(), system.rounding(x) / size));
             outcome.rounded = restarts.rounded();
