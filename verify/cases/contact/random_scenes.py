@@ -320,7 +320,7 @@ def main():
             try:
                 wrong, kind = check(seed, reduction)
             except delam.ProblemError as error:
-                refused = [word for word in ("missing support", "press two faces", "is bonded permanently") if word in str(error)]
+                refused = [word for word in ("missing support", "press two faces", "bonded permanently") if word in str(error)]
                 wrong, kind = ([], "refused") if refused else ([str(error)], "error")
             except delam.DelamError as error:
                 wrong, kind = [f"{type(error).__name__}: {error}"], "error"
