@@ -195,7 +195,7 @@ def main():
     folder = os.path.join(work, "build")
     for command in (["cmake", "-S", work, "-B", folder, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DDELAM_UNITY=ON",
                      "-DCMAKE_CXX_FLAGS_RELEASE=-O1", "-DDELAM_BUILD_TESTS=OFF", "-DDELAM_BUILD_EXAMPLES=OFF",
-                     *options],
+                     "-DDELAM_BUILD_CLI=OFF", *options],
                     ["cmake", "--build", folder, "--target", "delam"]):
         subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
     library = os.path.join(folder, "lib", "libdelam.so")
