@@ -207,7 +207,7 @@ std::string FreeParts::described(std::span<const std::uint8_t> moves) const {
         if (all[k] != 0) axes += (axes.empty() ? "" : ", ") + std::string(1, "xyz"[k]);
     if (!axes.empty()) add("move in " + axes);
     if (std::any_of(all.begin() + dimension_, all.end(), [](std::uint8_t m) { return m != 0; })) add("turn");
-    return text("bodies ", bodies, " (free to ", ways, ")");
+    return text(count == 1 ? "body " : "bodies ", bodies, " (free to ", ways, ")");
 }
 
 PlaceChanges FreeParts::changes(const DenseMatrix& free) const {
