@@ -50,7 +50,7 @@ pattern = "pull"
 end = 1.0
 steps = 11
 '''
-rows, error, about = run(dead, 4)
+rows, error, about = run(dead, 1)
 expect("limit" in error.lower(), f"the march says so: {error.strip().splitlines()[-1:]}")
 expect(about.get("status") == "incomplete" and len(rows) == 10, f"the {len(rows) - 1} steps up to 5e6 N/m2 are kept")
 
