@@ -228,4 +228,26 @@ LOOP_TEST(marches_agree, 0, 6) {
     }
 }
 
+// A body that is held and one that is driven meet at the crossing, where both are bonded to a third one.
+LOOP_TEST(driven_apart_through_a_body, 0, 6) {
+    const Shape& shape = shapes[loop % 2 == 0 ? 0 : 2];
+    const int d = shape.dimension;
+    Scene scene = joined(shape, layouts[1]);
+    const std::vector<double> lower(static_cast<std::size_t>(d), -1.0), upper(static_cast<std::size_t>(d), 1.0);
+    for (int k = 0; k < d; ++k) scene.hold(scene.find(0, lower, upper), unit(d, k));
+    const auto apart = scene.pattern("apart", {0.0, 1.0}, {0.0, 1e-4});
+    const auto driven = scene.find(3, lower, upper);
+    for (int k = 0; k < d; ++k) scene.drive(driven, unit(d, k), apart, std::vector<double>(driven.size(), 1.0));
+    for (std::int64_t i = 0; i < layouts[1].interfaces[d - 2]; ++i) {
+        std::int32_t a = -1, b = -1;
+        scene.require(delam_mesh_interface_size(scene.mesh(), i, &a, &b, nullptr, nullptr, nullptr), "interface");
+        a == 1 || b == 1 ? scene.bonded(i) : scene.contact(i);
+    }
+    realise(scene, loop / 2 == 0 ? 0 : loop / 2 == 1 ? iterated : 4);
+    delam_solver* solver = nullptr;
+    const std::int32_t status = delam_solver_create(scene.problem(), 0.0, &solver);
+    delam_solver_destroy(&solver);
+    cases::expect(status == DELAM_ERROR_PROBLEM, std::string(shape.name) + ": " + delam_status_name(status));
+}
+
 }  // namespace

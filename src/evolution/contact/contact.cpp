@@ -14,10 +14,11 @@ namespace delam {
 
 namespace {
 
-// Fraction of the largest jump by which a prescribed displacement may press two faces into each other: rounding.
+// Fraction of the largest jump by which prescribed displacements may press two faces into each other: rounding.
 constexpr double pressed = 1e-9;
 
-// closed: [pairs] or empty; constraints on many jumps may leave a closed pair no choice but to open, or to be pressed.
+// closed: [pairs] or empty; constraints and other held pairs may leave a closed pair no choice but to open, or to be
+// pressed, and so open a bonded one.
 void refuse_pressed(const ContactScene& scene, std::span<const std::uint8_t> prescribed,
                     std::span<const std::uint8_t> closed, const Response& response, std::span<const double> theta) {
     const auto dim = index(scene.dimension);
@@ -27,6 +28,12 @@ void refuse_pressed(const ContactScene& scene, std::span<const std::uint8_t> pre
             response.jump[p * dim] < deepest)
             fail(DELAM_ERROR_PROBLEM, "prescribed displacements press two faces into each other at pair ", p,
                  " (normal jump ", response.jump[p * dim], " < 0)");
+    for (std::size_t r = 0; r < response.jump.size(); ++r)
+        if (scene.bonded[r / dim] != 0 && std::abs(response.jump[r]) > -deepest)
+            fail(DELAM_ERROR_PROBLEM,
+                 "prescribed displacements press faces into each other: either faces in contact "
+                 "penetrate, or pair ",
+                 r / dim, " opens by ", std::abs(response.jump[r]), ", but its interface is bonded permanently");
 }
 
 // Names the load that no contact set balances, and the motion along which it acts.
@@ -273,7 +280,7 @@ ContactResult solve_contact(JumpOperator& op, const ContactScene& scene, std::sp
     if (found.last != ContactSolve::solved) refuse_free_load(scene, system.springs(), theta);
     result.converged = result.converged && found.settled;
     for (std::size_t i = 0; i < set.size(); ++i) closed[rows.row[i] / dim] = set[i];
-    refuse_pressed(scene, op.prescribed_rows(), closed, response, theta);
+    if (result.converged) refuse_pressed(scene, op.prescribed_rows(), closed, response, theta);
     return result;
 }
 

@@ -44,11 +44,7 @@ Lift::Lift(JumpOperator& op, std::span<const std::uint8_t> bonded_rows, std::spa
         std::int64_t gives = bonded_rows[index(equation.row)] == 0 ? equation.row : -1;
         for (const std::int64_t other : equation.others)
             if (gives < 0 && bonded_rows[index(other)] == 0 && moving[index(other)] == 0) gives = other;
-        if (gives >= 0)
-            moving[index(gives)] = 1;
-        else if (std::any_of(equation.offset.begin(), equation.offset.end(), [](double o) { return o != 0.0; }))
-            fail(DELAM_ERROR_PROBLEM, "prescribed displacements open jump row ", equation.row, " or one of the ",
-                 equation.others.size(), " rows bound to it, but all of their interfaces are bonded permanently");
+        if (gives >= 0) moving[index(gives)] = 1;
     }
     Springs bonded{std::vector<double>(rows, 0.0), std::vector<std::uint8_t>(rows, 1)};
     for (std::size_t i = 0; i < rows; ++i) {
@@ -70,14 +66,6 @@ Lift::Lift(JumpOperator& op, std::span<const std::uint8_t> bonded_rows, std::spa
             a_(static_cast<std::int64_t>(q), static_cast<std::int64_t>(p)) = response.conjugate[q];
         for (std::size_t i = 0; i < prescribed_.size(); ++i) jump_[i][p] = response.jump[prescribed_[i]];
     }
-}
-
-std::vector<std::size_t> Lift::driven_rows(double rounding) const {
-    std::vector<std::size_t> rows;
-    for (std::size_t i = 0; i < prescribed_.size(); ++i)
-        if (std::any_of(jump_[i].begin(), jump_[i].end(), [&](double v) { return std::abs(v) > rounding; }))
-            rows.push_back(prescribed_[i]);
-    return rows;
 }
 
 double Lift::half_quadratic(std::span<const double> d, std::span<const double> stiffness) const {

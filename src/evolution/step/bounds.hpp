@@ -48,13 +48,11 @@ public:
     // Takes the bonded response to one pattern at factor 1.
     using Take = std::function<void(std::span<const double> theta, const Response& response)>;
     // One bonded solve for each pattern. bonded: [rows] never come apart; bound: equations among jumps. Throws
-    // Error(DELAM_ERROR_PROBLEM) where constraints open bonded rows or a dead force acts on what nothing holds.
+    // Error(DELAM_ERROR_PROBLEM) where a dead force acts on what nothing holds.
     Lift(JumpOperator& op, std::span<const std::uint8_t> bonded, std::span<const BoundRow> bound, std::size_t patterns,
          const Take& take = {});
     // 1/2 d^T A d with the springs of `stiffness` [rows] on prescribed jumps.
     double half_quadratic(std::span<const double> d, std::span<const double> stiffness) const;
-    // Rows whose jump a load pattern drives by more than `rounding` per unit factor.
-    std::vector<std::size_t> driven_rows(double rounding) const;
 
 private:
     DenseMatrix a_;

@@ -75,13 +75,6 @@ Stepper::Stepper(const Problem& problem, Monitor& monitor) : problem_(problem), 
                      if (contact_.row_stiffness.empty()) contact_.row_stiffness = operator_->row_stiffness();
                      contact_.carried_force.push_back(carried_force(problem_, *operator_, contact_, theta, response));
                  });
-    const double largest = max_abs(problem_.prescribed_matrix());
-    for (const std::size_t row : lift_.driven_rows(1e-9 * largest)) {
-        const std::size_t pair = row / index(mesh.dimension());
-        if (contact_.bonded[pair] != 0)
-            fail(DELAM_ERROR_PROBLEM, "prescribed displacements open pair ", pair,
-                 ", but its interface is bonded permanently");
-    }
 }
 
 Minimiser Stepper::minimiser() {

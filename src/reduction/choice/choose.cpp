@@ -280,10 +280,11 @@ double least_to_analyse(const Problem& problem, const MemoryLimit& limit) {
     return (16.0 + 25.6 * free) * stiffness_entries(problem);
 }
 
-Design of_iterated(Design design, std::unique_ptr<Iterated> iterated) {
+Design of_iterated(Design design, const Problem& problem, std::unique_ptr<Iterated> iterated) {
     design.choice.iteration = predict_iterated(iterated->size());
     design.choice.factor_entries = iterated->size().factor.entries;
     design.description = iterated->description();
+    refuse_open_bonds(problem, iterated->variables());
     design.bound = bound_rows(iterated->variables());
     design.prescribed.assign(iterated->prescribed_rows().begin(), iterated->prescribed_rows().end());
     design.op = std::move(iterated);
@@ -300,6 +301,7 @@ Design of_engine(Design design, const Problem& problem, Monitor& monitor) {
     design.choice.reason = "the engine of the host";
     design.choice.unknowns = problem.jump_count();
     design.description = op->description();
+    refuse_open_bonds(problem, op->variables());
     design.bound = bound_rows(op->variables());
     design.prescribed.assign(op->prescribed_rows().begin(), op->prescribed_rows().end());
     design.in_engine = op.get();
@@ -311,13 +313,15 @@ Design of_feti(Design design, const Problem& problem, Monitor& monitor) {
     design.description = text("total FETI: ", design.choice.subdomains, " subdomains, ", problem.jump_count(),
                               " jump multipliers, preconditioner ", problem.options.preconditioner);
     const JumpVariables variables = make_jump_variables(problem, [&monitor] { monitor.progress("assemble", 0, 0); });
+    refuse_open_bonds(problem, variables);
     design.bound = bound_rows(variables);
     design.prescribed = prescribed_rows(variables);
     return design;
 }
 
-Design of_condensed(Design design, std::unique_ptr<Bulk> bulk) {
+Design of_condensed(Design design, const Problem& problem, std::unique_ptr<Bulk> bulk) {
     design.description = Condensed::description_of(*bulk);
+    refuse_open_bonds(problem, bulk->system().variables());
     design.bound = bound_rows(bulk->system().variables());
     design.prescribed = prescribed_rows(bulk->system().variables());
     design.bulk = std::move(bulk);
@@ -389,14 +393,14 @@ Design chosen(const Problem& problem, Monitor& monitor) {
     }
     if (options.reduction == "iterated") {
         force(Realisation::iterated, "option reduction = iterated");
-        return of_iterated(std::move(design), std::make_unique<Iterated>(problem, monitor));
+        return of_iterated(std::move(design), problem, std::make_unique<Iterated>(problem, monitor));
     }
     if (!choice.condensation.possible) {
         if (options.reduction == "condensed")
             fail(DELAM_ERROR_PROBLEM, "option 'reduction' = 'condensed': the condensed operator would have ",
                  choice.unknowns, " rows, allowed: up to ", dense_limit, "; iterated and feti have no such limit");
         choose(choice);
-        return of_iterated(std::move(design), std::make_unique<Iterated>(problem, monitor));
+        return of_iterated(std::move(design), problem, std::make_unique<Iterated>(problem, monitor));
     }
     auto bulk = std::make_unique<Bulk>(problem, monitor);
     choice.unknowns = bulk->trailing();
@@ -408,10 +412,10 @@ Design chosen(const Problem& problem, Monitor& monitor) {
     if (options.reduction == "condensed")
         force(Realisation::condensed, choice.condensed() ? "option reduction = condensed"
                                                          : "option reduction = condensed, although " + choice.reason);
-    if (choice.condensed()) return of_condensed(std::move(design), std::move(bulk));
+    if (choice.condensed()) return of_condensed(std::move(design), problem, std::move(bulk));
     AssembledBodies assembled = std::move(*bulk).release();
     bulk.reset();  // its analysis is of another order of elimination
-    return of_iterated(std::move(design), std::make_unique<Iterated>(problem, std::move(assembled), monitor));
+    return of_iterated(std::move(design), problem, std::make_unique<Iterated>(problem, std::move(assembled), monitor));
 }
 
 }  // namespace
