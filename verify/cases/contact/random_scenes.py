@@ -200,9 +200,11 @@ class Program:
         if not size > 1e-9 * np.abs(self.scene.force(theta)).max():
             return False
         n, unit = self.scene.gaps @ rigid, np.eye(rigid.shape[1])
+        n = np.where(np.abs(n) > 1e-12, n, 0.0)  # CVXOPT takes rounding alone for a row
         g = np.vstack([-n, unit, -unit])
         h = np.concatenate([np.zeros(n.shape[0]), np.ones(2 * rigid.shape[1])])
-        answer = cvxopt.solvers.lp(*(cvxopt.matrix(np.ascontiguousarray(a)) for a in (-force / size, g, h)))
+        answer = cvxopt.solvers.lp(*(cvxopt.matrix(np.ascontiguousarray(a)) for a in (-force / size, g, h)),
+                                   solver="glpk", options={"glpk": {"msg_lev": "GLP_MSG_OFF"}})  # a cone without interior
         return answer["x"] is not None and -answer["primal objective"] > 1e-6
 
     def energy(self, u, theta):
