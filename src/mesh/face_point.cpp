@@ -95,6 +95,7 @@ public:
         p.normal = edge_ ? Point{v.tangent[0][1], -v.tangent[0][0], 0.0} : cross(v.tangent[0], v.tangent[1]);
         const double size = length(p.normal);
         for (double& component : p.normal) component /= size;
+        p.stretch = size;
         return p;
     }
 
@@ -149,6 +150,23 @@ std::optional<Parameters> closest_inside(const Chart& chart, Parameters xi, cons
 }
 
 }  // namespace
+
+FacePoint point_of_edge(const Mesh& mesh, const BoundaryFace& face, double t) {
+    return Chart(mesh, face).point({t, 0.0});
+}
+
+bool affine(const Mesh& mesh, const BoundaryFace& face) {
+    constexpr double rounding = 1e-12;  // of the size of the tangents
+    const Chart chart(mesh, face);
+    const auto at_centre = chart(chart.centre()).tangent;
+    const double size = std::max(length(at_centre[0]), length(at_centre[1]));
+    for (std::size_t k = 0; k < chart.nodes(); ++k) {
+        const auto tangent = chart(chart.node(k)).tangent;
+        for (std::size_t i = 0; i < 2; ++i)
+            if (length(tangent[i] - at_centre[i]) > rounding * size) return false;
+    }
+    return true;
+}
 
 FacePoint closest_point(const Mesh& mesh, const BoundaryFace& face, const Point& x) {
     const Chart chart(mesh, face);

@@ -15,8 +15,14 @@ namespace delam {
 struct FacePoint {
     std::array<double, most_face_nodes> weight{};  // N_i, summing to 1
     Point place{};
-    Point normal{};  // outward, unit
+    Point normal{};        // outward, unit
+    double stretch = 0.0;  // length (2D) or area of the face per that of its reference cell there
 };
+
+// The point of an edge of the plane at -1 <= t <= 1, from its first corner to its second.
+FacePoint point_of_edge(const Mesh& mesh, const BoundaryFace& face, double t);
+// True if the map of a face from its reference cell is affine.
+bool affine(const Mesh& mesh, const BoundaryFace& face);
 
 // The point of a face nearest to x, found by Gauss-Newton steps on |x(xi) - x|^2: reliable if x is closer to the face
 // than its radius of curvature.

@@ -18,6 +18,8 @@ std::int64_t add_interface(Mesh& mesh, std::int32_t label_a, std::int32_t label_
 std::int64_t add_all_interfaces(Mesh& mesh, double tolerance);
 // Ties the nodes of b's faces to their projections on a's faces, within `gap`; appends a tied node for each.
 std::int64_t add_projected_interface(Mesh& mesh, std::int32_t label_a, std::int32_t label_b, double gap);
+// Pairs the nodes of b's faces with means over a's faces, within `gap`; appends a tied node for each.
+std::int64_t add_mortar_interface(Mesh& mesh, std::int32_t label_a, std::int32_t label_b, double gap);
 // Pairs a control node of no body with nodes of one body. normals: [nodes][dimension] into the body, any length;
 // weights empty: those of the faces whose nodes are all there.
 std::int64_t add_obstacle(Mesh& mesh, std::span<const std::int64_t> nodes, std::span<const double> normals,

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mesh/pairing/unmatched_faces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/cancel_scope.hpp"
+#include "base/error.hpp"
+#include "base/numbers.hpp"
+#include "delam/delam.h"
+#include "mesh/pairing/assemble_interface.hpp"
+#include "mesh/pairing/interfaces.hpp"
+#include "mesh/points.hpp"
+
+namespace delam {
+
+namespace {
+
+// Work for a face whose points are projected (by iteration on curved faces), in cells of a light loop.
+constexpr std::int64_t face_work = 32;
+
+double require_gap(double gap) {
+    if (!(gap >= 0.0 && std::isfinite(gap))) fail(DELAM_ERROR_ARGUMENT, "gap ", gap, ": must be >= 0 and finite");
+    return gap;
+}
+
+std::pair<std::int32_t, std::int32_t> require_bodies(const Mesh& mesh, std::int32_t label_a, std::int32_t label_b) {
+    const auto bodies = require_unjoined(mesh, label_a, label_b);
+    require_cells(mesh, bodies.first);
+    require_cells(mesh, bodies.second);
+    return bodies;
+}
+
+double rounding_of_places(const Mesh& mesh, std::int32_t a, std::int32_t b) {
+    return 1e-6 * std::min(shortest_edge(mesh, mesh.body_cells(a)), shortest_edge(mesh, mesh.body_cells(b)));
+}
+
+}  // namespace
+
+Ground::Ground(const Mesh& mesh, std::vector<BoundaryFace> faces, double reach, double rim)
+    : mesh_(mesh), faces_(std::move(faces)), reach_(reach), rim_(rim), tree_(boxes()) {}
+
+std::optional<Ground::Found> Ground::under(const Point& x, const Point& normal) const {
+    std::optional<Found> best;
+    double nearest = std::numeric_limits<double>::infinity();
+    tree_.containing(x, [&](std::int64_t f) {
+        const FacePoint p = closest_point(mesh_, faces_[index(f)], x);
+        const Point off = x - p.place;
+        const double distance = length(off);
+        const double along = std::abs(dot(off, p.normal));
+        const double lateral = std::sqrt(std::max(0.0, distance * distance - along * along));
+        if (!(distance <= reach_) || dot(p.normal, normal) > -0.5 || lateral > rim_ + 0.5 * along) return;
+        if (std::pair(distance, index(f)) < std::pair(nearest, best ? best->face : index(f) + 1)) {
+            nearest = distance;
+            best = Found{index(f), p};
+        }
+    });
+    return best;
+}
+
+std::vector<std::size_t> Ground::meeting(const Box& box) const {
+    std::vector<std::size_t> found;
+    tree_.meeting(box, [&](std::int64_t f) { found.push_back(index(f)); });
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
+// A quadratic face extends beyond the box of its nodes by less than a quarter of its extent.
+std::vector<Box> Ground::boxes() const {
+    std::vector<Box> list;
+    for (const BoundaryFace& face : faces_) {
+        const Box box = box_of(mesh_, face, 0.0);
+        const double bulge = face.middle().empty() ? 0.0 : 0.25 * length(box.high - box.low);
+        list.push_back(box_of(mesh_, face, reach_ + bulge));
+    }
+    return list;
+}
+
+Tie tie_to(const BoundaryFace& face, const FacePoint& point) {
+    Tie tie;
+    for (std::size_t k = 0; k < face.all().size(); ++k)
+        if (point.weight[k] != 0.0) tie.emplace_back(face.node[k], point.weight[k]);
+    std::sort(tie.begin(), tie.end());
+    return tie;
+}
+
+UnmatchedFaces::UnmatchedFaces(const Mesh& mesh, std::int32_t label_a, std::int32_t label_b, double gap)
+    : mesh_(mesh),
+      a_(require_bodies(mesh, label_a, label_b).first),
+      b_(require_bodies(mesh, label_a, label_b).second),
+      rim_(rounding_of_places(mesh, a_, b_)),
+      reach_(std::max(require_gap(gap), rim_)),
+      faces_a_(boundary_faces(mesh, a_)),
+      ground_(mesh, faces_a_, reach_, rim_),
+      on_(split()) {}
+
+// A face of b lies on a completely or not at all.
+std::vector<BoundaryFace> UnmatchedFaces::split() {
+    const std::vector<BoundaryFace> faces_b = boundary_faces(mesh_, b_);
+    std::vector<BoundaryFace> on, off;
+    for (const BoundaryFace& face : faces_b) {
+        poll_cancel("pairs", face_work);
+        const std::vector<FacePoint> probes = inner_points(mesh_, face);
+        const auto found = [&](const FacePoint& p) { return ground_.under(p.place, p.normal).has_value(); };
+        const auto first_off = std::find_if_not(probes.begin(), probes.end(), found);
+        if (first_off == probes.end())
+            on.push_back(face);
+        else if (std::any_of(probes.begin(), probes.end(), found))
+            refuse_partial(face, first_off->place);
+        else
+            off.push_back(face);
+    }
+    refuse_covered(std::move(off));
+    if (on.empty()) refuse_apart(faces_b);
+    return on;
+}
+
+// Checks the other direction: no face of a may lie on faces of b that were left out.
+void UnmatchedFaces::refuse_covered(std::vector<BoundaryFace> off) const {
+    const Ground apart(mesh_, std::move(off), reach_, rim_);
+    for (const BoundaryFace& face : faces_a_) {
+        poll_cancel("pairs", face_work);
+        for (const FacePoint& p : inner_points(mesh_, face))
+            if (const auto found = apart.under(p.place, p.normal)) refuse_partial(apart.face(found->face), p.place);
+    }
+}
+
+void UnmatchedFaces::refuse_apart(const std::vector<BoundaryFace>& faces_b) const {
+    double nearest = std::numeric_limits<double>::infinity();
+    std::int64_t closest = -1;
+    std::vector<Box> boxes;
+    for (const BoundaryFace& face : faces_a_)
+        for (const std::int64_t node : face.all()) boxes.push_back({position(mesh_, node), position(mesh_, node)});
+    const BoxTree tree(std::move(boxes));
+    for (const BoundaryFace& face : faces_b)
+        for (const std::int64_t node : face.all())
+            if (const auto found = tree.nearest(position(mesh_, node), nearest); found.distance < nearest) {
+                nearest = found.distance;
+                closest = node;
+            }
+    fail(DELAM_ERROR_MESH, "bodies ", mesh_.body_label(a_), " and ", mesh_.body_label(b_), ": no face of body ",
+         mesh_.body_label(b_), " lies on faces of body ", mesh_.body_label(a_), " within ", reach_,
+         "; their boundary nodes come as close as ", nearest, " (node ", closest, ")");
+}
+
+void UnmatchedFaces::refuse_partial(const BoundaryFace& face, const Point& off) const {
+    fail(DELAM_ERROR_MESH, "bodies ", mesh_.body_label(a_), " and ", mesh_.body_label(b_), ": the face of cell ",
+         face.cell, " (body ", mesh_.body_label(b_), ") with a corner at ", place(mesh_, face.node[0]),
+         " lies on faces of body ", mesh_.body_label(a_), " only in part, near ", place(mesh_.dimension(), off),
+         " (within ", reach_, ")");
+}
+
+std::int64_t UnmatchedFaces::append(Mesh& mesh, const std::map<std::int64_t, Tie>& ties) const {
+    std::vector<NodePair> pairs;
+    std::vector<NodeTie> made;
+    std::vector<double> places;
+    for (const auto& [node, tie] : ties) {
+        made.push_back({mesh.node_count() + static_cast<std::int64_t>(made.size()), tie});
+        pairs.emplace_back(made.back().node, node);
+        for (std::size_t i = 0; i < index(mesh.dimension()); ++i) {
+            double x = 0.0;
+            for (const auto& [other, weight] : tie) x += weight * mesh.node(other)[i];
+            places.push_back(x);
+        }
+    }
+    std::vector<BoundaryFace> outward_of_a;
+    for (const BoundaryFace& face : on_) outward_of_a.push_back(turned(face));
+    InterfaceGeometry interface = assemble_interface(mesh, pairs, outward_of_a, FaceSide::b, rim_);
+    interface.body_a = a_;
+    interface.body_b = b_;
+    return mesh.append(std::move(interface), std::move(made), places);
+}
+
+}  // namespace delam
