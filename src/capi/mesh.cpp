@@ -202,6 +202,16 @@ int32_t delam_mesh_add_projected_interface(delam_mesh* mesh, int32_t body_a, int
     });
 }
 
+int32_t delam_mesh_add_mortar_interface(delam_mesh* mesh, int32_t body_a, int32_t body_b, double gap,
+                                        int64_t* out_interface) {
+    return guard_build(mesh, [&] {
+        require_pointer(out_interface, "out_interface");
+        if (!(gap >= 0.0 && std::isfinite(gap))) fail(DELAM_ERROR_ARGUMENT, "gap = ", gap, " must be >= 0 and finite");
+        require_two_bodies(*mesh->core, body_a, body_b);
+        *out_interface = add_mortar_interface(*mesh->core, body_a, body_b, gap);
+    });
+}
+
 int32_t delam_mesh_add_obstacle(delam_mesh* mesh, int64_t count, const int64_t* nodes, const double* normals,
                                 const double* weights, int64_t control_node, int32_t index_base,
                                 int64_t* out_interface) {

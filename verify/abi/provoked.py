@@ -304,6 +304,7 @@ ROWS = {
     ("mesh_add_interface", "mesh"): (apart, interface_of),
     ("mesh_add_all_interfaces", "mesh"): (askew, lambda s: [s.mesh, 0.0, whole(0)]),
     ("mesh_add_projected_interface", "mesh"): (apart, interface_of),
+    ("mesh_add_mortar_interface", "mesh"): (apart, interface_of),
     ("mesh_add_obstacle", "mesh"): (loose, lambda s: [s.mesh, 1, whole(0), real(0, -1), None, 8, 0, whole(0)]),
     ("mesh_add_host_body", "mesh"): (loose, lambda s: [s.mesh, 7, 1, whole(0), 0]),
     ("mesh_find_patch", "mesh"): (folded, lambda s: [s.mesh, 0, real(0, 0), real(1, 2), real(0, -1), 0, None, None,

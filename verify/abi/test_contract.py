@@ -247,6 +247,7 @@ CALLS = {
     "mesh_add_interface": (loose, lambda s: [s.mesh, 0, 1, 0.0, whole(0)]),
     "mesh_add_all_interfaces": (loose, lambda s: [s.mesh, 0.0, whole(0)]),
     "mesh_add_projected_interface": (loose, lambda s: [s.mesh, 0, 1, 0.0, whole(0)]),
+    "mesh_add_mortar_interface": (loose, lambda s: [s.mesh, 0, 1, 0.0, whole(0)]),
     "mesh_add_obstacle": (loose, lambda s: [s.mesh, 2, whole(0, 1), real(0, 1, 0, 1), real(0.5, 0.5), 8, 0, whole(0)]),
     "mesh_add_host_body": (loose, lambda s: [s.mesh, 7, 1, whole(8), 0]),
     "mesh_add_pairs": (loose, lambda s: [s.mesh, 0, 1, 2, whole(3, 2), whole(4, 5), real(0, 1, 0, 1), real(0.5, 0.5), 1,

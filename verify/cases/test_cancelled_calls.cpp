@@ -237,6 +237,9 @@ void build_meshes(Host& host, const Block& b) {
     fresh(true);
     host.call("delam_mesh_add_projected_interface", b.cells, print,
               [&] { return delam_mesh_add_projected_interface(mesh, 0, 1, 0.0, &index); });
+    fresh(true);
+    host.call("delam_mesh_add_mortar_interface", b.cells, print,
+              [&] { return delam_mesh_add_mortar_interface(mesh, 0, 1, 0.0, &index); });
     host.call("delam_mesh_add_obstacle", b.cells / 2, print, [&] {
         return delam_mesh_add_obstacle(mesh, static_cast<std::int64_t>(bottom.size()), bottom.data(), normals.data(),
                                        nullptr, b.node_count - 1, 0, &index);

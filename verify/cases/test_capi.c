@@ -231,7 +231,10 @@ START_TEST(projections_and_obstacles) {
     fine(delam_mesh_add_cells(other, DELAM_QUAD4, 3, cells, bodies, 0));
     expect(delam_mesh_add_projected_interface(other, 0, 1, -1.0, &index), DELAM_ERROR_ARGUMENT, "gap = -1");
     expect(delam_mesh_add_projected_interface(other, 0, 2, 0.0, &index), DELAM_ERROR_ARGUMENT, "body_b = 2");
+    expect(delam_mesh_add_mortar_interface(other, 0, 1, -1.0, &index), DELAM_ERROR_ARGUMENT, "gap = -1");
+    expect(delam_mesh_add_mortar_interface(other, 0, 2, 0.0, &index), DELAM_ERROR_ARGUMENT, "body_b = 2");
     fine(delam_mesh_add_projected_interface(other, 0, 1, 0.0, &index));
+    expect(delam_mesh_add_mortar_interface(other, 0, 1, 0.0, &index), DELAM_ERROR_ARGUMENT, "joined");
     ck_assert_int_eq(index, 0);
     fine(delam_mesh_node_ties(other, &count, &entries, NULL, NULL, NULL, NULL));
     ck_assert(count == 3 && entries == 4);

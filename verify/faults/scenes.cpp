@@ -103,7 +103,7 @@ void make_mesh(Host& host, Handles& h, const Strip& s) {
         return;
     }
     CHANGE(delam_mesh_add_cells, h.mesh, DELAM_QUAD4, cells, c.connectivity.data(), c.bodies.data(), 0);
-    CHANGE(delam_mesh_add_projected_interface, h.mesh, 0, 1, 0.0, &index);
+    CHANGE(delam_mesh_add_mortar_interface, h.mesh, 0, 1, 0.0, &index);
 }
 
 void make_law(Host& host, Handles& h, const Strip& s, laws::Bilinear& bilinear) {

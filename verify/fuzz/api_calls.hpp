@@ -140,6 +140,12 @@ inline const Call calls[] = {
          return IN_ORDER(delam_mesh_add_projected_interface, a.mesh, a.in.small_label(3), a.in.small_label(3),
              a.in.flag() ? 0.0 : a.in.real(), a.in.seldom() ? nullptr : &index);
      }},
+    {"delam_mesh_add_mortar_interface", Subject::mesh, may::cancelled | may::argument | may::mesh,
+     [](const Asked& a) {
+         std::int64_t index = -1;
+         return IN_ORDER(delam_mesh_add_mortar_interface, a.mesh, a.in.small_label(3), a.in.small_label(3),
+             a.in.flag() ? 0.0 : a.in.real(), a.in.seldom() ? nullptr : &index);
+     }},
     {"delam_mesh_add_obstacle", Subject::mesh, may::cancelled | may::argument | may::mesh,
      [](const Asked& a) { return add_obstacle(a.in, a.mesh); }},
     {"delam_mesh_add_host_body", Subject::mesh, may::cancelled | may::argument | may::mesh,

@@ -182,7 +182,9 @@ private:
         } else {
             const std::int32_t lower = in_.small_label(4), upper = in_.small_label(4);
             const double slack = in_.flag() ? 0.0 : in_.fraction();
-            const auto join = which == 1 ? delam_mesh_add_interface : delam_mesh_add_projected_interface;
+            const auto join = which == 1      ? delam_mesh_add_interface
+                              : lower < upper ? delam_mesh_add_projected_interface
+                                              : delam_mesh_add_mortar_interface;
             change("delam_mesh_add_interface", may::argument | may::mesh,
                    [&] { return join(mesh_, lower, upper, slack, &index); });
         }

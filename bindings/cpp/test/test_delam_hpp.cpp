@@ -174,6 +174,11 @@ void test_mesh() {
     expect(ties.starts.back() == static_cast<std::int64_t>(ties.of.size()) && ties.weights.size() == ties.of.size(),
            "entries");
 
+    delam::Mesh coarse(context, 2, {0., 0., 2., 0., 0., 1., 2., 1., 0., 1., 1., 1., 2., 1., 0., 2., 1., 2., 2., 2.});
+    coarse.add_cells(DELAM_QUAD4, {0, 1, 3, 2, 4, 5, 8, 7, 5, 6, 9, 8}, {0, 1, 1});
+    expect(coarse.add_mortar_interface(1, 0) == 0, "a mortar interface");
+    expect(coarse.node_ties().of == Indices{4, 5, 6, 4, 5, 6}, "means over both edges");
+
     delam::Mesh touching(context, 2, {0., 0., 1., 0., 2., 0., 0., 1., 1., 1., 2., 1.});
     touching.add_conforming_cells(DELAM_QUAD4, {0, 1, 4, 3, 1, 2, 5, 4}, {3, 7});
     expect(touching.add_all_interfaces() == 1 && touching.node_origins() == Indices{0, 1, 2, 3, 4, 5, 1, 4},

@@ -20,6 +20,7 @@ module delam_meshes
     procedure :: add_interface => mesh_add_interface
     procedure :: add_all_interfaces => mesh_add_all_interfaces
     procedure :: add_projected_interface => mesh_add_projected_interface
+    procedure :: add_mortar_interface => mesh_add_mortar_interface
     procedure :: add_obstacle => mesh_add_obstacle
     procedure :: add_host_body => mesh_add_host_body
     procedure :: add_pairs => mesh_add_pairs
@@ -216,6 +217,24 @@ contains
     if (present(interface)) interface = int(made) + 1
     call settle(code, self, status, message)
   end subroutine mesh_add_projected_interface
+
+  subroutine mesh_add_mortar_interface(self, body_a, body_b, gap, interface, status, message)
+    class(delam_mesh), intent(in) :: self
+    integer, intent(in) :: body_a, body_b
+    real(delam_real), intent(in), optional :: gap
+    integer, intent(out), optional :: interface
+    integer, intent(out), optional :: status
+    character(*), intent(out), optional :: message
+    integer(c_int64_t) :: made
+    integer(c_int32_t) :: code
+    real(delam_real) :: distance
+    distance = 0
+    if (present(gap)) distance = gap
+    made = -1
+    code = delam_mesh_add_mortar_interface(self%handle(), body_a, body_b, distance, made)
+    if (present(interface)) interface = int(made) + 1
+    call settle(code, self, status, message)
+  end subroutine mesh_add_mortar_interface
 
   ! nodes: (count); normals: (dimension, count); weights: (count), absent for the nodal ones.
   subroutine mesh_add_obstacle(self, nodes, normals, control_node, weights, interface, status, message)

@@ -226,6 +226,16 @@ module delam_raw
       integer(c_int64_t), intent(inout), optional :: out_interface
       integer(c_int32_t) :: status
     end function delam_mesh_add_projected_interface
+    function delam_mesh_add_mortar_interface(mesh, body_a, body_b, gap, out_interface) bind(c, &
+        name="delam_mesh_add_mortar_interface") result(status)
+      import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
+      type(c_ptr), value :: mesh
+      integer(c_int32_t), value :: body_a
+      integer(c_int32_t), value :: body_b
+      real(c_double), value :: gap
+      integer(c_int64_t), intent(inout), optional :: out_interface
+      integer(c_int32_t) :: status
+    end function delam_mesh_add_mortar_interface
     function delam_mesh_add_obstacle(mesh, count, nodes, normals, weights, control_node, index_base, &
         out_interface) bind(c, name="delam_mesh_add_obstacle") result(status)
       import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double

@@ -331,7 +331,7 @@ contains
 
   subroutine test_obstacles_ties_periods()
     type(delam_context) :: context
-    type(delam_mesh) :: squares, stack
+    type(delam_mesh) :: squares, stack, coarse
     type(delam_problem) :: cell
     integer(delam_index), allocatable :: a(:), b(:), nodes(:), starts(:), of(:)
     real(dp), allocatable :: weights(:), xy(:,:)
@@ -359,6 +359,13 @@ contains
       call expect(all(abs(matmul(xy(:, of(starts(i):starts(i + 1) - 1)), weights(starts(i):starts(i + 1) - 1)) &
                           - xy(:, nodes(i))) < 1e-12_dp), 'a tied node lies where its nodes put it')
     end do
+
+    call coarse%create(context, reshape([real(dp) :: 0, 0, 2, 0, 0, 1, 2, 1, 0, 1, 1, 1, 2, 1, 0, 2, 1, 2, 2, 2], [2, 10]))
+    call coarse%add_cells(DELAM_QUAD4, reshape([integer(delam_index) :: 1, 2, 4, 3, 5, 6, 9, 8, 6, 7, 10, 9], [4, 3]), &
+                          [0, 1, 1])
+    call coarse%add_mortar_interface(1, 0, interface=interface)
+    call coarse%node_ties(nodes, starts, of, weights)
+    call expect(interface == 1 .and. all(of == [5, 6, 7, 5, 6, 7]), 'a mortar interface')
 
     call squares%create(context, reshape([real(dp) :: 0, 0, 1, 0, 0, 1, 1, 1, 9, 9, 9, 8], [2, 6]))
     call squares%add_cells(DELAM_QUAD4, reshape([integer(delam_index) :: 1, 2, 4, 3], [4, 1]))

@@ -37,6 +37,14 @@ function add_projected_interface!(mesh::Mesh, body_a, body_b; gap=0.0)
     end
 end
 
+"An interface of two bodies whose meshes do not match, either of which may be the finer one. `gap`: distance of the
+faces, 0: 1e-6 of the shortest edge."
+function add_mortar_interface!(mesh::Mesh, body_a, body_b; gap=0.0)
+    new_interface(mesh) do handle, out
+        Raw.delam_mesh_add_mortar_interface(handle, body_a, body_b, gap, out)
+    end
+end
+
 """
     add_obstacle!(mesh, nodes, normals, control_node; weights=nothing)
 

@@ -151,6 +151,11 @@ function delam_mesh_add_projected_interface(mesh, body_a, body_b, gap, out_inter
         gap::Cdouble, out_interface::Ptr{Int64})::Int32
 end
 
+function delam_mesh_add_mortar_interface(mesh, body_a, body_b, gap, out_interface)
+    @ccall libdelam.delam_mesh_add_mortar_interface(mesh::Ptr{delam_mesh}, body_a::Int32, body_b::Int32,
+        gap::Cdouble, out_interface::Ptr{Int64})::Int32
+end
+
 function delam_mesh_add_obstacle(mesh, count, nodes, normals, weights, control_node, index_base, out_interface)
     @ccall libdelam.delam_mesh_add_obstacle(mesh::Ptr{delam_mesh}, count::Int64, nodes::Ptr{Int64},
         normals::Ptr{Cdouble}, weights::Ptr{Cdouble}, control_node::Int64, index_base::Int32,
@@ -668,9 +673,9 @@ const FUNCTIONS = (
     :delam_context_destroy, :delam_context_message, :delam_context_set_log, :delam_context_set_progress,
     :delam_context_cancel, :delam_cell_type_count, :delam_cell_type_info, :delam_cell_type_topology, :delam_mesh_create,
     :delam_mesh_create_layers, :delam_mesh_add_cells, :delam_mesh_add_conforming_cells, :delam_mesh_add_interface,
-    :delam_mesh_add_all_interfaces, :delam_mesh_add_projected_interface, :delam_mesh_add_obstacle,
-    :delam_mesh_add_host_body, :delam_mesh_add_pairs, :delam_mesh_destroy, :delam_mesh_size, :delam_mesh_nodes,
-    :delam_mesh_node_bodies, :delam_mesh_node_origins, :delam_mesh_node_ties, :delam_mesh_cells,
+    :delam_mesh_add_all_interfaces, :delam_mesh_add_projected_interface, :delam_mesh_add_mortar_interface,
+    :delam_mesh_add_obstacle, :delam_mesh_add_host_body, :delam_mesh_add_pairs, :delam_mesh_destroy, :delam_mesh_size,
+    :delam_mesh_nodes, :delam_mesh_node_bodies, :delam_mesh_node_origins, :delam_mesh_node_ties, :delam_mesh_cells,
     :delam_mesh_interface_size, :delam_mesh_interface_pairs, :delam_mesh_interface_faces, :delam_mesh_find_nodes,
     :delam_mesh_find_patch, :delam_law_create, :delam_law_set, :delam_law_set_text, :delam_law_set_table,
     :delam_law_parameter_count, :delam_law_parameter_info, :delam_law_parameter_bounds, :delam_law_kind_count,

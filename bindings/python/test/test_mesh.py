@@ -199,6 +199,16 @@ class Made(unittest.TestCase):
         self.assertEqual(len(ties.nodes), 3)
         np.testing.assert_allclose(np.add.reduceat(ties.weights, ties.starts[:-1]), 1.0)
 
+    def test_mortar(self):
+        nodes = np.array([[0, 0], [2, 0], [2, 1], [0, 1], [0, 1], [1, 1], [2, 1], [0, 2], [1, 2], [2, 2]], float)
+        mesh = delam.Mesh(nodes)
+        mesh.add_cells("quad4", [[0, 1, 2, 3]], 0)
+        mesh.add_cells("quad4", [[4, 5, 8, 7], [5, 6, 9, 8]], 1)
+        interface = mesh.add_mortar_interface(1, 0)
+        self.assertEqual(interface.pair_count, 2)
+        force = np.bincount(mesh.ties.of, mesh.ties.weights)[4:7]
+        np.testing.assert_allclose(force, [0.5, 1.0, 0.5])
+
     def test_obstacle(self):
         mesh = delam.Mesh(np.vstack([SQUARES[:4], [[0.5, 3.0]]]))
         mesh.add_cells("quad4", [[0, 1, 2, 3]])

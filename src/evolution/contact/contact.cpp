@@ -14,7 +14,7 @@ namespace delam {
 
 namespace {
 
-// Fraction of the largest jump by which prescribed displacements may press two faces into each other: rounding.
+// Fraction of the largest jump or prescribed displacement by which faces may be pressed into each other: rounding.
 constexpr double pressed = 1e-9;
 
 // closed: [pairs] or empty; constraints and other held pairs may leave a closed pair no choice but to open, or to be
@@ -22,7 +22,8 @@ constexpr double pressed = 1e-9;
 void refuse_pressed(const ContactScene& scene, std::span<const std::uint8_t> prescribed,
                     std::span<const std::uint8_t> closed, const Response& response, std::span<const double> theta) {
     const auto dim = index(scene.dimension);
-    const double deepest = -pressed * std::max(max_abs(response.jump), scene.jump_floor(theta));
+    const double deepest =
+        -pressed * std::max({max_abs(response.jump), scene.jump_floor(theta), scene.prescribed_size(theta)});
     for (std::size_t p = 0; p < scene.bonded.size(); ++p)
         if (scene.bonded[p] == 0 && (!scene.may_close(p, prescribed) || (!closed.empty() && closed[p] != 0)) &&
             response.jump[p * dim] < deepest)

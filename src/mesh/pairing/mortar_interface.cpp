@@ -3,8 +3,8 @@
 // Two bodies whose meshes do not match: each node p of b's faces is paired with a mean over a's faces (dual mortar
 // method: B. Wohlmuth, SIAM J. Numer. Anal. 38, 2000),
 //
-//   u_a,p = sum_e c_pe l_pe(u_a),   l_pe(v): coefficient of N_p in the L2 projection of v onto the N_q of a face e of b,
-//   c_pe = int_e N_p / int N_p.
+//   u_a,p = sum_e c_pe l_pe(u_a),   l_pe(v): coefficient of N_p in the L2 projection of v onto the N_q of a face e of
+//   b, c_pe = int_e N_p / int N_p.
 //
 // Linear displacements pass exactly, because the projections leave them as they are. So does a uniform traction t: b
 // takes the forces t int N_p, and a takes t sum_p int N_p u_a,p = t int u_a, since a projection keeps the integral.
@@ -34,8 +34,8 @@ namespace {
 // they are rational. (Measured as largest error of the stress in a patch test, hex8 with faces that are distorted by a
 // fifth of an edge, ratio 3:5: verify/unit/test_mortar.cpp prints it.)
 constexpr int points_linear = 3, points_quadratic = 5, points_distorted = 8;
-constexpr double rounded = 1e-13;    // weights of a tie below this are rounding
-constexpr double no_area = 1e-12;    // of a face: smaller segments are rounding
+constexpr double rounded = 1e-13;     // weights of a tie below this are rounding
+constexpr double no_area = 1e-12;     // of a face: smaller segments are rounding
 constexpr double no_integral = 1e-6;  // of the area around a node: int N_p counts as zero, as at corners of tri6
 
 struct Gauss {
@@ -49,7 +49,8 @@ Gauss gauss(int n) {
         double x = std::cos(std::numbers::pi * (i + 0.75) / (n + 0.5)), slope = 0.0;
         for (int step = 0; step < 20; ++step) {
             double before = 1.0, value = x;
-            for (int k = 2; k <= n; ++k) before = std::exchange(value, ((2 * k - 1) * x * value - (k - 1) * before) / k);
+            for (int k = 2; k <= n; ++k)
+                before = std::exchange(value, ((2 * k - 1) * x * value - (k - 1) * before) / k);
             slope = n * (x * value - before) / (x * x - 1.0);
             x -= value / slope;
         }
@@ -131,8 +132,7 @@ void add_segments_of_edge(const Mesh& mesh, const UnmatchedFaces& faces, FacePro
         const Gauss rule = gauss(gauss_points(mesh, below, edge));
         for (std::size_t q = 0; q < rule.point.size(); ++q) {
             const FacePoint on_b = point_of_edge(mesh, edge, from + length * rule.point[q]);
-            projection.add(on_b, below, closest_point(mesh, below, on_b.place),
-                           length * rule.weight[q] * on_b.stretch);
+            projection.add(on_b, below, closest_point(mesh, below, on_b.place), length * rule.weight[q] * on_b.stretch);
         }
     }
 }

@@ -246,6 +246,30 @@ def gap(host, see):
                                                  Out()))
 
 
+@row("gap 0 of a mortar interface", says=["mesh_add_mortar_interface: Pairs, weights, faces, order, normals, gap"])
+def gap_of_means(host, see):
+    see_tolerance(see, lambda shift: host.status("mesh_add_mortar_interface", squares(host, 0.0, shift), 0, 1, 0.0,
+                                                 Out()))
+
+
+@row("mortar interface", tells=["mesh_add_mortar_interface out_interface"])
+def mortar(host, see):
+    # One edge below, two of unequal length above: 0 .. 4 and 0 .. 1 .. 4; b below.
+    low, high = [(0, 0), (4, 0), (0, 1), (4, 1)], [(x, y) for y in (1, 2) for x in (0, 1, 4)]
+    mesh = host("mesh_create", host.context, 2, 10, [float(c) for n in low + high for c in n], Out())
+    host("mesh_add_cells", mesh, TYPES["quad4"], 3, [0, 1, 3, 2, 4, 5, 8, 7, 5, 6, 9, 8], [0, 1, 1], 0)
+    see.equal("index", host("mesh_add_mortar_interface", mesh, 1, 0, 0.0, Out()), 0)
+    nodes_a, nodes_b, weights, frames = host("mesh_interface_pairs", mesh, 0, Out(2), Out(2), Out(2), Out(8))
+    see.equal("pairs", [nodes_a, nodes_b], [10, 11, 2, 3])
+    see.near("weights", weights, [2.0, 2.0], "L")
+    see.near("normals from a to b", [frames[4 * p:4 * p + 2] for p in range(2)], [[0.0, -1.0]] * 2)
+    nodes, starts, of, shares = host("mesh_node_ties", mesh, None, None, Out(2), Out(3), Out(6), Out(6))[2:]
+    see.equal("tied nodes", [nodes, starts, of], [10, 11, 0, 3, 6, 4, 5, 6, 4, 5, 6])
+    # With N_1 = 1 - x/4, N_2 = x/4 and int N_p N_q = 4/3, 2/3, the projection of v has the values
+    # v_1 = int (1 - 3 x/8) v and v_2 = int (3 x/8 - 1/2) v.
+    see.near("means", shares, [[7 / 16, 3 / 4, -3 / 16], [-3 / 16, 1 / 4, 15 / 16]])
+
+
 @row("projected interface", tells=["mesh_node_ties nodes", "mesh_node_ties starts", "mesh_node_ties of",
                                    "mesh_node_ties weights", "mesh_node_ties count", "mesh_node_ties entries",
                                    "mesh_add_projected_interface out_interface"])

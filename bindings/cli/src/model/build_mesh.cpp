@@ -131,8 +131,9 @@ void add_named_interfaces(Model& model, const Scene& scene) {
         const auto label_a = static_cast<std::int32_t>(a);
         const auto label_b = static_cast<std::int32_t>(b);
         call(model.context.get(),
-             data.projected ? delam_mesh_add_projected_interface(model.mesh.get(), label_a, label_b, data.gap, &index)
-                            : delam_mesh_add_interface(model.mesh.get(), label_a, label_b, data.tolerance, &index),
+             data.points      ? delam_mesh_add_projected_interface(model.mesh.get(), label_a, label_b, data.gap, &index)
+             : data.projected ? delam_mesh_add_mortar_interface(model.mesh.get(), label_a, label_b, data.gap, &index)
+                              : delam_mesh_add_interface(model.mesh.get(), label_a, label_b, data.tolerance, &index),
              data.place);
         push_interface(model, scene, data, a, b);
     }

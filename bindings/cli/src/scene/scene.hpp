@@ -82,6 +82,7 @@ struct InterfaceData {
     std::size_t upper = 0;
     std::string a, b;  // in a mesh: names of bodies, with * for any characters; empty: all that touch
     bool projected = false;
+    bool points = false;  // projected onto points of a's faces, not means
     double gap = 0;
     double tolerance = 0;
     std::string name;

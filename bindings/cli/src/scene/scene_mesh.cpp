@@ -156,6 +156,7 @@ void read_mesh_interfaces(const Table& root, Scene& scene) {
         interface.projected = table.flag("projected");
         if (interface.projected) {
             if (is_pattern(interface.a) || is_pattern(interface.b)) table.fail("projected", "needs two bodies by name");
+            interface.points = table.text("projection", "means") == "points";
             interface.gap = table.number("gap", 0.0);
         }
         interface.tolerance = table.number("tolerance", 0.0);

@@ -288,6 +288,11 @@ class Mesh(Object):
         a length, 0: 1e-6 of the shortest edge. The nodes of b are tied to a (ties)."""
         return self._add_interface(library.delam_mesh_add_projected_interface, body_a, body_b, number("gap", gap))
 
+    def add_mortar_interface(self, body_a: Body, body_b: Body, gap: float = 0.0) -> Interface:
+        """An interface of two bodies whose meshes do not match, either of which may be the finer one. gap: distance of
+        the faces, a length, 0: 1e-6 of the shortest edge. The nodes of b are tied to means over faces of a (ties)."""
+        return self._add_interface(library.delam_mesh_add_mortar_interface, body_a, body_b, number("gap", gap))
+
     def add_obstacle(self, nodes: ArrayLike, normals: ArrayLike, control_node: int,
                      weights: ArrayLike | None = None) -> Interface:
         """A rigid obstacle that moves with its control node, a node of no body. nodes: those that may touch it, indices
@@ -511,5 +516,5 @@ def _warn_of_lone_bodies(mesh: Mesh) -> None:
     distance = _distance(nodes[bodies == first], nodes[(bodies != first) & (bodies >= 0)])
     logger.warning("no interface was made for %s %s, whose faces coincide with none of another body; the nearest nodes "
                    "of body %s and of others are %.3g apart. Mesh.add_interface(tolerance=..) or, where meshes do not "
-                   "match, Mesh.add_projected_interface(gap=..) joins faces at a distance",
+                   "match, Mesh.add_mortar_interface(gap=..) joins faces at a distance",
                    "bodies" if len(lone) > 1 else "body", listing(lone), first, distance)

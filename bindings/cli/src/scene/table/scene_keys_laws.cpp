@@ -194,6 +194,11 @@ KeyTable interface_table() {
         flag_key("bonded").says("instead of a law: bonded perfectly and permanently"),
         flag_key("contact").in_mesh().says("instead of a law: contact without adhesion"),
         flag_key("projected").in_mesh().says("for meshes that do not match: projects b's nodes onto a's faces"),
+        choice_key("projection", {"means", "points"})
+            .in_mesh()
+            .otherwise("means")
+            .says(
+                "pairs b's nodes with means over a's faces, either mesh may be the finer one; or with points on them"),
         number_key("gap", not_negative).in_mesh().says("largest distance between projected faces"),
         number_key("tolerance", pairing_tolerance)
             .in_mesh()
@@ -215,7 +220,7 @@ KeyTable interface_table() {
         {at_least_one, {"a", "all"}, {}, {}, "give either a and b or all = true", Scenes::mesh},
         {excludes, {"all"}, {"a", "b"}, {}, "give either a and b or all = true", Scenes::mesh},
         {needs, {"a"}, {"b"}, {}, "is missing: the name of a body is expected", Scenes::mesh},
-        {needs, {"gap"}, {"projected"}, {}, "is for projected = true", Scenes::mesh},
+        {needs, {"gap", "projection"}, {"projected"}, {}, "is for projected = true", Scenes::mesh},
         {excludes, {"projected"}, {"all"}, {}, "needs two bodies by name", Scenes::mesh},
     };
     return table;

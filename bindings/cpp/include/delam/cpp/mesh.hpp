@@ -111,6 +111,11 @@ public:
         shared_->check(delam_mesh_add_projected_interface(get(), body_a, body_b, gap, &made));
         return made;
     }
+    std::int64_t add_mortar_interface(std::int32_t body_a, std::int32_t body_b, double gap = 0.0) {
+        std::int64_t made = -1;
+        shared_->check(delam_mesh_add_mortar_interface(get(), body_a, body_b, gap, &made));
+        return made;
+    }
     // weights: empty for the nodal ones.
     std::int64_t add_obstacle(View<std::int64_t> nodes, View<double> normals, std::int64_t control_node,
                               View<double> weights = {}) {

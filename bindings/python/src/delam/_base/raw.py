@@ -99,6 +99,9 @@ FUNCTIONS: dict[str, tuple[Any, tuple[tuple[str, Any], ...]]] = {
     "delam_mesh_add_projected_interface": (c_int32, (
         ("mesh", POINTER(delam_mesh)), ("body_a", c_int32), ("body_b", c_int32), ("gap", c_double),
         ("out_interface", POINTER(c_int64)))),
+    "delam_mesh_add_mortar_interface": (c_int32, (
+        ("mesh", POINTER(delam_mesh)), ("body_a", c_int32), ("body_b", c_int32), ("gap", c_double),
+        ("out_interface", POINTER(c_int64)))),
     "delam_mesh_add_obstacle": (c_int32, (
         ("mesh", POINTER(delam_mesh)), ("count", c_int64), ("nodes", POINTER(c_int64)), ("normals", POINTER(c_double)),
         ("weights", POINTER(c_double)), ("control_node", c_int64), ("index_base", c_int32),
