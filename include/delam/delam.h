@@ -330,16 +330,16 @@ DELAM_API int32_t delam_mesh_add_all_interfaces(delam_mesh *mesh, double toleran
  * [unit gap L >= 0; null none; status cancelled, argument, mesh; since 0.1] */
 DELAM_API int32_t delam_mesh_add_projected_interface(delam_mesh *mesh, int32_t body_a, int32_t body_b, double gap,
                                                      int64_t *out_interface);
-/* Adds an interface between two bodies whose meshes do not match, as delam_mesh_add_projected_interface does, but pairs
- * each node of b's faces with a mean over a's faces. *out_interface receives its index. Either body may have the finer
- * mesh. The tied node of a pair has the displacement sum_i M_i u_i over nodes of a. The M_i project a's displacement
- * onto the shape functions of b's faces (L2 projections over the segments in which faces of both bodies meet). Their sum
- * is 1, and some may be negative. Linear displacements are continuous across a perfect bond. Between plane faces a
- * perfect bond transfers a uniform traction exactly; so do a law and contact, unless b consists of tet10 or hex20, whose
- * weights are not proportional to its nodal forces. On faces that are no parallelograms the integrals have relative
- * errors of about 1e-11. Contact holds in the mean: where b is coarser than a, nodes of a between those of b may
- * penetrate.
- * Pairs, weights, faces, order, normals, gap and errors are those of delam_mesh_add_projected_interface.
+/* Adds an interface between two bodies, a = body_a and b = body_b, whose meshes do not match. Pairs, weights, faces,
+ * order, normals, gap and errors are those of delam_mesh_add_projected_interface. However, each node of b's faces is
+ * paired with a mean over a's faces, and either body may have the finer mesh. *out_interface receives its index.
+ * The tied node of a pair has the displacement sum_i M_i u_i over nodes of a. The M_i project a's displacement onto
+ * the shape functions of b's faces (L2 projections over the segments in which faces of both bodies meet). Their sum is
+ * 1, and some may be negative. Linear displacements are continuous across a perfect bond. Between plane faces a
+ * perfect bond transfers a uniform traction exactly. A law and contact do so unless b consists of tet10 or hex20. The
+ * weights of these are not proportional to the nodal forces. On faces that are no parallelograms the integrals have
+ * relative errors of about 1e-11. Contact holds in the mean: where b is coarser than a, nodes of a between those of b
+ * may penetrate.
  * [unit gap L >= 0; null none; status cancelled, argument, mesh; source B. Wohlmuth, SIAM J. Numer. Anal. 38 (2000)
  * 989-1012; since 0.2] */
 DELAM_API int32_t delam_mesh_add_mortar_interface(delam_mesh *mesh, int32_t body_a, int32_t body_b, double gap,
@@ -399,10 +399,10 @@ DELAM_API int32_t delam_mesh_node_bodies(const delam_mesh *mesh, int64_t capacit
  * delam_mesh_add_conforming_cells made it; every other node is its own original.
  * [null none; status argument; since 0.1] */
 DELAM_API int32_t delam_mesh_node_origins(const delam_mesh *mesh, int64_t capacity, int64_t *origins);
-/* Returns the tied nodes (delam_mesh_add_projected_interface, delam_mesh_add_mortar_interface) in ascending order. *count and *entries receive the
- * numbers of tied nodes and of weights. The arrays are nodes [count], starts [count+1], of and weights [entries]. The
- * displacement of nodes[i] is the sum of weights[e] times the displacement of node of[e], over e = starts[i] ..
- * starts[i+1]-1. The weights of a tied node sum to 1; on quadratic faces some may be negative.
+/* Returns the tied nodes (delam_mesh_add_projected_interface, delam_mesh_add_mortar_interface) in ascending order.
+ * *count and *entries receive the numbers of tied nodes and of weights. The arrays are nodes [count], starts [count+1],
+ * of and weights [entries]. The displacement of nodes[i] is the sum of weights[e] times the displacement of node of[e],
+ * over e = starts[i] .. starts[i+1]-1. The weights of a tied node sum to 1; some may be negative.
  * [unit weights 1; null count, entries, nodes, starts, of, weights; status usual; source none; since 0.1] */
 DELAM_API int32_t delam_mesh_node_ties(const delam_mesh *mesh, int64_t *count, int64_t *entries, int64_t *nodes,
                                        int64_t *starts, int64_t *of, double *weights);

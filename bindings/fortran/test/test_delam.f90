@@ -360,7 +360,8 @@ contains
                           - xy(:, nodes(i))) < 1e-12_dp), 'a tied node lies where its nodes put it')
     end do
 
-    call coarse%create(context, reshape([real(dp) :: 0, 0, 2, 0, 0, 1, 2, 1, 0, 1, 1, 1, 2, 1, 0, 2, 1, 2, 2, 2], [2, 10]))
+    call coarse%create(context, reshape([real(dp) :: 0, 0, 2, 0, 0, 1, 2, 1, 0, 1, 1, 1, 2, 1, 0, 2, 1, 2, 2, 2], &
+                                        [2, 10]))
     call coarse%add_cells(DELAM_QUAD4, reshape([integer(delam_index) :: 1, 2, 4, 3, 5, 6, 9, 8, 6, 7, 10, 9], [4, 3]), &
                           [0, 1, 1])
     call coarse%add_mortar_interface(1, 0, interface=interface)

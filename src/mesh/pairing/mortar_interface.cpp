@@ -10,9 +10,11 @@
 // takes the forces t int N_p, and a takes t sum_p int N_p u_a,p = t int u_a, since a projection keeps the integral.
 // The integrals run over the segments in which a face of b meets one face of a.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -20,7 +22,6 @@
 #include "base/error.hpp"
 #include "base/numbers.hpp"
 #include "delam/delam.h"
-#include "linalg/dense/dense.hpp"
 #include "mesh/pairing/interfaces.hpp"
 #include "mesh/pairing/unmatched_faces.hpp"
 #include "mesh/points.hpp"
@@ -65,11 +66,43 @@ int gauss_points(const Mesh& mesh, const BoundaryFace& a, const BoundaryFace& b)
     return a.middle().empty() && b.middle().empty() ? points_linear : points_quadratic;
 }
 
+// A symmetric positive definite matrix of a face's nodes, at most eight.
+class FaceMatrix {
+public:
+    double& operator()(std::size_t p, std::size_t q) { return value_[p][q]; }
+    // Makes A = L L^T of the lower triangle; false: not positive definite.
+    bool factor(std::size_t size) {
+        size_ = size;
+        for (std::size_t j = 0; j < size; ++j) {
+            const double whole = value_[j][j];
+            for (std::size_t i = j; i < size; ++i) {
+                for (std::size_t k = 0; k < j; ++k) value_[i][j] -= value_[i][k] * value_[j][k];
+                if (i == j && !(value_[j][j] > 1e-12 * whole)) return false;
+                value_[i][j] = i == j ? std::sqrt(value_[j][j]) : value_[i][j] / value_[j][j];
+            }
+        }
+        return true;
+    }
+    void solve(std::span<double> x) const {
+        for (std::size_t i = 0; i < size_; ++i) {
+            for (std::size_t k = 0; k < i; ++k) x[i] -= value_[i][k] * x[k];
+            x[i] /= value_[i][i];
+        }
+        for (std::size_t i = size_; i-- > 0;) {
+            for (std::size_t k = i + 1; k < size_; ++k) x[i] -= value_[k][i] * x[k];
+            x[i] /= value_[i][i];
+        }
+    }
+
+private:
+    std::array<std::array<double, most_face_nodes>, most_face_nodes> value_{};
+    std::size_t size_ = 0;
+};
+
 // The projections l_pe of one face e of b.
 class FaceProjection {
 public:
-    explicit FaceProjection(const BoundaryFace& face)
-        : face_(face), integral_(face.all().size(), 0.0), mass_(face.nodes, face.nodes) {}
+    explicit FaceProjection(const BoundaryFace& face) : face_(face), integral_(face.all().size(), 0.0) {}
 
     void add(const FacePoint& on_b, const BoundaryFace& below, const FacePoint& on_a, double weight) {
         const std::size_t nodes = integral_.size();
@@ -77,8 +110,7 @@ public:
         for (std::size_t p = 0; p < nodes; ++p) {
             const double own = weight * on_b.weight[p];
             integral_[p] += own;
-            for (std::size_t q = 0; q < nodes; ++q)
-                mass_(static_cast<std::int64_t>(p), static_cast<std::int64_t>(q)) += own * on_b.weight[q];
+            for (std::size_t q = 0; q < nodes; ++q) mass_(p, q) += own * on_b.weight[q];
         }
         for (std::size_t k = 0; k < below.all().size(); ++k) {
             if (on_a.weight[k] == 0.0) continue;
@@ -89,13 +121,8 @@ public:
     }
     // False: the segments do not cover the face.
     bool solve() {
-        for (std::int64_t i = 0; i < mass_.rows; ++i)
-            for (std::int64_t j = i + 1; j < mass_.columns; ++j) mass_(i, j) = 0.0;
-        if (!factor_definite(mass_)) return false;
-        for (auto& [node, moment] : moment_) {
-            solve_lower(mass_, moment);
-            solve_lower_transposed(mass_, moment);
-        }
+        if (!mass_.factor(integral_.size())) return false;
+        for (auto& [node, moment] : moment_) mass_.solve(moment);
         return true;
     }
     const BoundaryFace& face() const { return face_; }
@@ -108,7 +135,7 @@ private:
     BoundaryFace face_;
     double area_ = 0.0;
     std::vector<double> integral_;  // int_e N_p
-    DenseMatrix mass_;              // int_e N_p N_q
+    FaceMatrix mass_;               // int_e N_p N_q
     std::map<std::int64_t, std::vector<double>> moment_;
 };
 

@@ -3,7 +3,8 @@
 import importlib
 import math
 
-MODULES = ("mesh", "law", "problem", "loads", "solver", "values", "options", "energetic", "operators", "calls")
+MODULES = ("mesh", "pairing", "law", "problem", "loads", "solver", "values", "options", "energetic", "operators",
+           "calls")
 
 
 class Row:
