@@ -338,7 +338,7 @@ DELAM_API int32_t delam_mesh_add_projected_interface(delam_mesh *mesh, int32_t b
  * 1, and some may be negative. Linear displacements are continuous across a perfect bond. Between plane faces a
  * perfect bond transfers a uniform traction exactly. A law and contact do so unless b consists of tet10 or hex20. The
  * weights of these are not proportional to the nodal forces. On faces that are no parallelograms the integrals have
- * relative errors of about 1e-11. Contact holds in the mean: where b is coarser than a, nodes of a between those of b
+ * relative errors of about 1e-12. Contact holds in the mean: where b is coarser than a, nodes of a between those of b
  * may penetrate.
  * [unit gap L >= 0; null none; status cancelled, argument, mesh; source B. Wohlmuth, SIAM J. Numer. Anal. 38 (2000)
  * 989-1012; since 0.2] */

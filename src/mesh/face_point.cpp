@@ -155,17 +155,16 @@ FacePoint point_of_edge(const Mesh& mesh, const BoundaryFace& face, double t) {
     return Chart(mesh, face).point({t, 0.0});
 }
 
-bool affine(const Mesh& mesh, const BoundaryFace& face) {
-    constexpr double rounding = 1e-12;  // of the size of the tangents
+double distortion(const Mesh& mesh, const BoundaryFace& face) {
     const Chart chart(mesh, face);
     const auto at_centre = chart(chart.centre()).tangent;
-    const double size = std::max(length(at_centre[0]), length(at_centre[1]));
+    double most = 0.0;
     for (std::size_t k = 0; k < chart.nodes(); ++k) {
         const auto tangent = chart(chart.node(k)).tangent;
-        for (std::size_t i = 0; i < 2; ++i)
-            if (length(tangent[i] - at_centre[i]) > rounding * size) return false;
+        for (std::size_t i = 0; i < (chart.edge() ? 1U : 2U); ++i)
+            most = std::max(most, length(tangent[i] - at_centre[i]) / length(at_centre[i]));
     }
-    return true;
+    return most;
 }
 
 FacePoint closest_point(const Mesh& mesh, const BoundaryFace& face, const Point& x) {

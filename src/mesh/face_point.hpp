@@ -21,8 +21,9 @@ struct FacePoint {
 
 // The point of an edge of the plane at -1 <= t <= 1, from its first corner to its second.
 FacePoint point_of_edge(const Mesh& mesh, const BoundaryFace& face, double t);
-// True if the map of a face from its reference cell is affine.
-bool affine(const Mesh& mesh, const BoundaryFace& face);
+// By how much the tangents of a face vary over it, relative to those at its centre: 0 if its map from the reference
+// cell is affine.
+double distortion(const Mesh& mesh, const BoundaryFace& face);
 
 // The point of a face nearest to x, found by Gauss-Newton steps on |x(xi) - x|^2: reliable if x is closer to the face
 // than its radius of curvature.

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
+#include <numbers>
 
 #include "api.hpp"
 #include "support.hpp"
@@ -130,6 +132,71 @@ LOOP_TEST(patch, 0, 6) {
     cases::expect_below(before, d == 2 ? 0.002 : 0.025, where + ": errors" + table);
     const double coarser = stress_error(d, 3, 2, reduction);
     cases::expect(coarser > 10.0 * before, where + ": b coarser than a, error " + std::to_string(coarser));
+}
+
+// Two quarter rings of radii 1, 1.5 and 2 around each other, `inner` and `outer` cells along their arcs: the largest
+// error of the displacement beside Lame's, u = (r - 4/r) / (-3) 1e-3, over the largest displacement.
+double ring_error(std::int64_t inner, std::int64_t outer, bool outer_is_b) {
+    std::vector<double> nodes;
+    std::vector<std::int64_t> cells;
+    std::vector<std::int32_t> bodies;
+    for (const auto& [along, body] : {std::pair{inner, 0}, {outer, 1}}) {
+        const auto first = static_cast<std::int64_t>(nodes.size()) / 2, across = along / 2, column = across + 1;
+        for (std::int64_t i = 0; i <= along; ++i)
+            for (std::int64_t j = 0; j <= across; ++j) {
+                const double angle =
+                    0.5 * std::numbers::pi * static_cast<double>(along - i) / static_cast<double>(along);
+                const double r = 1.0 + 0.5 * (body + static_cast<double>(j) / static_cast<double>(across));
+                nodes.insert(nodes.end(), {i == 0 ? 0.0 : r * std::cos(angle), i == along ? 0.0 : r * std::sin(angle)});
+                if (i == along || j == across) continue;
+                const std::int64_t n = first + i * column + j;
+                cells.insert(cells.end(), {n, n + column, n + column + 1, n + 1});
+                bodies.push_back(body);
+            }
+    }
+    Scene scene(2, nodes, DELAM_QUAD4, cells, bodies);
+    const double turn = 0.5 * std::numbers::pi / static_cast<double>(std::min(inner, outer));
+    std::int64_t index = -1;
+    REQUIRE(scene, delam_mesh_add_mortar_interface, scene.mesh(), outer_is_b ? 0 : 1, outer_is_b ? 1 : 0,
+            1.5 * 0.25 * turn * turn, &index);
+    scene.begin();
+    scene.elastic(-1, 10e9, 0.3);
+    scene.bonded(0);
+    const auto load = scene.pattern("grow", {0.0, 1.0}, {0.0, 1.0});
+    const auto exact = [&](std::size_t node, std::size_t c) {
+        const double r = std::hypot(nodes[2 * node], nodes[2 * node + 1]);
+        return 1e-3 * (4.0 / r - r) / 3.0 * nodes[2 * node + c] / r;
+    };
+    for (std::size_t c = 0; c < 2; ++c) {
+        std::vector<std::int64_t> driven;
+        std::vector<double> values;
+        for (std::size_t n = 0; n < nodes.size() / 2; ++n) {
+            const double r = std::hypot(nodes[2 * n], nodes[2 * n + 1]);
+            if (nodes[2 * n + c] != 0.0 && r > 1.0 + 1e-9 && r < 2.0 - 1e-9) continue;
+            driven.push_back(static_cast<std::int64_t>(n));
+            values.push_back(exact(n, c));
+        }
+        scene.drive(driven, {c == 0 ? 1.0 : 0.0, c == 0 ? 0.0 : 1.0}, load, values);
+    }
+    Solver solver(scene, 0.0);
+    solver.equilibrate(1.0, {});
+    const auto u = solver.field("displacement");
+    double error = 0.0;
+    for (std::size_t i = 0; i < nodes.size(); ++i) error = std::max(error, std::abs(u[i] - exact(i / 2, i % 2)));
+    return error / 1e-3;
+}
+
+LOOP_TEST(means_on_arcs, 0, 4) {
+    const bool outer_is_b = loop % 2 == 0, inner_is_finer = loop / 2 == 0;
+    double before = 0.0;
+    std::string table;
+    for (const std::int64_t n : {4, 8, 16}) {
+        const double error = ring_error(inner_is_finer ? 3 * n : 2 * n, inner_is_finer ? 2 * n : 3 * n, outer_is_b);
+        table += " " + std::to_string(error);
+        if (before > 0.0) cases::expect(error < before / 3.0, "errors" + table);
+        before = error;
+    }
+    std::printf("arcs, %d:%s\n", loop, table.c_str());
 }
 
 // Body a below, b above. In space with few cells: a node of the coarse side then has hundreds of others in its mean.

@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Contact of decks and scenes between meshes that were not made for each other."""
+import csv
+import math
+import os
+
+from support import delam, expect, expect_error, finish, folder
+
+
+def bar(lower, upper, slave):
+    """A deck: two blocks of 1 x 1 on each other, so many cells along their common face; pressed by 5e-4."""
+    text, first, cell, sets = "*NODE\n", 1, 1, {}
+    elements = ""
+    for name, n, z in (("LOW", lower, 0.0), ("UP", upper, 1.0)):
+        for j in range(3):
+            text += "".join(f"{first + j * (n + 1) + i}, {i / n}, {z + 0.5 * j}\n" for i in range(n + 1))
+        elements += f"*ELEMENT, TYPE=CPE4, ELSET={name}\n"
+        for j in range(2):
+            for i in range(n):
+                at = first + j * (n + 1) + i
+                elements += f"{cell + j * n + i}, {at}, {at + 1}, {at + n + 2}, {at + n + 1}\n"
+        end = 2 * (n + 1) if name == "UP" else 0
+        sets[name] = list(range(first + end, first + end + n + 1))
+        facing = range(cell + n, cell + 2 * n) if name == "LOW" else range(cell, cell + n)
+        elements += f"*ELSET, ELSET=F{name}\n" + "".join(f"{k},\n" for k in facing)
+        first, cell = first + 3 * (n + 1), cell + 2 * n
+    text += elements + "".join(f"*NSET, NSET={to}\n" + "".join(f"{k},\n" for k in sets[of])
+                               for to, of in (("BOT", "LOW"), ("TOP", "UP")))
+    pair = "SUP, SLOW" if slave == "UP" else "SLOW, SUP"
+    return text + f"""*SOLID SECTION, ELSET=LOW, MATERIAL=M
+1.
+*SOLID SECTION, ELSET=UP, MATERIAL=M
+1.
+*MATERIAL, NAME=M
+*ELASTIC
+1000., 0.
+*SURFACE, NAME=SLOW, TYPE=ELEMENT
+FLOW, S3
+*SURFACE, NAME=SUP, TYPE=ELEMENT
+FUP, S1
+*SURFACE INTERACTION, NAME=I
+1.,
+*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=HARD
+*CONTACT PAIR, INTERACTION=I, TYPE=SURFACE TO SURFACE
+{pair}
+*STEP
+*STATIC
+0.5, 1., 1e-5, 0.5
+*BOUNDARY
+BOT, 1, 2
+TOP, 1, 1
+TOP, 2, 2, -5e-4
+*END STEP
+"""
+
+
+def written(text, name, place=None):
+    path = os.path.join(place or folder(), name)
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(text)
+    return path
+
+
+def pressed(scene):
+    """The reaction at the end."""
+    out = os.path.join(folder(), "out")
+    code, _, error = delam("run", scene, "--out", out)
+    expect(code == 0, f"it runs: exit {code} {error.strip()[:300]}")
+    with open(os.path.join(out, "history.csv"), newline="", encoding="utf-8") as file:
+        return float(list(csv.DictReader(file))[-1]["reaction"])
+
+
+# The bar shortens by 5e-4 in 2: sigma = 0.25, whichever side is the slave and whichever is finer.
+for lower, upper in ((20, 4), (20, 1), (1, 20), (3, 2)):
+    for slave in ("UP", "LOW"):
+        path = written(bar(lower, upper, slave), "bar.inp")
+        place = os.path.dirname(path)
+        code, scene, error = delam("import", path)
+        expect(code == 0, f"import: {error.strip()}")
+        expect("projection" not in scene, "the scene has the default")
+        force = pressed(written(scene, "bar.toml", place))
+        expect(math.isclose(abs(force), 0.25, rel_tol=1e-9), f"{lower}:{upper}, slave {slave}: {force}")
+        if (lower, upper, slave) == (20, 1, "UP"):
+            points = scene.replace("projected = true", 'projected = true\nprojection = "points"')
+            force = pressed(written(points, "points.toml", place))
+            expect(abs(force) < 0.2, f"points alone, where b is coarse: {force}")
+            expect_error(delam("check", written(points.replace('"points"', '"nodes"'), "nodes.toml", place)), 2, "projection.*means.*points")
+            expect_error(delam("check", written(points.replace("projected = true\n", ""), "none.toml", place)), 2, "is for projected = true")
+finish()
