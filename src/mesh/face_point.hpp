@@ -21,7 +21,7 @@ struct FacePoint {
 
 // The point of an edge of the plane at -1 <= t <= 1, from its first corner to its second.
 FacePoint point_of_edge(const Mesh& mesh, const BoundaryFace& face, double t);
-// By how much the tangents of a face vary over it, relative to those at its centre: 0 if its map from the reference
+// Returns by how much the tangents of a face vary, relative to those at its centre: 0 if its map from the reference
 // cell is affine.
 double distortion(const Mesh& mesh, const BoundaryFace& face);
 

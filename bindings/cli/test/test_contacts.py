@@ -86,4 +86,15 @@ for lower, upper in ((20, 4), (20, 1), (1, 20), (3, 2)):
             expect(abs(force) < 0.2, f"points alone, where b is coarse: {force}")
             expect_error(delam("check", written(points.replace('"points"', '"nodes"'), "nodes.toml", place)), 2, "projection.*means.*points")
             expect_error(delam("check", written(points.replace("projected = true\n", ""), "none.toml", place)), 2, "is for projected = true")
+
+# General contact of a body with a slit (its halves share one node) is told, not left out in silence.
+deck = bar(3, 3, "UP").replace("13, 0.0, 1.0\n", "").replace(", 13, ", ", 9, ").replace("ELSET=LOW\n", "ELSET=ALL\n").replace("ELSET=UP\n", "ELSET=ALL\n")
+head, tail = deck.split("*SOLID SECTION", 1)[0], deck.split("*MATERIAL", 1)[1]
+middle, step = tail.split("*SURFACE, NAME", 1)[0], tail.split("*STEP", 1)[1]
+path = written(head + "*SOLID SECTION, ELSET=ALL, MATERIAL=M\n1.\n*MATERIAL" + middle +
+               "*CONTACT\n*CONTACT INCLUSIONS, ALL EXTERIOR\n*STEP" + step, "seam.inp")
+code, scene, error = delam("import", path)
+expect(code == 0 and "faces of one body and faces that meet later are not" in error, f"a changed line: {error.strip()}")
+code, _, error = delam("check", written(scene, "seam.toml", os.path.dirname(path)))
+expect("body 0: 6 outer faces between (0.16" in error and "pass through each other" in error, f"check: {error.strip()}")
 finish()

@@ -14,6 +14,8 @@
 
 #include "base/error.hpp"
 #include "base/numbers.hpp"
+#include "mesh/pairing/seams.hpp"
+#include "mesh/points.hpp"
 #include "scene/advice/process_zone.hpp"
 
 namespace delam {
@@ -83,9 +85,22 @@ void judge_law(const Problem& problem, std::int64_t i, Warnings& warnings) {
     }
 }
 
+void warn_of_seams(const Mesh& mesh, const Monitor& monitor) {
+    for (const Seam& seam : find_seams(mesh)) {
+        const bool within = seam.body == seam.other;
+        monitor.log(1, text(within ? "body " : "bodies ", mesh.body_label(seam.body),
+                            within ? std::string() : text(" and ", mesh.body_label(seam.other)), ": ", seam.faces,
+                            " outer faces between ", place(mesh.dimension(), seam.box.low), " and ",
+                            place(mesh.dimension(), seam.box.high),
+                            " lie on each other without an interface: they open freely and pass through each other "
+                            "where they are pressed"));
+    }
+}
+
 }  // namespace
 
 void warn_of_scene(const Problem& problem, const Monitor& monitor) {
+    warn_of_seams(*problem.mesh, monitor);
     Warnings warnings;
     for (std::int64_t i = 0; i < static_cast<std::int64_t>(problem.interfaces.size()); ++i) {
         const InterfaceProperties& properties = problem.interfaces[index(i)];

@@ -65,6 +65,11 @@ public:
                     fmt::format("{} and {} touch and have nothing between them: here they are in contact", body(pair.a),
                                 body(pair.b)));
         }
+        if (deck_.general_contact)
+            deck_.changed.push_back(
+                "*CONTACT: bodies that touch at the start are in contact; faces of one body and faces that meet later "
+                "are "
+                "not");
         return out;
     }
 

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Finds outer faces that lie on others without an interface: seams of doubled nodes within a body, and bodies that
+// touch.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mesh/box_tree.hpp"
+#include "mesh/mesh.hpp"
+
+namespace delam {
+
+struct Seam {
+    std::int32_t body, other;  // equal for a seam within a body
+    std::int64_t faces = 0;    // of both
+    Box box;                   // around their centres
+};
+
+// Faces that look at each other and whose distance is rounding (1e-6 of the shortest edge), sorted by bodies. A face
+// all of whose nodes have pairs is left out.
+std::vector<Seam> find_seams(const Mesh& mesh);
+
+}  // namespace delam

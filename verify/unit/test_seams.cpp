@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Outer faces that lie on each other without an interface are found: within a body, between bodies whose meshes match
+// or not; none where pairs join them.
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "all_types.hpp"
+#include "check.hpp"
+#include "mesh/mesh.hpp"
+#include "mesh/pairing/interfaces.hpp"
+#include "mesh/pairing/seams.hpp"
+#include "projection.hpp"
+
+using namespace delam;
+using namespace unit;
+
+namespace {
+
+// The same blocks as one body.
+Mesh as_one(const Mesh& mesh) {
+    Mesh one(mesh.dimension(), [&] {
+        Numbers nodes;
+        for (std::int64_t n = 0; n < mesh.node_count(); ++n)
+            nodes.insert(nodes.end(), mesh.node(n).begin(), mesh.node(n).end());
+        return nodes;
+    }());
+    for (std::int64_t c = 0; c < mesh.cell_count(); ++c)
+        one.add_cells(mesh.cell_type(c), Indices(mesh.cell(c).begin(), mesh.cell(c).end()), Labels{5});
+    return one;
+}
+
+TEST(within_and_between) {
+    for (const CellType type : all_types) {
+        const auto dim = index(topology(type).dimension);
+        const bool simplex = topology(type).corners == topology(type).dimension + 1;
+        for (const std::int64_t upper : {2, 3}) {
+            auto list = stack(type, type, 2, upper);
+            if (dim == 3) list[0].divisions[1] = 3, list[1].divisions[1] = upper + 1;
+            const Mesh two = blocks(list);
+            const std::int64_t faces = dim == 2 ? 2 + upper : (simplex ? 2 : 1) * (2 * 3 + upper * (upper + 1));
+            for (const Mesh& mesh : {two, as_one(two)}) {
+                const auto seams = find_seams(mesh);
+                ck_assert_uint_eq(seams.size(), 1);
+                ck_assert_int_eq(seams[0].faces, faces);
+                ck_assert_int_eq(seams[0].other - seams[0].body, mesh.body_count() - 1);
+                ck_assert(std::abs(seams[0].box.low[dim - 1] - 0.5) < 1e-12 && seams[0].box.low[0] > 0.0 &&
+                          seams[0].box.high[0] < 1.0);
+            }
+            for (const auto& join : {add_projected_interface, add_mortar_interface}) {
+                Mesh joined = two;
+                join(joined, 0, 1, 0.0);
+                ck_assert(find_seams(joined).empty());
+            }
+        }
+    }
+}
+
+// Faces apart, faces back to back of a thin body, and bodies that join at a corner are no seams.
+TEST(others) {
+    auto list = stack(CellType::quad4, CellType::quad4, 2, 2);
+    list[1].corner[1] += 1e-4;
+    ck_assert(find_seams(blocks(list)).empty());
+    list = stack(CellType::quad4, CellType::quad4, 2, 2);
+    list[1].corner[0] += 1.0;
+    ck_assert(find_seams(blocks(list)).empty());
+}
+
+}  // namespace
