@@ -57,7 +57,7 @@ struct ContactScene {
     // eigenstrains.
     std::vector<double> strain_jump{}, strain_force{};
     // [patterns] The largest displacement that is prescribed at factor 1, L.
-    std::vector<double> prescribed{};
+    std::vector<double> prescribed_most{};
     // Parts that may float; null: none. It outlives the scene.
     const FreeParts* parts = nullptr;
     // The bodies' stiffness against each row [rows], and the forces K u of displacements that the patterns cause at
@@ -68,7 +68,7 @@ struct ContactScene {
         return bonded[pair] == 0 && prescribed[pair * index(dimension)] == 0;
     }
     double jump_floor(std::span<const double> theta) const { return floor(strain_jump, theta); }
-    double prescribed_size(std::span<const double> theta) const { return floor(prescribed, theta); }
+    double prescribed_size(std::span<const double> theta) const { return floor(prescribed_most, theta); }
     double force_floor(std::span<const double> theta) const { return floor(strain_force, theta); }
     // Returns what rounding leaves of forces at these jumps, F. row_of: the row of each jump; empty: all rows.
     double rounding_of_forces(std::span<const double> theta, std::span<const double> jump,

@@ -58,11 +58,12 @@ ContactScene contact_scene(const Problem& problem, const FreeParts& parts) {
         contact.bonded.insert(contact.bonded.end(), problem.mesh->interfaces()[i].weight.size(),
                               problem.interfaces[i].bonded ? 1 : 0);
     contact.level = contact_levels(problem.mesh->interfaces());
-    contact.prescribed.assign(problem.patterns.size(), 0.0);
+    contact.prescribed_most.assign(problem.patterns.size(), 0.0);
     for (const Constraint& constraint : problem.constraints) {
         const double unit = max_abs(constraint.coefficient);
         for (std::size_t p = 0; p < constraint.prescribed.size(); ++p)
-            contact.prescribed[p] = std::max(contact.prescribed[p], std::abs(constraint.prescribed[p]) / unit);
+            contact.prescribed_most[p] =
+                std::max(contact.prescribed_most[p], std::abs(constraint.prescribed[p]) / unit);
     }
     if (!problem.eigenstrains.empty()) {
         StrainSizes sizes = strain_sizes(problem);

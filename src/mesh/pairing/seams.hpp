@@ -17,8 +17,8 @@ struct Seam {
     Box box;                   // around their centres
 };
 
-// Faces that look at each other and whose distance is rounding (1e-6 of the shortest edge), sorted by bodies. A face
-// all of whose nodes have pairs is left out.
+// Returns the faces that lie on others with opposite normals, at a distance that is rounding (1e-6 of the shortest
+// edge), sorted by bodies. A face all of whose nodes have pairs is left out.
 std::vector<Seam> find_seams(const Mesh& mesh);
 
 }  // namespace delam
