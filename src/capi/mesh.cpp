@@ -105,6 +105,15 @@ void require_two_bodies(const Mesh& mesh, std::int32_t body_a, std::int32_t body
     if (body_a == body_b) fail(DELAM_ERROR_ARGUMENT, "body_a and body_b are both ", body_a, ", expected two bodies");
 }
 
+// add: one of the functions for bodies whose meshes do not match.
+void add_unmatched(decltype(add_mortar_interface)& add, Mesh& mesh, std::int32_t body_a, std::int32_t body_b,
+                   double gap, std::int64_t* out_interface) {
+    require_pointer(out_interface, "out_interface");
+    if (!(gap >= 0.0 && std::isfinite(gap))) fail(DELAM_ERROR_ARGUMENT, "gap = ", gap, " must be >= 0 and finite");
+    require_two_bodies(mesh, body_a, body_b);
+    *out_interface = add(mesh, body_a, body_b, gap);
+}
+
 // Writes as many as fit and returns how many there are.
 template <class T>
 void give(const std::vector<T>& list, std::int64_t capacity, T* out) {
@@ -194,22 +203,14 @@ int32_t delam_mesh_add_all_interfaces(delam_mesh* mesh, double tolerance, int64_
 
 int32_t delam_mesh_add_projected_interface(delam_mesh* mesh, int32_t body_a, int32_t body_b, double gap,
                                            int64_t* out_interface) {
-    return guard_build(mesh, [&] {
-        require_pointer(out_interface, "out_interface");
-        if (!(gap >= 0.0 && std::isfinite(gap))) fail(DELAM_ERROR_ARGUMENT, "gap = ", gap, " must be >= 0 and finite");
-        require_two_bodies(*mesh->core, body_a, body_b);
-        *out_interface = add_projected_interface(*mesh->core, body_a, body_b, gap);
-    });
+    return guard_build(
+        mesh, [&] { add_unmatched(add_projected_interface, *mesh->core, body_a, body_b, gap, out_interface); });
 }
 
 int32_t delam_mesh_add_mortar_interface(delam_mesh* mesh, int32_t body_a, int32_t body_b, double gap,
                                         int64_t* out_interface) {
-    return guard_build(mesh, [&] {
-        require_pointer(out_interface, "out_interface");
-        if (!(gap >= 0.0 && std::isfinite(gap))) fail(DELAM_ERROR_ARGUMENT, "gap = ", gap, " must be >= 0 and finite");
-        require_two_bodies(*mesh->core, body_a, body_b);
-        *out_interface = add_mortar_interface(*mesh->core, body_a, body_b, gap);
-    });
+    return guard_build(mesh,
+                       [&] { add_unmatched(add_mortar_interface, *mesh->core, body_a, body_b, gap, out_interface); });
 }
 
 int32_t delam_mesh_add_obstacle(delam_mesh* mesh, int64_t count, const int64_t* nodes, const double* normals,

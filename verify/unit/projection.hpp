@@ -115,7 +115,8 @@ inline double area(const InterfaceGeometry& i) {
 
 // Two rings around a quarter circle (a cylinder in 3D), of n and 2 n + 1 cells: b's nodes are off a's faces by the
 // distance of the chords from the arc. `rings` has the divisions along the axis of the cylinder.
-inline void expect_curved(CellType type, std::int64_t n, const std::vector<Block>& rings) {
+inline void expect_curved(CellType type, std::int64_t n, const std::vector<Block>& rings,
+                          decltype(add_mortar_interface)& add = add_projected_interface) {
     const std::size_t dim = index(topology(type).dimension);
     // x runs around, the last axis is the radius, turned so that cells stay positive.
     const Map bend = [&](std::span<double> x) {
@@ -130,7 +131,7 @@ inline void expect_curved(CellType type, std::int64_t n, const std::vector<Block
     // Sagitta of the chords; of parabolas through three points of the arc, far less.
     const double chord = radius * (1.0 - std::cos(0.5 * turn));
     const double gap = quadratic(type) ? 0.05 * chord : 1.01 * chord;
-    add_projected_interface(mesh, 0, 1, gap);
+    add(mesh, 0, 1, gap);
     const InterfaceGeometry& i = mesh.interfaces()[0];
     expect_ties(mesh, i);
     const double exact = 0.5 * std::numbers::pi * radius;
@@ -149,7 +150,7 @@ inline void expect_curved(CellType type, std::int64_t n, const std::vector<Block
     }
     if (quadratic(type)) return;
     Mesh close = blocks(rings, bend);
-    ck_assert_refused(DELAM_ERROR_MESH, "only in part", add_projected_interface(close, 0, 1, 0.5 * chord));
+    ck_assert_refused(DELAM_ERROR_MESH, "only in part", add(close, 0, 1, 0.5 * chord));
     ck_assert_int_eq(close.node_count(), mesh.node_count() - i.pair_count());
 }
 

@@ -88,8 +88,8 @@ def folder():
     return path
 
 
-def write(text):
-    path = os.path.join(folder(), "scene.toml")
+def write(text, name="scene.toml", place=None):
+    path = os.path.join(place or folder(), name)
     with open(path, "w", encoding="utf-8") as file:
         file.write(text)
     return path

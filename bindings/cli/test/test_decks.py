@@ -7,14 +7,11 @@ import re
 
 import decks
 from decks import Beam
-from support import delam, expect, expect_error, finish, folder, read
+from support import delam, expect, expect_error, finish, folder, read, write
 
 
 def saved(text, name="deck.inp", place=None):
-    path = os.path.join(place or folder(), name)
-    with open(path, "w", encoding="utf-8") as file:
-        file.write(text)
-    return path
+    return write(text, name, place)
 
 
 def history(path):

@@ -17,8 +17,8 @@ namespace {
 // Fraction of the largest jump or prescribed displacement by which faces may be pressed into each other: rounding.
 constexpr double pressed = 1e-9;
 
-// closed: [pairs] or empty; constraints and other held pairs may leave a closed pair no choice but to open, or to be
-// pressed, and so open a bonded one.
+// closed: [pairs] of a contact set, whose rows and constraints may leave a closed pair no choice but to be pressed, or
+// a bonded one but to open. Empty: the set is not final, and only pairs that constraints press are refused.
 void refuse_pressed(const ContactScene& scene, std::span<const std::uint8_t> prescribed,
                     std::span<const std::uint8_t> closed, const Response& response, std::span<const double> theta) {
     const auto dim = index(scene.dimension);
@@ -29,12 +29,10 @@ void refuse_pressed(const ContactScene& scene, std::span<const std::uint8_t> pre
             response.jump[p * dim] < deepest)
             fail(DELAM_ERROR_PROBLEM, "prescribed displacements press two faces into each other at pair ", p,
                  " (normal jump ", response.jump[p * dim], " < 0)");
-    for (std::size_t r = 0; r < response.jump.size(); ++r)
+    for (std::size_t r = 0; r < response.jump.size() && !closed.empty(); ++r)
         if (scene.bonded[r / dim] != 0 && std::abs(response.jump[r]) > -deepest)
-            fail(DELAM_ERROR_PROBLEM,
-                 "prescribed displacements press faces into each other: either faces in contact "
-                 "penetrate, or pair ",
-                 r / dim, " opens by ", std::abs(response.jump[r]), ", but its interface is bonded permanently");
+            fail(DELAM_ERROR_PROBLEM, "prescribed displacements press faces in contact so that pair ", r / dim,
+                 " opens by ", std::abs(response.jump[r]), ", but its interface is bonded permanently");
 }
 
 // Names the load that no contact set balances, and the motion along which it acts.
@@ -281,7 +279,8 @@ ContactResult solve_contact(JumpOperator& op, const ContactScene& scene, std::sp
     if (found.last != ContactSolve::solved) refuse_free_load(scene, system.springs(), theta);
     result.converged = result.converged && found.settled;
     for (std::size_t i = 0; i < set.size(); ++i) closed[rows.row[i] / dim] = set[i];
-    if (result.converged) refuse_pressed(scene, op.prescribed_rows(), closed, response, theta);
+    refuse_pressed(scene, op.prescribed_rows(), result.converged ? closed : std::vector<std::uint8_t>{}, response,
+                   theta);
     return result;
 }
 

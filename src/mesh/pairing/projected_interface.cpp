@@ -19,7 +19,7 @@ std::int64_t add_projected_interface(Mesh& mesh, std::int32_t label_a, std::int3
     std::map<std::int64_t, double> nearest;  // the distance of a node's projection from its faces
     std::map<std::int64_t, Tie> ties;
     for (const BoundaryFace& face : faces.on()) {
-        poll_cancel("pairs", static_cast<std::int64_t>(face.all().size()));
+        poll_cancel("pairs", face_work);
         Point normal = area_vector(mesh, face.all());
         const double area = length(normal);
         for (double& component : normal) component /= area;

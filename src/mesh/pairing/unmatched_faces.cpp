@@ -17,9 +17,6 @@ namespace delam {
 
 namespace {
 
-// Work for a face whose points are projected (by iteration on curved faces), in cells of a light loop.
-constexpr std::int64_t face_work = 32;
-
 double require_gap(double gap) {
     if (!(gap >= 0.0 && std::isfinite(gap))) fail(DELAM_ERROR_ARGUMENT, "gap ", gap, ": must be >= 0 and finite");
     return gap;

@@ -16,6 +16,9 @@
 
 namespace delam {
 
+// Work for a face whose points are projected (by iteration on curved faces), in cells of a light loop, for poll_cancel.
+inline constexpr std::int64_t face_work = 32;
+
 // Faces on which points may lie: within `reach` of them, on their front side or behind, and not beyond their rim. Where
 // faces meet at an angle, a point above the edge deviates from both normals by half the angle, so its sideways distance
 // may be half of its normal distance, plus `rim` for rounding.

@@ -13,6 +13,7 @@
 #include "delam/delam.h"
 #include "reduction/condensed/condensed.hpp"
 #include "reduction/feti/feti.hpp"
+#include "reduction/operator/open_bonds.hpp"
 #include "reduction/sparse/engine/engine_operator.hpp"
 #include "reduction/sparse/iterated/iterated.hpp"
 #include "scene/carriers.hpp"
@@ -280,12 +281,17 @@ double least_to_analyse(const Problem& problem, const MemoryLimit& limit) {
     return (16.0 + 25.6 * free) * stiffness_entries(problem);
 }
 
+// Tells the design what is known of its jump rows before anything is factored.
+void take_rows(Design& design, const Problem& problem, const JumpVariables& variables) {
+    refuse_open_bonds(problem, variables);
+    design.bound = bound_rows(variables);
+}
+
 Design of_iterated(Design design, const Problem& problem, std::unique_ptr<Iterated> iterated) {
     design.choice.iteration = predict_iterated(iterated->size());
     design.choice.factor_entries = iterated->size().factor.entries;
     design.description = iterated->description();
-    refuse_open_bonds(problem, iterated->variables());
-    design.bound = bound_rows(iterated->variables());
+    take_rows(design, problem, iterated->variables());
     design.prescribed.assign(iterated->prescribed_rows().begin(), iterated->prescribed_rows().end());
     design.op = std::move(iterated);
     return design;
@@ -301,8 +307,7 @@ Design of_engine(Design design, const Problem& problem, Monitor& monitor) {
     design.choice.reason = "the engine of the host";
     design.choice.unknowns = problem.jump_count();
     design.description = op->description();
-    refuse_open_bonds(problem, op->variables());
-    design.bound = bound_rows(op->variables());
+    take_rows(design, problem, op->variables());
     design.prescribed.assign(op->prescribed_rows().begin(), op->prescribed_rows().end());
     design.in_engine = op.get();
     design.op = std::move(op);
@@ -313,16 +318,14 @@ Design of_feti(Design design, const Problem& problem, Monitor& monitor) {
     design.description = text("total FETI: ", design.choice.subdomains, " subdomains, ", problem.jump_count(),
                               " jump multipliers, preconditioner ", problem.options.preconditioner);
     const JumpVariables variables = make_jump_variables(problem, [&monitor] { monitor.progress("assemble", 0, 0); });
-    refuse_open_bonds(problem, variables);
-    design.bound = bound_rows(variables);
+    take_rows(design, problem, variables);
     design.prescribed = prescribed_rows(variables);
     return design;
 }
 
 Design of_condensed(Design design, const Problem& problem, std::unique_ptr<Bulk> bulk) {
     design.description = Condensed::description_of(*bulk);
-    refuse_open_bonds(problem, bulk->system().variables());
-    design.bound = bound_rows(bulk->system().variables());
+    take_rows(design, problem, bulk->system().variables());
     design.prescribed = prescribed_rows(bulk->system().variables());
     design.bulk = std::move(bulk);
     return design;

@@ -19,8 +19,4 @@ struct BoundRow {
 // One row for each independent equation among the jumps alone; excludes rows that constraints prescribe completely.
 std::vector<BoundRow> bound_rows(const JumpVariables& variables);
 
-// Throws Error(DELAM_ERROR_PROBLEM) if prescribed displacements leave interfaces that are bonded permanently no choice
-// but to open, through any number of bodies.
-void refuse_open_bonds(const Problem& problem, const JumpVariables& variables);
-
 }  // namespace delam

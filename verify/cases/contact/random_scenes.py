@@ -190,6 +190,20 @@ class Program:
         """Whether faces do not penetrate each other; else CVXOPT's answer has not got all digits."""
         return (self.scene.gaps @ u).min(initial=0.0) >= -1e-11 * np.abs(u).max()
 
+    def possible(self, theta):
+        """Whether any displacements meet supports and bonds, and keep faces apart: min s, N u >= -s, s >= 0."""
+        s = self.scene
+        right = np.concatenate([s.right @ theta, np.zeros(s.equal.shape[0] - s.right.shape[0])])
+        particular = np.linalg.lstsq(s.equal, right, rcond=1e-12)[0]
+        size = max(np.abs(right).max(), 1e-300)
+        if np.abs(s.equal @ particular - right).max() > 1e-9 * size:
+            return False
+        n = np.where(np.abs(self.n) > 1e-12, self.n, 0.0)
+        below = np.hstack([-n, -np.ones((n.shape[0], 1))])
+        deepest = np.append(np.zeros(n.shape[1]), 1.0)
+        answer = linear(deepest, np.vstack([below, -deepest]), np.append(s.gaps @ particular / size, 0.0))
+        return answer is not None and answer < 1e-6
+
     def runs_away(self, theta):
         """Whether a dead force moves a part that nothing ever stops: max f.d over K d = 0, N d >= 0, |d| <= 1."""
         rigid = self.z @ null_space(self.p)
@@ -203,9 +217,8 @@ class Program:
         n = np.where(np.abs(n) > 1e-12, n, 0.0)  # CVXOPT takes rounding alone for a row
         g = np.vstack([-n, unit, -unit])
         h = np.concatenate([np.zeros(n.shape[0]), np.ones(2 * rigid.shape[1])])
-        answer = cvxopt.solvers.lp(*(cvxopt.matrix(np.ascontiguousarray(a)) for a in (-force / size, g, h)),
-                                   solver="glpk", options={"glpk": {"msg_lev": "GLP_MSG_OFF"}})  # a cone without interior
-        return answer["x"] is not None and -answer["primal objective"] > 1e-6
+        most = linear(-force / size, g, h)
+        return most is not None and -most > 1e-6
 
     def energy(self, u, theta):
         return 0.5 * u @ self.scene.whole @ u - self.scene.force(theta) @ u
@@ -221,6 +234,13 @@ class Program:
         length = max(np.abs(u).max(), np.abs(before).max())
         a = quadratic(rigid.T @ weight, weight.T @ (u - before), -s.gaps @ rigid, s.gaps @ u, length)
         return u if a is None or not self.apart(u + rigid @ a) else u + rigid @ a
+
+
+def linear(c, g, h):
+    """min c.x over G x <= h; None: there is no minimum. By GLPK: the cones here have no interior, which CVXOPT needs."""
+    answer = cvxopt.solvers.lp(*(cvxopt.matrix(np.ascontiguousarray(a)) for a in (c, g, h)), solver="glpk",
+                               options={"glpk": {"msg_lev": "GLP_MSG_OFF"}})
+    return None if answer["x"] is None else answer["primal objective"]
 
 
 room = 1e-7  # so that CVXOPT finds an interior where prescribed bodies leave a gap no choice
@@ -263,6 +283,11 @@ def quadratic(p, q, g, h, length):
     return None
 
 
+def impossible(error):
+    """Whether a refusal says that supports contradict contact or bonds."""
+    return any(words in str(error) for words in ("press two faces", "press faces", "bonded permanently"))
+
+
 def check(seed, reduction):
     """What is wrong with a scene: a list of words. Where CVXOPT gives no answer, the scene's own conditions tell: those
     of a convex program are sufficient."""
@@ -270,7 +295,14 @@ def check(seed, reduction):
     program = Program(scene)
     direct = reduction != "iterated"
     wrong, before = [], np.zeros(scene.whole.shape[0])
-    solver = delam.Solver(scene.problem, not_converged="ignore")
+    try:
+        solver = delam.Solver(scene.problem, not_converged="ignore")
+    except delam.ProblemError as error:
+        if "missing support" not in str(error) and not impossible(error):
+            raise
+        if impossible(error) and any(program.possible(scene.problem.factors(time)) for time in scene.times[1:]):
+            wrong.append(f"refused at the start, but possible: {error}")
+        return wrong, "refused"
     for time in scene.times[1:]:
         theta = scene.problem.factors(time)
         best = program.solve(theta)
@@ -280,6 +312,12 @@ def check(seed, reduction):
             if not program.runs_away(theta):
                 wrong.append(f"time {time}: no equilibrium was found, but there is one")
             return wrong, "limit"
+        except delam.ProblemError as error:
+            if not impossible(error):
+                raise
+            if program.possible(theta):
+                wrong.append(f"time {time}: refused, but possible: {error}")
+            return wrong, "refused"
 
         def expect(holds, words):
             if not holds:
@@ -321,9 +359,6 @@ def main():
         for reduction in arguments.reduction.split(","):
             try:
                 wrong, kind = check(seed, reduction)
-            except delam.ProblemError as error:
-                refused = [word for word in ("missing support", "press two faces", "bonded permanently") if word in str(error)]
-                wrong, kind = ([], "refused") if refused else ([str(error)], "error")
             except delam.DelamError as error:
                 wrong, kind = [f"{type(error).__name__}: {error}"], "error"
             kinds[kind] = kinds.get(kind, 0) + 1

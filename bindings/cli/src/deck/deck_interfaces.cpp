@@ -67,9 +67,8 @@ public:
         }
         if (deck_.general_contact)
             deck_.changed.push_back(
-                "*CONTACT: bodies that touch at the start are in contact; faces of one body and faces that meet later "
-                "are "
-                "not");
+                "*CONTACT: bodies that touch at the start are in contact, faces of one body and faces that meet later "
+                "are left out");
         return out;
     }
 
