@@ -774,7 +774,7 @@ DELAM_API int32_t delam_problem_add_equation(delam_problem *problem, int64_t cou
 DELAM_API int32_t delam_problem_add_periodic(delam_problem *problem, int64_t period_count, const double *periods,
                                              const int64_t *control_nodes, double tolerance, int32_t index_base);
 /* Adds dead forces on nodes [count]: forces [count][dimension] times the factor of the pattern. A pattern drives
- * prescribed displacements, forces or eigenstrains, but only one of these.
+ * prescribed displacements, forces, eigenstrains or gaps, but only one of these.
  * [unit forces F finite; null none; status cancelled, argument, problem; since 0.1] */
 DELAM_API int32_t delam_problem_add_forces(delam_problem *problem, int64_t pattern, int64_t count, const int64_t *nodes,
                                            const double *forces, int32_t index_base);
@@ -788,6 +788,20 @@ DELAM_API int32_t delam_problem_add_forces(delam_problem *problem, int64_t patte
  * [unit strain 1 finite; null none; status argument, problem; since 0.1] */
 DELAM_API int32_t delam_problem_add_eigenstrain(delam_problem *problem, int64_t pattern, int32_t body,
                                                 const double *strain);
+
+/* Sets the distances that the faces of an interface have before they move, gaps [pair_count] along the normals times the
+ * factor of the pattern, which must drive nothing else. Without this call the faces of every pair touch. If gaps is
+ * NULL, they are the distances in the mesh, n . (x_b - x_a). The jump of a pair is then u_b - u_a plus its gap along the
+ * normal, i.e. the distance that is left, and contact acts only where that is 0. Gaps of magnitude adjust or less count
+ * as 0: these faces touch, as if moved there without strain. A negative gap is an interference, which presses the
+ * bodies apart (a press fit); its pattern can raise it from 0. Pairs with a gap must have adhesion 0
+ * (delam_problem_check refuses any other), because nothing joins faces that are apart. For such a pattern,
+ * `reaction:NAME` is dE/dfactor, the sum of gap times normal force. A later call for the same interface replaces the
+ * gaps. DELAM_ERROR_MESH: gaps is NULL and faces overlap by more than adjust; the message gives the largest overlap and
+ * its place. DELAM_ERROR_ARGUMENT: gaps is NULL for an obstacle, whose place the mesh does not know.
+ * [unit gaps L finite, adjust L >= 0; null gaps; status argument, problem, mesh; since 0.2] */
+DELAM_API int32_t delam_problem_set_gaps(delam_problem *problem, int64_t interface_index, int64_t pattern,
+                                         const double *gaps, double adjust);
 
 /* Sets a number option by its key or alias; delam_option_info lists the options. Integer options take whole numbers
  * only.

@@ -10,6 +10,7 @@
 
 #include "base/numbers.hpp"
 #include "capi/handle/handles.hpp"
+#include "mesh/face_gaps.hpp"
 #include "mesh/points.hpp"
 #include "scene/periodic.hpp"
 #include "scene/problem.hpp"
@@ -102,6 +103,8 @@ const char* name_of(Pattern::Drives drives) {
             return "forces";
         case Pattern::Drives::strain:
             return "eigenstrains";
+        case Pattern::Drives::gap:
+            return "gaps";
     }
     return "";
 }
@@ -396,5 +399,43 @@ int32_t delam_problem_add_eigenstrain(delam_problem* problem, int64_t pattern, i
             if (body == -1 || i == index) added.push_back({pattern, i, own});
         core.eigenstrains.insert(core.eigenstrains.end(), added.begin(), added.end());
         mark(core, list, Pattern::Drives::strain);
+    });
+}
+
+int32_t delam_problem_set_gaps(delam_problem* problem, int64_t interface_index, int64_t pattern, const double* gaps,
+                               double adjust) {
+    return guard(problem, [&] {
+        Problem& core = *problem->core;
+        const std::int64_t at = require_index(interface_index, static_cast<std::int64_t>(core.interfaces.size()), 0,
+                                              "interface_index");
+        const InterfaceGeometry& faces = core.mesh->interfaces()[index(at)];
+        require_index(pattern, static_cast<std::int64_t>(core.patterns.size()), 0, "pattern");
+        const auto list = require_patterns(core, 1, &pattern, 0, Pattern::Drives::gap);
+        if (!(adjust >= 0.0 && std::isfinite(adjust)))
+            fail(DELAM_ERROR_ARGUMENT, "adjust = ", adjust, ": must be >= 0 and finite");
+        std::vector<double> own;
+        if (gaps == nullptr) {
+            if (faces.body_a < 0)
+                fail(DELAM_ERROR_ARGUMENT, "gaps is NULL, but interface_index = ", interface_index,
+                     " is an obstacle, whose place is not known");
+            own = face_gaps(*core.mesh, faces);
+            const double rounding = 1e-9 * core.mesh->size();
+            for (double& gap : own)
+                if (std::abs(gap) <= rounding) gap = 0.0;
+        } else {
+            require_finite(gaps, faces.pair_count(), "gaps");
+            own.assign(gaps, gaps + faces.pair_count());
+        }
+        for (double& gap : own)
+            if (std::abs(gap) <= adjust) gap = 0.0;
+        const auto least = std::min_element(own.begin(), own.end());
+        if (gaps == nullptr && least != own.end() && *least < 0.0)
+            fail(DELAM_ERROR_MESH, "the faces of interface_index = ", interface_index, " overlap by ", -*least,
+                 ", most at pair ", least - own.begin(), " at ", place(*core.mesh, faces.node_b[index(least - own.begin())]),
+                 ": adjust = ", -*least, " lets them touch there, gaps that are given press them apart");
+        InterfaceProperties& interface = core.interfaces[index(at)];
+        interface.gap = std::move(own);
+        interface.gap_pattern = pattern;
+        mark(core, list, Pattern::Drives::gap);
     });
 }

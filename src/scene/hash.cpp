@@ -186,6 +186,9 @@ std::uint64_t hash(const Problem& problem) {
         fnv.add(interface.law.has_value());
         if (interface.law) add_law(fnv, *interface.law);
         fnv.add_all(interface.adhesion);
+        if (interface.gap.empty()) continue;
+        fnv.add(interface.gap_pattern);
+        fnv.add_all(interface.gap);
     }
     add_loads(fnv, problem);
     return hash(problem.options, fnv.value);

@@ -75,4 +75,14 @@ std::vector<double> Problem::prescribed_matrix() const {
     return matrix;
 }
 
+std::vector<GapRow> Problem::gap_rows() const {
+    std::vector<GapRow> rows;
+    std::int64_t row = 0;
+    for (const InterfaceProperties& own : interfaces) {
+        for (std::size_t p = 0; p < own.adhesion.size(); ++p, row += mesh->dimension())
+            if (!own.gap.empty() && own.gap[p] != 0.0) rows.push_back({row, own.gap_pattern, own.gap[p]});
+    }
+    return rows;
+}
+
 }  // namespace delam

@@ -25,7 +25,7 @@ struct Pattern {
     std::string name;
     std::vector<double> times;
     std::vector<double> values;
-    enum class Drives { nothing, displacement, force, strain } drives = Drives::nothing;
+    enum class Drives { nothing, displacement, force, strain, gap } drives = Drives::nothing;
 
     double at(double time) const;
 };
@@ -57,6 +57,17 @@ struct InterfaceProperties {
     bool bonded = false;
     bool contact = false;          // contact only: no law, no adhesion
     std::vector<double> adhesion;  // initial, [pairs]
+    // Distances of the faces along the normal before they move, L per unit of the factor of gap_pattern, [pairs]; empty:
+    // they touch. The jump is then the distance that is left.
+    std::vector<double> gap;
+    std::int64_t gap_pattern = -1;
+};
+
+// The gap of a pair as a part of the jump of its normal row: value times the factor of the pattern.
+struct GapRow {
+    std::int64_t row;
+    std::int64_t pattern;
+    double value;
 };
 
 struct KnownPieces;
@@ -95,6 +106,8 @@ struct Problem {
     std::vector<double> factors(double time) const;
     // Right-hand side coefficients [constraints][patterns], row-major.
     std::vector<double> prescribed_matrix() const;
+    // Rows of the jump that have a gap, ascending.
+    std::vector<GapRow> gap_rows() const;
 
     // Results of pieces.hpp, for the thread that uses the problem.
     mutable std::shared_ptr<const KnownPieces> known_pieces;

@@ -80,7 +80,7 @@ Outcome Solver::unconverged_displacement(const State& state) const {
 }
 
 void Solver::judge_balance(const State& state, Outcome& outcome) {
-    const double off = out_of_balance(problem_, stepper_.op(), state, stepper_.contact().force_floor(state.theta));
+    const double off = Balance(problem_, stepper_.op(), stepper_.contact(), state).off();
     if (!(off > poor_balance)) return;
     const std::string what =
         text("step ", state.step, " at time ", state.time, ": nodal forces are out of balance by ", off,

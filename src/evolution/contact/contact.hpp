@@ -56,7 +56,7 @@ struct ContactScene {
     // are free, jumps and forces are only the rounding of these numbers and say nothing about contact. Empty: no
     // eigenstrains.
     std::vector<double> strain_jump{}, strain_force{};
-    // [patterns] The largest displacement that is prescribed at factor 1, L.
+    // [patterns] The largest displacement or gap that is prescribed at factor 1, L.
     std::vector<double> prescribed_most{};
     // Parts that may float; null: none. It outlives the scene.
     const FreeParts* parts = nullptr;

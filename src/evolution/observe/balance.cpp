@@ -37,28 +37,33 @@ double strained(const Problem& problem, std::span<const double> displacement) {
     return most;
 }
 
-}  // namespace
-
+// True if these displacements are rigid motions of all pieces, but for rounding: their forces are rounding.
 bool without_strain(const Problem& problem, std::span<const double> displacement) {
     return strained(problem, displacement) <= rigid * max_abs(displacement);
 }
 
-double largest_reaction(const JumpOperator& op, const State& state, double force_floor) {
-    return std::max(force_floor, max_abs(op.reaction(state.theta, state.response)));
+}  // namespace
+
+double Balance::reaction() const {
+    return std::max(contact_.force_floor(state_.theta), max_abs(op_.reaction(state_.theta, state_.response)));
+}
+
+double Balance::left(std::span<const double> displacement) const {
+    if (without_strain(problem_, displacement)) return 0.0;
+    const double left = op_.equilibrium_defect(state_.theta, state_.response);
+    return left > contact_.rounding_of_forces(state_.theta, state_.response.jump) ? left : 0.0;
 }
 
 // Parts that have come off move without strain, energy or reaction, so that everything there is rounding. Otherwise the
 // forces are compared with reactions, and their work with the energies, and the smaller ratio counts.
-double out_of_balance(const Problem& problem, const JumpOperator& op, const State& state, double force_floor) {
-    const Ledger& ledger = state.ledger;
+double Balance::off() const {
+    const Ledger& ledger = state_.ledger;
     const double energies = std::max({ledger.scale(), std::abs(ledger.stored_bulk), ledger.dissipated});
-    if (op.rounding_energy(state.theta, state.response) <= doubtful * energies) return 0.0;
-    const std::vector<double> displacement = op.displacement(state.theta, state.response);
-    const double motion = max_abs(displacement);
-    if (without_strain(problem, displacement)) return 0.0;
-    const double left = op.equilibrium_defect(state.theta, state.response);
-    const double reaction = largest_reaction(op, state, force_floor);
-    return std::min(left / std::max(reaction, tiny), left * motion / std::max(energies, tiny));
+    if (op_.rounding_energy(state_.theta, state_.response) <= doubtful * energies) return 0.0;
+    const std::vector<double> displacement = op_.displacement(state_.theta, state_.response);
+    const double left = this->left(displacement), motion = max_abs(displacement);
+    if (left == 0.0) return 0.0;
+    return std::min(left / std::max(reaction(), tiny), left * motion / std::max(energies, tiny));
 }
 
 }  // namespace delam

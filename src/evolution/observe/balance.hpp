@@ -3,24 +3,39 @@
 // of large ones (plies thousands of times longer than thick). Minimisation and its tolerances would not notice.
 #pragma once
 
+#include "evolution/contact/contact.hpp"
 #include "evolution/increment/state.hpp"
 #include "reduction/operator/jump_operator.hpp"
 #include "scene/problem.hpp"
 
 namespace delam {
 
-// Relative to the largest reaction, or to force_floor (F) if that is larger:
+// Relative to the largest reaction, or to ContactScene::force_floor if that is larger:
 inline constexpr double poor_balance = 1e-6;  // worth a warning
 inline constexpr double no_balance = 1e-3;    // the state is useless
 
-// F: largest reaction, or force_floor where that is larger (stresses of eigenstrains may need no reactions).
-double largest_reaction(const JumpOperator& op, const State& state, double force_floor);
+// Reads the balance of forces of a state.
+class Balance {
+public:
+    // All must outlive this object.
+    Balance(const Problem& problem, const JumpOperator& op, const ContactScene& contact, const State& state)
+        : problem_(problem), op_(op), contact_(contact), state_(state) {}
 
-// True if these displacements [mesh DOFs] are rigid motions of all pieces, but for rounding: their forces are rounding.
-bool without_strain(const Problem& problem, std::span<const double> displacement);
+    // Largest reaction, F, or the floor of forces where that is larger (stresses of eigenstrains may need no
+    // reactions).
+    double reaction() const;
+    // Largest unbalanced force, F; 0 where it is rounding, as if the displacements [mesh DOFs] are rigid motions of all
+    // pieces.
+    double left(std::span<const double> displacement) const;
+    // Largest unbalanced force over the largest reaction; 0 if the operator's estimate gives no reason to compute it,
+    // which takes no time.
+    double off() const;
 
-// Largest unbalanced force over the largest reaction; 0 if the operator's estimate gives no reason to compute it, which
-// takes no time.
-double out_of_balance(const Problem& problem, const JumpOperator& op, const State& state, double force_floor);
+private:
+    const Problem& problem_;
+    const JumpOperator& op_;
+    const ContactScene& contact_;
+    const State& state_;
+};
 
 }  // namespace delam

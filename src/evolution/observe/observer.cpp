@@ -123,10 +123,9 @@ bool Observer::recover_in_engine() {
 }
 
 double Observer::equilibrium_defect(const State& state) {
-    if (without_strain(problem_, displacement(state))) return 0.0;
-    const double reaction = largest_reaction(op_, state, contact_.force_floor(state.theta));
-    const double defect = op_.equilibrium_defect(state.theta, state.response);
-    return reaction > 0.0 ? defect / reaction : defect;
+    const Balance balance(problem_, op_, contact_, state);
+    const double left = balance.left(displacement(state)), reaction = balance.reaction();
+    return reaction > 0.0 ? left / reaction : left;
 }
 
 }  // namespace delam

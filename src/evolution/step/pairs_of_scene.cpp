@@ -65,6 +65,10 @@ ContactScene contact_scene(const Problem& problem, const FreeParts& parts) {
             contact.prescribed_most[p] =
                 std::max(contact.prescribed_most[p], std::abs(constraint.prescribed[p]) / unit);
     }
+    for (const GapRow& gap : problem.gap_rows()) {
+        double& most = contact.prescribed_most[index(gap.pattern)];
+        most = std::max(most, std::abs(gap.value));
+    }
     if (!problem.eigenstrains.empty()) {
         StrainSizes sizes = strain_sizes(problem);
         contact.strain_jump = std::move(sizes.displacement);
@@ -75,10 +79,12 @@ ContactScene contact_scene(const Problem& problem, const FreeParts& parts) {
 
 double carried_force(const Problem& problem, const JumpOperator& op, const ContactScene& contact,
                      std::span<const double> theta, const Response& response) {
-    if (contact.parts == nullptr) return 0.0;
+    double size = 0.0;
+    for (const GapRow& gap : problem.gap_rows())
+        if (theta[index(gap.pattern)] != 0.0) size = std::max(size, std::abs(response.force[index(gap.row)]));
+    if (contact.parts == nullptr) return size;
     const auto dim = index(contact.dimension);
     const std::vector<double> u = op.displacement(theta, response);
-    double size = 0.0;
     std::size_t pair = 0;
     for (const InterfaceGeometry& face : problem.mesh->interfaces())
         for (const std::int64_t node : face.node_b) {

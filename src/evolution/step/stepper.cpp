@@ -229,7 +229,8 @@ double Stepper::lower_excess(const State& state) const {
 }
 
 // The state before answers loads in proportion with displacements in proportion, at its adhesion and with its contact
-// set: the bodies, springs and frictionless contact without a gap have no other length. (Free parts keep their places.)
+// set: the bodies, springs and frictionless contact have no other length. (Free parts keep their places. Gaps are loads,
+// too.)
 bool Stepper::displaced_in_proportion(State& next, const State& before) const {
     const std::optional<double> a = load_ratio(before.theta, next.theta);
     if (!a || !operator_->traits().proportional || before.response.jump.empty() ||

@@ -177,7 +177,7 @@ void Feti::share_prescribed(const Springs& springs, const DualLoads::Sum& load, 
     const std::size_t first_constraint = lambda.size() - load.prescribed.size();
     for (const Scaling::Prescribed& p : dual_.scaling().prescribed_jumps) {
         const auto row = index(p.jump_row);
-        double jump = 0.0;
+        double jump = load.gap[row];
         for (std::size_t i = 0; i < p.row.size(); ++i)
             if (index(p.row[i]) >= first_constraint)
                 jump += p.y[i] * load.prescribed[index(p.row[i]) - first_constraint];
@@ -191,10 +191,12 @@ void Feti::share_prescribed(const Springs& springs, const DualLoads::Sum& load, 
 void Feti::find_energies(std::span<const double> theta, const DualLoads::Sum& load, std::span<const double> lambda,
                          Response& response) const {
     const std::size_t patterns = theta.size(), first_constraint = lambda.size() - load.prescribed.size();
-    double work_of_multipliers = dot(response.force, response.jump);
+    double work_of_multipliers = dot(response.force, response.jump) - dot(response.force, load.gap);
     for (std::size_t d = 0; d < load.prescribed.size(); ++d)
         work_of_multipliers += lambda[first_constraint + d] * load.prescribed[d];
     response.conjugate.assign(patterns, 0.0);
+    for (const GapRow& gap : loads_.gaps)
+        response.conjugate[index(gap.pattern)] += gap.value * response.force[index(gap.row)];
     response.load_potential = 0.0;
     double stretched = 0.0;  // f.u of eigenstrains less theta^T W theta
     for (std::size_t p = 0; p < patterns; ++p) {

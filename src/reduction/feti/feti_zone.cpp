@@ -111,7 +111,7 @@ FetiZone::Split FetiZone::split(const Springs& springs, std::span<const std::uin
     return result;
 }
 
-// Returns the jump that the constraints prescribe on a row, [patterns].
+// Returns the jump that constraints and gaps prescribe on a row, [patterns].
 std::vector<double> FetiZone::driven(std::size_t row) const {
     const std::size_t patterns = problem_.patterns.size(),
                       first = index(dual_.rows().count() - dual_.rows().constraint_count);
@@ -120,6 +120,8 @@ std::vector<double> FetiZone::driven(std::size_t row) const {
         for (std::size_t k = 0; k < p.row.size() && index(p.jump_row) == row; ++k)
             for (std::size_t q = 0; q < patterns && index(p.row[k]) >= first; ++q)
                 offset[q] += p.y[k] * loads_.prescribed[(index(p.row[k]) - first) * patterns + q];
+    for (const GapRow& gap : loads_.gaps)
+        if (index(gap.row) == row) offset[index(gap.pattern)] += gap.value;
     return offset;
 }
 

@@ -62,6 +62,7 @@ private:
         std::int64_t a, b;
         std::int64_t first_row;
         const double* frame;  // [dim][dim]
+        GapRow gap;           // pattern -1: none
     };
 
     const Problem& problem_;
@@ -77,6 +78,10 @@ private:
 
     bool displacement(std::int64_t id) const { return id < dofs_; }
     std::vector<double> nothing() const { return std::vector<double>(problem_.patterns.size(), 0.0); }
+    // Adds factor * g to a right-hand side.
+    static void add_gap(Row& row, const Pair& pair, double factor) {
+        if (pair.gap.pattern >= 0) row.right[index(pair.gap.pattern)] += factor * pair.gap.value;
+    }
     void find_pairs();
     void hang_nodes();
     void close_ring(const Pair& pair);
@@ -92,7 +97,8 @@ void Builder::find_pairs() {
     std::int64_t row = 0;
     for (const InterfaceGeometry& face : problem_.mesh->interfaces())
         for (std::size_t p = 0; p < face.node_a.size(); ++p, row += dim_)
-            pairs_.push_back({face.node_a[p], face.node_b[p], row, &face.frame[p * index(dim_ * dim_)]});
+            pairs_.push_back({face.node_a[p], face.node_b[p], row, &face.frame[p * index(dim_ * dim_)], {row, -1, 0.0}});
+    for (const GapRow& gap : problem_.gap_rows()) pairs_[index(gap.row / dim_)].gap = gap;
 }
 
 // Control nodes are the first roots, so that the nodes they move depend on them; then nodes of the stiffest bodies.
@@ -138,11 +144,12 @@ void Builder::hang_nodes() {
                 in_tree[p] = 1;
                 const double sign = pair.a == node ? 1.0 : -1.0;
                 for (std::int64_t k = 0; k < dim_; ++k) {
-                    // u_other - u_node -+ Q^T j = 0
+                    // u_other - u_node -+ Q^T (j - g theta) = 0
                     Row row{{{node * dim_ + k, -1.0}}, nothing()};
                     for (std::int64_t r = 0; r < dim_; ++r)
                         if (const double q = pair.frame[r * dim_ + k]; q != 0.0)
                             row.terms[dofs_ + pair.first_row + r] -= sign * q;
+                    add_gap(row, pair, -sign * pair.frame[k]);
                     solved_.reduce(row);
                     row.terms[other * dim_ + k] = 1.0;
                     solved_.solve(row, other * dim_ + k);
@@ -155,7 +162,7 @@ void Builder::hang_nodes() {
         if (in_tree[p] == 0) closing_.push_back(p);
 }
 
-// The remainder of u_b - u_a - Q^T j = 0 after dependent nodes are replaced. If displacements are left (tied nodes,
+// The remainder of u_b - u_a - Q^T (j - g theta) = 0 after dependent nodes are replaced. If displacements are left (tied nodes,
 // control nodes), one of them is expressed by the rest; otherwise the jump of this pair is a combination of the ring's
 // others.
 void Builder::close_ring(const Pair& pair) {
@@ -175,12 +182,17 @@ void Builder::close_ring(const Pair& pair) {
             row = apart[index(i)];
             for (std::int64_t r = 0; r < dim_; ++r)
                 if (const double q = pair.frame[r * dim_ + i]; q != 0.0) row.terms[dofs_ + pair.first_row + r] -= q;
+            add_gap(row, pair, -pair.frame[i]);
             solved_.reduce(row);
             solved_.solve(row, choose_pivot(row, pair.b));
             continue;
         }
-        for (std::int64_t k = 0; k < dim_; ++k)
-            for (const auto& [id, c] : apart[index(k)].terms) row.terms[id] -= pair.frame[i * dim_ + k] * c;
+        for (std::int64_t k = 0; k < dim_; ++k) {
+            const double q = pair.frame[i * dim_ + k];
+            for (const auto& [id, c] : apart[index(k)].terms) row.terms[id] -= q * c;
+            add_scaled(-q, apart[index(k)].right, row.right);
+        }
+        if (i == 0) add_gap(row, pair, 1.0);
         solved_.reduce(row);
         row.terms[dofs_ + pair.first_row + i] = 1.0;
         solved_.solve(row, dofs_ + pair.first_row + i);

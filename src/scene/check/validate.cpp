@@ -52,6 +52,9 @@ void check_interfaces(const Problem& problem) {
                     fail(DELAM_ERROR_PROBLEM, "interface ", i, " is bonded permanently, but pair ", p,
                          " has an adhesion of ", interface.adhesion[p], ", not 1");
                 }
+                if (!interface.gap.empty() && interface.gap[p] != 0.0)
+                    fail(DELAM_ERROR_PROBLEM, "interface ", i, " is bonded permanently, but pair ", p, " has a gap of ",
+                         interface.gap[p], ", not 0");
             }
         } else if (interface.contact) {
             for (std::size_t p = 0; p < interface.adhesion.size(); ++p)
@@ -67,6 +70,10 @@ void check_interfaces(const Problem& problem) {
             } catch (const Error& e) {
                 fail(e.status(), "interface ", i, ": ", e.what());
             }
+            for (std::size_t p = 0; p < interface.gap.size(); ++p)
+                if (interface.gap[p] != 0.0 && interface.adhesion[p] > 0.0)
+                    fail(DELAM_ERROR_PROBLEM, "interface ", i, ": pair ", p, " has a gap of ", interface.gap[p],
+                         " and an adhesion of ", interface.adhesion[p], ", must be 0: nothing joins faces that are apart");
             if (interface.law->gradient > 0.0 && problem.mesh->interfaces()[i].face.empty())
                 fail(DELAM_ERROR_PROBLEM, "interface ", i,
                      ": its law has a gradient term, but it has no faces (delam_mesh_add_pairs)");
@@ -107,7 +114,7 @@ void check_loads(const Problem& problem) {
     for (const Pattern& pattern : problem.patterns) {
         if (pattern.drives == Pattern::Drives::nothing) {
             fail(DELAM_ERROR_PROBLEM, "pattern '", pattern.name,
-                 "' drives neither a displacement nor a force or strain");
+                 "' drives neither a displacement nor a force, strain or gap");
         }
     }
 }

@@ -11,9 +11,11 @@ namespace delam {
 
 DualLoads::DualLoads(const Problem& problem, const FetiParts& parts, const DualOperator& op, const Poll& poll)
     : prescribed(problem.prescribed_matrix()),
+      gaps(problem.gap_rows()),
       rows_(index(op.rows().count())),
       coarse_(index(op.coarse().size())),
-      constraints_(index(op.rows().constraint_count)) {
+      constraints_(index(op.rows().constraint_count)),
+      jumps_(index(op.rows().jump_count)) {
     call_if_set(poll);
     const std::size_t patterns = problem.patterns.size();
     collect(problem, parts);
@@ -78,10 +80,12 @@ void DualLoads::Sum::scale(int e) {
     scale_by_power(jump, e);
     scale_by_power(resultant, e);
     scale_by_power(prescribed, e);
+    scale_by_power(gap, e);
 }
 
 DualLoads::Sum DualLoads::at(std::span<const double> theta) const {
-    Sum sum{std::vector<double>(rows_, 0.0), std::vector<double>(coarse_, 0.0), std::vector<double>(constraints_, 0.0)};
+    Sum sum{std::vector<double>(rows_, 0.0), std::vector<double>(coarse_, 0.0), std::vector<double>(constraints_, 0.0),
+            std::vector<double>(jumps_, 0.0)};
     for (std::size_t p = 0; p < theta.size(); ++p) {
         if (theta[p] == 0.0) continue;
         for (std::size_t d = 0; d < sum.prescribed.size(); ++d)
@@ -90,6 +94,8 @@ DualLoads::Sum DualLoads::at(std::span<const double> theta) const {
         add_scaled(theta[p], jump[p], sum.jump);
         add_scaled(theta[p], resultant[p], sum.resultant);
     }
+    for (const GapRow& own : gaps) sum.gap[index(own.row)] = own.value * theta[index(own.pattern)];
+    for (std::size_t r = 0; r < jumps_; ++r) sum.jump[r] += sum.gap[r];
     const std::size_t first_constraint = rows_ - sum.prescribed.size();
     for (std::size_t d = 0; d < sum.prescribed.size(); ++d) sum.jump[first_constraint + d] -= sum.prescribed[d];
     return sum;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Loads of the dual problem, per pattern: dead forces on the first copy of their nodes, the forces of eigenstrains each
-// on its own subdomain, prescribed displacements on the constraints.
+// on its own subdomain, prescribed displacements on the constraints, gaps on the jumps.
 #pragma once
 
 #include <span>
@@ -16,14 +16,16 @@ struct DualLoads {
 
     // The loads at given factors of the patterns.
     struct Sum {
-        std::vector<double> jump;        // [rows] B K^+ f - c
+        std::vector<double> jump;        // [rows] B K^+ f - c + g
         std::vector<double> resultant;   // [coarse] R^T f
         std::vector<double> prescribed;  // [constraints] c
+        std::vector<double> gap;         // [jump rows] g
         void scale(int e);               // by 2^e
     };
     Sum at(std::span<const double> theta) const;
 
     std::vector<double> prescribed;              // [constraints][patterns], row-major
+    std::vector<GapRow> gaps;                    // g, by row
     std::vector<std::vector<double>> jump;       // [patterns] B K^+ f, [rows]; empty: neither forces nor eigenstrains
     std::vector<std::vector<double>> resultant;  // [patterns] R^T f, [coarse]
     DenseMatrix work;                            // f_p^T K^+ f_q
@@ -35,7 +37,7 @@ private:
     // Adds the loads of one pattern; strained: its forces are those of eigenstrains, which have no resultant.
     void carry(std::size_t pattern, bool strained, const FetiParts& parts, const DualOperator& op, const Poll& poll);
 
-    std::size_t rows_, coarse_, constraints_;
+    std::size_t rows_, coarse_, constraints_, jumps_;
 };
 
 }  // namespace delam

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Distances of paired faces before they move.
+#pragma once
+
+#include <vector>
+
+#include "mesh/interface_geometry.hpp"
+#include "mesh/mesh.hpp"
+
+namespace delam {
+
+// Returns n . (x_b - x_a) of each pair, L; negative where the faces overlap. The interface must not be an obstacle,
+// whose place nobody knows.
+std::vector<double> face_gaps(const Mesh& mesh, const InterfaceGeometry& interface);
+
+}  // namespace delam
