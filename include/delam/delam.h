@@ -339,7 +339,8 @@ DELAM_API int32_t delam_mesh_add_projected_interface(delam_mesh *mesh, int32_t b
  * perfect bond transfers a uniform traction exactly. A law and contact do so unless b consists of tet10 or hex20. The
  * weights of these are not proportional to the nodal forces. On faces that are no parallelograms the integrals have
  * relative errors of about 1e-12. Contact holds in the mean: where b is coarser than a, nodes of a between those of b
- * may penetrate.
+ * may penetrate. A face of b that is within gap of a in one part, and farther from it elsewhere, is paired as a whole.
+ * delam_problem_check refuses pairs farther apart than gap, unless their gaps count (delam_problem_set_gaps).
  * [unit gap L >= 0; null none; status cancelled, argument, mesh; source B. Wohlmuth, SIAM J. Numer. Anal. 38 (2000)
  * 989-1012; since 0.2] */
 DELAM_API int32_t delam_mesh_add_mortar_interface(delam_mesh *mesh, int32_t body_a, int32_t body_b, double gap,
@@ -789,17 +790,21 @@ DELAM_API int32_t delam_problem_add_forces(delam_problem *problem, int64_t patte
 DELAM_API int32_t delam_problem_add_eigenstrain(delam_problem *problem, int64_t pattern, int32_t body,
                                                 const double *strain);
 
-/* Sets the distances that the faces of an interface have before they move, gaps [pair_count] along the normals times the
- * factor of the pattern, which must drive nothing else. Without this call the faces of every pair touch. If gaps is
- * NULL, they are the distances in the mesh, n . (x_b - x_a). The jump of a pair is then u_b - u_a plus its gap along the
- * normal, i.e. the distance that is left, and contact acts only where that is 0. Gaps of magnitude adjust or less count
- * as 0: these faces touch, as if moved there without strain. A negative gap is an interference, which presses the
- * bodies apart (a press fit); its pattern can raise it from 0. Pairs with a gap must have adhesion 0
- * (delam_problem_check refuses any other), because nothing joins faces that are apart. For such a pattern,
- * `reaction:NAME` is dE/dfactor, the sum of gap times normal force. A later call for the same interface replaces the
- * gaps. DELAM_ERROR_MESH: gaps is NULL and faces overlap by more than adjust; the message gives the largest overlap and
- * its place. DELAM_ERROR_ARGUMENT: gaps is NULL for an obstacle, whose place the mesh does not know.
- * [unit gaps L finite, adjust L >= 0; null gaps; status argument, problem, mesh; since 0.2] */
+/* Sets the distances that the faces of an interface have before they move: gaps [pair_count] along the normals, times
+ * the factor of the pattern, which must drive nothing else. Without this call the faces of every pair touch. The jump
+ * of a pair is then u_b - u_a plus its gap along the normal, i.e. the distance that is left, and contact acts only
+ * where that is 0. A negative gap is an interference, which presses the bodies apart (a press fit). Its pattern can
+ * raise it from 0. If gaps is NULL, the function computes the distances in the mesh, n . (x_b - x_a). Those within 1e-6
+ * of the largest extent of the mesh along an axis count as 0, and so do those within the height of the arcs that facets
+ * of curved faces cut off.
+ * Gaps of magnitude adjust or less count as 0: these faces touch, as if moved there without strain. The initial
+ * adhesion of a pair with a gap becomes 0, because nothing joins faces that are apart (delam_problem_check refuses any
+ * other). If the interface has a law, the log (level 1) tells how many pairs lose their adhesion. For such a pattern,
+ * `reaction:NAME` is dE/dfactor, the sum of gap times normal force (negative where the faces press), and `work`
+ * includes the work of changing gaps. A later call for the same interface replaces the gaps.
+ * DELAM_ERROR_MESH: gaps is NULL and faces overlap by more than adjust; the message gives the largest overlap and its
+ * place. DELAM_ERROR_ARGUMENT: gaps is NULL for an obstacle, whose place the mesh does not know.
+ * [unit gaps L finite, adjust L >= 0; null gaps; status cancelled, argument, problem, mesh; since 0.2] */
 DELAM_API int32_t delam_problem_set_gaps(delam_problem *problem, int64_t interface_index, int64_t pattern,
                                          const double *gaps, double adjust);
 
@@ -892,7 +897,7 @@ DELAM_API int32_t delam_problem_constraints(const delam_problem *problem, int64_
                                             int64_t *pattern_count, int64_t *row_starts, int64_t *columns,
                                             double *values, double *coefficients);
 /* Returns the nodal forces of a pattern at factor 1, forces: [primal DOFs]. These are its dead forces, or int B^T C e*
- * of its eigenstrains e*.
+ * of its eigenstrains e*, and 0 for other patterns.
  * [unit forces F; null none; status cancelled, argument, problem; source none; since 0.1] */
 DELAM_API int32_t delam_problem_forces(const delam_problem *problem, int64_t pattern, int64_t capacity, double *forces);
 /* Returns matrix: [pattern_count][pattern_count], W_pq = int e*_p : C : e*_q of the eigenstrains, 0 for other patterns.

@@ -404,10 +404,10 @@ int32_t delam_problem_add_eigenstrain(delam_problem* problem, int64_t pattern, i
 
 int32_t delam_problem_set_gaps(delam_problem* problem, int64_t interface_index, int64_t pattern, const double* gaps,
                                double adjust) {
-    return guard(problem, [&] {
+    return guard_build(problem, [&] {
         Problem& core = *problem->core;
-        const std::int64_t at = require_index(interface_index, static_cast<std::int64_t>(core.interfaces.size()), 0,
-                                              "interface_index");
+        const std::int64_t at =
+            require_index(interface_index, static_cast<std::int64_t>(core.interfaces.size()), 0, "interface_index");
         const InterfaceGeometry& faces = core.mesh->interfaces()[index(at)];
         require_index(pattern, static_cast<std::int64_t>(core.patterns.size()), 0, "pattern");
         const auto list = require_patterns(core, 1, &pattern, 0, Pattern::Drives::gap);
@@ -419,9 +419,6 @@ int32_t delam_problem_set_gaps(delam_problem* problem, int64_t interface_index, 
                 fail(DELAM_ERROR_ARGUMENT, "gaps is NULL, but interface_index = ", interface_index,
                      " is an obstacle, whose place is not known");
             own = face_gaps(*core.mesh, faces);
-            const double rounding = 1e-9 * core.mesh->size();
-            for (double& gap : own)
-                if (std::abs(gap) <= rounding) gap = 0.0;
         } else {
             require_finite(gaps, faces.pair_count(), "gaps");
             own.assign(gaps, gaps + faces.pair_count());
@@ -430,12 +427,27 @@ int32_t delam_problem_set_gaps(delam_problem* problem, int64_t interface_index, 
             if (std::abs(gap) <= adjust) gap = 0.0;
         const auto least = std::min_element(own.begin(), own.end());
         if (gaps == nullptr && least != own.end() && *least < 0.0)
-            fail(DELAM_ERROR_MESH, "the faces of interface_index = ", interface_index, " overlap by ", -*least,
-                 ", most at pair ", least - own.begin(), " at ", place(*core.mesh, faces.node_b[index(least - own.begin())]),
-                 ": adjust = ", -*least, " lets them touch there, gaps that are given press them apart");
+            fail(DELAM_ERROR_MESH, "interface ", at, ": its faces overlap by up to ", -*least, ", at pair ",
+                 least - own.begin(), " at ", place(*core.mesh, faces.node_b[index(least - own.begin())]),
+                 ", farther than adjust (", adjust, "), which moves them apart without strain");
         InterfaceProperties& interface = core.interfaces[index(at)];
+        const std::int64_t replaced = interface.gap.empty() ? pattern : interface.gap_pattern;
+        std::size_t parted = 0;
+        for (std::size_t p = 0; p < own.size(); ++p)
+            if (own[p] != 0.0 && !interface.bonded && interface.adhesion[p] > 0.0) {
+                interface.adhesion[p] = 0.0;
+                ++parted;
+            }
         interface.gap = std::move(own);
         interface.gap_pattern = pattern;
         mark(core, list, Pattern::Drives::gap);
+        if (std::none_of(core.interfaces.begin(), core.interfaces.end(), [&](const InterfaceProperties& other) {
+                return !other.gap.empty() && other.gap_pattern == replaced;
+            }))
+            core.patterns[index(replaced)].drives = Pattern::Drives::nothing;
+        if (parted > 0 && interface.law)
+            problem->context->monitor.log(
+                1, text("interface ", at, ": ", parted, " of ", interface.gap.size(),
+                        " pairs have a gap at the start, of up to ", max_abs(interface.gap), ": they do not adhere"));
     });
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace delam {
@@ -19,6 +20,9 @@ struct InterfaceGeometry {
     // [faces][nodes_per_face] pair indices: corners, then mid-sides, then the centre if the cells have one. Triangles
     // among quadrilaterals repeat their last corner, also as the mid-side node of the collapsed side.
     std::vector<std::int64_t> face;
+
+    // Faces farther apart touch only if somebody says so (pair_distances, Problem::gap_rows), L.
+    double reach = std::numeric_limits<double>::infinity();
 
     std::int64_t pair_count() const { return static_cast<std::int64_t>(node_a.size()); }
     std::int64_t face_count() const { return static_cast<std::int64_t>(face.size()) / nodes_per_face; }

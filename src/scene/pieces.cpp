@@ -5,6 +5,7 @@
 
 #include "base/cancel_scope.hpp"
 #include "base/numbers.hpp"
+#include "body/rigid_modes.hpp"
 #include "mesh/partition.hpp"
 
 namespace delam {
@@ -69,6 +70,29 @@ Pieces find_pieces(const Problem& problem) {
     return pieces;
 }
 
+// Part of the displacements that remains of a motion without strain: rounding of the modes, which are orthonormal.
+constexpr double rigid = 1e-8;
+
+// Largest displacement after subtracting each piece's own rigid motion.
+double strained(const Problem& problem, std::span<const double> displacement) {
+    const Mesh& mesh = *problem.mesh;
+    const auto dim = index(mesh.dimension());
+    double most = 0.0;
+    for (const std::vector<std::int64_t>& nodes : rigid_pieces(problem).nodes) {
+        std::vector<double> own;
+        for (const std::int64_t node : nodes)
+            for (std::size_t k = 0; k < dim; ++k) own.push_back(displacement[index(node) * dim + k]);
+        const std::vector<double> modes = rigid_modes(mesh, nodes);
+        for (std::size_t first = 0; first < modes.size(); first += own.size()) {
+            double share = 0.0;
+            for (std::size_t i = 0; i < own.size(); ++i) share += modes[first + i] * own[i];
+            for (std::size_t i = 0; i < own.size(); ++i) own[i] -= share * modes[first + i];
+        }
+        most = std::max(most, max_abs(own));
+    }
+    return most;
+}
+
 }  // namespace
 
 struct KnownPieces {
@@ -86,6 +110,10 @@ const Pieces& rigid_pieces(const Problem& problem) {
         problem.known_pieces = std::make_shared<const KnownPieces>(
             KnownPieces{problem.mesh, problem.stiffness, engine, find_pieces(problem)});
     return problem.known_pieces->pieces;
+}
+
+bool without_strain(const Problem& problem, std::span<const double> displacement, double least) {
+    return strained(problem, displacement) <= std::max(rigid * max_abs(displacement), least);
 }
 
 }  // namespace delam

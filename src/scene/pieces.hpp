@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -32,6 +33,10 @@ struct Pieces {
 
 // Found once for the stiffness that the bodies have, and kept with the problem and its copies.
 const Pieces& rigid_pieces(const Problem& problem);
+
+// True if these displacements [mesh DOFs] are rigid motions of all pieces, but for rounding: their forces are rounding.
+// least: smaller displacements are rounding, too, L.
+bool without_strain(const Problem& problem, std::span<const double> displacement, double least = 0.0);
 
 // 1 for bodies whose stiffness the host has given, [bodies].
 std::vector<std::uint8_t> given_by_host(const Problem& problem);

@@ -57,8 +57,8 @@ struct InterfaceProperties {
     bool bonded = false;
     bool contact = false;          // contact only: no law, no adhesion
     std::vector<double> adhesion;  // initial, [pairs]
-    // Distances of the faces along the normal before they move, L per unit of the factor of gap_pattern, [pairs]; empty:
-    // they touch. The jump is then the distance that is left.
+    // Distances of the faces along the normal before they move, L per unit of the factor of gap_pattern, [pairs];
+    // empty: they touch. The jump is then the distance that is left.
     std::vector<double> gap;
     std::int64_t gap_pattern = -1;
 };

@@ -208,6 +208,14 @@ def askew():
     return squares((0.5, 1.0))
 
 
+def overlapping():
+    s = squares((0.0, 0.75))
+    fine("mesh_add_mortar_interface", s.mesh, 0, 1, 0.5, whole(0))
+    s.problem = made("problem_create", s.context, s.mesh)
+    fine("problem_add_pattern", s.problem, words("fit"), 1, real(0), real(1), whole(0))
+    return s
+
+
 def twice(s):
     return [s.problem, 1, whole(0), real(1, 0), 0, None, None, 0]
 
@@ -317,6 +325,8 @@ ROWS = {
     ("problem_add_periodic", "mesh"): (bare, lambda s: [s.problem, 1, real(1, 1), whole(8), 0.0, 0]),
     ("problem_add_forces", "problem"): (full, lambda s: [s.problem, 0, 1, whole(4), real(1, 0), 0]),
     ("problem_add_eigenstrain", "problem"): (full, lambda s: [s.problem, 0, 0, real(1, 0, 0, 0, 0, 0)]),
+    ("problem_set_gaps", "problem"): (full, lambda s: [s.problem, 0, 0, None, 0.0]),
+    ("problem_set_gaps", "mesh"): (overlapping, lambda s: [s.problem, 0, 0, None, 0.0]),
     ("problem_check", "mesh"): (folded, lambda s: [s.problem]),
     ("problem_check", "problem"): (bare, lambda s: [s.problem]),
     ("problem_process_zone", "problem"): (failing, usual("problem_process_zone")),

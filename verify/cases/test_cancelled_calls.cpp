@@ -278,10 +278,10 @@ void build_problems(Host& host, const Block& b) {
     for (std::int64_t n = 0; n < count; ++n) all[at(n)] = n;
     const std::vector<double> ones(at(count * b.dimension), 1.0), x{1.0, 0.0, 0.0}, period{4.0, 0.0, 0.0};
     const double times[] = {0.0, 1.0}, strain[] = {1e-3, 1e-3, 0.0, 0.0, 0.0, 0.0};
-    std::int64_t displacement = -1, force = -1, expansion = -1;
+    std::int64_t displacement = -1, force = -1, expansion = -1, gap = -1;
     host.require(delam_problem_create(host.h.context, host.h.mesh, &problem), "delam_problem_create");
     host.require(delam_problem_set_elastic(problem, -1, 1000.0, 0.3), "delam_problem_set_elastic");
-    for (const auto& [name, pattern] : {std::pair{"u", &displacement}, {"f", &force}, {"e", &expansion}})
+    for (const auto& [name, pattern] : {std::pair{"u", &displacement}, {"f", &force}, {"e", &expansion}, {"g", &gap}})
         host.require(delam_problem_add_pattern(problem, name, 2, times, times, pattern), name);
     host.require(delam_problem_add_eigenstrain(problem, expansion, -1, strain), "delam_problem_add_eigenstrain");
     std::vector<std::int64_t> cells(at(b.cells));
@@ -306,9 +306,11 @@ void build_problems(Host& host, const Block& b) {
     });
     host.call("delam_problem_add_forces", count, print,
               [&] { return delam_problem_add_forces(problem, force, count, all.data(), ones.data(), 0); });
+    host.call("delam_problem_set_gaps", b.cells, print,
+              [&] { return delam_problem_set_gaps(problem, 0, gap, nullptr, 0.0); });
     std::int64_t rows = 0, entries = 0, patterns = 0;
     char hash[17] = {};
-    double energy[9] = {};
+    double energy[16] = {};
     std::vector<double> forces(at(b.node_count * b.dimension));
     host.read("delam_problem_hash", b.cells, nothing, [&] { return delam_problem_hash(problem, hash); });
     host.read("delam_problem_constraints", count, nothing, [&] {
@@ -317,7 +319,7 @@ void build_problems(Host& host, const Block& b) {
     host.read("delam_problem_forces", b.cells, nothing,
               [&] { return delam_problem_forces(problem, expansion, b.node_count * b.dimension, forces.data()); });
     host.read("delam_problem_eigenstrain_energy", b.cells, nothing,
-              [&] { return delam_problem_eigenstrain_energy(problem, 9, energy); });
+              [&] { return delam_problem_eigenstrain_energy(problem, 16, energy); });
 }
 
 // A scene of two layers, fixed at the bottom, pulled at the top.

@@ -154,6 +154,22 @@ void give_stiffness(Host& host, Handles& h) {
           starts.data(), columns.data(), values.data(), -1, nullptr, 0);
 }
 
+// A distance of the faces for each pair, 0 ahead of the notch.
+std::vector<double> gaps_of_notch(Host& host, Handles& h, const Strip& s) {
+    std::int64_t pairs = 0;
+    QUERY(delam_mesh_interface_size, h.mesh, 0, nullptr, nullptr, &pairs, nullptr, nullptr);
+    std::vector<std::int64_t> node_b(at(pairs));
+    QUERY(delam_mesh_interface_pairs, h.mesh, 0, nullptr, node_b.data(), nullptr, nullptr);
+    std::int64_t node_count = 0;
+    QUERY(delam_mesh_size, h.mesh, nullptr, &node_count, nullptr, nullptr, nullptr);
+    const auto dim = at(s.dimension);
+    std::vector<double> nodes(at(node_count) * dim);
+    QUERY(delam_mesh_nodes, h.mesh, static_cast<std::int64_t>(nodes.size()), nodes.data());
+    std::vector<double> gaps;
+    for (const std::int64_t node : node_b) gaps.push_back(nodes[at(node) * dim] < notch - 1e-4 ? 1e-6 : 0.0);
+    return gaps;
+}
+
 void make_problem(Host& host, Handles& h, const Strip& s) {
     host.create(
         "delam_problem_create", [&] { return delam_problem_create(h.context, h.mesh, &h.problem); },
@@ -162,17 +178,10 @@ void make_problem(Host& host, Handles& h, const Strip& s) {
     QUERY(delam_problem_set_law, h.problem, 0, h.law);
 
     const auto dim = at(s.dimension);
-    std::int64_t pairs = 0;
-    QUERY(delam_mesh_interface_size, h.mesh, 0, nullptr, nullptr, &pairs, nullptr, nullptr);
-    std::vector<std::int64_t> node_b(at(pairs));
-    QUERY(delam_mesh_interface_pairs, h.mesh, 0, nullptr, node_b.data(), nullptr, nullptr);
-    std::int64_t node_count = 0;
-    QUERY(delam_mesh_size, h.mesh, nullptr, &node_count, nullptr, nullptr, nullptr);
-    std::vector<double> nodes(at(node_count) * dim);
-    QUERY(delam_mesh_nodes, h.mesh, static_cast<std::int64_t>(nodes.size()), nodes.data());
+    const std::vector<double> gaps = gaps_of_notch(host, h, s);
     std::vector<std::int64_t> open;
-    for (std::int64_t p = 0; p < pairs; ++p)
-        if (nodes[at(node_b[at(p)]) * dim] < notch - 1e-4) open.push_back(p);
+    for (std::size_t p = 0; p < gaps.size(); ++p)
+        if (gaps[p] > 0.0) open.push_back(static_cast<std::int64_t>(p));
     const std::vector<double> zero(open.size(), 0.0);
     QUERY(delam_problem_set_adhesion, h.problem, 0, static_cast<std::int64_t>(open.size()), open.data(), zero.data(),
           0);
@@ -208,7 +217,7 @@ void make_problem(Host& host, Handles& h, const Strip& s) {
         CHANGE(delam_problem_prescribe_nodes, h.problem, static_cast<std::int64_t>(stop.size()), stop.data(),
                along.data(), 0, nullptr, nullptr, 0);
         const std::array<double, 2> ramp{0.0, 1.0};
-        std::int64_t dead = -1, heat = -1;
+        std::int64_t dead = -1, heat = -1, apart = -1;
         CHANGE(delam_problem_add_pattern, h.problem, "push", 2, times.data(), ramp.data(), &dead);
         std::vector<double> force(edge.size() * dim, 0.0);
         for (std::size_t i = 0; i < edge.size(); ++i) force[i * dim] = 1e3;
@@ -217,6 +226,9 @@ void make_problem(Host& host, Handles& h, const Strip& s) {
         CHANGE(delam_problem_add_pattern, h.problem, "heat", 2, times.data(), ramp.data(), &heat);
         const std::array<double, 6> strain{1e-4, 1e-4, 1e-4, 0.0, 0.0, 0.0};
         CHANGE(delam_problem_add_eigenstrain, h.problem, heat, 1, strain.data());
+        CHANGE(delam_problem_add_pattern, h.problem, "apart", 2, times.data(), ramp.data(), &apart);
+        CHANGE(delam_problem_set_gaps, h.problem, 0, apart, nullptr, 0.0);
+        CHANGE(delam_problem_set_gaps, h.problem, 0, apart, gaps.data(), 0.0);
     }
     for (const auto& option : s.texts)
         host.query("delam_problem_set_text " + option.first,
@@ -272,7 +284,7 @@ void read(Host& host, Handles& h, const Strip& s) {
     std::vector<double> average(13);
     QUERY(delam_solver_average, solver, 1, &average[0], &average[1], &average[7]);
     host.transcript.add("average", average);
-    const std::size_t patterns = s.strained ? 3 : 1;
+    const std::size_t patterns = s.strained ? 4 : 1;
     std::vector<double> tangent(patterns * patterns);
     QUERY(delam_solver_tangent, solver, static_cast<std::int64_t>(tangent.size()), tangent.data());
     host.transcript.add("tangent", tangent);

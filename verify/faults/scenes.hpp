@@ -18,7 +18,7 @@ struct Strip {
     std::string mesh = "layers";           // layers | conforming | projected
     std::string law = "piecewise-linear";  // host: callbacks
     bool brittle = false;
-    bool strained = false;                                   // a dead force and an eigenstrain beside the peel
+    bool strained = false;                                   // a dead force, an eigenstrain and gaps beside the peel
     std::vector<std::pair<std::string, std::string>> texts;  // options
     std::vector<std::pair<std::string, double>> numbers;
     int steps = 4;

@@ -255,6 +255,8 @@ inline const Call calls[] = {
          return IN_ORDER(delam_problem_add_eigenstrain, a.problem, a.in.index(sizes_of(a.problem).patterns),
              a.in.body(), maybe(a.in, strain));
      }},
+    {"delam_problem_set_gaps", Subject::problem, may::cancelled | may::argument | may::problem | may::mesh,
+     [](const Asked& a) { return set_gaps(a.in, a.problem); }},
     {"delam_problem_set_number", Subject::problem, may::argument,
      [](const Asked& a) {
          const char* key = option_key(a.in);

@@ -60,6 +60,17 @@ inline std::int32_t add_periodic(Input& in, delam_problem* problem) {
                     maybe(in, periods), maybe(in, controls), in.flag() ? 0.0 : in.fraction(), base);
 }
 
+// An interface has at most as many pairs as the problem has rows of jumps.
+inline std::int32_t set_gaps(Input& in, delam_problem* problem) {
+    const ProblemSizes s = sizes_of(problem);
+    const std::vector<double> some = in.reals(3);
+    std::vector<double> gaps(static_cast<std::size_t>(s.dual));
+    for (std::size_t i = 0; i < gaps.size(); ++i) gaps[i] = 1e-2 * some[i % some.size()];
+    const double* given = in.flag() ? nullptr : gaps.data();
+    return IN_ORDER(delam_problem_set_gaps, problem, in.index(2), in.index(s.patterns), given,
+                    in.flag() ? 0.0 : in.fraction());
+}
+
 inline std::int32_t set_orientation(Input& in, delam_problem* problem) {
     const std::size_t count = few(in);
     const std::int32_t base = in.base();

@@ -54,6 +54,18 @@ TOP, 2, 2, -5e-4
 """
 
 
+def apart(deck, distance):
+    """The same deck with the upper block moved up by a distance."""
+    head, tail = deck.split("*ELEMENT", 1)
+    lines = []
+    for line in head.splitlines():
+        fields = line.split(", ")
+        if len(fields) == 3 and int(fields[0]) > 12:
+            line = f"{fields[0]}, {fields[1]}, {float(fields[2]) + distance}"
+        lines.append(line)
+    return "\n".join(lines) + "\n*ELEMENT" + tail
+
+
 def pressed(scene):
     """The reaction at the end."""
     out = os.path.join(folder(), "out")
@@ -80,6 +92,62 @@ for lower, upper in ((20, 4), (20, 1), (1, 20), (3, 2)):
             for wrong, words in ((points.replace('"points"', '"nodes"'), "projection.*means.*points"),
                                  (points.replace("projected = true\n", ""), "is for projected = true")):
                 expect_error(delam("check", write(wrong, "wrong.toml", place)), 2, words)
+
+# Faces that are apart press once they meet: 5e-4 less 2e-4 on a length of 2, in 4 steps; nothing holds them before.
+gap = apart(bar(3, 2, "UP"), 2e-4).replace("0.5, 1., 1e-5, 0.5", "0.25, 1., 1e-5, 0.25")
+for drive, forces in ((-5e-4, (0, 0.025, 0.0875, 0.15)), (5e-4, (0, 0, 0, 0))):
+    path = write(gap.replace("-5e-4", str(drive)), "gap.inp")
+    code, scene, error = delam("import", path)
+    expect(code == 0, f"import: {error.strip()}")
+    place = os.path.dirname(path)
+    for reduction in ("condensed", "iterated", "feti"):
+        out = os.path.join(folder(), "out")
+        text = scene.replace("[units]", f'[solver]\nreduction = "{reduction}"\n\n[units]')
+        code, said, error = delam("run", write(text, "gap.toml", place), "--out", out)
+        expect(code == 0, f"it runs: exit {code} {error.strip()[:300]}")
+        with open(os.path.join(out, "history.csv"), newline="", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))[1:]
+        got = [abs(float(row["reaction"])) for row in rows]
+        expect(all(math.isclose(g, f, rel_tol=1e-9, abs_tol=1e-12) for g, f in zip(got, forces)), f"{reduction}: {got}")
+        if drive > 0:
+            expect("no work was done" in said + error, "nothing that is rounding is told of")
+    closed = scene.replace("projected = true", 'projected = true\ninitial_gap = "closed"')
+    expect(math.isclose(abs(pressed(write(closed, "closed.toml", place))), 0.25 if drive < 0 else 0, rel_tol=1e-9),
+           "closed: they touch from the start")
+    expect_error(delam("check", write(closed.replace("\ngap = ", "\nadjust = 1e-3\ngap = "), "wrong.toml", place)), 2,
+                 "adjust.*is for initial_gap")
+    expect_error(delam("check", write(closed.replace('"closed"', '"shut"'), "wrong.toml", place)), 2, "open.*closed")
+    points = scene.replace("projected = true", 'projected = true\nprojection = "points"\ninitial_gap = "open"')
+    expect_error(delam("check", write(points, "wrong.toml", place)), 2, "needs projection")
+
+# Faces that overlap are refused with the value, or moved apart without strain.
+for adjust, words in (("", "overlap by up to 0.0002"), (", ADJUST=1e-4", "overlap by up to 0.0002"),
+                      (", ADJUST=3e-4", None)):
+    text = apart(bar(3, 2, "UP"), -2e-4).replace("*CONTACT PAIR", f"*CONTACT PAIR{adjust}")
+    path = write(text, "overlap.inp")
+    code, scene, error = delam("import", path)
+    expect(code == 0, f"import: {error.strip()}")
+    scene = write(scene, "overlap.toml", os.path.dirname(path))
+    if words:
+        expect_error(delam("run", scene, "--out", os.path.join(folder(), "out")), 2, words, "adjust")
+    else:
+        expect(math.isclose(abs(pressed(scene)), 0.25, rel_tol=1e-9), "moved together, they press from the start")
+for adjust, words in (("NODES", "ADJUST=NODES is not imported: a distance"), ("-1", "a distance >= 0")):
+    wrong = bar(3, 2, "UP").replace("*CONTACT PAIR", f"*CONTACT PAIR, ADJUST={adjust}")
+    expect_error(delam("import", write(wrong, "wrong.inp")), 2, words)
+
+# Nothing joins faces that are apart, even with a law, unless they are moved together.
+law = "*COHESIVE BEHAVIOR\n1000., 1000., 1000.\n*DAMAGE INITIATION, CRITERION=QUADS\n1., 1., 1.\n"
+law += "*DAMAGE EVOLUTION, TYPE=ENERGY\n0.01,\n"
+for adjust, force in (("", 0.0), (", ADJUST=3e-4", 1000 * 5e-4 / 3)):
+    text = gap.replace("*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=HARD\n", law).replace("-5e-4", "5e-4")
+    path = write(text.replace("*CONTACT PAIR", f"*CONTACT PAIR{adjust}"), "law.inp")
+    code, scene, error = delam("import", path)
+    expect(code == 0, f"import: {error.strip()}")
+    scene = write(scene, "law.toml", os.path.dirname(path))
+    code, _, error = delam("check", scene)
+    expect(("3 of 3 pairs have a gap" in error) == (adjust == ""), f"check tells: {error.strip()[:300]}")
+    expect(math.isclose(abs(pressed(scene)), force, rel_tol=1e-8, abs_tol=1e-12), f"with a law{adjust}")
 
 # General contact of a body with a slit (its halves share one node) is told, not left out in silence.
 deck = bar(3, 3, "UP").replace("13, 0.0, 1.0\n", "").replace(", 13, ", ", 9, ")

@@ -234,6 +234,28 @@ void test_problem() {
     expect(cell.constraints().matrix.row_starts.size() > 1, "a periodic cell");
 }
 
+void test_gaps() {
+    const delam::Context context;
+    delam::Mesh mesh(context, 2, {0., 0., 1., 0., 0., 1., 1., 1., 0., 1.125, 1., 1.125, 0., 2., 1., 2.});
+    mesh.add_cells(DELAM_QUAD4, {0, 1, 3, 2, 4, 5, 7, 6}, {0, 1});
+    mesh.add_mortar_interface(0, 1, 0.25);
+    delam::Problem problem(context, mesh);
+    problem.set_elastic(-1, 1.0, 0.3);
+    problem.set_contact(0);
+    const auto apart = problem.add_pattern("apart", {0.0}, {1.0});
+    const auto with = [&](delam::View<double> gaps, double adjust) {
+        problem.set_gaps(0, apart, gaps, adjust);
+        return problem.hash();
+    };
+    problem.set_gaps(0, apart);
+    const std::string known = problem.hash();
+    expect(known == with({0.125, 0.125}, 0.0) && known == with({}, 0.0), "the distances in the mesh");
+    expect(with({0.125, 0.5}, 0.25) == with({0.0, 0.5}, 0.0), "small gaps count as 0");
+    expect(with({}, 0.25) == with({0.0, 0.0}, 0.0), "those of the mesh, too");
+    expect(status_of([&] { problem.set_gaps(0, apart, {0.125}); }) == DELAM_ERROR_ARGUMENT, "one gap of two");
+    expect(status_of([&] { problem.set_gaps(1, apart, {0.125}); }) == DELAM_ERROR_ARGUMENT, "there is no interface 1");
+}
+
 void test_law() {
     const delam::Context context;
     bool failing = false;
@@ -369,6 +391,7 @@ int main() {
     test_descriptions();
     test_mesh();
     test_problem();
+    test_gaps();
     test_law();
     test_solver();
     test_callbacks();

@@ -9,7 +9,7 @@ module delam_meshes
   use delam_contexts, only: delam_context
   implicit none
   private
-  public :: delam_mesh, dimension_of, body_or_all
+  public :: delam_mesh, dimension_of, pairs_of, body_or_all
 
   type, extends(delam_object) :: delam_mesh
   contains
@@ -312,6 +312,19 @@ contains
     dimension = 0
     if (delam_mesh_size(self%handle(), dimension=dimension) /= DELAM_OK) dimension = 0
   end function dimension_of
+
+  ! Of each interface.
+  function pairs_of(self) result(pairs)
+    class(delam_mesh), intent(in) :: self
+    integer(c_int64_t), allocatable :: pairs(:)
+    integer(c_int64_t) :: count, i
+    count = 0
+    if (delam_mesh_size(self%handle(), interface_count=count) /= DELAM_OK) count = 0
+    allocate(pairs(count), source=0_c_int64_t)
+    do i = 1, count
+      if (delam_mesh_interface_size(self%handle(), i - 1, pair_count=pairs(i)) /= DELAM_OK) pairs(i) = 0
+    end do
+  end function pairs_of
 
   subroutine mesh_get_size(self, dimension, nodes, cells, bodies, interfaces, status, message)
     class(delam_mesh), intent(in) :: self

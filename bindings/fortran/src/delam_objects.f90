@@ -17,6 +17,7 @@ module delam_objects
     character(7) :: kind = ''
     integer :: owners = 1
     integer :: dimension = 0   ! of a problem's mesh
+    integer(c_int64_t), allocatable :: pairs(:)   ! of each interface of a problem's mesh
     integer(c_int64_t) :: patterns = 0   ! of a solver's problem, when it was made
     type(shared), pointer :: context => null()
     type(keeper), allocatable :: kept(:)

@@ -9,7 +9,7 @@ module delam_problems
   use delam_objects, only: delam_object, shared, shared_of, adopt, keep, next_owner
   use delam_statuses, only: settle, refuse
   use delam_contexts, only: delam_context
-  use delam_meshes, only: delam_mesh, dimension_of, body_or_all
+  use delam_meshes, only: delam_mesh, dimension_of, pairs_of, body_or_all
   use delam_laws, only: delam_law
   implicit none
   private
@@ -37,6 +37,7 @@ module delam_problems
     procedure :: add_periodic => problem_add_periodic
     procedure :: add_forces => problem_add_forces
     procedure :: add_eigenstrain => problem_add_eigenstrain
+    procedure :: set_gaps => problem_set_gaps
     procedure, private :: problem_set_number, problem_set_whole, problem_set_text
     generic :: set => problem_set_number, problem_set_whole, problem_set_text
     procedure :: check => problem_check
@@ -82,6 +83,7 @@ contains
     code = delam_problem_create(context%handle(), mesh%handle(), made%handle)
     if (c_associated(made%handle)) then
       made%dimension = dimension_of(mesh)
+      made%pairs = pairs_of(mesh)
       call adopt(self, made, 'problem', shared_of(context))
     else
       deallocate(made)
@@ -353,6 +355,19 @@ contains
     if (associated(it)) in_space = it%dimension == components
   end function in_space
 
+  ! Is that the number of pairs? The library reports an interface that does not exist.
+  function one_each(self, interface, count)
+    class(delam_problem), intent(in) :: self
+    integer, intent(in) :: interface
+    integer(c_int64_t), intent(in) :: count
+    logical :: one_each
+    type(shared), pointer :: it
+    one_each = .true.
+    it => shared_of(self)
+    if (.not. associated(it)) return
+    if (interface >= 1 .and. interface <= size(it%pairs)) one_each = it%pairs(interface) == count
+  end function one_each
+
   pure function paired(patterns, values)
     integer(delam_index), intent(in), optional :: patterns(:)
     real(delam_real), intent(in), optional :: values(:)
@@ -415,6 +430,28 @@ contains
     call settle(delam_problem_add_eigenstrain(self%handle(), pattern - 1, body_or_all(body), strain), self, status, &
                 message)
   end subroutine problem_add_eigenstrain
+
+  ! gaps: (pairs), along the normals; absent for the distances in the mesh. Magnitudes up to adjust, or 0, count as 0.
+  subroutine problem_set_gaps(self, interface, pattern, gaps, adjust, status, message)
+    class(delam_problem), intent(in) :: self
+    integer, intent(in) :: interface
+    integer(delam_index), intent(in) :: pattern
+    real(delam_real), intent(in), optional, contiguous :: gaps(:)
+    real(delam_real), intent(in), optional :: adjust
+    integer, intent(out), optional :: status
+    character(*), intent(out), optional :: message
+    real(delam_real) :: distance
+    if (present(gaps)) then
+      if (.not. one_each(self, interface, size(gaps, kind=c_int64_t))) then
+        call refuse('gaps must be (pairs)', status, message)
+        return
+      end if
+    end if
+    distance = 0
+    if (present(adjust)) distance = adjust
+    call settle(delam_problem_set_gaps(self%handle(), interface - 1_c_int64_t, pattern - 1, gaps, distance), self, &
+                status, message)
+  end subroutine problem_set_gaps
 
   subroutine problem_set_number(self, key, value, status, message)
     class(delam_problem), intent(in) :: self

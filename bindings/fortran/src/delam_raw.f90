@@ -704,6 +704,16 @@ module delam_raw
       real(c_double), intent(in), optional :: strain(*)
       integer(c_int32_t) :: status
     end function delam_problem_add_eigenstrain
+    function delam_problem_set_gaps(problem, interface_index, pattern, gaps, adjust) bind(c, &
+        name="delam_problem_set_gaps") result(status)
+      import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
+      type(c_ptr), value :: problem
+      integer(c_int64_t), value :: interface_index
+      integer(c_int64_t), value :: pattern
+      real(c_double), intent(in), optional :: gaps(*)
+      real(c_double), value :: adjust
+      integer(c_int32_t) :: status
+    end function delam_problem_set_gaps
     function delam_problem_set_number(problem, key, value) bind(c, name="delam_problem_set_number") &
         result(status)
       import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double

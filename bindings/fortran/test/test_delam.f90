@@ -376,6 +376,38 @@ contains
   end subroutine test_obstacles_ties_periods
 
   ! A stiff, brittle interface between two soft squares breaks all at once.
+  subroutine test_gaps()
+    type(delam_context) :: context
+    type(delam_mesh) :: mesh
+    type(delam_problem) :: problem
+    integer(delam_index) :: apart
+    integer :: status
+    character(16) :: known, small
+    call context%create()
+    call mesh%create(context, reshape([real(dp) :: 0, 0, 1, 0, 0, 1, 1, 1, 0, 1.125, 1, 1.125, 0, 2, 1, 2], [2, 8]))
+    call mesh%add_cells(DELAM_QUAD4, reshape([integer(delam_index) :: 1, 2, 4, 3, 5, 6, 8, 7], [4, 2]), [0, 1])
+    call mesh%add_mortar_interface(0, 1, 0.25_dp)
+    call problem%create(context, mesh)
+    call problem%set_elastic(1.0_dp, 0.3_dp)
+    call problem%set_contact(1)
+    call problem%add_pattern('apart', [0.0_dp], [1.0_dp], apart)
+    call problem%set_gaps(1, apart)
+    known = problem%hash()
+    call problem%set_gaps(1, apart, [0.125_dp, 0.5_dp], 0.25_dp)
+    small = problem%hash()
+    call problem%set_gaps(1, apart, [0.0_dp, 0.5_dp])
+    call expect(small == problem%hash() .and. small /= known, 'small gaps count as 0')
+    call problem%set_gaps(1, apart, [0.125_dp, 0.125_dp])
+    call expect(known == problem%hash(), 'the distances in the mesh')
+    call problem%set_gaps(1, apart, [0.125_dp], status=status)
+    call expect(status == DELAM_ERROR_ARGUMENT, 'one gap of two')
+    call problem%set_gaps(2, apart, [0.125_dp], status=status)
+    call expect(status == DELAM_ERROR_ARGUMENT, 'there is no interface 2')
+    call problem%set_gaps(1, apart + 1, status=status)
+    call expect(status == DELAM_ERROR_ARGUMENT, 'there is no pattern 2')
+    call expect(known == problem%hash(), 'nothing has changed')
+  end subroutine test_gaps
+
   subroutine test_jump()
     type(delam_context) :: context
     type(delam_mesh) :: mesh
@@ -619,6 +651,7 @@ program test_delam
   call test_mesh()
   call test_problem()
   call test_obstacles_ties_periods()
+  call test_gaps()
   call test_jump()
   call test_host_law()
   call test_solver()

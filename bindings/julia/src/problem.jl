@@ -236,6 +236,22 @@ function add_eigenstrain!(problem::Problem, pattern, strain; body=nothing)
     return problem
 end
 
+"""
+    set_gaps!(problem, interface, pattern, gaps=nothing; adjust=0.0)
+
+Distances that the faces of an interface have before they move, along the normals, times the factor of a pattern: one
+for all, one per pair, or `nothing`, those in the mesh. Gaps of magnitude `adjust` or less count as 0. A negative gap is
+an interference, which presses the bodies apart.
+"""
+function set_gaps!(problem::Problem, interface, pattern, gaps=nothing; adjust=0.0)
+    count = pair_count(Interface(problem.mesh, from_zero(interface) + 1))
+    distances = gaps === nothing ? C_NULL : spread("gaps", gaps, count)
+    ask(problem) do handle
+        Raw.delam_problem_set_gaps(handle, from_zero(interface), from_zero(pattern), distances, adjust)
+    end
+    return problem
+end
+
 # ---- queries
 
 "`ProblemError` names what is missing or contradictory."

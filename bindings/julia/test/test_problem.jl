@@ -30,6 +30,19 @@
     @test propose(boxed, 1).stiffness ≈ 50 * 135e9 / 1.5e-3
     @test propose(boxed, 1; pairs=2.0).normal_strength > propose(boxed, 1).normal_strength > 0
 
+    # Gaps of the mesh, of a number, and of one number per pair; small ones count as 0.
+    pair = Mesh([0.0 1 0 1 0 1 0 1; 0 0 1 1 1.125 1.125 2 2])
+    add_cells!(pair, "quad4", [1 5; 2 6; 4 8; 3 7], [0, 1])
+    add_mortar_interface!(pair, 0, 1; gap=0.25)
+    apart = Problem(pair)
+    set_contact!(apart, 1)
+    always = add_pattern!(apart, "always", [0, 1], [1, 1])
+    hashes = [problem_hash(set_gaps!(apart, 1, always, gaps; adjust=adjust))
+              for (gaps, adjust) in [(nothing, 0.0), (0.125, 0.0), ([0.125, 0.5], 0.25), ([0.0, 0.5], 0.0)]]
+    @test hashes[1] == hashes[2] != hashes[3] == hashes[4]
+    @test_throws DimensionMismatch set_gaps!(boxed, 1, 1, [0.0, 1.0])
+    @test_throws ProblemError set_gaps!(boxed, 1, 1, 1e-3)
+
     # The same matrix handed back is the same problem.
     own = Problem(problem.mesh; plane="plane-strain")
     set_elastic!(own, 135e9, 0.3)

@@ -222,6 +222,45 @@ class Scene(unittest.TestCase):
         with self.assertRaisesRegex(delam.ArgumentError, "must be finite"):
             problem.prescribe_mean([0], [1.0], "x", {"opening": np.inf})
 
+    def test_gaps(self):
+        mesh = delam.Mesh([[0, 0], [1, 0], [1, 1], [0, 1], [0, 1.125], [1, 1.125], [1, 2], [0, 2]])
+        mesh.add_cells("quad4", [[0, 1, 2, 3], [4, 5, 6, 7]], [0, 1])
+        faces = mesh.add_mortar_interface(0, 1, gap=0.25)
+        problem = delam.Problem(mesh)
+        problem.set_elastic(1.0, 0.0)
+        problem.set_contact(faces)
+        problem.add_pattern("apart", [0, 1], [1, 1])
+        push = problem.add_pattern("push", [0, 1], [0, -0.25])
+        for nodes, drive in (([0, 1], None), ([6, 7], push)):
+            problem.prescribe(nodes, "x")
+            problem.prescribe(nodes, "y", drive)
+        problem.set_gaps(faces, "apart", [0.125, 0.25], adjust=0.125)
+        small = problem.hash
+        problem.set_gaps(faces, "apart", [0.0, 0.25])
+        self.assertEqual(problem.hash, small)
+        problem.set_gaps(faces, "apart", 0.125)
+        known = problem.hash
+        problem.set_gaps(faces, "apart")
+        self.assertEqual(problem.hash, known)
+        self.assertNotEqual(small, known)
+        for gaps, shape in (([0.1], r"\(1,\)"), ([], r"\(0,\)")):
+            with self.assertRaisesRegex(delam.ArgumentError, rf"gaps has shape {shape}, expected \(2,\)"):
+                problem.set_gaps(0, "apart", gaps)
+        with self.assertRaisesRegex(delam.ArgumentError, "adjust = -1"):
+            problem.set_gaps(0, "apart", adjust=-1.0)
+        with self.assertRaisesRegex(delam.ProblemError, "pattern 'push' drives prescribed displacements"):
+            problem.set_gaps(0, push)
+        with self.assertRaisesRegex(delam.ArgumentError, "interface_index = 1"):
+            problem.set_gaps(1, "apart", 0.1)
+        self.assertEqual(problem.hash, known)
+        solver = delam.Solver(problem)
+        history = solver.history([0.25, 0.5, 1.0])
+        # The lower half of the push closes the gap; the rest is the strain of two bodies of height 1 and 0.875.
+        np.testing.assert_allclose(solver.field("jump"), 0.0, atol=1e-12)
+        np.testing.assert_allclose(history["contact_pairs"], [0, 0, 0, 2])
+        np.testing.assert_allclose(solver.values["stored_bulk"], 0.5 * 0.125**2 / 1.875)
+        self.assertEqual([p["drives"] for p in history._about["patterns"]], ["gap", "displacement"])
+
     def test_a_number_is_no_drive(self):
         problem = support.double_cantilever()
         before = problem.hash

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "base/numbers.hpp"
-#include "body/rigid_modes.hpp"
 #include "scene/pieces.hpp"
 
 namespace delam {
@@ -14,33 +13,7 @@ namespace delam {
 namespace {
 
 constexpr double doubtful = 1e-7;  // of the energies: forces are summed if the estimated rounding exceeds this
-constexpr double rigid = 1e-8;     // of the displacements: what remains of a motion without strain
 constexpr double tiny = std::numeric_limits<double>::min();
-
-// Largest displacement after subtracting each piece's own rigid motion.
-double strained(const Problem& problem, std::span<const double> displacement) {
-    const Mesh& mesh = *problem.mesh;
-    const auto dim = index(mesh.dimension());
-    double most = 0.0;
-    for (const std::vector<std::int64_t>& nodes : rigid_pieces(problem).nodes) {
-        std::vector<double> own;
-        for (const std::int64_t node : nodes)
-            for (std::size_t k = 0; k < dim; ++k) own.push_back(displacement[index(node) * dim + k]);
-        const std::vector<double> modes = rigid_modes(mesh, nodes);
-        for (std::size_t first = 0; first < modes.size(); first += own.size()) {
-            double share = 0.0;
-            for (std::size_t i = 0; i < own.size(); ++i) share += modes[first + i] * own[i];
-            for (std::size_t i = 0; i < own.size(); ++i) own[i] -= share * modes[first + i];
-        }
-        most = std::max(most, max_abs(own));
-    }
-    return most;
-}
-
-// True if these displacements are rigid motions of all pieces, but for rounding: their forces are rounding.
-bool without_strain(const Problem& problem, std::span<const double> displacement) {
-    return strained(problem, displacement) <= rigid * max_abs(displacement);
-}
 
 }  // namespace
 

@@ -81,15 +81,19 @@ std::vector<double> gaps(const Reading& r) {
                        (u[index(interface.node_b[p]) * dim + c] - u[index(interface.node_a[p]) * dim + c]);
             found.push_back(gap);
         }
+    for (const GapRow& gap : r.observer().problem().gap_rows())
+        found[index(gap.row) / dim] += gap.value * r.state().theta[index(gap.pattern)];
     return found;
 }
 
 double ratio(double a, double b) { return b > 0.0 ? a / b : a; }
 
 double kkt_gap(const Reading& r) {
-    // Gaps are differences of displacements.
-    const double rounding =
-        4.0 * std::numeric_limits<double>::epsilon() * max_abs(r.observer().displacement(r.state()));
+    // Gaps are differences of displacements, and of these from initial gaps.
+    double most = max_abs(r.observer().displacement(r.state()));
+    for (const GapRow& gap : r.observer().problem().gap_rows())
+        most = std::max(most, std::abs(gap.value * r.state().theta[index(gap.pattern)]));
+    const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * most;
     double deepest = 0.0;
     for (const double gap : gaps(r)) deepest = -gap > rounding ? std::max(deepest, -gap) : deepest;
     return ratio(deepest, max_abs(r.state().response.jump));

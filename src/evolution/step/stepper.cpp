@@ -10,6 +10,7 @@
 #include "delam/delam.h"
 #include "evolution/derivative/step_tangent.hpp"
 #include "evolution/step/pairs_of_scene.hpp"
+#include "evolution/step/unstrained.hpp"
 #include "scene/check/validate.hpp"
 
 namespace delam {
@@ -109,6 +110,7 @@ Stepper::Result Stepper::initial(double time) {
     state.mixity = mixities(pairs_, state.response.jump, state.mixity);
     state.mixity_before = state.mixity;
     state.loaded = any_jump(pairs_, state.response.jump) ? 1 : 0;
+    drop_rounding(problem_, *operator_, contact_, state);
     record_energies(pairs_, state);
     state.ledger.initial = state.ledger.energy();
     state.ledger.initial_linear = state.ledger.energy_linear();
@@ -141,6 +143,7 @@ double Stepper::largest_loss(const StepRule& step, const State& next) const {
 // quasi-static model does not have. A step that was followed in parts knows when they happen, and records the work of
 // the load between them (within_step.hpp).
 void Stepper::record_step(State& next, const StepRule& step, const InnerPath* path) const {
+    drop_rounding(problem_, *operator_, contact_, next);
     step.record_ledger(next, path != nullptr ? &path->dissipated() : nullptr);
     const State& before = step.before();
     Ledger& ledger = next.ledger;
@@ -229,8 +232,8 @@ double Stepper::lower_excess(const State& state) const {
 }
 
 // The state before answers loads in proportion with displacements in proportion, at its adhesion and with its contact
-// set: the bodies, springs and frictionless contact have no other length. (Free parts keep their places. Gaps are loads,
-// too.)
+// set: the bodies, springs and frictionless contact have no other length. (Free parts keep their places. Gaps are
+// loads, too.)
 bool Stepper::displaced_in_proportion(State& next, const State& before) const {
     const std::optional<double> a = load_ratio(before.theta, next.theta);
     if (!a || !operator_->traits().proportional || before.response.jump.empty() ||
@@ -461,6 +464,7 @@ Stepper::Result Stepper::equilibrate(const State& before, double time, std::span
     result.converged = minimiser().displace(next, *still);
     places_.reset();
     next.mixity = still->shown(next.response.jump, std::move(next.mixity));
+    drop_rounding(problem_, *operator_, contact_, next);
     record_energies(pairs_, next);
     next.ledger.initial += next.ledger.energy() - before.ledger.energy();
     next.ledger.initial_linear += next.ledger.energy_linear() - before.ledger.energy_linear();

@@ -266,7 +266,7 @@ void add_segments_of_face(const Mesh& mesh, const UnmatchedFaces& faces, FacePro
                     const FacePoint on_b = closest_point(mesh, face, plane.lifted(at));
                     const FacePoint on_a = closest_point(mesh, below, on_b.place);
                     // Faces of another sheet of a; corners alone are known to be within reach.
-                    if (length(on_b.place - on_a.place) > 2.0 * faces.reach()) continue;
+                    if (length(on_b.place - on_a.place) > 2.0 * faces.ground().reach()) continue;
                     projection.add(on_b, below, on_a,
                                    2.0 * area * s * rule.weight[i] * rule.weight[j] / dot(on_b.normal, plane.normal()));
                 }
@@ -292,7 +292,7 @@ Tie rounded_tie(const std::map<std::int64_t, double>& weights) {
 }  // namespace
 
 std::int64_t add_mortar_interface(Mesh& mesh, std::int32_t label_a, std::int32_t label_b, double gap) {
-    const UnmatchedFaces faces(mesh, label_a, label_b, gap);
+    const UnmatchedFaces faces(mesh, label_a, label_b, gap, LeavingFaces::take);
     std::vector<FaceProjection> projections;
     std::map<std::int64_t, std::pair<double, double>> around;  // int N_p and the area of the faces around a node
     for (const BoundaryFace& face : faces.on()) {

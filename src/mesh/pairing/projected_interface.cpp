@@ -15,7 +15,7 @@
 namespace delam {
 
 std::int64_t add_projected_interface(Mesh& mesh, std::int32_t label_a, std::int32_t label_b, double gap) {
-    const UnmatchedFaces faces(mesh, label_a, label_b, gap);
+    const UnmatchedFaces faces(mesh, label_a, label_b, gap, LeavingFaces::refuse);
     std::map<std::int64_t, double> nearest;  // the distance of a node's projection from its faces
     std::map<std::int64_t, Tie> ties;
     for (const BoundaryFace& face : faces.on()) {

@@ -33,6 +33,16 @@ double rounding_of_places(const Mesh& mesh, std::int32_t a, std::int32_t b) {
     return 1e-6 * std::min(shortest_edge(mesh, mesh.body_cells(a)), shortest_edge(mesh, mesh.body_cells(b)));
 }
 
+// Returns the largest extent of a face.
+double longest(const Mesh& mesh, const std::vector<BoundaryFace>& faces) {
+    double most = 0.0;
+    for (const BoundaryFace& face : faces) {
+        const Box box = box_of(mesh, face, 0.0);
+        most = std::max(most, length(box.high - box.low));
+    }
+    return most;
+}
+
 }  // namespace
 
 Ground::Ground(const Mesh& mesh, std::vector<BoundaryFace> faces, double reach, double rim)
@@ -82,40 +92,44 @@ Tie tie_to(const BoundaryFace& face, const FacePoint& point) {
     return tie;
 }
 
-UnmatchedFaces::UnmatchedFaces(const Mesh& mesh, std::int32_t label_a, std::int32_t label_b, double gap)
+UnmatchedFaces::UnmatchedFaces(const Mesh& mesh, std::int32_t label_a, std::int32_t label_b, double gap,
+                               LeavingFaces leaving)
     : mesh_(mesh),
       a_(require_bodies(mesh, label_a, label_b).first),
       b_(require_bodies(mesh, label_a, label_b).second),
       rim_(rounding_of_places(mesh, a_, b_)),
       reach_(std::max(require_gap(gap), rim_)),
+      leaving_(leaving),
       faces_a_(boundary_faces(mesh, a_)),
-      ground_(mesh, faces_a_, reach_, rim_),
+      faces_b_(boundary_faces(mesh, b_)),
+      ground_(mesh, faces_a_, leaving == LeavingFaces::take ? reach_ + longest(mesh, faces_b_) : reach_, rim_),
       on_(split()) {}
 
 // A face of b lies on a completely or not at all.
 std::vector<BoundaryFace> UnmatchedFaces::split() {
-    const std::vector<BoundaryFace> faces_b = boundary_faces(mesh_, b_);
     std::vector<BoundaryFace> on, off;
-    for (const BoundaryFace& face : faces_b) {
+    for (const BoundaryFace& face : faces_b_) {
         poll_cancel("pairs", face_work);
-        const std::vector<FacePoint> probes = inner_points(mesh_, face);
-        const auto found = [&](const FacePoint& p) { return ground_.under(p.place, p.normal).has_value(); };
-        const auto first_off = std::find_if_not(probes.begin(), probes.end(), found);
-        if (first_off == probes.end())
-            on.push_back(face);
-        else if (std::any_of(probes.begin(), probes.end(), found))
-            refuse_partial(face, first_off->place);
-        else
-            off.push_back(face);
+        bool near = false;
+        std::optional<Point> first_off;
+        for (const FacePoint& p : inner_points(mesh_, face)) {
+            const auto found = ground_.under(p.place, p.normal);
+            near = near || (found && length(p.place - found->point.place) <= reach_);
+            if (!found && !first_off) first_off = p.place;
+        }
+        if (near && first_off) refuse_partial(face, *first_off);
+        (near ? on : off).push_back(face);
     }
     refuse_covered(std::move(off));
-    if (on.empty()) refuse_apart(faces_b);
+    if (on.empty()) refuse_apart();
     return on;
 }
 
-// Checks the other direction: no face of a may lie on faces of b that were left out.
+// Checks the other direction: no face of a may lie on faces of b that were left out. The distance of a point of a from
+// a face of b that leaves it at up to 60 degrees is at least half of that face's distance from a.
 void UnmatchedFaces::refuse_covered(std::vector<BoundaryFace> off) const {
-    const Ground apart(mesh_, std::move(off), reach_, rim_);
+    const double part = leaving_ == LeavingFaces::take ? 0.5 : 1.0;
+    const Ground apart(mesh_, std::move(off), std::max(part * reach_, rim_), rim_);
     for (const BoundaryFace& face : faces_a_) {
         poll_cancel("pairs", face_work);
         for (const FacePoint& p : inner_points(mesh_, face))
@@ -123,14 +137,14 @@ void UnmatchedFaces::refuse_covered(std::vector<BoundaryFace> off) const {
     }
 }
 
-void UnmatchedFaces::refuse_apart(const std::vector<BoundaryFace>& faces_b) const {
+void UnmatchedFaces::refuse_apart() const {
     double nearest = std::numeric_limits<double>::infinity();
     std::int64_t closest = -1;
     std::vector<Box> boxes;
     for (const BoundaryFace& face : faces_a_)
         for (const std::int64_t node : face.all()) boxes.push_back({position(mesh_, node), position(mesh_, node)});
     const BoxTree tree(std::move(boxes));
-    for (const BoundaryFace& face : faces_b)
+    for (const BoundaryFace& face : faces_b_)
         for (const std::int64_t node : face.all())
             if (const auto found = tree.nearest(position(mesh_, node), nearest); found.distance < nearest) {
                 nearest = found.distance;
@@ -166,6 +180,7 @@ std::int64_t UnmatchedFaces::append(Mesh& mesh, const std::map<std::int64_t, Tie
     InterfaceGeometry interface = assemble_interface(mesh, pairs, outward_of_a, FaceSide::b, rim_);
     interface.body_a = a_;
     interface.body_b = b_;
+    if (leaving_ == LeavingFaces::take) interface.reach = reach_;
     return mesh.append(std::move(interface), std::move(made), places);
 }
 

@@ -35,6 +35,7 @@ public:
     // Returns the faces whose boxes, widened by reach, have a point in common with this box, in ascending order.
     std::vector<std::size_t> meeting(const Box& box) const;
     const BoundaryFace& face(std::size_t f) const { return faces_[f]; }
+    double reach() const { return reach_; }
 
 private:
     const Mesh& mesh_;
@@ -52,18 +53,20 @@ using Tie = std::vector<std::pair<std::int64_t, double>>;
 // Returns the tie to a point of a face.
 Tie tie_to(const BoundaryFace& face, const FacePoint& point);
 
+// Faces of b that come within the gap of a, and are farther away elsewhere, although a lies below all of them.
+enum class LeavingFaces { refuse, take };
+
 // The faces of body b beside those of body a.
 class UnmatchedFaces {
 public:
     // Throws Error(DELAM_ERROR_ARGUMENT) for labels of bodies that do not exist, are joined or have no cells, and for a
     // gap that is negative or not finite; Error(DELAM_ERROR_MESH) where a face of b lies on a only in part, or none
     // lies on a.
-    UnmatchedFaces(const Mesh& mesh, std::int32_t label_a, std::int32_t label_b, double gap);
+    UnmatchedFaces(const Mesh& mesh, std::int32_t label_a, std::int32_t label_b, double gap, LeavingFaces leaving);
 
     // Faces of b that lie on faces of a.
     const std::vector<BoundaryFace>& on() const { return on_; }
     const Ground& ground() const { return ground_; }
-    double reach() const { return reach_; }
     // Throws Error(DELAM_ERROR_MESH): this face of b lies on a only in part, there is nothing at `off`.
     [[noreturn]] void refuse_partial(const BoundaryFace& face, const Point& off) const;
     // Appends the interface to the mesh, with a tied node for each node of on(); returns its index.
@@ -73,13 +76,14 @@ private:
     const Mesh& mesh_;
     std::int32_t a_, b_;
     double rim_, reach_;
-    std::vector<BoundaryFace> faces_a_;
+    LeavingFaces leaving_;
+    std::vector<BoundaryFace> faces_a_, faces_b_;
     Ground ground_;
     std::vector<BoundaryFace> on_;
 
     std::vector<BoundaryFace> split();
     void refuse_covered(std::vector<BoundaryFace> off) const;
-    [[noreturn]] void refuse_apart(const std::vector<BoundaryFace>& faces_b) const;
+    [[noreturn]] void refuse_apart() const;
 };
 
 }  // namespace delam

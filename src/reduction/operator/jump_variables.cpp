@@ -97,7 +97,8 @@ void Builder::find_pairs() {
     std::int64_t row = 0;
     for (const InterfaceGeometry& face : problem_.mesh->interfaces())
         for (std::size_t p = 0; p < face.node_a.size(); ++p, row += dim_)
-            pairs_.push_back({face.node_a[p], face.node_b[p], row, &face.frame[p * index(dim_ * dim_)], {row, -1, 0.0}});
+            pairs_.push_back(
+                {face.node_a[p], face.node_b[p], row, &face.frame[p * index(dim_ * dim_)], {row, -1, 0.0}});
     for (const GapRow& gap : problem_.gap_rows()) pairs_[index(gap.row / dim_)].gap = gap;
 }
 
@@ -162,9 +163,9 @@ void Builder::hang_nodes() {
         if (in_tree[p] == 0) closing_.push_back(p);
 }
 
-// The remainder of u_b - u_a - Q^T (j - g theta) = 0 after dependent nodes are replaced. If displacements are left (tied nodes,
-// control nodes), one of them is expressed by the rest; otherwise the jump of this pair is a combination of the ring's
-// others.
+// The remainder of u_b - u_a - Q^T (j - g theta) = 0 after dependent nodes are replaced. If displacements are left
+// (tied nodes, control nodes), one of them is expressed by the rest; otherwise the jump of this pair is a combination
+// of the ring's others.
 void Builder::close_ring(const Pair& pair) {
     std::vector<Row> apart;
     for (std::int64_t k = 0; k < dim_; ++k) {

@@ -8,8 +8,8 @@
 // of c u + U theta), else a jump. Thousands of periodic pairs therefore need no unknown. Variables of longer
 // constraints (means over a patch) are kept for the dense stage, and so are control nodes, on which many others depend.
 //
-// Faces that are apart at the start have the jump u_b - u_a + gap along the normal: their distance. A gap is then a load
-// like a prescribed displacement, u_b = u_a + Q^T (j - g theta).
+// Faces that are apart at the start have the jump u_b - u_a + gap along the normal: their distance. A gap is then a
+// load like a prescribed displacement, u_b = u_a + Q^T (j - g theta).
 //
 // With all jumps and kept displacements zero this is the structure bonded everywhere, whose stiffness is definite, so
 // they can be eliminated last.

@@ -14,6 +14,8 @@
 #include "delam/delam.h"
 #include "law/admissible.hpp"
 #include "linalg/sparse/sparse_elimination.hpp"
+#include "mesh/face_gaps.hpp"
+#include "mesh/points.hpp"
 #include "scene/check/supports.hpp"
 #include "scene/check/validate.hpp"
 
@@ -43,9 +45,23 @@ void check_bodies(const Problem& problem) {
     }
 }
 
+// Faces that leave each other are paired as a whole (mortar_interface.cpp): where they are apart, gaps must say so.
+void check_distances(const Problem& problem, std::size_t i) {
+    const InterfaceGeometry& faces = problem.mesh->interfaces()[i];
+    if (!std::isfinite(faces.reach) || !problem.interfaces[i].gap.empty()) return;
+    const std::vector<double> distance = pair_distances(*problem.mesh, faces);
+    const auto most = std::max_element(distance.begin(), distance.end());
+    if (most == distance.end() || !(*most > faces.reach)) return;
+    const auto p = index(most - distance.begin());
+    fail(DELAM_ERROR_PROBLEM, "interface ", i, ": its faces are ", *most, " apart at pair ", p, " at ",
+         place(*problem.mesh, faces.node_b[p]), ", farther than the gap of the interface (", faces.reach,
+         "): a face lies within the gap only in part; enlarge the gap, or let the gaps count (delam_problem_set_gaps)");
+}
+
 void check_interfaces(const Problem& problem) {
     for (std::size_t i = 0; i < problem.interfaces.size(); ++i) {
         const InterfaceProperties& interface = problem.interfaces[i];
+        check_distances(problem, i);
         if (interface.bonded) {
             for (std::size_t p = 0; p < interface.adhesion.size(); ++p) {
                 if (interface.adhesion[p] < 1.0) {
@@ -73,7 +89,8 @@ void check_interfaces(const Problem& problem) {
             for (std::size_t p = 0; p < interface.gap.size(); ++p)
                 if (interface.gap[p] != 0.0 && interface.adhesion[p] > 0.0)
                     fail(DELAM_ERROR_PROBLEM, "interface ", i, ": pair ", p, " has a gap of ", interface.gap[p],
-                         " and an adhesion of ", interface.adhesion[p], ", must be 0: nothing joins faces that are apart");
+                         " and an adhesion of ", interface.adhesion[p],
+                         ", must be 0: nothing joins faces that are apart");
             if (interface.law->gradient > 0.0 && problem.mesh->interfaces()[i].face.empty())
                 fail(DELAM_ERROR_PROBLEM, "interface ", i,
                      ": its law has a gradient term, but it has no faces (delam_mesh_add_pairs)");

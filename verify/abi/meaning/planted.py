@@ -309,6 +309,11 @@ BREAKS = {
     "eigenstrain not doubled": ("eigenstrain", given("problem_add_eigenstrain",
                                                      strain=lambda v, g: [*v[:3], *DOUBLE(v[3:], g)])),
     "eigenstrain zx before yz": ("eigenstrain", given("problem_add_eigenstrain", strain=swap(4, 5))),
+    "gaps backwards": ("gaps", given("problem_set_gaps", gaps=backwards)),
+    "gaps as overlaps": ("gaps", given("problem_set_gaps", gaps=NEGATED)),
+    "gaps NULL is none": ("gaps of the mesh", {"problem_set_gaps": lambda host, real, g: real(
+        gaps=[0.0, 0.0] if g["gaps"] is None else g["gaps"])}),
+    "no gap is adjusted": ("gaps of the mesh", given("problem_set_gaps", adjust=each(lambda n: 0.0))),
     "kernel by row": ("host stiffness", given("problem_set_stiffness", kernel=by(lambda g: 2 * g["count"]))),
     "rows of the matrix by node": ("host stiffness", given("problem_set_stiffness", dofs=lambda v, g: None)),
     "kernel_count -1 is none": ("host stiffness", given("problem_set_stiffness", kernel_count=default(0, -1))),

@@ -402,8 +402,8 @@ def obstacle(host, see):
              0.01 * (push[0][1] + push[1][1]), "F L", rel=1e-8)
 
 
-def obstacle_motion(normals):
-    """The square: four unknowns of the lower nodes, two pressures."""
+def obstacle_motion(normals, gaps=(0.0, 0.0)):
+    """The square: four unknowns of the lower nodes, two pressures. gaps: below nodes 1 and 0, before the rise."""
     stiffness = forms.quad4_stiffness(1.0, 1.0, scenes.plane_stiffness(100.0, 0.3))
     matrix = [[0.0] * 6 for _ in range(6)]
     for i in range(4):
@@ -413,6 +413,6 @@ def obstacle_motion(normals):
     for p, (normal, node) in enumerate(zip(normals, (1, 0))):
         for k in range(2):
             matrix[4 + p][2 * node + k] = matrix[2 * node + k][4 + p] = normal[k]
-        right[4 + p] = 0.01 * normal[1]
+        right[4 + p] = 0.01 * normal[1] - gaps[p]
     u = forms.solve(matrix, right)
     return [[u[0], u[1]], [u[2], u[3]], [0.0, 0.0], [0.0, 0.0], [0.0, 0.01]]

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Faces that are paired: tolerances, and meshes that do not match."""
+import forms
+import scenes
 from host import Out
-from rows_mesh import squares
-from scenes import TYPES
+from rows_mesh import obstacle_motion, squares
+from scenes import TYPES, field
 from table import row
 
 
@@ -87,3 +89,94 @@ def projected(host, see):
         see.equal(f"ends of tie {k}", sorted(found), sorted(wanted[node]))
         see.near(f"shares of tie {k}", [found.get(n, 0.0) for n in sorted(wanted[node])],
                  [wanted[node][n] for n in sorted(wanted[node])])
+
+
+NORMALS = [forms.unit([-3.0, 4.0]), forms.unit([0.6, 1.9])]
+
+
+def on_slopes(host, times, values):
+    """The square of the row "obstacle" on its two slopes, and the pattern of its gaps."""
+    mesh = host("mesh_create", host.context, 2, 5, [float(c) for p in scenes.SQUARE for c in p] + [5.0, 5.0], Out())
+    host("mesh_add_cells", mesh, TYPES["quad4"], 1, [0, 1, 2, 3], None, 0)
+    host("mesh_add_obstacle", mesh, 2, [1, 0], [c for n in NORMALS for c in n], [0.125, 0.5], 4, 0, Out())
+    problem = host("problem_create", host.context, mesh, Out())
+    host("problem_set_elastic", problem, 0, 100.0, 0.3)
+    host("problem_set_contact", problem, 0)
+    rise, apart = scenes.ramp(host, problem, "rise"), scenes.ramp(host, problem, "apart", times, values)
+    scenes.hold(host, problem, [2, 3], [[1.0, 0.0], [0.0, 1.0]])
+    scenes.hold(host, problem, [4], [[1.0, 0.0]])
+    scenes.drive(host, problem, [4], [0.0, 1.0], rise, [0.01])
+    return problem, apart
+
+
+@row("gaps", tells=["problem_set_gaps gaps", "solver_field values jump"])
+def gaps_of_slopes(host, see):
+    """A slope that is lower by its gap is met later, one that is higher presses from the start of its pattern on. The
+    gaps are along the normals of the pairs and times the factor; the last call counts."""
+    problem, apart = on_slopes(host, [0.0, 1.0], [0.5, 2.0])
+    host("problem_set_gaps", problem, 0, apart, [-0.004, 0.003], 0.0)
+    host("problem_set_gaps", problem, 0, apart, [0.002, 0.004], 0.0)
+    solver = host("solver_create", problem, 0.0, Out())
+    see.near("jump before anything moves", field(host, solver, "jump"), [[0.001, 0.0], [0.002, 0.0]], "L")
+    see.equal("contact before anything moves", field(host, solver, "contact"), [0, 0])
+    see.near("energy before anything moves", scenes.value(host, solver, "stored_bulk"), 0.0, "F L", scale=1e-6)
+    for name, gaps in ("gaps", [0.001, 0.002]), ("gap and interference", [0.0015, -0.002]):
+        problem, apart = on_slopes(host, [0.0, 1.0], [0.0, 2.0])
+        host("problem_set_gaps", problem, 0, apart, gaps, 0.0)
+        solver = host("solver_create", problem, 0.0, Out())
+        host("solver_advance", solver, 1.0)
+        see.equal(f"contact, {name}", field(host, solver, "contact"), [1, 1])
+        see.near(f"displacement, {name}", field(host, solver, "displacement"),
+                 obstacle_motion(NORMALS, [2.0 * g for g in gaps]), "L", rel=1e-8)
+        see.near(f"normal jump, {name}", [j[0] for j in field(host, solver, "jump")], [0.0, 0.0], "L", scale=0.01)
+        forces = [w * t[0] for w, t in zip((0.125, 0.5), field(host, solver, "traction"))]
+        see.that(f"both slopes press, {name}", max(forces) < 0.0)
+        see.near(f"reaction: sum of gap times normal force, {name}", scenes.value(host, solver, "reaction:apart"),
+                 forms.dot(gaps, forces), "F L", rel=1e-8)
+
+
+def distances(host, gaps, adjust, law=False):
+    """The jumps of two pairs, with oblique normals, between two squares that are 0.125 and 0.25 apart; and their
+    adhesion. Everything is held, the factor is 2."""
+    nodes = [0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0, 0.0, 1.125, 1.0, 1.25, 1.0, 2.0, 0.0, 2.0]
+    mesh = host("mesh_create", host.context, 2, 8, nodes, Out())
+    host("mesh_add_cells", mesh, TYPES["quad4"], 2, list(range(8)), [0, 1], 0)
+    host("mesh_add_pairs", mesh, 0, 1, 2, [3, 2], [4, 5], [c for n in NORMALS for c in n], [0.5, 0.5], 0, 0, None, 0,
+         Out())
+    problem = host("problem_create", host.context, mesh, Out())
+    host("problem_set_elastic", problem, -1, 1.0, 0.0)
+    if law:
+        host("problem_set_law", problem, 0, scenes.strong(host, 10.0, 10.0))
+    else:
+        host("problem_set_contact", problem, 0)
+    host("problem_set_gaps", problem, 0, scenes.ramp(host, problem, values=(2.0, 2.0)), gaps, adjust)
+    scenes.hold(host, problem, list(range(8)), [[1.0, 0.0], [0.0, 1.0]])
+    solver = host("solver_create", problem, 0.0, Out())
+    return [j[0] for j in field(host, solver, "jump")], [a[0] for a in field(host, solver, "adhesion")]
+
+
+@row("gaps of the mesh", says=["problem_set_gaps: count as 0: these"])
+def gaps_of_mesh(host, see):
+    known = [0.125 * NORMALS[0][1], 0.25 * NORMALS[1][1]]
+    see.near("jump", distances(host, None, 0.0)[0], [2.0 * g for g in known], "L")
+    see.near("jump, a gap of adjust or less", distances(host, None, known[0])[0], [0.0, 2.0 * known[1]], "L")
+    see.near("jump, a gap above adjust", distances(host, None, 0.999 * known[0])[0], [2.0 * g for g in known], "L")
+    see.near("jump, given gaps of adjust or less", distances(host, [0.1, 0.3], 0.1)[0], [0.0, 0.6], "L")
+    see.near("adhesion", distances(host, [0.0, 0.3], 0.0, True)[1], [1.0, 0.0])
+    see.near("adhesion, gaps of adjust or less", distances(host, [0.1, 0.3], 0.3, True)[1], [1.0, 1.0])
+
+
+@row("distances that count as 0")
+def touching(host, see):
+    """Two squares of 2 in all: 1e-6 of that is rounding of coordinates."""
+    for share, gap in (0.98, 0.0), (1.02, 2.04e-6):
+        mesh = squares(host, 0.0, 2e-6 * share)
+        host("mesh_add_mortar_interface", mesh, 0, 1, 1e-3, Out())
+        problem = host("problem_create", host.context, mesh, Out())
+        host("problem_set_elastic", problem, -1, 1.0, 0.0)
+        host("problem_set_contact", problem, 0)
+        host("problem_set_gaps", problem, 0, scenes.ramp(host, problem, values=(1.0, 1.0)), None, 0.0)
+        scenes.hold(host, problem, list(range(8)), [[1.0, 0.0], [0.0, 1.0]])
+        solver = host("solver_create", problem, 0.0, Out())
+        see.near(f"jump, {share}e-6 of the size apart", [j[0] for j in field(host, solver, "jump")], [gap, gap], "L",
+                 scale=1.0)

@@ -99,6 +99,7 @@ struct ContactPair {
     std::string interaction;
     Entry slave, master;   // surfaces
     std::string bonded{};  // of *INITIAL CONDITIONS, TYPE=CONTACT: the set of nodes that adhere; empty: all
+    double adjust = 0;     // faces up to so far apart are moved together
     Place place;
 };
 

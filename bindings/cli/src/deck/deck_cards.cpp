@@ -332,6 +332,14 @@ private:
         if (card.has("TIED"))
             throw SceneFailure(card.place, "TIED is not imported: bodies that share nodes are bonded");
         const std::string interaction = card.required("INTERACTION");
+        double adjust = 0;
+        if (card.has("ADJUST")) {
+            const std::string given = card.required("ADJUST");
+            if (given.find_first_not_of("0123456789.+-eEdD") != std::string::npos)
+                throw SceneFailure(card.place, "ADJUST=" + given + " is not imported: a distance is");
+            adjust = inp_number(given, card.place);
+            if (!(adjust >= 0)) throw SceneFailure(card.place, "ADJUST=" + given + ": a distance >= 0 is expected");
+        }
         for (const InpLine& line : card.lines) {
             if (line.fields.size() < 2) throw SceneFailure(line.place, "a slave and a master surface are expected");
             pair_of_.emplace(std::pair(upper(line.fields[0]), upper(line.fields[1])), deck_.pairs.size());
@@ -339,6 +347,7 @@ private:
                                    {&root_, line.fields[0], line.place},
                                    {&root_, line.fields[1], line.place},
                                    "",
+                                   adjust,
                                    card.place});
         }
     }

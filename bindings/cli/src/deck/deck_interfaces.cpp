@@ -2,6 +2,7 @@
 #include "deck/deck_interfaces.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -29,7 +30,42 @@ struct Held {
     double gap = 0;   // between the faces; 0: they coincide
     bool matching = true;
     Place place;
+    bool open = false;  // surfaces, whose distance counts
+    double adjust = 0;
 };
+
+// Returns the largest distance of a node of one surface from the nearest node of another.
+double farthest(const MeshData& mesh, const std::string& from, const std::string& to) {
+    const auto dimension = static_cast<std::size_t>(mesh.dimension);
+    const auto places = [&](const std::string& name) {
+        std::set<std::int64_t> nodes;
+        for (const Face& face : mesh.face_sets.at(name)) nodes.insert(face.begin(), face.end());
+        nodes.erase(-1);
+        std::vector<std::array<double, 3>> out;
+        for (const std::int64_t node : nodes) {
+            std::array<double, 3> place{};
+            const auto first = mesh.nodes.begin() + static_cast<std::ptrdiff_t>(node) * mesh.dimension;
+            std::copy_n(first, dimension, place.begin());
+            out.push_back(place);
+        }
+        std::sort(out.begin(), out.end());
+        return out;
+    };
+    const auto others = places(to);
+    double most = 0;
+    for (const std::array<double, 3>& x : places(from)) {
+        // Outward along the first axis from where x would stand, until that distance alone is too large.
+        double nearest = std::numeric_limits<double>::infinity();
+        const auto compare = [&](const std::array<double, 3>& y) {
+            nearest = std::min(nearest, std::hypot(x[0] - y[0], x[1] - y[1], x[2] - y[2]));
+        };
+        const auto middle = std::lower_bound(others.begin(), others.end(), x);
+        for (auto y = middle; y != others.end() && (*y)[0] - x[0] <= nearest; ++y) compare(*y);
+        for (auto y = middle; y != others.begin() && x[0] - (*(y - 1))[0] <= nearest; --y) compare(*(y - 1));
+        most = std::max(most, nearest);
+    }
+    return most;
+}
 
 class Interfaces {
 public:
@@ -100,6 +136,8 @@ private:
             held_by_.emplace(std::minmax(held.a, held.b), held_.size());
             held_.push_back(held);
         } else if (held.law.empty()) {
+            other->gap = std::max(other->gap, held.gap);
+            other->adjust = std::max(other->adjust, held.adjust);
             return;
         } else if (other->law.empty()) {
             *other = held;
@@ -241,7 +279,13 @@ private:
         const bool two = slaves.size() == 1 && masters.size() == 1;
         if (two && *slaves.begin() != *masters.begin()) {
             const std::int32_t a = *masters.begin(), b = *slaves.begin();
-            add({a, b, law, set, 0.0, touching_.contains(std::minmax(a, b)), pair.place});
+            Held held{a, b, law, set, 0.0, touching_.contains(std::minmax(a, b)), pair.place};
+            if (!held.matching) {
+                held.gap = allowance * farthest(mesh_, slave, master);
+                held.open = true;
+                held.adjust = pair.adjust;
+            }
+            add(held);
             ++added;
         }
         for (auto b = slaves.begin(); b != slaves.end() && !two; ++b)
@@ -291,6 +335,8 @@ private:
         out += held.law.empty() ? "contact = true\n" : fmt::format("law = {}\n", toml_text(held.law));
         if (!held.matching) out += "projected = true\n";
         if (held.gap > 0) out += fmt::format("gap = {}\n", toml_number(held.gap));
+        if (held.open && !held.law.empty()) out += "initial_gap = \"open\"\n";
+        if (held.open && held.adjust > 0) out += fmt::format("adjust = {}\n", toml_number(held.adjust));
         if (!held.set.empty()) out += fmt::format("notch = [{{ set = {}, outside = true }}]\n", toml_text(held.set));
         return out + "\n";
     }

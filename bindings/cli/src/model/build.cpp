@@ -147,6 +147,7 @@ void fill(Model& model, const Scene& scene) {
                                        pattern.times.data(), pattern.values.data(), &index),
              pattern.place);
     }
+    set_gaps(model, scene);
     for (const Prescription& data : scene.prescriptions) {
         prescribe(model, scene, data);
         note_constraints(model, data.place);

@@ -19,4 +19,10 @@ void note_constraints(Model& model, const Place& place) {
     model.constraint_places.resize(static_cast<std::size_t>(rows), place);
 }
 
+std::size_t pattern_count(const Model& model) {
+    std::int64_t count = 0;
+    call(model.context.get(), delam_problem_pattern_count(model.problem.get(), &count), std::string("patterns"));
+    return static_cast<std::size_t>(count);
+}
+
 }  // namespace cli

@@ -78,14 +78,14 @@ std::vector<std::string> warnings_of(const Model& model, const Scene& scene) {
     interface_warnings(model, scene, out);
     for (const Prescription& data : scene.prescriptions) patch_warnings(scene, data.where, out);
     for (const DeadForce& data : scene.forces) patch_warnings(scene, data.where, out);
-    std::vector<double> factors(scene.patterns.size());
+    std::vector<double> factors(pattern_count(model));
     const double start = scene.times.front();
     if (!factors.empty())
         call(model.context.get(),
              delam_problem_factors(model.problem.get(), start, static_cast<std::int64_t>(factors.size()),
                                    factors.data()),
              std::string("factors"));
-    for (std::size_t i = 0; i < factors.size(); ++i)
+    for (std::size_t i = 0; i < scene.patterns.size(); ++i)
         if (std::fpclassify(factors[i]) != FP_ZERO)
             out.push_back(
                 fmt::format("{} \"{}\" is {} at the start, time {}: the initial state is loaded: its stored "

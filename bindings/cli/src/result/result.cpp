@@ -105,15 +105,15 @@ Json cell_of(const Model& model, delam_solver* solver, const Scene& scene, bool 
     const double volume = cell_volume(model, scene);
     Json names = Json::array();
     for (const PatternData& pattern : scene.patterns) names.push_back(pattern.name);
-    const std::size_t n = scene.patterns.size();
-    std::vector<double> matrix(n * n);
+    const std::size_t n = scene.patterns.size(), all = pattern_count(model);
+    std::vector<double> matrix(all * all);
     Json rows = nullptr;
     // If a stress acts on a part that nothing holds any more, there is no tangent; a result must not be lost for that.
     if (complete && delam_solver_tangent(solver, static_cast<std::int64_t>(matrix.size()), matrix.data()) == DELAM_OK) {
         rows = Json::array();
         for (std::size_t p = 0; p < n; ++p) {
             Json row = Json::array();
-            for (std::size_t q = 0; q < n; ++q) row.push_back(matrix[p * n + q] / volume);
+            for (std::size_t q = 0; q < n; ++q) row.push_back(matrix[p * all + q] / volume);
             rows.push_back(std::move(row));
         }
     }

@@ -84,6 +84,8 @@ struct InterfaceData {
     bool projected = false;
     bool points = false;  // projected onto points of a's faces, not means
     double gap = 0;
+    bool open = false;  // distances of the faces count
+    double adjust = 0;  // smaller ones do not
     double tolerance = 0;
     std::string name;
     bool bonded = false;

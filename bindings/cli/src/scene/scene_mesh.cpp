@@ -139,6 +139,15 @@ void read_bodies(const Table& root, Scene& scene) {
     }
 }
 
+// Reads whether distances of the faces count; with points on a's faces they never do.
+void read_gaps(const Table& table, InterfaceData& interface) {
+    const bool by_default = interface.contact && interface.projected && !interface.points;
+    interface.open = table.text("initial_gap", by_default ? "open" : "closed") == "open";
+    if (interface.open && interface.points) table.fail("initial_gap", "\"open\" needs projection = \"means\"");
+    if (table.has("adjust") && !interface.open) table.fail("adjust", "is for initial_gap = \"open\"");
+    interface.adjust = table.number("adjust", 0.0);
+}
+
 void read_mesh_interfaces(const Table& root, Scene& scene) {
     const BodyIndex index = index_of(scene.mesh->body_names);
     for (const Table& table : root.tables("interfaces")) {
@@ -162,6 +171,7 @@ void read_mesh_interfaces(const Table& root, Scene& scene) {
         interface.tolerance = table.number("tolerance", 0.0);
         interface.bonded = table.flag("bonded");
         interface.contact = table.flag("contact");
+        read_gaps(table, interface);
         if (table.has("law")) interface.law = find_named(table, "law", table.text("law"), scene.laws, "law");
         for (const Table& notch : table.tables("notch")) interface.regions.push_back(read_region(notch, scene, false));
         for (const Table& part : table.tables("adhesion")) interface.regions.push_back(read_region(part, scene, true));

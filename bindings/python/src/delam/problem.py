@@ -373,6 +373,25 @@ class Problem(Object):
         self._call(library.delam_problem_add_eigenstrain, index, self.mesh._chosen(body), pointer(strain))
         self._drives.setdefault(index, "strain")
 
+    def set_gaps(self, interface: int | Interface, pattern: int | str | Pattern, gaps: ArrayLike | None = None,
+                 adjust: float = 0.0) -> None:
+        """Distances that the faces of an interface have before they move, times the factor of a pattern, which must
+        drive nothing else. The adhesion of pairs with a gap becomes 0. A later call replaces the gaps of the interface.
+
+        gaps    lengths along the normals, [pairs] or one for all; negative ones are an interference, which presses the
+                bodies apart. None: the distances in the mesh, of which none may be negative (MeshError) and an
+                obstacle has none (ArgumentError)
+        adjust  a length >= 0; gaps of this magnitude or less count as 0: these faces touch"""
+        at = interface_index(interface, self.mesh)
+        index = self.pattern(pattern)
+        distances = None
+        if gaps is not None:
+            size = self._pair_counts[at] if 0 <= at < len(self._pair_counts) else np.size(gaps)
+            distances = spread("gaps", gaps, size)
+        self._call(library.delam_problem_set_gaps, at, index, pointer(distances), number("adjust", adjust),
+                   long=True)
+        self._drives.setdefault(index, "gap")
+
     # ---- queries
 
     def check(self) -> None:

@@ -165,6 +165,8 @@ DELAM_API int32_t delam_problem_add_forces(delam_problem *problem, int64_t patte
                                            const double *forces, int32_t index_base);
 DELAM_API int32_t delam_problem_add_eigenstrain(delam_problem *problem, int64_t pattern, int32_t body,
                                                 const double *strain);
+DELAM_API int32_t delam_problem_set_gaps(delam_problem *problem, int64_t interface_index, int64_t pattern,
+                                         const double *gaps, double adjust);
 DELAM_API int32_t delam_problem_set_number(delam_problem *problem, const char *key, double value);
 DELAM_API int32_t delam_problem_set_text(delam_problem *problem, const char *key, const char *value);
 DELAM_API int64_t delam_option_count(void);

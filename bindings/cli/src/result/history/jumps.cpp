@@ -73,12 +73,15 @@ std::vector<Jump> jumps_of(const Model& model, const delam_solver* solver, const
              fmt::format("jump {}", i));
         for (const PatternData& pattern : scene.patterns)
             jump.loads.push_back(factor_at(pattern, jump.time) + 0.0);  // turns -0 into 0
+        const std::size_t patterns = pattern_count(model);
+        jump.reaction_before.resize(patterns);
+        jump.reaction_after.resize(patterns);
+        call(model.context.get(),
+             delam_solver_jump_reactions(solver, i, static_cast<std::int64_t>(patterns), jump.reaction_before.data(),
+                                         jump.reaction_after.data()),
+             fmt::format("reactions of jump {}", i));
         jump.reaction_before.resize(jump.loads.size());
         jump.reaction_after.resize(jump.loads.size());
-        call(model.context.get(),
-             delam_solver_jump_reactions(solver, i, static_cast<std::int64_t>(jump.loads.size()),
-                                         jump.reaction_before.data(), jump.reaction_after.data()),
-             fmt::format("reactions of jump {}", i));
         const auto interface = static_cast<std::size_t>(jump.interface);
         if (jump.interface >= 0 && interface < model.interfaces.size()) jump.name = model.interfaces[interface].name;
         out.push_back(std::move(jump));

@@ -200,6 +200,15 @@ KeyTable interface_table() {
             .says(
                 "pairs b's nodes with means over a's faces, either mesh may be the finer one; or with points on them"),
         number_key("gap", not_negative).in_mesh().says("largest distance between projected faces"),
+        choice_key("initial_gap", {"open", "closed"})
+            .in_mesh()
+            .otherwise("open with contact = true, closed with a law")
+            .says("open: faces that are apart do not adhere, and press only once they meet; closed: they touch from "
+                  "the start, whatever their distance"),
+        number_key("adjust", not_negative)
+            .in_mesh()
+            .otherwise("0")
+            .says("open: faces up to so far apart, or overlapping by so much, are moved together without strain"),
         number_key("tolerance", pairing_tolerance)
             .in_mesh()
             .otherwise("1e-6")
@@ -220,7 +229,13 @@ KeyTable interface_table() {
         {at_least_one, {"a", "all"}, {}, {}, "give either a and b or all = true", Scenes::mesh},
         {excludes, {"all"}, {"a", "b"}, {}, "give either a and b or all = true", Scenes::mesh},
         {needs, {"a"}, {"b"}, {}, "is missing: the name of a body is expected", Scenes::mesh},
-        {needs, {"gap", "projection"}, {"projected"}, {}, "is for projected = true", Scenes::mesh},
+        {needs,
+         {"gap", "projection", "initial_gap", "adjust"},
+         {"projected"},
+         {},
+         "is for projected = true",
+         Scenes::mesh},
+        {excludes, {"bonded"}, {"initial_gap", "adjust"}, {}, "bonded faces have no gap", Scenes::mesh},
         {excludes, {"projected"}, {"all"}, {}, "needs two bodies by name", Scenes::mesh},
     };
     return table;

@@ -55,6 +55,8 @@ public:
         const auto status = delam_problem_create(context.get(), mesh.get(), &made);
         handle_.reset(made);
         shared_->check(status);
+        const std::int64_t interfaces = mesh.size().interfaces;
+        for (std::int64_t i = 0; i < interfaces; ++i) pairs_.push_back(mesh.interface_size(i).pairs);
     }
 
     delam_problem* get() const noexcept { return handle_.get(); }
@@ -171,6 +173,14 @@ public:
     void add_eigenstrain(std::int64_t pattern, std::int32_t body, const std::array<double, 6>& strain) {
         shared_->check(delam_problem_add_eigenstrain(get(), pattern, body, strain.data()));
     }
+    // gaps: [pairs], along the normals; empty for the distances in the mesh. Magnitudes up to adjust count as 0.
+    void set_gaps(std::int64_t interface_index, std::int64_t pattern, View<double> gaps = {}, double adjust = 0.0) {
+        const bool known = interface_index >= 0 && interface_index < static_cast<std::int64_t>(pairs_.size());
+        detail::require(gaps.size() == 0 || !known || gaps.count() == pairs_[detail::length(interface_index)],
+                        "gaps: not one for each pair");
+        shared_->check(
+            delam_problem_set_gaps(get(), interface_index, pattern, gaps.size() == 0 ? nullptr : gaps.data(), adjust));
+    }
 
     void set(Text key, double value) { shared_->check(delam_problem_set_number(get(), key.get(), value)); }
     void set(Text key, Text value) { shared_->check(delam_problem_set_text(get(), key.get(), value.get())); }
@@ -269,6 +279,7 @@ private:
     std::shared_ptr<detail::Shared> shared_;
     std::vector<std::shared_ptr<detail::HostLaw>> laws_;
     std::int32_t dimension_;
+    std::vector<std::int64_t> pairs_;  // of each interface
     detail::Handle<delam_problem, delam_problem_destroy> handle_;
 };
 

@@ -227,6 +227,9 @@ FUNCTIONS: dict[str, tuple[Any, tuple[tuple[str, Any], ...]]] = {
         ("forces", POINTER(c_double)), ("index_base", c_int32))),
     "delam_problem_add_eigenstrain": (c_int32, (
         ("problem", POINTER(delam_problem)), ("pattern", c_int64), ("body", c_int32), ("strain", POINTER(c_double)))),
+    "delam_problem_set_gaps": (c_int32, (
+        ("problem", POINTER(delam_problem)), ("interface_index", c_int64), ("pattern", c_int64),
+        ("gaps", POINTER(c_double)), ("adjust", c_double))),
     "delam_problem_set_number": (c_int32, (
         ("problem", POINTER(delam_problem)), ("key", c_char_p), ("value", c_double))),
     "delam_problem_set_text": (c_int32, (("problem", POINTER(delam_problem)), ("key", c_char_p), ("value", c_char_p))),

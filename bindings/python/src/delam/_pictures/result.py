@@ -11,6 +11,7 @@ import numpy as np
 
 from .input_file import MOST_RESULT, Unreadable, read_columns, read_json
 
+WITHIN = ("strain", "gap")  # these patterns act inside the bodies and between them: their factors are no loads
 BLUE, RED, GREEN, ORANGE, GREY = "#1f5a99", "#b3312c", "#2f7d4f", "#d18b1f", "#7a7f87"
 STYLE = {
     "font.size": 10, "axes.titlesize": 11, "axes.spines.top": False, "axes.spines.right": False,
@@ -137,12 +138,12 @@ class Result:
         return [time for time, debonded in rows if debonded > 0.2 * largest]
 
     def patterns(self):
-        """(label, drives, load column, reaction column) of each pattern; of prescribed strains only if all are."""
+        """(label, drives, load column, reaction column) of each pattern; of those WITHIN only if all are."""
         names = self.about["patterns"]
         if len(names) <= 1:
             first = names[0] if names else {"name": "", "drives": "displacement"}
             return [(first["name"], first["drives"], "load", "reaction")]
-        loads = [p for p in names if p["drives"] != "strain"] or names
+        loads = [p for p in names if p["drives"] not in WITHIN] or names
         return [(p["name"], p["drives"], "load_" + p["name"], "reaction_" + p["name"]) for p in loads]
 
     def prescribed_strains(self):
@@ -175,7 +176,7 @@ class Result:
         return self.history[load], self.history[reaction]
 
     def label_load(self, axes, pattern=0):
-        if self.cell or self.patterns()[pattern][1] == "strain":
+        if self.cell or self.patterns()[pattern][1] in WITHIN:
             for ax in axes:
                 ax.set_xlabel("load factor")
             axes[0].set_ylabel(axis("conjugate of the factor", self.energy))
