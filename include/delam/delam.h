@@ -795,8 +795,8 @@ DELAM_API int32_t delam_problem_add_eigenstrain(delam_problem *problem, int64_t 
  * of a pair is then u_b - u_a plus its gap along the normal, i.e. the distance that is left, and contact acts only
  * where that is 0. A negative gap is an interference, which presses the bodies apart (a press fit). Its pattern can
  * raise it from 0. If gaps is NULL, the function computes the distances in the mesh, n . (x_b - x_a). Those within 1e-6
- * of the largest extent of the mesh along an axis count as 0, and so do those within the height of the arcs that facets
- * of curved faces cut off.
+ * of the largest extent of the mesh along an axis count as 0. So do those within the height of the arcs that facets of
+ * curved faces cut off.
  * Gaps of magnitude adjust or less count as 0: these faces touch, as if moved there without strain. The initial
  * adhesion of a pair with a gap becomes 0, because nothing joins faces that are apart (delam_problem_check refuses any
  * other). If the interface has a law, the log (level 1) tells how many pairs lose their adhesion. For such a pattern,

@@ -9,6 +9,7 @@
 #include "base/numbers.hpp"
 #include "delam/delam.h"
 #include "evolution/derivative/step_tangent.hpp"
+#include "evolution/step/contact_work.hpp"
 #include "evolution/step/pairs_of_scene.hpp"
 #include "evolution/step/unstrained.hpp"
 #include "scene/check/validate.hpp"
@@ -294,6 +295,7 @@ Stepper::Result Stepper::step(const State& before, double time, std::span<const 
     }
     if (problem_.options.solution == "energetic") search(best, *step);
     best.state.free_since = free_since(*operator_, contact_, pairs_, best.state, before);
+    integrate_work(minimiser(), *step, best.state);
     places_.reset();
     if (before.sensitivity.known())
         best.state.sensitivity = sensitivity(Linearised(*operator_, pairs_, contact_, best.state), followed_,
