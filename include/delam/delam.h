@@ -302,6 +302,16 @@ DELAM_API int32_t delam_mesh_add_interface(delam_mesh *mesh, int32_t body_a, int
  * unchanged.
  * [unit tolerance 1 in [0, 0.5); null none; status cancelled, argument, mesh; since 0.1] */
 DELAM_API int32_t delam_mesh_add_all_interfaces(delam_mesh *mesh, double tolerance, int64_t *out_count);
+/* Adds an interface for each seam within a body. A seam is a place where outer faces of one body lie on others of the
+ * same body, with nodes of their own on either side (a crack, a slit). Without an interface the two sides pass through
+ * each other. Both bodies of such an interface are the same, and its sides a and b those that the order of the cells
+ * gives. Where seams cross or branch, each arm has an interface of its own. Nodes that both sides share, as at the tip
+ * of a crack, have no pair. *out_count receives the number of new interfaces, which may be 0. tolerance applies as in
+ * delam_mesh_add_interface. A second call adds nothing.
+ * DELAM_ERROR_MESH: more than two faces lie on each other, or the nodes of two sides do not match; the message gives
+ * the place, and the mesh is unchanged.
+ * [unit tolerance 1 in [0, 0.5); null none; status cancelled, argument, mesh; since 0.2] */
+DELAM_API int32_t delam_mesh_add_seams(delam_mesh *mesh, double tolerance, int64_t *out_count);
 /* Adds an interface between two bodies, a = body_a and b = body_b, whose meshes do not match. *out_interface receives
  * its index. The function pairs each face of b that lies on faces of a. A face lies on them if its distance from them
  * is at most gap (L) and its normal is opposite to theirs within 60 degrees. A gap below 1e-6 of the shortest edge of

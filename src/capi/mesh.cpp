@@ -201,6 +201,13 @@ int32_t delam_mesh_add_all_interfaces(delam_mesh* mesh, double tolerance, int64_
     });
 }
 
+int32_t delam_mesh_add_seams(delam_mesh* mesh, double tolerance, int64_t* out_count) {
+    return guard_build(mesh, [&] {
+        require_pointer(out_count, "out_count");
+        *out_count = add_seams(*mesh->core, tolerance);
+    });
+}
+
 int32_t delam_mesh_add_projected_interface(delam_mesh* mesh, int32_t body_a, int32_t body_b, double gap,
                                            int64_t* out_interface) {
     return guard_build(

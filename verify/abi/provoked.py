@@ -27,13 +27,13 @@ QUAD4 = CODES["DELAM_QUAD4"]
 
 
 # ---- scenes ----
-def squares(shift=(0.0, 1.0)):
+def squares(shift=(0.0, 1.0), labels=(0, 1)):
     """Two unit squares, the second one shifted."""
     s = loose()
     x, y = shift
     s.mesh = made("mesh_create", s.context, 2, 9,
                   real(0, 0, 1, 0, 1, 1, 0, 1, x, y, x + 1, y, x + 1, y + 1, x, y + 1, 9, 9))
-    fine("mesh_add_cells", s.mesh, QUAD4, 2, whole(0, 1, 2, 3, 4, 5, 6, 7), short(0, 1), 0)
+    fine("mesh_add_cells", s.mesh, QUAD4, 2, whole(0, 1, 2, 3, 4, 5, 6, 7), short(*labels), 0)
     return s
 
 
@@ -311,6 +311,7 @@ ROWS = {
     ("mesh_add_conforming_cells", "state"): (bare, cells_of_0),
     ("mesh_add_interface", "mesh"): (apart, interface_of),
     ("mesh_add_all_interfaces", "mesh"): (askew, lambda s: [s.mesh, 0.0, whole(0)]),
+    ("mesh_add_seams", "mesh"): (lambda: squares((0.0, 0.0), (0, 0)), lambda s: [s.mesh, 0.0, whole(0)]),
     ("mesh_add_projected_interface", "mesh"): (apart, interface_of),
     ("mesh_add_mortar_interface", "mesh"): (apart, interface_of),
     ("mesh_add_obstacle", "mesh"): (loose, lambda s: [s.mesh, 1, whole(0), real(0, -1), None, 8, 0, whole(0)]),

@@ -244,7 +244,7 @@ CALLS = {
                                               CODES["DELAM_QUAD4"], c_void_p()]),
     **dict.fromkeys(("mesh_add_cells", "mesh_add_conforming_cells"), (loose, more_nodes)),
     "mesh_add_interface": (loose, lambda s: [s.mesh, 0, 1, 0.0, whole(0)]),
-    "mesh_add_all_interfaces": (loose, lambda s: [s.mesh, 0.0, whole(0)]),
+    **dict.fromkeys(("mesh_add_all_interfaces", "mesh_add_seams"), (loose, lambda s: [s.mesh, 0.0, whole(0)])),
     "mesh_add_projected_interface": (loose, lambda s: [s.mesh, 0, 1, 0.0, whole(0)]),
     "mesh_add_mortar_interface": (loose, lambda s: [s.mesh, 0, 1, 0.0, whole(0)]),
     "mesh_add_obstacle": (loose, lambda s: [s.mesh, 2, whole(0, 1), real(0, 1, 0, 1), real(0.5, 0.5), 8, 0, whole(0)]),

@@ -234,6 +234,11 @@ void build_meshes(Host& host, const Block& b) {
     });
     host.call("delam_mesh_add_all_interfaces", b.cells, print,
               [&] { return delam_mesh_add_all_interfaces(mesh, 0.0, &index); });
+    // One body of two halves that share no node.
+    fresh(false);
+    const std::vector<std::int32_t> one(at(b.cells), 0);
+    host.require(delam_mesh_add_cells(mesh, b.type, b.cells, b.connectivity.data(), one.data(), 0), "cells");
+    host.call("delam_mesh_add_seams", b.cells, print, [&] { return delam_mesh_add_seams(mesh, 0.0, &index); });
     fresh(true);
     host.call("delam_mesh_add_projected_interface", b.cells, print,
               [&] { return delam_mesh_add_projected_interface(mesh, 0, 1, 0.0, &index); });

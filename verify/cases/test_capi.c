@@ -206,6 +206,11 @@ START_TEST(conforming_meshes) {
     ck_assert_int_eq(count, 2);
     fine(delam_mesh_interface_size(other, 1, &a, &b, &pairs, NULL, NULL));
     ck_assert(a == 4 && b == 5 && pairs == 2);
+    expect(delam_mesh_add_seams(other, 0.7, &count), DELAM_ERROR_ARGUMENT, "tolerance");
+    expect(delam_mesh_add_seams(other, -1.0, &count), DELAM_ERROR_ARGUMENT, "tolerance");
+    expect(delam_mesh_add_seams(other, 0.0, NULL), DELAM_ERROR_ARGUMENT, "out_count is NULL");
+    fine(delam_mesh_add_seams(other, 0.0, &count));
+    ck_assert_int_eq(count, 0);
     delam_mesh_destroy(&other);
 }
 

@@ -63,8 +63,8 @@ void add_body(Mesh& mesh, const Press& press, double cells, int side) {
             for (std::int64_t i = 0; i + 1 < n; ++i) {
                 const std::int64_t low = side < 0 ? k + 1 : k, high = side < 0 ? k : k + 1;
                 if (press.d == 2)
-                    mesh.cells.insert(mesh.cells.end(), {node(i, 0, low), node(i + 1, 0, low), node(i + 1, 0, high),
-                                                         node(i, 0, high)});
+                    mesh.cells.insert(mesh.cells.end(),
+                                      {node(i, 0, low), node(i + 1, 0, low), node(i + 1, 0, high), node(i, 0, high)});
                 else
                     for (const std::int64_t at : {low, high})
                         mesh.cells.insert(mesh.cells.end(), {node(i, j, at), node(i + 1, j, at), node(i + 1, j + 1, at),

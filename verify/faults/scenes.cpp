@@ -100,6 +100,7 @@ void make_mesh(Host& host, Handles& h, const Strip& s) {
     if (conforming) {
         CHANGE(delam_mesh_add_conforming_cells, h.mesh, DELAM_QUAD4, cells, c.connectivity.data(), c.bodies.data(), 0);
         CHANGE(delam_mesh_add_all_interfaces, h.mesh, 0.0, &index);
+        CHANGE(delam_mesh_add_seams, h.mesh, 0.0, &index);
         return;
     }
     CHANGE(delam_mesh_add_cells, h.mesh, DELAM_QUAD4, cells, c.connectivity.data(), c.bodies.data(), 0);

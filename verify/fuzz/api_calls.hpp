@@ -134,6 +134,12 @@ inline const Call calls[] = {
          return IN_ORDER(delam_mesh_add_all_interfaces, a.mesh, a.in.flag() ? 0.0 : a.in.fraction(),
              a.in.seldom() ? nullptr : &count);
      }},
+    {"delam_mesh_add_seams", Subject::mesh, may::cancelled | may::argument | may::mesh,
+     [](const Asked& a) {
+         std::int64_t count = -1;
+         return IN_ORDER(delam_mesh_add_seams, a.mesh, a.in.flag() ? 0.0 : a.in.fraction(),
+             a.in.seldom() ? nullptr : &count);
+     }},
     {"delam_mesh_add_projected_interface", Subject::mesh, may::cancelled | may::argument | may::mesh,
      [](const Asked& a) {
          std::int64_t index = -1;

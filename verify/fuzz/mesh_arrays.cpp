@@ -175,8 +175,11 @@ private:
         std::int64_t index = -1;
         const std::int64_t which = in_.below(4);
         if (which == 0) {
+            const double slack = in_.flag() ? 0.0 : in_.fraction();
             change("delam_mesh_add_all_interfaces", may::argument | may::mesh,
-                   [&] { return delam_mesh_add_all_interfaces(mesh_, in_.flag() ? 0.0 : in_.fraction(), &index); });
+                   [&] { return delam_mesh_add_all_interfaces(mesh_, slack, &index); });
+            change("delam_mesh_add_seams", may::argument | may::mesh,
+                   [&] { return delam_mesh_add_seams(mesh_, slack, &index); });
         } else if (which == 3) {
             add_obstacle(a);
         } else {

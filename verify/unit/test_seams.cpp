@@ -66,4 +66,36 @@ TEST(others) {
     ck_assert(find_seams(blocks(list)).empty());
 }
 
+// A seam within a body becomes an interface with the pairs, weights and faces of one between two bodies.
+TEST(joined) {
+    for (const CellType type : all_types) {
+        const auto dim = index(topology(type).dimension);
+        auto list = stack(type, type, 2, 2);
+        if (dim == 3) list[0].divisions[1] = list[1].divisions[1] = 3;
+        Mesh two = blocks(list), one = as_one(two);
+        add_interface(two, 0, 1, 0.0);
+        ck_assert_int_eq(add_seams(one, 0.0), 1);
+        ck_assert_int_eq(add_seams(one, 0.0), 0);
+        ck_assert(find_seams(one).empty());
+        const InterfaceGeometry &a = two.interfaces()[0], &b = one.interfaces()[0];
+        ck_assert_int_eq(b.body_a, b.body_b);
+        ck_assert_int_eq(a.pair_count(), b.pair_count());
+        ck_assert_int_eq(a.face_count(), b.face_count());
+        for (std::size_t p = 0; p < a.weight.size(); ++p) {
+            ck_assert(std::abs(a.weight[p] - b.weight[p]) < 1e-14);
+            ck_assert_int_eq(a.node_a[p] + a.node_b[p], b.node_a[p] + b.node_b[p]);
+            for (std::size_t k = 0; k < dim; ++k) {
+                const double turned = a.node_a[p] == b.node_a[p] ? 1.0 : -1.0;
+                ck_assert(std::abs(a.frame[p * dim * dim + k] - turned * b.frame[p * dim * dim + k]) < 1e-14);
+            }
+        }
+        ck_assert_refused(DELAM_ERROR_ARGUMENT, "tolerance", add_seams(one, 0.5));
+    }
+    // Three faces at one place.
+    auto list = stack(CellType::quad4, CellType::quad4, 2, 2);
+    list.push_back(list[1]);
+    Mesh thrice = as_one(blocks(list));
+    ck_assert_refused(DELAM_ERROR_MESH, "lie on each other", add_seams(thrice, 0.0));
+}
+
 }  // namespace

@@ -149,15 +149,37 @@ for adjust, force in (("", 0.0), (", ADJUST=3e-4", 1000 * 5e-4 / 3)):
     expect(("3 of 3 pairs have a gap" in error) == (adjust == ""), f"check tells: {error.strip()[:300]}")
     expect(math.isclose(abs(pressed(scene)), force, rel_tol=1e-8, abs_tol=1e-12), f"with a law{adjust}")
 
-# General contact of a body with a slit (its halves share one node) is told, not left out in silence.
+# General contact joins the halves of a body with a slit; without it they pass through each other, which is told.
 deck = bar(3, 3, "UP").replace("13, 0.0, 1.0\n", "").replace(", 13, ", ", 9, ")
 deck = deck.replace("ELSET=LOW\n", "ELSET=ALL\n").replace("ELSET=UP\n", "ELSET=ALL\n")
 head, tail = deck.split("*SOLID SECTION", 1)[0], deck.split("*MATERIAL", 1)[1]
 middle, step = tail.split("*SURFACE, NAME", 1)[0], tail.split("*STEP", 1)[1]
 path = write(head + "*SOLID SECTION, ELSET=ALL, MATERIAL=M\n1.\n*MATERIAL" + middle +
-               "*CONTACT\n*CONTACT INCLUSIONS, ALL EXTERIOR\n*STEP" + step, "seam.inp")
+             "*CONTACT\n*CONTACT INCLUSIONS, ALL EXTERIOR\n*STEP" + step, "seam.inp")
 code, scene, error = delam("import", path)
-expect(code == 0 and "faces of one body and faces that meet later are left out" in error, f"a changed line: {error.strip()}")
-code, _, error = delam("check", write(scene, "seam.toml", os.path.dirname(path)))
+expect(code == 0 and "[contact]\ngeneral = true" in scene and "those that meet later are left out" in error,
+       f"a changed line: {error.strip()}")
+place = os.path.dirname(path)
+expect(math.isclose(abs(pressed(write(scene, "seam.toml", place))), 0.25, rel_tol=1e-9), "the seam is closed")
+bare = write(scene.replace("[contact]\ngeneral = true\n", ""), "bare.toml", place)
+code, _, error = delam("check", bare)
 expect("body 0: 6 outer faces between (0.16" in error and "pass through each other" in error, f"check: {error.strip()}")
+expect(abs(pressed(bare)) < 0.2, "without contact the halves pass through each other")
+
+# General contact of bodies: matching, not matching, and apart.
+for lower, upper, distance, reach, force in ((3, 3, 0, 0, 0.25), (3, 2, 0, 0, 0.25), (3, 4, 2e-4, 2.1e-4, 0.15)):
+    path = write(apart(bar(lower, upper, "UP"), distance) if distance else bar(lower, upper, "UP"), "two.inp")
+    code, scene, error = delam("import", path)
+    expect(code == 0, f"import: {error.strip()}")
+    start, rest = scene.split("[[interfaces]]", 1)
+    scene = start + f"[contact]\ngeneral = true\ngap = {reach}\n\n[[patterns]]" + rest.split("[[patterns]]", 1)[1]
+    scene = write(scene, "two.toml", os.path.dirname(path))
+    expect(math.isclose(abs(pressed(scene)), force, rel_tol=1e-9), f"general contact, {lower}:{upper}, {distance} apart")
+for wrong, words in (("general = 1", "general.*true or false"), ("gap = 1", "is for general = true"),
+                     ("general = true\ngap = -1", "gap.*>= 0")):
+    with open(scene, encoding="utf-8") as file:
+        text = file.read()
+    start, rest = text.split("[contact]\n", 1)
+    expect_error(delam("check", write(f"{start}[contact]\n{wrong}\n\n[[patterns]]" + rest.split("[[patterns]]", 1)[1],
+                                      "wrong.toml", os.path.dirname(scene))), 2, words)
 finish()

@@ -183,6 +183,15 @@ void test_mesh() {
     touching.add_conforming_cells(DELAM_QUAD4, {0, 1, 4, 3, 1, 2, 5, 4}, {3, 7});
     expect(touching.add_all_interfaces() == 1 && touching.node_origins() == Indices{0, 1, 2, 3, 4, 5, 1, 4},
            "doubled nodes");
+
+    // A row of three cells on another, with nodes of its own on the left: node 6 is the tip, 12 and 13 are doubled.
+    delam::Mesh slit(context, 2, {0., 0., 1., 0., 2., 0., 3., 0., 0., 1., 1., 1., 2., 1.,
+                                  3., 1., 0., 2., 1., 2., 2., 2., 3., 2., 0., 1., 1., 1.});
+    slit.add_cells(DELAM_QUAD4, {0, 1, 5, 4, 1, 2, 6, 5, 2, 3, 7, 6, 12, 13, 9, 8, 13, 6, 10, 9, 6, 7, 11, 10});
+    expect(slit.add_seams() == 1 && slit.interface_pairs(0).nodes_a == Indices{4, 5} &&
+               slit.interface_pairs(0).nodes_b == Indices{12, 13},
+           "a seam");
+    expect(slit.interface_size(0).body_a == 0 && slit.interface_size(0).body_b == 0, "both sides are of one body");
 }
 
 void test_problem() {

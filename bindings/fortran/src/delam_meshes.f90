@@ -19,6 +19,7 @@ module delam_meshes
     procedure :: add_conforming_cells => mesh_add_conforming_cells
     procedure :: add_interface => mesh_add_interface
     procedure :: add_all_interfaces => mesh_add_all_interfaces
+    procedure :: add_seams => mesh_add_seams
     procedure :: add_projected_interface => mesh_add_projected_interface
     procedure :: add_mortar_interface => mesh_add_mortar_interface
     procedure :: add_obstacle => mesh_add_obstacle
@@ -199,6 +200,24 @@ contains
     if (present(count)) count = int(made)
     call settle(code, self, status, message)
   end subroutine mesh_add_all_interfaces
+
+  ! count: of new interfaces, one for each seam of doubled nodes within a body.
+  subroutine mesh_add_seams(self, tolerance, count, status, message)
+    class(delam_mesh), intent(in) :: self
+    real(delam_real), intent(in), optional :: tolerance
+    integer, intent(out), optional :: count
+    integer, intent(out), optional :: status
+    character(*), intent(out), optional :: message
+    integer(c_int64_t) :: made
+    integer(c_int32_t) :: code
+    real(delam_real) :: distance
+    distance = 0
+    if (present(tolerance)) distance = tolerance
+    made = 0
+    code = delam_mesh_add_seams(self%handle(), distance, made)
+    if (present(count)) count = int(made)
+    call settle(code, self, status, message)
+  end subroutine mesh_add_seams
 
   subroutine mesh_add_projected_interface(self, body_a, body_b, gap, interface, status, message)
     class(delam_mesh), intent(in) :: self

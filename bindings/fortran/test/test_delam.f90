@@ -331,11 +331,11 @@ contains
 
   subroutine test_obstacles_ties_periods()
     type(delam_context) :: context
-    type(delam_mesh) :: squares, stack, coarse
+    type(delam_mesh) :: squares, stack, coarse, slit
     type(delam_problem) :: cell
     integer(delam_index), allocatable :: a(:), b(:), nodes(:), starts(:), of(:)
     real(dp), allocatable :: weights(:), xy(:,:)
-    integer :: interface, status, i
+    integer :: interface, status, i, seams
     call context%create()
     call make_squares(squares, context)
     call squares%add_obstacle([1_delam_index, 2_delam_index], reshape([real(dp) :: 0, 1, 0, 1], [2, 2]), &
@@ -367,6 +367,17 @@ contains
     call coarse%add_mortar_interface(1, 0, interface=interface)
     call coarse%node_ties(nodes, starts, of, weights)
     call expect(interface == 1 .and. all(of == [5, 6, 7, 5, 6, 7]), 'a mortar interface')
+
+    ! A row of two cells on another, with a node of its own on the left: node 5 is the tip, 10 is that of 4.
+    call slit%create(context, reshape([real(dp) :: 0, 0, 1, 0, 2, 0, 0, 1, 1, 1, 2, 1, 0, 2, 1, 2, 2, 2, 0, 1], &
+                                      [2, 10]))
+    call slit%add_cells(DELAM_QUAD4, reshape([integer(delam_index) :: 1, 2, 5, 4, 2, 3, 6, 5, 10, 5, 8, 7, &
+                                              5, 6, 9, 8], [4, 4]))
+    call slit%add_seams(count=seams)
+    call slit%interface_pairs(1, a, b)
+    call expect(seams == 1 .and. all(a == [4]) .and. all(b == [10]), 'a seam')
+    call slit%add_seams(tolerance=0.7_dp, status=status)
+    call expect(status == DELAM_ERROR_ARGUMENT, 'a tolerance above 0.5')
 
     call squares%create(context, reshape([real(dp) :: 0, 0, 1, 0, 0, 1, 1, 1, 9, 9, 9, 8], [2, 6]))
     call squares%add_cells(DELAM_QUAD4, reshape([integer(delam_index) :: 1, 2, 4, 3], [4, 1]))

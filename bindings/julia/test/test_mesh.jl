@@ -29,6 +29,13 @@
     @test node_origins(square) == [1, 2, 3, 4, 5, 6, 3, 4]
     @test length(add_all_interfaces!(square)) == 1
 
+    # A row of two cells on another, with a node of its own on the left: node 5 is the tip, 10 is that of 4.
+    slit = Mesh([0.0 1.0 2.0 0.0 1.0 2.0 0.0 1.0 2.0 0.0; 0.0 0.0 0.0 1.0 1.0 1.0 2.0 2.0 2.0 1.0])
+    add_cells!(slit, "quad4", [1 2 10 5; 2 3 5 6; 5 6 8 9; 4 5 7 8], 0)
+    (seam,) = add_seams!(slit)
+    @test nodes_a(seam) == [4] && nodes_b(seam) == [10]
+    @test isempty(add_seams!(slit))
+
     # Errors have the library's words and leave the object as it was.
     @test_throws InvalidArgument add_interface!(mesh, 0, 7)
     @test_throws DimensionMismatch add_cells!(square, "tri3", [1 3; 2 4], 0)

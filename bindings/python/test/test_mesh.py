@@ -29,6 +29,23 @@ class Arrays(unittest.TestCase):
         np.testing.assert_array_equal(mesh.nodes[interface.nodes_a], mesh.nodes[interface.nodes_b])
         np.testing.assert_array_equal(np.sort(interface.faces), [[0, 1]])
 
+    def test_a_seam_has_pairs_up_to_its_tip(self):
+        # Two rows of three cells. The upper one has nodes of its own on the left, 12 and 13; node 6 is the tip.
+        nodes = [[x, y] for y in range(3) for x in range(4)] + [[0, 1], [1, 1]]
+        mesh = delam.Mesh(np.array(nodes, float))
+        mesh.add_cells("quad4", [[0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6],
+                                 [12, 13, 9, 8], [13, 6, 10, 9], [6, 7, 11, 10]], 3)
+        with self.assertRaisesRegex(ValueError, "tolerance"):
+            mesh.add_seams(tolerance=0.5)
+        (seam,) = mesh.add_seams()
+        self.assertEqual((seam.body_a, seam.body_b, seam.pair_count), (3, 3, 2))
+        np.testing.assert_array_equal([seam.nodes_a, seam.nodes_b], [[4, 5], [12, 13]])
+        np.testing.assert_allclose(seam.weights, [0.5, 1.0])
+        np.testing.assert_allclose(seam.frames[:, 0], [[0, 1], [0, 1]])
+        np.testing.assert_array_equal(np.sort(seam.faces), [[0, 1]])
+        self.assertEqual(mesh.add_seams(), [], "a second call")
+        self.assertEqual(mesh.interface_count, 1)
+
     def test_cell_types_are_those_of_the_library(self):
         numbers = {name: getattr(raw, f"DELAM_{name.upper()}") for name in delam.CELLS}
         self.assertEqual({name: number for name, (number, _) in delam.CELLS.items()}, numbers)

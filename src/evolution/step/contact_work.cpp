@@ -11,13 +11,13 @@ namespace delam {
 
 namespace {
 
-// A part of the way, with the power q . d at its ends and in its middle.
+// Holds a part of the way, with the power q . d at its ends and in its middle.
 struct Part {
     double from, to;
     double first, middle, last;
 
     double halved() const { return 0.25 * (to - from) * (first + 2.0 * middle + last); }
-    // How much halving it has changed its work.
+    // Returns by how much halving it has changed its work.
     double change() const { return std::abs(0.25 * (to - from) * (first - 2.0 * middle + last)); }
     bool operator<(const Part& other) const { return change() < other.change(); }
 };

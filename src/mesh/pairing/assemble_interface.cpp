@@ -119,7 +119,7 @@ BoundaryFace turned(const BoundaryFace& face) {
 }
 
 std::vector<Point> lay_faces(const Mesh& mesh, std::span<const BoundaryFace> faces_of_nodes, FaceSide side,
-                             InterfaceGeometry& interface) {
+                             InterfaceGeometry& interface, std::span<const BoundaryFace> torn) {
     const std::vector<std::int64_t>& on_faces = side == FaceSide::a ? interface.node_a : interface.node_b;
     std::map<std::int64_t, std::int64_t> pair_of;  // pair of a node of the faces
     for (std::size_t p = 0; p < on_faces.size(); ++p) pair_of.emplace(on_faces[p], static_cast<std::int64_t>(p));
@@ -148,17 +148,27 @@ std::vector<Point> lay_faces(const Mesh& mesh, std::span<const BoundaryFace> fac
         }
         append_padded(face, row, interface.face);
     }
+    for (const BoundaryFace& face : torn) {
+        const NodalRule rule = nodal_rule(mesh, face.all());
+        for (std::size_t k = 0; k < face.all().size(); ++k) {
+            const auto at = pair_of.find(face.node[k]);
+            if (at == pair_of.end()) continue;
+            interface.weight[index(at->second)] += rule.weight[k];
+            for (std::size_t i = 0; i < 3; ++i) area[index(at->second)][i] += rule.area[k][i];
+        }
+    }
     return area;
 }
 
 InterfaceGeometry assemble_interface(const Mesh& mesh, std::span<const NodePair> pairs,
-                                     std::span<const BoundaryFace> faces, FaceSide side, double distance) {
+                                     std::span<const BoundaryFace> faces, FaceSide side, double distance,
+                                     std::span<const BoundaryFace> torn) {
     InterfaceGeometry result;
     for (const std::size_t i : spatial_order(mesh, pairs, side, distance)) {
         result.node_a.push_back(pairs[i].first);
         result.node_b.push_back(pairs[i].second);
     }
-    const std::vector<Point> area = lay_faces(mesh, faces, side, result);
+    const std::vector<Point> area = lay_faces(mesh, faces, side, result, torn);
     const auto dim = index(mesh.dimension());
     result.frame.resize(result.node_a.size() * dim * dim);
     for (std::size_t p = 0; p < result.node_a.size(); ++p) {

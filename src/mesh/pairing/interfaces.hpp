@@ -16,6 +16,9 @@ std::int64_t add_interface(Mesh& mesh, std::int32_t label_a, std::int32_t label_
 // Adds an interface between every two bodies that share matching faces and have none yet, in the order of their labels;
 // returns how many it has added.
 std::int64_t add_all_interfaces(Mesh& mesh, double tolerance);
+// Adds an interface for each connected seam, where faces of one body lie on others of it with nodes of their own;
+// returns how many it has added. Nodes that both sides share, as at the tip of a seam, have no pair.
+std::int64_t add_seams(Mesh& mesh, double tolerance);
 // Ties the nodes of b's faces to their projections on a's faces, within `gap`; appends a tied node for each.
 std::int64_t add_projected_interface(Mesh& mesh, std::int32_t label_a, std::int32_t label_b, double gap);
 // Pairs the nodes of b's faces with means over a's faces, within `gap`; appends a tied node for each.

@@ -4,12 +4,18 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <set>
+#include <span>
 #include <utility>
 
 #include "base/cancel_scope.hpp"
+#include "base/error.hpp"
 #include "base/numbers.hpp"
+#include "delam/delam.h"
 #include "mesh/face_point.hpp"
 #include "mesh/faces.hpp"
+#include "mesh/pairing/assemble_interface.hpp"
+#include "mesh/pairing/interfaces.hpp"
 #include "mesh/points.hpp"
 
 namespace delam {
@@ -34,6 +40,124 @@ Point centre_of(const Mesh& mesh, const BoundaryFace& face) {
         for (std::size_t i = 0; i < index(mesh.dimension()); ++i)
             centre[i] += mesh.node(node)[i] / static_cast<double>(face.corners);
     return centre;
+}
+
+// Node of the lowest number at the place of each node of some faces.
+std::map<std::int64_t, std::int64_t> places_of(const Mesh& mesh, std::span<const BoundaryFace> faces, double distance) {
+    std::vector<std::int64_t> nodes;
+    for (const BoundaryFace& face : faces) nodes.insert(nodes.end(), face.all().begin(), face.all().end());
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    std::vector<Box> boxes;
+    for (const std::int64_t node : nodes) boxes.push_back({position(mesh, node), position(mesh, node)});
+    const BoxTree tree(boxes);
+    std::map<std::int64_t, std::int64_t> place;
+    for (const std::int64_t node : nodes) {
+        poll_cancel("pairs");
+        Box around{position(mesh, node), position(mesh, node)};
+        for (std::size_t i = 0; i < 3; ++i) around.low[i] -= distance, around.high[i] += distance;
+        std::int64_t lowest = node;
+        tree.meeting(around, [&](std::int64_t other) { lowest = std::min(lowest, nodes[index(other)]); });
+        const auto known = place.find(lowest);
+        place.emplace(node, known == place.end() ? lowest : known->second);
+    }
+    return place;
+}
+
+// Two faces of a body that lie on each other, with the nodes of one beside those of the other.
+struct Facing {
+    BoundaryFace face, other;
+    std::vector<NodePair> pairs;  // of all nodes, the same node twice where both faces have it
+    bool torn() const {
+        return std::any_of(pairs.begin(), pairs.end(), [](const NodePair& p) { return p.first == p.second; });
+    }
+};
+
+Facing turned_over(const Facing& facing) {
+    Facing result{facing.other, facing.face, {}};
+    for (const auto& [a, b] : facing.pairs) result.pairs.emplace_back(b, a);
+    return result;
+}
+
+// Returns the faces that lie on each other; refuses three or more at one place, and nodes without a partner.
+std::vector<Facing> facing_faces(const Mesh& mesh, std::span<const BoundaryFace> faces, double distance) {
+    const std::map<std::int64_t, std::int64_t> place_of = places_of(mesh, faces, distance);
+    std::map<std::vector<std::int64_t>, std::vector<std::size_t>> at;
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+        std::vector<std::int64_t> key;
+        for (const std::int64_t node : faces[f].corner()) key.push_back(place_of.at(node));
+        std::sort(key.begin(), key.end());
+        at[key].push_back(f);
+    }
+    std::vector<Facing> found;
+    for (const auto& [key, there] : at) {
+        if (there.size() < 2) continue;
+        const BoundaryFace &face = faces[there[0]], &other = faces[there[1]];
+        if (there.size() > 2 || dot(area_vector(mesh, face.all()), area_vector(mesh, other.all())) >= 0.0)
+            fail(DELAM_ERROR_MESH, "body ", mesh.body_label(mesh.cell_body(face.cell)), ": ", there.size(),
+                 " outer faces lie on each other at ", place(mesh, face.node[0]),
+                 ", expected two that face each other: the cells overlap");
+        Facing& facing = found.emplace_back(Facing{face, other, {}});
+        for (const std::int64_t node : face.all()) {
+            const auto partner = std::find_if(other.all().begin(), other.all().end(),
+                                              [&](std::int64_t n) { return place_of.at(n) == place_of.at(node); });
+            if (partner == other.all().end())
+                fail(DELAM_ERROR_MESH, "node ", node, " at ", place(mesh, node),
+                     " has no partner on the other side of its seam: the nodes do not match");
+            facing.pairs.emplace_back(node, *partner);
+        }
+    }
+    return found;
+}
+
+// Returns the connected seams. The faces of one are turned so that those that have a pair in common have it the same
+// way round; refuses a seam of one side (a Moebius strip).
+std::vector<std::vector<Facing>> connected(const Mesh& mesh, std::vector<Facing> facing) {
+    std::map<NodePair, std::vector<std::size_t>> of_pair;  // ascending nodes
+    for (std::size_t f = 0; f < facing.size(); ++f)
+        for (const auto& [a, b] : facing[f].pairs)
+            if (a != b) of_pair[std::minmax(a, b)].push_back(f);
+    std::vector<std::uint8_t> met(facing.size(), 0);
+    std::vector<std::vector<Facing>> seams;
+    for (std::size_t first = 0; first < facing.size(); ++first) {
+        if (met[first] != 0) continue;
+        std::vector<std::size_t> front{first};
+        met[first] = 1;
+        seams.emplace_back();
+        while (!front.empty()) {
+            const std::size_t f = front.back();
+            front.pop_back();
+            seams.back().push_back(facing[f]);
+            for (const NodePair& pair : std::vector<NodePair>(facing[f].pairs)) {
+                if (pair.first == pair.second) continue;
+                for (const std::size_t other : of_pair.at(std::minmax(pair.first, pair.second))) {
+                    const auto& there = facing[other].pairs;
+                    const bool alike = std::find(there.begin(), there.end(), pair) != there.end();
+                    if (met[other] != 0 && !alike)
+                        fail(DELAM_ERROR_MESH, "the seam at ", place(mesh, pair.first), " has one side only");
+                    if (met[other] != 0) continue;
+                    if (!alike) facing[other] = turned_over(facing[other]);
+                    met[other] = 1;
+                    front.push_back(other);
+                }
+            }
+        }
+    }
+    return seams;
+}
+
+InterfaceGeometry interface_of(const Mesh& mesh, const std::vector<Facing>& seam, double distance) {
+    std::set<NodePair> pairs;
+    std::vector<BoundaryFace> whole, torn;
+    for (const Facing& facing : seam) {
+        (facing.torn() ? torn : whole).push_back(facing.face);
+        for (const NodePair& pair : facing.pairs)
+            if (pair.first != pair.second) pairs.insert(pair);
+    }
+    const std::vector<NodePair> list(pairs.begin(), pairs.end());
+    InterfaceGeometry made = assemble_interface(mesh, list, whole, FaceSide::a, distance, torn);
+    made.body_a = made.body_b = mesh.cell_body(seam.front().face.cell);
+    return made;
 }
 
 }  // namespace
@@ -65,7 +189,12 @@ std::vector<Seam> find_seams(const Mesh& mesh) {
             if (on >= 0 || along > -0.5 * length(normal[f]) * length(normal[index(g)])) return;
             if (length(closest_point(mesh, faces[index(g)], centre).place - centre) <= rounding) on = g;
         });
-        if (on < 0) continue;
+        // At the tip of a seam, both faces have the same node, and the others have pairs.
+        if (on < 0 || std::all_of(faces[f].all().begin(), faces[f].all().end(), [&](std::int64_t node) {
+                const auto other = faces[index(on)].all();
+                return paired[index(node)] != 0 || std::find(other.begin(), other.end(), node) != other.end();
+            }))
+            continue;
         const auto bodies = std::pair<std::int32_t, std::int32_t>(
             std::minmax({mesh.cell_body(faces[f].cell), mesh.cell_body(faces[index(on)].cell)}));
         Seam& seam = found.try_emplace(bodies, Seam{bodies.first, bodies.second, 0, {centre, centre}}).first->second;
@@ -78,6 +207,27 @@ std::vector<Seam> find_seams(const Mesh& mesh) {
     std::vector<Seam> seams;
     for (const auto& [bodies, seam] : found) seams.push_back(seam);
     return seams;
+}
+
+std::int64_t add_seams(Mesh& mesh, double tolerance) {
+    if (!(tolerance >= 0.0 && tolerance < 0.5))
+        fail(DELAM_ERROR_ARGUMENT, "tolerance ", tolerance, ": must be in [0, 0.5)");
+    const std::vector<std::uint8_t> paired = paired_nodes(mesh);
+    std::vector<InterfaceGeometry> made;
+    for (std::int32_t body = 0; body < mesh.body_count(); ++body) {
+        if (mesh.host_body(body)) continue;
+        const double distance = (tolerance > 0.0 ? tolerance : 1e-6) * shortest_edge(mesh, mesh.body_cells(body));
+        std::vector<Facing> facing = facing_faces(mesh, boundary_faces(mesh, body), distance);
+        std::erase_if(facing, [&](const Facing& f) {
+            return std::all_of(f.pairs.begin(), f.pairs.end(), [&](const NodePair& p) {
+                return p.first == p.second || (paired[index(p.first)] != 0 && paired[index(p.second)] != 0);
+            });
+        });
+        for (const std::vector<Facing>& seam : connected(mesh, std::move(facing)))
+            made.push_back(interface_of(mesh, seam, distance));
+    }
+    for (InterfaceGeometry& interface : made) mesh.append(std::move(interface));
+    return static_cast<std::int64_t>(made.size());
 }
 
 }  // namespace delam

@@ -29,6 +29,43 @@ def tolerance_of_all(host, see):
     see.equal("interfaces 0.98e-6 and 1.02e-6 of an edge apart", found, [1, 0])
 
 
+def one_body(host, places, cells):
+    mesh = host("mesh_create", host.context, 2, len(places), [float(c) for p in places for c in p], Out())
+    host("mesh_add_cells", mesh, TYPES["quad4"], len(cells) // 4, cells, None, 0)
+    return mesh
+
+
+@row("tolerance 0 of seams", tells=["mesh_add_seams out_count"])
+def tolerance_of_seams(host, see):
+    found = [host("mesh_add_seams", one_body(host, scenes.SQUARE + [(x, 1 + y + shift) for x, y in scenes.SQUARE],
+                                             list(range(8))), 0.0, Out()) for shift in (0.98e-6, 1.02e-6)]
+    see.equal("interfaces 0.98e-6 and 1.02e-6 of an edge apart", found, [1, 0])
+
+
+@row("seam with a tip")
+def seam_with_tip(host, see):
+    """The slit y = 1 of a body of 3 x 2 squares, from x = 0 to x = 2. Both sides share node 6, its tip."""
+    places = [(x, y) for y in range(3) for x in range(4)] + [(0, 1), (1, 1)]
+    mesh = one_body(host, places, [0, 1, 5, 4, 1, 2, 6, 5, 2, 3, 7, 6, 12, 13, 9, 8, 13, 6, 10, 9, 6, 7, 11, 10])
+    see.equal("interfaces of two calls", [host("mesh_add_seams", mesh, 0.0, Out()) for _ in range(2)], [1, 0])
+    see.equal("bodies, pairs, faces", host("mesh_interface_size", mesh, 0, *[Out()] * 4, None)[:4], [0, 0, 2, 1])
+    nodes_a, nodes_b, weights, frames = host("mesh_interface_pairs", mesh, 0, Out(2), Out(2), Out(2), Out(8))
+    see.equal("pairs", [nodes_a, nodes_b], [4, 5, 12, 13])
+    see.near("weights", weights, [0.5, 1.0], "L")
+    see.near("normals from a to b", [frames[4 * p:4 * p + 2] for p in range(2)], [[0.0, 1.0]] * 2)
+
+
+@row("seams that cross")
+def seams_that_cross(host, see):
+    """Two slits through a body of 2 x 2 squares, each of which has nodes of its own: an arm on either side of the
+    middle for each slit."""
+    mesh = one_body(host, [(x + i, y + j) for j in (0, 1) for i in (0, 1) for x, y in scenes.SQUARE], list(range(16)))
+    see.equal("interfaces of two calls", [host("mesh_add_seams", mesh, 0.0, Out()) for _ in range(2)], [4, 0])
+    arms = [host("mesh_interface_pairs", mesh, k, Out(2), Out(2), Out(2), None)[:2] for k in range(4)]
+    see.equal("pairs of each arm", sorted(sorted([list(p) for p in zip(*arm)]) for arm in arms),
+              [[[1, 4], [2, 7]], [[2, 9], [3, 8]], [[6, 13], [7, 12]], [[9, 12], [10, 15]]])
+
+
 @row("gap 0 of a projected interface",
      says=["mesh_add_projected_interface: e.g. 0, counts as 1e-6"])
 def gap(host, see):

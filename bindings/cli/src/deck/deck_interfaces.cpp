@@ -101,10 +101,12 @@ public:
                     fmt::format("{} and {} touch and have nothing between them: here they are in contact", body(pair.a),
                                 body(pair.b)));
         }
-        if (deck_.general_contact)
+        if (deck_.general_contact) {
+            out += "[contact]\ngeneral = true\n\n";
             deck_.changed.push_back(
-                "*CONTACT: bodies that touch at the start are in contact, faces of one body and faces that meet later "
-                "are left out");
+                "*CONTACT: faces that lie on each other at the start are in contact, those that meet later are left "
+                "out");
+        }
         return out;
     }
 

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "model/build_constraints.hpp"
+#include "model/build_contact.hpp"
 #include "model/build_materials.hpp"
 #include "model/build_mesh.hpp"
 #include "model/call.hpp"

@@ -2,7 +2,6 @@
 #include "model/build_mesh.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <set>
 #include <string>
@@ -10,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "model/build_contact.hpp"
 #include "model/call.hpp"
 #include "model/selection.hpp"
 #include "text/wildcard.hpp"
@@ -110,13 +110,6 @@ void build_layers(Model& model, const Scene& scene) {
     model.interfaces = scene.interfaces;
 }
 
-void push_interface(Model& model, const Scene& scene, InterfaceData data, std::size_t a, std::size_t b) {
-    data.lower = a;
-    data.upper = b;
-    data.name = scene.layers[a].name + "-" + scene.layers[b].name;
-    model.interfaces.push_back(std::move(data));
-}
-
 // Interfaces between two bodies given by name.
 void add_named_interfaces(Model& model, const Scene& scene) {
     std::map<std::string, std::size_t> body_named;
@@ -214,6 +207,10 @@ void build_from(Model& model, const Scene& scene) {
     for (const CellBlock& block : data.blocks)
         model.partitions.insert(model.partitions.end(), block.partitions.begin(), block.partitions.end());
     add_named_interfaces(model, scene);
+    if (scene.general_contact)
+        add_general_contact(model, scene, [&](std::size_t a, std::size_t other) {
+            return entry_for(scene, scene.layers[a].name, scene.layers[other].name) != nullptr;
+        });
     add_other_interfaces(model, scene);
 }
 
@@ -306,35 +303,6 @@ private:
     std::vector<std::int64_t> origins_;
 };
 
-// True if faces of the interface are apart, or overlap, by more than what arithmetic leaves of equal coordinates.
-bool apart(const Model& model, const Scene& scene, std::int64_t index) {
-    constexpr double coincide = 1e-12;  // of the extent
-    const auto dimension = static_cast<std::size_t>(scene.geometry.dimension);
-    const delam_context* context = model.context.get();
-    const delam_mesh* mesh = model.mesh.get();
-    const Place& place = model.interfaces[static_cast<std::size_t>(index)].place;
-    std::int64_t nodes = 0;
-    std::int64_t pairs = 0;
-    call(context, delam_mesh_size(mesh, nullptr, &nodes, nullptr, nullptr, nullptr), place);
-    call(context, delam_mesh_interface_size(mesh, index, nullptr, nullptr, &pairs, nullptr, nullptr), place);
-    std::vector<double> at(static_cast<std::size_t>(nodes) * dimension);
-    std::vector<std::int64_t> node_a(static_cast<std::size_t>(pairs));
-    std::vector<std::int64_t> node_b(node_a.size());
-    std::vector<double> frames(node_a.size() * dimension * dimension);
-    call(context, delam_mesh_nodes(mesh, static_cast<std::int64_t>(at.size()), at.data()), place);
-    call(context, delam_mesh_interface_pairs(mesh, index, node_a.data(), node_b.data(), nullptr, frames.data()), place);
-    const auto [low, high] = std::minmax_element(at.begin(), at.end());
-    for (std::size_t p = 0; p < node_a.size(); ++p) {
-        double distance = 0;
-        for (std::size_t k = 0; k < dimension; ++k)
-            distance +=
-                frames[p * dimension * dimension + k] * (at[static_cast<std::size_t>(node_b[p]) * dimension + k] -
-                                                         at[static_cast<std::size_t>(node_a[p]) * dimension + k]);
-        if (std::abs(distance) > coincide * (*high - *low)) return true;
-    }
-    return false;
-}
-
 }  // namespace
 
 void build_mesh(Model& model, const Scene& scene) {
@@ -379,26 +347,6 @@ void set_mesh_regions(Model& model, const Scene& scene, std::int64_t index, cons
             throw SceneFailure(region.place,
                                "no pair of the interface is in this region (pairs at its edge are its "
                                "own only where no face of the interface leads out of it)");
-    }
-}
-
-void set_gaps(Model& model, const Scene& scene) {
-    std::int64_t pattern = -1;
-    for (std::size_t i = 0; i < model.interfaces.size(); ++i) {
-        const InterfaceData& data = model.interfaces[i];
-        const auto index = static_cast<std::int64_t>(i);
-        if (!data.open || !apart(model, scene, index)) continue;
-        if (pattern < 0) {
-            std::string name = "initial-gaps";
-            const auto taken = [&](const PatternData& other) { return other.name == name; };
-            while (std::any_of(scene.patterns.begin(), scene.patterns.end(), taken)) name += "-";
-            const double always = 1.0;
-            call(model.context.get(),
-                 delam_problem_add_pattern(model.problem.get(), name.c_str(), 1, &always, &always, &pattern),
-                 data.place);
-        }
-        call(model.context.get(), delam_problem_set_gaps(model.problem.get(), index, pattern, nullptr, data.adjust),
-             data.place);
     }
 }
 

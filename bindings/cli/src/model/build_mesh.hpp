@@ -14,7 +14,4 @@ std::int64_t set_box(Model& model, std::int64_t index, const Region& region);
 // faces of the interface do.
 void set_mesh_regions(Model& model, const Scene& scene, std::int64_t index, const InterfaceData& data);
 
-// Lets the distances of open interfaces count, with a pattern of their own.
-void set_gaps(Model& model, const Scene& scene);
-
 }  // namespace cli

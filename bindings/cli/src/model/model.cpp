@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/model.hpp"
 
+#include <utility>
+
 #include "model/call.hpp"
 
 namespace cli {
@@ -17,6 +19,13 @@ void note_constraints(Model& model, const Place& place) {
          delam_problem_constraints(model.problem.get(), &rows, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr),
          place);
     model.constraint_places.resize(static_cast<std::size_t>(rows), place);
+}
+
+void push_interface(Model& model, const Scene& scene, InterfaceData data, std::size_t a, std::size_t b) {
+    data.lower = a;
+    data.upper = b;
+    data.name = scene.layers[a].name + "-" + scene.layers[b].name;
+    model.interfaces.push_back(std::move(data));
 }
 
 std::size_t pattern_count(const Model& model) {

@@ -38,6 +38,8 @@ struct Model {
 
 // Attributes the constraints added to the problem since the last call to `place`.
 void note_constraints(Model& model, const Place& place);
+// Notes what the next interface of the mesh is: that of bodies a and b.
+void push_interface(Model& model, const Scene& scene, InterfaceData data, std::size_t a, std::size_t b);
 // Returns the number of patterns of the problem: those of the scene, then that of initial gaps if there are any.
 std::size_t pattern_count(const Model& model);
 Context new_context();

@@ -95,6 +95,11 @@ struct InterfaceData {
     Place place;
 };
 
+struct GeneralContact {
+    double gap = 0;  // faces of two bodies up to so far apart
+    Place place;
+};
+
 struct Point {
     std::vector<double> at;
 };
@@ -255,6 +260,7 @@ struct Scene {
     std::vector<Material> materials;
     std::vector<LawData> laws;
     std::vector<InterfaceData> interfaces;
+    std::optional<GeneralContact> general_contact;  // wherever outer faces have no interface
     std::vector<PatternData> patterns;
     std::vector<Prescription> prescriptions;  // supports, then loads
     std::vector<DeadForce> forces;

@@ -177,6 +177,9 @@ void read_mesh_interfaces(const Table& root, Scene& scene) {
         for (const Table& part : table.tables("adhesion")) interface.regions.push_back(read_region(part, scene, true));
         scene.interfaces.push_back(std::move(interface));
     }
+    if (!root.has("contact")) return;
+    const Table contact = root.table("contact");
+    if (contact.flag("general")) scene.general_contact = GeneralContact{contact.number("gap", 0.0), contact.place()};
 }
 
 }  // namespace cli

@@ -283,6 +283,15 @@ class Mesh(Object):
         self._call(library.delam_mesh_add_all_interfaces, number("tolerance", tolerance), count, long=True)
         return [Interface(self, before + i) for i in range(count.value)]
 
+    def add_seams(self, tolerance: float = 0.0) -> list[Interface]:
+        """Adds an interface for each seam within a body, where outer faces lie on others of the same body with nodes of
+        their own (a crack, a slit); returns the new ones. tolerance: a fraction of the shortest edge, 0: 1e-6. Nodes
+        that both sides share, as at the tip, have no pair. MeshError: more than two faces lie on each other, or the
+        nodes of two sides do not match."""
+        before, count = self.interface_count, ctypes.c_int64()
+        self._call(library.delam_mesh_add_seams, number("tolerance", tolerance), count, long=True)
+        return [Interface(self, before + i) for i in range(count.value)]
+
     def add_projected_interface(self, body_a: Body, body_b: Body, gap: float = 0.0) -> Interface:
         """An interface of two bodies whose meshes do not match; b should be the finer one. gap: distance of the faces,
         a length, 0: 1e-6 of the shortest edge. The nodes of b are tied to a (ties)."""

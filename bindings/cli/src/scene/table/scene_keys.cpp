@@ -86,6 +86,7 @@ KeyTable scene_file() {
         tables_key("materials", "material").need().says("elastic materials"),
         tables_key("laws", "law").says("traction-separation laws"),
         tables_key("interfaces", "interface").says("which neighbouring layers or bodies interact, and how"),
+        table_key("contact", "contact").in_mesh().says("contact wherever outer faces have no interface"),
         tables_key("patterns", "pattern").says("factors that follow a table of times"),
         tables_key("supports", "support").says("displacements held at zero"),
         tables_key("loads", "load").says("prescribed displacements"),

@@ -241,11 +241,22 @@ KeyTable interface_table() {
     return table;
 }
 
+KeyTable contact_table() {
+    KeyTable table{"contact", "contact wherever outer faces have no interface", {}, {}};
+    table.rows = {
+        flag_key("general").says("contact of all bodies that touch, and of the two sides of seams within a body"),
+        number_key("gap", not_negative).otherwise("0").says("also of faces of two bodies up to so far apart"),
+    };
+    table.rules = {{KeyRule::needs, {"gap"}, {"general"}, {}, "is for general = true"}};
+    return table;
+}
+
 }  // namespace
 
 std::vector<KeyTable> interface_tables() {
-    return {law_table(), interface_table(), region_table("notch", false), region_table("adhesion", true),
-            solver_table()};
+    return {
+        law_table(),   interface_table(), contact_table(), region_table("notch", false), region_table("adhesion", true),
+        solver_table()};
 }
 
 }  // namespace cli

@@ -106,6 +106,12 @@ public:
         shared_->check(delam_mesh_add_all_interfaces(get(), tolerance, &count));
         return count;
     }
+    // Returns the number of new interfaces: one for each seam of doubled nodes within a body.
+    std::int64_t add_seams(double tolerance = 0.0) {
+        std::int64_t count = 0;
+        shared_->check(delam_mesh_add_seams(get(), tolerance, &count));
+        return count;
+    }
     std::int64_t add_projected_interface(std::int32_t body_a, std::int32_t body_b, double gap = 0.0) {
         std::int64_t made = -1;
         shared_->check(delam_mesh_add_projected_interface(get(), body_a, body_b, gap, &made));

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "model/build_contact.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "model/call.hpp"
+
+namespace cli {
+
+namespace {
+
+InterfaceData contact_of(const GeneralContact& general) {
+    InterfaceData data;
+    data.contact = true;
+    data.place = general.place;
+    return data;
+}
+
+// Boxes around the nodes of each body: lower ends, then upper ends.
+std::vector<std::array<double, 6>> boxes_of_bodies(const Scene& scene) {
+    constexpr double far = std::numeric_limits<double>::infinity();
+    const MeshData& data = *scene.mesh;
+    std::vector<std::array<double, 6>> boxes(scene.layers.size(), {far, far, far, -far, -far, -far});
+    const auto dimension = static_cast<std::size_t>(data.dimension);
+    for (const CellBlock& block : data.blocks) {
+        const std::size_t nodes = block.connectivity.size() / std::max<std::size_t>(1, block.bodies.size());
+        for (std::size_t i = 0; i < block.connectivity.size(); ++i) {
+            auto& box = boxes[static_cast<std::size_t>(block.bodies[i / nodes])];
+            for (std::size_t k = 0; k < dimension; ++k) {
+                const double x = data.nodes[static_cast<std::size_t>(block.connectivity[i]) * dimension + k];
+                box[k] = std::min(box[k], x);
+                box[3 + k] = std::max(box[3 + k], x);
+            }
+        }
+    }
+    return boxes;
+}
+
+// General contact of two bodies that have no interface: of faces that match, else of faces that lie upon each other or
+// up to `gap` apart. Faces that overhang on one side are paired from the other.
+void add_contact_of(Model& model, const Scene& scene, std::size_t a, std::size_t b) {
+    const GeneralContact& general = *scene.general_contact;
+    const auto label = [](std::size_t body) { return static_cast<std::int32_t>(body); };
+    std::int64_t index = 0;
+    if (delam_mesh_add_interface(model.mesh.get(), label(a), label(b), 0.0, &index) == DELAM_OK)
+        return push_interface(model, scene, contact_of(general), a, b);
+    const auto join = [&](std::size_t under, std::size_t over) {
+        return delam_mesh_add_mortar_interface(model.mesh.get(), label(under), label(over), general.gap, &index);
+    };
+    std::int32_t status = join(a, b);
+    const std::string told = delam_context_message(model.context.get());
+    if (status == DELAM_ERROR_MESH && told.find("only in part") == std::string::npos) return;  // nothing faces anything
+    if (status == DELAM_ERROR_MESH) {
+        std::swap(a, b);
+        status = join(a, b);
+    }
+    call(model.context.get(), status, general.place);
+    InterfaceData data = contact_of(general);
+    data.projected = data.open = true;
+    data.gap = general.gap;
+    push_interface(model, scene, std::move(data), a, b);
+}
+
+// True if faces of the interface are apart, or overlap, by more than what arithmetic leaves of equal coordinates.
+bool apart(const Model& model, const Scene& scene, std::int64_t index) {
+    constexpr double coincide = 1e-12;  // of the extent
+    const auto dimension = static_cast<std::size_t>(scene.geometry.dimension);
+    const delam_context* context = model.context.get();
+    const delam_mesh* mesh = model.mesh.get();
+    const Place& place = model.interfaces[static_cast<std::size_t>(index)].place;
+    std::int64_t nodes = 0;
+    std::int64_t pairs = 0;
+    call(context, delam_mesh_size(mesh, nullptr, &nodes, nullptr, nullptr, nullptr), place);
+    call(context, delam_mesh_interface_size(mesh, index, nullptr, nullptr, &pairs, nullptr, nullptr), place);
+    std::vector<double> at(static_cast<std::size_t>(nodes) * dimension);
+    std::vector<std::int64_t> node_a(static_cast<std::size_t>(pairs));
+    std::vector<std::int64_t> node_b(node_a.size());
+    std::vector<double> frames(node_a.size() * dimension * dimension);
+    call(context, delam_mesh_nodes(mesh, static_cast<std::int64_t>(at.size()), at.data()), place);
+    call(context, delam_mesh_interface_pairs(mesh, index, node_a.data(), node_b.data(), nullptr, frames.data()), place);
+    const auto [low, high] = std::minmax_element(at.begin(), at.end());
+    for (std::size_t p = 0; p < node_a.size(); ++p) {
+        double distance = 0;
+        for (std::size_t k = 0; k < dimension; ++k)
+            distance +=
+                frames[p * dimension * dimension + k] * (at[static_cast<std::size_t>(node_b[p]) * dimension + k] -
+                                                         at[static_cast<std::size_t>(node_a[p]) * dimension + k]);
+        if (std::abs(distance) > coincide * (*high - *low)) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+void add_general_contact(Model& model, const Scene& scene,
+                         const std::function<bool(std::size_t, std::size_t)>& has_entry) {
+    const std::vector<std::array<double, 6>> boxes = boxes_of_bodies(scene);
+    std::set<std::pair<std::size_t, std::size_t>> held;
+    for (const InterfaceData& data : model.interfaces) held.insert(std::minmax(data.lower, data.upper));
+    std::vector<std::size_t> order(boxes.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return boxes[i][0] < boxes[j][0]; });
+    double size = 0;
+    for (const auto& box : boxes) size = std::max(size, box[3] - box[0]);
+    const double reach = scene.general_contact->gap + 1e-6 * size;
+    std::vector<std::pair<std::size_t, std::size_t>> near;
+    for (std::size_t i = 0; i < order.size(); ++i)
+        for (std::size_t j = i + 1; j < order.size(); ++j) {
+            const auto &first = boxes[order[i]], &second = boxes[order[j]];
+            if (second[0] > first[3] + reach) break;
+            bool meet = true;
+            for (std::size_t k = 1; k < static_cast<std::size_t>(scene.geometry.dimension); ++k)
+                meet = meet && second[k] <= first[3 + k] + reach && first[k] <= second[3 + k] + reach;
+            const auto bodies = std::minmax(order[i], order[j]);
+            if (meet && !held.contains(bodies) && !has_entry(bodies.first, bodies.second)) near.emplace_back(bodies);
+        }
+    std::sort(near.begin(), near.end());
+    for (const auto& [a, b] : near) add_contact_of(model, scene, a, b);
+    std::int64_t seams = 0;
+    call(model.context.get(), delam_mesh_add_seams(model.mesh.get(), 0.0, &seams), scene.general_contact->place);
+    for (; seams > 0; --seams) {
+        std::int32_t body = 0;
+        call(model.context.get(),
+             delam_mesh_interface_size(model.mesh.get(), static_cast<std::int64_t>(model.interfaces.size()), nullptr,
+                                       &body, nullptr, nullptr, nullptr),
+             scene.general_contact->place);
+        push_interface(model, scene, contact_of(*scene.general_contact), static_cast<std::size_t>(body),
+                       static_cast<std::size_t>(body));
+    }
+}
+
+void set_gaps(Model& model, const Scene& scene) {
+    std::int64_t pattern = -1;
+    for (std::size_t i = 0; i < model.interfaces.size(); ++i) {
+        const InterfaceData& data = model.interfaces[i];
+        const auto index = static_cast<std::int64_t>(i);
+        if (!data.open || !apart(model, scene, index)) continue;
+        if (pattern < 0) {
+            std::string name = "initial-gaps";
+            const auto taken = [&](const PatternData& other) { return other.name == name; };
+            while (std::any_of(scene.patterns.begin(), scene.patterns.end(), taken)) name += "-";
+            const double always = 1.0;
+            call(model.context.get(),
+                 delam_problem_add_pattern(model.problem.get(), name.c_str(), 1, &always, &always, &pattern),
+                 data.place);
+        }
+        call(model.context.get(), delam_problem_set_gaps(model.problem.get(), index, pattern, nullptr, data.adjust),
+             data.place);
+    }
+}
+
+}  // namespace cli
