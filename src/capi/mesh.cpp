@@ -204,7 +204,7 @@ int32_t delam_mesh_add_all_interfaces(delam_mesh* mesh, double tolerance, int64_
 int32_t delam_mesh_add_seams(delam_mesh* mesh, double tolerance, int64_t* out_count) {
     return guard_build(mesh, [&] {
         require_pointer(out_count, "out_count");
-        *out_count = add_seams(*mesh->core, tolerance);
+        *out_count = add_seams(*mesh->core, require_tolerance(tolerance));
     });
 }
 

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Outer faces that lie on each other without an interface are found: within a body, between bodies whose meshes match
 // or not; none where pairs join them.
+#include <array>
 #include <cmath>
 #include <functional>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "all_types.hpp"
@@ -91,6 +94,31 @@ TEST(joined) {
         }
         ck_assert_refused(DELAM_ERROR_ARGUMENT, "tolerance", add_seams(one, 0.5));
     }
+    // A closed seam around a core that a branch divides: a node of one side has two partners. Nodes of cells are
+    // doubled wherever cells do not belong together.
+    const auto core = [](std::int64_t i, std::int64_t j) {
+        return i < 1 || i > 2 || j < 1 || j > 2 ? 0 : j == 1 ? 1 : 2;
+    };
+    std::map<std::array<std::int64_t, 3>, std::int64_t> number;
+    Numbers nodes;
+    Indices cells;
+    for (std::int64_t j = 0; j < 4; ++j)
+        for (std::int64_t i = 0; i < 4; ++i)
+            for (const auto& [x, y] : {std::pair{i, j}, {i + 1, j}, {i + 1, j + 1}, {i, j + 1}}) {
+                const auto [at, added] = number.emplace(std::array{x, y, std::int64_t{core(i, j)}},
+                                                        static_cast<std::int64_t>(number.size()));
+                if (added) nodes.insert(nodes.end(), {static_cast<double>(x), static_cast<double>(y)});
+                cells.push_back(at->second);
+            }
+    Mesh branched(2, nodes);
+    branched.add_cells(CellType::quad4, cells, Labels(16, 7));
+    const std::int64_t arms = add_seams(branched, 0.0);
+    ck_assert_int_ge(arms, 1);
+    double length = 0.0;
+    for (const InterfaceGeometry& i : branched.interfaces())
+        for (const double weight : i.weight) length += weight;
+    ck_assert(std::abs(length - 10.0) < 1e-12);
+    ck_assert(find_seams(branched).empty());
     // Three faces at one place.
     auto list = stack(CellType::quad4, CellType::quad4, 2, 2);
     list.push_back(list[1]);

@@ -53,8 +53,11 @@ void integrate_work(const Minimiser& minimiser, const StepRule& step, State& nex
     const Limits& limits = minimiser.limits;
     const State& before = step.before();
     const double work = next.ledger.work - before.ledger.work;
+    // Not that of the ledger, whose work is in question.
+    const double scale =
+        std::max({std::abs(next.ledger.energy()), std::abs(next.ledger.increment), std::abs(before.ledger.work)});
     if (next.adhesion != before.adhesion || next.closed == before.closed ||
-        std::abs(work - next.ledger.increment) <= limits.work_open * next.ledger.scale())
+        std::abs(work - next.ledger.increment) <= limits.work_open * scale)
         return;
     std::vector<double> d(next.theta);
     add_scaled(-1.0, before.theta, d);
@@ -66,9 +69,9 @@ void integrate_work(const Minimiser& minimiser, const StepRule& step, State& nex
         minimiser.displace(between, step);
         return between.response.conjugate;
     };
-    next.ledger.work = before.ledger.work + work_along(d, before.response.conjugate, next.response.conjugate, conjugate,
-                                                       next.ledger.increment, limits.work_open * next.ledger.scale(),
-                                                       limits.work_solves);
+    next.ledger.work =
+        before.ledger.work + work_along(d, before.response.conjugate, next.response.conjugate, conjugate,
+                                        next.ledger.increment, limits.work_open * scale, limits.work_solves);
     next.effort = between.effort;
 }
 

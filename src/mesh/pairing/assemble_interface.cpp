@@ -47,9 +47,9 @@ struct PairFace {
     bool operator<(const PairFace& other) const { return pair < other.pair; }
 };
 
-PairFace pair_face(const BoundaryFace& face, const std::map<std::int64_t, std::int64_t>& index) {
-    PairFace result{{}, face.corner().size()};
-    for (const std::int64_t node : face.all()) result.pair.push_back(index.at(node));
+// pairs: of the face's nodes.
+PairFace pair_face(const BoundaryFace& face, std::span<const std::int64_t> pairs) {
+    PairFace result{{pairs.begin(), pairs.end()}, face.corner().size()};
     if (result.corners == 2) return result;
     const auto first = result.pair.begin();
     const auto corners = static_cast<std::ptrdiff_t>(result.corners);
@@ -118,66 +118,105 @@ BoundaryFace turned(const BoundaryFace& face) {
     return result;
 }
 
-std::vector<Point> lay_faces(const Mesh& mesh, std::span<const BoundaryFace> faces_of_nodes, FaceSide side,
-                             InterfaceGeometry& interface, std::span<const BoundaryFace> torn) {
-    const std::vector<std::int64_t>& on_faces = side == FaceSide::a ? interface.node_a : interface.node_b;
-    std::map<std::int64_t, std::int64_t> pair_of;  // pair of a node of the faces
-    for (std::size_t p = 0; p < on_faces.size(); ++p) pair_of.emplace(on_faces[p], static_cast<std::int64_t>(p));
+namespace {
+
+// The pairs of each face's nodes, -1 where a node has none.
+using PairsOfFaces = std::vector<std::vector<std::int64_t>>;
+
+// Fills weights and faces; returns the area vectors. nodes: of the pairs, on the side of the faces.
+std::vector<Point> lay_pairs(const Mesh& mesh, std::span<const BoundaryFace> faces_of_nodes, const PairsOfFaces& pairs,
+                             std::span<const std::int64_t> nodes, InterfaceGeometry& interface) {
     std::size_t corners = index(mesh.dimension()), others = 0;
     std::vector<PairFace> faces;
-    for (const BoundaryFace& face : faces_of_nodes) {
+    interface.weight.assign(nodes.size(), 0.0);
+    std::vector<Point> area(nodes.size(), Point{});
+    const auto add = [&](std::span<const std::int64_t> of_face, const NodalRule& rule) {
+        for (std::size_t k = 0; k < of_face.size(); ++k) {
+            if (of_face[k] < 0) continue;
+            interface.weight[index(of_face[k])] += rule.weight[k];
+            for (std::size_t i = 0; i < 3; ++i) area[index(of_face[k])][i] += rule.area[k][i];
+        }
+    };
+    for (std::size_t f = 0; f < faces_of_nodes.size(); ++f) {
+        const BoundaryFace& face = faces_of_nodes[f];
         poll_cancel("pairs", 2);
         corners = std::max(corners, face.corner().size());
         others = std::max(others, face.middle().size());
-        faces.push_back(pair_face(face, pair_of));
+        if (std::find(pairs[f].begin(), pairs[f].end(), -1) == pairs[f].end())
+            faces.push_back(pair_face(face, pairs[f]));
+        else
+            add(pairs[f], nodal_rule(mesh, face.all()));
     }
     std::sort(faces.begin(), faces.end());
     const FaceRow& row = face_row(mesh.dimension(), corners, others);
     interface.nodes_per_face = row.nodes;
-
-    interface.weight.assign(on_faces.size(), 0.0);
-    std::vector<Point> area(on_faces.size(), Point{});
     for (const PairFace& face : faces) {
         poll_cancel("pairs", 2);
-        std::array<std::int64_t, most_face_nodes> nodes{};
-        for (std::size_t k = 0; k < face.pair.size(); ++k) nodes[k] = on_faces[index(face.pair[k])];
-        const NodalRule rule = nodal_rule(mesh, std::span<const std::int64_t>(nodes).first(face.pair.size()));
-        for (std::size_t k = 0; k < face.pair.size(); ++k) {
-            interface.weight[index(face.pair[k])] += rule.weight[k];
-            for (std::size_t i = 0; i < 3; ++i) area[index(face.pair[k])][i] += rule.area[k][i];
-        }
+        std::array<std::int64_t, most_face_nodes> own{};
+        for (std::size_t k = 0; k < face.pair.size(); ++k) own[k] = nodes[index(face.pair[k])];
+        add(face.pair, nodal_rule(mesh, std::span<const std::int64_t>(own).first(face.pair.size())));
         append_padded(face, row, interface.face);
-    }
-    for (const BoundaryFace& face : torn) {
-        const NodalRule rule = nodal_rule(mesh, face.all());
-        for (std::size_t k = 0; k < face.all().size(); ++k) {
-            const auto at = pair_of.find(face.node[k]);
-            if (at == pair_of.end()) continue;
-            interface.weight[index(at->second)] += rule.weight[k];
-            for (std::size_t i = 0; i < 3; ++i) area[index(at->second)][i] += rule.area[k][i];
-        }
     }
     return area;
 }
 
+// Makes the frames of an interface from the area vectors of its pairs.
+void write_frames(const Mesh& mesh, const std::vector<Point>& area, std::span<const std::int64_t> nodes,
+                  InterfaceGeometry& interface) {
+    const auto dim = index(mesh.dimension());
+    interface.frame.resize(nodes.size() * dim * dim);
+    for (std::size_t p = 0; p < nodes.size(); ++p) {
+        if (!(length(area[p]) > 1e-6 * interface.weight[p]))
+            fail(DELAM_ERROR_MESH, "the faces that meet at ", place(mesh, nodes[p]),
+                 " have opposite normals: the normal of the interface is not defined");
+        write_frame(mesh.dimension(), area[p], &interface.frame[p * dim * dim]);
+    }
+}
+
+}  // namespace
+
+std::vector<Point> lay_faces(const Mesh& mesh, std::span<const BoundaryFace> faces, FaceSide side,
+                             InterfaceGeometry& interface) {
+    const std::vector<std::int64_t>& nodes = side == FaceSide::a ? interface.node_a : interface.node_b;
+    std::map<std::int64_t, std::int64_t> pair_of;  // pair of a node of the faces
+    for (std::size_t p = 0; p < nodes.size(); ++p) pair_of.emplace(nodes[p], static_cast<std::int64_t>(p));
+    PairsOfFaces pairs;
+    for (const BoundaryFace& face : faces) {
+        pairs.emplace_back();
+        for (const std::int64_t node : face.all()) pairs.back().push_back(pair_of.at(node));
+    }
+    return lay_pairs(mesh, faces, pairs, nodes, interface);
+}
+
 InterfaceGeometry assemble_interface(const Mesh& mesh, std::span<const NodePair> pairs,
-                                     std::span<const BoundaryFace> faces, FaceSide side, double distance,
-                                     std::span<const BoundaryFace> torn) {
+                                     std::span<const BoundaryFace> faces, FaceSide side, double distance) {
     InterfaceGeometry result;
     for (const std::size_t i : spatial_order(mesh, pairs, side, distance)) {
         result.node_a.push_back(pairs[i].first);
         result.node_b.push_back(pairs[i].second);
     }
-    const std::vector<Point> area = lay_faces(mesh, faces, side, result, torn);
-    const auto dim = index(mesh.dimension());
-    result.frame.resize(result.node_a.size() * dim * dim);
-    for (std::size_t p = 0; p < result.node_a.size(); ++p) {
-        if (!(length(area[p]) > 1e-6 * result.weight[p]))
-            fail(DELAM_ERROR_MESH, "the faces that meet at ",
-                 place(mesh, side == FaceSide::a ? result.node_a[p] : result.node_b[p]),
-                 " have opposite normals: the normal of the interface is not defined");
-        write_frame(mesh.dimension(), area[p], &result.frame[p * dim * dim]);
+    const std::vector<Point> area = lay_faces(mesh, faces, side, result);
+    write_frames(mesh, area, side == FaceSide::a ? result.node_a : result.node_b, result);
+    return result;
+}
+
+InterfaceGeometry assemble_interface(const Mesh& mesh, std::span<const NodePair> pairs,
+                                     std::span<const BoundaryFace> faces,
+                                     std::span<const std::vector<NodePair>> of_faces, double distance) {
+    InterfaceGeometry result;
+    std::map<NodePair, std::int64_t> place_of;
+    for (const std::size_t i : spatial_order(mesh, pairs, FaceSide::a, distance)) {
+        place_of.emplace(pairs[i], static_cast<std::int64_t>(result.node_a.size()));
+        result.node_a.push_back(pairs[i].first);
+        result.node_b.push_back(pairs[i].second);
     }
+    PairsOfFaces known;
+    for (const std::vector<NodePair>& of_face : of_faces) {
+        known.emplace_back();
+        for (const NodePair& pair : of_face) known.back().push_back(pair.first == pair.second ? -1 : place_of.at(pair));
+    }
+    const std::vector<Point> area = lay_pairs(mesh, faces, known, result.node_a, result);
+    write_frames(mesh, area, result.node_a, result);
     return result;
 }
 

@@ -57,7 +57,10 @@ std::map<std::int64_t, std::int64_t> places_of(const Mesh& mesh, std::span<const
         Box around{position(mesh, node), position(mesh, node)};
         for (std::size_t i = 0; i < 3; ++i) around.low[i] -= distance, around.high[i] += distance;
         std::int64_t lowest = node;
-        tree.meeting(around, [&](std::int64_t other) { lowest = std::min(lowest, nodes[index(other)]); });
+        tree.meeting(around, [&](std::int64_t other) {
+            if (length(position(mesh, nodes[index(other)]) - position(mesh, node)) <= distance)
+                lowest = std::min(lowest, nodes[index(other)]);
+        });
         const auto known = place.find(lowest);
         place.emplace(node, known == place.end() ? lowest : known->second);
     }
@@ -68,9 +71,6 @@ std::map<std::int64_t, std::int64_t> places_of(const Mesh& mesh, std::span<const
 struct Facing {
     BoundaryFace face, other;
     std::vector<NodePair> pairs;  // of all nodes, the same node twice where both faces have it
-    bool torn() const {
-        return std::any_of(pairs.begin(), pairs.end(), [](const NodePair& p) { return p.first == p.second; });
-    }
 };
 
 Facing turned_over(const Facing& facing) {
@@ -97,6 +97,10 @@ std::vector<Facing> facing_faces(const Mesh& mesh, std::span<const BoundaryFace>
             fail(DELAM_ERROR_MESH, "body ", mesh.body_label(mesh.cell_body(face.cell)), ": ", there.size(),
                  " outer faces lie on each other at ", place(mesh, face.node[0]),
                  ", expected two that face each other: the cells overlap");
+        if (face.all().size() != other.all().size())
+            fail(DELAM_ERROR_MESH, "cells ", face.cell, " and ", other.cell, " have faces at ",
+                 place(mesh, face.node[0]), " with ", face.all().size(), " and ", other.all().size(),
+                 " nodes: the nodes of the seam do not match");
         Facing& facing = found.emplace_back(Facing{face, other, {}});
         for (const std::int64_t node : face.all()) {
             const auto partner = std::find_if(other.all().begin(), other.all().end(),
@@ -148,14 +152,16 @@ std::vector<std::vector<Facing>> connected(const Mesh& mesh, std::vector<Facing>
 
 InterfaceGeometry interface_of(const Mesh& mesh, const std::vector<Facing>& seam, double distance) {
     std::set<NodePair> pairs;
-    std::vector<BoundaryFace> whole, torn;
+    std::vector<BoundaryFace> faces;
+    std::vector<std::vector<NodePair>> of_faces;
     for (const Facing& facing : seam) {
-        (facing.torn() ? torn : whole).push_back(facing.face);
+        faces.push_back(facing.face);
+        of_faces.push_back(facing.pairs);
         for (const NodePair& pair : facing.pairs)
             if (pair.first != pair.second) pairs.insert(pair);
     }
     const std::vector<NodePair> list(pairs.begin(), pairs.end());
-    InterfaceGeometry made = assemble_interface(mesh, list, whole, FaceSide::a, distance, torn);
+    InterfaceGeometry made = assemble_interface(mesh, list, faces, of_faces, distance);
     made.body_a = made.body_b = mesh.cell_body(seam.front().face.cell);
     return made;
 }
@@ -212,7 +218,10 @@ std::vector<Seam> find_seams(const Mesh& mesh) {
 std::int64_t add_seams(Mesh& mesh, double tolerance) {
     if (!(tolerance >= 0.0 && tolerance < 0.5))
         fail(DELAM_ERROR_ARGUMENT, "tolerance ", tolerance, ": must be in [0, 0.5)");
-    const std::vector<std::uint8_t> paired = paired_nodes(mesh);
+    std::set<NodePair> paired;  // of interfaces of a body with itself, ascending nodes
+    for (const InterfaceGeometry& own : mesh.interfaces())
+        for (std::size_t p = 0; p < own.node_a.size() && own.body_a == own.body_b; ++p)
+            paired.insert(std::minmax(own.node_a[p], own.node_b[p]));
     std::vector<InterfaceGeometry> made;
     for (std::int32_t body = 0; body < mesh.body_count(); ++body) {
         if (mesh.host_body(body)) continue;
@@ -220,7 +229,7 @@ std::int64_t add_seams(Mesh& mesh, double tolerance) {
         std::vector<Facing> facing = facing_faces(mesh, boundary_faces(mesh, body), distance);
         std::erase_if(facing, [&](const Facing& f) {
             return std::all_of(f.pairs.begin(), f.pairs.end(), [&](const NodePair& p) {
-                return p.first == p.second || (paired[index(p.first)] != 0 && paired[index(p.second)] != 0);
+                return p.first == p.second || paired.contains(std::minmax(p.first, p.second));
             });
         });
         for (const std::vector<Facing>& seam : connected(mesh, std::move(facing)))
