@@ -306,8 +306,8 @@ DELAM_API int32_t delam_mesh_add_all_interfaces(delam_mesh *mesh, double toleran
  * same body, with nodes of their own on either side (a crack, a slit). Without an interface the two sides pass through
  * each other. Both bodies of such an interface are the same, and its sides a and b those that the order of the cells
  * gives. Where seams cross or branch, each arm has an interface of its own; arms that are connected elsewhere share
- * one. Nodes that both sides share, as at the tip of a crack, have no pair. Faces with such a node add to the weights of
- * their other pairs, but are not among the faces of the interface. Faces whose corners do not coincide are no seam;
+ * one. Nodes that both sides share, as at the tip of a crack, have no pair. Faces with such a node add to the weights
+ * of their other pairs, but are not among the faces of the interface. Faces whose corners do not coincide are no seam;
  * the log of delam_solver_create names them. *out_count receives the number of new interfaces, which may be 0.
  * tolerance applies as in delam_mesh_add_interface. A second call adds nothing.
  * DELAM_ERROR_MESH: more than two faces lie on each other, the nodes of two sides do not match, or a seam is a Moebius
