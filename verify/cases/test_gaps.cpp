@@ -143,7 +143,9 @@ LOOP_TEST(wedge, 0, 6) {
     const auto u = solver.field("displacement");
     const auto node_a = scene.pairs(0).node_a;
     for (std::size_t p = 0; p < node_b.size(); ++p) {
-        const auto z = [&](std::int64_t node) { return u[static_cast<std::size_t>(node * d + d - 1)]; };
+        const auto z = [&u, last = rows - 1, rows](std::int64_t node) {
+            return u[static_cast<std::size_t>(node) * rows + last];
+        };
         const double left = base + slope * scene.coordinate(node_b[p], 0) + z(node_b[p]) - z(node_a[p]);
         cases::expect_near(jump[p * rows], left, 1e-9, push, where + ": the jump is the distance that is left");
     }

@@ -102,7 +102,7 @@ Scene scene_of(const Press& press) {
     const auto gaps = scene.pattern("gaps", {0.0}, {1.0});
     REQUIRE(scene, delam_problem_set_gaps, scene.problem(), 0, gaps, nullptr, 0.0);
     double lowest = 0.0;
-    for (std::size_t i = index; i < scene.nodes().size(); i += 1)
+    for (std::size_t i = 0; i < scene.nodes().size(); ++i)
         if (i % static_cast<std::size_t>(d) + 1 == static_cast<std::size_t>(d))
             lowest = std::min(lowest, scene.nodes()[i]);
     const auto bottom = nodes_at(scene, 0, d - 1, lowest);
