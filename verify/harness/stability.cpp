@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "stability.hpp"
+#include "stability_work.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -127,6 +128,7 @@ double kkt_of(const Trial& trial, const Scene& scene, const Exported& e, const s
 // interfaces from their springs.
 struct Energies {
     double bulk = 0.0, interface = 0.0, potential = 0.0;
+    double total() const { return bulk + interface + potential; }
 };
 Energies energies_of(const Scene& scene, const Exported& e, const Result& r) {
     const auto d = static_cast<std::size_t>(e.dimension);
@@ -200,26 +202,6 @@ double difference(const Result& a, const Result& b, const Compared& what) {
     return worst;
 }
 
-// Returns by how much the work that a step books is wrong. It is that of the trapezoidal rule; or, where contact alone
-// changes, that of states on the way: the energy is convex there, so that it lies between the bounds of both ends, and
-// it is the change of the energy but for 0.5 %.
-double missed_work(const Result& before, const Result& now, const Energies& start, const Energies& end) {
-    double trapezoid = 0.0, lower = 0.0, upper = 0.0;
-    for (std::size_t p = 0; p < now.factor.size(); ++p) {
-        const double d = now.factor[p] - before.factor[p];
-        trapezoid += 0.5 * d * (now.pattern[p] + before.pattern[p]);
-        lower += d * before.pattern[p];
-        upper += d * now.pattern[p];
-    }
-    const double booked = now.work - before.work, missed = booked - trapezoid;
-    const double grown = end.bulk + end.interface + end.potential - start.bulk - start.interface - start.potential;
-    const double size =
-        std::max({std::abs(end.bulk) + std::abs(end.interface), std::abs(grown), std::abs(before.work)});
-    const bool integrated = now.dissipated == before.dissipated && booked >= lower && booked <= upper &&
-                            std::abs(booked - grown) <= 5e-3 * size && std::abs(trapezoid - grown) > 2e-3 * size;
-    return integrated ? 0.0 : missed;
-}
-
 // The analysis, its energies computed again from fields, and the primal KKT conditions of every state.
 TrialMarch march(const Trial& trial, Realisation realisation) {
     TrialMarch m;
@@ -236,7 +218,7 @@ TrialMarch march(const Trial& trial, Realisation realisation) {
         const double start = before.stored_bulk + before.stored_interface + before.load_potential;
         double work = 0.0, dissipated = 0.0, scale = trial.least_energy;
         std::vector<double> booked_less_own;
-        Energies own_before = energies_of(scene, exported, before);
+        double own_before = energies_of(scene, exported, before).total();
         std::optional<OwnLaw> law;
         if (trial.law) law.emplace(*trial.law);
         for (std::size_t k = 0; k < trial.times.size(); ++k) {
@@ -258,13 +240,13 @@ TrialMarch march(const Trial& trial, Realisation realisation) {
             scale = std::max({scale, std::abs(own.bulk) + std::abs(own.interface), std::abs(work), dissipated});
             for (const double miss :
                  {now.stored_bulk - own.bulk, now.stored_interface - own.interface, now.load_potential - own.potential,
-                  trial.device_jumps ? 0.0 : missed_work(before, now, own_before, own),
+                  trial.device_jumps ? 0.0 : missed_work(before, now, own_before, own.total()),
                   law ? now.dissipated - dissipated : 0.0})
                 booked_less_own.push_back(std::abs(miss));
             m.defect = std::abs(own.bulk + own.interface + own.potential + now.dissipated - work - start);
             if (law && k + 1 == trial.times.size()) m.damage = damage_residual(*law, scene, exported, before, now);
             m.states.push_back(now);
-            own_before = own;
+            own_before = own.total();
             before = std::move(now);
             solver.commit();
         }
