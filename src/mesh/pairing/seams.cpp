@@ -195,7 +195,7 @@ std::vector<Seam> find_seams(const Mesh& mesh) {
             if (on >= 0 || along > -0.5 * length(normal[f]) * length(normal[index(g)])) return;
             if (length(closest_point(mesh, faces[index(g)], centre).place - centre) <= rounding) on = g;
         });
-        // At the tip of a seam, both faces have the same node, and the others have pairs.
+        // Leaves out faces at the tip of a seam: both have the same node, and their others have pairs.
         if (on < 0 || std::all_of(faces[f].all().begin(), faces[f].all().end(), [&](std::int64_t node) {
                 const auto other = faces[index(on)].all();
                 return paired[index(node)] != 0 || std::find(other.begin(), other.end(), node) != other.end();

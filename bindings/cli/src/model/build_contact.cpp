@@ -50,8 +50,9 @@ void add_contact_of(Model& model, const Scene& scene, std::size_t a, std::size_t
     const GeneralContact& general = *scene.general_contact;
     const auto label = [](std::size_t body) { return static_cast<std::int32_t>(body); };
     std::int64_t index = 0;
-    if (delam_mesh_add_interface(model.mesh.get(), label(a), label(b), 0.0, &index) == DELAM_OK)
-        return push_interface(model, scene, contact_of(general), a, b);
+    const std::int32_t matched = delam_mesh_add_interface(model.mesh.get(), label(a), label(b), 0.0, &index);
+    if (matched == DELAM_OK) return push_interface(model, scene, contact_of(general), a, b);
+    if (matched != DELAM_ERROR_MESH) call(model.context.get(), matched, general.place);
     const auto join = [&](std::size_t under, std::size_t over) {
         return delam_mesh_add_mortar_interface(model.mesh.get(), label(under), label(over), general.gap, &index);
     };
