@@ -172,6 +172,12 @@ std::uint64_t hash(const Options& options, std::uint64_t seed, std::span<const O
     return fnv.value;
 }
 
+std::uint64_t hash(const Law& law) {
+    Fnv fnv;
+    add_law(fnv, law);
+    return fnv.value;
+}
+
 std::uint64_t hash(const Problem& problem) {
     Fnv fnv;
     add_mesh(fnv, *problem.mesh);

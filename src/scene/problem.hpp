@@ -118,5 +118,7 @@ void require_material(const Problem& problem, std::int32_t body);
 
 // FNV-1a over everything that determines the result, the options included.
 std::uint64_t hash(const Problem& problem);
+// The same over everything that determines what a law answers.
+std::uint64_t hash(const Law& law);
 
 }  // namespace delam

@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "enf.hpp"
+#include "warnings.hpp"
 
 namespace cases {
 
@@ -39,24 +40,6 @@ inline reference::Scene make_mmf(double h, const reference::LawData& law, const 
     scene.text("mixity_rule", rule);
     return scene;
 }
-
-// Warnings that an analysis has logged.
-class Warnings {
-public:
-    explicit Warnings(const reference::Scene& scene) : scene_(scene) {
-        REQUIRE(scene, delam_context_set_log, scene.context(), &Warnings::hear, this);
-    }
-    Warnings(const Warnings&) = delete;
-    Warnings& operator=(const Warnings&) = delete;
-    ~Warnings() { delam_context_set_log(scene_.context(), nullptr, nullptr); }
-    std::vector<std::string> lines;
-
-private:
-    static void hear(std::int32_t level, const char* line, void* user) {
-        if (level == 1) static_cast<Warnings*>(user)->lines.emplace_back(line);
-    }
-    const reference::Scene& scene_;
-};
 
 struct MmfMarch {
     double dissipated, front, defect, defect_slides;  // at the end

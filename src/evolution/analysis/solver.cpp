@@ -131,6 +131,7 @@ Outcome Solver::advance(double time) {
     warned_of_mixity_ = warned_of_mixity_ || stepper_.warn(pending.state);
     warnings_.judge_front(observer_, committed_, pending.state);
     warnings_.judge_ledger(pending.state, options);
+    warnings_.judge_symmetry(graph_, committed_, pending.state);
     Outcome outcome;
     if (!result.converged)
         outcome = {DELAM_NOT_CONVERGED, text("step ", pending.state.step, " at time ", time,

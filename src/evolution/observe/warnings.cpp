@@ -15,11 +15,12 @@ namespace {
 
 constexpr double small_rotation = 0.1;  // rad
 constexpr double noticeable = 0.01;     // of the energy: what a ledger may leave open
+constexpr double unequal = 0.01;        // adhesions of a pair and its image
 constexpr double of_debonding = 0.02;   // of the energy that debonds all interfaces: from here on an energy counts
 
 }  // namespace
 
-Warnings::Warnings(const Problem& problem, Monitor& monitor) : monitor_(monitor) {
+Warnings::Warnings(const Problem& problem, Monitor& monitor) : problem_(problem), monitor_(monitor) {
     for (std::size_t i = 0; i < problem.interfaces.size(); ++i) {
         const InterfaceProperties& properties = problem.interfaces[i];
         if (properties.bonded || !properties.law) continue;
@@ -52,6 +53,30 @@ void Warnings::judge_ledger(const State& after, const Options& options) {
                     " of the energy: take shorter steps, or locate the jump (jump_tolerance)", once));
         told_of_ledger_ = true;
     }
+}
+
+void Warnings::judge_symmetry(const PairGraph& graph, const State& before, const State& after) {
+    if (after.adhesion == before.adhesion) return;
+    if (!symmetries_) symmetries_ = symmetries(problem_);
+    const auto difference = [](const State& state, const Symmetry& symmetry, std::size_t p) {
+        return std::abs(state.adhesion[p] - state.adhesion[index(symmetry.image[p])]);
+    };
+    std::string lost, where;
+    std::erase_if(*symmetries_, [&](const Symmetry& symmetry) {
+        std::size_t worst = 0;
+        for (std::size_t p = 0; p < symmetry.image.size(); ++p) {
+            if (difference(before, symmetry, p) > unequal) return false;
+            if (difference(after, symmetry, p) > difference(after, symmetry, worst)) worst = p;
+        }
+        if (difference(after, symmetry, worst) <= unequal) return false;
+        lost += (lost.empty() ? "" : "; ") + symmetry.name;
+        where = text(after.adhesion[worst], " and ", after.adhesion[index(symmetry.image[worst])],
+                     " at a pair of interface ", graph.interface_of(worst), " and at its image");
+        return true;
+    });
+    if (lost.empty()) return;
+    monitor_.log(1, text("step ", after.step, " at time ", after.time, ": the adhesion loses a symmetry of the scene (",
+                         lost, "): ", where, "; the mirrored solution is as good as this one"));
 }
 
 // A front has grown if a pair broke: until the first one breaks, the zone is still forming. A zone is cut short where a

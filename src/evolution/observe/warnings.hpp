@@ -2,20 +2,27 @@
 // Warns in the host's log about the steps of an analysis, once for each kind of warning.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "base/monitor.hpp"
 #include "evolution/observe/observer.hpp"
+#include "evolution/search/fronts.hpp"
+#include "scene/advice/symmetry.hpp"
 #include "scene/problem.hpp"
 
 namespace delam {
 
 class Warnings {
 public:
-    // The monitor must outlive them.
+    // Both must outlive them.
     Warnings(const Problem& problem, Monitor& monitor);
     // Warns of a step whose energy lies outside its two-sided estimate, and of a ledger that does not close.
     void judge_ledger(const State& after, const Options& options);
+    // Says when the adhesion loses a symmetry of the scene, once for each. Finds them at the first
+    // damage.
+    void judge_symmetry(const PairGraph& graph, const State& before, const State& after);
     // Warns of a front that advanced with too few pairs in its process zone.
     void judge_front(const Observer& observer, const State& before, const State& after);
     // Warns of cells whose rotation, in rad, is large for strains that are linear in the displacements.
@@ -24,7 +31,9 @@ public:
     void report_balance(const std::string& what);
 
 private:
+    const Problem& problem_;
     Monitor& monitor_;
+    std::optional<std::vector<Symmetry>> symmetries_;  // that have not been lost
     double least_ = 0.0;
     bool told_of_estimate_ = false;
     bool told_of_ledger_ = false;

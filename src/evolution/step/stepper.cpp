@@ -153,7 +153,7 @@ void Stepper::record_step(State& next, const StepRule& step, const InnerPath* pa
     EnergyBounds bounds{
         dot(d, next.response.conjugate) - lift_.half_quadratic(d, spring_stiffness(pairs_, next.adhesion)),
         dot(d, before.response.conjugate) + lift_.half_quadratic(d, spring_stiffness(pairs_, before.adhesion))};
-    double work = 0.5 * (bounds.lower + bounds.upper);
+    const double work = 0.5 * (dot(d, before.response.conjugate) + dot(d, next.response.conjugate));
     if (const auto reduced = step.quadratic() ? reduced_bounds(pairs_, before, next) : std::nullopt) {
         bounds = *reduced;
     }

@@ -475,11 +475,8 @@ double DenseZone::energy_of_moving(std::span<const std::size_t> rows, std::span<
 
 std::vector<double> DenseZone::unknowns_at(const Response& response) {
     std::vector<double> x(index(energy_->rows()), 0.0);
-    for (std::size_t r = 0; r < rows_.size(); ++r) {
-        const JumpRow& row = rows_[r];
-        if (row.offset.empty() && row.unknowns.size() == 1 && row.unknowns.front().second == 1.0)
-            x[index(row.unknowns.front().first)] = response.jump[index(jump_rows_[r])];
-    }
+    for (std::size_t r = 0; r < rows_.size(); ++r)
+        if (plain_[r] >= 0) x[index(plain_[r])] = response.jump[index(jump_rows_[r])];
     return x;
 }
 

@@ -2,6 +2,7 @@
 #include "reduction/feti/feti_zone.hpp"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "base/error.hpp"
@@ -19,6 +20,7 @@ FetiZone::FetiZone(const Problem& problem, const std::vector<Subdomain>& subdoma
       loads_(loads),
       monitor_(monitor),
       columns_(problem, subdomains, dual, loads, monitor),
+      equations_(dual, loads, problem.patterns.size()),
       motions_(problem),
       rigid_(motions_.jumps()) {}
 
@@ -37,46 +39,55 @@ std::vector<std::int64_t> FetiZone::changed(const Springs& springs, std::span<co
     return rows;
 }
 
-// Rows that depend on each other have no flexibility in some direction: all of them together cannot be unknowns. A
-// dependency without springs, of supports on both faces of a pair, leaves no unknown.
 bool FetiZone::allowed(std::span<const std::int64_t> rows) const {
     const Limits& limits = problem_.options.limits;
     if (rows.empty() || rows.size() > index(limits.feti_zone_rows)) return false;
     const std::size_t width = columns_.group_rows();
-    if (columns_.bytes((rows.size() + width - 1) / width) > limits.feti_zone_bytes) return false;
-    for (const Scaling::Dependency& dependency : dual_.scaling().dependencies) {
-        std::int64_t outside = 0, unknown = 0;
-        for (const std::int64_t r : dependency.row) {
-            if (r >= dual_.rows().jump_count || !columns_.has_spring(index(r))) continue;
-            (std::binary_search(rows.begin(), rows.end(), r) ? unknown : outside) += 1;
-        }
-        if (unknown > 0 && outside == 0) return false;
-    }
+    return columns_.bytes((rows.size() + width - 1) / width) <= limits.feti_zone_bytes;
+}
+
+bool FetiZone::find_energy(std::vector<std::int64_t> wanted) {
+    zone_.reset();
+    rest_.reset();
+    changed_.clear();
+    dependent_ = equations_.among(wanted, [this](std::size_t r) { return columns_.has_spring(r); });
+    rows_.clear();
+    for (const std::int64_t r : wanted)
+        if (std::none_of(dependent_.begin(), dependent_.end(), [r](const auto& d) { return d.row == r; }))
+            rows_.push_back(r);
+    if (rows_.empty() || !columns_.energy(rows_, energy_)) return false;
+    for (JumpEquations::Dependent& d : dependent_)
+        for (auto& [r, n] : d.jump.unknowns) r = std::lower_bound(rows_.begin(), rows_.end(), r) - rows_.begin();
+    take_out_springs();
+    find_motions(wanted);
+    changed_ = std::move(wanted);  // last: an energy that an exception has interrupted is not known
     return true;
 }
 
-bool FetiZone::find_energy(std::vector<std::int64_t> rows) {
-    zone_.reset();
-    rest_.reset();
-    rows_.clear();
-    if (!columns_.energy(rows, energy_)) return false;
-    find_motions(rows);
-    rows_ = std::move(rows);  // last: an energy whose motions an exception has interrupted is not known
-    return true;
+// The energy has the dependent rows at the springs of the base, s/2 (n x + o theta)^2.
+void FetiZone::take_out_springs() {
+    for (const JumpEquations::Dependent& d : dependent_) {
+        const double s = columns_.base().stiffness[index(d.row)];
+        for (const auto& [i, n] : d.jump.unknowns) {
+            for (const auto& [k, m] : d.jump.unknowns) energy_.stiffness(i, k) -= s * n * m;
+            for (std::size_t q = 0; q < d.jump.offset.size(); ++q)
+                energy_.load(i, static_cast<std::int64_t>(q)) += s * n * d.jump.offset[q];
+        }
+    }
 }
 
 // The motions that no row outside A holds do not strain anything: S Z = 0, exactly.
-void FetiZone::find_motions(std::span<const std::int64_t> rows) {
+void FetiZone::find_motions(std::span<const std::int64_t> changed) {
     anchors_.clear();
     if (rigid_.columns == 0) return;
     std::vector<std::uint8_t> active(index(rigid_.rows), 1);
-    for (const std::int64_t r : rows) active[index(r)] = 0;
+    for (const std::int64_t r : changed) active[index(r)] = 0;
     const DenseMatrix free = multiply(rigid_, split_motions(rigid_, active).free);
     if (free.columns == 0) return;
-    const auto n = static_cast<std::int64_t>(rows.size());
+    const auto n = static_cast<std::int64_t>(rows_.size());
     DenseMatrix z(n, free.columns), across(free.columns, n);
     for (std::int64_t c = 0; c < free.columns; ++c)
-        for (std::int64_t i = 0; i < n; ++i) z(i, c) = across(c, i) = free(rows[index(i)], c);
+        for (std::int64_t i = 0; i < n; ++i) z(i, c) = across(c, i) = free(rows_[index(i)], c);
     const PivotedColumns pivots = pivoted_columns(std::move(across), 1e-10);
     for (std::int64_t k = 0; k < pivots.rank; ++k) anchors_.push_back(pivots.order[index(k)]);
     z = orthonormalised(std::move(z));
@@ -95,6 +106,10 @@ FetiZone::Split FetiZone::split(const Springs& springs, std::span<const std::uin
     for (std::size_t r = 0; r < wanted.size(); ++r)
         if (wanted[r] != 0) group[columns_.group_of(r)] = 1;
     for (const std::int64_t a : anchors_) pair[index(rows_[index(a)]) / dim] = 1;
+    for (const JumpEquations::Dependent& d : dependent_) {
+        pair[index(d.row) / dim] = 1;
+        for (const auto& [i, n] : d.jump.unknowns) pair[index(rows_[index(i)]) / dim] = 1;
+    }
     for (std::size_t i = 0; i < rows_.size(); ++i) {
         const std::size_t r = index(rows_[i]);
         const double s = springs.stiffness[r], body = energy_.stiffness.value[i * (rows_.size() + 1)];
@@ -111,25 +126,12 @@ FetiZone::Split FetiZone::split(const Springs& springs, std::span<const std::uin
     return result;
 }
 
-// Returns the jump that constraints and gaps prescribe on a row, [patterns].
-std::vector<double> FetiZone::driven(std::size_t row) const {
-    const std::size_t patterns = problem_.patterns.size(),
-                      first = index(dual_.rows().count() - dual_.rows().constraint_count);
-    std::vector<double> offset(patterns, 0.0);
-    for (const Scaling::Prescribed& p : dual_.scaling().prescribed_jumps)
-        for (std::size_t k = 0; k < p.row.size() && index(p.jump_row) == row; ++k)
-            for (std::size_t q = 0; q < patterns && index(p.row[k]) >= first; ++q)
-                offset[q] += p.y[k] * loads_.prescribed[(index(p.row[k]) - first) * patterns + q];
-    for (const GapRow& gap : loads_.gaps)
-        if (index(gap.row) == row) offset[index(gap.pattern)] += gap.value;
-    return offset;
-}
-
 // Motions that nothing outside the zone holds, over the zone's unknowns.
 ZoneMotions FetiZone::floating() const {
     std::vector<std::uint8_t> active(index(rigid_.rows), 1);
     std::vector<std::int64_t> row_of;
     for (std::size_t i = 0; i < rows_.size(); ++i) active[index(rows_[i])] = split_.spring[i] != 0.0 ? 1 : 0;
+    for (const JumpEquations::Dependent& d : dependent_) active[index(d.row)] = 0;
     for (const std::int64_t kept : split_.kept) row_of.push_back(rows_[index(kept)]);
     return ZoneMotions::of(rigid_, motions_.dead_work(), active, row_of);
 }
@@ -155,22 +157,31 @@ bool FetiZone::minimise_out(Split split) {
         if (error.status() != DELAM_ERROR_NUMERICAL) throw;
         return false;
     }
-    std::vector<JumpRow> rows;
-    std::vector<std::int64_t> jump_rows;
-    for (std::size_t r = 0; r < place.size(); ++r) {
-        const bool given = dual_.scaling().prescribed[r] != 0;
-        if (pair[r / dim] == 0 || (place[r] < 0 && !given)) continue;
-        rows.push_back(given ? JumpRow{{}, driven(r)} : JumpRow{{{place[r], 1.0}}, {}});
-        jump_rows.push_back(static_cast<std::int64_t>(r));
+    std::map<std::int64_t, JumpRow> rows;
+    for (const JumpEquations::Dependent& d : dependent_) {
+        JumpRow& row = rows[d.row] = d.jump;
+        for (auto& [i, n] : row.unknowns) i = place[index(rows_[index(i)])];
+        pair[index(d.row) / dim] = 1;
     }
-    zone_ = std::make_unique<DenseZone>(rest_->energy(), std::move(rows), std::move(jump_rows), floating(), poll);
+    for (std::size_t r = 0; r < place.size(); ++r) {
+        if (place[r] >= 0) rows[static_cast<std::int64_t>(r)] = {{{place[r], 1.0}}, {}};
+        if (pair[r / dim] != 0 && dual_.scaling().prescribed[r] != 0)
+            rows[static_cast<std::int64_t>(r)] = {{}, equations_.prescribed(r)};
+    }
+    std::vector<JumpRow> jumps;
+    std::vector<std::int64_t> jump_rows;
+    for (auto& [r, row] : rows) {
+        jump_rows.push_back(r);
+        jumps.push_back(std::move(row));
+    }
+    zone_ = std::make_unique<DenseZone>(rest_->energy(), std::move(jumps), std::move(jump_rows), floating(), poll);
     return true;
 }
 
 DenseZone* FetiZone::zone(const Springs& springs, std::span<const std::uint8_t> wanted) {
     std::vector<std::int64_t> rows = changed(springs, wanted);
     if (!allowed(rows)) return nullptr;
-    if (rows != rows_ && !find_energy(std::move(rows))) return nullptr;
+    if (rows != changed_ && !find_energy(std::move(rows))) return nullptr;
     Split now = split(springs, wanted);
     if (now.kept.empty()) return nullptr;
     if (zone_ != nullptr && now == split_)

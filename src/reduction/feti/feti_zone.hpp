@@ -4,8 +4,9 @@
 //
 // The set A consists of the rows whose springs differ from those of the base and of all wanted rows, rounded up to the
 // groups in which columns are found. Rows outside A have the springs of the base, and the columns have them minimised
-// out. The groups of wanted rows are the zone; the other rows of A are minimised out at their present springs. The zone
-// depends on the scene, the springs and the wanted rows alone: kept columns equal those that would be found again.
+// out. The groups of wanted rows are the zone; the other rows of A are minimised out at their present springs. Rows of
+// A that depend on others in it (where interfaces meet) are combinations of these and no unknowns. The zone depends on
+// the scene, the springs and the wanted rows alone: kept columns equal those that would be found again.
 #pragma once
 
 #include <cstdint>
@@ -15,6 +16,7 @@
 
 #include "reduction/dense/dense_zone.hpp"
 #include "reduction/feti/jump_columns.hpp"
+#include "reduction/feti/jump_equations.hpp"
 
 namespace delam {
 
@@ -22,7 +24,7 @@ class FetiZone {
 public:
     FetiZone(const Problem& problem, const std::vector<Subdomain>& subdomains, DualOperator& dual,
              const DualLoads& loads, Monitor& monitor);
-    // Null: A is too large, its rows depend on each other, or its columns cannot be found well enough.
+    // Null: A is too large, or its columns cannot be found well enough.
     DenseZone* zone(const Springs& springs, std::span<const std::uint8_t> wanted);
 
 private:
@@ -34,11 +36,11 @@ private:
     };
     std::vector<std::int64_t> changed(const Springs& springs, std::span<const std::uint8_t> wanted) const;
     bool allowed(std::span<const std::int64_t> rows) const;
-    bool find_energy(std::vector<std::int64_t> rows);
-    void find_motions(std::span<const std::int64_t> rows);
+    bool find_energy(std::vector<std::int64_t> wanted);
+    void take_out_springs();
+    void find_motions(std::span<const std::int64_t> changed);
     Split split(const Springs& springs, std::span<const std::uint8_t> wanted) const;
     bool minimise_out(Split split);
-    std::vector<double> driven(std::size_t row) const;
     ZoneMotions floating() const;
 
     const Problem& problem_;
@@ -46,12 +48,15 @@ private:
     const DualLoads& loads_;
     Monitor& monitor_;
     JumpColumns columns_;
+    JumpEquations equations_;
     RigidMotions motions_;
     const DenseMatrix& rigid_;  // their jumps, [jump rows][motions]
 
-    std::vector<std::int64_t> rows_;     // A; empty: none is known
-    DenseEnergy energy_;                 // of A
-    std::vector<std::int64_t> anchors_;  // of A: with these kept, the others hold every motion that A lets go
+    std::vector<std::int64_t> changed_;                // A; empty: none is known
+    std::vector<std::int64_t> rows_;                   // of A, independent
+    std::vector<JumpEquations::Dependent> dependent_;  // of A, by places in rows_
+    DenseEnergy energy_;                               // of A, over rows_
+    std::vector<std::int64_t> anchors_;  // of rows_: with these kept, the others hold every motion that A lets go
     Split split_;
     std::unique_ptr<Condensation> rest_;
     std::unique_ptr<DenseZone> zone_;
