@@ -13,8 +13,10 @@ namespace {
 
 constexpr double delta = 1e-12;
 // Allowed differences: only the last digit; and rounding of the data, 1e-16, amplified by a process zone close to
-// instability to 6e-10 (measured). The direct reference uses the adhesions of the condensed analysis.
-constexpr double exact = 1e-14, rounded = 1e-9;
+// instability. The direct reference uses the adhesions of the condensed analysis. (Measured by the case d-units of the
+// report, all factors: 6e-10 on one processor, 2.1e-9 on another with other kernels of BLAS. 1e-9 is therefore a matter
+// of the machine, and 1e-8 leaves a factor of five.)
+constexpr double exact = 1e-14, rounded = 1e-8;
 
 // Multipliers of every length and every force of an analysis.
 struct Scale {

@@ -235,10 +235,10 @@ ActiveSet find_active_set(S& system, const ContactRows& rows, std::vector<std::u
         }
         if (result.last != ContactSolve::solved) return result;
         const SolveError open = left_open(system);
-        const auto wrong_rows = [&] {
+        const auto wrong_rows = [&](bool settle) {
             std::vector<std::size_t> blocked;
             if constexpr (FloatingSystem<S>)
-                blocked = system.settle(rows, closed, level, least_of_contact(system, open));
+                if (settle) blocked = system.settle(rows, closed, level, least_of_contact(system, open));
             std::vector<std::size_t> wrong = contact_violators(system, rows, closed, level, open);
             for (const std::size_t i : blocked)
                 if (closed[i] == 0) wrong.push_back(i);
@@ -246,10 +246,12 @@ ActiveSet find_active_set(S& system, const ContactRows& rows, std::vector<std::u
             wrong.erase(std::unique(wrong.begin(), wrong.end()), wrong.end());
             return wrong;
         };
-        std::vector<std::size_t> wrong = wrong_rows();
+        // The descent opens rows at a minimiser alone: parts are not settled before it has arrived.
+        std::vector<std::size_t> wrong = wrong_rows(!descent);
+        if (descent && wrong.empty()) wrong = wrong_rows(true);
         while (wrong.empty() && level > rows.least) {
             --level;
-            wrong = wrong_rows();
+            wrong = wrong_rows(true);
             seen.clear();
             descent.reset();
         }

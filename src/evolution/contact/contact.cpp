@@ -14,16 +14,21 @@ namespace delam {
 
 namespace {
 
-// Fraction of the largest jump or prescribed displacement by which faces may be pressed into each other: rounding.
-constexpr double pressed = 1e-9;
+constexpr double pressed = 1e-9;       // of the largest jump or prescribed displacement
+constexpr double stiff_contact = 1e6;  // of the bodies' stiffness against the row
+constexpr double noticed = 1e-4;       // of the largest displacement; what nothing contradicts gives way by about 1e-6
+
+// Returns by how much rounding may press faces into each other, L.
+double rounding_of_jumps(const ContactScene& scene, std::span<const double> jump, std::span<const double> theta) {
+    return pressed * std::max({max_abs(jump), scene.jump_floor(theta), scene.prescribed_size(theta)});
+}
 
 // closed: [pairs] of a contact set, whose rows and constraints may leave a closed pair no choice but to be pressed, or
 // a bonded one but to open. Empty: the set is not final, and only pairs that constraints press are refused.
 void refuse_pressed(const ContactScene& scene, std::span<const std::uint8_t> prescribed,
                     std::span<const std::uint8_t> closed, const Response& response, std::span<const double> theta) {
     const auto dim = index(scene.dimension);
-    const double deepest =
-        -pressed * std::max({max_abs(response.jump), scene.jump_floor(theta), scene.prescribed_size(theta)});
+    const double deepest = -rounding_of_jumps(scene, response.jump, theta);
     for (std::size_t p = 0; p < scene.bonded.size(); ++p)
         if (scene.bonded[p] == 0 && (!scene.may_close(p, prescribed) || (!closed.empty() && closed[p] != 0)) &&
             response.jump[p * dim] < deepest)
@@ -116,6 +121,7 @@ public:
             response_.jump = jump_before_;
             return ContactSolve::unbalanced;
         }
+        if (contradicted()) give_way(closed);
         result_.linear_iterations += response_.iterations;
         if (!rough()) result_.linear_residual = std::max(result_.linear_residual, response_.residual);
         result_.converged = result_.converged && response_.converged;
@@ -143,6 +149,9 @@ public:
     }
 
 private:
+    bool contradicted() const;
+    void give_way(const std::vector<std::uint8_t>& closed);
+
     JumpOperator& op_;
     const ContactScene& scene_;
     const ContactRows& rows_;
@@ -154,6 +163,46 @@ private:
     std::vector<double> jump_before_;  // the last solve; empty: there was none
     Accuracy accuracy_ = Accuracy::usual;
 };
+
+// True if supports, bonds and closed contacts contradict each other: rows are not where they are held, or an iteration
+// has not found forces that hold them.
+bool OperatorSystem::contradicted() const {
+    if (!response_.converged) return true;
+    const double least = rounding_of_jumps(scene_, response_.jump, theta_);
+    for (std::size_t r = 0; r < springs_.held.size(); ++r)
+        if (springs_.held[r] != 0 && std::abs(response_.jump[r]) > least) return true;
+    return false;
+}
+
+// Replaces closed contacts that contradict each other by springs much stiffer than the bodies: their forces say which
+// of them open. Where nothing contradicts, these springs hardly give way, and the response stays what it was.
+void OperatorSystem::give_way(const std::vector<std::uint8_t>& closed) {
+    if (scene_.row_stiffness.empty()) return;
+    Springs stiff = springs_;
+    std::vector<std::size_t> contacts;
+    for (std::size_t i = 0; i < closed.size(); ++i) {
+        const std::size_t r = rows_.row[i];
+        if (closed[i] == 0 || !(scene_.row_stiffness[r] > 0.0)) continue;
+        contacts.push_back(r);
+        stiff.held[r] = 0;
+        stiff.stiffness[r] = stiff_contact * scene_.row_stiffness[r];
+        if (!stiff.force.empty()) stiff.force[r] = 0.0;
+    }
+    if (contacts.empty()) return;
+    Response given;
+    try {
+        op_.solve(stiff, theta_, given);
+    } catch (const Error& error) {  // rounding of the stiff springs has made the bodies' stiffness indefinite
+        if (error.status() != DELAM_ERROR_NUMERICAL) throw;
+        return;
+    }
+    if (!given.balanced || !given.converged) return;
+    double most = 0.0;
+    for (const std::size_t r : contacts) most = std::max(most, std::abs(given.jump[r]));
+    if (!(most > noticed * max_abs(op_.displacement(theta_, given)))) return;
+    given.iterations += response_.iterations;
+    response_ = std::move(given);
+}
 
 std::vector<std::size_t> OperatorSystem::settle(const ContactRows& rows, std::vector<std::uint8_t>& closed,
                                                 std::uint8_t level, const SolveError& least) {

@@ -87,11 +87,12 @@ double carried_force(const Problem& problem, const JumpOperator& op, const Conta
     const std::vector<double> u = op.displacement(theta, response);
     std::size_t pair = 0;
     for (const InterfaceGeometry& face : problem.mesh->interfaces())
-        for (const std::int64_t node : face.node_b) {
-            const double moved = max_abs(std::span<const double>(u).subspan(index(node) * dim, dim));
-            size = std::max(size,
-                            moved * max_abs(std::span<const double>(contact.row_stiffness).subspan(pair++ * dim, dim)));
-        }
+        for (std::size_t p = 0; p < face.node_b.size(); ++p, ++pair)
+            for (const std::int64_t node : {face.node_a[p], face.node_b[p]}) {
+                const double moved = max_abs(std::span<const double>(u).subspan(index(node) * dim, dim));
+                size = std::max(
+                    size, moved * max_abs(std::span<const double>(contact.row_stiffness).subspan(pair * dim, dim)));
+            }
     return size;
 }
 

@@ -17,7 +17,6 @@ FetiZone::FetiZone(const Problem& problem, const std::vector<Subdomain>& subdoma
                    const DualLoads& loads, Monitor& monitor)
     : problem_(problem),
       dual_(dual),
-      loads_(loads),
       monitor_(monitor),
       columns_(problem, subdomains, dual, loads, monitor),
       equations_(dual, loads, problem.patterns.size()),

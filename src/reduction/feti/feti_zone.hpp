@@ -45,7 +45,6 @@ private:
 
     const Problem& problem_;
     DualOperator& dual_;
-    const DualLoads& loads_;
     Monitor& monitor_;
     JumpColumns columns_;
     JumpEquations equations_;

@@ -5,8 +5,8 @@ Blocks on a sheared and turned grid, in the plane or in space, meet at corners a
 (springs), some are bonded, the others only touch: blocks slide on inclines, are wedged, pushed, or free. Each scene goes
 through several loads. After each one
 
-- the energy is that of a quadratic program over all displacements (CVXOPT), to 1e-8;
-- the state meets its own conditions of contact and equilibrium, to 1e-10;
+- the energy is that of a quadratic program over all displacements (CVXOPT), to 1e-8 (iterated 1e-6);
+- the state meets its own conditions of contact and equilibrium, to 1e-10 (feti 1e-8, iterated 1e-6);
 - free blocks lie where the least change of their places puts them, which a second program finds;
 - a load that no state balances is told, and the program has no minimum.
 
@@ -293,7 +293,7 @@ def check(seed, reduction):
     of a convex program are sufficient."""
     scene = Scene(seed, reduction)
     program = Program(scene)
-    direct = reduction != "iterated"
+    allowed, energies = {"condensed": (1e-10, 1e-8), "feti": (1e-8, 1e-8), "iterated": (1e-6, 1e-6)}[reduction]
     wrong, before = [], np.zeros(scene.whole.shape[0])
     try:
         solver = delam.Solver(scene.problem, not_converged="ignore")
@@ -328,18 +328,20 @@ def check(seed, reduction):
         u = solver.field("displacement").ravel()
         length = max(np.abs(u).max(), np.abs(before).max())
         deep = (scene.gaps @ u).min(initial=0.0) / length
-        expect(deep >= (-1e-10 if direct else -1e-8), f"penetration of {-deep:.1e} of the displacements")
+        expect(deep >= -min(allowed, 1e-8), f"penetration of {-deep:.1e} of the displacements")
         energy = values["stored_bulk"] + values["stored_interface"] + values["load_potential"]
         own = program.energy(u, theta)
         restrained = np.abs(scene.whole).max() * length ** 2
         strained = 0.5 * u @ scene.whole @ u + np.abs(scene.force(theta)) @ np.abs(u)
-        tolerance = (1e-8 if direct else 1e-6) * strained + 1e-12 * restrained
+        tolerance = energies * strained + 1e-12 * restrained
         expect(abs(energy - own) <= tolerance, f"energy {energy:.10g}, that of its displacements {own:.10g}")
         if best is not None:
             least = program.energy(best, theta)
             expect(energy <= least + tolerance + 1e-12 * np.abs(scene.whole).max() * np.abs(best).max() ** 2, f"energy {energy:.10g}, but {least:.10g} is possible")
-        for name in ("kkt_gap", "kkt_pressure", "kkt_complementarity", "kkt_equilibrium"):
-            expect(values[name] <= (1e-10 if direct else 1e-6), f"{name} {values[name]:.2e}")
+        # Of jumps that are rounding, these values say nothing.
+        jumps = np.abs(scene.gaps @ u).max(initial=0.0) > 1e-6 * length
+        for name in ("kkt_gap", "kkt_complementarity") * jumps + ("kkt_pressure", "kkt_equilibrium"):
+            expect(values[name] <= allowed, f"{name} {values[name]:.2e}")
         place = program.nearest(u, before, theta)
         far, near = (np.sqrt(scene.volume @ (at - before) ** 2) for at in (u, place))
         expect(far <= near + 1e-6 * length, f"free parts moved by {far:.6g}, but {near:.6g} would do")

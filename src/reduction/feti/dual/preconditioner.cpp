@@ -33,6 +33,7 @@ SparseMatrix boundary_block(const Subdomain& s) {
 }
 
 constexpr std::int64_t rows_per_poll = 256;
+constexpr double rounding_of_stiffness = 1e-14;  // of the largest stiffness of a row
 
 // Zeros where rows are coupled: the diagonal, and all rows of a group (ascending) with each other.
 SparseMatrix coupled(std::int64_t count, const std::vector<std::vector<std::int64_t>>& groups, const Poll& poll) {
@@ -176,9 +177,12 @@ void FetiPreconditioner::factorise(const Springs& springs) {
             if (!in || in_e_[index(t_.column[index(e)])] == 0) t_.value[index(e)] = 0.0;
         entry(r, r) = in ? entry(r, r) + springs.stiffness[index(r)] : 1.0;
     }
-    // S~ is blind to motions that no other row resists; a shift far below anything that matters keeps T definite.
+    // S~ is blind to motions that no other row resists; a shift far below anything that matters keeps T definite. The
+    // only row of a part that floats, which touches others in one point, has no stiffness at all.
     std::vector<double> diagonal(index(rows_.jump_count));
     for (std::int64_t r = 0; r < rows_.jump_count; ++r) diagonal[index(r)] = entry(r, r);
+    const double least = rounding_of_stiffness * max_abs(diagonal);
+    for (double& d : diagonal) d = std::max(d, least);
     double shift = 1e-14;
     while (true) {
         for (std::int64_t r = 0; r < rows_.jump_count; ++r) entry(r, r) = diagonal[index(r)] * (1.0 + shift);
