@@ -125,7 +125,7 @@ bool SymmetryCheck::same_pair(std::size_t p, std::size_t q, const Weights& a, co
     return to.kind == from.kind && equal(to.a, a) && equal(to.b, b) && length(to.normal - normal) <= same &&
            equal(mesh_.interfaces()[to.interface].weight[to.local], weight, weight) &&
            equal(other.adhesion[to.local], mine.adhesion[from.local], 1.0) && other.gap_pattern == mine.gap_pattern &&
-           equal(to.gap, from.gap, mesh_.size());
+           std::abs(to.gap - from.gap) <= tolerance_;
 }
 
 std::optional<std::vector<std::int64_t>> SymmetryCheck::pairs(const Involution& involution,
