@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <map>
 #include <utility>
 #include <vector>
@@ -124,6 +125,94 @@ TEST(joined) {
     list.push_back(list[1]);
     Mesh thrice = as_one(blocks(list));
     ck_assert_refused(DELAM_ERROR_MESH, "lie on each other", add_seams(thrice, 0.0));
+}
+
+// Walls of one body that face each other at a distance get the interface of two bodies.
+TEST(self_contact) {
+    for (const CellType type : all_types)
+        for (const std::int64_t upper : {2, 3}) {
+            const auto dim = index(topology(type).dimension);
+            auto list = stack(type, type, 2, upper);
+            list[1].corner[dim - 1] += 0.1;
+            Mesh two = blocks(list), one = as_one(two);
+            ck_assert_int_eq(add_self_contact(one, 0.09), 0);
+            ck_assert_int_eq(add_self_contact(one, 0.11), 1);
+            ck_assert_int_eq(add_self_contact(one, 0.11), 0);
+            add_mortar_interface(two, 0, 1, 0.11);
+            const InterfaceGeometry &a = two.interfaces()[0], &b = one.interfaces()[0];
+            ck_assert_int_eq(b.body_a, b.body_b);
+            ck_assert(a.node_a == b.node_a && a.node_b == b.node_b && a.weight == b.weight && a.frame == b.frame);
+            ck_assert(a.reach == b.reach);
+            for (std::size_t t = 0; t < two.ties().size(); ++t) ck_assert(two.ties()[t].of == one.ties()[t].of);
+        }
+    Mesh any = as_one(blocks(stack(CellType::quad4, CellType::quad4, 2, 2)));
+    ck_assert_refused(DELAM_ERROR_ARGUMENT, "gap 0", add_self_contact(any, 0.0));
+    ck_assert_refused(DELAM_ERROR_ARGUMENT, "gap inf", add_self_contact(any, std::numeric_limits<double>::infinity()));
+}
+
+// A body of cells of a grid, its nodes moved by a map.
+Mesh of_cells(std::int64_t columns, std::int64_t rows, const std::function<bool(std::int64_t, std::int64_t)>& wanted,
+              const std::function<std::array<double, 2>(double, double)>& map) {
+    Numbers nodes;
+    for (std::int64_t j = 0; j <= rows; ++j)
+        for (std::int64_t i = 0; i <= columns; ++i)
+            for (const double x : map(static_cast<double>(i), static_cast<double>(j))) nodes.push_back(x);
+    Indices cells;
+    std::int64_t count = 0;
+    for (std::int64_t j = 0; j < rows; ++j)
+        for (std::int64_t i = 0; i < columns; ++i) {
+            if (!wanted(i, j)) continue;
+            const std::int64_t first = j * (columns + 1) + i;
+            cells.insert(cells.end(), {first, first + 1, first + columns + 2, first + columns + 1});
+            ++count;
+        }
+    Mesh mesh(2, nodes);
+    mesh.add_cells(CellType::quad4, cells, Labels(index(count), 3));
+    return mesh;
+}
+
+double length_of(const Mesh& mesh) {
+    double length = 0.0;
+    for (const InterfaceGeometry& i : mesh.interfaces())
+        for (const double weight : i.weight) length += weight;
+    return length;
+}
+
+TEST(walls) {
+    const auto same = [](double x, double y) { return std::array{x, y}; };
+    // A slot of two cells: its walls face each other, its end nothing.
+    const auto slot = [](std::int64_t i, std::int64_t j) { return j != 1 || i < 2; };
+    Mesh slotted = of_cells(4, 3, slot, same);
+    ck_assert_int_eq(add_self_contact(slotted, 0.99), 0);
+    ck_assert_int_eq(add_self_contact(slotted, 1.01), 1);
+    ck_assert_double_eq_tol(length_of(slotted), 2.0, 1e-12);
+    // Two slots: the tongue between them has two walls.
+    Mesh twice = of_cells(
+        4, 5, [](std::int64_t i, std::int64_t j) { return j % 2 == 0 || i < 1; }, same);
+    ck_assert_int_eq(add_self_contact(twice, 1.01), 2);
+    ck_assert_double_eq_tol(length_of(twice), 6.0, 1e-12);
+    // A thin strip does not face itself, nor do neighbours around a corner.
+    Mesh strip = of_cells(
+        6, 1, [](std::int64_t, std::int64_t) { return true; },
+        [](double x, double y) {
+            return std::array{x, 0.01 * y};
+        });
+    ck_assert_int_eq(add_self_contact(strip, 0.5), 0);
+    // A ring that is not closed, with its ends before each other.
+    constexpr std::int64_t around = 24;
+    const auto ring = [](double x, double y) {
+        const double phi = 0.05 + x / static_cast<double>(around) * (2.0 * 3.14159265358979 - 0.1), r = 2.0 - 0.5 * y;
+        return std::array{r * std::cos(phi), r * std::sin(phi)};
+    };
+    Mesh open_ring = of_cells(
+        around, 1, [](std::int64_t, std::int64_t) { return true; }, ring);
+    ck_assert_int_eq(add_self_contact(open_ring, 0.3), 1);
+    ck_assert_double_eq_tol(length_of(open_ring), 0.5, 1e-12);
+    // A gap as wide as the ring itself: its inner side is one wall, bent back.
+    Mesh bent = of_cells(
+        around, 1, [](std::int64_t, std::int64_t) { return true; }, ring);
+    ck_assert_refused(DELAM_ERROR_MESH, "faces itself", add_self_contact(bent, 3.2));
+    ck_assert(bent.interfaces().empty() && bent.ties().empty());
 }
 
 }  // namespace

@@ -19,6 +19,9 @@ std::int64_t add_all_interfaces(Mesh& mesh, double tolerance);
 // Adds an interface for each connected seam, where faces of one body lie on others of it with nodes of their own;
 // returns how many it has added. Nodes that both sides share, as at the tip of a seam, have no pair.
 std::int64_t add_seams(Mesh& mesh, double tolerance);
+// Adds an interface between each two walls of one body that face each other within `gap`, as add_mortar_interface does
+// for two bodies; returns how many it has added.
+std::int64_t add_self_contact(Mesh& mesh, double gap);
 // Ties the nodes of b's faces to their projections on a's faces, within `gap`; appends a tied node for each.
 std::int64_t add_projected_interface(Mesh& mesh, std::int32_t label_a, std::int32_t label_b, double gap);
 // Pairs the nodes of b's faces with means over a's faces, within `gap`; appends a tied node for each.

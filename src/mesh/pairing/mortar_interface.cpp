@@ -9,6 +9,8 @@
 // Linear displacements pass exactly, because the projections leave them as they are. So does a uniform traction t: b
 // takes the forces t int N_p, and a takes t sum_p int N_p u_a,p = t int u_a, since a projection keeps the integral.
 // The integrals run over the segments in which a face of b meets one face of a.
+#include "mesh/pairing/mortar_interface.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -291,8 +293,7 @@ Tie rounded_tie(const std::map<std::int64_t, double>& weights) {
 
 }  // namespace
 
-std::int64_t add_mortar_interface(Mesh& mesh, std::int32_t label_a, std::int32_t label_b, double gap) {
-    const UnmatchedFaces faces(mesh, label_a, label_b, gap, LeavingFaces::take);
+std::map<std::int64_t, Tie> mortar_ties(const Mesh& mesh, const UnmatchedFaces& faces) {
     std::vector<FaceProjection> projections;
     std::map<std::int64_t, std::pair<double, double>> around;  // int N_p and the area of the faces around a node
     for (const BoundaryFace& face : faces.on()) {
@@ -321,7 +322,12 @@ std::int64_t add_mortar_interface(Mesh& mesh, std::int32_t label_a, std::int32_t
         }
     std::map<std::int64_t, Tie> ties;
     for (const auto& [node, of] : weights) ties.emplace(node, rounded_tie(of));
-    return faces.append(mesh, ties);
+    return ties;
+}
+
+std::int64_t add_mortar_interface(Mesh& mesh, std::int32_t label_a, std::int32_t label_b, double gap) {
+    const UnmatchedFaces faces(mesh, label_a, label_b, gap, LeavingFaces::take);
+    return faces.append(mesh, mortar_ties(mesh, faces));
 }
 
 }  // namespace delam

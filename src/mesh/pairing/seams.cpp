@@ -2,8 +2,10 @@
 #include "mesh/pairing/seams.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <span>
 #include <utility>
@@ -16,6 +18,7 @@
 #include "mesh/faces.hpp"
 #include "mesh/pairing/assemble_interface.hpp"
 #include "mesh/pairing/interfaces.hpp"
+#include "mesh/pairing/mortar_interface.hpp"
 #include "mesh/points.hpp"
 
 namespace delam {
@@ -166,6 +169,165 @@ InterfaceGeometry interface_of(const Mesh& mesh, const std::vector<Facing>& seam
     return made;
 }
 
+// Faces face each other if their normals are opposite, and the way from one to the other is along them, within 30
+// degrees: the round end of a slot faces nothing, its straight walls do.
+constexpr double straight = 0.866;
+constexpr double around_edge = 0.5;  // cosine between the normals of neighbours, below which there is an edge
+
+bool share_node(const BoundaryFace& one, const BoundaryFace& other) {
+    return std::any_of(one.all().begin(), one.all().end(), [&](std::int64_t node) {
+        return std::find(other.all().begin(), other.all().end(), node) != other.all().end();
+    });
+}
+
+// The outer faces of a body, and which of them face each other.
+class FacingWalls {
+public:
+    FacingWalls(const Mesh& mesh, std::vector<BoundaryFace> faces, double gap);
+    // Returns the wall of the faces of `wall` that face `other`; near: with the faces around them.
+    std::vector<BoundaryFace> part(std::size_t wall, std::size_t other, bool near) const;
+    // Pairs of walls that face each other.
+    const std::set<std::pair<std::size_t, std::size_t>>& pairs() const { return pairs_; }
+
+private:
+    void find_facing(double gap);
+    void find_neighbours();
+    void find_walls();
+
+    const Mesh& mesh_;
+    std::vector<BoundaryFace> faces_;
+    std::vector<Point> normal_;                        // of unit length
+    std::vector<std::set<std::size_t>> facing_;        // [faces]
+    std::vector<std::vector<std::size_t>> neighbour_;  // [faces] across no edge
+    std::vector<std::size_t> wall_;                    // [faces] the lowest of its faces
+    std::set<std::pair<std::size_t, std::size_t>> pairs_;
+};
+
+FacingWalls::FacingWalls(const Mesh& mesh, std::vector<BoundaryFace> faces, double gap)
+    : mesh_(mesh), faces_(std::move(faces)), facing_(faces_.size()), neighbour_(faces_.size()), wall_(faces_.size()) {
+    for (const BoundaryFace& face : faces_) {
+        Point normal = area_vector(mesh, face.all());
+        const double area = length(normal);
+        for (double& n : normal) n /= area;
+        normal_.push_back(normal);
+    }
+    find_facing(gap);
+    find_neighbours();
+    find_walls();
+}
+
+void FacingWalls::find_facing(double gap) {
+    std::vector<Box> boxes;
+    for (const BoundaryFace& face : faces_) boxes.push_back(box_of(mesh_, face, gap));
+    const BoxTree tree(boxes);
+    for (std::size_t f = 0; f < faces_.size(); ++f) {
+        poll_cancel("pairs", face_work);
+        for (const FacePoint& p : inner_points(mesh_, faces_[f]))
+            tree.containing(p.place, [&](std::int64_t other) {
+                const std::size_t g = index(other);
+                if (facing_[f].contains(g) || dot(normal_[f], normal_[g]) > -straight ||
+                    share_node(faces_[f], faces_[g]))
+                    return;
+                const Point way = closest_point(mesh_, faces_[g], p.place).place - p.place;
+                const double distance = length(way);
+                if (distance > gap || dot(way, p.normal) < straight * distance) return;
+                facing_[f].insert(g);
+                facing_[g].insert(f);
+            });
+    }
+}
+
+void FacingWalls::find_neighbours() {
+    std::map<std::int64_t, std::vector<std::size_t>> of_node;
+    for (std::size_t f = 0; f < faces_.size(); ++f)
+        for (const std::int64_t node : faces_[f].corner()) of_node[node].push_back(f);
+    for (std::size_t f = 0; f < faces_.size(); ++f) {
+        std::map<std::size_t, int> common;
+        for (const std::int64_t node : faces_[f].corner())
+            for (const std::size_t g : of_node.at(node)) ++common[g];
+        for (const auto& [g, nodes] : common)
+            if (g != f && nodes >= mesh_.dimension() - 1 && dot(normal_[f], normal_[g]) >= around_edge)
+                neighbour_[f].push_back(g);
+    }
+}
+
+// Walls are neighbours, all of which face something.
+void FacingWalls::find_walls() {
+    std::vector<std::uint8_t> met(faces_.size(), 0);
+    for (std::size_t first = 0; first < faces_.size(); ++first) {
+        if (met[first] != 0 || facing_[first].empty()) continue;
+        std::vector<std::size_t> front{first};
+        met[first] = 1;
+        while (!front.empty()) {
+            const std::size_t f = front.back();
+            front.pop_back();
+            wall_[f] = first;
+            for (const std::size_t g : neighbour_[f]) {
+                if (met[g] != 0 || facing_[g].empty()) continue;
+                met[g] = 1;
+                front.push_back(g);
+            }
+        }
+    }
+    for (std::size_t f = 0; f < faces_.size(); ++f)
+        for (const std::size_t g : facing_[f]) {
+            if (wall_[f] == wall_[g])
+                fail(DELAM_ERROR_MESH, "body ", mesh_.body_label(mesh_.cell_body(faces_[f].cell)),
+                     " has a wall that faces itself at ", place(mesh_, faces_[f].node[0]),
+                     ": one surface bent back, without an edge that parts its sides");
+            pairs_.insert(std::minmax(wall_[f], wall_[g]));
+        }
+}
+
+std::vector<BoundaryFace> FacingWalls::part(std::size_t wall, std::size_t other, bool near) const {
+    std::set<std::size_t> taken;
+    for (std::size_t f = 0; f < faces_.size(); ++f) {
+        const bool faces =
+            std::any_of(facing_[f].begin(), facing_[f].end(), [&](std::size_t g) { return wall_[g] == other; });
+        if (!faces || wall_[f] != wall) continue;
+        taken.insert(f);
+        if (near) taken.insert(neighbour_[f].begin(), neighbour_[f].end());
+    }
+    std::vector<BoundaryFace> part;
+    for (const std::size_t f : taken) part.push_back(faces_[f]);
+    return part;
+}
+
+// An interface that is found and not yet added.
+struct SelfContact {
+    UnmatchedFaces faces;
+    std::map<std::int64_t, Tie> ties;
+};
+
+// Returns the interface of two walls; none: each face of b has a node that a has.
+std::optional<SelfContact> self_contact(const Mesh& mesh, std::int32_t body, const FacingWalls& walls, std::size_t a,
+                                        std::size_t b, double gap) {
+    const std::vector<BoundaryFace> core = walls.part(a, b, false);
+    std::vector<BoundaryFace> opposite = walls.part(a, b, true), own = walls.part(b, a, false);
+    const auto touches = [](const std::vector<BoundaryFace>& faces) {
+        return [&faces](const BoundaryFace& face) {
+            return std::any_of(faces.begin(), faces.end(), [&](const BoundaryFace& f) { return share_node(f, face); });
+        };
+    };
+    std::erase_if(own, touches(core));
+    std::erase_if(opposite, touches(own));
+    if (own.empty() || opposite.empty()) return std::nullopt;
+    UnmatchedFaces faces(mesh, body, std::move(opposite), std::move(own), gap);
+    std::map<std::int64_t, Tie> ties = mortar_ties(mesh, faces);
+    return SelfContact{std::move(faces), std::move(ties)};
+}
+
+// Faces that overhang on one side are paired from the other.
+std::optional<SelfContact> from_either_side(const Mesh& mesh, std::int32_t body, const FacingWalls& walls,
+                                            std::size_t a, std::size_t b, double gap) {
+    try {
+        return self_contact(mesh, body, walls, a, b, gap);
+    } catch (const Error& error) {
+        if (error.status() != DELAM_ERROR_MESH) throw;
+        return self_contact(mesh, body, walls, b, a, gap);
+    }
+}
+
 }  // namespace
 
 std::vector<Seam> find_seams(const Mesh& mesh) {
@@ -236,6 +398,27 @@ std::int64_t add_seams(Mesh& mesh, double tolerance) {
             made.push_back(interface_of(mesh, seam, distance));
     }
     for (InterfaceGeometry& interface : made) mesh.append(std::move(interface));
+    return static_cast<std::int64_t>(made.size());
+}
+
+std::int64_t add_self_contact(Mesh& mesh, double gap) {
+    if (!(gap > 0.0 && std::isfinite(gap))) fail(DELAM_ERROR_ARGUMENT, "gap ", gap, ": must be > 0 and finite");
+    const std::vector<std::uint8_t> paired = paired_nodes(mesh);
+    std::vector<SelfContact> made;
+    for (std::int32_t body = 0; body < mesh.body_count(); ++body) {
+        if (mesh.host_body(body)) continue;
+        std::vector<BoundaryFace> faces = boundary_faces(mesh, body);
+        std::erase_if(faces, [&](const BoundaryFace& face) {
+            return std::all_of(face.all().begin(), face.all().end(),
+                               [&](std::int64_t n) { return paired[index(n)] != 0; });
+        });
+        const FacingWalls walls(mesh, std::move(faces), gap);
+        for (const auto& [a, b] : walls.pairs()) {
+            if (std::optional<SelfContact> found = from_either_side(mesh, body, walls, a, b, gap))
+                made.push_back(std::move(*found));
+        }
+    }
+    for (const SelfContact& interface : made) interface.faces.append(mesh, interface.ties);
     return static_cast<std::int64_t>(made.size());
 }
 

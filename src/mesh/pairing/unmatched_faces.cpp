@@ -105,6 +105,19 @@ UnmatchedFaces::UnmatchedFaces(const Mesh& mesh, std::int32_t label_a, std::int3
       ground_(mesh, faces_a_, leaving == LeavingFaces::take ? reach_ + longest(mesh, faces_b_) : reach_, rim_),
       on_(split()) {}
 
+UnmatchedFaces::UnmatchedFaces(const Mesh& mesh, std::int32_t body, std::vector<BoundaryFace> opposite,
+                               std::vector<BoundaryFace> walls, double gap)
+    : mesh_(mesh),
+      a_(body),
+      b_(body),
+      rim_(rounding_of_places(mesh, body, body)),
+      reach_(std::max(require_gap(gap), rim_)),
+      leaving_(LeavingFaces::take),
+      faces_a_(std::move(opposite)),
+      faces_b_(std::move(walls)),
+      ground_(mesh, faces_a_, reach_ + longest(mesh, faces_b_), rim_),
+      on_(split()) {}
+
 // A face of b lies on a completely or not at all.
 std::vector<BoundaryFace> UnmatchedFaces::split() {
     std::vector<BoundaryFace> on, off;

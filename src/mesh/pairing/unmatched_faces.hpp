@@ -64,6 +64,10 @@ public:
     // lies on a.
     UnmatchedFaces(const Mesh& mesh, std::int32_t label_a, std::int32_t label_b, double gap, LeavingFaces leaving);
 
+    // The same for faces of one body: `walls` beside `opposite`.
+    UnmatchedFaces(const Mesh& mesh, std::int32_t body, std::vector<BoundaryFace> opposite,
+                   std::vector<BoundaryFace> walls, double gap);
+
     // Faces of b that lie on faces of a.
     const std::vector<BoundaryFace>& on() const { return on_; }
     const Ground& ground() const { return ground_; }

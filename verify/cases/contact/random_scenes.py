@@ -152,7 +152,11 @@ class Scene:
 
 
 def null_space(a, part=1e-9):
-    u, s, vt = np.linalg.svd(a)
+    try:
+        _, s, vt = np.linalg.svd(a)
+    except np.linalg.LinAlgError:  # LAPACK's gesdd gives up on a few matrices, and not on their transposes
+        v, s, _ = np.linalg.svd(a.T)
+        vt = v.T
     rank = int((s > part * max(1e-300, s[0] if s.size else 0.0)).sum())
     return vt[rank:].T
 
