@@ -314,6 +314,18 @@ DELAM_API int32_t delam_mesh_add_all_interfaces(delam_mesh *mesh, double toleran
  * strip. The message gives the place, and the mesh is unchanged.
  * [unit tolerance 1 in [0, 0.5); null none; status cancelled, argument, mesh; since 0.2] */
 DELAM_API int32_t delam_mesh_add_seams(delam_mesh *mesh, double tolerance, int64_t *out_count);
+/* Adds interfaces between outer faces of one body that face each other at a distance of at most gap. Examples are the
+ * walls of a slot or a notch, whether their meshes match or not. Without an interface the walls pass through each
+ * other. Both bodies of such an interface are the same. Its pairs are as of delam_mesh_add_mortar_interface: nodes of
+ * side b, tied to means over faces of side a. delam_problem_set_gaps makes their distances count.
+ * Two faces face each other if their normals are opposite within 30 degrees and each lies in front of the other. Faces
+ * whose nodes all have pairs already are left out. So are faces that share a node with the other side, as at the tip of
+ * a notch. Each two connected walls have an interface of their own. *out_count receives the number of new interfaces,
+ * which may be 0.
+ * DELAM_ERROR_MESH: a face of b faces side a in part, or a wall faces itself (one surface bent back, without an edge).
+ * The message gives the place, and the mesh is unchanged. DELAM_ERROR_ARGUMENT: gap <= 0, or it is not finite.
+ * [unit gap L > 0; null none; status cancelled, argument, mesh; since 0.2] */
+DELAM_API int32_t delam_mesh_add_self_contact(delam_mesh *mesh, double gap, int64_t *out_count);
 /* Adds an interface between two bodies, a = body_a and b = body_b, whose meshes do not match. *out_interface receives
  * its index. The function pairs each face of b that lies on faces of a. A face lies on them if its distance from them
  * is at most gap (L) and its normal is opposite to theirs within 60 degrees. A gap below 1e-6 of the shortest edge of
@@ -412,10 +424,11 @@ DELAM_API int32_t delam_mesh_node_bodies(const delam_mesh *mesh, int64_t capacit
  * delam_mesh_add_conforming_cells made it; every other node is its own original.
  * [null none; status argument; since 0.1] */
 DELAM_API int32_t delam_mesh_node_origins(const delam_mesh *mesh, int64_t capacity, int64_t *origins);
-/* Returns the tied nodes (delam_mesh_add_projected_interface, delam_mesh_add_mortar_interface) in ascending order.
- * *count and *entries receive the numbers of tied nodes and of weights. The arrays are nodes [count], starts [count+1],
- * of and weights [entries]. The displacement of nodes[i] is the sum of weights[e] times the displacement of node of[e],
- * over e = starts[i] .. starts[i+1]-1. The weights of a tied node sum to 1; some may be negative.
+/* Returns the tied nodes (delam_mesh_add_projected_interface, delam_mesh_add_mortar_interface,
+ * delam_mesh_add_self_contact) in ascending order. *count and *entries receive the numbers of tied nodes and of
+ * weights. The arrays are nodes [count], starts [count+1], of and weights [entries]. The displacement of nodes[i] is
+ * the sum of weights[e] times the displacement of node of[e], over e = starts[i] .. starts[i+1]-1. The weights of a
+ * tied node sum to 1; some may be negative.
  * [unit weights 1; null count, entries, nodes, starts, of, weights; status usual; source none; since 0.1] */
 DELAM_API int32_t delam_mesh_node_ties(const delam_mesh *mesh, int64_t *count, int64_t *entries, int64_t *nodes,
                                        int64_t *starts, int64_t *of, double *weights);

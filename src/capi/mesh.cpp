@@ -208,6 +208,13 @@ int32_t delam_mesh_add_seams(delam_mesh* mesh, double tolerance, int64_t* out_co
     });
 }
 
+int32_t delam_mesh_add_self_contact(delam_mesh* mesh, double gap, int64_t* out_count) {
+    return guard_build(mesh, [&] {
+        require_pointer(out_count, "out_count");
+        *out_count = add_self_contact(*mesh->core, gap);
+    });
+}
+
 int32_t delam_mesh_add_projected_interface(delam_mesh* mesh, int32_t body_a, int32_t body_b, double gap,
                                            int64_t* out_interface) {
     return guard_build(

@@ -312,6 +312,7 @@ ROWS = {
     ("mesh_add_interface", "mesh"): (apart, interface_of),
     ("mesh_add_all_interfaces", "mesh"): (askew, lambda s: [s.mesh, 0.0, whole(0)]),
     ("mesh_add_seams", "mesh"): (lambda: squares((0.0, 0.0), (0, 0)), lambda s: [s.mesh, 0.0, whole(0)]),
+    ("mesh_add_self_contact", "mesh"): (lambda: squares((0.5, 1.1), (0, 0)), lambda s: [s.mesh, 0.2, whole(0)]),
     ("mesh_add_projected_interface", "mesh"): (apart, interface_of),
     ("mesh_add_mortar_interface", "mesh"): (apart, interface_of),
     ("mesh_add_obstacle", "mesh"): (loose, lambda s: [s.mesh, 1, whole(0), real(0, -1), None, 8, 0, whole(0)]),

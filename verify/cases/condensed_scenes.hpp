@@ -27,8 +27,10 @@ struct Block {
 
 using Map = std::function<std::array<double, 3>(const std::array<double, 3>&)>;
 
-// Standard nodes of quad4 or hex8 blocks, moved by `map`; `loose` nodes belong to no cell.
-inline Scene make_blocks(int d, const std::vector<Block>& blocks, const Map& map = nullptr, int loose = 0) {
+// Standard nodes of quad4 or hex8 blocks, moved by `map`; `loose` nodes belong to no cell. together: one body, each
+// block with nodes of its own.
+inline Scene make_blocks(int d, const std::vector<Block>& blocks, const Map& map = nullptr, int loose = 0,
+                         bool together = false) {
     std::vector<double> nodes;
     std::vector<std::int64_t> cells;
     std::vector<std::int32_t> bodies;
@@ -56,7 +58,7 @@ inline Scene make_blocks(int d, const std::vector<Block>& blocks, const Map& map
                     for (int up = 0; up < d - 1; ++up)
                         cells.insert(cells.end(), {at(x, y, z + up), at(x + 1, y, z + up), at(x + 1, y + 1, z + up),
                                                    at(x, y + 1, z + up)});
-                    bodies.push_back(static_cast<std::int32_t>(b));
+                    bodies.push_back(together ? 0 : static_cast<std::int32_t>(b));
                 }
     }
     return Scene(d, nodes, d == 2 ? DELAM_QUAD4 : DELAM_HEX8, cells, bodies);

@@ -239,6 +239,14 @@ void build_meshes(Host& host, const Block& b) {
     const std::vector<std::int32_t> one(at(b.cells), 0);
     host.require(delam_mesh_add_cells(mesh, b.type, b.cells, b.connectivity.data(), one.data(), 0), "cells");
     host.call("delam_mesh_add_seams", b.cells, print, [&] { return delam_mesh_add_seams(mesh, 0.0, &index); });
+    // The same, with the halves a quarter apart.
+    std::vector<double> apart = b.nodes;
+    for (const std::int64_t n : b.body[1]) apart[at((n + 1) * b.dimension - 1)] += 0.25;
+    delam_mesh_destroy(&mesh);
+    host.require(delam_mesh_create(host.h.context, b.dimension, b.node_count, apart.data(), &mesh), "a mesh");
+    host.require(delam_mesh_add_cells(mesh, b.type, b.cells, b.connectivity.data(), one.data(), 0), "cells");
+    host.call("delam_mesh_add_self_contact", b.cells, print,
+              [&] { return delam_mesh_add_self_contact(mesh, 0.5, &index); });
     fresh(true);
     host.call("delam_mesh_add_projected_interface", b.cells, print,
               [&] { return delam_mesh_add_projected_interface(mesh, 0, 1, 0.0, &index); });

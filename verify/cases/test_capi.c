@@ -214,6 +214,46 @@ START_TEST(conforming_meshes) {
     delam_mesh_destroy(&other);
 }
 
+/* Three rows of four cells, without the last two of the middle row: the walls of this slot are 1 apart. */
+START_TEST(walls_of_a_slot) {
+    const int64_t corners[10] = {0, 1, 2, 3, 5, 6, 10, 11, 12, 13};
+    double nodes[40];
+    int64_t cells[40];
+    int64_t count = -1;
+    int64_t size = -1;
+    int32_t a = 5;
+    int32_t b = 5;
+    int i;
+    delam_mesh *other = NULL;
+    for (i = 0; i < 20; ++i) {
+        nodes[2 * i] = i % 5;
+        nodes[2 * i + 1] = (double)(i / 5);
+    }
+    for (i = 0; i < 10; ++i) {
+        cells[4 * i] = corners[i];
+        cells[4 * i + 1] = corners[i] + 1;
+        cells[4 * i + 2] = corners[i] + 6;
+        cells[4 * i + 3] = corners[i] + 5;
+    }
+    fine(delam_mesh_create(context, 2, 20, nodes, &other));
+    fine(delam_mesh_add_cells(other, DELAM_QUAD4, 10, cells, NULL, 0));
+    expect(delam_mesh_add_self_contact(other, 0.0, &count), DELAM_ERROR_ARGUMENT, "gap = 0");
+    expect(delam_mesh_add_self_contact(other, -1.0, &count), DELAM_ERROR_ARGUMENT, "gap = -1");
+    expect(delam_mesh_add_self_contact(other, NAN, &count), DELAM_ERROR_ARGUMENT, "gap = nan");
+    expect(delam_mesh_add_self_contact(other, INFINITY, &count), DELAM_ERROR_ARGUMENT, "gap = inf");
+    expect(delam_mesh_add_self_contact(other, 1.1, NULL), DELAM_ERROR_ARGUMENT, "out_count is NULL");
+    ck_assert_int_eq(delam_mesh_add_self_contact(NULL, 1.1, &count), DELAM_ERROR_HANDLE);
+    fine(delam_mesh_add_self_contact(other, 0.5, &count));
+    ck_assert_int_eq(count, 0);
+    fine(delam_mesh_size(other, NULL, &size, NULL, NULL, &count));
+    ck_assert(size == 20 && count == 0);
+    fine(delam_mesh_add_self_contact(other, 1.1, &count));
+    ck_assert_int_eq(count, 1);
+    fine(delam_mesh_interface_size(other, 0, &a, &b, &size, NULL, NULL));
+    ck_assert(a == 0 && b == 0 && size > 0);
+    delam_mesh_destroy(&other);
+}
+
 START_TEST(projections_and_obstacles) {
     /* One square below two halves of another, and a node without cells. */
     const double nodes[22] = {0, 0, 1, 0, 1, 1, 0, 1, 0, 1, 0.5, 1, 1, 1, 0, 2, 0.5, 2, 1, 2, 5, 5};
@@ -260,7 +300,8 @@ START_TEST(projections_and_obstacles) {
 }
 
 int main(void) {
-    const TTest *const all[] = {handles, any_order_of_destruction, constants,         cell_types,
-                                meshes,  unpaired_faces,           conforming_meshes, projections_and_obstacles};
+    const TTest *const all[] = {
+        handles,         any_order_of_destruction, constants, cell_types, meshes, unpaired_faces, conforming_meshes,
+        walls_of_a_slot, projections_and_obstacles};
     return run_tests(all, (int)(sizeof all / sizeof all[0]));
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "api.hpp"
+#include "condensed_scenes.hpp"
 #include "support.hpp"
 
 namespace {
@@ -133,6 +134,65 @@ LOOP_TEST(pressed_and_pulled, 0, 6) {
     expect_same(of(cross, arms, -1e-2, reduction, where), without(whole, -1e-2), where + ", a cross, pressed");
     expect_same(of(cross, arms, 1e-2, reduction, where), of(cross, arms, 1e-2, "condensed", where),
                 where + ", a cross, pulled");
+}
+
+// Two arms with a spacer between their ends, all bonded, as one body with itself or as three bodies: the free ends of
+// the arms close their gap under a load.
+struct Arms {
+    double first, last;  // energy before they meet, and at the end
+    double closed;       // pairs in contact
+};
+
+Arms arms(int d, const char* reduction, bool one_body) {
+    constexpr double apart = 0.05;
+    const std::vector<cases::Block> blocks{{{0.0, 0.0, 0.0}, {3.0, 1.0, 1.0}, {9, 2, 2}},
+                                           {{0.0, 1.0, 0.0}, {1.0, 1.0 + apart, 1.0}, {3, 1, 2}},
+                                           {{0.0, 1.0 + apart, 0.0}, {3.0, 2.0 + apart, 1.0}, {9, 2, 2}}};
+    Scene scene = cases::make_blocks(d, blocks, nullptr, 0, one_body);
+    std::int64_t count = 0, contact = 2;
+    if (one_body) {
+        REQUIRE(scene, delam_mesh_add_seams, scene.mesh(), 0.0, &count);
+        cases::expect(count == 2, "two seams");
+        REQUIRE(scene, delam_mesh_add_self_contact, scene.mesh(), 1.2 * apart, &count);
+        cases::expect(count == 1, "one pair of walls");
+    } else {
+        scene.interface(0, 1);
+        scene.interface(1, 2);
+        REQUIRE(scene, delam_mesh_add_mortar_interface, scene.mesh(), 0, 2, 1.2 * apart, &contact);
+    }
+    scene.begin();
+    scene.elastic(-1, 1000.0, 0.3);
+    scene.bonded(0);
+    scene.bonded(1);
+    scene.contact(contact);
+    const auto always = scene.pattern("gaps", {0.0}, {1.0});
+    REQUIRE(scene, delam_problem_set_gaps, scene.problem(), contact, always, nullptr, 0.0);
+    const auto ground = cases::nodes_where(scene, -1, [](const double* x) { return x[1] < 1e-9; });
+    for (int k = 0; k < d; ++k) scene.hold(ground, cases::unit(d, k));
+    const auto press = scene.pattern("press", {0.0, 1.0}, {0.0, 0.1});
+    const auto end =
+        cases::nodes_where(scene, -1, [](const double* x) { return x[1] > 2.0 + apart - 1e-9 && x[0] > 2.5; });
+    scene.drive(end, cases::unit(d, 1, -1.0), press, std::vector<double>(end.size(), 1.0));
+    scene.text("reduction", reduction);
+    Solver solver(scene, 0.0);
+    Arms found{};
+    for (const double time : {0.25, 1.0}) {
+        solver.step(time);
+        solver.commit();
+        (time < 1.0 ? found.first : found.last) = solver.value("stored_bulk");
+        cases::expect((solver.value("contact_pairs") > 0.0) == (time == 1.0), "the arms meet on the way");
+    }
+    found.closed = solver.value("contact_pairs");
+    return found;
+}
+
+LOOP_TEST(walls_of_one_body, 0, 6) {
+    const int d = loop / 3 == 0 ? 2 : 3;
+    const char* reduction = std::array{"condensed", "iterated", "feti"}[static_cast<std::size_t>(loop) % 3];
+    const Arms one = arms(d, reduction, true), three = arms(d, reduction, false);
+    cases::expect_near(one.first, three.first, 1e-9, three.first, std::string(reduction) + ": energy of apart arms");
+    cases::expect_near(one.last, three.last, 1e-9, three.last, std::string(reduction) + ": energy of closed arms");
+    cases::expect(one.closed == three.closed, "pairs in contact");
 }
 
 }  // namespace

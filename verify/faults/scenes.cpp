@@ -72,6 +72,22 @@ Cells two_layers(std::int64_t along, bool shared, std::int64_t coarse) {
     return c;
 }
 
+// Adds an interface in each of two slots: five rows of four cells, of which rows 1 and 3 lack the last two.
+void touch_in_slots(Host& host, Handles& h) {
+    std::vector<double> nodes;
+    std::vector<std::int64_t> cells;
+    for (std::int64_t n = 0; n < 30; ++n) {
+        nodes.insert(nodes.end(), {static_cast<double>(n % 5), static_cast<double>(n / 5)});
+        if (n < 25 && n % 5 < (n / 5 % 2 == 0 ? 4 : 2)) cells.insert(cells.end(), {n, n + 1, n + 6, n + 5});
+    }
+    std::int64_t count = 0;
+    CHANGE(delam_mesh_create, h.context, 2, 30, nodes.data(), &h.mesh);
+    CHANGE(delam_mesh_add_cells, h.mesh, DELAM_QUAD4, 16, cells.data(), nullptr, 0);
+    CHANGE(delam_mesh_add_self_contact, h.mesh, 1.1, &count);
+    host.transcript.add("slots", &count, sizeof count);
+    delam_mesh_destroy(&h.mesh);
+}
+
 void make_mesh(Host& host, Handles& h, const Strip& s) {
     std::int64_t index = -1;
     if (s.mesh == "layers") {
@@ -91,6 +107,7 @@ void make_mesh(Host& host, Handles& h, const Strip& s) {
         return;
     }
     const bool conforming = s.mesh == "conforming";
+    if (conforming) touch_in_slots(host, h);
     const Cells c = two_layers(s.cells, conforming, conforming ? 1 : 2);
     const auto nodes = static_cast<std::int64_t>(c.nodes.size()) / 2,
                cells = static_cast<std::int64_t>(c.bodies.size());

@@ -140,6 +140,12 @@ inline const Call calls[] = {
          return IN_ORDER(delam_mesh_add_seams, a.mesh, a.in.flag() ? 0.0 : a.in.fraction(),
              a.in.seldom() ? nullptr : &count);
      }},
+    {"delam_mesh_add_self_contact", Subject::mesh, may::cancelled | may::argument | may::mesh,
+     [](const Asked& a) {
+         std::int64_t count = -1;
+         return IN_ORDER(delam_mesh_add_self_contact, a.mesh, a.in.flag() ? 1.5 : a.in.real(),
+             a.in.seldom() ? nullptr : &count);
+     }},
     {"delam_mesh_add_projected_interface", Subject::mesh, may::cancelled | may::argument | may::mesh,
      [](const Asked& a) {
          std::int64_t index = -1;

@@ -180,6 +180,8 @@ private:
                    [&] { return delam_mesh_add_all_interfaces(mesh_, slack, &index); });
             change("delam_mesh_add_seams", may::argument | may::mesh,
                    [&] { return delam_mesh_add_seams(mesh_, slack, &index); });
+            change("delam_mesh_add_self_contact", may::argument | may::mesh,
+                   [&] { return delam_mesh_add_self_contact(mesh_, 4.0 * slack, &index); });
         } else if (which == 3) {
             add_obstacle(a);
         } else {

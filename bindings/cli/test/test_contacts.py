@@ -175,6 +175,17 @@ for lower, upper, distance, reach, force in ((3, 3, 0, 0, 0.25), (3, 2, 0, 0, 0.
     scene = start + f"[contact]\ngeneral = true\ngap = {reach}\n\n[[patterns]]" + rest.split("[[patterns]]", 1)[1]
     scene = write(scene, "two.toml", os.path.dirname(path))
     expect(math.isclose(abs(pressed(scene)), force, rel_tol=1e-9), f"general contact, {lower}:{upper}, {distance} apart")
+# The same halves as one body: its walls face each other.
+deck = apart(bar(3, 4, "UP"), 2e-4).replace("ELSET=LOW\n", "ELSET=ALL\n").replace("ELSET=UP\n", "ELSET=ALL\n")
+head, tail = deck.split("*SOLID SECTION", 1)[0], deck.split("*MATERIAL", 1)[1]
+middle, step = tail.split("*SURFACE, NAME", 1)[0], tail.split("*STEP", 1)[1]
+path = write(head + "*SOLID SECTION, ELSET=ALL, MATERIAL=M\n1.\n*MATERIAL" + middle +
+             "*CONTACT\n*CONTACT INCLUSIONS, ALL EXTERIOR\n*STEP" + step, "walls.inp")
+code, text, error = delam("import", path)
+expect(code == 0, f"import: {error.strip()}")
+for reach, force in ((0, 0.0), (2.1e-4, 0.15)):
+    walls = write(text.replace("general = true", f"general = true\ngap = {reach}"), "walls.toml", os.path.dirname(path))
+    expect(math.isclose(abs(pressed(walls)), force, rel_tol=1e-9, abs_tol=1e-12), f"walls within {reach}")
 for wrong, words in (("general = 1", "general.*true or false"), ("gap = 1", "is for general = true"),
                      ("general = true\ngap = -1", "gap.*>= 0")):
     with open(scene, encoding="utf-8") as file:

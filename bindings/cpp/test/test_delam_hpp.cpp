@@ -192,6 +192,15 @@ void test_mesh() {
                slit.interface_pairs(0).nodes_b == Indices{12, 13},
            "a seam");
     expect(slit.interface_size(0).body_a == 0 && slit.interface_size(0).body_b == 0, "both sides are of one body");
+
+    // Three rows of four cells, without the last two of the middle row: the walls of this slot are 1 apart.
+    delam::Mesh slot(context, 2, {0., 0., 1., 0., 2., 0., 3., 0., 4., 0., 0., 1., 1., 1., 2., 1., 3., 1., 4., 1.,
+                                  0., 2., 1., 2., 2., 2., 3., 2., 4., 2., 0., 3., 1., 3., 2., 3., 3., 3., 4., 3.});
+    slot.add_cells(DELAM_QUAD4, {0, 1, 6,  5,  1,  2,  7,  6,  2,  3,  8,  7,  3,  4,  9,  8,  5,  6,  11, 10,
+                                 6, 7, 12, 11, 10, 11, 16, 15, 11, 12, 17, 16, 12, 13, 18, 17, 13, 14, 19, 18});
+    expect(slot.add_self_contact(0.5) == 0 && slot.add_self_contact(1.1) == 1, "the walls of a slot");
+    expect(slot.interface_size(0).body_a == 0 && slot.interface_size(0).body_b == 0, "walls of one body");
+    expect(status_of([&] { slot.add_self_contact(0.0); }) == DELAM_ERROR_ARGUMENT, "a gap of 0");
 }
 
 void test_problem() {

@@ -20,6 +20,7 @@ module delam_meshes
     procedure :: add_interface => mesh_add_interface
     procedure :: add_all_interfaces => mesh_add_all_interfaces
     procedure :: add_seams => mesh_add_seams
+    procedure :: add_self_contact => mesh_add_self_contact
     procedure :: add_projected_interface => mesh_add_projected_interface
     procedure :: add_mortar_interface => mesh_add_mortar_interface
     procedure :: add_obstacle => mesh_add_obstacle
@@ -218,6 +219,21 @@ contains
     if (present(count)) count = int(made)
     call settle(code, self, status, message)
   end subroutine mesh_add_seams
+
+  ! count: of new interfaces between walls of a body that face each other, up to gap apart.
+  subroutine mesh_add_self_contact(self, gap, count, status, message)
+    class(delam_mesh), intent(in) :: self
+    real(delam_real), intent(in) :: gap
+    integer, intent(out), optional :: count
+    integer, intent(out), optional :: status
+    character(*), intent(out), optional :: message
+    integer(c_int64_t) :: made
+    integer(c_int32_t) :: code
+    made = 0
+    code = delam_mesh_add_self_contact(self%handle(), gap, made)
+    if (present(count)) count = int(made)
+    call settle(code, self, status, message)
+  end subroutine mesh_add_self_contact
 
   subroutine mesh_add_projected_interface(self, body_a, body_b, gap, interface, status, message)
     class(delam_mesh), intent(in) :: self

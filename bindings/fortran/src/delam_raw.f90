@@ -224,6 +224,14 @@ module delam_raw
       integer(c_int64_t), intent(inout), optional :: out_count
       integer(c_int32_t) :: status
     end function delam_mesh_add_seams
+    function delam_mesh_add_self_contact(mesh, gap, out_count) bind(c, name="delam_mesh_add_self_contact") &
+        result(status)
+      import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
+      type(c_ptr), value :: mesh
+      real(c_double), value :: gap
+      integer(c_int64_t), intent(inout), optional :: out_count
+      integer(c_int32_t) :: status
+    end function delam_mesh_add_self_contact
     function delam_mesh_add_projected_interface(mesh, body_a, body_b, gap, out_interface) bind(c, &
         name="delam_mesh_add_projected_interface") result(status)
       import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double

@@ -331,11 +331,12 @@ contains
 
   subroutine test_obstacles_ties_periods()
     type(delam_context) :: context
-    type(delam_mesh) :: squares, stack, coarse, slit
+    type(delam_mesh) :: squares, stack, coarse, slit, slot
     type(delam_problem) :: cell
     integer(delam_index), allocatable :: a(:), b(:), nodes(:), starts(:), of(:)
     real(dp), allocatable :: weights(:), xy(:,:)
-    integer :: interface, status, i, seams
+    integer :: interface, status, i, seams, walls
+    integer(delam_label) :: body_a, body_b
     call context%create()
     call make_squares(squares, context)
     call squares%add_obstacle([1_delam_index, 2_delam_index], reshape([real(dp) :: 0, 1, 0, 1], [2, 2]), &
@@ -378,6 +379,19 @@ contains
     call expect(seams == 1 .and. all(a == [4]) .and. all(b == [10]), 'a seam')
     call slit%add_seams(tolerance=0.7_dp, status=status)
     call expect(status == DELAM_ERROR_ARGUMENT, 'a tolerance above 0.5')
+
+    ! Three rows of four cells, without the last two of the middle row: the walls of this slot are 1 apart.
+    call slot%create(context, reshape([(real(mod(i, 5), dp), real(i / 5, dp), i = 0, 19)], [2, 20]))
+    call slot%add_cells(DELAM_QUAD4, reshape([integer(delam_index) :: 1, 2, 7, 6, 2, 3, 8, 7, 3, 4, 9, 8, 4, 5, 10, 9, &
+                                              6, 7, 12, 11, 7, 8, 13, 12, 11, 12, 17, 16, 12, 13, 18, 17, &
+                                              13, 14, 19, 18, 14, 15, 20, 19], [4, 10]))
+    call slot%add_self_contact(0.5_dp, count=walls)
+    call expect(walls == 0, 'walls farther apart than the gap')
+    call slot%add_self_contact(1.1_dp, walls)
+    call slot%interface_size(1, body_a=body_a, body_b=body_b)
+    call expect(walls == 1 .and. body_a == 0 .and. body_b == 0, 'the walls of a slot')
+    call slot%add_self_contact(0.0_dp, status=status)
+    call expect(status == DELAM_ERROR_ARGUMENT, 'a gap of 0')
 
     call squares%create(context, reshape([real(dp) :: 0, 0, 1, 0, 0, 1, 1, 1, 9, 9, 9, 8], [2, 6]))
     call squares%add_cells(DELAM_QUAD4, reshape([integer(delam_index) :: 1, 2, 4, 3], [4, 1]))

@@ -36,7 +36,7 @@ export Context, Mesh, Interface, Law, Problem, Pattern, Solver, History, Profile
 export DelamError, InvalidArgument, InvalidHandle, MeshError, ProblemError, StateError, OutOfMemory, NumericalError,
     SnapshotError, FileError, InternalError, NotConverged, Cancelled, LimitReached
 export add_cells!, add_interface!, add_all_interfaces!, add_projected_interface!, add_mortar_interface!,
-    add_obstacle!, add_seams!,
+    add_obstacle!, add_seams!, add_self_contact!,
     add_host_body!, add_pairs!, find_nodes, find_node,
     find_patch, interfaces, nodes, node_bodies, node_origins, node_ties, cells, dimension, node_count, cell_count,
     body_count, interface_count, pair_count, nodes_a, nodes_b, weights, frames, places, faces

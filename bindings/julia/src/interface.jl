@@ -36,6 +36,13 @@ function add_seams!(mesh::Mesh; tolerance=0.0)
     return [Interface(mesh, before + i) for i in 1:count[]]
 end
 
+"Adds interfaces between walls of a body that face each other, up to `gap` apart; returns the new ones."
+function add_self_contact!(mesh::Mesh, gap)
+    before, count = interface_count(mesh), Ref(Int64(0))
+    ask(handle -> Raw.delam_mesh_add_self_contact(handle, gap, count), mesh)
+    return [Interface(mesh, before + i) for i in 1:count[]]
+end
+
 "An interface of two bodies whose meshes do not match; b should be the finer one. `gap`: distance of the faces, 0: 1e-6
 of the shortest edge."
 function add_projected_interface!(mesh::Mesh, body_a, body_b; gap=0.0)

@@ -36,6 +36,15 @@
     @test nodes_a(seam) == [4] && nodes_b(seam) == [10]
     @test isempty(add_seams!(slit))
 
+    # Three rows of four cells, without the last two of the middle row: the walls of this slot are 1 apart.
+    slot = Mesh(Float64[k == 1 ? i % 5 : i ÷ 5 for k in 1:2, i in 0:19])
+    corners = [1, 2, 3, 4, 6, 7, 11, 12, 13, 14]
+    add_cells!(slot, "quad4", [n + shift for shift in (0, 1, 6, 5), n in corners], 0)
+    @test isempty(add_self_contact!(slot, 0.5))
+    (walls,) = add_self_contact!(slot, 1.1)
+    @test all(==(0), node_bodies(slot)[nodes_b(walls)]) && all(==(0), node_bodies(slot)[node_ties(slot).of])
+    @test_throws InvalidArgument add_self_contact!(slot, 0.0)
+
     # Errors have the library's words and leave the object as it was.
     @test_throws InvalidArgument add_interface!(mesh, 0, 7)
     @test_throws DimensionMismatch add_cells!(square, "tri3", [1 3; 2 4], 0)

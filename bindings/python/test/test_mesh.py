@@ -46,6 +46,18 @@ class Arrays(unittest.TestCase):
         self.assertEqual(mesh.add_seams(), [], "a second call")
         self.assertEqual(mesh.interface_count, 1)
 
+    def test_the_walls_of_a_slot_are_in_contact(self):
+        # Three rows of four cells, without the last two of the middle row: the walls of the slot are 1 apart.
+        mesh = delam.Mesh(np.array([[x, y] for y in range(4) for x in range(5)], float))
+        mesh.add_cells("quad4", [[n, n + 1, n + 6, n + 5] for n in (0, 1, 2, 3, 5, 6, 10, 11, 12, 13)], 3)
+        with self.assertRaisesRegex(ValueError, "gap"):
+            mesh.add_self_contact(0.0)
+        self.assertEqual(mesh.add_self_contact(0.5), [])
+        (walls,) = mesh.add_self_contact(1.1)
+        self.assertEqual((walls.body_a, walls.body_b), (3, 3))
+        np.testing.assert_allclose(np.abs(walls.frames[:, 0]), [[0, 1]] * walls.pair_count, atol=1e-12)
+        self.assertEqual(mesh.interface_count, 1)
+
     def test_cell_types_are_those_of_the_library(self):
         numbers = {name: getattr(raw, f"DELAM_{name.upper()}") for name in delam.CELLS}
         self.assertEqual({name: number for name, (number, _) in delam.CELLS.items()}, numbers)

@@ -402,7 +402,7 @@ std::int64_t add_seams(Mesh& mesh, double tolerance) {
 }
 
 std::int64_t add_self_contact(Mesh& mesh, double gap) {
-    if (!(gap > 0.0 && std::isfinite(gap))) fail(DELAM_ERROR_ARGUMENT, "gap ", gap, ": must be > 0 and finite");
+    if (!(gap > 0.0 && std::isfinite(gap))) fail(DELAM_ERROR_ARGUMENT, "gap = ", gap, ", must be > 0 and finite");
     const std::vector<std::uint8_t> paired = paired_nodes(mesh);
     std::vector<SelfContact> made;
     for (std::int32_t body = 0; body < mesh.body_count(); ++body) {
@@ -418,7 +418,9 @@ std::int64_t add_self_contact(Mesh& mesh, double gap) {
                 made.push_back(std::move(*found));
         }
     }
-    for (const SelfContact& interface : made) interface.faces.append(mesh, interface.ties);
+    Mesh joined = mesh;  // nothing is added if memory ends or the host cancels on the way
+    for (const SelfContact& interface : made) interface.faces.append(joined, interface.ties);
+    mesh = std::move(joined);
     return static_cast<std::int64_t>(made.size());
 }
 

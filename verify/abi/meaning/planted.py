@@ -266,6 +266,7 @@ BREAKS = {
     "tolerance 0 of all interfaces is 1e-3": ("tolerance 0 of all interfaces",
                                               given("mesh_add_all_interfaces", tolerance=default(1e-3))),
     "tolerance 0 of seams is 1e-3": ("tolerance 0 of seams", given("mesh_add_seams", tolerance=default(1e-3))),
+    "half the gap of self contact": ("self contact of a slot", given("mesh_add_self_contact", gap=HALF)),
     "periodic tolerance 0 is 1e-3": ("tolerance 0 of a periodic cell",
                                      given("problem_add_periodic", tolerance=default(1e-3))),
     "gap 0 is 1e-3": ("gap 0 of a projected interface", given("mesh_add_projected_interface", gap=default(1e-3))),

@@ -66,6 +66,25 @@ def seams_that_cross(host, see):
               [[[1, 4], [2, 7]], [[2, 9], [3, 8]], [[6, 13], [7, 12]], [[9, 12], [10, 15]]])
 
 
+@row("self contact of a slot", tells=["mesh_add_self_contact out_count"])
+def self_contact(host, see):
+    """The slot 1 <= y <= 2, x >= 2 of a body of 4 x 3 squares, whose walls are 1 apart."""
+    corners = [0, 1, 2, 3, 5, 6, 10, 11, 12, 13]
+    mesh = one_body(host, [(x, y) for y in range(4) for x in range(5)],
+                    [n + shift for n in corners for shift in (0, 1, 6, 5)])
+    see.equal("interfaces at gap 0.98, 1.02", [host("mesh_add_self_contact", mesh, gap, Out()) for gap in (0.98, 1.02)],
+              [0, 1])
+    body_a, body_b, pairs = host("mesh_interface_size", mesh, 0, Out(), Out(), Out(), None, None)[:3]
+    see.equal("bodies", [body_a, body_b], [0, 0])
+    nodes_a, nodes_b, _, frames = host("mesh_interface_pairs", mesh, 0, Out(pairs), Out(pairs), Out(pairs),
+                                       Out(4 * pairs))
+    count = host("mesh_size", mesh, None, Out(), None, None, None)[1]
+    places = host("mesh_nodes", mesh, 2 * count, Out(2 * count))
+    gaps = [forms.dot(frames[4 * p:4 * p + 2], [places[2 * b + k] - places[2 * a + k] for k in range(2)])
+            for p, (a, b) in enumerate(zip(nodes_a, nodes_b))]
+    see.near("smallest and largest distance from a to b along the normals", [min(gaps), max(gaps)], [1.0, 1.0], "L")
+
+
 @row("gap 0 of a projected interface",
      says=["mesh_add_projected_interface: e.g. 0, counts as 1e-6"])
 def gap(host, see):

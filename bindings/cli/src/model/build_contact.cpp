@@ -70,6 +70,32 @@ void add_contact_of(Model& model, const Scene& scene, std::size_t a, std::size_t
     push_interface(model, scene, std::move(data), a, b);
 }
 
+// Adds as many interfaces of bodies with themselves as the mesh has got.
+void push_own(Model& model, const Scene& scene, std::int64_t count, const InterfaceData& data) {
+    for (; count > 0; --count) {
+        std::int32_t body = 0;
+        call(model.context.get(),
+             delam_mesh_interface_size(model.mesh.get(), static_cast<std::int64_t>(model.interfaces.size()), nullptr,
+                                       &body, nullptr, nullptr, nullptr),
+             data.place);
+        push_interface(model, scene, data, static_cast<std::size_t>(body), static_cast<std::size_t>(body));
+    }
+}
+
+// Seams within bodies, and walls of a body that face each other up to `gap` apart.
+void add_self_contact(Model& model, const Scene& scene) {
+    const GeneralContact& general = *scene.general_contact;
+    std::int64_t count = 0;
+    call(model.context.get(), delam_mesh_add_seams(model.mesh.get(), 0.0, &count), general.place);
+    push_own(model, scene, count, contact_of(general));
+    if (!(general.gap > 0)) return;
+    call(model.context.get(), delam_mesh_add_self_contact(model.mesh.get(), general.gap, &count), general.place);
+    InterfaceData data = contact_of(general);
+    data.projected = data.open = true;
+    data.gap = general.gap;
+    push_own(model, scene, count, data);
+}
+
 // True if faces of the interface are apart, or overlap, by more than what arithmetic leaves of equal coordinates.
 bool apart(const Model& model, const Scene& scene, std::int64_t index) {
     constexpr double coincide = 1e-12;  // of the extent
@@ -125,17 +151,7 @@ void add_general_contact(Model& model, const Scene& scene,
         }
     std::sort(near.begin(), near.end());
     for (const auto& [a, b] : near) add_contact_of(model, scene, a, b);
-    std::int64_t seams = 0;
-    call(model.context.get(), delam_mesh_add_seams(model.mesh.get(), 0.0, &seams), scene.general_contact->place);
-    for (; seams > 0; --seams) {
-        std::int32_t body = 0;
-        call(model.context.get(),
-             delam_mesh_interface_size(model.mesh.get(), static_cast<std::int64_t>(model.interfaces.size()), nullptr,
-                                       &body, nullptr, nullptr, nullptr),
-             scene.general_contact->place);
-        push_interface(model, scene, contact_of(*scene.general_contact), static_cast<std::size_t>(body),
-                       static_cast<std::size_t>(body));
-    }
+    add_self_contact(model, scene);
 }
 
 void set_gaps(Model& model, const Scene& scene) {

@@ -292,6 +292,16 @@ class Mesh(Object):
         self._call(library.delam_mesh_add_seams, number("tolerance", tolerance), count, long=True)
         return [Interface(self, before + i) for i in range(count.value)]
 
+    def add_self_contact(self, gap: float) -> list[Interface]:
+        """Adds interfaces between outer faces of one body that face each other at a distance of at most gap, a length
+        (the walls of a slot or notch), whether their meshes match or not; returns the new ones. The nodes of one side
+        are tied to means over faces of the other (ties). Faces whose nodes all have pairs already, and faces that share
+        a node with the other side, are left out. MeshError: a face faces the other side in part, or a wall faces
+        itself."""
+        before, count = self.interface_count, ctypes.c_int64()
+        self._call(library.delam_mesh_add_self_contact, number("gap", gap), count, long=True)
+        return [Interface(self, before + i) for i in range(count.value)]
+
     def add_projected_interface(self, body_a: Body, body_b: Body, gap: float = 0.0) -> Interface:
         """An interface of two bodies whose meshes do not match; b should be the finer one. gap: distance of the faces,
         a length, 0: 1e-6 of the shortest edge. The nodes of b are tied to a (ties)."""

@@ -72,6 +72,7 @@ DELAM_API int32_t delam_mesh_add_interface(delam_mesh *mesh, int32_t body_a, int
                                            int64_t *out_interface);
 DELAM_API int32_t delam_mesh_add_all_interfaces(delam_mesh *mesh, double tolerance, int64_t *out_count);
 DELAM_API int32_t delam_mesh_add_seams(delam_mesh *mesh, double tolerance, int64_t *out_count);
+DELAM_API int32_t delam_mesh_add_self_contact(delam_mesh *mesh, double gap, int64_t *out_count);
 DELAM_API int32_t delam_mesh_add_projected_interface(delam_mesh *mesh, int32_t body_a, int32_t body_b, double gap,
                                                      int64_t *out_interface);
 DELAM_API int32_t delam_mesh_add_mortar_interface(delam_mesh *mesh, int32_t body_a, int32_t body_b, double gap,

@@ -245,7 +245,9 @@ KeyTable contact_table() {
     KeyTable table{"contact", "contact wherever outer faces have no interface", {}, {}};
     table.rows = {
         flag_key("general").says("contact of all bodies that touch, and of the two sides of seams within a body"),
-        number_key("gap", not_negative).otherwise("0").says("also of faces of two bodies up to so far apart"),
+        number_key("gap", not_negative)
+            .otherwise("0")
+            .says("also of faces of two bodies, or of one, up to so far apart"),
     };
     table.rules = {{KeyRule::needs, {"gap"}, {"general"}, {}, "is for general = true"}};
     return table;

@@ -112,6 +112,12 @@ public:
         shared_->check(delam_mesh_add_seams(get(), tolerance, &count));
         return count;
     }
+    // Returns the number of new interfaces: between walls of a body that face each other, up to `gap` apart.
+    std::int64_t add_self_contact(double gap) {
+        std::int64_t count = 0;
+        shared_->check(delam_mesh_add_self_contact(get(), gap, &count));
+        return count;
+    }
     std::int64_t add_projected_interface(std::int32_t body_a, std::int32_t body_b, double gap = 0.0) {
         std::int64_t made = -1;
         shared_->check(delam_mesh_add_projected_interface(get(), body_a, body_b, gap, &made));

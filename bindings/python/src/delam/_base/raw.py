@@ -98,6 +98,8 @@ FUNCTIONS: dict[str, tuple[Any, tuple[tuple[str, Any], ...]]] = {
         ("mesh", POINTER(delam_mesh)), ("tolerance", c_double), ("out_count", POINTER(c_int64)))),
     "delam_mesh_add_seams": (c_int32, (
         ("mesh", POINTER(delam_mesh)), ("tolerance", c_double), ("out_count", POINTER(c_int64)))),
+    "delam_mesh_add_self_contact": (c_int32, (
+        ("mesh", POINTER(delam_mesh)), ("gap", c_double), ("out_count", POINTER(c_int64)))),
     "delam_mesh_add_projected_interface": (c_int32, (
         ("mesh", POINTER(delam_mesh)), ("body_a", c_int32), ("body_b", c_int32), ("gap", c_double),
         ("out_interface", POINTER(c_int64)))),
