@@ -116,9 +116,8 @@ LOOP_TEST(bilinear_law, 0, 2) {
     cases::expect_near(solver.value("dissipated"), m.toughness, 1e-12, m.toughness, "all of the toughness is spent");
 }
 
-// Work is (lower + upper)/2 per step, an O(tau) estimate inside a step. With an imposed jump this differs from the
-// trapezoidal rule for the reactions by at most k dw^2 |d zeta| / 4, so the defect of the ledger decreases with the
-// square of the step.
+// Work is the trapezoid of the reactions of each step. With an imposed jump the traction is piecewise linear, so that
+// the defect of the ledger comes from the step in which the slope changes, and decreases with the square of the step.
 double ledger_defect(const Mode& m, int steps, double& bound) {
     const Scene scene = imposed(m, {0.0, 1.2});
     Solver solver(scene, 0.0);

@@ -240,8 +240,7 @@ TrialMarch march(const Trial& trial, Realisation realisation) {
             scale = std::max({scale, std::abs(own.bulk) + std::abs(own.interface), std::abs(work), dissipated});
             for (const double miss :
                  {now.stored_bulk - own.bulk, now.stored_interface - own.interface, now.load_potential - own.potential,
-                  trial.device_jumps ? 0.0 : missed_work(before, now, own_before, own.total()),
-                  law ? now.dissipated - dissipated : 0.0})
+                  missed_work(before, now, own_before, own.total()), law ? now.dissipated - dissipated : 0.0})
                 booked_less_own.push_back(std::abs(miss));
             m.defect = std::abs(own.bulk + own.interface + own.potential + now.dissipated - work - start);
             if (law && k + 1 == trial.times.size()) m.damage = damage_residual(*law, scene, exported, before, now);

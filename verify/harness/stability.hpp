@@ -58,7 +58,6 @@ struct Trial {
     double defect = 0.0;                    // the defect that theory predicts, over the largest energy
     // At least these scales are used to measure violations, for a scene that has no stress of its own.
     double least_traction = 0.0, least_force = 0.0, least_energy = 0.0;
-    bool device_jumps = false;  // jumps are prescribed: the work inside a step is not the trapezoid then
     bool may_say = false;       // DELAM_NOT_CONVERGED is accepted too
     bool feti_may_say = false;  // for FETI alone
     std::string refused;        // expected: a refusal or outcome with these words

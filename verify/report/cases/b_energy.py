@@ -117,8 +117,7 @@ def ledger(context):
         ledger=ledger_of({f"h = {1e3 * cell:g} mm, {steps} steps": at}, "J/m"),
         checks=[check("booked work against the reaction's integral",
                       max(abs(a - b) for a, b in zip(at["work"], again)) / size, 1e-13,
-                      "for one prescribed displacement (lower + upper)/2 is the trapezoid of the end reactions, up to "
-                      "rounding of the energies"),
+                      "the work of a step is the trapezoid of the reactions at its ends, up to rounding"),
                 check("defect of the balance", max(abs(a - b) for a, b in zip(total, again)) / size,
                       7e-4 if context.quick else 5e-5, "three times the defect of b-balance at as many steps"),
                 check("below the lower bound", low, 1e-9, "of the final work; the bounds hold up to rounding"),

@@ -19,8 +19,8 @@ DUCTILE = "E = 75 GPa, nu = 0.3; k = 125e9 N/m3, Go = 100, Gc = 250 J/m2"
 BRITTLE = "E = 75 GPa, nu = 0.3; k = 125e15 N/m3, Go = 0.01, Gc = 25 J/m2"
 BALANCE = reference("physics", "stored + dissipated = work of the loads for a continuous evolution; the discrete "
                                "defect is O(tau)",
-                    "none: an identity; the work inside a step is (lower + upper)/2, with an error of the order of "
-                    "the band")
+                    "none: an identity; the work inside a step is the trapezoid of the reactions, with an error of "
+                    "the order of the band")
 RULES = {"frozen": {"mixity_rule": "frozen"}, "converged": {"mixity_rule": "converged"}, "variational": {"mixity_rule": "variational"}}
 ETA = 1e-3  # tolerance of the two-sided estimate
 ROUNDING = 1e-12  # of a defect, over the work
