@@ -199,6 +199,11 @@ TEST(walls) {
             return std::array{x, 0.01 * y};
         });
     ck_assert_int_eq(add_self_contact(strip, 0.5), 0);
+    // Walls that see each other at their ends alone, at 29 degrees: nothing of one lies on the other.
+    auto staggered = stack(CellType::quad4, CellType::quad4, 2, 2);
+    staggered[1].corner = {1.055, 0.6};
+    Mesh apart = as_one(blocks(staggered));
+    ck_assert_int_eq(add_self_contact(apart, 0.2), 0);
     // A ring that is not closed, with its ends before each other.
     constexpr std::int64_t around = 24;
     const auto ring = [](double x, double y) {

@@ -186,6 +186,17 @@ expect(code == 0, f"import: {error.strip()}")
 for reach, force in ((0, 0.0), (2.1e-4, 0.15)):
     walls = write(text.replace("general = true", f"general = true\ngap = {reach}"), "walls.toml", os.path.dirname(path))
     expect(math.isclose(abs(pressed(walls)), force, rel_tol=1e-9, abs_tol=1e-12), f"walls within {reach}")
+# A hole that is narrower than the gap faces itself: it stays without contact, which is told.
+places = [(r * math.cos(k * math.pi / 12), r * math.sin(k * math.pi / 12)) for r in (1.0, 2.0) for k in range(24)]
+ring = "*NODE\n" + "".join(f"{n + 1}, {x:.9f}, {y:.9f}\n" for n, (x, y) in enumerate(places))
+ring += "*ELEMENT, TYPE=CPE4, ELSET=RING\n"
+ring += "".join(f"{k + 1}, {k + 1}, {k + 25}, {(k + 1) % 24 + 25}, {(k + 1) % 24 + 1}\n" for k in range(24))
+path = write(ring, "ring.inp")
+hole = ('schema = 1\n[mesh]\nfile = "ring.inp"\n[[materials]]\nname = "m"\nyoung = 1000.0\npoisson = 0.3\n'
+        '[[bodies]]\nname = "*"\nmaterial = "m"\n[contact]\ngeneral = true\ngap = 2.1\n'
+        '[[supports]]\nbody = "RING"\nfix = ["x", "y"]\n[time]\nend = 1.0\nsteps = 1\n')
+code, _, error = delam("check", write(hole, "ring.toml", os.path.dirname(path)))
+expect("leaves the walls of single bodies without contact" in error and "faces itself" in error, f"told: {error.strip()}")
 for wrong, words in (("general = 1", "general.*true or false"), ("gap = 1", "is for general = true"),
                      ("general = true\ngap = -1", "gap.*>= 0")):
     with open(scene, encoding="utf-8") as file:

@@ -200,11 +200,12 @@ void OperatorSystem::give_way(const std::vector<std::uint8_t>& closed) {
         if (error.status() != DELAM_ERROR_NUMERICAL) throw;
         return;
     }
+    response_.iterations += given.iterations;
     if (!given.balanced || !given.converged) return;
     double most = 0.0;
     for (const std::size_t r : contacts) most = std::max(most, std::abs(given.jump[r]));
     if (!(most > noticed * max_abs(op_.displacement(theta_, given)))) return;
-    given.iterations += response_.iterations;
+    given.iterations = response_.iterations;
     response_ = std::move(given);
 }
 

@@ -217,6 +217,8 @@ FacingWalls::FacingWalls(const Mesh& mesh, std::vector<BoundaryFace> faces, doub
 }
 
 void FacingWalls::find_facing(double gap) {
+    if (faces_.empty()) return;
+    const double rim = 1e-6 * shortest_edge(mesh_, mesh_.body_cells(mesh_.cell_body(faces_.front().cell)));
     std::vector<Box> boxes;
     for (const BoundaryFace& face : faces_) boxes.push_back(box_of(mesh_, face, gap));
     const BoxTree tree(boxes);
@@ -228,9 +230,14 @@ void FacingWalls::find_facing(double gap) {
                 if (facing_[f].contains(g) || dot(normal_[f], normal_[g]) > -straight ||
                     share_node(faces_[f], faces_[g]))
                     return;
-                const Point way = closest_point(mesh_, faces_[g], p.place).place - p.place;
-                const double distance = length(way);
-                if (distance > gap || dot(way, p.normal) < straight * distance) return;
+                // As Ground::under has it, so that what faces is also paired.
+                const FacePoint there = closest_point(mesh_, faces_[g], p.place);
+                const Point way = there.place - p.place;
+                const double distance = length(way), along = std::abs(dot(way, there.normal));
+                const double lateral = std::sqrt(std::max(0.0, distance * distance - along * along));
+                if (distance > std::max(gap, rim) || lateral > rim + 0.5 * along ||
+                    (distance > rim && dot(way, p.normal) < straight * distance))
+                    return;
                 facing_[f].insert(g);
                 facing_[g].insert(f);
             });
@@ -305,8 +312,10 @@ std::optional<SelfContact> self_contact(const Mesh& mesh, std::int32_t body, con
     const std::vector<BoundaryFace> core = walls.part(a, b, false);
     std::vector<BoundaryFace> opposite = walls.part(a, b, true), own = walls.part(b, a, false);
     const auto touches = [](const std::vector<BoundaryFace>& faces) {
-        return [&faces](const BoundaryFace& face) {
-            return std::any_of(faces.begin(), faces.end(), [&](const BoundaryFace& f) { return share_node(f, face); });
+        std::set<std::int64_t> nodes;
+        for (const BoundaryFace& face : faces) nodes.insert(face.all().begin(), face.all().end());
+        return [nodes = std::move(nodes)](const BoundaryFace& face) {
+            return std::any_of(face.all().begin(), face.all().end(), [&](std::int64_t n) { return nodes.contains(n); });
         };
     };
     std::erase_if(own, touches(core));

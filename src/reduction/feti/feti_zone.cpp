@@ -13,6 +13,13 @@
 
 namespace delam {
 
+namespace {
+
+// Columns are right to 1e-12 (jump_columns.cpp): what is left of a stiffness without its springs has three digits then.
+constexpr double least_difference = 1e-9;
+
+}  // namespace
+
 FetiZone::FetiZone(const Problem& problem, const std::vector<Subdomain>& subdomains, DualOperator& dual,
                    const DualLoads& loads, Monitor& monitor)
     : problem_(problem),
@@ -57,14 +64,15 @@ bool FetiZone::find_energy(std::vector<std::int64_t> wanted) {
     if (rows_.empty() || !columns_.energy(rows_, energy_)) return false;
     for (JumpEquations::Dependent& d : dependent_)
         for (auto& [r, n] : d.jump.unknowns) r = std::lower_bound(rows_.begin(), rows_.end(), r) - rows_.begin();
-    take_out_springs();
+    if (!take_out_springs()) return false;
     find_motions(wanted);
     changed_ = std::move(wanted);  // last: an energy that an exception has interrupted is not known
     return true;
 }
 
 // The energy has the dependent rows at the springs of the base, s/2 (n x + o theta)^2.
-void FetiZone::take_out_springs() {
+bool FetiZone::take_out_springs() {
+    const DenseMatrix before = energy_.stiffness;
     for (const JumpEquations::Dependent& d : dependent_) {
         const double s = columns_.base().stiffness[index(d.row)];
         for (const auto& [i, n] : d.jump.unknowns) {
@@ -73,6 +81,9 @@ void FetiZone::take_out_springs() {
                 energy_.load(i, static_cast<std::int64_t>(q)) += s * n * d.jump.offset[q];
         }
     }
+    for (std::int64_t i = 0; i < before.rows; ++i)
+        if (!(energy_.stiffness(i, i) > least_difference * before(i, i))) return false;
+    return true;
 }
 
 // The motions that no row outside A holds do not strain anything: S Z = 0, exactly.

@@ -37,7 +37,8 @@ private:
     std::vector<std::int64_t> changed(const Springs& springs, std::span<const std::uint8_t> wanted) const;
     bool allowed(std::span<const std::int64_t> rows) const;
     bool find_energy(std::vector<std::int64_t> wanted);
-    void take_out_springs();
+    // False: the springs are so stiff that nothing is left of the energy.
+    bool take_out_springs();
     void find_motions(std::span<const std::int64_t> changed);
     Split split(const Springs& springs, std::span<const std::uint8_t> wanted) const;
     bool minimise_out(Split split);

@@ -44,7 +44,6 @@ std::vector<JumpEquations::Dependent> JumpEquations::among(std::span<const std::
     SparseElimination equations;
     std::vector<std::int64_t> given_up;
     for (const Scaling::Dependency& dependency : dual_.scaling().dependencies) {
-        if (std::none_of(dependency.row.begin(), dependency.row.end(), inside)) continue;
         SparseElimination::Row equation{{}, std::vector<double>(patterns_, 0.0)};
         for (std::size_t k = 0; k < dependency.row.size(); ++k) {
             const auto r = index(dependency.row[k]);

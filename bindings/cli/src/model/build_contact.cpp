@@ -89,7 +89,13 @@ void add_self_contact(Model& model, const Scene& scene) {
     call(model.context.get(), delam_mesh_add_seams(model.mesh.get(), 0.0, &count), general.place);
     push_own(model, scene, count, contact_of(general));
     if (!(general.gap > 0)) return;
-    call(model.context.get(), delam_mesh_add_self_contact(model.mesh.get(), general.gap, &count), general.place);
+    const std::int32_t status = delam_mesh_add_self_contact(model.mesh.get(), general.gap, &count);
+    if (status == DELAM_ERROR_MESH) {  // a hole that is narrower than the gap, walls that overhang on both sides
+        model.said.push_back(std::string("general contact leaves the walls of single bodies without contact: ") +
+                             delam_context_message(model.context.get()));
+        return;
+    }
+    call(model.context.get(), status, general.place);
     InterfaceData data = contact_of(general);
     data.projected = data.open = true;
     data.gap = general.gap;
