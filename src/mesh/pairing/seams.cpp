@@ -230,7 +230,7 @@ void FacingWalls::find_facing(double gap) {
                 if (facing_[f].contains(g) || dot(normal_[f], normal_[g]) > -straight ||
                     share_node(faces_[f], faces_[g]))
                     return;
-                // As Ground::under has it, so that what faces is also paired.
+                // Takes the test of Ground::under, so that what faces is also paired.
                 const FacePoint there = closest_point(mesh_, faces_[g], p.place);
                 const Point way = there.place - p.place;
                 const double distance = length(way), along = std::abs(dot(way, there.normal));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds outer faces that lie on others without an interface: seams of doubled nodes within a body, and bodies that
-// touch.
+// Finds outer faces that meet others without an interface: seams of doubled nodes within a body, bodies that touch, and
+// walls of one body that face each other (add_seams, add_self_contact of interfaces.hpp).
 #pragma once
 
 #include <cstdint>

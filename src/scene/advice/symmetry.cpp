@@ -177,7 +177,7 @@ bool SymmetryCheck::materials(const Involution& involution, const NodeImages& to
     return true;
 }
 
-// With u'(image of n) = R u(n), the equation sum of c u_k(n) = p says the sum of c R_jk u'_j = p of the image.
+// The image moves by u'(image of n) = R u(n): the equation sum of c u_k(n) = p says the sum of c R_jk u'_j = p of it.
 bool SymmetryCheck::constraints(const Involution& involution, const NodeImages& to) const {
     const auto row = [&](const Constraint& constraint, bool image) {
         SparseElimination::Row out{{}, constraint.prescribed};

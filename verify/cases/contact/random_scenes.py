@@ -342,7 +342,7 @@ def check(seed, reduction):
         if best is not None:
             least = program.energy(best, theta)
             expect(energy <= least + tolerance + 1e-12 * np.abs(scene.whole).max() * np.abs(best).max() ** 2, f"energy {energy:.10g}, but {least:.10g} is possible")
-        # Of jumps that are rounding, these values say nothing.
+        # These values say nothing of jumps that are rounding.
         tell = ("kkt_gap", "kkt_complementarity") if np.abs(scene.gaps @ u).max(initial=0.0) > 1e-6 * length else ()
         for name in tell + ("kkt_pressure", "kkt_equilibrium"):
             expect(values[name] <= allowed, f"{name} {values[name]:.2e}")
