@@ -12,6 +12,7 @@
 #include "evolution/observe/soundness.hpp"
 #include "evolution/observe/values.hpp"
 #include "evolution/search/fronts.hpp"
+#include "evolution/step/load_path.hpp"
 #include "evolution/step/step_control.hpp"
 #include "scene/advice/scene_warnings.hpp"
 
@@ -111,6 +112,7 @@ Outcome Solver::advance(double time) {
         fail(DELAM_ERROR_ARGUMENT, "time ", time, " is not after the committed time ", committed_.time);
     const Options& options = problem_.options;
     Chain chain(past_, committed_);
+    if (follows_load(options)) return follow(time);
     Stepper::Result result = keeps_past() ? backtracked_step(stepper_, chain, committed_.step, time, options)
                                           : stepper_.step(committed_, time);
     Pending pending;
@@ -128,6 +130,30 @@ Outcome Solver::advance(double time) {
     for (auto& [step, state] : chain.revised()) pending.revised.push_back(std::move(state));
     require_sound(problem_, pending.state, result.converged);
     for (const State& revised : pending.revised) require_sound(problem_, revised, result.converged);
+    warned_of_mixity_ = warned_of_mixity_ || stepper_.warn(pending.state);
+    warnings_.judge_front(observer_, committed_, pending.state);
+    warnings_.judge_ledger(pending.state, options);
+    warnings_.judge_symmetry(graph_, committed_, pending.state);
+    Outcome outcome;
+    if (!result.converged)
+        outcome = {DELAM_NOT_CONVERGED, text("step ", pending.state.step, " at time ", time,
+                                             ": not converged: ", what_did_not_converge(pending.state, options))};
+    judge_balance(pending.state, outcome);
+    selected_ = nullptr;
+    pending_ = std::move(pending);
+    observer_.show(pending_->state);
+    return outcome;
+}
+
+Outcome Solver::follow(double time) {
+    const Options& options = problem_.options;
+    ControlledStep controlled = followed_step(stepper_, graph_, committed_, time, options);
+    Pending pending;
+    pending.jumps = std::move(controlled.jumps);
+    Stepper::Result result = std::move(controlled.result);
+    pending.state = std::move(result.state);
+    pending.searched = std::move(result.searched);
+    require_sound(problem_, pending.state, result.converged);
     warned_of_mixity_ = warned_of_mixity_ || stepper_.warn(pending.state);
     warnings_.judge_front(observer_, committed_, pending.state);
     warnings_.judge_ledger(pending.state, options);

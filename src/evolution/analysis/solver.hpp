@@ -95,6 +95,7 @@ private:
         std::string searched;
     };
 
+    Outcome follow(double time);
     void require_nothing_pending(double time) const;
     Outcome unconverged_displacement(const State& state) const;
     // Appends what happened in a step that jumps.

@@ -143,6 +143,7 @@ struct State {
     StepHistory history;
     JumpWithin jump_within;
     Sensitivity sensitivity;
+    double growth = 0.0;  // da/dlnM of the last part of the step (step/load_path.hpp), L or L2; 0: not known
     // [bodies] the step since which nothing holds all of a body's motions; negative: something does.
     std::vector<std::int64_t> free_since;
 };

@@ -112,7 +112,9 @@ inline constexpr auto saved_fields<State> = std::tuple_cat(
     saved_since(unsaved,  // followed from the initial state on
         &State::sensitivity),
     saved_since(12,
-        &State::free_since));
+        &State::free_since),
+    saved_since(13,
+        &State::growth));
 // clang-format on
 
 static_assert(complete<Response>(saved_fields<Response>) && complete<Ledger>(saved_fields<Ledger>) &&

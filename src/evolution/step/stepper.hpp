@@ -65,6 +65,11 @@ public:
     // it is larger than eta, a state lower than `before` exists at its own time.
     double lower_excess(const State& state) const;
 
+    std::vector<double> factors(double time) const { return problem_.factors(time); }
+    // True if all pairs that soften in a step, or are nearly loaded, have the same toughness before and after it.
+    bool one_mode(const State& before, const State& after) {
+        return !rule_->follows_path() || inner_path().one_mode(after, after.mixity, &before);
+    }
     const PairLaws& pairs() const { return pairs_; }
     const ContactScene& contact() const { return contact_; }
     const JumpOperator& op() const { return *operator_; }

@@ -47,6 +47,8 @@ MixityRule::MixityRule(const PairLaws& pairs, const std::string& word)
         row_ = rows;
 }
 
+bool MixityRule::follows_path() const { return row_->keeps_broken; }
+
 std::unique_ptr<StepRule> MixityRule::increment(const PairLaws& pairs, const State& before,
                                                 std::span<const double> mixity, StepLimits limits) const {
     return row_->make(pairs, before, mixity, limits);

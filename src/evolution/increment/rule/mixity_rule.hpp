@@ -28,6 +28,8 @@ public:
     // A step from the state `before`, which must outlive it, minimised from these mixities, [pairs].
     std::unique_ptr<StepRule> increment(const PairLaws& pairs, const State& before, std::span<const double> mixity,
                                         StepLimits limits) const;
+    // True if what a step dissipates depends on its path.
+    bool follows_path() const;
     // Sets mixity and mixity_before of a state with which a step from `before` starts: from the committed
     // displacements, or, where nothing was loaded before, from the elastic ones of the step itself.
     void begin(const PairLaws& pairs, const State& before, State& start) const;
