@@ -195,8 +195,8 @@ DELAM_API int32_t delam_context_cancel(delam_context *context);
  *   tet10   0-1 1-2 2-0 0-3 1-3 2-3                              (Gmsh exchanges the last two)
  *   hex20   0-1 1-2 2-3 3-0  4-5 5-6 6-7 7-4  0-4 1-5 2-6 3-7    (Gmsh has another order)
  * Cells may be curved: a mid-side node need not lie exactly midway. Neighbouring cells share all nodes of their common
- * face. In bending, tri3, quad4, tet4 and hex8 are far too stiff unless there are many of them across the thickness.
- * With the other types, and with incompatible quad4 and hex8 (delam_problem_set_formulation), a few suffice. */
+ * face. In bending, tri3, tet4, and quad4 and hex8 of the standard formulation (delam_problem_set_formulation) are far
+ * too stiff unless there are many of them across the thickness. Of the others a few suffice. */
 #define DELAM_TRI3 1
 #define DELAM_QUAD4 2
 #define DELAM_TET4 3
@@ -652,15 +652,15 @@ DELAM_API int32_t delam_problem_set_orthotropic(delam_problem *problem, int32_t 
 DELAM_API int32_t delam_problem_set_orientation(delam_problem *problem, int32_t body, int64_t count,
                                                 const int64_t *cells, const double *axes, int32_t index_base);
 /* Sets the element formulation of a body (-1: of all). These are the values of formulation:
- *   "standard"         the default
- *   "incompatible"     adds internal bending modes after Wilson, Taylor and Beresford, condensed in each cell
+ *   "incompatible"     the default of bodies with quad4 or hex8 cells: adds internal bending modes after Wilson, Taylor
+ *                      and Beresford to these cells, condensed in each; other cells of the body are standard
+ *   "standard"         without such modes; the default of other bodies
  *   "mean-dilatation"  for nearly incompressible bodies, in which the other formulations lock: projects the dilatation
  *                      of each cell onto constants (quad4, hex8, tri6, tet10) or linear functions (quad8, quad9, hex20)
  * With incompatible modes, rectangular cells are exact in pure bending, in which standard cells are too stiff (square
- * ones by half). Between the nodes, displacements may be slightly discontinuous from cell to cell. Bodies of quad4 or
- * hex8 can have these modes. For others the call returns DELAM_ERROR_ARGUMENT, and the message names the first cell of
- * another type. The mean dilatation works in plane strain and in 3D, but not for tri3 and tet4, whose dilatation is
- * constant already.
+ * ones by half). Between the nodes, displacements may be slightly discontinuous from cell to cell. For a body without
+ * quad4 or hex8 "incompatible" returns DELAM_ERROR_ARGUMENT. The mean dilatation works in plane strain and in 3D, but
+ * not for tri3 and tet4, whose dilatation is constant already.
  * [null none; status argument; source R. Taylor, P. Beresford, E. Wilson, Int. J. Numer. Meth. Eng. 10 (1976) 1211-1219
  * and T. Hughes, ibid. 15 (1980) 1413-1418; since 0.1] */
 DELAM_API int32_t delam_problem_set_formulation(delam_problem *problem, int32_t body, const char *formulation);
@@ -1081,6 +1081,10 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  *   kkt_equilibrium           -        largest out-of-balance nodal force over the largest reaction or nodal force of
  *                                      eigenstrains
  *   free_bodies               -        number of bodies of which nothing holds all motions (field free_since)
+ *   mesh_error                -        estimated discretisation error of the bodies' elastic energy, relative to it,
+ *                                      away from the fronts of cracks
+ *   mesh_error_fronts         -        the same in the cells at fronts, where stresses are singular
+ *   mesh_excess               -        part of that energy that incompatible modes would take off standard cells
  * Values of the fronts of all interfaces with a law or, with :I appended (crack_length:0), of interface I:
  *   crack_length              L or L2  initially open part, plus sum of w (1 - zeta) over the pairs with initial
  *                                      adhesion > 0
@@ -1143,13 +1147,16 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  * it is one for each renewal of the factor. `bulk_factorisations` and `field_recoveries` are part neither of the state
  * nor of saved bytes.
  * `field_recoveries` counts recoveries of the displacements from the interfaces, each of one sparse solve. The fields
- * displacement, stress and rotation need one for each state, and with the condensed operator reaction. The values
- * rotation_max and kkt_... need one, and so does delam_solver_average. No other field or value needs one; a step needs
+ * displacement, stress, rotation and mesh_error need one for each state, and with the condensed operator reaction. The
+ * values rotation_max, mesh_... and kkt_... need one, and so does delam_solver_average. No other field or value needs one; a step needs
  * one only where rounding may spoil its balance of forces.
  * `damage_tolerance` bounds `damage_change`, which is <= `damage_tolerance` when converged.
  * `rotation_max` follows from the skew part of the displacement gradient at the centre of the cell. The theory of small
  * strains has a relative error of about half the square of this rotation. The solver warns once (log level 1) if it
  * exceeds 0.1.
+ * `mesh_error` R comes from the stresses (Zienkiewicz and Zhu 1987, field mesh_error). It tells whether the mesh is too
+ * coarse or its cells lock. Under prescribed displacements, the loads are too high by about R/(1 - R). NaN: no energy is
+ * stored, or a body has no material.
  * `crack_length` is at most the size of the interface, and in 3D an area. The initially open part goes up to the pair
  * at the tip in 2D. In 3D, it consists of the faces that touch a pair without initial adhesion.
  * delam_solver_front explains `energy_release_rate` and the other values of the fronts. In 3D, G scatters from point to
@@ -1188,7 +1195,7 @@ DELAM_API int32_t delam_solver_value_info(const delam_solver *solver, int64_t in
  * steps. delam_solver_equilibrate keeps the number of the committed step, so its commit replaces the entry of that
  * step.
  * key is one of delam_solver_value, with two exceptions: the values that recover the displacements (`rotation_max`, the
- * kkt_ values), and those that count since the solver was created (`bulk_factorisations`, `field_recoveries`). A second
+ * mesh_ and kkt_ values), and those that count since the solver was created (`bulk_factorisations`, `field_recoveries`). A second
  * request for the same key has no effect. delam_solver_save includes the record. delam_solver_load replaces the record
  * by the one in the bytes; therefore load first, and then request the keys. DELAM_ERROR_STATE: a step is pending.
  * DELAM_ERROR_PROBLEM: a host law failed while the values of a front were computed; the key is not recorded.
@@ -1218,6 +1225,7 @@ DELAM_API int32_t delam_solver_recorded(const delam_solver *solver, const char *
  *                                           the body; -1: they are held
  *   free_motion   [bodies][3 or 6]    -     1: nothing holds this motion. x, y, rotation; or x, y, z, rotations about
  *                                           x, y, z
+ *   mesh_error    [cells][1]          F L   estimated error of the cell's elastic energy; NaN for unknown materials
  * An open pair has the traction zeta k [u] (and with `mixity_rule = variational` the traction that this rule adds). A
  * closed pair has the contact pressure as normal component, which is negative.
  * mixity is 0 where the law does not depend on it, unless the option `mixity` is `always`. With `mixity_rule = frozen`,

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "body/material.hpp"
 #include "body/orientation.hpp"
@@ -11,8 +12,8 @@
 
 namespace delam {
 
-// incompatible: quad4 and hex8 with internal bending modes. mean_dilatation: the dilatation projected onto few
-// functions of the cell, for nearly incompressible bodies (element.cpp).
+// incompatible: quad4 and hex8 with internal bending modes; other cells of the body are standard. mean_dilatation: the
+// dilatation projected onto few functions of the cell, for nearly incompressible bodies (element.cpp).
 enum class Formulation { standard, incompatible, mean_dilatation };
 const char* name_of(Formulation formulation);
 
@@ -25,7 +26,10 @@ struct BodyModel {
     bool operator==(const BodyModel& other) const = default;
 };
 
-// Error(status) if a cell of the body has no such formulation.
+// Returns the formulations of bodies for which nobody chooses one, [bodies]: incompatible if a body has cells with such
+// modes.
+std::vector<Formulation> default_formulations(const Mesh& mesh);
+// Error(status) if the body has no cell with incompatible modes, or has a cell whose dilatation cannot be projected.
 void require_formulation(const Mesh& mesh, std::int32_t body, Formulation formulation, std::int32_t status);
 
 }  // namespace delam

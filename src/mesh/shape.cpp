@@ -246,9 +246,13 @@ ShapeGradient reference_gradient(CellType type, const ReferencePoint& at) {
 }
 
 PhysicalGradient physical_gradient(CellType type, std::span<const double> coordinates, const ReferencePoint& at) {
+    return physical_gradient(type, coordinates, reference_gradient(type, at));
+}
+
+PhysicalGradient physical_gradient(CellType type, std::span<const double> coordinates,
+                                   const ShapeGradient& on_reference) {
     const CellTopology& cell = topology(type);
     const auto dim = index(cell.dimension);
-    const ShapeGradient on_reference = reference_gradient(type, at);
     const Matrix3 j = tangent(cell.dimension, cell.nodes, local_coordinates(cell.dimension, coordinates), on_reference);
     PhysicalGradient result{{}, determinant(cell.dimension, j)};
     const Matrix3 inv = inverse(cell.dimension, j, result.jacobian);

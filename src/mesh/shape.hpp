@@ -40,6 +40,9 @@ struct PhysicalGradient {
     double jacobian;
 };
 PhysicalGradient physical_gradient(CellType type, std::span<const double> coordinates, const ReferencePoint& at);
+// The same from dN/dxi there.
+PhysicalGradient physical_gradient(CellType type, std::span<const double> coordinates,
+                                   const ShapeGradient& on_reference);
 
 // Smallest Jacobian determinant over the quadrature points and nodes; <= 0: inverted or degenerate.
 double smallest_jacobian(CellType type, std::span<const double> coordinates);

@@ -281,8 +281,11 @@ SoundPart::SoundPart(const Part& part) : mesh_(empty_mesh(part)), nodes_(part.no
     const auto plane = static_cast<Plane>(part.plane);
     for (std::size_t body = 0; body < part.labels.size(); ++body) {
         const auto formulation = static_cast<Formulation>(part.formulation[body]);
-        refusing(
-            [&] { require_formulation(mesh_, static_cast<std::int32_t>(body), formulation, DELAM_ERROR_ARGUMENT); });
+        // A part of a body with cells of several types may have none with incompatible modes.
+        if (formulation != Formulation::incompatible)
+            refusing([&] {
+                require_formulation(mesh_, static_cast<std::int32_t>(body), formulation, DELAM_ERROR_ARGUMENT);
+            });
         if (formulation == Formulation::mean_dilatation && plane == Plane::stress)
             refuse("formulation '", name_of(formulation), "' in plane stress");
         models_.push_back({material_of(part, body), plane, formulation, orientation});

@@ -24,7 +24,7 @@ double Pattern::at(double time) const {
 
 Problem::Problem(std::shared_ptr<const Mesh> mesh_) : mesh(std::move(mesh_)) {
     material.resize(index(mesh->body_count()));
-    formulation.resize(material.size(), Formulation::standard);
+    formulation = default_formulations(*mesh);
     stiffness.resize(material.size());
     interfaces.resize(mesh->interfaces().size());
     for (std::size_t i = 0; i < interfaces.size(); ++i) {

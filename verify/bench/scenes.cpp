@@ -20,11 +20,12 @@ constexpr std::int32_t quad9 = 7;
 
 std::int64_t cells(double length, double h) { return std::max<std::int64_t>(1, std::llround(length / h)); }
 
-// A formulation other than the default; an older library may not have the function.
+// An older library may not have the function: its cells are standard.
 std::int32_t set_formulation(delam_problem* problem, const char* formulation) {
     using Setter = std::int32_t (*)(delam_problem*, std::int32_t, const char*);
     const auto setter = reinterpret_cast<Setter>(dlsym(RTLD_DEFAULT, "delam_problem_set_formulation"));
-    return setter == nullptr ? DELAM_ERROR_ARGUMENT : setter(problem, -1, formulation);
+    if (setter == nullptr) return formulation == std::string("standard") ? DELAM_OK : DELAM_ERROR_ARGUMENT;
+    return setter(problem, -1, formulation);
 }
 
 // Direction along an axis.
@@ -99,11 +100,11 @@ reference::Scene layers(const SceneData& data) {
 }  // namespace
 
 const std::vector<Element>& elements() {
-    static const std::vector<Element> list = {{"quad4", 2, DELAM_QUAD4, "", 1},
+    static const std::vector<Element> list = {{"quad4", 2, DELAM_QUAD4, "standard", 1},
                                               {"quad4-incompatible", 2, DELAM_QUAD4, "incompatible", 1},
-                                              {"tri6", 2, tri6, "", 2},
-                                              {"quad8", 2, quad8, "", 2},
-                                              {"quad9", 2, quad9, "", 2}};
+                                              {"tri6", 2, tri6, "standard", 2},
+                                              {"quad8", 2, quad8, "standard", 2},
+                                              {"quad9", 2, quad9, "standard", 2}};
     return list;
 }
 
@@ -192,10 +193,8 @@ bool declare(Stage& stage, const Choice& choice, std::string* refusal) {
         if (refusal != nullptr) *refusal = std::string(what) + ": " + delam_context_message(scene.context());
         return false;
     };
-    if (data.element != nullptr && data.element->formulation[0] != '\0' &&
-        !accepted(set_formulation(scene.problem(), data.element->formulation), "formulation")) {
-        return false;
-    }
+    const char* formulation = data.element != nullptr ? data.element->formulation : "standard";
+    if (!accepted(set_formulation(scene.problem(), formulation), "formulation")) return false;
     const std::pair<const char*, const char*> texts[] = {{"reduction", choice.reduction},
                                                          {"minimisation", choice.minimisation},
                                                          {"solution", choice.solution},

@@ -12,7 +12,7 @@
 
 namespace bench {
 
-// Elements by name; formulation empty: the library's default.
+// Elements by name. Scenes without one have standard cells, as those of other programs with which they are compared.
 struct Element {
     const char* name;
     int dimension;

@@ -62,8 +62,7 @@ Scene make_cantilever(const Cantilever& c) {
     scene.begin();
     scene.elastic(0, c.young_lower, c.poisson);
     scene.elastic(1, c.young_upper, c.poisson);
-    if (c.formulation != "standard")
-        REQUIRE(scene, delam_problem_set_formulation, scene.problem(), -1, c.formulation.c_str());
+    REQUIRE(scene, delam_problem_set_formulation, scene.problem(), -1, c.formulation.c_str());
     if (c.bonded) {
         scene.bonded(0);
     } else {

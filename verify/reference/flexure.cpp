@@ -67,7 +67,7 @@ FlexureScene make_flexure(const Flexure& data) {
     scene.interface(0, 1);
     scene.begin();
     scene.elastic(-1, 75e9, 0.3);
-    if (incompatible) REQUIRE(scene, delam_problem_set_formulation, scene.problem(), -1, "incompatible");
+    REQUIRE(scene, delam_problem_set_formulation, scene.problem(), -1, incompatible ? "incompatible" : "standard");
     scene.law(0, data.law);
 
     const Pairs pairs = scene.pairs(0);

@@ -213,15 +213,13 @@ LOOP_TEST(parts_of_no_problem_are_refused, 0, shape_count) {
 }
 
 TEST(formulations_that_cells_do_not_have) {
-    const Blocks linear(shapes[0]), quadratic(shapes[1]), stress(shapes[2]);
+    const Blocks linear(shapes[0]), stress(shapes[2]);
     const auto formulation = [](const Blocks& b, Formulation f) {
         Part part = load_part(b.part(ends(b)));
         part.formulation.assign(2, static_cast<std::int32_t>(f));
         return read(b, save(part));
     };
     linear.refused(formulation(linear, Formulation::mean_dilatation), DELAM_ERROR_SNAPSHOT, "locks as before");
-    quadratic.refused(formulation(quadratic, Formulation::incompatible), DELAM_ERROR_SNAPSHOT,
-                      "'incompatible' of body");
     stress.refused(formulation(stress, Formulation::mean_dilatation), DELAM_ERROR_SNAPSHOT, "in plane stress");
 }
 

@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/numbers.hpp"
 #include "law/mixity.hpp"
+#include "mesh/box_tree.hpp"
 #include "mesh/faces.hpp"
+#include "mesh/points.hpp"
 
 namespace delam {
 
@@ -79,6 +82,42 @@ SpaceJump jump_of(const CrackedInterface& interface, std::int64_t pair) {
 
 std::vector<CrackFront> crack_fronts(const CrackedInterface& interface) {
     return interface.mesh.dimension() == 2 ? crack_fronts_on_lines(interface) : crack_fronts_on_faces(interface);
+}
+
+namespace {
+
+Box around(const Box& box, const Point& place) {
+    Box wider = box;
+    for (std::size_t i = 0; i < 3; ++i) {
+        wider.low[i] = std::min(wider.low[i], place[i]);
+        wider.high[i] = std::max(wider.high[i], place[i]);
+    }
+    return wider;
+}
+
+}  // namespace
+
+void mark_cells_at_fronts(const CrackedInterface& interface, std::span<std::uint8_t> cells) {
+    const Mesh& mesh = interface.mesh;
+    std::vector<Box> fronts;
+    for (const PairPiece& piece : pair_pieces(interface.geometry, mesh.dimension())) {
+        const auto pairs = std::span(piece.pair).first(index(piece.pairs));
+        const auto behind =
+            std::count_if(pairs.begin(), pairs.end(), [&](std::int64_t p) { return exhausted(interface, p); });
+        if (behind == 0 || behind == piece.pairs) continue;
+        Box box{place_of(interface, pairs.front()), place_of(interface, pairs.front())};
+        for (const std::int64_t p : pairs) box = around(box, place_of(interface, p));
+        const double faces = 2.0 * length(box.high - box.low);
+        for (std::size_t i = 0; i < 3; ++i) box.low[i] -= faces, box.high[i] += faces;
+        fronts.push_back(box);
+    }
+    if (fronts.empty()) return;
+    const BoxTree tree(std::move(fronts));
+    for (std::int64_t c = 0; c < mesh.cell_count(); ++c) {
+        Box box{position(mesh, mesh.cell(c)[0]), position(mesh, mesh.cell(c)[0])};
+        for (const std::int64_t n : mesh.cell(c)) box = around(box, position(mesh, n));
+        tree.meeting(box, [&](std::int64_t) { cells[index(c)] = 1; });
+    }
 }
 
 namespace {

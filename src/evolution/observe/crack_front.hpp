@@ -69,6 +69,8 @@ double process_zone(const CrackedInterface& interface);
 inline bool undamaged(double initial, double adhesion) { return initial > 0.0 && adhesion >= initial; }
 
 std::vector<CrackFront> crack_fronts(const CrackedInterface& interface);
+// Marks the cells of the mesh, [cells], within two faces of a place where exhausted pairs meet others.
+void mark_cells_at_fronts(const CrackedInterface& interface, std::span<std::uint8_t> cells);
 // Find the fronts of interfaces in 2D and in 3D.
 std::vector<CrackFront> crack_fronts_on_lines(const CrackedInterface& interface);
 std::vector<CrackFront> crack_fronts_on_faces(const CrackedInterface& interface);

@@ -13,8 +13,60 @@ namespace delam {
 
 namespace {
 
-bool of_pairs(const std::string& key) {
-    return key == "jump" || key == "traction" || key == "adhesion" || key == "mixity" || key == "contact";
+// What a row of a field belongs to.
+enum class Of { nodes, cells, pairs, constraints, bodies };
+
+struct FieldRow {
+    const char* key;
+    Of of;
+    std::int64_t columns[2];                             // in the plane, in space
+    std::vector<double> (*read)(Observer&);              // of everything; null: of pairs
+    double (*pair)(const Observer&, std::size_t entry);  // of pairs: one entry of [pairs][columns]
+};
+
+std::vector<double> free_since(Observer& observer) {
+    const std::vector<std::int64_t>& step = observer.state().free_since;
+    std::vector<double> since(index(observer.problem().mesh->body_count()), -1.0);
+    for (std::size_t b = 0; b < step.size(); ++b) since[b] = static_cast<double>(step[b]);
+    return since;
+}
+
+constexpr FieldRow field_table[] = {
+    {"displacement", Of::nodes, {2, 3}, [](Observer& o) { return o.displacement(); }, nullptr},
+    {"stress", Of::cells, {4, 6}, [](Observer& o) { return o.stress(); }, nullptr},
+    {"rotation",
+     Of::cells,
+     {1, 3},
+     [](Observer& o) { return centre_rotation(*o.problem().mesh, o.displacement()); },
+     nullptr},
+    {"jump", Of::pairs, {2, 3}, nullptr, [](const Observer& o, std::size_t i) { return o.state().response.jump[i]; }},
+    {"traction",
+     Of::pairs,
+     {2, 3},
+     nullptr,
+     [](const Observer& o, std::size_t i) {
+         return o.state().response.force[i] / o.pairs().weight[i / index(o.problem().mesh->dimension())];
+     }},
+    {"adhesion", Of::pairs, {1, 1}, nullptr, [](const Observer& o, std::size_t i) { return o.state().adhesion[i]; }},
+    {"mixity", Of::pairs, {1, 1}, nullptr, [](const Observer& o, std::size_t i) { return o.state().mixity[i]; }},
+    {"contact",
+     Of::pairs,
+     {1, 1},
+     nullptr,
+     [](const Observer& o, std::size_t i) { return o.state().closed[i] != 0 ? 1.0 : 0.0; }},
+    {"reaction", Of::constraints, {1, 1}, [](Observer& o) { return o.reaction(); }, nullptr},
+    {"free_since", Of::bodies, {1, 1}, free_since, nullptr},
+    {"free_motion", Of::bodies, {3, 6}, [](Observer& o) { return o.free_motions(); }, nullptr},
+    {"mesh_error", Of::cells, {1, 1}, [](Observer& o) { return o.mesh_error_of_cells(); }, nullptr},
+};
+
+const FieldRow& find_field(const std::string& key) {
+    std::string known;
+    for (const FieldRow& field : field_table) {
+        if (key == field.key) return field;
+        known += text(known.empty() ? "" : ", ", field.key);
+    }
+    fail(DELAM_ERROR_ARGUMENT, "unknown field '", key, "'; known: ", known);
 }
 
 // First pair and number of pairs of a part.
@@ -31,57 +83,36 @@ std::pair<std::int64_t, std::int64_t> pair_range(const Observer& observer, std::
 }  // namespace
 
 FieldShape field_shape(const Observer& observer, const std::string& key, std::int64_t part) {
-    const Mesh& mesh = *observer.problem().mesh;
-    const std::int64_t dim = mesh.dimension();
+    const FieldRow& row = find_field(key);
+    const Problem& problem = observer.problem();
+    const Mesh& mesh = *problem.mesh;
     const auto interfaces = static_cast<std::int64_t>(mesh.interfaces().size());
-    if (of_pairs(key)) {
+    const std::int64_t columns = row.columns[mesh.dimension() - 2];
+    if (row.of == Of::pairs) {
         if (part < -1 || part >= interfaces)
             fail(DELAM_ERROR_ARGUMENT, "field '", key, "': part ", part, ", allowed: -1 to ", interfaces - 1);
-        return {pair_range(observer, part).second, key == "jump" || key == "traction" ? dim : 1};
+        return {pair_range(observer, part).second, columns};
     }
     if (part != -1) fail(DELAM_ERROR_ARGUMENT, "field '", key, "': part ", part, ", allowed: -1");
-    if (key == "displacement") return {mesh.node_count(), dim};
-    if (key == "stress") return {mesh.cell_count(), dim == 2 ? 4 : 6};
-    if (key == "rotation") return {mesh.cell_count(), dim == 2 ? 1 : 3};
-    if (key == "free_since") return {mesh.body_count(), 1};
-    if (key == "free_motion") return {mesh.body_count(), dim == 2 ? 3 : 6};
-    if (key == "reaction") return {static_cast<std::int64_t>(observer.problem().constraints.size()), 1};
-    fail(DELAM_ERROR_ARGUMENT, "unknown field '", key,
-         "'; known: displacement, stress, rotation, jump, traction, adhesion, mixity, contact, reaction, free_since, "
-         "free_motion");
+    switch (row.of) {
+        case Of::nodes:
+            return {mesh.node_count(), columns};
+        case Of::cells:
+            return {mesh.cell_count(), columns};
+        case Of::bodies:
+            return {mesh.body_count(), columns};
+        default:
+            return {static_cast<std::int64_t>(problem.constraints.size()), columns};
+    }
 }
 
 std::vector<double> field(Observer& observer, const std::string& key, std::int64_t part) {
     const FieldShape shape = field_shape(observer, key, part);
-    const State& state = observer.state();
-    const Problem& problem = observer.problem();
-    if (key == "displacement") return observer.displacement();
-    if (key == "reaction") return observer.reaction();
-    if (key == "stress") return observer.stress();
-    if (key == "rotation") return centre_rotation(*problem.mesh, observer.displacement());
-    if (key == "free_since") {
-        std::vector<double> since(index(shape.rows), -1.0);
-        for (std::size_t b = 0; b < state.free_since.size(); ++b) since[b] = static_cast<double>(state.free_since[b]);
-        return since;
-    }
-    if (key == "free_motion") return observer.free_motions();
-    const auto first = index(pair_range(observer, part).first);
-    const auto columns = index(shape.columns);
-    const std::size_t count = index(shape.rows) * columns, begin = first * columns;
-    std::vector<double> out(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::size_t at = begin + i;
-        if (key == "jump")
-            out[i] = state.response.jump[at];
-        else if (key == "traction")
-            out[i] = state.response.force[at] / observer.pairs().weight[at / columns];
-        else if (key == "adhesion")
-            out[i] = state.adhesion[at];
-        else if (key == "mixity")
-            out[i] = state.mixity[at];
-        else
-            out[i] = state.closed[at] != 0 ? 1.0 : 0.0;
-    }
+    const FieldRow& row = find_field(key);
+    if (row.read != nullptr) return row.read(observer);
+    const std::size_t first = index(pair_range(observer, part).first * shape.columns);
+    std::vector<double> out(index(shape.rows * shape.columns));
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = row.pair(observer, first + i);
     return out;
 }
 

@@ -16,12 +16,14 @@ namespace delam {
 
 namespace {
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double largest_share = 0.99;  // of the energy: larger estimates say no more
 }  // namespace
 
 void Observer::show(const State& state) {
     shown_ = &state;
     displacement_.clear();
     fronts_.clear();
+    mesh_error_.reset();
 }
 
 std::optional<CrackedInterface> Observer::cracked(const State& state, std::int64_t interface) const {
@@ -53,11 +55,38 @@ std::vector<BodyModel> Observer::models() const {
     return models;
 }
 
-std::vector<Strain> Observer::eigenstrains() const {
+std::vector<Strain> Observer::eigenstrains(const State& state) const {
     std::vector<Strain> strains;
     for (std::int32_t body = 0; body < problem_.mesh->body_count() && !problem_.eigenstrains.empty(); ++body)
-        strains.push_back(strain_at(problem_, body, state().theta));
+        strains.push_back(strain_at(problem_, body, state.theta));
     return strains;
+}
+
+MeshError Observer::estimate(const State& state) {
+    std::vector<std::uint8_t> with_material;
+    for (std::int32_t body = 0; body < problem_.mesh->body_count(); ++body)
+        with_material.push_back(known(body) ? 1 : 0);
+    return delam::mesh_error(*problem_.mesh, models(), with_material, displacement(state), eigenstrains(state));
+}
+
+std::vector<double> Observer::mesh_error_of_cells() { return estimate(state()).of_cell; }
+
+MeshErrorShares Observer::mesh_error(const State& state) {
+    if (&state == shown_ && mesh_error_) return *mesh_error_;
+    const MeshError error = estimate(state);
+    std::vector<std::uint8_t> at_front(error.of_cell.size(), 0);
+    for (std::int64_t i = 0; i < static_cast<std::int64_t>(problem_.interfaces.size()); ++i)
+        if (const std::optional<CrackedInterface> of = cracked(state, i)) mark_cells_at_fronts(*of, at_front);
+    MeshErrorShares shares;
+    for (std::size_t c = 0; c < error.of_cell.size(); ++c) {
+        (at_front[c] != 0 ? shares.fronts : shares.away) += error.of_cell[c];
+        shares.excess += error.excess[c];
+    }
+    const double stored = state.ledger.stored_bulk;
+    for (double* share : {&shares.away, &shares.fronts, &shares.excess})
+        *share = stored > 0.0 ? std::min(*share / stored, largest_share) : unknown;
+    if (&state == shown_) mesh_error_ = shares;
+    return shares;
 }
 
 std::vector<double> Observer::free_motions() const {

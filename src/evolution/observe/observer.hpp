@@ -12,11 +12,19 @@
 #include "evolution/increment/damage_step.hpp"
 #include "evolution/increment/state.hpp"
 #include "evolution/observe/crack_front.hpp"
+#include "evolution/observe/mesh_error.hpp"
 #include "scene/problem.hpp"
 
 namespace delam {
 
 class EngineOperator;
+
+// Parts of the elastic energy of the bodies.
+struct MeshErrorShares {
+    double away = 0.0;    // error in cells away from the fronts of cracks
+    double fronts = 0.0;  // error in cells at fronts, where stresses are singular
+    double excess = 0.0;  // what incompatible modes would take off standard cells
+};
 
 class Observer {
 public:
@@ -61,11 +69,17 @@ public:
     // no material.
     std::vector<double> stress();
     // e* of the bodies, in material axes; empty if there are none.
-    std::vector<Strain> eigenstrains() const;
+    std::vector<Strain> eigenstrains() const { return eigenstrains(state()); }
     // Returns the average over a body (index), -1: over all; recovers the displacements.
     VolumeAverage average(std::int32_t body);
     // Returns the largest rotation of a cell, rad; NaN without cells. Recovers the displacements.
     double largest_rotation(const State& state);
+
+    // Returns the error of the stored energy that mesh_error.hpp estimates for a state; recovers the displacements.
+    // Finite only where the materials of all cells are known and energy is stored.
+    MeshErrorShares mesh_error(const State& state);
+    // The same cell by cell, of the state that is shown, [cells], F L.
+    std::vector<double> mesh_error_of_cells();
 
     // The interface with its law and its fields of a state; nothing if it has no law.
     std::optional<CrackedInterface> cracked(const State& state, std::int64_t interface) const;
@@ -76,6 +90,8 @@ private:
     bool known(std::int32_t body) const { return problem_.material[index(body)].has_value(); }
     // Returns the model of each body; undefined where the material is unknown.
     std::vector<BodyModel> models() const;
+    std::vector<Strain> eigenstrains(const State& state) const;
+    MeshError estimate(const State& state);
 
     const Problem& problem_;
     const JumpOperator& op_;
@@ -86,6 +102,7 @@ private:
     const EngineOperator* in_engine_;
     std::vector<double> displacement_;                            // empty: not recovered
     std::vector<std::optional<std::vector<CrackFront>>> fronts_;  // [interfaces]
+    std::optional<MeshErrorShares> mesh_error_;                   // nothing: not estimated
     std::int64_t recoveries_ = 0;
 };
 

@@ -313,6 +313,12 @@ constexpr Row table[] = {
             return count(
                 std::count_if(s.free_since.begin(), s.free_since.end(), [](std::int64_t k) { return k >= 0; }));
         }),
+    recovered_row("mesh_error", "-", "estimated error of the bodies' elastic energy, away from the fronts of cracks",
+                  [](const Reading& r) { return r.observer().mesh_error(r.state()).away; }),
+    recovered_row("mesh_error_fronts", "-", "the same in the cells at the fronts of cracks",
+                  [](const Reading& r) { return r.observer().mesh_error(r.state()).fronts; }),
+    recovered_row("mesh_excess", "-", "part of that energy that incompatible modes would take off standard cells",
+                  [](const Reading& r) { return r.observer().mesh_error(r.state()).excess; }),
     front_row("crack_length", "L or L2", "initially open length or area plus the advance of its fronts",
               [](const Reading& r, std::int64_t i) { return over_interfaces(r, i, crack_length); }),
     front_row("energy_release_rate", "F/L", "largest energy release rate of a front point; 0: there is no front",

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cctype>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <optional>
 #include <string_view>
@@ -156,9 +157,12 @@ public:
         outcome.resumed = origin_.resumed;
         outcome.started = origin_.started;
         outcome.problem_hash = state_.problem_hash;
-        const double rotation_max = fields_.assemble(model_, scene_, static_cast<std::size_t>(state_.step),
-                                                     state_.problem_hash, concept_of(model_.problem.get()));
-        outcome.closing = closing_of(model_, solver_.get(), scene_, rows_->text(), rotation_max);
+        BulkFacts bulk = fields_.assemble(model_, scene_, static_cast<std::size_t>(state_.step), state_.problem_hash,
+                                          concept_of(model_.problem.get()));
+        // Without fields, the last state tells; on many processes none has all displacements.
+        if (!std::isfinite(bulk.mesh_error.away) && !fields_.on_many_processes())
+            bulk.mesh_error = mesh_error_of(model_, solver_.get());
+        outcome.closing = closing_of(model_, solver_.get(), scene_, rows_->text(), bulk);
         outcome.closing_lines = closing_lines(outcome.closing, scene_);
         outcome.has_jumps = writes_jumps(outcome.closing.jumps, solver_.get());
         const std::string jumps_file = folder_.running() + "/jumps.csv";

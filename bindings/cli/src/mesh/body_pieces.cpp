@@ -60,7 +60,6 @@ std::vector<std::size_t> split_into_pieces(MeshData& mesh) {
         }
     std::map<std::size_t, std::int32_t> label_of;  // by first cell
     std::vector<std::string> names;
-    std::vector<std::string> formulations;
     std::vector<std::size_t> counts;
     std::vector<std::string> sorted = mesh.body_names;
     std::sort(sorted.begin(), sorted.end());
@@ -71,7 +70,6 @@ std::vector<std::size_t> split_into_pieces(MeshData& mesh) {
         for (std::size_t i = 0; i < found[body].size(); ++i) {
             label_of[found[body][i]] = static_cast<std::int32_t>(names.size());
             names.push_back(found[body].size() == 1 ? name : piece(i));
-            if (!mesh.formulations.empty()) formulations.push_back(mesh.formulations[body]);
         }
         counts.push_back(found[body].size());
         if (counts.back() > 1)
@@ -82,7 +80,6 @@ std::vector<std::size_t> split_into_pieces(MeshData& mesh) {
     for (CellBlock& block : mesh.blocks)
         for (std::int32_t& body : block.bodies) body = label_of.at(pieces.first_of(cell++));
     mesh.body_names = std::move(names);
-    mesh.formulations = std::move(formulations);
     return counts;
 }
 

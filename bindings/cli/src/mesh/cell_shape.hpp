@@ -23,6 +23,8 @@ struct CellShape {
 
     [[nodiscard]] bool simplex() const { return corners == static_cast<std::size_t>(dimension) + 1; }
     [[nodiscard]] bool linear() const { return nodes == corners; }
+    // True if the cell can have incompatible modes (delam_problem_set_formulation), and has them by default.
+    [[nodiscard]] bool has_modes() const { return linear() && !simplex(); }
 };
 
 // Failure for a number that is no cell type, or a name.

@@ -37,10 +37,9 @@ struct MeshData {
     std::map<std::string, std::vector<std::array<std::int64_t, 9>>> face_sets;  ///< faces as node lists, -1 padded
     std::vector<std::array<double, 6>> orientation;  ///< [cells, block after block] material axes 1, 2; empty: none
     std::vector<std::vector<double>> periods;        ///< [n][dimension] periods of a cell; empty: not periodic
-    std::vector<std::string> formulations;  ///< by label, what the element types of the file ask for; empty: standard
-    std::string plane;                      ///< "plane-strain" or "plane-stress" where the file says so; else empty
-    std::vector<CohesiveSet> cohesive;      ///< what holds bodies together in the file
-    std::vector<std::string> notes;         ///< what was decided on the way, for people
+    std::string plane;                  ///< "plane-strain" or "plane-stress" where the file says so; else empty
+    std::vector<CohesiveSet> cohesive;  ///< what holds bodies together in the file
+    std::vector<std::string> notes;     ///< what was decided on the way, for people
 };
 
 }  // namespace cli

@@ -105,7 +105,7 @@ std::vector<std::string> notes_of(const Scene& scene) {
         const Material& material = scene.materials[layer.material];
         // Nothing locks in plane stress, because the thickness can change freely.
         const auto* isotropic = std::get_if<Isotropic>(&material.elastic);
-        if (isotropic != nullptr && isotropic->poisson > 0.49 && material.formulation != "mean-dilatation" &&
+        if (isotropic != nullptr && isotropic->poisson > 0.49 && layer.formulation != "mean-dilatation" &&
             geometry.plane != "plane-stress")
             out.push_back(
                 fmt::format("{} \"{}\": poisson = {} locks with full integration: far too stiff (use formulation = "

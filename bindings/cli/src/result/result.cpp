@@ -2,6 +2,7 @@
 #include "result/result.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <ctime>
 
 #include <nlohmann/json.hpp>
@@ -63,6 +64,15 @@ Json balance_json(const Balance& balance) {
 
 Json mixity_error_json(const MixityError& error) {
     return {{"relative", error.relative}, {"step", error.step}, {"time", error.time}, {"dissipated", error.dissipated}};
+}
+
+Json mesh_error_json(const MeshError& error) {
+    if (!std::isfinite(error.away)) return nullptr;
+    return {{"error", error.away},
+            {"fronts", error.fronts},
+            {"excess", error.excess},
+            {"step", error.step},
+            {"time", error.time}};
 }
 
 Json load_drops_json(const LoadDrops& drops) {
@@ -179,7 +189,8 @@ std::string result_text(const Model& model, delam_solver* solver, const Scene& s
         {"estimate_hollow", outcome.closing.estimate_inconclusive},
         {"front_unresolved", outcome.closing.front_unresolved},
         {"free_bodies", free_bodies_json(outcome.closing.free_bodies)},
-        {"rotation_max", outcome.closing.rotation_max},
+        {"rotation_max", outcome.closing.bulk.rotation_max},
+        {"mesh_error", mesh_error_json(outcome.closing.bulk.mesh_error)},
         {"scene",
          {{"file", scene.file},
           {"title", scene.title},

@@ -94,6 +94,8 @@ void read_layers(const Table& root, Scene& scene) {
         layer.axes = read_axes(table, scene.geometry.dimension);
         layer.plies = read_plies(table, scene.geometry.dimension, layer.divisions);
         layer.formulation = scene.materials[layer.material].formulation;
+        if (layer.formulation.empty())
+            layer.formulation = shape_of(scene.geometry.cell_type).has_modes() ? "incompatible" : "standard";
         layer.place = table.place();
         scene.geometry.smallest_edge =
             std::min(scene.geometry.smallest_edge, layer.thickness / static_cast<double>(layer.divisions));

@@ -27,7 +27,7 @@ struct Layer {
     std::size_t material = 0;
     std::optional<std::array<double, 6>> axes;  // of the material, 1 and 2, in space
     std::vector<std::array<double, 6>> plies;   // the same for each of its plies, from the bottom up; empty: one axes
-    std::string formulation;
+    std::string formulation;                    // of its material, or that of its cells by default
     Place place;
 };
 
@@ -51,8 +51,8 @@ struct Isotropic {
 struct Material {
     std::string name;
     std::variant<Isotropic, std::array<double, 9>> elastic;  // or E1 E2 E3 nu12 nu13 nu23 G12 G13 G23
-    std::string formulation;
-    std::optional<std::array<double, 3>> expansion;  // thermal, along the material's axes, per degree
+    std::string formulation;                                 // empty: by default
+    std::optional<std::array<double, 3>> expansion;          // thermal, along the material's axes, per degree
     Place place;
 };
 

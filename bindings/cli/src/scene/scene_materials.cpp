@@ -31,7 +31,7 @@ std::array<double, 9> read_constants(const Table& table) {
 
 }  // namespace
 
-std::string read_formulation(const Table& table) { return table.text("formulation"); }
+std::string read_formulation(const Table& table) { return table.text("formulation", ""); }
 
 void read_materials(const Table& root, Scene& scene) {
     for (const Table& table : root.tables("materials")) {

@@ -67,6 +67,15 @@ MeshFile mesh_of_file(const Table& table, const Scene& scene) {
                      table.place("file"));
 }
 
+// True, by label, for bodies that have cells with incompatible modes.
+std::vector<bool> bodies_with_modes(const MeshData& mesh) {
+    std::vector<bool> found(mesh.body_names.size(), false);
+    for (const CellBlock& block : mesh.blocks)
+        if (shape_of(block.type).has_modes())
+            for (const std::int32_t body : block.bodies) found[static_cast<std::size_t>(body)] = true;
+    return found;
+}
+
 }  // namespace
 
 std::string set_name(const Table& table, std::string_view key, const Scene& scene) {
@@ -102,7 +111,6 @@ void read_mesh_table(const Table& root, Scene& scene) {
 
 void read_bodies(const Table& root, Scene& scene) {
     const std::vector<Table> tables = root.tables("bodies");
-    const std::vector<Table> materials = root.tables("materials");
     const auto& names = scene.mesh->body_names;
     const BodyIndex index = index_of(names);
     std::vector<const Table*> chosen(names.size(), nullptr);
@@ -121,6 +129,7 @@ void read_bodies(const Table& root, Scene& scene) {
                 if (chosen[i] == nullptr) chosen[i] = &table;
             }
         }
+    const std::vector<bool> bends = bodies_with_modes(*scene.mesh);
     for (std::size_t i = 0; i < names.size(); ++i) {
         if (chosen[i] == nullptr)
             root.fail("bodies", fmt::format("there is none for \"{}\"; the mesh has: {}", names[i], listing(names)));
@@ -129,12 +138,10 @@ void read_bodies(const Table& root, Scene& scene) {
         body.name = names[i];
         body.place = table.place();
         body.material = find_named(table, "material", table.text("material"), scene.materials, "material");
-        body.formulation = scene.materials[body.material].formulation;
-        if (!materials[body.material].has("formulation") && !scene.mesh->formulations.empty() &&
-            !scene.mesh->formulations[i].empty())
-            body.formulation = scene.mesh->formulations[i];
+        body.formulation = read_formulation(table);
+        if (body.formulation.empty()) body.formulation = scene.materials[body.material].formulation;
+        if (body.formulation.empty()) body.formulation = bends[i] ? "incompatible" : "standard";
         body.axes = read_axes(table, scene.geometry.dimension);
-        if (table.has("formulation")) body.formulation = read_formulation(table);
         scene.layers.push_back(std::move(body));
     }
 }

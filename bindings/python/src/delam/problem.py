@@ -172,7 +172,8 @@ class Problem(Object):
                    0, long=True)
 
     def set_formulation(self, formulation: str, body: Body | None = None) -> None:
-        """"standard" (initially), "incompatible" or "mean-dilatation"."""
+        """"incompatible" (initially, for bodies with quad4 or hex8), "standard" (initially, for others) or
+        "mean-dilatation"."""
         self._call(library.delam_problem_set_formulation, self.mesh._chosen(body), text("formulation", formulation))
 
     def set_stiffness(self, nodes: ArrayLike, matrix: object, dofs: ArrayLike | None = None,

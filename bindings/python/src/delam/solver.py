@@ -33,7 +33,7 @@ __all__ = ["Average", "Condensed", "FIELDS", "Fronts", "Jump", "PlanItem", "Solv
 # Fields of a state and what they are over.
 FIELDS = {"displacement": "nodes", "stress": "cells", "rotation": "cells", "jump": "pairs", "traction": "pairs",
           "adhesion": "pairs", "mixity": "pairs", "contact": "pairs", "reaction": "constraints",
-          "free_since": "bodies", "free_motion": "bodies"}
+          "free_since": "bodies", "free_motion": "bodies", "mesh_error": "cells"}
 # What others call a field.
 _SYNONYMS = {"damage": "'adhesion', which is 1 - damage", "zeta": "'adhesion'", "opening": "'jump'"}
 

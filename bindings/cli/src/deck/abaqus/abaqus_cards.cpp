@@ -252,9 +252,6 @@ private:
         const ElementType& type = type_named(card);
         const std::size_t per_element = type.nodes();
         if (!type.note.empty()) set_note(fmt::format("{}: {}", type.name, type.note));
-        if (!type.formulation.empty())
-            set_note(
-                fmt::format("{}: formulation \"{}\" unless the scene says otherwise", type.name, type.formulation));
         for (std::size_t i = 0; i < card.lines.size(); ++i) {
             // A line that ends with a comma continues on the next.
             std::vector<std::string> fields = card.lines[i].fields;

@@ -14,39 +14,42 @@ namespace cli::abaqus {
 
 namespace {
 
-constexpr std::string_view full = "integrated fully here";
+constexpr std::string_view modes = "formulation \"incompatible\" here, unless the scene says otherwise";
+constexpr std::string_view full =
+    "integrated fully here, and formulation \"incompatible\", unless the scene says otherwise";
+constexpr std::string_view quadratic = "integrated fully here";
 constexpr std::string_view plain = "a plain quadratic cell here";
 
 // The node orders are the library's: corners, then the nodes midway, C3D20 the bottom's, the top's, the vertical ones.
 constexpr ElementType element_types[] = {
-    {"CPE3", DELAM_TRI3, "", "plane-strain", ""},
-    {"CPE4", DELAM_QUAD4, "", "plane-strain", ""},
-    {"CPE4R", DELAM_QUAD4, "", "plane-strain", full},
-    {"CPE4I", DELAM_QUAD4, "incompatible", "plane-strain", ""},
-    {"CPE6", DELAM_TRI6, "", "plane-strain", ""},
-    {"CPE6M", DELAM_TRI6, "", "plane-strain", plain},
-    {"CPE8", DELAM_QUAD8, "", "plane-strain", ""},
-    {"CPE8R", DELAM_QUAD8, "", "plane-strain", full},
-    {"CPS3", DELAM_TRI3, "", "plane-stress", ""},
-    {"CPS4", DELAM_QUAD4, "", "plane-stress", ""},
-    {"CPS4R", DELAM_QUAD4, "", "plane-stress", full},
-    {"CPS4I", DELAM_QUAD4, "incompatible", "plane-stress", ""},
-    {"CPS6", DELAM_TRI6, "", "plane-stress", ""},
-    {"CPS6M", DELAM_TRI6, "", "plane-stress", plain},
-    {"CPS8", DELAM_QUAD8, "", "plane-stress", ""},
-    {"CPS8R", DELAM_QUAD8, "", "plane-stress", full},
-    {"C3D4", DELAM_TET4, "", "", ""},
-    {"C3D8", DELAM_HEX8, "", "", ""},
-    {"C3D8R", DELAM_HEX8, "", "", full},
-    {"C3D8I", DELAM_HEX8, "incompatible", "", ""},
-    {"C3D10", DELAM_TET10, "", "", ""},
-    {"C3D10M", DELAM_TET10, "", "", plain},
-    {"C3D20", DELAM_HEX20, "", "", ""},
-    {"C3D20R", DELAM_HEX20, "", "", full},
-    {"SC8R", DELAM_HEX8, "incompatible", "", "a solid cell here"},
-    {"COH2D4", -1, "", "", "", 2},
-    {"COH3D6", -1, "", "", "", 3},
-    {"COH3D8", -1, "", "", "", 4},
+    {"CPE3", DELAM_TRI3, "plane-strain", ""},
+    {"CPE4", DELAM_QUAD4, "plane-strain", modes},
+    {"CPE4R", DELAM_QUAD4, "plane-strain", full},
+    {"CPE4I", DELAM_QUAD4, "plane-strain", ""},
+    {"CPE6", DELAM_TRI6, "plane-strain", ""},
+    {"CPE6M", DELAM_TRI6, "plane-strain", plain},
+    {"CPE8", DELAM_QUAD8, "plane-strain", ""},
+    {"CPE8R", DELAM_QUAD8, "plane-strain", quadratic},
+    {"CPS3", DELAM_TRI3, "plane-stress", ""},
+    {"CPS4", DELAM_QUAD4, "plane-stress", modes},
+    {"CPS4R", DELAM_QUAD4, "plane-stress", full},
+    {"CPS4I", DELAM_QUAD4, "plane-stress", ""},
+    {"CPS6", DELAM_TRI6, "plane-stress", ""},
+    {"CPS6M", DELAM_TRI6, "plane-stress", plain},
+    {"CPS8", DELAM_QUAD8, "plane-stress", ""},
+    {"CPS8R", DELAM_QUAD8, "plane-stress", quadratic},
+    {"C3D4", DELAM_TET4, "", ""},
+    {"C3D8", DELAM_HEX8, "", modes},
+    {"C3D8R", DELAM_HEX8, "", full},
+    {"C3D8I", DELAM_HEX8, "", ""},
+    {"C3D10", DELAM_TET10, "", ""},
+    {"C3D10M", DELAM_TET10, "", plain},
+    {"C3D20", DELAM_HEX20, "", ""},
+    {"C3D20R", DELAM_HEX20, "", quadratic},
+    {"SC8R", DELAM_HEX8, "", "a solid cell here, of formulation \"incompatible\", unless the scene says otherwise"},
+    {"COH2D4", -1, "", "", 2},
+    {"COH3D6", -1, "", "", 3},
+    {"COH3D8", -1, "", "", 4},
 };
 
 }  // namespace

@@ -13,7 +13,6 @@ namespace cli::abaqus {
 struct ElementType {
     std::string_view name;
     std::int32_t cell;  // -1: a cohesive element, which is no cell
-    std::string_view formulation;
     std::string_view plane;
     std::string_view note;
     std::size_t face_nodes =

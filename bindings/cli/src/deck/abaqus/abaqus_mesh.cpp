@@ -129,7 +129,6 @@ private:
     }
 
     void add_cells() {
-        mesh_.formulations.resize(mesh_.body_names.size());
         for (const Part* scope : model_.scopes())
             for (std::size_t i = 0; i < scope->elements.size(); ++i) {
                 const Element& element = scope->elements[i];
@@ -140,13 +139,8 @@ private:
                     block = mesh_.blocks.insert(block, CellBlock{element.type->cell, {}, {}});
                 for (const std::int64_t id : element.nodes)
                     block->connectivity.push_back(node_number(*scope, id, element.place));
-                const std::int32_t body = body_of_.at({scope, i});
-                block->bodies.push_back(body);
-                std::string& formulation = mesh_.formulations[static_cast<std::size_t>(body)];
-                if (formulation.empty()) formulation = element.type->formulation;
+                block->bodies.push_back(body_of_.at({scope, i}));
             }
-        if (std::all_of(mesh_.formulations.begin(), mesh_.formulations.end(), [](const auto& f) { return f.empty(); }))
-            mesh_.formulations.clear();
     }
 
     void add_sets() {

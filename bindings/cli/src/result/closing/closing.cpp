@@ -8,7 +8,7 @@
 namespace cli {
 
 Closing closing_of(const Model& model, delam_solver* solver, const Scene& scene, std::string_view history,
-                   double rotation_max) {
+                   const BulkFacts& bulk) {
     const Rows rows = rows_of(history);
     Closing out;
     out.jumps = jumps_of(model, solver, scene);
@@ -21,7 +21,7 @@ Closing closing_of(const Model& model, delam_solver* solver, const Scene& scene,
     out.estimate_inconclusive = inconclusive_steps(rows);
     out.front_unresolved = unresolved_steps(rows, model, scene);
     out.free_bodies = free_bodies_of(model, solver, scene);
-    out.rotation_max = rotation_max;
+    out.bulk = bulk;
     return out;
 }
 
@@ -35,7 +35,8 @@ std::vector<std::string> closing_lines(const Closing& closing, const Scene& scen
     for (std::string& line : search_lines(closing.search, scene)) out.push_back(std::move(line));
     for (std::string& line : free_body_lines(closing.free_bodies, scene)) out.push_back(std::move(line));
     out.push_back(unresolved_line(closing.front_unresolved));
-    out.push_back(rotation_line(closing.rotation_max));
+    out.push_back(mesh_error_line(closing.bulk.mesh_error, scene));
+    out.push_back(rotation_line(closing.bulk.rotation_max));
     std::erase(out, "");
     return out;
 }

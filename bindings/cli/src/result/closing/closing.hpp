@@ -11,8 +11,10 @@
 #include "result/closing/balance.hpp"
 #include "result/closing/free_bodies.hpp"
 #include "result/closing/load_drops.hpp"
+#include "result/closing/mesh_error.hpp"
 #include "result/closing/mixity_error.hpp"
 #include "result/closing/search_limits.hpp"
+#include "result/fields/bulk_facts.hpp"
 #include "result/history/jumps.hpp"
 
 namespace cli {
@@ -27,11 +29,11 @@ struct Closing {
     double estimate_tolerance = 0;
     std::vector<std::int64_t> front_unresolved;  // steps in which a crack grew with too few pairs in its process zone
     std::vector<FreeBody> free_bodies;           // at the end
-    double rotation_max = 0;                     // rad, in the steps with fields
+    BulkFacts bulk;                              // of the steps with fields
 };
 
 Closing closing_of(const Model& model, delam_solver* solver, const Scene& scene, std::string_view history,
-                   double rotation_max);
+                   const BulkFacts& bulk);
 // Each fact once, without ends of line.
 std::vector<std::string> closing_lines(const Closing& closing, const Scene& scene);
 

@@ -2,9 +2,11 @@
 #include "result/fields/fields.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -137,6 +139,11 @@ Fields::Fields(std::string folder, const Scene& scene, Bulk* bulk) : folder_(std
     }
 }
 
+bool Fields::estimates_mesh_error(std::size_t step) const {
+    const auto place = static_cast<std::size_t>(std::distance(chosen_.begin(), chosen_.find(step)));
+    return std::has_single_bit(place) || step == *chosen_.rbegin();
+}
+
 std::string Fields::step_path(std::size_t step) const { return folder_ + "/" + step_name(step); }
 
 std::string Fields::revised_path(std::size_t step) const { return step_path(step) + std::string(revised_suffix); }
@@ -152,7 +159,8 @@ void Fields::write_step(const Model& model, delam_solver* solver, const Scene& s
         write_step_file(path, model, solver, scene, static_cast<std::int64_t>(step), scene.times[step], *bulk_);
         hashes_.erase(step);
     } else {
-        const std::string bytes = step_bytes(model, solver, scene, static_cast<std::int64_t>(step), scene.times[step]);
+        const std::string bytes = step_bytes(model, solver, scene, static_cast<std::int64_t>(step), scene.times[step],
+                                             estimates_mesh_error(step));
         Appender(path, 0).append(bytes);
         hashes_[step] = hash_text(bytes);
     }
@@ -202,15 +210,15 @@ void Fields::resume(std::size_t last, const std::optional<std::vector<std::strin
     }
 }
 
-double Fields::assemble(const Model& model, const Scene& scene, std::size_t last, const std::string& problem_hash,
-                        const Concept& named) const {
+BulkFacts Fields::assemble(const Model& model, const Scene& scene, std::size_t last, const std::string& problem_hash,
+                           const Concept& named) const {
     const std::string path = folder_ + "/fields.h5";
     std::int64_t bytes = std::int64_t{1} << 20;
     for (const std::size_t step : chosen_)
         if (step <= last) bytes += static_cast<std::int64_t>(std::filesystem::file_size(step_path(step)));
     require_room(path, bytes);
 
-    double rotation = 0;
+    BulkFacts facts;
     std::vector<XdmfStep> steps;
     std::vector<XdmfBlock> blocks;
     std::vector<FileRange> ranges;  // for the processes that have the fields
@@ -237,7 +245,12 @@ double Fields::assemble(const Model& model, const Scene& scene, std::size_t last
                 h5::require(H5Ocopy(from.get(), "step", group.get(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), path);
             }
             const h5::Group own(H5Gopen2(from.get(), "step", H5P_DEFAULT), step_path(step));
-            rotation = std::max(rotation, h5::read_number(own.get(), "rotation_max"));
+            facts.rotation_max = std::max(facts.rotation_max, h5::read_number(own.get(), "rotation_max"));
+            const MeshError error{h5::read_number_if_there(own.get(), "mesh_error"),
+                                  h5::read_number_if_there(own.get(), "mesh_error_fronts"),
+                                  h5::read_number_if_there(own.get(), "mesh_excess"), static_cast<std::int64_t>(step),
+                                  scene.times[step]};
+            if (error.away > facts.mesh_error.away || !std::isfinite(facts.mesh_error.away)) facts.mesh_error = error;
             steps.push_back({name, scene.times[step]});
         }
         h5::require(H5Fflush(file.get(), H5F_SCOPE_GLOBAL), path);
@@ -249,7 +262,7 @@ double Fields::assemble(const Model& model, const Scene& scene, std::size_t last
     }
     synchronise(path);
     write_atomic(folder_ + "/fields.xdmf", xdmf_text(blocks, steps, scene.output.fields));
-    return rotation;
+    return facts;
 }
 
 void Fields::remove_steps() const {

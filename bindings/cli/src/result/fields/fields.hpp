@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "model/model.hpp"
+#include "result/fields/bulk_facts.hpp"
 #include "result/fields/bulk_fields.hpp"
 #include "result/history/concept.hpp"
 
@@ -33,12 +34,14 @@ public:
     // hash differs from the saved one; if no hashes were saved, if it is of another step.
     void resume(std::size_t last, const std::optional<std::vector<std::string>>& saved);
     // Combines steps 0 .. last into folder/fields.h5 and folder/fields.xdmf.
-    // Largest rotation of a cell in these steps, rad (0 if no step has displacements).
-    double assemble(const Model& model, const Scene& scene, std::size_t last, const std::string& problem_hash,
-                    const Concept& named) const;
+    BulkFacts assemble(const Model& model, const Scene& scene, std::size_t last, const std::string& problem_hash,
+                       const Concept& named) const;
     void remove_steps() const;
+    [[nodiscard]] bool on_many_processes() const { return bulk_ != nullptr; }
 
 private:
+    // True for the 1st, 2nd, 4th, 8th, .. of the steps behind the initial state, and for the last.
+    [[nodiscard]] bool estimates_mesh_error(std::size_t step) const;
     [[nodiscard]] std::string step_path(std::size_t step) const;
     [[nodiscard]] std::string revised_path(std::size_t step) const;
 

@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <new>
 #include <string>
 #include <vector>
@@ -171,6 +172,12 @@ inline double read_number(hid_t parent, const std::string& name) {
     double value = 0;
     require(H5Aread(in.get(), H5T_NATIVE_DOUBLE, &value), name);
     return value;
+}
+
+// NaN: the attribute is missing.
+inline double read_number_if_there(hid_t parent, const std::string& name) {
+    if (H5Aexists(parent, name.c_str()) <= 0) return std::numeric_limits<double>::quiet_NaN();
+    return read_number(parent, name);
 }
 
 inline hid_t new_group(hid_t parent, const std::string& name) {

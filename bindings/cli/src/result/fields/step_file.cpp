@@ -99,7 +99,10 @@ struct BulkSource {
     std::function<void(hid_t group)> write;
     DisplacementOf displacement;
     std::function<double()> largest_rotation;
+    std::function<void(hid_t group)> write_mesh_error;  // empty: it is not estimated
 };
+
+constexpr const char* mesh_error_keys[] = {"mesh_error", "mesh_error_fronts", "mesh_excess"};
 
 // Everything that a step file says, in its order.
 void write_step(hid_t file, const Model& model, delam_solver* solver, const Scene& scene, std::int64_t step,
@@ -109,6 +112,7 @@ void write_step(hid_t file, const Model& model, delam_solver* solver, const Scen
     h5::attribute(group.get(), "time", time);
     source.write(group.get());
     h5::attribute(group.get(), "rotation_max", bulk_fields(scene).empty() ? 0.0 : source.largest_rotation());
+    if (source.write_mesh_error && !bulk_fields(scene).empty()) source.write_mesh_error(group.get());
     for (std::size_t i = 0; i < model.interfaces.size(); ++i)
         write_interface(model, solver, scene, group.get(), static_cast<std::int64_t>(i),
                         wants(scene, "displacement") ? source.displacement : DisplacementOf());
@@ -137,7 +141,8 @@ std::pair<std::int64_t, std::int64_t> mesh_rows(const Model& model) {
 
 }  // namespace
 
-std::string step_bytes(const Model& model, delam_solver* solver, const Scene& scene, std::int64_t step, double time) {
+std::string step_bytes(const Model& model, delam_solver* solver, const Scene& scene, std::int64_t step, double time,
+                       bool estimate) {
     const h5::Properties access(H5Pcreate(H5P_FILE_ACCESS), "fields.h5");
     h5::require(H5Pset_fapl_core(access.get(), std::size_t{1} << 20, false), "fields.h5");
     const h5::File file(h5::create("step", access.get()), "fields.h5");
@@ -156,6 +161,14 @@ std::string step_bytes(const Model& model, delam_solver* solver, const Scene& sc
         call(model.context.get(), delam_solver_value(solver, "rotation_max", &largest), std::string("rotation_max"));
         return largest;
     };
+    const auto write_mesh_error = [&](hid_t group) {
+        for (const char* key : mesh_error_keys) {
+            double part = 0;
+            call(model.context.get(), delam_solver_value(solver, key, &part), std::string(key));
+            h5::attribute(group, key, part);
+        }
+    };
+    if (estimate) source.write_mesh_error = write_mesh_error;
     write_step(file.get(), model, solver, scene, step, time, source);
     h5::require(H5Fflush(file.get(), H5F_SCOPE_GLOBAL), "fields.h5");
     const ssize_t size = H5Fget_file_image(file.get(), nullptr, 0);

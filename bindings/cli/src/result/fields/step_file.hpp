@@ -14,7 +14,9 @@
 
 namespace cli {
 
-std::string step_bytes(const Model& model, delam_solver* solver, const Scene& scene, std::int64_t step, double time);
+// estimate: with the error of the mesh (bulk_facts.hpp), if the fields of nodes or cells are written.
+std::string step_bytes(const Model& model, delam_solver* solver, const Scene& scene, std::int64_t step, double time,
+                       bool estimate);
 // The same as a file, by many processes. A file that is there is replaced, at once.
 void write_step_file(const std::string& path, const Model& model, delam_solver* solver, const Scene& scene,
                      std::int64_t step, double time, Bulk& bulk);

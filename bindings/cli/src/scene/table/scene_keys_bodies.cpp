@@ -58,7 +58,9 @@ KeyTable material_table() {
                            .or_alone()
                            .says("thermal expansion per degree along the material's axes, or along all");
     table.rows.push_back(expansion);
-    table.rows.push_back(formulation_key().otherwise("\"standard\"").says("of the finite elements"));
+    table.rows.push_back(formulation_key()
+                             .otherwise("incompatible for quad4 and hex8, standard for other cells")
+                             .says("of the finite elements"));
 
     const std::vector<std::string> five{"E1", "E2", "nu12", "nu23", "G12"}, four{"E3", "nu13", "G13", "G23"};
     std::vector<std::string> nine = five;

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evolution/observe/mesh_error.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "base/cancel_scope.hpp"
+#include "base/numbers.hpp"
+#include "body/cell_elasticity.hpp"
+#include "body/cell_strains.hpp"
+#include "linalg/dense/small_solve.hpp"
+#include "mesh/shape.hpp"
+
+namespace delam {
+
+namespace {
+
+// Difference of elasticities, relative to their size, from which on stresses are not averaged: plies of a laminate
+// differ by 0.5 and more, cells beside each other on an arc by as much as their directions in rad.
+constexpr double another_material = 0.3;
+constexpr std::size_t in_plane[] = {0, 1, 3};  // xx, yy, xy among all six
+
+using Stress = std::array<double, most_strains>;
+
+// Factor on eta^2. Stresses of quadratic cells, and of hex8 with incompatible modes, are closer to their own nodal
+// means than to the solution. (Measured, as verify/cases/mesh_error.py prints it: medians of estimated over true
+// errors.)
+double calibration(CellType type, Formulation formulation) {
+    const bool modes = type == CellType::hex8 && formulation == Formulation::incompatible;
+    return modes || !cell_row(type).linear() ? 2.0 : 1.0;
+}
+
+// Values at the nodes of a cell from those at its Gauss points: the corner functions that fit these best.
+class ToNodes {
+public:
+    explicit ToNodes(CellType type) : points_(quadrature(type).points.size()), nodes_(reference_nodes(type).size()) {
+        const CellRow& row = cell_row(type);
+        const auto linear = std::find_if(cell_rows.begin(), cell_rows.end(), [&](const CellRow& other) {
+            return other.linear() && other.reference == row.reference &&
+                   other.topology.dimension == row.topology.dimension;
+        });
+        const std::size_t functions = points_ == 1 ? 1 : index(row.topology.corners);
+        const auto at = [&](const ReferencePoint& point, std::size_t f) {
+            return functions == 1 ? 1.0 : shape_values(linear->type, point)[f];
+        };
+        // N^T N c = N^T s, and the value at a node is N c.
+        const Quadrature& gauss = quadrature(type);
+        weight_.assign(nodes_ * points_, 0.0);
+        for (std::size_t q = 0; q < points_; ++q) {
+            std::array<double, 64> normal{};
+            std::array<double, 8> fit{};
+            for (std::size_t f = 0; f < functions; ++f) {
+                fit[f] = at(gauss.points[q], f);
+                for (std::size_t g = 0; g < functions; ++g)
+                    for (const ReferencePoint& point : gauss.points) normal[f * 8 + g] += at(point, f) * at(point, g);
+            }
+            small_solve(functions, 8, normal.data(), fit.data());
+            for (std::size_t a = 0; a < nodes_; ++a)
+                for (std::size_t f = 0; f < functions; ++f)
+                    weight_[a * points_ + q] += at(reference_nodes(type)[a], f) * fit[f];
+        }
+        for (const ReferencePoint& point : gauss.points) shape_.push_back(shape_values(type, point));
+    }
+    std::size_t points() const { return points_; }
+    std::size_t nodes() const { return nodes_; }
+    double weight(std::size_t node, std::size_t point) const { return weight_[node * points_ + point]; }
+    double shape(std::size_t point, std::size_t node) const { return shape_[point][node]; }
+
+private:
+    std::size_t points_, nodes_;
+    std::vector<double> weight_;  // [nodes][points]
+    std::vector<ShapeValues> shape_;
+};
+
+// Stresses of one cell after another.
+class Stresses {
+public:
+    Stresses(const Mesh& mesh, std::span<const BodyModel> models, std::span<const double> displacement,
+             std::span<const Strain> eigenstrain)
+        : mesh_(mesh), models_(models), displacement_(displacement), eigenstrain_(eigenstrain) {
+        for (const BodyModel& model : models) elasticity_.emplace_back(model, mesh.dimension());
+    }
+    std::size_t strains() const { return mesh_.dimension() == 2 ? 3 : 6; }
+    std::span<const double> elasticity(std::int64_t cell) { return elasticity_[body(cell)].matrix(cell); }
+
+    void find(std::int64_t cell, CellStrains& strains, std::array<Stress, most_gauss_points>& stress) {
+        u_.clear(), x_.clear();
+        for (const std::int64_t n : mesh_.cell(cell))
+            for (std::size_t i = 0; i < index(mesh_.dimension()); ++i) {
+                u_.push_back(displacement_[index(n) * index(mesh_.dimension()) + i]);
+                x_.push_back(mesh_.node(n)[i]);
+            }
+        const CellType type = mesh_.cell_type(cell);
+        const std::span<const double> matrix = elasticity(cell);
+        const bool projected = models_[body(cell)].formulation == Formulation::mean_dilatation;
+        const Dilatation dilatation = projected ? elasticity_[body(cell)].dilatation(cell) : Dilatation{};
+        const Stress prescribed = prescribed_stress(cell, matrix);
+        const std::size_t count = this->strains(), points = quadrature(type).points.size();
+        strains = cell_strains(type, x_, matrix, models_[body(cell)].formulation, u_);
+        for (std::size_t q = 0; q < points; ++q)
+            for (std::size_t i = 0; i < count; ++i) {
+                stress[q][i] = strains.dilatation[q] * dilatation.stress[i] - prescribed[i];
+                for (std::size_t j = 0; j < count; ++j)
+                    stress[q][i] += matrix[i * count + j] * strains.strain[q * most_strains + j];
+            }
+    }
+
+private:
+    std::size_t body(std::int64_t cell) const { return index(mesh_.cell_body(cell)); }
+    // C e*, of which plane stress has the part in the plane alone.
+    Stress prescribed_stress(std::int64_t cell, std::span<const double> matrix) {
+        Stress stress{};
+        if (eigenstrain_.empty()) return stress;
+        CellElasticity& elasticity = elasticity_[body(cell)];
+        const Axes* axes = elasticity.axes(cell);
+        const Strain strain =
+            axes == nullptr ? eigenstrain_[body(cell)] : rotated_strain(eigenstrain_[body(cell)], *axes);
+        if (strains() == 6) {
+            for (std::size_t i = 0; i < 6; ++i)
+                for (std::size_t j = 0; j < 6; ++j) stress[i] += matrix[i * 6 + j] * strain[j];
+        } else if (models_[body(cell)].plane == Plane::stress) {
+            for (std::size_t i = 0; i < 3; ++i)
+                for (std::size_t j = 0; j < 3; ++j) stress[i] += matrix[i * 3 + j] * strain[in_plane[j]];
+        } else {
+            const SpaceElasticity& space = elasticity.space(cell);
+            for (std::size_t i = 0; i < 3; ++i)
+                for (std::size_t j = 0; j < 6; ++j) stress[i] += space[in_plane[i] * 6 + j] * strain[j];
+        }
+        return stress;
+    }
+
+    const Mesh& mesh_;
+    std::span<const BodyModel> models_;
+    std::span<const double> displacement_;
+    std::span<const Strain> eigenstrain_;
+    std::vector<CellElasticity> elasticity_;
+    std::vector<double> u_, x_;
+};
+
+// The corners of cells, numbered so that corners at one node share a number if their stresses are comparable.
+class Corners {
+public:
+    Corners(const Mesh& mesh, std::span<const std::uint8_t> known, Stresses& stresses) {
+        start_.push_back(0);
+        for (std::int64_t c = 0; c < mesh.cell_count(); ++c) start_.push_back(start_.back() + mesh.cell(c).size());
+        group_.resize(start_.back());
+        // The groups of a node, as a list: its first group, and after each group the next.
+        std::vector<std::int64_t> first(index(mesh.node_count()), -1), next;
+        std::vector<std::int32_t> body;
+        std::vector<std::vector<double>> elasticity;  // different ones, by `which`
+        std::vector<std::size_t> which;               // [groups]
+        for (std::int64_t c = 0; c < mesh.cell_count(); ++c) {
+            poll_cancel("recover");
+            if (known[index(mesh.cell_body(c))] == 0) continue;
+            const std::span<const double> own = stresses.elasticity(c);
+            if (elasticity.empty() || !std::equal(own.begin(), own.end(), elasticity.back().begin()))
+                elasticity.emplace_back(own.begin(), own.end());
+            for (std::size_t a = 0; a < mesh.cell(c).size(); ++a) {
+                std::int64_t* group = &first[index(mesh.cell(c)[a])];
+                while (*group >= 0 && (body[index(*group)] != mesh.cell_body(c) ||
+                                       !comparable(elasticity[which[index(*group)]], elasticity.back())))
+                    group = &next[index(*group)];
+                if (*group < 0) {
+                    *group = static_cast<std::int64_t>(next.size());
+                    group_[start_[index(c)] + a] = next.size();
+                    next.push_back(-1);
+                    body.push_back(mesh.cell_body(c));
+                    which.push_back(elasticity.size() - 1);
+                } else {
+                    group_[start_[index(c)] + a] = index(*group);
+                }
+            }
+        }
+        groups_ = next.size();
+    }
+    std::size_t groups() const { return groups_; }
+    std::size_t group(std::int64_t cell, std::size_t node) const { return group_[start_[index(cell)] + node]; }
+
+private:
+    static bool comparable(std::span<const double> a, std::span<const double> b) {
+        double difference = 0.0, size = 0.0;
+        for (std::size_t i = 0; i < a.size(); ++i) {
+            difference += (a[i] - b[i]) * (a[i] - b[i]);
+            size += a[i] * a[i];
+        }
+        return difference <= another_material * another_material * size;
+    }
+
+    std::vector<std::size_t> start_, group_;
+    std::size_t groups_ = 0;
+};
+
+// 1/2 s : C^-1 : s.
+double energy(std::size_t strains, std::span<const double> elasticity, const Stress& stress) {
+    std::array<double, most_strains * most_strains> factor{};
+    std::copy_n(elasticity.begin(), strains * strains, factor.begin());
+    Stress strain = stress;
+    small_solve(strains, strains, factor.data(), strain.data());
+    double sum = 0.0;
+    for (std::size_t i = 0; i < strains; ++i) sum += stress[i] * strain[i];
+    return 0.5 * sum;
+}
+
+}  // namespace
+
+MeshError mesh_error(const Mesh& mesh, std::span<const BodyModel> models, std::span<const std::uint8_t> known,
+                     std::span<const double> displacement, std::span<const Strain> eigenstrain) {
+    Stresses stresses(mesh, models, displacement, eigenstrain);
+    const Corners corners(mesh, known, stresses);
+    std::map<CellType, ToNodes> to_nodes;
+    const std::size_t count = stresses.strains();
+    CellStrains strains;
+    std::array<Stress, most_gauss_points> stress;
+    const auto each_cell = [&](const auto& use) {
+        for (std::int64_t c = 0; c < mesh.cell_count(); ++c) {
+            poll_cancel("recover");
+            if (known[index(mesh.cell_body(c))] == 0) continue;
+            const CellType type = mesh.cell_type(c);
+            stresses.find(c, strains, stress);
+            use(c, to_nodes.try_emplace(type, type).first->second);
+        }
+    };
+
+    // s* at a node: the mean over the cells there, by their volume.
+    std::vector<Stress> mean(corners.groups(), Stress{});
+    std::vector<double> volume(corners.groups(), 0.0);
+    each_cell([&](std::int64_t c, const ToNodes& cell) {
+        double own = 0.0;
+        for (std::size_t q = 0; q < cell.points(); ++q) own += strains.volume[q];
+        for (std::size_t a = 0; a < cell.nodes(); ++a) {
+            const std::size_t group = corners.group(c, a);
+            volume[group] += own;
+            for (std::size_t q = 0; q < cell.points(); ++q)
+                for (std::size_t i = 0; i < count; ++i) mean[group][i] += own * cell.weight(a, q) * stress[q][i];
+        }
+    });
+    for (std::size_t g = 0; g < mean.size(); ++g)
+        for (double& s : mean[g]) s /= volume[g];
+
+    MeshError error{std::vector<double>(index(mesh.cell_count()), std::numeric_limits<double>::quiet_NaN()),
+                    std::vector<double>(index(mesh.cell_count()), 0.0)};
+    each_cell([&](std::int64_t c, const ToNodes& cell) {
+        double sum = 0.0;
+        for (std::size_t q = 0; q < cell.points(); ++q) {
+            Stress difference{};
+            for (std::size_t i = 0; i < count; ++i) {
+                difference[i] = -stress[q][i];
+                for (std::size_t a = 0; a < cell.nodes(); ++a)
+                    difference[i] += cell.shape(q, a) * mean[corners.group(c, a)][i];
+            }
+            sum += strains.volume[q] * energy(count, stresses.elasticity(c), difference);
+        }
+        sum *= calibration(mesh.cell_type(c), models[index(mesh.cell_body(c))].formulation);
+        // Bending that all cells of a layer hide in the same way leaves stresses continuous; the modes see it.
+        error.of_cell[index(c)] = std::max(sum, strains.excess);
+        error.excess[index(c)] = strains.excess;
+    });
+    return error;
+}
+
+}  // namespace delam

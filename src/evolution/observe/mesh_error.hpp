@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Estimates how far the stored energy is off because the mesh is coarse or its cells lock:
+//
+//   eta^2 = 1/2 int (s* - s) : C^-1 : (s* - s) dx
+//
+// (O. Zienkiewicz, J. Zhu, Int. J. Numer. Meth. Eng. 24 (1987) 337-357), s: stresses at the Gauss points, of all modes
+// that a cell has; s*: continuous stresses, nodal means of what s is at the nodes, within a body and among cells of
+// about the same elasticity: stresses of different materials differ with reason.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "body/eigenstrain.hpp"
+#include "body/model.hpp"
+#include "mesh/mesh.hpp"
+
+namespace delam {
+
+struct MeshError {
+    std::vector<double> of_cell;  // [cells] eta^2, F L; NaN where no material is known
+    std::vector<double> excess;   // [cells] what incompatible modes would take off standard cells, F L
+};
+
+// models, known: by body index; models where known is 0 are not read. displacement: [mesh nodes][dimension].
+// eigenstrain: by body index, in material axes, or empty.
+MeshError mesh_error(const Mesh& mesh, std::span<const BodyModel> models, std::span<const std::uint8_t> known,
+                     std::span<const double> displacement, std::span<const Strain> eigenstrain);
+
+}  // namespace delam
