@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "base/numbers.hpp"
+#include "reduction/operator/body_reactions.hpp"
 
 namespace delam {
 
@@ -379,13 +380,12 @@ std::vector<double> Condensed::displacement(std::span<const double> theta, const
 
 std::vector<double> Condensed::reaction(std::span<const double> theta, const Response& response) const {
     const BodySystem& system = bulk_->system();
-    return system.reaction(theta, system.stressed(displacement(theta, response)), response.force);
+    return body_reactions(system, theta, system.stressed(displacement(theta, response)), response.force);
 }
 
 double Condensed::equilibrium_defect(std::span<const double> theta, const Response& response) const {
     const BodySystem& system = bulk_->system();
-    const std::vector<double> stressed = system.stressed(displacement(theta, response));
-    return system.defect(theta, stressed, response.force, system.reaction(theta, stressed, response.force));
+    return delam::equilibrium_defect(system, theta, system.stressed(displacement(theta, response)), response.force);
 }
 
 // Entries of S have an error of the order of eps S_ii, and so has x^T S x, however small it is: the bending stiffness

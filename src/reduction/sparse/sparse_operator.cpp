@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "base/numbers.hpp"
 #include "linalg/dense/dense.hpp"
+#include "reduction/operator/body_reactions.hpp"
 #include "reduction/sparse/spring_entries.hpp"
 
 namespace delam {
@@ -181,13 +182,12 @@ std::vector<double> SparseOperator::displacement(std::span<const double> theta, 
 
 std::vector<double> SparseOperator::reaction(std::span<const double> theta, const Response& response) const {
     std::vector<double> u;
-    return bodies_->reaction(theta, stressed(theta, response, u), response.force);
+    return body_reactions(*bodies_, theta, stressed(theta, response, u), response.force);
 }
 
 double SparseOperator::equilibrium_defect(std::span<const double> theta, const Response& response) const {
     std::vector<double> u;
-    const std::vector<double> force = stressed(theta, response, u);
-    return bodies_->defect(theta, force, response.force, bodies_->reaction(theta, force, response.force));
+    return delam::equilibrium_defect(*bodies_, theta, stressed(theta, response, u), response.force);
 }
 
 void SparseOperator::move(std::span<const double> displacement, std::span<const double> combination,
