@@ -134,11 +134,11 @@ void EngineSolver::apply() {
     const Entries entries(from_triplets(system_.count(), system_.count(), spring_entries(system_, acting, none)));
     Entries masters;
     std::vector<std::int64_t> pivots;
-    for (const JumpSystem::Slave& slave : system_.slaves()) {
+    for (const ReducedSpace::Slave& slave : system_.space().slaves()) {
         for (const auto& [i, c] : slave.masters) masters.add(static_cast<std::int64_t>(pivots.size()), i, c);
         pivots.push_back(slave.pivot);
     }
-    const std::vector<std::int64_t>& fixed = system_.removed();
+    const std::vector<std::int64_t>& fixed = system_.space().removed();
     const delam_experimental_entries couplings = entries.view(), of_pivots = masters.view();
     const delam_experimental_engine& engine = engine_->functions();
     engine_->require(engine.set(&couplings, static_cast<std::int64_t>(fixed.size()), fixed.data(),
@@ -155,7 +155,7 @@ void EngineSolver::renew() {
             springs.push_back({static_cast<std::int64_t>(r), static_cast<std::int64_t>(r), lagged_[r]});
     std::vector<Triplet> added = spring_entries(system_, springs, std::vector<std::uint8_t>(lagged_.size(), 0));
     const double largest = max_abs(system_.diagonal());
-    for (const SparseVector& row : system_.equations())
+    for (const SparseVector& row : system_.rows().equations())
         for (const auto& [i, c] : row) {
             const double d = system_.diagonal()[index(i)];
             added.push_back({i, i, constraint_shift * (d > 0.0 ? d : largest)});
@@ -214,9 +214,9 @@ bool EngineSolver::has_minimum() {
     std::uint64_t seed = 1;
     for (std::size_t r = 0; r < softening.size(); ++r) {
         seed = seed * 6364136223846793005u + 1442695040888963407u;
-        if (softening[r] != 0) system_.add_row(r, (seed >> 63U) == 0 ? 1.0 : -1.0, force);
+        if (softening[r] != 0) system_.rows().add(r, (seed >> 63U) == 0 ? 1.0 : -1.0, force);
     }
-    const std::vector<double> rest(bodies_.problem().patterns.size(), 0.0), right(system_.slaves().size(), 0.0);
+    const std::vector<double> rest(bodies_.problem().patterns.size(), 0.0), right(system_.space().slaves().size(), 0.0);
     const std::size_t before = newest_;
     const Raw raw =
         ask(rest, force, right, {}, renewal_.limits().engine_probed, renewal_.limits().engine_longest_probe, {}, state);
@@ -230,16 +230,16 @@ bool EngineSolver::has_minimum() {
 std::vector<double> EngineSolver::forces(std::span<const double> theta, std::span<const double> row_force) const {
     std::vector<double> b(index(system_.count()), 0.0);
     for (std::size_t r = 0; r < row_force.size(); ++r)
-        if (system_.held()[r] == 0 && row_force[r] != 0.0) system_.add_row(r, row_force[r], b);
-    const std::vector<double> offset = system_.offsets(theta);
+        if (system_.held()[r] == 0 && row_force[r] != 0.0) system_.rows().add(r, row_force[r], b);
+    const std::vector<double> offset = system_.rows().offsets(theta);
     for (const Zone::Coupling& c : system_.couplings())
-        if (offset[index(c.column)] != 0.0) system_.add_row(index(c.row), -c.value * offset[index(c.column)], b);
+        if (offset[index(c.column)] != 0.0) system_.rows().add(index(c.row), -c.value * offset[index(c.column)], b);
     return b;
 }
 
 std::vector<double> EngineSolver::rights(std::span<const double> theta) const {
     std::vector<double> right;
-    for (const JumpSystem::Slave& slave : system_.slaves()) right.push_back(dot(slave.right, theta));
+    for (const ReducedSpace::Slave& slave : system_.space().slaves()) right.push_back(dot(slave.right, theta));
     return right;
 }
 
@@ -360,9 +360,10 @@ SolveError EngineSolver::error_of(const Raw& raw) const {
     SolveError error;
     std::vector<double> left = raw.correction_balance, force(system_.rows().size(), 0.0);
     system_.add_couplings(raw.correction, left);
-    (void)system_.multipliers(left, force);
+    (void)system_.space().multipliers(left, force);
     for (std::size_t r = 0; r < force.size(); ++r)
-        if (system_.held()[r] == 0) error.jump = std::max(error.jump, std::abs(system_.row_value(r, raw.correction)));
+        if (system_.held()[r] == 0)
+            error.jump = std::max(error.jump, std::abs(system_.rows().value(r, raw.correction)));
     const double factor = renewal_.doubt(raw.answer.least);
     return {factor * error.jump, factor * max_abs(force)};
 }
@@ -415,9 +416,9 @@ std::vector<double> EngineSolver::held_forces(std::span<const double>, std::span
         if (system_.held()[r] != 0)
             force[r] = 0.0;
         else
-            system_.add_row(r, -force[r], left);
+            system_.rows().add(r, -force[r], left);
     }
-    return system_.multipliers(left, force);
+    return system_.space().multipliers(left, force);
 }
 
 double EngineSolver::load_size(std::span<const double> theta) const {

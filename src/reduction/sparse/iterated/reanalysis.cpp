@@ -157,7 +157,7 @@ bool Reanalysis::set(std::vector<Zone::Coupling> couplings, std::span<const std:
     const bool definite = factorise_patches();
     null_.clear();
     for (std::vector<double> motion : floating_.free()) {
-        system_.reduce(motion);
+        system_.space().reduce(motion);
         for (int pass = 0; pass < 2; ++pass)
             for (const std::vector<double>& other : null_) add_scaled(-dot(other, motion), other, motion);
         const double length = std::sqrt(dot(motion, motion));
@@ -171,10 +171,10 @@ bool Reanalysis::set(std::vector<Zone::Coupling> couplings, std::span<const std:
 std::vector<double> Reanalysis::right_side(std::span<const double> theta, std::span<const double> row_force) const {
     std::vector<double> b = load(theta);
     for (std::size_t r = 0; r < row_force.size(); ++r)
-        if (system_.held()[r] == 0 && row_force[r] != 0.0) system_.add_row(r, row_force[r], b);
-    const std::vector<double> offset = system_.offsets(theta);
+        if (system_.held()[r] == 0 && row_force[r] != 0.0) system_.rows().add(r, row_force[r], b);
+    const std::vector<double> offset = system_.rows().offsets(theta);
     for (const Zone::Coupling& c : system_.couplings())
-        if (offset[index(c.column)] != 0.0) system_.add_row(index(c.row), -c.value * offset[index(c.column)], b);
+        if (offset[index(c.column)] != 0.0) system_.rows().add(index(c.row), -c.value * offset[index(c.column)], b);
     return b;
 }
 
@@ -182,7 +182,7 @@ std::vector<double> Reanalysis::right_side(std::span<const double> theta, std::s
 double Reanalysis::work_of_couplings(std::span<const double> x) const {
     double work = 0.0;
     for (const Zone::Coupling& c : system_.couplings())
-        work += std::abs(system_.row_value(index(c.row), x) * c.value * system_.row_value(index(c.column), x));
+        work += std::abs(system_.rows().value(index(c.row), x) * c.value * system_.rows().value(index(c.column), x));
     return work;
 }
 
@@ -209,9 +209,9 @@ SolveError Reanalysis::error_of(std::span<const double> correction, double least
     std::vector<double> left(correction.size()), force(system_.rows().size(), 0.0);
     system_.multiply_held(correction, left);
     system_.add_couplings(correction, left);
-    system_.multipliers(left, force);
+    system_.space().multipliers(left, force);
     for (std::size_t r = 0; r < force.size(); ++r)
-        if (system_.held()[r] == 0) error.jump = std::max(error.jump, std::abs(system_.row_value(r, correction)));
+        if (system_.held()[r] == 0) error.jump = std::max(error.jump, std::abs(system_.rows().value(r, correction)));
     const double factor = renewal_.doubt(least);
     return {factor * error.jump, factor * max_abs(force)};
 }
@@ -225,9 +225,9 @@ std::vector<double> Reanalysis::held_forces(std::span<const double> theta, std::
         if (system_.held()[r] != 0)
             force[r] = 0.0;
         else
-            system_.add_row(r, -force[r], left);
+            system_.rows().add(r, -force[r], left);
     }
-    return system_.multipliers(left, force);
+    return system_.space().multipliers(left, force);
 }
 
 // The recursion's residual against the true one, in units of what rounding does to each component.
@@ -235,14 +235,14 @@ bool Reanalysis::confirm(std::span<const double> right, std::span<const double> 
                          std::span<const double> residual) const {
     if (!null_.empty() || !floating_.weak().empty()) return false;
     std::vector<double> at(x.begin(), x.end()), r(x.size()), sizes(x.size());
-    system_.spread(at, theta);
+    system_.space().spread(at, theta);
     system_.apply(at, r, sizes);
     for (std::size_t i = 0; i < r.size(); ++i) {
         r[i] = right[i] - r[i];
         sizes[i] += std::abs(right[i]);
     }
-    system_.gather(r);
-    system_.gather_sizes(sizes);
+    system_.space().gather(r);
+    system_.space().gather_sizes(sizes);
     for (std::size_t i = 0; i < r.size(); ++i)
         if (!(std::abs(r[i] - residual[i]) <= bodies_.problem().options.limits.restart_rounding_units *
                                                   std::numeric_limits<double>::epsilon() * sizes[i]))
@@ -261,7 +261,7 @@ double Reanalysis::rounding_at(std::span<const double> right, std::span<const do
         seed = seed * 6364136223846793005u + 1442695040888963407u;
         if ((seed >> 63U) == 0) d = -d;
     }
-    system_.gather(delta);
+    system_.space().gather(delta);
     for (const std::vector<double>& motion : null_) add_scaled(-dot(motion, delta), motion, delta);
     precondition(delta, z);
     return std::numeric_limits<double>::epsilon() * std::sqrt(std::abs(dot(delta, z)));
@@ -269,7 +269,7 @@ double Reanalysis::rounding_at(std::span<const double> right, std::span<const do
 
 void Reanalysis::precondition(std::span<const double> r, std::span<double> z) {
     const auto reduced = [&](std::vector<double>& v) {
-        system_.gather(v);
+        system_.space().gather(v);
         for (const std::vector<double>& motion : null_) add_scaled(-dot(motion, v), motion, v);
     };
     const auto subtract_image = [&] {  // work_ = r - A z
@@ -282,14 +282,14 @@ void Reanalysis::precondition(std::span<const double> r, std::span<double> z) {
     const bool patched = patches_.count() > 0;
     if (patched) {
         patches_.add(r, z);
-        system_.spread(z);
+        system_.space().spread(z);
         system_.apply_sparse(z, image_);
         subtract_image();
     } else {
         std::copy(r.begin(), r.end(), work_.begin());
     }
     whole_->apply(work_, image_);
-    system_.spread(image_);
+    system_.space().spread(image_);
     for (std::size_t i = 0; i < z.size(); ++i) z[i] += image_[i];
     if (patched) {
         if (null_.empty())
@@ -299,7 +299,7 @@ void Reanalysis::precondition(std::span<const double> r, std::span<double> z) {
         subtract_image();
         std::fill(image_.begin(), image_.end(), 0.0);
         patches_.add(work_, image_);
-        system_.spread(image_);
+        system_.space().spread(image_);
         for (std::size_t i = 0; i < z.size(); ++i) z[i] += image_[i];
     }
 }
@@ -310,9 +310,9 @@ void Reanalysis::precondition(std::span<const double> r, std::span<double> z) {
 std::vector<double> Reanalysis::start_from(std::span<const double> right, std::span<const double> theta,
                                            std::span<double> x) const {
     std::vector<double> y(x.begin(), x.end()), image(x.size());
-    system_.spread(y);
+    system_.space().spread(y);
     std::vector<double> rest(x.size(), 0.0), of_rest(x.size(), 0.0);
-    system_.spread(rest, theta);
+    system_.space().spread(rest, theta);
     double pull = dot(y, right);
     if (std::any_of(rest.begin(), rest.end(), [](double v) { return v != 0.0; })) {
         system_.apply(rest, of_rest);
@@ -336,7 +336,7 @@ bool Reanalysis::weak_directions(std::vector<Direction>& given) const {
         Direction d{motion, std::vector<double>(motion.size(), 0.0), 0.0};
         system_.add_couplings(d.p, d.ap);  // the bodies do not resist
         const double size = work_of_couplings(d.p);
-        system_.gather(d.ap);
+        system_.space().gather(d.ap);
         for (int pass = 0; pass < 2; ++pass)
             for (const Direction& other : given) {
                 const double share = dot(other.ap, d.p) / other.pap;
@@ -400,20 +400,20 @@ Reanalysis::Answer Reanalysis::solve(std::span<const double> theta, std::span<co
     CgSystem cg;
     cg.apply = [&](std::span<const double> p, std::span<double> ap) {
         std::vector<double> full(p.begin(), p.end());
-        system_.spread(full);
+        system_.space().spread(full);
         system_.apply(full, ap);
-        system_.gather(ap);
+        system_.space().gather(ap);
     };
     // Free motions are null vectors; removing them keeps them from growing. Expressed variables have zeros.
     cg.precondition = [&](std::span<const double> r, std::span<double> z) {
         precondition(r, z);
         for (const std::vector<double>& motion : null_) add_scaled(-dot(motion, z), motion, z);
-        system_.spread(z);
+        system_.space().spread(z);
     };
     answer.definite = weak_directions(cg.given);
     if (!answer.definite) return answer;
     cg.restart = [&](std::span<double> at, std::span<double> r) {
-        system_.spread(at, theta);
+        system_.space().spread(at, theta);
         std::vector<double> springs(at.size(), 0.0);
         for (const Direction& d : cg.given) {
             // Loads and springs alone act along a rigid motion.
@@ -428,13 +428,13 @@ Reanalysis::Answer Reanalysis::solve(std::span<const double> theta, std::span<co
             std::copy(image.begin(), image.end(), r.begin());
         image.clear();
         for (std::size_t i = 0; i < r.size(); ++i) r[i] = right[i] - r[i];
-        system_.gather(r);
+        system_.space().gather(r);
         for (const std::vector<double>& motion : null_) add_scaled(-dot(motion, r), motion, r);
         for (const Direction& d : cg.given) add_scaled(-dot(d.p, r) / d.pap, d.ap, r);
     };
     cg.size = [&](std::span<const double> at) {
         std::vector<double> full(at.begin(), at.end());
-        system_.spread(full, theta);
+        system_.space().spread(full, theta);
         return size_of(theta, full);
     };
     cg.rounding = [&](std::span<const double> at) { return rounding_at(right, at); };
@@ -444,7 +444,7 @@ Reanalysis::Answer Reanalysis::solve(std::span<const double> theta, std::span<co
     cg.each_iteration = [&](std::int64_t iteration) { monitor_.progress("linear solve", iteration, 0); };
     cg.enough = forcing;
     const CgOutcome outcome = iterate(cg, std::max(tolerance, finest), x);
-    system_.spread(x, theta);
+    system_.space().spread(x, theta);
     floating_.settle(x);
     answer.iterations = outcome.iterations;
     answer.residual = outcome.residual;
