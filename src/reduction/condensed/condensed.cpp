@@ -24,7 +24,7 @@ Condensed::Condensed(std::shared_ptr<Bulk> bulk, const Problem& problem, Monitor
     : bulk_(std::move(bulk)),
       problem_(problem),
       monitor_(monitor),
-      always_(bulk_->bound()),
+      always_(bulk_->equations().bound()),
       elimination_(bulk_->elimination()) {
     const std::size_t unknowns = index(bulk_->unknowns());
     for (std::size_t r = 0; r < bulk_->rows().size(); ++r) {
@@ -160,8 +160,8 @@ void Condensed::condense() {
     std::vector<double> state(spring_);
     for (std::size_t i = 0; i < state.size(); ++i)
         if (inside_[i] != 0) state[i] = Elimination::in_zone;
-    elimination_.update(bulk_->states(state), poll());
-    energy_ = std::make_unique<Bulk::ZoneEnergy>(*bulk_, elimination_, poll());
+    elimination_.update(bulk_->equations().states(state), poll());
+    energy_ = std::make_unique<ZoneEnergy>(bulk_->zone_energy(elimination_, poll()));
     const std::vector<std::int64_t>& zone_unknowns = energy_->unknowns();
 
     const std::size_t unknowns = inside_.size();
@@ -302,7 +302,7 @@ void Condensed::respond(const Springs& springs, std::span<const double> theta, c
     if (!response.balanced) return;
     const std::size_t unknowns = always_.size(), rows = bulk_->rows().size();
     std::vector<double> load(unknowns, 0.0);
-    const std::vector<double> skeleton = skeleton_of(theta, solution), x = bulk_->unknowns_at(skeleton);
+    const std::vector<double> skeleton = skeleton_of(theta, solution), x = bulk_->equations().unknowns_at(skeleton);
     multiply(bulk_->load(), theta, load);
 
     response.jump.assign(rows, 0.0);

@@ -87,7 +87,7 @@ private:
     std::vector<std::uint8_t> expected_;  // [unknowns] in every zone until the expectation ends; empty: none
     bool unmet_ = false;                  // no zone has been chosen for it yet
     Elimination elimination_;
-    std::unique_ptr<Bulk::ZoneEnergy> energy_;
+    std::unique_ptr<ZoneEnergy> energy_;
     std::unique_ptr<DenseZone> zone_;
     std::int64_t condensations_ = 0;
 };
