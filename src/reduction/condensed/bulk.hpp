@@ -42,7 +42,7 @@ public:
     std::int64_t unknowns() const { return equations_.unknowns(); }
     // The first jump row that equals unknown i. Others may equal it too (on opposite faces of a periodic cell).
     const std::vector<std::int64_t>& row_of_unknown() const { return equations_.row_of_unknown(); }
-    // The constraints that bind several variables; before condense(): none.
+    // Returns the constraints that bind several variables; before condense() there are none.
     const TrailingEquations& equations() const { return equations_; }
     const DenseMatrix& load() const { return load_; }  // L, [unknowns][patterns]
     // An upper bound of the diagonal of S, of its size: with everything else at rest.
@@ -55,7 +55,7 @@ public:
 
     // An elimination of this skeleton.
     Elimination elimination() const { return {*superelements_, trailing_load_}; }
-    // Must not outlive the elimination, nor be used after its next update.
+    // Returns the energy of its zone, which must not be used after the next update of the elimination.
     ZoneEnergy zone_energy(const Elimination& elimination, const Poll& poll) const {
         return {equations_, *superelements_, elimination, poll};
     }
@@ -67,7 +67,7 @@ public:
                                  std::span<const std::uint8_t> wanted) const;
     // Returns the displacements from the unknowns alone.
     std::vector<double> displacement(std::span<const double> theta, std::span<const double> unknowns) const;
-    // Reactions and unbalanced forces.
+    // Returns the bodies as they are without condensation.
     const BodySystem& system() const { return *system_; }
     // S and L of all unknowns: m^2 numbers.
     DenseEnergy dense(const Poll& poll) const;

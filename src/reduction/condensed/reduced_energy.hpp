@@ -21,13 +21,13 @@ public:
     // `equations` and `elimination` must outlive it, and the elimination must not be updated as long as it is used.
     ReducedEnergy(const TrailingEquations& equations, const Superelements& skeleton, const Elimination& elimination);
 
-    // Its rows are [kept displacements | unknown jumps]. Without pivots it is that of the elimination itself.
+    // Has the rows [kept displacements | unknown jumps]. Without pivots it is that of the elimination itself.
     const DenseEnergy& energy() const { return pivot_.empty() ? elimination_->energy() : energy_; }
-    // Of each row, its position among the variables that no equation determines.
+    // Returns the position of each row among the variables that no equation determines.
     const std::vector<std::int64_t>& rest_number() const { return rest_number_; }
     // Gives back the memory of energy(), which is then of no use.
     void forget() { energy_ = DenseEnergy(); }
-    // The unknowns of the elimination's energy() from those of this one.
+    // Returns the unknowns of the elimination's energy() from those of this one.
     std::vector<double> recover(std::span<const double> theta, std::span<const double> rest) const;
 
 private:

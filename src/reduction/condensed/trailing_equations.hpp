@@ -25,13 +25,13 @@ public:
     TrailingEquations(const JumpVariables& variables, std::int64_t patterns, const Superelements& skeleton);
 
     std::int64_t unknowns() const { return static_cast<std::int64_t>(rest_.size()) - kept_; }
-    // Number of displacements in r, which come first.
+    // Returns the number of displacements in r, which come first.
     std::int64_t kept() const { return kept_; }
     std::int64_t rest_count() const { return static_cast<std::int64_t>(rest_.size()); }
     bool any() const { return !pivot_.empty(); }
-    // Position in r of a variable, or -2 - position among the pivots.
+    // Returns the position of a variable in r, or -2 - its position among the pivots.
     std::int64_t role(std::int64_t variable) const { return role_[index(variable - leading_)]; }
-    // A row of M, in r.
+    // Returns a row of M, in r.
     const SparseVector& row(std::int64_t pivot) const { return rows_[index(pivot)]; }
     // d, [pivots][patterns]
     const DenseMatrix& prescribed() const { return prescribed_; }
@@ -42,24 +42,25 @@ public:
     // [unknowns] 1: an equation binds it to other variables.
     const std::vector<std::uint8_t>& bound() const { return bound_; }
 
-    // The place of an unknown in the skeleton.
+    // Returns the place of an unknown in the skeleton.
     std::int64_t place(std::int64_t unknown) const {
         return skeleton_->place(leading_ + rest_[index(kept_ + unknown)]);
     }
-    // States of the skeleton for those of the unknowns: jumps that equations determine always stay in the zone.
+    // Returns states of the skeleton from those of the unknowns: jumps that equations determine always stay in the
+    // zone.
     std::vector<double> states(std::span<const double> of_unknowns) const;
     std::vector<double> unknowns_at(std::span<const double> skeleton) const;
     // [places] 1: a force there acts on one of the wanted unknowns.
     std::vector<std::uint8_t> places_of(std::span<const std::uint8_t> wanted) const;
-    // Forces on the skeleton become forces on the wanted unknowns, with those on the variables that they determine; 0
-    // for the others.
+    // Turns forces on the skeleton into forces on the wanted unknowns, with those on the variables that they determine;
+    // 0 for the others.
     std::vector<double> gather(std::span<const double> skeleton, std::span<const std::uint8_t> wanted) const;
 
-    // Forces on all variables become one on a component of r: its own and those on the variables that it determines.
+    // Returns the force on a component of r: its own and those on the variables that it determines.
     double on_rest(std::span<const double> variables, std::int64_t rest) const;
-    // All variables, leading ones at zero, from the unknowns, with kept displacements at zero.
+    // Returns all variables, leading ones at zero, from the unknowns, with kept displacements at zero.
     std::vector<double> variables_at(std::span<const double> theta, std::span<const double> unknowns) const;
-    // The same from kept displacements in r, with unknowns and theta at zero.
+    // Returns the same from kept displacements in r, with unknowns and theta at zero.
     std::vector<double> variables_of_kept(std::span<const double> kept) const;
 
 private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which unknowns form the zone, and the springs at which all others are minimised out. A saved state keeps this choice,
-// because the last digits of the next solve depend on it.
+// Chooses the unknowns that form the zone, and the springs at which all others are minimised out. A saved state keeps
+// this choice, because the last digits of the next solve depend on it.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ public:
 
     std::size_t unknowns() const { return always_.size(); }
     const std::vector<std::uint8_t>& inside() const { return inside_; }
-    // Springs of the unknowns, here and below: -1 is held.
+    // Returns springs of the unknowns; -1: held, here and below.
     const std::vector<double>& spring() const { return spring_; }
     std::vector<double> springs_of(const Springs& springs) const;
     // True if no unknown outside the zone has changed.
@@ -30,18 +30,19 @@ public:
 
     // Announces rows that may change. Until it is told otherwise, every zone has all of them.
     void expect_changes(std::span<const std::size_t> rows);
-    // True once if no zone has been chosen for them yet.
+    // True if no zone has been chosen for them yet; the next call says no.
     bool take_unmet() { return std::exchange(unmet_, false); }
     // Returns the unknowns whose springs are not those of the previous solve, and keeps them from leaving the zone.
     std::vector<std::uint8_t> changed_since_last(std::span<const double> now);
     void solved_at(std::vector<double> now) { last_ = std::move(now); }
-    // All unknowns that are not wanted may leave the zone at the next choice.
+    // Lets all unknowns that are not wanted leave the zone at the next choice.
     void let_go() { age_.assign(age_.size(), forgotten()); }
     void choose(const Springs& springs, std::span<const std::uint8_t> wanted, bool tight);
-    // As before the first choice.
+    // Returns to where no choice has been made.
     void clear();
 
-    // Of a saved state. Throws Error(DELAM_ERROR_SNAPSHOT) if it contradicts itself or this operator.
+    // A saved state has these numbers. require() and recall() throw Error(DELAM_ERROR_SNAPSHOT) if they contradict
+    // themselves or this operator.
     std::vector<double> memory() const;
     void require(std::span<const double> memory) const;
     void recall(std::span<const double> memory);

@@ -19,7 +19,7 @@ public:
                const Poll& poll);
     const DenseEnergy& energy() const { return base_ ? base_->energy() : reduced_.energy(); }
     const std::vector<std::int64_t>& unknowns() const { return unknowns_; }  // of each row
-    // The unknowns of the elimination's energy().
+    // Returns the unknowns of the elimination's energy().
     std::vector<double> recover(std::span<const double> theta, std::span<const double> zone) const;
 
 private:

@@ -22,11 +22,11 @@ public:
     std::vector<JumpRow>::const_iterator begin() const { return rows_.begin(); }
     std::vector<JumpRow>::const_iterator end() const { return rows_.end(); }
     std::span<const std::uint8_t> prescribed() const { return prescribed_; }
-    // The variable that this row is, -1: none; the other way round.
+    // Returns the variable that this row is, -1: none; and the other way round.
     std::int64_t variable_of(std::size_t row) const { return plain_[row]; }
     std::int64_t row_of(std::int64_t variable) const { return row_of_[index(variable)]; }
 
-    // N x of a row.
+    // Returns N x of a row.
     double value(std::size_t row, std::span<const double> x) const {
         double sum = 0.0;
         for (const auto& [i, n] : rows_[row].unknowns) sum += n * x[index(i)];
@@ -36,7 +36,7 @@ public:
     void add(std::size_t row, double factor, std::span<double> force) const {
         for (const auto& [i, n] : rows_[row].unknowns) force[index(i)] += n * factor;
     }
-    // o, [rows]
+    // Returns o, [rows].
     std::vector<double> offsets(std::span<const double> theta) const;
 
     // E, independent. The first variable of each constraint occurs in no other.

@@ -32,20 +32,21 @@ public:
     };
     const std::vector<Slave>& slaves() const { return slaves_; }
     const std::vector<std::int64_t>& removed() const { return removed_; }
-    // Variables in held rows and constraints that are no variable of their own, row by row; removed ones left out.
+    // Returns the terms of constraints and of held rows that are no variable of their own, without removed variables.
     const std::vector<SparseVector>& binding_terms() const { return binding_terms_; }
 
-    // x: zero in removed variables, expressed ones from the others; with theta, the rest of their expressions.
+    // Sets removed variables of x to zero and expressed ones from the others; with theta, the rest of their
+    // expressions, too.
     void spread(std::span<double> x) const;
     void spread(std::span<double> x, std::span<const double> theta) const;
-    // Zeros in the place of removed and expressed variables.
+    // Puts zeros in the place of removed and expressed variables.
     void reduce(std::span<double> x) const;
-    // The transposed of spread(): forces on all variables become forces of the reduced space.
+    // Does the transposed of spread(): forces on all variables become forces of the reduced space.
     void gather(std::span<double> force) const;
-    // The same for sizes of forces, which do not cancel.
+    // Does the same for sizes of forces, which do not cancel.
     void gather_sizes(std::span<double> size) const;
-    // Forces of held rows from those that are left over on the variables, left = sum over held rows N_r^T force_r +
-    // E^T mu. Adds to force; returns mu. Consumes left.
+    // Computes the forces of held rows from those that are left over on the variables, left = sum over held rows N_r^T
+    // force_r + E^T mu. Adds to force; returns mu. Consumes left.
     std::vector<double> multipliers(std::span<double> left, std::span<double> force) const;
 
 private:

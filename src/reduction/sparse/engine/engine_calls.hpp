@@ -70,12 +70,13 @@ public:
         bool definite() const { return numbers.definite != 0; }
         bool converged() const { return numbers.converged != 0; }
     };
-    // Where the answer is not definite, its numbers are of no use.
+    // Answers with numbers that are of no use where the bodies are not definite.
     Answer solve(const Question& question, const EngineLayout& at) const;
 
-    // u and K u of a combination of kept answers.
+    // Computes u and K u of a combination of kept answers.
     void recover(std::span<const double> weights, std::span<double> displacement, std::span<double> stressed) const;
-    // The same, but the engine keeps them. moved: rigid motions to be added, empty: none. False: it cannot add them.
+    // Does the same, but the engine keeps them. moved: rigid motions to be added, empty: none. False: it cannot add
+    // them.
     bool recover_within(std::span<const double> weights, std::vector<double> moved) const;
 
 private:

@@ -19,9 +19,9 @@ public:
     // comes_back: keeps two factors.
     LaggedFactor(JumpSystem& system, bool comes_back, Monitor& monitor);
 
-    // The analysis of the whole, and its factor, where there is one.
+    // Returns the analysis of the whole, and its factor, where there is one.
     const WholeFactor& whole() const { return *whole_; }
-    // Springs of the factor, [rows]; held ones as springs. Empty: there is no factor.
+    // Returns the springs of the factor, [rows]; held ones as springs. Empty: there is no factor.
     const std::vector<double>& springs() const { return springs_; }
     bool empty() const { return springs_.empty(); }
     std::int64_t factorisations() const { return factorisations_; }
@@ -29,7 +29,7 @@ public:
     // Has no factor from now on. Keeps the present one for come_back(), if a saved state knows it.
     void leave();
     void factorise(std::vector<double> springs);
-    // A saved state knows the present factor.
+    // Notes that a saved state knows the present factor.
     void remember() { remembered_ = !springs_.empty(); }
     // Takes the factor that was left, if it has these springs. False: it has not.
     bool come_back(std::span<const double> springs);
