@@ -169,6 +169,6 @@ int32_t delam_experimental_solver_sensitivity(const delam_solver* solver, int64_
         require_array(matrix, static_cast<std::int64_t>(values.size()), "matrix");
         require_capacity(capacity, static_cast<std::int64_t>(values.size()), "matrix");
         std::copy(values.begin(), values.end(), matrix);
-        if (unknown != nullptr) *unknown = solver->core->state().sensitivity.unknown;
+        if (unknown != nullptr) *unknown = solver->core->states().shown().sensitivity.unknown;
     });
 }

@@ -87,7 +87,7 @@ int32_t delam_solver_rollback(delam_solver* solver) {
 int32_t delam_solver_pending(const delam_solver* solver, int32_t* pending) {
     return guard(solver, [&] {
         require_pointer(pending, "pending");
-        *pending = solver->core->pending() ? 1 : 0;
+        *pending = solver->core->states().pending() != nullptr ? 1 : 0;
     });
 }
 
@@ -104,7 +104,7 @@ int32_t delam_solver_set_history(delam_solver* solver, int64_t pattern, int64_t 
 int32_t delam_solver_equilibrate(delam_solver* solver, double time, const double* adhesion) {
     return guard_step(solver, listed::solver_equilibrate, [&] {
         std::span<const double> held;
-        if (adhesion != nullptr) held = {adhesion, solver->core->committed().adhesion.size()};
+        if (adhesion != nullptr) held = {adhesion, solver->core->states().committed().adhesion.size()};
         return report(*solver->context, solver->core->equilibrate(time, held));
     });
 }
@@ -327,7 +327,7 @@ const char* delam_solver_option(const delam_solver* solver, const char* key) {
 
 const char* delam_solver_searched(const delam_solver* solver) {
     const char* words = "";
-    guard(solver, [&] { words = solver->core->searched().c_str(); });
+    guard(solver, [&] { words = solver->core->states().searched().c_str(); });
     return words;
 }
 
@@ -338,7 +338,7 @@ int32_t delam_solver_look(delam_solver* solver, int64_t step) {
 int32_t delam_solver_jump_count(const delam_solver* solver, int64_t* count) {
     return guard(solver, [&] {
         require_pointer(count, "count");
-        *count = static_cast<int64_t>(solver->core->jumps(true).size());
+        *count = static_cast<int64_t>(solver->core->states().jumps().size());
     });
 }
 
@@ -346,7 +346,7 @@ int32_t delam_solver_jump(const delam_solver* solver, int64_t index, int64_t* st
                           double* stored, double* dissipated, double* released, double* debonded,
                           int64_t* interface_index, int64_t* first_pair, int64_t* last_pair) {
     return guard(solver, [&] {
-        const std::vector<JumpEvent> jumps = solver->core->jumps(true);
+        const std::vector<JumpEvent> jumps = solver->core->states().jumps();
         const JumpEvent& jump =
             jumps[static_cast<std::size_t>(require_index(index, static_cast<std::int64_t>(jumps.size()), 0, "index"))];
         const auto give = [](auto* out, auto value) {
@@ -368,7 +368,7 @@ int32_t delam_solver_jump(const delam_solver* solver, int64_t index, int64_t* st
 int32_t delam_solver_jump_reactions(const delam_solver* solver, int64_t index, int64_t capacity, double* before,
                                     double* after) {
     return guard(solver, [&] {
-        const std::vector<JumpEvent> jumps = solver->core->jumps(true);
+        const std::vector<JumpEvent> jumps = solver->core->states().jumps();
         const auto at =
             static_cast<std::size_t>(require_index(index, static_cast<std::int64_t>(jumps.size()), 0, "index"));
         const std::size_t patterns = solver->core->problem().patterns.size();

@@ -217,7 +217,7 @@ int32_t delam_petsc_everywhere(delam_petsc* petsc, int64_t size, const uint8_t* 
 int32_t delam_petsc_explain(delam_petsc* petsc, const char* text) {
     return here(petsc, {DELAM_ERROR_ARGUMENT}, [&](Session& session) {
         if (text == nullptr) delam::petsc::fail(DELAM_ERROR_ARGUMENT, "text is NULL");
-        session.explain(text);
+        session.task().explain(text);
         return DELAM_OK;
     });
 }
@@ -229,7 +229,7 @@ int32_t delam_petsc_recover(delam_petsc* petsc, delam_solver* solver) {
 
 int32_t delam_petsc_part_nodes(delam_petsc* petsc, int64_t capacity, int64_t* nodes, int32_t* owned, int64_t* count) {
     return here(petsc, {DELAM_ERROR_ARGUMENT, DELAM_ERROR_STATE}, [&](Session& session) {
-        const delam::petsc::PartState& state = session.part_state();
+        const delam::petsc::PartState& state = session.part().state();
         const auto needed = static_cast<int64_t>(state.nodes().size());
         require_room(nodes != nullptr || owned != nullptr, capacity, needed, "nodes, owned");
         if (nodes != nullptr) std::copy(state.nodes().begin(), state.nodes().end(), nodes);
@@ -241,7 +241,7 @@ int32_t delam_petsc_part_nodes(delam_petsc* petsc, int64_t capacity, int64_t* no
 
 int32_t delam_petsc_part_cells(delam_petsc* petsc, int64_t capacity, int64_t* cells, int64_t* count) {
     return here(petsc, {DELAM_ERROR_ARGUMENT}, [&](Session& session) {
-        const std::vector<int64_t>& all = session.part_cells().cells;
+        const std::vector<int64_t>& all = session.part().cells().cells;
         const auto needed = static_cast<int64_t>(all.size());
         require_room(cells != nullptr, capacity, needed, "cells");
         if (cells != nullptr) std::copy(all.begin(), all.end(), cells);
@@ -254,7 +254,7 @@ int32_t delam_petsc_part_field(delam_petsc* petsc, const char* key, int64_t capa
                                int64_t* columns) {
     return here(petsc, {DELAM_ERROR_ARGUMENT, DELAM_ERROR_STATE}, [&](Session& session) {
         if (key == nullptr) delam::petsc::fail(DELAM_ERROR_ARGUMENT, "key is NULL");
-        const delam::petsc::PartState::Field field = session.part_field(key);
+        const delam::petsc::PartState::Field field = session.part().field(key);
         require_room(values != nullptr, capacity, field.rows * field.columns, "values");
         if (values != nullptr) std::copy(field.values->begin(), field.values->end(), values);
         if (rows != nullptr) *rows = field.rows;

@@ -31,10 +31,7 @@ std::int32_t Session::refuse(const char* why) {
 void Session::set_part(Part part, PartCells cells) {
     require_same_dimension(comm_, part.dimension);
     engine_.reset();
-    part_ = std::move(part);
-    cells_ = std::move(cells);
-    state_.clear();
-    has_part_ = true;
+    part_.set(std::move(part), std::move(cells));
 }
 
 void Session::take_scene(const delam_mesh* mesh, const delam_problem* problem, const GivenRanks* given) {
@@ -61,12 +58,11 @@ void Session::attach(delam_problem* problem, delam_experimental_engine (*callbac
     });
 }
 
-void Session::set_task(Task task, void* user) {
+void Session::set_task(HostTask::Function task, void* user) {
     comm_.together([&] {
         if (task == nullptr) fail(DELAM_ERROR_ARGUMENT, "task is NULL on rank ", comm_.rank());
     });
-    task_ = task;
-    task_user_ = user;
+    task_.set(task, user);
 }
 
 std::int32_t Session::run(std::int32_t (*work)(void* user), void* user) {
@@ -130,16 +126,16 @@ Engine& Session::engine() const {
 std::int32_t Session::prepare(const delam_experimental_variables* variables, double* diagonal, double* load_sizes) {
     return command(Command::prepare, [&] {
         comm_.together([&] {
-            if (!has_part_)
+            if (!part_.known())
                 fail(DELAM_ERROR_STATE,
                      "there are no parts: delam_petsc_set_part, _set_rows, _set_cells, _take_scene or _take_cells "
                      "comes first");
-            if (comm_.root() && variables->dimension != part_.dimension)
+            if (comm_.root() && variables->dimension != part_.part().dimension)
                 fail(DELAM_ERROR_ARGUMENT, "the mesh has dimension ", variables->dimension, ", the parts ",
-                     part_.dimension);
+                     part_.part().dimension);
         });
         engine_.reset();
-        engine_ = std::make_unique<Engine>(comm_, part_, variables, counts_);
+        engine_ = std::make_unique<Engine>(comm_, part_.part(), variables, counts_);
         engine_->sizes(diagonal, load_sizes);
     });
 }
@@ -162,8 +158,9 @@ std::int32_t Session::solve(const delam_experimental_request* request, delam_exp
 
 std::int32_t Session::recover(const double* weights, double* displacement, double* force) {
     Recovered done = Recovered::nothing;
-    const std::int32_t status = command(
-        Command::recover, [&] { done = engine().recover(weights, displacement, force, eigenstrains_, state_); });
+    const std::int32_t status = command(Command::recover, [&] {
+        done = engine().recover(weights, displacement, force, eigenstrains_, part_.recovered());
+    });
     kept_ = status == DELAM_OK && done == Recovered::on_ranks;
     return status == DELAM_OK && done == Recovered::nothing ? DELAM_ERROR_PROBLEM : status;
 }
@@ -171,7 +168,7 @@ std::int32_t Session::recover(const double* weights, double* displacement, doubl
 // A solver of another engine, or of none, does not come here for its displacements.
 std::int32_t Session::recover_parts(delam_solver* solver) {
     if (!comm_.root() || !running_) return refuse("only rank 0 may call this, in the work of delam_petsc_run");
-    if (in_task_) return refuse("a task (delam_petsc_set_task) is running: the ranks can do nothing else");
+    if (task_.running()) return refuse("a task (delam_petsc_set_task) is running: the ranks can do nothing else");
     kept_ = false;
     std::int64_t count = 0;
     PartState::Eigenstrains found;
@@ -197,15 +194,9 @@ std::int32_t Session::recover_parts(delam_solver* solver) {
     return status;
 }
 
-const PartState& Session::part_state() const {
-    if (!state_.known())
-        fail(DELAM_ERROR_STATE, "no state of these parts has been recovered: delam_petsc_recover comes first");
-    return state_;
-}
-
 std::int32_t Session::everywhere(std::int64_t size, const std::uint8_t* bytes) {
     if (!comm_.root() || !running_) return refuse("only rank 0 may call this, in the work of delam_petsc_run");
-    if (task_ == nullptr) return refuse("there is no task: delam_petsc_set_task comes first");
+    if (!task_.known()) return refuse("there is no task: delam_petsc_set_task comes first");
     return run_task(size, bytes);
 }
 
@@ -216,21 +207,8 @@ std::int32_t Session::run_task(std::int64_t size, const std::uint8_t* bytes) {
             if (comm_.root()) told.assign(bytes, bytes + size);
         });
         comm_.broadcast(told);
-        comm_.in_task([&] { call_task(told); });
+        comm_.in_task([&] { task_.call(told, comm_.rank()); });
     });
-}
-
-void Session::call_task(const std::vector<std::uint8_t>& told) {
-    struct During {
-        bool& running;
-        explicit During(bool& flag) : running(flag) { running = true; }
-        ~During() { running = false; }
-    } during(in_task_);
-    explained_.clear();
-    const std::int32_t status = task_(static_cast<std::int64_t>(told.size()), told.data(), task_user_);
-    if (status == DELAM_OK) return;
-    if (!explained_.empty()) fail(status, explained_);
-    fail(status, "the task of rank ", comm_.rank(), " returned ", delam_status_name(status));
 }
 
 double Session::value(const char* key) const {

@@ -7,7 +7,9 @@
 #include "delam/petsc.h"
 #include "petsc/counters.hpp"
 #include "petsc/engine.hpp"
+#include "petsc/host_task.hpp"
 #include "petsc/partition.hpp"
+#include "petsc/rank_part.hpp"
 
 namespace delam::petsc {
 
@@ -46,19 +48,15 @@ public:
     void set_part(Part part, PartCells cells = {});
     void take_scene(const delam_mesh* mesh, const delam_problem* problem, const GivenRanks* given = nullptr);
     void attach(delam_problem* problem, delam_experimental_engine (*callbacks)(Link* link));
-    using Task = std::int32_t (*)(std::int64_t size, const std::uint8_t* bytes, void* user);
-    void set_task(Task task, void* user);
+    void set_task(HostTask::Function task, void* user);
     std::int32_t run(std::int32_t (*work)(void* user), void* user);
     // Rank 0 alone calls these, in its work.
     std::int32_t everywhere(std::int64_t size, const std::uint8_t* bytes);
     std::int32_t recover_parts(delam_solver* solver);
     double value(const char* key) const;
     bool running() const { return running_; }
-    // Sets the explanation on this rank alone.
-    void explain(const char* text) { explained_ = text; }
-    const PartState& part_state() const;
-    const PartCells& part_cells() const { return cells_; }
-    PartState::Field part_field(const char* key) { return state_.field(key, cells_); }
+    HostTask& task() { return task_; }
+    RankPart& part() { return part_; }
     // Runs work of this rank alone and turns what it throws into a status.
     template <class Work>
     std::int32_t guard_here(Work&& work) {
@@ -88,7 +86,8 @@ private:
     std::int32_t command(Command which, Work&& work) {
         if (comm_.root()) {
             if (!running_) return refuse("the engine works only inside delam_petsc_run");
-            if (in_task_) return refuse("a task (delam_petsc_set_task) is running: the ranks can do nothing else");
+            if (task_.running())
+                return refuse("a task (delam_petsc_set_task) is running: the ranks can do nothing else");
             comm_.broadcast(which);
         }
         return guard([&] {
@@ -99,20 +98,13 @@ private:
     void serve();
     Engine& engine() const;
     std::int32_t run_task(std::int64_t size, const std::uint8_t* bytes);
-    void call_task(const std::vector<std::uint8_t>& told);
 
     Communicator comm_;
     std::string message_;
-    Part part_;
-    bool has_part_ = false;
-    PartCells cells_;  // of part_, where it came from rank 0's scene
-    PartState state_;
+    RankPart part_;
     bool kept_ = false;                     // the last command `recover` left the fields with the ranks
     PartState::Eigenstrains eigenstrains_;  // on rank 0, of the state that it has the ranks recover
-    Task task_ = nullptr;
-    void* task_user_ = nullptr;
-    std::string explained_;  // by the task that runs
-    bool in_task_ = false;
+    HostTask task_;
     bool running_ = false;
     Engine::Counts counts_;
     Counters counters_;

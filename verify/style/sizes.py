@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Checks sizes: lines of code at most 120 columns wide; in src and verify, functions of at most 80 lines and files of at
-most 500; READMEs of folders of at most 40 lines, as wide as code outside tables and blocks.
+most 500; READMEs of folders of at most 40 lines, as wide as code outside tables and blocks. In src and bindings/cli/src, a
+class has at most 25 public methods, and its members are defined in its header and one .cpp.
 
-    python3 verify/style/sizes.py [--list]
+    python3 verify/style/sizes.py [--list | --classes]
+
+Constructors, destructors, deleted functions and what overrides a base's method are not counted, overloads one by one.
 
 The functions of verify that are longer are in a table here with the number of lines that they have. The numbers only
 sink: a function that has become shorter is refused until its number is, too.
@@ -14,13 +17,15 @@ import pathlib
 import subprocess
 import sys
 
+import classes
 import scanner
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-WIDTH, FUNCTION, FILE, README = 120, 80, 500, 40
+WIDTH, FUNCTION, FILE, README, METHODS = 120, 80, 500, 40, 25
 PYTHON = ("examples/", "verify/petsc/", "bindings/python/", "bindings/site/")  # the Python files whose width is checked
 CODE = {".c", ".h", ".cpp", ".hpp", ".cmake", ".f90", ".jl"}
 FOLDERS = ("include", "src", "bindings", "verify", "examples")
+CLASSES = ("src/", "bindings/cli/src/")  # where classes are ruled
 # Files of verify whose length is checked, and those of them in which functions are found.
 LONG, SCANNED = (".c", ".h", ".cpp", ".hpp", ".py", ".sh"), (".c", ".h", ".cpp", ".hpp", ".py")
 RELEASED = ("verify/abi/baseline/", "verify/kept/8aed94c5/")  # as they were
@@ -93,9 +98,25 @@ def problems(name, text, longer=None):
                 yield f"{name}:{first}: a function of {length} lines, {allowed} in the table of sizes.py: lower it"
 
 
+def classes_of(texts):
+    """The classes of the folders in which they are ruled."""
+    return classes.find({name: text for name, text in texts.items()
+                         if name.startswith(CLASSES) and name.endswith((".cpp", ".hpp", ".h"))})
+
+
+def wide_classes(found):
+    """Lists the classes with too many public methods, and those with members in several files, a line each."""
+    for c in found:
+        if len(c.methods) > METHODS:
+            yield f"{c.file}:{c.line}: {c.key} has {len(c.methods)} public methods, at most {METHODS}"
+        if len(c.elsewhere) > 1:
+            yield f"{c.file}:{c.line}: {c.key} has members in {', '.join(sorted(c.elsewhere))}: at most one .cpp"
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--list", action="store_true", help="print the length of every function of src and verify, longest first")
+    parser.add_argument("--classes", action="store_true", help="print the number of public methods of every class, most first")
     arguments = parser.parse_args()
     texts = {p.relative_to(ROOT).as_posix(): p.read_text(encoding="utf-8") for p in sources()}
     found = {name: functions(name, text) for name, text in texts.items()
@@ -103,9 +124,14 @@ def main():
     if arguments.list:
         for length, name, first in sorted(((n, name, at) for name, list_ in found.items() for at, n in list_), reverse=True):
             print(f"{length:4d} {name}:{first}")
+    ruled = classes_of(texts)
+    if arguments.classes:
+        for c in sorted(ruled, key=lambda c: -len(c.methods)):
+            print(f"{len(c.methods):4d} {c.key} {c.file}:{c.line}")
     wrong = [line for name, text in texts.items() for line in problems(name, text)]
+    wrong += wide_classes(ruled)
     wrong += [f"{name}: in a table of sizes.py, but not there" for name in sorted(set(LONGER) - set(texts))]
-    print(f"{len(texts)} files; {sum(map(len, found.values()))} functions in src and verify")
+    print(f"{len(texts)} files; {sum(map(len, found.values()))} functions in src and verify; {len(ruled)} classes")
     for line in wrong:
         print(line, file=sys.stderr)
     return 1 if wrong else 0

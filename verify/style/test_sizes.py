@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests the scanner of functions on code whose lengths are known, and plants what sizes.py, words.py,
+"""Tests the scanners of functions and of classes on code whose numbers are known, and plants what sizes.py, words.py,
 readmes.py, arrows.py, sentences.py and english.py must refuse."""
 
 import pathlib
@@ -7,6 +7,7 @@ import sys
 import tempfile
 
 import arrows
+import classes
 import english
 import readmes
 import scanner
@@ -209,6 +210,116 @@ def planted_steps():
     return len(refused)
 
 
+# Methods of Wide and of Base, none of Wide::Inner and of Narrow, counted by hand.
+WIDE = r'''// a comment with class Other { public: int no(); };
+namespace delam::inner {
+enum class Kind : int { one, two };
+template <class T, int n = (3 > 2)>
+class API alignas(8) Wide final : public Base<T, int> {
+    int hidden() const;
+public:
+    Wide() = default;
+    explicit Wide(T t) : t_{t}, f_(make([](int i) { return i; })) { use(t); }
+    Wide(const Wide&) = delete;
+    ~Wide() override;
+    void none() = delete;
+    int first() const { return a < b ? 1 : 2; }
+    [[nodiscard]] std::map<int, std::vector<T>> second(int (*f)(int), T t = T{}) const;
+    template <class U>
+        requires requires(U u) { u.size(); }
+    void third(const U& u) { call(u, [] { return "}"; }); }
+    template <class U> requires(Big<U> && true) static auto fourth() noexcept(true) -> std::vector<U>;
+    T operator()(int i) const;
+    explicit operator bool() const { return true; }
+    bool operator<(const Wide& other) const noexcept;
+    bool operator==(const Wide&) const = default;
+    decltype(auto) ninth() &&;
+    int (*tenth(int i))(double);
+    void eleventh();
+    void (*pointer)(int);
+    int (Wide::*member)(int) const;
+    int overridden() const override { return 1; }
+    virtual void last(int) final;
+    friend bool operator>(const Wide& a, const Wide& b) { return b < a; }
+    friend class Other;
+    int twelfth();
+    using Base<T>::hidden;
+    using Call = std::function<int(int)>;
+    typedef int Array[4];
+    static_assert(sizeof(T) > 1, "text");
+    struct Inner {
+        int x{0}, y = call(1);
+        Inner(int) {}
+    };
+    enum { some = call(2) };
+    std::function<int(int)> value = [](int i) { return i; };
+    int (*plain)(int) = nullptr;
+    alignas(16) std::array<double, (4 > 3)> data{{1.0, 2.0}};
+    unsigned bits : 3;
+protected:
+    void less();
+private:
+    void hidden_too() {}
+public:
+    int thirteenth();
+};
+struct Base {
+    virtual int value() const = 0;
+    virtual ~Base() = default;
+private:
+    int own();
+};
+class Narrow { int own(); };
+class Declared;
+}
+'''
+METHODS = {"delam::inner::Wide": 13, "delam::inner::Wide::Inner": 0, "delam::inner::Base": 1, "delam::inner::Narrow": 0}
+
+
+def planted_classes():
+    """Counts methods that are known, and plants classes that have too many or whose members are scattered; returns how many."""
+    found = {c.key: c for c in classes.find({"src/a/wide.hpp": WIDE})}
+    counted = {key: len(c.methods) for key, c in found.items()}
+    assert counted == METHODS, f"{counted}: {found['delam::inner::Wide'].methods}"
+    lines = [c.line for c in found.values()]
+    assert lines == [4, 37, 53, 59], lines
+
+    def refused(texts):
+        return list(sizes.wide_classes(sizes.classes_of(texts)))
+
+    def full(methods, more=""):
+        return f"class A : public B {{\npublic:\n{more}" + "    int f() const { return 1; }\n" * methods + "};\n"
+
+    limit = sizes.METHODS
+    overrides = "    void g() override;\n    A();\n    ~A();\n    A(const A&) = delete;\n"
+    assert not refused({"src/a/a.hpp": full(limit, overrides), "verify/a.hpp": full(limit + 1), "bindings/cpp/a.hpp": full(limit + 1)})
+    wide = [full(limit + 1), full(limit, "    static void g();\n"), full(limit, "    template <class T>\n    void g(T t);\n"),
+            full(limit, "    virtual void g() = 0;\n"), full(limit + 1).replace("class A", "template <class T>\nstruct A"),
+            "namespace {\n" + full(limit + 1) + "}\n", "class Outer {\n" + full(limit + 1) + "};\n"]
+    for text in wide:
+        for name in ("src/a/a.hpp", "src/a/a.cpp", "bindings/cli/src/a.cpp"):
+            said = refused({name: text})
+            assert len(said) == 1 and f"{limit + 1} public methods" in said[0], f"{text}: {said}"
+
+    head = "namespace delam {\ntemplate <class T>\nclass A {\n    A();\n    struct In { int f(); };\n    int g();\n    static int x;\n};\n}\n"
+    one = "namespace delam {\ntemplate <class T>\nA<T>::A() : x{1} {}\ntemplate <class T>\nint A<T>::g() { return B::g(); }\n}\n"
+    fine = ["namespace delam {\nint A<int>::In::f() { return 1; }\n}\n", "namespace delam {\nint g() { return A<int>::x; }\n}\n",
+            "namespace delam {\nint y = A<int>::g(), z{A<int>::g()};\nA<int>::In make() { return {}; }\n}\n",
+            "namespace other {\nint A::g() { return 1; }\n}\n", "namespace delam {\ntemplate int A<int>::g();\n}\n",
+            "namespace delam {\nnamespace {\nclass A { int g(); };\nint A::g() { return 1; }\n}\n}\n"]
+    for text in fine:
+        assert not refused({"src/a.hpp": head, "src/a.cpp": one, "src/b.cpp": text}), text
+    scattered = ["namespace delam {\ntemplate <class T>\nint A<T>::g() { return 1; }\n}\n", "int delam::A<int>::g() { return 1; }\n",
+                 "namespace delam {\nnamespace inner {\n}\nint A<int>::x = 3;\n}\n", "namespace delam {\nint A<int>::x{3};\n}\n",
+                 "namespace delam {\nstd::vector<A<int>::In> A<int>::g() const { return {}; }\n}\n",
+                 "namespace delam {\nA<int>::A() = default;\n}\n"]
+    for text in scattered:
+        said = refused({"src/a.hpp": head, "src/a.cpp": one, "src/b.cpp": text})
+        assert len(said) == 1 and "members in src/a.cpp, src/b.cpp" in said[0], f"{text}: {said}"
+        assert not refused({"src/a.hpp": head, "src/b.cpp": text})
+    return 3 * len(wide) + len(scattered) + len(METHODS)
+
+
 def main():
     found = list(scanner.functions(CODE))
     assert found == EXPECTED, f"found {found}, expected {EXPECTED}"
@@ -281,7 +392,7 @@ def main():
         (src / "law" / "names.hpp").write_text("// See src/law/mixity.cpp, src/lost.cpp and examples/NAME/NAME.toml.\n",
                                                encoding="utf-8")
         assert list(readmes.lost(src.parent, ["src/law/names.hpp"])) == ["src/law/names.hpp: src/lost.cpp is not there"]
-    houses = planted_steps() + planted_arrows() + planted_imports() + planted_sentences() + planted_english()
+    houses = planted_steps() + planted_arrows() + planted_imports() + planted_sentences() + planted_english() + planted_classes()
     print(f"{len(EXPECTED)} functions, {len(refused) + 4 + len(planted) + 2 + houses} planted")
     return 0
 

@@ -106,7 +106,7 @@ TEST(an_analysis_leaves_the_number) {
             ck_assert_int_ge(solver.advance(k / 4.0).status, 0);
             solver.commit();
         }
-        return solver.state().adhesion;
+        return solver.states().shown().adhesion;
     };
     calls = most = 0;
     const std::vector<double> two = march();

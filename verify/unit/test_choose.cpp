@@ -65,7 +65,7 @@ double counted_march(const Problem& problem, double& predicted, double& unknowns
         ck_assert_int_ge(solver.advance(k / 8.0).status, 0);
         solver.commit();
     }
-    const ReductionChoice& choice = solver.reduction();
+    const ReductionChoice& choice = solver.stepper().reduction();
     predicted = choice.own().bytes;
     unknowns = choice.condensed() ? static_cast<double>(choice.unknowns) : choice.boundary;
     return static_cast<double>(unit::peak_bytes - before);
@@ -142,24 +142,26 @@ TEST(options_force_and_say_so) {
     Problem problem = unit::make_flexure({});
     {
         const Solver solver(problem, monitor, 0.0);
-        ck_assert(solver.reduction().condensed() && !solver.reduction().forced);
-        ck_assert(solver.reduction().condensation.longest > 0.0);
-        ck_assert(solver.reduction().condensation.longest < solver.reduction().condensation.setup);
+        ck_assert(solver.stepper().reduction().condensed() && !solver.stepper().reduction().forced);
+        ck_assert(solver.stepper().reduction().condensation.longest > 0.0);
+        ck_assert(solver.stepper().reduction().condensation.longest < solver.stepper().reduction().condensation.setup);
     }
     problem.options.subdomains = 4;
     {
         const Solver solver(problem, monitor, 0.0);
-        ck_assert(!solver.reduction().condensed() && solver.reduction().forced && solver.reduction().subdomains == 4);
+        ck_assert(!solver.stepper().reduction().condensed() && solver.stepper().reduction().forced &&
+                  solver.stepper().reduction().subdomains == 4);
     }
     problem.options.reduction = "condensed";
-    ck_assert(Solver(problem, monitor, 0.0).reduction().condensed());
+    ck_assert(Solver(problem, monitor, 0.0).stepper().reduction().condensed());
     problem.options.subdomains = 0;
     problem.options.reduction = "feti";
-    ck_assert(Solver(problem, monitor, 0.0).reduction().realisation == Realisation::feti);
+    ck_assert(Solver(problem, monitor, 0.0).stepper().reduction().realisation == Realisation::feti);
     problem.options.reduction = "iterated";
     const Solver solver(problem, monitor, 0.0);
-    ck_assert(solver.reduction().realisation == Realisation::iterated && solver.reduction().forced);
-    ck_assert(solver.reduction().iteration.longest > 0.0 && solver.reduction().iteration.bytes > 0.0);
+    ck_assert(solver.stepper().reduction().realisation == Realisation::iterated && solver.stepper().reduction().forced);
+    ck_assert(solver.stepper().reduction().iteration.longest > 0.0 &&
+              solver.stepper().reduction().iteration.bytes > 0.0);
 }
 
 // The prediction from the condensed operator's analysis agrees with the iterated operator.

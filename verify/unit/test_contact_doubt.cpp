@@ -7,7 +7,7 @@
 
 #include "base/numbers.hpp"
 #include "check.hpp"
-#include "evolution/contact/zone_system.hpp"
+#include "evolution/contact/energy_zone_system.hpp"
 #include "linalg/dense/dense.hpp"
 #include "reduction/dense/dense_zone.hpp"
 #include "zone_motions.hpp"
@@ -48,7 +48,7 @@ Case make_case(std::mt19937& random) {
 
 struct Found {
     double energy;
-    ZoneSystem::ContactDoubt doubt;
+    EnergyZoneSystem::ContactDoubt doubt;
     std::int64_t solves;
 };
 
@@ -56,14 +56,14 @@ Found find(const Case& c, double allowed) {
     TestMotions motions(DenseMatrix(rows, 0));
     DenseZone zone(c.energy, c.row, c.jump_row, motions.of(c.energy));
     const std::vector<std::uint8_t> none(index(rows), 0);
-    ZoneSystem system(zone, c.scene, none, none, c.theta);
+    EnergyZoneSystem system(zone, c.scene, none, none, c.theta);
     system.load(c.springs, {});
-    system.ask_for_energies(allowed);
+    system.allow_doubt(allowed);
     std::vector<std::uint8_t> closed(index(pairs), 0);
     for (std::size_t p = 0; p < closed.size(); p += 3) closed[p] = 1;
     const ActiveSet set = find_active_set(system, system.contact_rows(), closed, steps);
     ck_assert(set.settled);
-    double energy = zone.energy_of(c.theta, system.unknowns());
+    double energy = zone.energy_of(c.theta, system.solution().unknowns);
     for (const Zone::Coupling& s : c.springs)
         energy += 0.5 * s.value * system.jump()[index(s.row)] * system.jump()[index(s.row)];
     return {energy, system.doubt(), set.solves};

@@ -136,7 +136,7 @@ LOOP_TEST(marches_as_without_an_engine, 0, std::size(marches)) {
         ck_assert_msg(outcome.status == DELAM_OK, "%s: %s", where.c_str(), outcome.text.c_str());
         a.commit();
         b.commit();
-        const State &s = a.committed(), &t = b.committed();
+        const State &s = a.states().committed(), &t = b.states().committed();
         expect_close(t.adhesion, s.adhesion, 1e-4, 1.0, where + ", adhesion");
         const double energies[] = {s.ledger.stored_bulk, s.ledger.dissipated},
                      others[] = {t.ledger.stored_bulk, t.ledger.dissipated};
@@ -232,7 +232,7 @@ LOOP_TEST(bodies_that_only_the_engine_knows, 0, 3) {
             ck_assert_int_eq(solver->advance(0.15 * step).status, DELAM_OK);
             solver->commit();
         }
-        expect_close(b.committed().adhesion, a.committed().adhesion, 1e-4, 1.0, where + ", adhesion");
+        expect_close(b.states().committed().adhesion, a.states().committed().adhesion, 1e-4, 1.0, where + ", adhesion");
         const std::vector<double> rho = a.observer().reaction();
         expect_close(b.observer().reaction(), rho, 1e-6, max_abs(rho), where + ", reactions");
     }
@@ -294,7 +294,8 @@ TEST(solvers_take_turns) {
                 ck_assert_int_eq(solver->advance(0.15 * step).status, DELAM_OK);
                 solver->commit();
             }
-            expect_close(one.committed().adhesion, two.committed().adhesion, 1e-6, 1.0, "two solvers");
+            expect_close(one.states().committed().adhesion, two.states().committed().adhesion, 1e-6, 1.0,
+                         "two solvers");
         }
         ck_assert_int_ge(engined.engine.prepared, 18);
         const std::vector<double> u = one.observer().displacement();
@@ -310,7 +311,7 @@ TEST(failures_and_cancellation) {
     Solver solver(engined.problem, monitor, 0.0);
     ck_assert_int_eq(solver.advance(0.5).status, DELAM_OK);
     solver.commit();
-    const std::vector<double> adhesion = solver.committed().adhesion;
+    const std::vector<double> adhesion = solver.states().committed().adhesion;
     engined.engine.fails = DELAM_ERROR_MEMORY;
     ck_assert_refused(DELAM_ERROR_MEMORY, "engine: solve: as asked", solver.advance(0.9));
     monitor.progress_callback = [](const char* stage, std::int64_t, std::int64_t, void*) {
@@ -318,7 +319,7 @@ TEST(failures_and_cancellation) {
     };
     ck_assert_refused(DELAM_CANCELLED, "", solver.advance(0.9));
     monitor.progress_callback = nullptr;
-    ck_assert(solver.committed().adhesion == adhesion);
+    ck_assert(solver.states().committed().adhesion == adhesion);
     Problem plain = march_of(marches[0]);
     Solver other(plain, monitor, 0.0);
     for (const double time : {0.5, 0.9}) {
@@ -327,7 +328,8 @@ TEST(failures_and_cancellation) {
     }
     ck_assert_int_eq(solver.advance(0.9).status, DELAM_OK);
     solver.commit();
-    expect_close(solver.committed().adhesion, other.committed().adhesion, 2e-5, 1.0, "after a failure");
+    expect_close(solver.states().committed().adhesion, other.states().committed().adhesion, 2e-5, 1.0,
+                 "after a failure");
 
     delam_experimental_engine wrong = engined.engine.functions();
     wrong.kept = 3;

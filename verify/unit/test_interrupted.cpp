@@ -71,7 +71,7 @@ std::int32_t advance(Solver& solver, int step) {
 }
 
 void finish(Solver& solver) {
-    for (int k = static_cast<int>(solver.committed().step) + 1; k <= steps; ++k) {
+    for (int k = static_cast<int>(solver.states().committed().step) + 1; k <= steps; ++k) {
         ck_assert_int_eq(advance(solver, k), DELAM_OK);
         solver.commit();
     }

@@ -209,7 +209,7 @@ March march(const char* reduction) {
         ck_assert_int_eq(solver.advance(0.05 * step).status, DELAM_OK);
         solver.commit();
     }
-    m.dissipated = solver.committed().ledger.dissipated;
+    m.dissipated = solver.states().committed().ledger.dissipated;
     return m;
 }
 

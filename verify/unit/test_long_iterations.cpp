@@ -66,13 +66,14 @@ Count march(const March& m) {
         return 0;
     };
     Solver solver(problem, monitor, 0.0);
-    const std::vector<double> before = solver.committed().adhesion;
+    const std::vector<double> before = solver.states().committed().adhesion;
     std::int64_t grown = 0;
     for (int step = 1, growing = 0; step <= 60 && growing<5; ++step, growing += grown> 0 ? 1 : 0) {
         ck_assert_int_eq(solver.advance(step_size * step).status, DELAM_OK);
         solver.commit();
         grown = 0;
-        for (std::size_t p = 0; p < before.size(); ++p) grown += solver.committed().adhesion[p] < before[p] ? 1 : 0;
+        for (std::size_t p = 0; p < before.size(); ++p)
+            grown += solver.states().committed().adhesion[p] < before[p] ? 1 : 0;
     }
     std::printf(
         "k = %.0e, cells 1 : %g, %d interfaces: %d pairs of %d damaged; %d solves, iterations %.1f on average, "

@@ -100,7 +100,7 @@ Found analyse(const Scene& scene, const Limits& limits) {
         const Outcome outcome = solver.advance(n / 8.0);
         found.converged = found.converged && outcome.status == DELAM_OK;
         solver.commit();
-        const State& state = solver.state();
+        const State& state = solver.states().shown();
         // Without what is released: a step's deficit of energy is booked as released from a bound on, and the deficit
         // of "energetic" lies at this bound.
         for (const double e : {state.ledger.stored_bulk, state.ledger.stored_interface, state.ledger.dissipated})

@@ -62,9 +62,9 @@ LOOP_TEST(mixity_left_out_changes_no_digit, 0, 2) {
     const auto with = history(problem, &computed);
     expect_same_bits(without, with);
     double seen = 0.0;
-    for (std::size_t p = 0; p < left_out->state().mixity.size(); ++p) {
-        ck_assert(left_out->state().mixity[p] == 0.0);
-        seen = std::max(seen, computed->state().mixity[p]);
+    for (std::size_t p = 0; p < left_out->states().shown().mixity.size(); ++p) {
+        ck_assert(left_out->states().shown().mixity[p] == 0.0);
+        seen = std::max(seen, computed->states().shown().mixity[p]);
     }
     ck_assert(seen > 0.5);  // bending shears the interface, so there was something to leave out
     delete left_out;
@@ -157,7 +157,7 @@ LOOP_TEST(the_plan_is_known_beforehand, 0, 8) {
     const Solver solver(problem, monitor, 0.0);
     const std::vector<PlanItem> after = plan_of(solver);
     ck_assert_uint_eq(before.plan.size(), after.size());
-    ck_assert(before.memory == solver.reduction().own().bytes);
+    ck_assert(before.memory == solver.stepper().reduction().own().bytes);
     for (std::size_t i = 0; i < after.size(); ++i) {
         if (ways[loop % 4] == std::string("feti") && after[i].subject == "FETI")
             continue;  // its partition is not known

@@ -20,7 +20,7 @@ State state_of(const Problem& problem) {
     Monitor monitor;
     Solver solver(problem, monitor, 0.0);
     ck_assert_int_eq(solver.advance(0.1).status, 0);
-    return solver.state();
+    return solver.states().shown();
 }
 
 Problem small(const char* reduction) {

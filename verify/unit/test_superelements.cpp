@@ -80,7 +80,7 @@ double largest(const DenseMatrix& a) { return max_abs(a.value); }
 // S of [kept displacements | jumps] from one factor of everything.
 DenseMatrix whole_schur(const Bulk& bulk, const SparseMatrix& transformed) {
     SparseMatrix m = transformed;
-    const std::int64_t trailing = bulk.trailing(), leading = m.rows - trailing;
+    const std::int64_t trailing = bulk.system().variables().trailing(), leading = m.rows - trailing;
     std::vector<double> shift(index(trailing), 0.0);
     for (std::int64_t t = 0; t < trailing; ++t)
         for (std::int64_t e = m.start[index(leading + t)]; e < m.start[index(leading + t) + 1]; ++e)
@@ -181,9 +181,9 @@ LOOP_TEST(all_jumps_have_the_schur_complement_of_the_whole, 0, cases().size()) {
         if (bulk.superelements().kind(static_cast<std::int64_t>(p)) == Superelements::Kind::jump)
             state[p] = Elimination::in_zone;
     whole.update(state, {});
-    ck_assert_int_eq(whole.energy().rows(), bulk.trailing());
+    ck_assert_int_eq(whole.energy().rows(), bulk.system().variables().trailing());
     double error = 0.0;
-    const std::int64_t leading = transformed.rows - bulk.trailing();
+    const std::int64_t leading = transformed.rows - bulk.system().variables().trailing();
     for (std::int64_t j = 0; j < s.columns; ++j)
         for (std::int64_t i = 0; i < s.rows; ++i) {
             const auto at = [&](std::int64_t k) {

@@ -110,7 +110,7 @@ TEST(analysis) {
             ck_assert_int_ge(solver.advance(k / 4.0).status, 0);
             solver.commit();
         }
-        return solver.state().adhesion;
+        return solver.states().shown().adhesion;
     };
     const std::vector<double> one = march(1);
     ck_assert(march(2) == one);

@@ -12,7 +12,7 @@ namespace delam {
 namespace {
 
 const Bulk& bulk_of(const Solver& solver) {
-    const Bulk* bulk = solver.condensed();
+    const Bulk* bulk = solver.stepper().design().condensed;
     if (bulk == nullptr)
         fail(DELAM_ERROR_STATE,
              "the solver has no condensed operator, because the bodies are reduced by iteration or by FETI: set the "

@@ -9,6 +9,7 @@
 #include "base/numbers.hpp"
 #include "base/team.hpp"
 #include "evolution/analysis/solver.hpp"
+#include "evolution/step/backtrack.hpp"
 #include "evolution/step/pairs_of_scene.hpp"
 #include "scene/advice/scene_warnings.hpp"
 #include "scene/check/validate.hpp"
@@ -260,8 +261,8 @@ std::string figure(double value, const std::string& unit) { return unit == "-" ?
 }  // namespace
 
 std::vector<PlanItem> plan_of(const Solver& solver) {
-    const JumpOperator& op = solver.jump_operator();
-    return items_of({solver.problem(), solver.reduction(), op.description(), "", op.prescribed_rows(),
+    const JumpOperator& op = solver.stepper().op();
+    return items_of({solver.problem(), solver.stepper().reduction(), op.description(), "", op.prescribed_rows(),
                      solver.observer().pairs().gradient});
 }
 

@@ -37,7 +37,7 @@ void forget_zones(State& state) {
 // Every member must be as its row says, and every number one that an analysis can produce.
 void check(const State& state, const Solver& solver, std::uint32_t found_version) {
     Sound sound(found_version);
-    sound.compare(state, solver.committed());
+    sound.compare(state, solver.states().committed());
     if (!sound.sizes) fail(DELAM_ERROR_SNAPSHOT, "snapshot has arrays of other sizes than this solver");
     for (const auto* fractions : {&state.adhesion, &state.mixity, &state.mixity_before})
         for (const double v : *fractions)
@@ -48,8 +48,8 @@ void check(const State& state, const Solver& solver, std::uint32_t found_version
         fail(DELAM_ERROR_SNAPSHOT, "snapshot holds a number of step ", state.step, " that is not finite");
     if (state.step < 0 || state.step > most_steps)
         fail(DELAM_ERROR_SNAPSHOT, "snapshot holds step ", state.step, ", allowed: 0 to 2^53");
-    solver.jump_operator().require_memory(state.memory);
-    solver.jump_operator().require_memory(state.search_memory);  // of its twin
+    solver.stepper().op().require_memory(state.memory);
+    solver.stepper().op().require_memory(state.search_memory);  // of its twin
 }
 
 void check(const JumpEvent& jump, const Solver& solver, std::uint32_t found_version) {
@@ -201,9 +201,9 @@ std::vector<std::uint8_t> save(const Solver& solver) {
     w.item(version);
     w.item(solver.scene_hash());
     write_histories(w, solver);
-    walk(w, solver.committed());
-    write_list(w, solver.past());
-    write_list(w, solver.jumps(false));
+    walk(w, solver.states().committed());
+    write_list(w, solver.states().past());
+    write_list(w, solver.states().committed_jumps());
     write_record(w, solver.recorded());
     w.item(checksum(w.bytes));
     return w.bytes;
@@ -227,7 +227,7 @@ void load(Solver& solver, std::span<const std::uint8_t> bytes) {
     std::vector<JumpEvent> jumps = read_list<JumpEvent>(r);
     Record record;
     if (found_version >= 7) record = read_record(r, solver);
-    if (found_version < 10 && solver.condensed() != nullptr) {
+    if (found_version < 10 && solver.stepper().design().condensed != nullptr) {
         forget_zones(state);
         for (State& earlier : past) forget_zones(earlier);
     }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include "base/error.hpp"
 #include "base/numbers.hpp"
@@ -12,6 +13,7 @@
 #include "evolution/observe/soundness.hpp"
 #include "evolution/observe/values.hpp"
 #include "evolution/search/fronts.hpp"
+#include "evolution/step/backtrack.hpp"
 #include "evolution/step/load_path.hpp"
 #include "evolution/step/step_control.hpp"
 #include "scene/advice/scene_warnings.hpp"
@@ -58,15 +60,17 @@ Solver::Solver(const Problem& problem, Monitor& monitor, double time)
       monitor_(monitor),
       stepper_(problem_, monitor),
       graph_(problem_.mesh->interfaces()),
+      states_(keeps_past(problem_.options) ? problem_.options.backtracking_depth : 0),
       observer_(problem_, stepper_.op(), stepper_.pairs(), stepper_.contact(), stepper_.initial_adhesion(),
                 stepper_.design().in_engine),
       warnings_(problem_, monitor) {
     Stepper::Result first = stepper_.initial(time);
-    committed_ = std::move(first.state);
-    observer_.show(committed_);
-    if (!first.converged) initial_outcome_ = unconverged_displacement(committed_);
-    require_sound(problem_, committed_, first.converged);
-    judge_balance(committed_, initial_outcome_);
+    states_.restore(std::move(first.state), {}, {});
+    const State& initial = states_.committed();
+    observer_.show(initial);
+    if (!first.converged) initial_outcome_ = unconverged_displacement(initial);
+    require_sound(problem_, initial, first.converged);
+    judge_balance(initial, initial_outcome_);
     warn_of_scene(problem_, monitor_);
     const std::int64_t threads = problem_.options.threads;
     if (threads > processors())
@@ -96,7 +100,7 @@ void Solver::judge_balance(const State& state, Outcome& outcome) {
 }
 
 void Solver::require_nothing_pending(double time) const {
-    if (pending_) fail(DELAM_ERROR_STATE, "a step is pending: commit it or roll it back first");
+    if (states_.pending() != nullptr) fail(DELAM_ERROR_STATE, "a step is pending: commit it or roll it back first");
     if (!std::isfinite(time)) fail(DELAM_ERROR_ARGUMENT, "time = ", time, " must be finite");
 }
 
@@ -108,22 +112,29 @@ void Solver::note_jump(const State& before, State& after, std::vector<JumpEvent>
 
 Outcome Solver::advance(double time) {
     require_nothing_pending(time);
-    if (time <= committed_.time)
-        fail(DELAM_ERROR_ARGUMENT, "time ", time, " is not after the committed time ", committed_.time);
+    const State& committed = states_.committed();
+    if (time <= committed.time)
+        fail(DELAM_ERROR_ARGUMENT, "time ", time, " is not after the committed time ", committed.time);
     const Options& options = problem_.options;
-    Chain chain(past_, committed_);
-    if (follows_load(options)) return follow(time);
-    Stepper::Result result = keeps_past() ? backtracked_step(stepper_, chain, committed_.step, time, options)
-                                          : stepper_.step(committed_, time);
-    Pending pending;
+    Chain chain(states_.past(), committed);
+    Stepper::Result result;
+    PendingStep pending;
+    if (follows_load(options)) {
+        ControlledStep followed = followed_step(stepper_, graph_, committed, time, options);
+        result = std::move(followed.result);
+        pending.jumps = std::move(followed.jumps);
+    } else {
+        result = keeps_past(options) ? backtracked_step(stepper_, chain, committed.step, time, options)
+                                     : stepper_.step(committed, time);
+    }
     for (auto& [step, state] : chain.revised()) note_jump(chain.at(step - 1), state, pending.jumps);
     if (controls_steps(options)) {
         ControlledStep controlled =
-            controlled_step(stepper_, graph_, chain.at(committed_.step), std::move(result), options);
+            controlled_step(stepper_, graph_, chain.at(committed.step), std::move(result), options);
         result = std::move(controlled.result);
         std::ranges::move(controlled.jumps, std::back_inserter(pending.jumps));
-    } else {
-        note_jump(chain.at(committed_.step), result.state, pending.jumps);
+    } else if (!follows_load(options)) {
+        note_jump(chain.at(committed.step), result.state, pending.jumps);
     }
     pending.state = std::move(result.state);
     pending.searched = std::move(result.searched);
@@ -131,102 +142,59 @@ Outcome Solver::advance(double time) {
     require_sound(problem_, pending.state, result.converged);
     for (const State& revised : pending.revised) require_sound(problem_, revised, result.converged);
     warned_of_mixity_ = warned_of_mixity_ || stepper_.warn(pending.state);
-    warnings_.judge_front(observer_, committed_, pending.state);
+    warnings_.judge_front(observer_, committed, pending.state);
     warnings_.judge_ledger(pending.state, options);
-    warnings_.judge_symmetry(graph_, committed_, pending.state);
+    warnings_.judge_symmetry(graph_, committed, pending.state);
     Outcome outcome;
     if (!result.converged)
         outcome = {DELAM_NOT_CONVERGED, text("step ", pending.state.step, " at time ", time,
                                              ": not converged: ", what_did_not_converge(pending.state, options))};
     judge_balance(pending.state, outcome);
-    selected_ = nullptr;
-    pending_ = std::move(pending);
-    observer_.show(pending_->state);
-    return outcome;
-}
-
-Outcome Solver::follow(double time) {
-    const Options& options = problem_.options;
-    ControlledStep controlled = followed_step(stepper_, graph_, committed_, time, options);
-    Pending pending;
-    pending.jumps = std::move(controlled.jumps);
-    Stepper::Result result = std::move(controlled.result);
-    pending.state = std::move(result.state);
-    pending.searched = std::move(result.searched);
-    require_sound(problem_, pending.state, result.converged);
-    warned_of_mixity_ = warned_of_mixity_ || stepper_.warn(pending.state);
-    warnings_.judge_front(observer_, committed_, pending.state);
-    warnings_.judge_ledger(pending.state, options);
-    warnings_.judge_symmetry(graph_, committed_, pending.state);
-    Outcome outcome;
-    if (!result.converged)
-        outcome = {DELAM_NOT_CONVERGED, text("step ", pending.state.step, " at time ", time,
-                                             ": not converged: ", what_did_not_converge(pending.state, options))};
-    judge_balance(pending.state, outcome);
-    selected_ = nullptr;
-    pending_ = std::move(pending);
-    observer_.show(pending_->state);
+    states_.propose(std::move(pending));
+    observer_.show(states_.present());
     return outcome;
 }
 
 Outcome Solver::equilibrate(double time, std::span<const double> adhesion) {
     require_nothing_pending(time);
-    Stepper::Result result = stepper_.equilibrate(committed_, time, adhesion);
+    Stepper::Result result = stepper_.equilibrate(states_.committed(), time, adhesion);
     Outcome outcome;
     if (!result.converged) outcome = unconverged_displacement(result.state);
     require_sound(problem_, result.state, result.converged);
     judge_balance(result.state, outcome);
-    selected_ = nullptr;
-    pending_ = Pending{std::move(result.state), {}, {}, {}};
-    observer_.show(pending_->state);
+    states_.propose({std::move(result.state), {}, {}, {}});
+    observer_.show(states_.present());
     return outcome;
 }
 
 void Solver::commit() {
-    if (!pending_) fail(DELAM_ERROR_STATE, "nothing to commit: no step is pending");
-    const bool keeps = keeps_past() && pending_->state.step > committed_.step;
-    std::vector<JumpEvent> all = jumps(true);
-    if (keeps) past_.reserve(past_.size() + 1);
+    const PendingStep* pending = states_.pending();
+    if (pending == nullptr) fail(DELAM_ERROR_STATE, "nothing to commit: no step is pending");
     const std::vector<std::string> keys = record_.keys();
     std::vector<Record::Row> rows;
-    for (const State& state : pending_->revised) rows.push_back({state.step, values(state, keys)});
-    rows.push_back({pending_->state.step, values(pending_->state, keys)});
+    for (const State& state : pending->revised) rows.push_back({state.step, values(state, keys)});
+    rows.push_back({pending->state.step, values(pending->state, keys)});
     record_.reserve_row();
+    const bool present_shown = !states_.selected();
+    states_.commit();
     // From here on nothing can fail.
     for (const Record::Row& row : rows) record_.put(row);
-    const bool present_shown = selected_ == nullptr;
-    selected_ = nullptr;
-    jumps_ = std::move(all);
-    for (State& state : pending_->revised) {
-        if (state.step == committed_.step)
-            committed_ = std::move(state);
-        else
-            past_[index(state.step - past_.front().step)] = std::move(state);
-    }
-    if (pending_->state.step == committed_.step) past_.clear();  // a state that was set: no earlier step leads to it
-    if (keeps) {
-        past_.push_back(std::move(committed_));
-        if (past_.size() > index(problem_.options.backtracking_depth)) past_.erase(past_.begin());
-    }
-    committed_ = std::move(pending_->state);
-    searched_ = std::move(pending_->searched);
-    pending_.reset();
     if (present_shown)
-        observer_.follow(committed_);  // the pending state, which is the committed one now
+        observer_.follow(states_.committed());  // the pending state, which is the committed one now
     else
-        observer_.show(committed_);
+        observer_.show(states_.committed());
 }
 
 void Solver::rollback() {
-    if (!pending_) fail(DELAM_ERROR_STATE, "nothing to roll back: no step is pending");
-    selected_ = nullptr;
-    pending_.reset();
-    observer_.show(committed_);
+    if (states_.pending() == nullptr) fail(DELAM_ERROR_STATE, "nothing to roll back: no step is pending");
+    states_.rollback();
+    observer_.show(states_.committed());
 }
 
 void Solver::set_history(std::int64_t pattern, std::span<const double> times, std::span<const double> values) {
-    if (pending_) fail(DELAM_ERROR_STATE, "a step is pending: commit it or roll it back before a history changes");
-    const double now = committed_.time;
+    if (states_.pending() != nullptr)
+        fail(DELAM_ERROR_STATE, "a step is pending: commit it or roll it back before a history changes");
+    const double now = states_.committed().time;
     if (times.front() <= now)
         fail(DELAM_ERROR_ARGUMENT, "times[0] = ", times.front(), " is not after the committed time ", now);
     Pattern& changed = problem_.patterns[index(pattern)];
@@ -244,10 +212,12 @@ void Solver::set_history(std::int64_t pattern, std::span<const double> times, st
 }
 
 void Solver::record(const std::string& key) {
-    if (pending_) fail(DELAM_ERROR_STATE, "a step is pending: commit it or roll it back before a value is recorded");
+    if (states_.pending() != nullptr)
+        fail(DELAM_ERROR_STATE, "a step is pending: commit it or roll it back before a value is recorded");
     if (const char* why = why_unrecorded(key)) fail(DELAM_ERROR_ARGUMENT, "value '", key, "' is not recorded: ", why);
     const std::string own = value_key(key);
-    if (record_.find(own) == nullptr) record_.add(own, committed_.step, values(committed_, {own}).front());
+    const State& committed = states_.committed();
+    if (record_.find(own) == nullptr) record_.add(own, committed.step, values(committed, {own}).front());
 }
 
 std::vector<double> Solver::values(const State& state, const std::vector<std::string>& keys) {
@@ -267,30 +237,32 @@ std::vector<std::int64_t> Solver::changed_histories() const {
 }
 
 std::vector<double> Solver::step_tangent() {
-    if (!pending_ || pending_->state.step == committed_.step)
+    const PendingStep* pending = states_.pending();
+    if (pending == nullptr || pending->state.step == states_.committed().step)
         fail(DELAM_ERROR_STATE, "step tangent: no step is pending");
-    if (!pending_->revised.empty())
+    if (!pending->revised.empty())
         fail(DELAM_ERROR_STATE, "step tangent: not available, because backtracking has replaced the steps from ",
-             pending_->revised.front().step, " on");
-    if (const std::int64_t parts = pending_->state.history.substeps; parts > 1)
+             pending->revised.front().step, " on");
+    if (const std::int64_t parts = pending->state.history.substeps; parts > 1)
         fail(DELAM_ERROR_STATE, "step tangent: not available, because the step was divided into ", parts,
              " substeps (step_control, jump_tolerance or mixity_step_tolerance)");
-    return stepper_.step_tangent(committed_, pending_->state);
+    return stepper_.step_tangent(states_.committed(), pending->state);
 }
 
 std::int64_t Solver::follow(std::span<const std::int64_t> interfaces, const std::string& key) {
-    if (pending_ || committed_.step != 0)
+    const State& committed = states_.committed();
+    if (states_.pending() != nullptr || committed.step != 0)
         fail(DELAM_ERROR_STATE, "sensitivities are followed from the initial state on: there are steps already");
     std::vector<FollowedParameter> parameters = followed_;
     parameters.push_back(followed_parameter(problem_, interfaces, key));
-    committed_.sensitivity = stepper_.follow(parameters, committed_);
+    states_.set_sensitivity(stepper_.follow(parameters, committed));
     followed_ = std::move(parameters);
-    return followed() - 1;
+    return static_cast<std::int64_t>(followed_.size()) - 1;
 }
 
 std::vector<double> Solver::sensitivities() const {
     const std::size_t patterns = problem_.patterns.size(), count = followed_.size();
-    const std::vector<double>& by = state().sensitivity.conjugate;
+    const std::vector<double>& by = states_.shown().sensitivity.conjugate;
     if (by.size() != count * patterns)
         fail(DELAM_ERROR_STATE,
              "sensitivities are not known in a state that was loaded or set: they are followed from "
@@ -302,45 +274,17 @@ std::vector<double> Solver::sensitivities() const {
 }
 
 void Solver::select(std::int64_t step) {
-    const State* found = nullptr;
-    if (step != -1) {
-        const std::int64_t present = pending_ ? pending_->state.step : committed_.step;
-        if (step < first_kept() || step > present)
-            fail(DELAM_ERROR_ARGUMENT, "step ", step, " is not kept; kept are ", first_kept(), " to ", present,
-                 keeps_past() ? "" : " (earlier ones with option backtracking = on)");
-        if (pending_) {
-            if (step == pending_->state.step) found = &pending_->state;
-            for (const State& state : pending_->revised)
-                if (state.step == step) found = &state;
-        }
-        if (found == nullptr) found = step == committed_.step ? &committed_ : &past_[index(step - past_.front().step)];
-    }
-    selected_ = found;
-    observer_.show(state());
-}
-
-std::vector<JumpEvent> Solver::jumps(bool pending) const {
-    std::vector<JumpEvent> all = jumps_;
-    if (!pending || !pending_) return all;
-    if (pending_->state.step == committed_.step) return all;  // set, not computed by steps
-    const std::int64_t from = pending_->revised.empty() ? pending_->state.step : pending_->revised.front().step;
-    std::erase_if(all, [&](const JumpEvent& jump) { return jump.step >= from; });
-    all.insert(all.end(), pending_->jumps.begin(), pending_->jumps.end());
-    return all;
+    states_.select(step);
+    observer_.show(states_.shown());
 }
 
 void Solver::restore(State restored, std::vector<State> past, std::vector<JumpEvent> jumps,
                      std::vector<Pattern> patterns, Record record) {
     stepper_.recall(restored);
     problem_.patterns = std::move(patterns);
-    committed_ = std::move(restored);
-    searched_.clear();
-    past_ = std::move(past);
-    jumps_ = std::move(jumps);
+    states_.restore(std::move(restored), std::move(past), std::move(jumps));
     record_ = std::move(record);
-    pending_.reset();
-    selected_ = nullptr;
-    observer_.show(committed_);
+    observer_.show(states_.committed());
 }
 
 }  // namespace delam

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "evolution/contact/zone_system.hpp"
 
-#include <limits>
 #include <utility>
 
 #include "base/numbers.hpp"
@@ -46,40 +45,6 @@ std::vector<std::uint8_t> ZoneSystem::held(const std::vector<std::uint8_t>& clos
 bool ZoneSystem::softens() const {
     return std::any_of(couplings_.begin(), couplings_.end(),
                        [](const Zone::Coupling& c) { return c.row != c.column || c.value < 0.0; });
-}
-
-// With A = S + C and the forces lambda <= 0 of the other closed rows kept, releasing the closed rows V that pull lowers
-// the energy by 1/2 lambda_V^T (A^-1)_VV lambda_V, and A >= C_VV:   below = sum_V lambda^2 / (2 C).   By duality no
-// state without penetration lies lower. Moving the open rows P that penetrate to zero, and nothing else, gives a state
-// without penetration:   above = 1/2 j_P^T A_PP j_P.
-ZoneSystem::ContactDoubt ZoneSystem::doubt_contact(const std::vector<std::uint8_t>& closed,
-                                                   std::span<const std::size_t> wrong) const {
-    std::vector<double> spring(jump_.size(), 0.0), moved;
-    for (const Zone::Coupling& c : couplings_) spring[index(c.row)] += c.row == c.column ? c.value : 0.0;
-    std::vector<std::size_t> open;
-    ContactDoubt doubt;
-    for (const std::size_t i : wrong) {
-        const std::size_t r = contact_.row[i];
-        if (closed[i] != 0) {
-            doubt.below +=
-                spring[r] > 0.0 ? 0.5 * force_[r] * force_[r] / spring[r] : std::numeric_limits<double>::infinity();
-        } else {
-            open.push_back(r);
-            moved.push_back(-jump_[r]);
-            doubt.above += 0.5 * spring[r] * jump_[r] * jump_[r];
-        }
-    }
-    if (!open.empty() && doubt.below + doubt.above <= allowed_) doubt.above += zone_.energy_of_moving(open, moved);
-    return doubt;
-}
-
-bool ZoneSystem::negligible(const std::vector<std::uint8_t>& closed, std::span<const std::size_t> wrong) {
-    doubt_ = {};
-    if (wrong.empty() || !(allowed_ > 0.0)) return wrong.empty();
-    const ContactDoubt doubt = doubt_contact(closed, wrong);
-    if (!(doubt.above + doubt.below <= allowed_)) return false;
-    doubt_ = doubt;
-    return true;
 }
 
 void ZoneSystem::stay_near(std::span<const double> jump) {

@@ -25,7 +25,6 @@ public:
 
     const Zone& zone() const { return zone_; }
     Zone& zone() { return zone_; }
-    std::span<const double> theta() const { return theta_; }
     const ContactRows& contact_rows() const { return contact_; }
     // The contact set with which the zone was entered, [contact rows].
     const std::vector<std::uint8_t>& entered_closed() const { return entered_; }
@@ -62,33 +61,23 @@ public:
     std::vector<std::size_t> settle(const ContactRows& rows, std::vector<std::uint8_t>& closed, std::uint8_t level,
                                     const SolveError& least);
     bool softens() const;
-    // Asks for energies only, within so much, F L: contact may then be left undecided where it matters less.
-    void ask_for_energies(double allowed) { allowed_ = allowed; }
-    bool negligible(const std::vector<std::uint8_t>& closed, std::span<const std::size_t> wrong);
-    // The energy with contact lies above that of the last solve by at most `above`, below it by at most `below`, F L.
-    struct ContactDoubt {
-        double above = 0.0, below = 0.0;
-    };
-    const ContactDoubt& doubt() const { return doubt_; }
     SolveError error() const { return solution_.error; }
-    double energy_error() const { return solution_.energy_error; }
     bool rough() const { return false; }
     // The operator, which checks the end of a minimiser, decides what is in doubt here.
     static constexpr std::int64_t guesses = 0;
     bool tighten() { return false; }
     // The last solve.
     const Zone::Solution& solution() const { return solution_; }
-    const std::vector<double>& unknowns() const { return solution_.unknowns; }
-    // The residual that the last solve has left, as a fraction of the residual with which this load began.
-    double left() const { return solution_.left; }
     // Krylov iterations of all solves.
     std::int64_t iterations() const { return iterations_; }
     // Zone rows that are held with this contact set.
     std::vector<std::uint8_t> held(const std::vector<std::uint8_t>& closed) const;
 
-private:
-    ContactDoubt doubt_contact(const std::vector<std::uint8_t>& closed, std::span<const std::size_t> wrong) const;
+protected:
+    // The couplings that are loaded.
+    std::span<const Zone::Coupling> couplings() const { return couplings_; }
 
+private:
     Zone& zone_;
     const ContactScene& scene_;
     std::span<const double> theta_;
@@ -102,8 +91,6 @@ private:
     std::vector<double> jump_, force_;
     std::vector<double> near_;  // [zone rows] or empty
     Zone::Solution solution_;
-    double allowed_ = 0.0;  // of energies
-    ContactDoubt doubt_;
     std::int64_t iterations_ = 0;
 };
 

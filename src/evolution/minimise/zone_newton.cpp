@@ -193,7 +193,7 @@ bool Descent::minimise(const Point& at, std::span<const double> adhesion, double
     indefinite_ = found.last == ContactSolve::failed;
     if (!found.settled) return false;
     closed_ = std::move(closed);
-    out = point(system_.unknowns());
+    out = point(system_.solution().unknowns);
     return true;
 }
 
@@ -407,10 +407,11 @@ double Descent::run(std::int64_t limit, double tolerance) {
         least = std::min(least, change);
         newton_step_ = move.newton && !halved_;
         const bool squared = move.newton && !renewed;
-        ended_ = squared ? change * std::max(100.0 * change, system_.left()) <= tolerance : change <= tolerance;
+        ended_ =
+            squared ? change * std::max(100.0 * change, system_.solution().left) <= tolerance : change <= tolerance;
         // The descent also ends if only the rounding of the solves is left.
         ended_ = ended_ || (squared && 100.0 * change * change <= tolerance && idle >= limits_.newton_most_idle &&
-                            system_.left() > limits_.newton_met_rounding);
+                            system_.solution().left > limits_.newton_met_rounding);
     }
     hand_over(at);
     state_.effort.linear_iterations += system_.iterations();

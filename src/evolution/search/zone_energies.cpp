@@ -45,7 +45,7 @@ bool ZoneEnergies::choose() {
     const std::optional<double> energy = zone_energy(known_->adhesion);
     if (!energy) return false;
     zone->ask_for_energies(with_jumps_ && !whole_ ? 0.0 : allowed_);
-    system_->ask_for_energies(with_jumps_ ? 0.0 : undecided * allowed_);
+    system_->allow_doubt(with_jumps_ ? 0.0 : undecided * allowed_);
     // The search itself handles the gradient term, which does not depend on displacements.
     offset_ = known_->ledger.energy() - gradient_energy(pairs_, known_->adhesion) - *energy;
     return true;
@@ -149,7 +149,7 @@ std::optional<double> ZoneEnergies::zone_energy(std::span<const double> adhesion
     std::vector<std::uint8_t> closed = start_of_contact(adhesion);
     if (!find_active_set(*system_, system_->contact_rows(), closed, energy_contact_steps).settled) return std::nullopt;
     remember(adhesion, closed);
-    double energy = system_->doubt().above + system_->zone().energy_of(system_->theta(), system_->unknowns());
+    double energy = system_->doubt().above + system_->zone().energy_of(known_->theta, system_->solution().unknowns);
     const std::span<const double> jump = system_->jump();
     for (std::size_t z = 0; z < spring.size(); ++z) energy += 0.5 * spring[z] * jump[z] * jump[z];
     return energy;

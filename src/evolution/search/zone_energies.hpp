@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "base/numbers.hpp"
-#include "evolution/contact/zone_system.hpp"
+#include "evolution/contact/energy_zone_system.hpp"
 #include "evolution/increment/damage_step.hpp"
 #include "evolution/increment/state.hpp"
 
@@ -50,7 +50,7 @@ public:
     // True if contact outside the zone had settled in the last energy(), as far as it was checked.
     bool settled() const { return settled_; }
     // Returns the largest amount by which the last energy() may be too high, F L.
-    double error() const { return system_->energy_error() + system_->doubt().above + system_->doubt().below; }
+    double error() const { return system_->solution().energy_error + system_->doubt().above + system_->doubt().below; }
     // Local jump of a pair inside the zone, in the last energy().
     std::span<const double> jump(std::size_t pair) const {
         return system_->jump().subspan(index(place_[pair]), index(pairs_.dimension));
@@ -71,7 +71,7 @@ private:
     bool whole_;
     const PairLaws& pairs_;
     const ContactScene& contact_;
-    std::optional<ZoneSystem> system_;
+    std::optional<EnergyZoneSystem> system_;
     // The states solved since forget(): the next contact set is searched from the nearest one.
     struct Solved {
         std::vector<double> adhesion;      // [pairs]

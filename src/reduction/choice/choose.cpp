@@ -64,17 +64,18 @@ double cut_nodes(const std::array<double, 3>& side, int dimension, double nodes,
 ReductionCost predict_condensed(const Bulk& bulk) {
     const Superelements& pieces = bulk.superelements();
     const CondensationSize once = pieces.condensation();
-    const double stiffness = 16.0 * number(bulk.stiffness_entries()),
-                 transformed = 16.0 * number(bulk.transformed_entries()), factor = 8.0 * pieces.factor_entries(),
+    const double stiffness = 16.0 * number(bulk.system().stiffness().entries()),
+                 transformed = 16.0 * number(bulk.transformed().entries()), factor = 8.0 * pieces.factor_entries(),
                  dense = 8.0 * (pieces.dense_entries() + once.numbers);
     ReductionCost cost;
     cost.setup = pieces.size().flops + 2.0 * once.operations + setup_overhead * number(bulk.transformed().rows);
     cost.longest = pieces.longest();
     cost.ordering = ordering_operations * number(pieces.largest_inside());
-    cost.step = condensed_step * once.operations + step_overhead * number(bulk.trailing());
+    cost.step = condensed_step * once.operations + step_overhead * number(bulk.system().variables().trailing());
     // T^T K T while the leaves are condensed; afterwards what is left of the skeleton.
     cost.bytes = stiffness + factor + 8.0 * pieces.dense_entries() +
-                 std::max(transformed, 8.0 * (once.numbers + zone_squares * square(number(bulk.trailing()))));
+                 std::max(transformed,
+                          8.0 * (once.numbers + zone_squares * square(number(bulk.system().variables().trailing()))));
     cost.least = stiffness + factor + dense;
     return cost;
 }
@@ -103,8 +104,8 @@ ReductionCost predict_iterated(const IteratedSize& size) {
 IteratedSize iterated_size(const Bulk& bulk) {
     IteratedSize size;
     size.variables = number(bulk.transformed().rows);
-    size.stiffness = number(bulk.stiffness_entries());
-    size.transformed = number(bulk.transformed_entries());
+    size.stiffness = number(bulk.system().stiffness().entries());
+    size.transformed = number(bulk.transformed().entries());
     size.factor.entries = predict_monolithic_entries(bulk);
     size.factor.flops = column_spread * square(size.factor.entries) / std::max(size.variables, 1.0);
     size.stored = relaxed_supernodes * size.factor.entries;
@@ -131,7 +132,7 @@ const ReductionCost& ReductionChoice::own() const {
 double predict_monolithic_entries(const Bulk& bulk) { return bulk.superelements().entries_in_order(); }
 
 double predict_monolithic_bytes(const Bulk& bulk) {
-    return 40.0 * number(bulk.transformed_entries()) + 8.0 * supernodes * predict_monolithic_entries(bulk);
+    return 40.0 * number(bulk.transformed().entries()) + 8.0 * supernodes * predict_monolithic_entries(bulk);
 }
 
 ReductionCost predict_feti(const Problem& problem, std::int64_t subdomains, double& boundary) {
@@ -406,7 +407,7 @@ Design chosen(const Problem& problem, Monitor& monitor) {
         return of_iterated(std::move(design), problem, std::make_unique<Iterated>(problem, monitor));
     }
     auto bulk = std::make_unique<Bulk>(problem, monitor);
-    choice.unknowns = bulk->trailing();
+    choice.unknowns = bulk->system().variables().trailing();
     choice.condensation = predict_condensed(*bulk);
     choice.iteration = predict_iterated(iterated_size(*bulk));
     choice.factor_entries = bulk->superelements().size().entries;

@@ -26,7 +26,7 @@ AssembledBodies Bulk::release() && { return {std::move(system_), std::move(trans
 void Bulk::condense(Monitor& monitor) {
     const Poll condensing = monitor.poll_at("condense", 0, 0);
     monitor.progress("factor", 0, 0);
-    resolve_equations();
+    equations_ = TrailingEquations(variables(), static_cast<std::int64_t>(problem_.patterns.size()), *superelements_);
     factorise(condensing);
     const StrainLoads strained = system_->find_loads();
     std::vector<std::vector<double>> bonded = condense_loads(condensing);
@@ -37,12 +37,12 @@ void Bulk::condense(Monitor& monitor) {
     dead_work_ = known.dead_work();
     rigid_ = DenseMatrix(unknowns(), motions.columns);
     for (std::int64_t c = 0; c < motions.columns; ++c)
-        for (std::int64_t i = 0; i < rigid_.rows; ++i) rigid_(i, c) = motions(row_of_unknown_[index(i)], c);
-    if (kept_rest_ == 0) balance_strains();
-    if (variables().kept > 0 || !pivot_.empty()) {
+        for (std::int64_t i = 0; i < rigid_.rows; ++i) rigid_(i, c) = motions(row_of_unknown()[index(i)], c);
+    if (equations_.kept() == 0) balance_strains();
+    if (variables().kept > 0 || equations_.any()) {
         resting_ = std::make_unique<Elimination>(*superelements_, trailing_load_);
-        resting_->update(states(std::vector<double>(index(unknowns()), Elimination::held)), condensing);
-        resting_energy_ = std::make_unique<ZoneEnergy>(*this, *resting_, condensing);
+        resting_->update(equations_.states(std::vector<double>(index(unknowns()), Elimination::held)), condensing);
+        resting_energy_ = std::make_unique<ZoneEnergy>(zone_energy(*resting_, condensing));
     }
 }
 
@@ -55,7 +55,8 @@ void Bulk::factorise(const Poll& poll) {
     trailing_load_ = DenseMatrix(places, patterns);
     bonded_ = std::make_unique<Elimination>(*superelements_, DenseMatrix(places, 0), Elimination::Last::root);
     try {
-        if (definite) bonded_->update(states(std::vector<double>(index(unknowns()), Elimination::held)), poll);
+        if (definite)
+            bonded_->update(equations_.states(std::vector<double>(index(unknowns()), Elimination::held)), poll);
     } catch (const Error& error) {
         if (error.status() != DELAM_ERROR_NUMERICAL) throw;
         definite = false;
@@ -64,14 +65,14 @@ void Bulk::factorise(const Poll& poll) {
         fail(DELAM_ERROR_NUMERICAL,
              "the stiffness of the bonded structure is not positive definite: check supports, materials and the shapes "
              "of cells");
-    if (kept_rest_ == 0) return;
-    const Reduced reduced = reduce(*bonded_);
-    const DenseEnergy& energy = reduced.pivot.empty() ? bonded_->energy() : reduced.energy;
-    kept_factor_ = DenseMatrix(kept_rest_, kept_rest_);
-    for (std::int64_t j = 0; j < kept_rest_; ++j)
-        for (std::int64_t i = 0; i < kept_rest_; ++i) kept_factor_(i, j) = energy.stiffness(i, j);
+    const std::int64_t kept = equations_.kept();
+    if (kept == 0) return;
+    const ReducedEnergy reduced(equations_, *superelements_, *bonded_);
+    kept_factor_ = DenseMatrix(kept, kept);
+    for (std::int64_t j = 0; j < kept; ++j)
+        for (std::int64_t i = 0; i < kept; ++i) kept_factor_(i, j) = reduced.energy().stiffness(i, j);
     if (!factor_definite(kept_factor_, poll))
-        fail(DELAM_ERROR_NUMERICAL, "the condensed stiffness of ", kept_rest_,
+        fail(DELAM_ERROR_NUMERICAL, "the condensed stiffness of ", kept,
              " displacements in long constraints is not positive definite");
 }
 
@@ -116,19 +117,19 @@ void Bulk::find_pattern_stiffness(std::vector<std::vector<double>> bonded, const
                                   const Poll& poll) {
     const std::size_t patterns = problem_.patterns.size();
     const std::vector<std::vector<double>>& force = system_->force();
-    std::vector<double> nodal(index(dofs()));
+    std::vector<double> nodal(index(system_->dofs()));
     const std::vector<double> closed(index(unknowns()), 0.0);
     load_ = DenseMatrix(unknowns(), static_cast<std::int64_t>(patterns));
     std::vector<std::vector<double>> stressed;
     for (std::size_t p = 0; p < patterns; ++p) {
         std::vector<double> unit(patterns, 0.0);
         unit[p] = 1.0;
-        if (variables().kept > 0 || !pivot_.empty()) bonded[p] = displacement(unit, closed);
+        if (variables().kept > 0 || equations_.any()) bonded[p] = displacement(unit, closed);
         multiply(stiffness(), bonded[p], nodal);
         stressed.push_back(nodal);
         const std::vector<double> left = carried(unit, bonded[p]);
         for (std::int64_t i = 0; i < unknowns(); ++i)
-            load_(i, static_cast<std::int64_t>(p)) = on_rest(left, kept_rest_ + i);
+            load_(i, static_cast<std::int64_t>(p)) = equations_.on_rest(left, equations_.kept() + i);
         call_if_set(poll);
     }
     pattern_stiffness_ = DenseMatrix(static_cast<std::int64_t>(patterns), static_cast<std::int64_t>(patterns));
@@ -161,7 +162,7 @@ void Bulk::balance_strains() {
                 add_scaled(-dot(motion, load), motion, load);
             }
         for (std::int64_t i = 0; i < unknowns(); ++i)
-            trailing_load_(place(i), static_cast<std::int64_t>(p)) += load[index(i)] - before[index(i)];
+            trailing_load_(equations_.place(i), static_cast<std::int64_t>(p)) += load[index(i)] - before[index(i)];
     }
 }
 
@@ -182,43 +183,21 @@ std::vector<double> Bulk::solve_bonded(std::span<const double> forces) const {
 }
 
 std::vector<double> Bulk::displacement(std::span<const double> theta, std::span<const double> unknowns) const {
-    const std::int64_t leading = variables().leading;
-    std::vector<double> rest(rest_.size(), 0.0), v(index(variables().count()), 0.0);
-    std::copy(unknowns.begin(), unknowns.end(), rest.begin() + kept_rest_);
-    for (std::size_t i = 0; i < rest.size(); ++i) v[index(leading + rest_[i])] = rest[i];
-    for (std::size_t i = 0; i < pivot_.size(); ++i) {
-        double& value = v[index(leading + pivot_[i])];
-        for (const auto& [j, m] : bound_[i]) value += m * rest[index(j)];
-        for (std::size_t p = 0; p < theta.size(); ++p)
-            value += prescribed_(static_cast<std::int64_t>(i), static_cast<std::int64_t>(p)) * theta[p];
-    }
     std::vector<double> u = system_->lift(theta);
-    system_->add_variables(v, u);
-    poll_cancel("recover", dofs() / 64);
+    system_->add_variables(equations_.variables_at(theta, unknowns), u);
+    poll_cancel("recover", system_->dofs() / 64);
     system_->add_variables(solve_bonded(carried(theta, u)), u);
-    poll_cancel("recover", dofs() / 64);
-    if (kept_rest_ > 0) {
+    poll_cancel("recover", system_->dofs() / 64);
+    if (equations_.kept() > 0) {
         const std::vector<double> left = carried(theta, u);
-        std::vector<double> kept(index(kept_rest_));
-        for (std::int64_t k = 0; k < kept_rest_; ++k) kept[index(k)] = on_rest(left, k);
+        std::vector<double> kept(index(equations_.kept()));
+        for (std::size_t k = 0; k < kept.size(); ++k) kept[k] = equations_.on_rest(left, static_cast<std::int64_t>(k));
         solve_lower(kept_factor_, kept);
         solve_lower_transposed(kept_factor_, kept);
-        std::fill(v.begin(), v.end(), 0.0);
-        for (std::int64_t k = 0; k < kept_rest_; ++k) {
-            v[index(leading + rest_[index(k)])] = kept[index(k)];
-            for (const auto& [pivot, m] : binds_[index(k)])
-                v[index(leading + pivot_[index(pivot)])] += m * kept[index(k)];
-        }
-        system_->add_variables(v, u);
+        system_->add_variables(equations_.variables_of_kept(kept), u);
         system_->add_variables(solve_bonded(carried(theta, u)), u);
     }
     return u;
-}
-
-std::vector<double> Bulk::unknowns_at(std::span<const double> skeleton) const {
-    std::vector<double> x(index(unknowns()));
-    for (std::int64_t i = 0; i < unknowns(); ++i) x[index(i)] = skeleton[index(place(i))];
-    return x;
 }
 
 std::vector<double> Bulk::skeleton_at_rest(std::span<const double> theta) const {
@@ -232,31 +211,15 @@ std::vector<double> Bulk::skeleton_at_rest(std::span<const double> theta) const 
 std::vector<double> Bulk::residual(std::span<const double> theta, std::span<const double> skeleton,
                                    std::span<const std::uint8_t> wanted) const {
     std::vector<double> left(skeleton.size());
-    std::vector<std::uint8_t> rows(skeleton.size(), 0);
-    const auto pivot_place = [this](std::int64_t pivot) {
-        return index(superelements_->place(variables().leading + pivot_[index(pivot)]));
-    };
-    for (std::int64_t i = 0; i < unknowns(); ++i) {
-        if (wanted[index(i)] == 0) continue;
-        rows[index(place(i))] = 1;
-        for (const auto& [pivot, m] : binds_[index(kept_rest_ + i)]) rows[pivot_place(pivot)] = 1;
-    }
     multiply(trailing_load_, theta, left);
-    superelements_->subtract_image(skeleton, rows, left);
-    std::vector<double> of_unknown(index(unknowns()), 0.0);
-    for (std::int64_t i = 0; i < unknowns(); ++i) {
-        if (wanted[index(i)] == 0) continue;
-        of_unknown[index(i)] = left[index(place(i))];
-        for (const auto& [pivot, m] : binds_[index(kept_rest_ + i)])
-            of_unknown[index(i)] += m * left[pivot_place(pivot)];
-    }
-    return of_unknown;
+    superelements_->subtract_image(skeleton, equations_.places_of(wanted), left);
+    return equations_.gather(left, wanted);
 }
 
 DenseEnergy Bulk::dense(const Poll& poll) const {
     Elimination whole = elimination();
-    whole.update(states(std::vector<double>(index(unknowns()), Elimination::in_zone)), poll);
-    const ZoneEnergy zone(*this, whole, poll);
+    whole.update(equations_.states(std::vector<double>(index(unknowns()), Elimination::in_zone)), poll);
+    const ZoneEnergy zone = zone_energy(whole, poll);
     DenseEnergy energy{DenseMatrix(unknowns(), unknowns()), load_};
     const std::vector<std::int64_t>& at = zone.unknowns();
     for (std::size_t j = 0; j < at.size(); ++j)

@@ -20,6 +20,8 @@
 #include "base/numbers.hpp"
 #include "reduction/condensed/elimination.hpp"
 #include "reduction/condensed/superelements.hpp"
+#include "reduction/condensed/trailing_equations.hpp"
+#include "reduction/condensed/zone_energy.hpp"
 #include "reduction/dense/dense_energy.hpp"
 #include "reduction/dense/rigid_jumps.hpp"
 #include "reduction/operator/body_system.hpp"
@@ -36,54 +38,28 @@ public:
     // Gives the assembled bodies to another realisation of the operator, before condense().
     AssembledBodies release() &&;
 
-    const std::vector<JumpRow>& rows() const { return rows_; }
-    std::int64_t unknowns() const { return static_cast<std::int64_t>(row_of_unknown_.size()); }
+    const std::vector<JumpRow>& rows() const { return equations_.jump_rows(); }
+    std::int64_t unknowns() const { return equations_.unknowns(); }
     // The first jump row that equals unknown i. Others may equal it too (on opposite faces of a periodic cell).
-    const std::vector<std::int64_t>& row_of_unknown() const { return row_of_unknown_; }
+    const std::vector<std::int64_t>& row_of_unknown() const { return equations_.row_of_unknown(); }
+    // Returns the constraints that bind several variables; before condense() there are none.
+    const TrailingEquations& equations() const { return equations_; }
     const DenseMatrix& load() const { return load_; }  // L, [unknowns][patterns]
     // An upper bound of the diagonal of S, of its size: with everything else at rest.
-    double diagonal(std::int64_t unknown) const { return superelements_->diagonal()[index(place(unknown))]; }
+    double diagonal(std::int64_t unknown) const { return superelements_->diagonal()[index(equations_.place(unknown))]; }
     const DenseMatrix& pattern_stiffness() const { return pattern_stiffness_; }
     // Jumps of the rigid motions that the supports leave free, [unknowns][motions], orthonormal.
     const DenseMatrix& rigid() const { return rigid_; }
     // The work of dead forces along the same motions.
     const DeadWork& dead_work() const { return dead_work_; }
-    // [unknowns] 1: a constraint binds it to other variables.
-    const std::vector<std::uint8_t>& bound() const { return bound_unknown_; }
 
-    // An elimination of this skeleton; its states of the unknowns, where in_zone is what a zone keeps.
+    // An elimination of this skeleton.
     Elimination elimination() const { return {*superelements_, trailing_load_}; }
-    std::vector<double> states(std::span<const double> of_unknowns) const;
+    // Returns the energy of its zone, which must not be used after the next update of the elimination.
+    ZoneEnergy zone_energy(const Elimination& elimination, const Poll& poll) const {
+        return {equations_, *superelements_, elimination, poll};
+    }
 
-    // The energy of an elimination after the equations are used; without equations, that energy itself.
-    struct Reduced {
-        DenseEnergy energy;                      // of [kept displacements | unknown jumps]
-        std::vector<std::int64_t> rest, pivot;   // rows of the elimination's energy: those of this one, and the others
-        std::vector<std::int64_t> rest_number;   // of each row among the trailing variables that no equation determines
-        std::vector<std::int64_t> pivot_number;  // of each pivot among the equations
-        DenseMatrix binding;                     // [pivots][rest]
-    };
-    // The energy of the unknowns of a zone, equations resolved and kept displacements minimised out: of an elimination
-    // that must not be updated as long as this is used.
-    class ZoneEnergy {
-    public:
-        ZoneEnergy(const Bulk& bulk, const Elimination& elimination, const Poll& poll);
-        const DenseEnergy& energy() const {
-            return base_ ? base_->energy() : reduced_.pivot.empty() ? elimination_->energy() : reduced_.energy;
-        }
-        const std::vector<std::int64_t>& unknowns() const { return unknowns_; }  // of each row
-        // The unknowns of the elimination's energy().
-        std::vector<double> recover(std::span<const double> theta, std::span<const double> zone) const;
-
-    private:
-        const Bulk* bulk_;
-        const Elimination* elimination_;
-        Reduced reduced_;
-        std::unique_ptr<Condensation> base_;
-        std::vector<std::int64_t> unknowns_;
-    };
-
-    std::vector<double> unknowns_at(std::span<const double> skeleton) const;
     // All unknowns at zero, kept displacements at their minimum.
     std::vector<double> skeleton_at_rest(std::span<const double> theta) const;
     // L theta - S x of the wanted unknowns at a point of the skeleton; 0 for the others.
@@ -91,7 +67,7 @@ public:
                                  std::span<const std::uint8_t> wanted) const;
     // Returns the displacements from the unknowns alone.
     std::vector<double> displacement(std::span<const double> theta, std::span<const double> unknowns) const;
-    // Reactions and unbalanced forces.
+    // Returns the bodies as they are without condensation.
     const BodySystem& system() const { return *system_; }
     // S and L of all unknowns: m^2 numbers.
     DenseEnergy dense(const Poll& poll) const;
@@ -100,12 +76,8 @@ public:
     // unknowns at rest.
     double rounding_energy(std::span<const double> theta) const;
 
-    std::int64_t dofs() const { return system_->dofs(); }
     const Superelements& superelements() const { return *superelements_; }
-    // Sizes before condense(): number of jumps and kept displacements, entries of K and T^T K T.
-    std::int64_t trailing() const { return variables().trailing(); }
-    std::int64_t stiffness_entries() const { return stiffness().entries(); }
-    std::int64_t transformed_entries() const { return transformed_.entries(); }
+    // T^T K T, until it is condensed.
     const SparseMatrix& transformed() const { return transformed_; }
     std::int64_t factorisations() const { return factorisations_; }
 
@@ -113,44 +85,25 @@ private:
     void factorise(const Poll& poll);
     std::vector<double> solve_bonded(std::span<const double> forces) const;
     std::vector<double> carried(std::span<const double> theta, std::span<const double> displacement) const;
-    double on_rest(std::span<const double> carried, std::int64_t rest) const;
     std::vector<std::vector<double>> condense_loads(const Poll& poll);
     void find_pattern_stiffness(std::vector<std::vector<double>> bonded, const StrainLoads& strained, const Poll& poll);
-    // bulk_equations.cpp
-    void resolve_equations();
-    void express_rows();
-    Reduced reduce(const Elimination& elimination) const;
     void balance_strains();
-    std::int64_t place(std::int64_t unknown) const {
-        return superelements_->place(variables().leading + rest_[index(kept_rest_ + unknown)]);
-    }
     const JumpVariables& variables() const { return system_->variables(); }
     const SparseMatrix& stiffness() const { return system_->stiffness(); }
 
     const Problem& problem_;
     std::unique_ptr<BodySystem> system_;
-    SparseMatrix transformed_;  // T^T K T, until it is condensed
+    SparseMatrix transformed_;
     std::unique_ptr<Superelements> superelements_;
+    TrailingEquations equations_;
     std::unique_ptr<Elimination> bonded_;  // all jumps at rest, those in equations left
     // The same with the loads, where equations leave more than jumps; null: they do not.
     std::unique_ptr<Elimination> resting_;
     std::unique_ptr<ZoneEnergy> resting_energy_;
     DenseMatrix kept_factor_;  // of the kept displacements that no equation determines, all jumps at rest
     std::int64_t factorisations_ = 0;
-    // Trailing variables: t = M r + d theta, r = [kept ones that no equation determines | unknown jumps].
-    std::vector<std::int64_t> rest_;   // trailing index of r
-    std::vector<std::int64_t> pivot_;  // trailing index of variables determined by equations
-    std::vector<std::int64_t> role_;   // [trailing] position in r, or -2 - position among the pivots
-    std::vector<SparseVector> bound_;  // rows of M, in r
-    std::vector<SparseVector> binds_;  // its columns: the pivots that each of r determines
-    DenseMatrix prescribed_;           // [pivots][patterns]
-    std::int64_t kept_rest_ = 0;       // number of displacements in r
-
     DenseMatrix trailing_load_;  // [skeleton][patterns], with all trailing variables at rest
     DenseMatrix load_;
-    std::vector<JumpRow> rows_;
-    std::vector<std::int64_t> row_of_unknown_;
-    std::vector<std::uint8_t> bound_unknown_;
     DenseMatrix pattern_stiffness_;
     std::vector<double> left_over_;  // [patterns] work of the forces that solve_bonded() left, with random signs
     DenseMatrix rigid_;

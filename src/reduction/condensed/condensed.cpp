@@ -8,146 +8,30 @@
 
 #include "base/error.hpp"
 #include "base/numbers.hpp"
+#include "reduction/operator/body_reactions.hpp"
 
 namespace delam {
-
-namespace {
-
-std::size_t count(const std::vector<std::uint8_t>& set) {
-    return index(std::count_if(set.begin(), set.end(), [](std::uint8_t v) { return v != 0; }));
-}
-
-}  // namespace
 
 Condensed::Condensed(std::shared_ptr<Bulk> bulk, const Problem& problem, Monitor& monitor)
     : bulk_(std::move(bulk)),
       problem_(problem),
       monitor_(monitor),
-      always_(bulk_->bound()),
+      choice_(*bulk_, problem_),
       elimination_(bulk_->elimination()) {
-    const std::size_t unknowns = index(bulk_->unknowns());
-    for (std::size_t r = 0; r < bulk_->rows().size(); ++r) {
-        const JumpRow& row = bulk_->rows()[r];
-        prescribed_.push_back(row.prescribed() ? 1 : 0);
-        const bool own = row.unknowns.size() == 1 &&
-                         bulk_->row_of_unknown()[index(row.unknowns.front().first)] == static_cast<std::int64_t>(r);
-        for (const auto& [i, n] : row.unknowns)
-            if (!own) always_[index(i)] = 1;
-    }
-    // With as many well-chosen unknowns kept as there are rigid motions, the others can always be minimised out.
-    const DenseMatrix& rigid = bulk_->rigid();
-    DenseMatrix across(rigid.columns, rigid.rows);
-    for (std::int64_t i = 0; i < rigid.rows; ++i)
-        for (std::int64_t c = 0; c < rigid.columns; ++c) across(c, i) = rigid(i, c);
-    const PivotedColumns pivots = pivoted_columns(std::move(across), 1e-10);
-    for (std::int64_t k = 0; k < pivots.rank; ++k) always_[index(pivots.order[index(k)])] = 1;
-
-    // Unknowns are neighbours if their pairs share a face of the interface, or if they belong to one pair.
-    const std::int64_t dim = problem_.mesh->dimension();
-    std::vector<std::int64_t> unknown_of(bulk_->rows().size(), -1);
-    for (std::size_t i = 0; i < unknowns; ++i)
-        unknown_of[index(bulk_->row_of_unknown()[i])] = static_cast<std::int64_t>(i);
-    std::vector<Triplet> links;
-    std::int64_t first = 0;
-    for (const InterfaceGeometry& face : problem_.mesh->interfaces()) {
-        const auto nodes = index(face.nodes_per_face);
-        for (std::size_t f = 0; f + nodes <= face.face.size(); f += nodes)
-            for (std::size_t a = 0; a < nodes; ++a)
-                for (std::size_t b = 0; b < nodes; ++b)
-                    for (std::int64_t i = 0; i < dim; ++i)
-                        for (std::int64_t j = 0; j < dim; ++j) {
-                            const std::int64_t u = unknown_of[index((first + face.face[f + a]) * dim + i)];
-                            const std::int64_t v = unknown_of[index((first + face.face[f + b]) * dim + j)];
-                            if (u >= 0 && v >= 0 && u != v) links.push_back({u, v, 1.0});
-                        }
-        first += face.pair_count();
-    }
-    SparseMatrix graph =
-        from_triplets(static_cast<std::int64_t>(unknowns), static_cast<std::int64_t>(unknowns), std::move(links));
-    neighbour_start_ = std::move(graph.start);
-    neighbour_.assign(graph.column.begin(), graph.column.end());
-    age_.assign(unknowns, forgotten());
-    inside_.assign(unknowns, 1);
-    last_.assign(unknowns, 0.0);
+    for (const JumpRow& row : bulk_->rows()) prescribed_.push_back(row.prescribed() ? 1 : 0);
 }
 
 Poll Condensed::poll() {
     return [this] { monitor_.progress("zone", condensations_, 0); };
 }
 
-double Condensed::spring_of(const Springs& springs, std::size_t unknown) const {
-    const auto row = index(bulk_->row_of_unknown()[unknown]);
-    return springs.held[row] != 0 ? -1.0 : springs.stiffness[row];
-}
+bool Condensed::covers(const Springs& springs) const { return zone_ != nullptr && choice_.covers(springs); }
 
-bool Condensed::covers(const Springs& springs) const {
-    if (zone_ == nullptr) return false;
-    for (std::size_t i = 0; i < inside_.size(); ++i)
-        if (inside_[i] == 0 && spring_[i] != spring_of(springs, i)) return false;
-    return true;
-}
-
-// The set and its neighbours, ring after ring, until it has `size` members or nothing is left.
-std::vector<std::uint8_t> Condensed::grown(std::vector<std::uint8_t> set, std::size_t size) const {
-    std::vector<std::int64_t> ring;
-    std::size_t members = 0;
-    for (std::size_t i = 0; i < set.size(); ++i)
-        if (set[i] != 0) {
-            ring.push_back(static_cast<std::int64_t>(i));
-            ++members;
-        }
-    while (!ring.empty() && members < size) {
-        std::vector<std::int64_t> next;
-        for (const std::int64_t i : ring)
-            for (std::int64_t e = neighbour_start_[index(i)]; e < neighbour_start_[index(i) + 1]; ++e) {
-                const std::int64_t j = neighbour_[index(e)];
-                if (set[index(j)] != 0) continue;
-                set[index(j)] = 1;
-                ++members;
-                next.push_back(j);
-            }
-        ring = std::move(next);
-    }
-    return set;
-}
-
-// Margins, so that a front may advance for a while before the zone has to follow.
+// The zone is missing from the choice to the end of condense(), so that an interrupted one is never taken for valid.
 void Condensed::choose(const Springs& springs, std::span<const std::uint8_t> wanted, bool tight) {
-    const std::size_t unknowns = always_.size();
-    std::vector<std::uint8_t> set(always_);
-    std::vector<double> now(unknowns);
-    for (std::size_t i = 0; i < unknowns; ++i) {
-        now[i] = spring_of(springs, i);
-        age_[i] = wanted[i] != 0 ? std::uint8_t{0}
-                                 : std::min<std::uint8_t>(forgotten(), static_cast<std::uint8_t>(age_[i] + 1));
-        const double body = bulk_->diagonal(static_cast<std::int64_t>(i));
-        const bool kept = age_[i] < forgotten() && (!tight || wanted[i] != 0);
-        if (kept || (now[i] > 0.0 && now[i] < weakest_hold * body)) set[i] = 1;
-    }
-    if (!expected_.empty() && floats_unless_held(expected_, now)) expected_.clear();
-    const std::size_t needed = count(set);
-    if (expected_.empty() && (!tight || needed <= index(limits().zone_small)))
-        set = grown(std::move(set), needed + std::max<std::size_t>(16, needed / 5));
-    for (std::size_t i = 0; i < expected_.size(); ++i)
-        if (expected_[i] != 0) set[i] = 1;
-    // The zone is missing from here to the end of condense(), so that an interrupted choice is never taken for a valid
-    // one.
+    choice_.choose(springs, wanted, tight);
     zone_.reset();
-    spring_ = std::move(now);
-    inside_ = std::move(set);
     condense();
-}
-
-// True if bodies float at these springs unless these unknowns are held. Where only contact holds them, held rows that
-// enter the zone one by one find their motions with more digits: 16 plies lifted off each other did not settle in one
-// zone.
-bool Condensed::floats_unless_held(std::span<const std::uint8_t> unknowns, std::span<const double> springs) const {
-    const DenseMatrix& rigid = bulk_->rigid();
-    if (rigid.columns == 0) return false;
-    std::vector<std::uint8_t> active(springs.size());
-    for (std::size_t i = 0; i < active.size(); ++i)
-        active[i] = springs[i] > 0.0 || (springs[i] < 0.0 && unknowns[i] == 0) ? 1 : 0;
-    return split_motions(rigid, active).free.columns > 0;
 }
 
 // The zone at the present choice.
@@ -156,14 +40,14 @@ void Condensed::condense() {
     ++condensations_;
     zone_.reset();
     energy_.reset();
-    std::vector<double> state(spring_);
+    std::vector<double> state(choice_.spring());
     for (std::size_t i = 0; i < state.size(); ++i)
-        if (inside_[i] != 0) state[i] = Elimination::in_zone;
-    elimination_.update(bulk_->states(state), poll());
-    energy_ = std::make_unique<Bulk::ZoneEnergy>(*bulk_, elimination_, poll());
+        if (choice_.inside()[i] != 0) state[i] = Elimination::in_zone;
+    elimination_.update(bulk_->equations().states(state), poll());
+    energy_ = std::make_unique<ZoneEnergy>(bulk_->zone_energy(elimination_, poll()));
     const std::vector<std::int64_t>& zone_unknowns = energy_->unknowns();
 
-    const std::size_t unknowns = inside_.size();
+    const std::size_t unknowns = choice_.unknowns();
     std::vector<std::int64_t> place(unknowns, -1);
     for (std::size_t z = 0; z < zone_unknowns.size(); ++z)
         place[index(zone_unknowns[z])] = static_cast<std::int64_t>(z);
@@ -187,59 +71,38 @@ void Condensed::condense() {
         rows.push_back(std::move(local));
     }
     std::vector<std::uint8_t> active(unknowns, 0);
-    for (std::size_t i = 0; i < unknowns; ++i) active[i] = place[i] < 0 && spring_[i] != 0.0 ? 1 : 0;
+    for (std::size_t i = 0; i < unknowns; ++i) active[i] = place[i] < 0 && choice_.spring()[i] != 0.0 ? 1 : 0;
     ZoneMotions floating = ZoneMotions::of(bulk_->rigid(), bulk_->dead_work(), active, zone_unknowns);
     zone_ = std::make_unique<DenseZone>(energy_->energy(), std::move(rows), std::move(zone_rows), std::move(floating),
                                         poll());
 }
 
 DenseZone* Condensed::zone(const Springs& springs, std::span<const std::uint8_t> wanted, bool tight) {
-    std::vector<std::uint8_t> unknowns(always_.size(), 0);
+    std::vector<std::uint8_t> unknowns(choice_.unknowns(), 0);
     bool inside = covers(springs);
     const auto rows = index(std::count(wanted.begin(), wanted.end(), std::uint8_t{1}));
-    if (tight && inside && energy_->unknowns().size() > 2 * rows + index(limits().zone_small)) {
-        age_.assign(age_.size(), forgotten());
+    if (tight && inside && energy_->unknowns().size() > 2 * rows + index(problem_.options.limits.zone_small)) {
+        choice_.let_go();
         inside = false;
     }
     for (std::size_t r = 0; r < wanted.size(); ++r) {
         if (wanted[r] == 0) continue;
         for (const auto& [i, n] : bulk_->rows()[r].unknowns) {
             unknowns[index(i)] = 1;
-            inside = inside && inside_[index(i)] != 0;
+            inside = inside && choice_.inside()[index(i)] != 0;
         }
     }
     if (!inside) {
-        if (zone_ != nullptr)
-            for (std::size_t i = 0; i < unknowns.size(); ++i)
-                if (inside_[i] == 0 && spring_[i] != spring_of(springs, i)) unknowns[i] = 1;
+        if (zone_ != nullptr) choice_.add_changed(springs, unknowns);
         choose(springs, unknowns, tight);
     }
     return zone_.get();
 }
 
-// A zone of all of them, where its factor costs less than choosing zones anew. The unknowns that have changed in it are
-// no reason to stay in later ones.
-void Condensed::expect_changes(std::span<const std::size_t> rows) {
-    unmet_ = false;
-    expected_.clear();
-    if (rows.empty()) return;
-    expected_.assign(always_.size(), 0);
-    for (const std::size_t r : rows)
-        for (const auto& [i, n] : bulk_->rows()[r].unknowns) expected_[index(i)] = 1;
-    const auto n = static_cast<double>(count(expected_));
-    if (n * n * n / 3.0 > limits().zone_one_factor * bulk_->superelements().condensation().operations)
-        expected_.clear();
-    unmet_ = !expected_.empty();
-}
-
 void Condensed::solve(const Springs& springs, std::span<const double> theta, Response& response) {
     monitor_.progress("displacement", 0, 0);
-    std::vector<double> now(always_.size());
-    bool all_held = true;
-    for (std::size_t i = 0; i < now.size(); ++i) {
-        now[i] = spring_of(springs, i);
-        all_held = all_held && now[i] < 0.0;
-    }
+    std::vector<double> now = choice_.springs_of(springs);
+    const bool all_held = std::all_of(now.begin(), now.end(), [](double s) { return s < 0.0; });
     // Without a load nothing moves, exactly.
     std::vector<double> load(now.size());
     multiply(bulk_->load(), theta, load);
@@ -251,21 +114,15 @@ void Condensed::solve(const Springs& springs, std::span<const double> theta, Res
         respond(springs, theta, nullptr, response);
         return;
     }
-    std::vector<std::uint8_t> wanted(now.size(), 0);
-    const bool after_another = std::any_of(last_.begin(), last_.end(), [](double s) { return s != 0.0; });
-    for (std::size_t i = 0; after_another && i < now.size(); ++i) {
-        if (now[i] == last_[i]) continue;
-        wanted[i] = 1;
-        if (expected_.empty()) age_[i] = 0;
-    }
-    const bool unmet = std::exchange(unmet_, false);
-    if (unmet || !covers(springs)) choose(springs, wanted);
+    const std::vector<std::uint8_t> wanted = choice_.changed_since_last(now);
+    const bool unmet = choice_.take_unmet();
+    if (unmet || !covers(springs)) choose(springs, wanted, false);
     if (!springs.force.empty()) {
         std::vector<std::uint8_t> pulled(springs.force.size());
         for (std::size_t r = 0; r < pulled.size(); ++r) pulled[r] = springs.force[r] != 0.0 ? 1 : 0;
         zone(springs, pulled, false);
     }
-    last_ = std::move(now);
+    choice_.solved_at(std::move(now));
 
     std::vector<Zone::Coupling> couplings;
     std::vector<std::uint8_t> held(zone_->jump_rows().size());
@@ -299,9 +156,9 @@ void Condensed::respond(const Springs& springs, std::span<const double> theta, c
                         Response& response) const {
     response.balanced = solution == nullptr || solution->balanced;
     if (!response.balanced) return;
-    const std::size_t unknowns = always_.size(), rows = bulk_->rows().size();
+    const std::size_t unknowns = choice_.unknowns(), rows = bulk_->rows().size();
     std::vector<double> load(unknowns, 0.0);
-    const std::vector<double> skeleton = skeleton_of(theta, solution), x = bulk_->unknowns_at(skeleton);
+    const std::vector<double> skeleton = skeleton_of(theta, solution), x = bulk_->equations().unknowns_at(skeleton);
     multiply(bulk_->load(), theta, load);
 
     response.jump.assign(rows, 0.0);
@@ -368,7 +225,7 @@ std::vector<double> Condensed::skeleton_of(std::span<const double> theta, const 
 }
 
 std::vector<double> Condensed::unknowns_of(const Response& response) const {
-    std::vector<double> x(always_.size());
+    std::vector<double> x(choice_.unknowns());
     for (std::size_t i = 0; i < x.size(); ++i) x[i] = response.jump[index(bulk_->row_of_unknown()[i])];
     return x;
 }
@@ -379,13 +236,12 @@ std::vector<double> Condensed::displacement(std::span<const double> theta, const
 
 std::vector<double> Condensed::reaction(std::span<const double> theta, const Response& response) const {
     const BodySystem& system = bulk_->system();
-    return system.reaction(theta, system.stressed(displacement(theta, response)), response.force);
+    return body_reactions(system, theta, system.stressed(displacement(theta, response)), response.force);
 }
 
 double Condensed::equilibrium_defect(std::span<const double> theta, const Response& response) const {
     const BodySystem& system = bulk_->system();
-    const std::vector<double> stressed = system.stressed(displacement(theta, response));
-    return system.defect(theta, stressed, response.force, system.reaction(theta, stressed, response.force));
+    return delam::equilibrium_defect(system, theta, system.stressed(displacement(theta, response)), response.force);
 }
 
 // Entries of S have an error of the order of eps S_ii, and so has x^T S x, however small it is: the bending stiffness
@@ -403,6 +259,29 @@ std::vector<double> Condensed::row_stiffness() const {
     for (std::int64_t i = 0; i < bulk_->unknowns(); ++i)
         stiffness[index(bulk_->row_of_unknown()[index(i)])] = bulk_->diagonal(i);
     return stiffness;
+}
+
+std::vector<double> Condensed::memory() {
+    if (zone_ == nullptr) return {};
+    zone_->forget();  // the factor that earlier solves have left is not saved
+    return choice_.memory();
+}
+
+void Condensed::recall(std::span<const double> memory) {
+    choice_.expect_changes({});
+    if (memory.empty()) {  // before the first zone was chosen
+        choice_.clear();
+        zone_.reset();
+        energy_.reset();
+        return;
+    }
+    if (std::ranges::equal(memory, this->memory())) {
+        zone_->forget();
+        return;
+    }
+    choice_.recall(memory);
+    zone_.reset();  // as in choose
+    condense();
 }
 
 std::string Condensed::description_of(const Bulk& bulk) {

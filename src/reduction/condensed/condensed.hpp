@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "reduction/condensed/bulk.hpp"
+#include "reduction/condensed/zone_choice.hpp"
 #include "reduction/dense/dense_zone.hpp"
 #include "reduction/operator/jump_operator.hpp"
 
@@ -19,7 +20,7 @@ class Condensed final : public JumpOperator, private Zones {
 public:
     Condensed(std::shared_ptr<Bulk> bulk, const Problem& problem, Monitor& monitor);
     void solve(const Springs& springs, std::span<const double> theta, Response& response) override;
-    void expect_changes(std::span<const std::size_t> rows) override;
+    void expect_changes(std::span<const std::size_t> rows) override { choice_.expect_changes(rows); }
     OperatorTraits traits() const override { return {.proportional = true}; }
     std::vector<double> displacement(std::span<const double> theta, const Response& response) const override;
     std::vector<double> reaction(std::span<const double> theta, const Response& response) const override;
@@ -33,10 +34,10 @@ public:
     }
     std::string description() const override { return description_of(*bulk_); }
     static std::string description_of(const Bulk& bulk);
-    std::vector<double> memory() override { return choice(); }
+    std::vector<double> memory() override;
     void recall(std::span<const double> memory) override;
     void require_memory(std::span<const double> memory) const override {
-        if (!memory.empty()) parse(memory);
+        if (!memory.empty()) choice_.require(memory);
     }
 
     Zones* zones() override { return this; }
@@ -49,45 +50,20 @@ private:
     ZoneTraits zone_traits() const override { return {}; }
     bool complete(const Springs& springs, std::span<const double> theta, const Zone::Solution& solution,
                   Response& response) const override;
-    // The content of memory().
-    std::vector<double> choice() const;
-    // An unknown that has not changed may leave the zone so many choices later.
-    std::uint8_t forgotten() const { return static_cast<std::uint8_t>(limits().zone_forgotten); }
-    const Limits& limits() const { return problem_.options.limits; }
-    // The same, read.
-    struct Choice {
-        std::vector<std::uint8_t> age, inside;
-        std::vector<double> spring, last;
-    };
-    // Throws Error(DELAM_ERROR_SNAPSHOT) if it contradicts itself or this operator.
-    Choice parse(std::span<const double> memory) const;
     Poll poll();
     bool covers(const Springs& springs) const;
-    void choose(const Springs& springs, std::span<const std::uint8_t> wanted, bool tight = false);
-    bool floats_unless_held(std::span<const std::uint8_t> unknowns, std::span<const double> springs) const;
+    void choose(const Springs& springs, std::span<const std::uint8_t> wanted, bool tight);
     void condense();
-    std::vector<std::uint8_t> grown(std::vector<std::uint8_t> set, std::size_t count) const;
     std::vector<double> skeleton_of(std::span<const double> theta, const Zone::Solution* solution) const;
     std::vector<double> unknowns_of(const Response& response) const;
-    double spring_of(const Springs& springs, std::size_t unknown) const;  // -1: held
 
     std::shared_ptr<Bulk> bulk_;
     Problem problem_;
     Monitor& monitor_;
     std::vector<std::uint8_t> prescribed_;  // [rows]
-    std::vector<std::uint8_t>
-        always_;  // [unknowns] stay in the zone: anchors of rigid motions, rows that share unknowns
-    std::vector<std::int64_t> neighbour_start_, neighbour_;  // of unknowns
-
-    // The present choice, [unknowns]. Springs: -1 is held.
-    std::vector<std::uint8_t> inside_;    // in the zone
-    std::vector<double> spring_;          // at which the others are minimised out
-    std::vector<double> last_;            // of the previous solve; all 0: there was none, or nothing was held
-    std::vector<std::uint8_t> age_;       // number of choices since it last changed or was requested, up to `forgotten`
-    std::vector<std::uint8_t> expected_;  // [unknowns] in every zone until the expectation ends; empty: none
-    bool unmet_ = false;                  // no zone has been chosen for it yet
+    ZoneChoice choice_;
     Elimination elimination_;
-    std::unique_ptr<Bulk::ZoneEnergy> energy_;
+    std::unique_ptr<ZoneEnergy> energy_;
     std::unique_ptr<DenseZone> zone_;
     std::int64_t condensations_ = 0;
 };

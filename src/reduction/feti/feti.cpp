@@ -7,6 +7,7 @@
 #include "base/cancel_scope.hpp"
 #include "base/error.hpp"
 #include "base/numbers.hpp"
+#include "reduction/feti/feti_solve.hpp"
 
 namespace delam {
 
@@ -20,6 +21,11 @@ Feti::Feti(const Problem& problem, Monitor& monitor)
 Poll Feti::condensing() {
     const auto parts = static_cast<std::int64_t>(parts_.subdomains.size());
     return monitor_.poll_at("condense", parts, parts);
+}
+
+void Feti::solve(const Springs& springs, std::span<const double> theta, Response& response) {
+    monitor_.progress("displacement", 0, 0);
+    FetiSolve(problem_, monitor_, dual_, loads_, springs, theta).run(response);
 }
 
 DenseZone* Feti::zone(const Springs& springs, std::span<const std::uint8_t> wanted, bool) {

@@ -13,7 +13,6 @@
 #include <memory>
 
 #include "base/monitor.hpp"
-#include "base/team.hpp"
 #include "reduction/feti/dual/dual_loads.hpp"
 #include "reduction/feti/dual/dual_operator.hpp"
 #include "reduction/feti/dual/parts.hpp"
@@ -45,21 +44,6 @@ private:
     // The columns are right to 1e-12 of the bodies' flexibility, and an unstable pair multiplies what they are off.
     ZoneTraits zone_traits() const override { return {.rounding = 1e-6}; }
     Poll condensing();
-    // The phases of a solve, in feti_solve.cpp.
-    void solve_unit(Team& team, const Springs& springs, const DualLoads::Sum& load, Response& response);
-    std::vector<double> right_side(const Springs& springs, const DualLoads::Sum& load) const;
-    std::vector<double> first_guess(const DualLoads::Sum& load, std::span<const double> right,
-                                    const Response& response) const;
-    void find_forces(Team& team, const DualLoads::Sum& load, double resultant, std::span<const double> right,
-                     std::span<double> lambda, Response& response);
-    void find_jumps(Team& team, const Springs& springs, const DualLoads::Sum& load, std::span<const double> right,
-                    std::span<const double> lambda, Response& response) const;
-    SupportError find_support_error(const DualLoads::Sum& load, std::span<const double> f_lambda,
-                                    std::span<const double> rigid_jump) const;
-    void share_prescribed(const Springs& springs, const DualLoads::Sum& load, std::span<double> lambda,
-                          Response& response) const;
-    void find_energies(std::span<const double> theta, const DualLoads::Sum& load, std::span<const double> lambda,
-                       Response& response) const;
     std::vector<double> local_displacement(std::size_t subdomain, std::span<const double> theta,
                                            const Response& response) const;
 

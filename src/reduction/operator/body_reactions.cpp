@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reactions: what the constraints do to the bodies.
+#include "reduction/operator/body_reactions.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -8,7 +9,6 @@
 #include "base/cancel_scope.hpp"
 #include "base/numbers.hpp"
 #include "linalg/dense/dense.hpp"
-#include "reduction/operator/body_system.hpp"
 #include "scene/carriers.hpp"
 
 namespace delam {
@@ -95,12 +95,13 @@ std::vector<double> iterated_reactions(std::span<const Constraint* const> list, 
 // constraints are dependent. Constraints that share DOFs of bodies are solved together, densely. A control node may
 // connect thousands of them; these are solved by conjugate gradients on D D^T, which then has few distinct eigenvalues
 // (rows of few nodes, and one direction for each control DOF).
-std::vector<double> BodySystem::reaction(std::span<const double> theta, std::span<const double> stressed,
-                                         std::span<const double> force) const {
-    const std::vector<double> left = residual(theta, stressed, force);
-    const std::size_t count = problem_.constraints.size();
-    const Carriers carriers(problem_);
-    const std::int64_t dim = problem_.mesh->dimension();
+std::vector<double> body_reactions(const BodySystem& bodies, std::span<const double> theta,
+                                   std::span<const double> stressed, std::span<const double> force) {
+    const Problem& problem = bodies.problem();
+    const std::vector<double> left = bodies.residual(theta, stressed, force);
+    const std::size_t count = problem.constraints.size();
+    const Carriers carriers(problem);
+    const std::int64_t dim = problem.mesh->dimension();
     std::vector<std::size_t> group(count);
     std::iota(group.begin(), group.end(), std::size_t{0});
     const auto find = [&](std::size_t i) {
@@ -109,8 +110,8 @@ std::vector<double> BodySystem::reaction(std::span<const double> theta, std::spa
     };
     std::map<std::int64_t, std::size_t> user;
     for (std::size_t c = 0; c < count; ++c) {
-        poll_cancel("recover", static_cast<std::int64_t>(problem_.constraints[c].dof.size()));
-        for (const std::int64_t dof : problem_.constraints[c].dof)
+        poll_cancel("recover", static_cast<std::int64_t>(problem.constraints[c].dof.size()));
+        for (const std::int64_t dof : problem.constraints[c].dof)
             if (const auto [at, inserted] = user.try_emplace(dof, c); !inserted) group[find(c)] = find(at->second);
     }
     std::map<std::size_t, std::vector<std::size_t>> members;
@@ -120,12 +121,12 @@ std::vector<double> BodySystem::reaction(std::span<const double> theta, std::spa
     for (const auto& [root, list] : members) {
         poll_cancel("recover", static_cast<std::int64_t>(list.size()));
         const bool controlled = std::any_of(list.begin(), list.end(), [&](std::size_t c) {
-            const auto& dofs = problem_.constraints[c].dof;
+            const auto& dofs = problem.constraints[c].dof;
             return std::any_of(dofs.begin(), dofs.end(),
                                [&](std::int64_t dof) { return carriers.kind(dof / dim) == Carriers::Kind::control; });
         });
         std::vector<const Constraint*> rows;
-        for (const std::size_t c : list) rows.push_back(&problem_.constraints[c]);
+        for (const std::size_t c : list) rows.push_back(&problem.constraints[c]);
         const std::vector<double> own =
             controlled && list.size() > dense_reactions ? iterated_reactions(rows, left) : direct_reactions(rows, left);
         for (std::size_t i = 0; i < list.size(); ++i) rho[list[i]] = own[i];
@@ -133,11 +134,13 @@ std::vector<double> BodySystem::reaction(std::span<const double> theta, std::spa
     return rho;
 }
 
-double BodySystem::defect(std::span<const double> theta, std::span<const double> stressed,
-                          std::span<const double> force, std::span<const double> reaction) const {
-    std::vector<double> left = residual(theta, stressed, force);
-    for (std::size_t c = 0; c < problem_.constraints.size(); ++c) {
-        const Constraint& constraint = problem_.constraints[c];
+double equilibrium_defect(const BodySystem& bodies, std::span<const double> theta, std::span<const double> stressed,
+                          std::span<const double> force) {
+    const std::vector<double> reaction = body_reactions(bodies, theta, stressed, force);
+    std::vector<double> left = bodies.residual(theta, stressed, force);
+    const std::vector<Constraint>& constraints = bodies.problem().constraints;
+    for (std::size_t c = 0; c < constraints.size(); ++c) {
+        const Constraint& constraint = constraints[c];
         for (std::size_t i = 0; i < constraint.dof.size(); ++i)
             left[index(constraint.dof[i])] -= reaction[c] * constraint.coefficient[i];
     }

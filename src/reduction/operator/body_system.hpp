@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The bodies of a scene as one sparse system in the variables of jump_variables.hpp, u = T v + U theta, with everything
-// that follows from displacements: forces that nothing balances, reactions.
+// The bodies of a scene as one sparse system in the variables of jump_variables.hpp, u = T v + U theta, with the
+// forces that follow from displacements.
 #pragma once
 
 #include <cstdint>
@@ -43,12 +43,6 @@ public:
     // The forces that no element balances: K u - f + B^T force. stressed: K u; force: of the jump rows.
     std::vector<double> residual(std::span<const double> theta, std::span<const double> stressed,
                                  std::span<const double> force) const;
-    // Forces of the constraints from K u and interface forces [rows].
-    std::vector<double> reaction(std::span<const double> theta, std::span<const double> stressed,
-                                 std::span<const double> force) const;
-    // Largest unbalanced force, F.
-    double defect(std::span<const double> theta, std::span<const double> stressed, std::span<const double> force,
-                  std::span<const double> reaction) const;
 
 private:
     const Problem& problem_;

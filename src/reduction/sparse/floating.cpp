@@ -202,9 +202,9 @@ std::vector<double> Floating::settle(std::span<double> x) const {
     DenseMatrix gram(n, n), right(n, 1);
     std::vector<std::vector<double>> jump(free_.size(), std::vector<double>(rows));
     for (std::size_t f = 0; f < free_.size(); ++f)
-        for (std::size_t r = 0; r < rows; ++r) jump[f][r] = system_.row_value(r, free_[f]);
+        for (std::size_t r = 0; r < rows; ++r) jump[f][r] = system_.rows().value(r, free_[f]);
     std::vector<double> now(rows);
-    for (std::size_t r = 0; r < rows; ++r) now[r] = system_.row_value(r, x);
+    for (std::size_t r = 0; r < rows; ++r) now[r] = system_.rows().value(r, x);
     for (std::int64_t i = 0; i < n; ++i) {
         right(i, 0) = dot(jump[index(i)], now);
         for (std::int64_t j = 0; j < n; ++j) gram(i, j) = dot(jump[index(i)], jump[index(j)]);

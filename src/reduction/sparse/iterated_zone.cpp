@@ -35,7 +35,7 @@ void IteratedZone::ask_for_energies(double allowed) {
 }
 
 bool IteratedZone::factor(std::span<const Coupling> couplings, std::span<const std::uint8_t> held) {
-    const std::span<const std::uint8_t> prescribed = solver_.system().prescribed();
+    const std::span<const std::uint8_t> prescribed = solver_.system().rows().prescribed();
     std::vector<Coupling> acting;
     for (const Coupling& c : couplings)
         if (prescribed[index(c.row)] == 0 || prescribed[index(c.column)] == 0) acting.push_back(c);
@@ -101,8 +101,8 @@ void IteratedZone::keep(std::span<const double> unknowns, Response& response) co
 }
 
 std::vector<double> IteratedZone::jumps(std::span<const double> theta, std::span<const double> unknowns) const {
-    std::vector<double> j = solver_.system().offsets(theta);
-    for (std::size_t r = 0; r < j.size(); ++r) j[r] += solver_.system().row_value(r, unknowns);
+    std::vector<double> j = solver_.system().rows().offsets(theta);
+    for (std::size_t r = 0; r < j.size(); ++r) j[r] += solver_.system().rows().value(r, unknowns);
     return j;
 }
 

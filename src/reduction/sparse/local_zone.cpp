@@ -20,12 +20,12 @@ constexpr double farthest = 1e4;  // times the largest variable of the state: no
 
 LocalZone::LocalZone(const JumpSystem& system, std::int64_t dimension)
     : system_(system), dim_(index(dimension)), barred_(index(system.count()), 0) {
-    for (const SparseVector& equation : system.equations())
+    for (const SparseVector& equation : system.rows().equations())
         for (const auto& [i, c] : equation) barred_[index(i)] = 1;
 }
 
 void LocalZone::take_pairs(std::vector<std::uint8_t>& member) {
-    const std::vector<JumpRow>& rows = system_.rows();
+    const JumpRows& rows = system_.rows();
     std::vector<std::uint8_t> whole(rows.size() / dim_, 1);
     for (bool changed = true; changed;) {
         changed = false;
@@ -48,7 +48,7 @@ void LocalZone::take_pairs(std::vector<std::uint8_t>& member) {
 bool LocalZone::enter(std::span<const std::uint8_t> wanted, std::span<const double> theta, std::span<const double> load,
                       std::span<const double> state, const Poll& poll) {
     if (state.size() != index(system_.count())) return false;
-    const std::vector<JumpRow>& rows = system_.rows();
+    const JumpRows& rows = system_.rows();
     std::vector<std::int64_t> seeds;
     for (std::size_t r = 0; r < wanted.size(); ++r)
         if (wanted[r] != 0)
@@ -80,7 +80,7 @@ bool LocalZone::enter(std::span<const std::uint8_t> wanted, std::span<const doub
         state_.push_back(state[index(i)]);
         left_.push_back(load[index(i)] - image);
     }
-    const std::vector<double> offset = system_.offsets(theta);
+    const std::vector<double> offset = system_.rows().offsets(theta);
     rows_.clear();
     jump_.clear();
     for (const std::int64_t r : jump_rows_) {
@@ -88,7 +88,7 @@ bool LocalZone::enter(std::span<const std::uint8_t> wanted, std::span<const doub
         for (const auto& [i, n] : rows[index(r)].unknowns)
             own.emplace_back(std::lower_bound(variables_.begin(), variables_.end(), i) - variables_.begin(), n);
         rows_.push_back(std::move(own));
-        jump_.push_back(offset[index(r)] + system_.row_value(index(r), state));
+        jump_.push_back(offset[index(r)] + system_.rows().value(index(r), state));
     }
     return true;
 }

@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "base/numbers.hpp"
 #include "linalg/dense/dense.hpp"
+#include "reduction/operator/body_reactions.hpp"
 #include "reduction/sparse/spring_entries.hpp"
 
 namespace delam {
@@ -45,7 +46,7 @@ void SparseOperator::solve(const Springs& springs, std::span<const double> theta
     std::vector<std::uint8_t> held(springs.held);
     std::vector<double> pulled(springs.force);
     for (std::size_t r = 0; r < held.size(); ++r) {
-        if (system.prescribed()[r] != 0) {  // constant: no variable, whether held or not
+        if (system.rows().prescribed()[r] != 0) {  // constant: no variable, whether held or not
             held[r] = 0;
             if (!pulled.empty()) pulled[r] = 0.0;
         } else if (held[r] == 0 && springs.stiffness[r] > 0.0) {
@@ -54,8 +55,9 @@ void SparseOperator::solve(const Springs& springs, std::span<const double> theta
         if (!pulled.empty() && held[r] != 0) pulled[r] = 0.0;
     }
     const double load = solver_.load_size(theta);
-    std::vector<double> moved = system.offsets(theta);
-    for (std::size_t e = 0; e < system.equations().size(); ++e) moved.push_back(dot(system.equation_right(e), theta));
+    std::vector<double> moved = system.rows().offsets(theta);
+    for (std::size_t e = 0; e < system.rows().equations().size(); ++e)
+        moved.push_back(dot(system.rows().equation_right(e), theta));
     // Without a load nothing moves, exactly.
     bool loaded = load > 0.0 || any_of(pulled) || any_of(moved);
     for (std::size_t p = 0; p < theta.size(); ++p)
@@ -112,15 +114,15 @@ void SparseOperator::respond(const Springs& springs, std::span<const double> the
     const JumpSystem& system = solver_.system();
     const std::vector<double>& x = response.multipliers;
     const std::size_t rows = springs.stiffness.size();
-    const std::vector<double> offset = system.offsets(theta);
+    const std::vector<double> offset = system.rows().offsets(theta);
     response.jump.assign(rows, 0.0);
     response.force.assign(rows, 0.0);
     for (std::size_t r = 0; r < rows; ++r) {
         if (springs.held[r] != 0) {
-            response.jump[r] = system.prescribed()[r] != 0 ? 0.0 : held_jump(system.rows()[r], offset[r], x);
+            response.jump[r] = system.rows().prescribed()[r] != 0 ? 0.0 : held_jump(system.rows()[r], offset[r], x);
             continue;
         }
-        response.jump[r] = offset[r] + system.row_value(r, x);
+        response.jump[r] = offset[r] + system.rows().value(r, x);
         response.force[r] = springs.stiffness[r] * response.jump[r];
         if (!springs.force.empty()) response.force[r] -= springs.force[r];
     }
@@ -139,7 +141,7 @@ void SparseOperator::find_energies(std::span<const double> theta, std::span<cons
     response.stored_bulk = work.strain;
     response.load_potential = 0.0;
     response.conjugate.assign(patterns, 0.0);
-    const std::vector<JumpRow>& rows = solver_.system().rows();
+    const JumpRows& rows = solver_.system().rows();
     for (std::size_t p = 0; p < patterns; ++p) {
         double q = work.lifted[p] - work.done[p];
         double strained = 0.0;
@@ -147,7 +149,7 @@ void SparseOperator::find_energies(std::span<const double> theta, std::span<cons
         q += strained;
         for (std::size_t r = 0; r < rows.size(); ++r)
             if (!rows[r].offset.empty()) q += rows[r].offset[p] * response.force[r];
-        for (std::size_t e = 0; e < mu.size(); ++e) q -= solver_.system().equation_right(e)[p] * mu[e];
+        for (std::size_t e = 0; e < mu.size(); ++e) q -= solver_.system().rows().equation_right(e)[p] * mu[e];
         response.conjugate[p] = q;
         if (problem_.patterns[p].drives == Pattern::Drives::force)
             response.load_potential -= theta[p] * work.done[p];
@@ -181,13 +183,12 @@ std::vector<double> SparseOperator::displacement(std::span<const double> theta, 
 
 std::vector<double> SparseOperator::reaction(std::span<const double> theta, const Response& response) const {
     std::vector<double> u;
-    return bodies_->reaction(theta, stressed(theta, response, u), response.force);
+    return body_reactions(*bodies_, theta, stressed(theta, response, u), response.force);
 }
 
 double SparseOperator::equilibrium_defect(std::span<const double> theta, const Response& response) const {
     std::vector<double> u;
-    const std::vector<double> force = stressed(theta, response, u);
-    return bodies_->defect(theta, force, response.force, bodies_->reaction(theta, force, response.force));
+    return delam::equilibrium_defect(*bodies_, theta, stressed(theta, response, u), response.force);
 }
 
 void SparseOperator::move(std::span<const double> displacement, std::span<const double> combination,
@@ -200,7 +201,7 @@ std::vector<double> SparseOperator::row_stiffness() const {
     const JumpSystem& system = solver_.system();
     std::vector<double> stiffness(system.rows().size(), 0.0);
     for (std::size_t r = 0; r < stiffness.size() && !system.diagonal().empty(); ++r)
-        if (system.prescribed()[r] == 0) stiffness[r] = row_diagonal(system, r);
+        if (system.rows().prescribed()[r] == 0) stiffness[r] = row_diagonal(system, r);
     return stiffness;
 }
 

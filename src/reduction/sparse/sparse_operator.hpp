@@ -25,7 +25,7 @@ public:
     void move(std::span<const double> displacement, std::span<const double> combination, std::span<const double> jump,
               Response& response) const override;
     std::vector<double> row_stiffness() const override;
-    std::span<const std::uint8_t> prescribed_rows() const override { return solver_.system().prescribed(); }
+    std::span<const std::uint8_t> prescribed_rows() const override { return solver_.system().rows().prescribed(); }
     std::int64_t factorisations() const override { return solver_.factorisations(); }
     std::vector<double> memory() override { return solver_.memory(); }
     void recall(std::span<const double> memory) override { solver_.recall(memory); }

@@ -41,14 +41,14 @@ std::vector<std::uint8_t> differing_rows(const JumpSystem& system, std::span<con
     const std::vector<double> now = springs_of(system);
     std::vector<std::uint8_t> row(now.size(), 0);
     for (std::size_t r = 0; r < now.size(); ++r) {
-        if (system.prescribed()[r] != 0 || now[r] == springs[r]) continue;
+        if (system.rows().prescribed()[r] != 0 || now[r] == springs[r]) continue;
         const double body = row_diagonal(system, r), old = body + springs[r], present = body + now[r];
         const double share = now[r] < 0.0 ? system.limits().spring_differs_in_kind : system.limits().spring_differs;
         row[r] = present > (1.0 + share) * old || old > (1.0 + share) * present ? 1 : 0;
     }
     for (const Zone::Coupling& c : system.couplings()) {
         const auto r = index(c.row), q = index(c.column);
-        if (r == q || system.prescribed()[r] != 0 || system.prescribed()[q] != 0) continue;
+        if (r == q || system.rows().prescribed()[r] != 0 || system.rows().prescribed()[q] != 0) continue;
         if (system.held()[r] != 0 || system.held()[q] != 0) continue;
         const double own = (row_diagonal(system, r) + springs[r]) * (row_diagonal(system, q) + springs[q]);
         const double kind = system.limits().spring_differs_in_kind;
@@ -60,7 +60,7 @@ std::vector<std::uint8_t> differing_rows(const JumpSystem& system, std::span<con
 bool any_softer(const JumpSystem& system, std::span<const double> springs) {
     const std::vector<double> now = springs_of(system);
     for (std::size_t r = 0; r < now.size(); ++r) {
-        if (system.prescribed()[r] != 0 || now[r] >= springs[r]) continue;
+        if (system.rows().prescribed()[r] != 0 || now[r] >= springs[r]) continue;
         const double body = row_diagonal(system, r);
         if (body + springs[r] > (1.0 + system.limits().spring_differs) * (body + now[r])) return true;
     }

@@ -3,127 +3,37 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <utility>
 
-#include "base/cancel_scope.hpp"
 #include "base/error.hpp"
 #include "base/numbers.hpp"
-#include "reduction/sparse/engine/engine_variables.hpp"
 #include "reduction/sparse/spring_entries.hpp"
 
 namespace delam {
 
-namespace {
-
-// Arguments of the callbacks of a solve. An exception waits until the engine has returned.
-struct Calls {
-    const BodySolver::Forcing& forcing;
-    Monitor& monitor;
-    bool reading;  // only a request made during the call stops it
-    std::int64_t iteration = 0;
-    std::exception_ptr stopped{};
-};
-
-extern "C" double ask_enough(double first, void* user) {
-    auto& calls = *static_cast<Calls*>(user);
-    try {
-        return calls.forcing(first);
-    } catch (...) {
-        calls.stopped = std::current_exception();
-        return 0.0;
-    }
-}
-
-extern "C" std::int32_t ask_to_stop(void* user) {
-    auto& calls = *static_cast<Calls*>(user);
-    try {
-        if (calls.stopped) return 1;
-        if (calls.reading)
-            poll_cancel_now("linear solve");
-        else
-            calls.monitor.progress("linear solve", ++calls.iteration, 0);
-    } catch (...) {
-        calls.stopped = std::current_exception();
-    }
-    return calls.stopped ? 1 : 0;
-}
-
-// Entries as the engine takes them.
-class Entries {
-public:
-    explicit Entries(const SparseMatrix& matrix) {
-        for (std::int64_t r = 0; r < matrix.rows; ++r)
-            for (std::int64_t e = matrix.start[index(r)]; e < matrix.start[index(r) + 1]; ++e)
-                add(r, matrix.column[index(e)], matrix.value[index(e)]);
-    }
-    Entries() = default;
-    void add(std::int64_t row, std::int64_t column, double value) {
-        if (value == 0.0) return;
-        rows_.push_back(row);
-        columns_.push_back(column);
-        values_.push_back(value);
-    }
-    delam_experimental_entries view() const {
-        return {static_cast<std::int64_t>(rows_.size()), rows_.data(), columns_.data(), values_.data()};
-    }
-
-private:
-    std::vector<std::int64_t> rows_, columns_;
-    std::vector<double> values_;
-};
-
-}  // namespace
-
 EngineSolver::EngineSolver(const BodySystem& bodies, std::shared_ptr<Engine> engine, Monitor& monitor)
     : bodies_(bodies),
-      engine_(std::move(engine)),
       monitor_(monitor),
+      calls_(std::move(engine), monitor),
       system_(bodies),
       floating_(bodies, system_),
-      products_(Engine::kept, Engine::kept),
+      at_(index(system_.count()), bodies.problem().patterns.size(), index(Engine::kept), index(floating_.motions())),
+      kept_(index(Engine::kept)),
       renewal_(bodies.problem().options.limits, infinite) {
-    const std::size_t n = index(system_.count()), patterns = bodies.problem().patterns.size();
-    at_.variables = 0;
-    at_.balance = n;
-    at_.done = 2 * n;
-    at_.lifted = at_.done + patterns;
-    at_.weights = at_.lifted + patterns;
-    at_.rigid = at_.weights + index(Engine::kept);
-    at_.size = at_.rigid + index(floating_.motions());
+    const std::size_t patterns = bodies.problem().patterns.size();
     for (std::size_t p = 0; p < patterns; ++p)
         for (std::size_t k = 0; k < patterns; ++k)
             lift_force_.push_back(bodies.force()[k].empty() ? 0.0 : dot(bodies.variables().lift[p], bodies.force()[k]));
     claim();
 }
 
-EngineSolver::~EngineSolver() {
-    if (engine_->owner == this) engine_->owner = nullptr;
-}
-
-std::int64_t EngineSolver::state_size() const { return static_cast<std::int64_t>(at_.size); }
-
 void EngineSolver::claim() {
-    if (engine_->owner == this) return;
-    engine_->owner = nullptr;
-    poll_cancel_now("engine");
-    const EngineVariables variables(bodies_);
-    const delam_experimental_variables view = variables.view();
-    std::vector<double> diagonal(index(system_.count()), 0.0);
-    load_sizes_.assign(bodies_.problem().patterns.size(), 0.0);
-    const delam_experimental_engine& engine = engine_->functions();
-    engine_->require(engine.prepare(&view, diagonal.data(), load_sizes_.data(), engine.user), "prepare");
-    for (std::size_t i = 0; i < diagonal.size(); ++i)
-        if (!(diagonal[i] >= 0.0 && std::isfinite(diagonal[i])))
-            fail(DELAM_ERROR_NUMERICAL, "engine: prepare: diagonal[", i, "] = ", diagonal[i], ", allowed: >= 0");
-    system_.set_diagonal(std::move(diagonal));
-    for (std::size_t p = 0; p < load_sizes_.size(); ++p)
-        if (!(load_sizes_[p] >= 0.0 && std::isfinite(load_sizes_[p])))
-            fail(DELAM_ERROR_NUMERICAL, "engine: prepare: load_sizes[", p, "] = ", load_sizes_[p], ", allowed: >= 0");
-    kept_.assign(index(Engine::kept), {});
-    products_ = DenseMatrix(Engine::kept, Engine::kept);
+    if (calls_.prepared()) return;
+    kept_.clear();
     applied_ = renewed_ = false;
-    engine_->owner = this;
+    EngineCalls::Sizes sizes = calls_.prepare(bodies_);
+    system_.set_diagonal(std::move(sizes.diagonal));
+    load_sizes_ = std::move(sizes.loads);
 }
 
 void EngineSolver::apply() {
@@ -131,19 +41,15 @@ void EngineSolver::apply() {
     // Without a load they have no force: they only choose one of the states that differ by free motions.
     acting.insert(acting.end(), floating_.free_anchors().begin(), floating_.free_anchors().end());
     const std::vector<std::uint8_t> none(system_.rows().size(), 0);
-    const Entries entries(from_triplets(system_.count(), system_.count(), spring_entries(system_, acting, none)));
-    Entries masters;
+    const EngineEntries entries(from_triplets(system_.count(), system_.count(), spring_entries(system_, acting, none)));
+    EngineEntries masters;
     std::vector<std::int64_t> pivots;
-    for (const JumpSystem::Slave& slave : system_.slaves()) {
-        for (const auto& [i, c] : slave.masters) masters.add(static_cast<std::int64_t>(pivots.size()), i, c);
+    for (const ReducedSpace::Slave& slave : system_.space().slaves()) {
+        for (const auto& [i, c] : slave.masters)
+            if (c != 0.0) masters.add(static_cast<std::int64_t>(pivots.size()), i, c);
         pivots.push_back(slave.pivot);
     }
-    const std::vector<std::int64_t>& fixed = system_.removed();
-    const delam_experimental_entries couplings = entries.view(), of_pivots = masters.view();
-    const delam_experimental_engine& engine = engine_->functions();
-    engine_->require(engine.set(&couplings, static_cast<std::int64_t>(fixed.size()), fixed.data(),
-                                static_cast<std::int64_t>(pivots.size()), pivots.data(), &of_pivots, engine.user),
-                     "set");
+    calls_.set(entries, system_.space().removed(), pivots, masters);
     applied_ = true;
 }
 
@@ -155,16 +61,14 @@ void EngineSolver::renew() {
             springs.push_back({static_cast<std::int64_t>(r), static_cast<std::int64_t>(r), lagged_[r]});
     std::vector<Triplet> added = spring_entries(system_, springs, std::vector<std::uint8_t>(lagged_.size(), 0));
     const double largest = max_abs(system_.diagonal());
-    for (const SparseVector& row : system_.equations())
+    for (const SparseVector& row : system_.rows().equations())
         for (const auto& [i, c] : row) {
             const double d = system_.diagonal()[index(i)];
             added.push_back({i, i, constraint_shift * (d > 0.0 ? d : largest)});
         }
-    const Entries entries(from_triplets(system_.count(), system_.count(), std::move(added)));
-    const delam_experimental_entries view = entries.view();
-    const delam_experimental_engine& engine = engine_->functions();
+    const EngineEntries entries(from_triplets(system_.count(), system_.count(), std::move(added)));
     ++renewals_;
-    engine_->require(engine.renew(&view, &cost_, engine.user), "renew");
+    cost_ = calls_.renew(entries);
     cost_ = cost_ >= 1.0 ? std::min(cost_, renewal_.limits().engine_highest_cost) : 1.0;
     renewed_ = true;
 }
@@ -214,15 +118,14 @@ bool EngineSolver::has_minimum() {
     std::uint64_t seed = 1;
     for (std::size_t r = 0; r < softening.size(); ++r) {
         seed = seed * 6364136223846793005u + 1442695040888963407u;
-        if (softening[r] != 0) system_.add_row(r, (seed >> 63U) == 0 ? 1.0 : -1.0, force);
+        if (softening[r] != 0) system_.rows().add(r, (seed >> 63U) == 0 ? 1.0 : -1.0, force);
     }
-    const std::vector<double> rest(bodies_.problem().patterns.size(), 0.0), right(system_.slaves().size(), 0.0);
-    const std::size_t before = newest_;
-    const Raw raw =
+    const std::vector<double> rest(bodies_.problem().patterns.size(), 0.0), right(system_.space().slaves().size(), 0.0);
+    const std::size_t before = kept_.newest();
+    const EngineCalls::Answer raw =
         ask(rest, force, right, {}, renewal_.limits().engine_probed, renewal_.limits().engine_longest_probe, {}, state);
-    if (raw.answer.definite == 0) return false;
-    kept_[newest_].forget();
-    newest_ = before;
+    if (!raw.definite()) return false;
+    kept_.take_back(before);
     return true;
 }
 
@@ -230,72 +133,34 @@ bool EngineSolver::has_minimum() {
 std::vector<double> EngineSolver::forces(std::span<const double> theta, std::span<const double> row_force) const {
     std::vector<double> b(index(system_.count()), 0.0);
     for (std::size_t r = 0; r < row_force.size(); ++r)
-        if (system_.held()[r] == 0 && row_force[r] != 0.0) system_.add_row(r, row_force[r], b);
-    const std::vector<double> offset = system_.offsets(theta);
+        if (system_.held()[r] == 0 && row_force[r] != 0.0) system_.rows().add(r, row_force[r], b);
+    const std::vector<double> offset = system_.rows().offsets(theta);
     for (const Zone::Coupling& c : system_.couplings())
-        if (offset[index(c.column)] != 0.0) system_.add_row(index(c.row), -c.value * offset[index(c.column)], b);
+        if (offset[index(c.column)] != 0.0) system_.rows().add(index(c.row), -c.value * offset[index(c.column)], b);
     return b;
 }
 
 std::vector<double> EngineSolver::rights(std::span<const double> theta) const {
     std::vector<double> right;
-    for (const JumpSystem::Slave& slave : system_.slaves()) right.push_back(dot(slave.right, theta));
+    for (const ReducedSpace::Slave& slave : system_.space().slaves()) right.push_back(dot(slave.right, theta));
     return right;
 }
 
-// The oldest place that the start does not need.
-std::size_t EngineSolver::free_place(std::span<const double> start) const {
-    std::size_t place = newest_;
-    do {
-        place = (place + 1) % kept_.size();
-    } while (!start.empty() && start[place] != 0.0 && place != newest_);
-    return place;
-}
-
-EngineSolver::Raw EngineSolver::ask(std::span<const double> theta, std::span<const double> force,
-                                    std::span<const double> right, std::span<const double> start, double tolerance,
-                                    std::int64_t limit, const Forcing& forcing, std::vector<double>& x, bool reading) {
-    const std::size_t n = index(system_.count()), place = free_place(start);
-    Raw raw;
-    raw.correction.assign(n, 0.0);
-    raw.correction_balance.assign(n, 0.0);
-    std::vector<double> products(kept_.size(), 0.0), state(at_.size, 0.0);
-    raw.answer.values = state.data() + at_.variables;
-    raw.answer.balance = state.data() + at_.balance;
-    raw.answer.correction = raw.correction.data();
-    raw.answer.correction_balance = raw.correction_balance.data();
-    raw.answer.products = products.data();
-    raw.answer.work = state.data() + at_.done;
-    raw.answer.lifted = state.data() + at_.lifted;
-    Calls calls{forcing, monitor_, reading};
-    delam_experimental_request request{};
-    request.theta = theta.data();
-    request.force = force.data();
-    request.right = right.data();
-    request.start = start.empty() ? nullptr : start.data();
-    request.place = static_cast<std::int64_t>(place);
-    request.tolerance = tolerance;
-    request.limit = limit;
-    request.enough = forcing ? ask_enough : nullptr;
-    request.poll = ask_to_stop;
-    request.user = &calls;
-    kept_[place].forget();
-    const delam_experimental_engine& engine = engine_->functions();
-    const std::int32_t status = engine.solve(&request, &raw.answer, engine.user);
-    if (calls.stopped) std::rethrow_exception(calls.stopped);
-    engine_->require(status, "solve");
-    raw.answer.values = raw.answer.balance = raw.answer.work = raw.answer.lifted = raw.answer.products = nullptr;
-    if (raw.answer.definite == 0) return raw;
-    require_numbers(raw, state, products);
-    state[at_.weights + place] = 1.0;
-    kept_[place] = {
-        {state.begin(), state.begin() + static_cast<std::ptrdiff_t>(n)}, {theta.begin(), theta.end()}, true};
-    for (std::size_t s = 0; s < kept_.size(); ++s)
-        products_(static_cast<std::int64_t>(place), static_cast<std::int64_t>(s)) =
-            products_(static_cast<std::int64_t>(s), static_cast<std::int64_t>(place)) = products[s];
-    newest_ = place;
-    x = std::move(state);
-    return raw;
+// The answer's state goes to x.
+EngineCalls::Answer EngineSolver::ask(std::span<const double> theta, std::span<const double> force,
+                                      std::span<const double> right, std::span<const double> start, double tolerance,
+                                      std::int64_t limit, const Forcing& forcing, std::vector<double>& x,
+                                      bool reading) {
+    const std::size_t place = kept_.free_place(start);
+    kept_.forget(place);
+    EngineCalls::Answer answer =
+        calls_.solve({theta, force, right, start, place, tolerance, limit, forcing, reading}, at_);
+    if (!answer.definite()) return answer;
+    const std::span<double> state = answer.state;
+    at_.weights(state)[place] = 1.0;
+    kept_.keep(place, at_.variables(state), theta, answer.products);
+    x = std::move(answer.state);
+    return answer;
 }
 
 BodySolver::Answer EngineSolver::solve(std::span<const double> theta, std::span<const double> row_force,
@@ -308,13 +173,11 @@ BodySolver::Answer EngineSolver::solve(std::span<const double> theta, std::span<
     if (!renewed_) renew();
     if (!applied_) apply();
     std::vector<double> start;
-    if (x.size() == at_.size) {
-        if (const std::optional<std::vector<double>> known = known_weights(x, {})) {
+    if (x.size() == at_.size()) {
+        if (const std::optional<std::vector<double>> known = known_weights(x, {}))
             start = *known;
-        } else if (kept_[newest_].there) {
-            start.assign(kept_.size(), 0.0);
-            start[newest_] = 1.0;
-        }
+        else
+            start = kept_.newest_alone();
     }
     const double careful = any_softer(system_, lagged_) ? renewal_.limits().renewal_cautious : 1.0;
     const double target = std::max(finest, careful * tolerance);
@@ -325,45 +188,45 @@ BodySolver::Answer EngineSolver::solve(std::span<const double> theta, std::span<
     const auto attempt = static_cast<std::int64_t>(
         std::min(renewal_.first() + std::max(0.0, cost_ - renewal_.excess()), static_cast<double>(most)));
     const std::int64_t limit = old ? std::min(most, std::max(renewal_.limits().engine_least_attempt, attempt)) : most;
-    Raw raw = ask(theta, force, right, start, target, limit, forcing ? carefully : Forcing{}, x);
-    std::int64_t iterations = raw.answer.iterations;
-    if (raw.answer.definite != 0 && raw.answer.converged == 0 && old && iterations < most) {
-        const double first = raw.answer.first;
+    EngineCalls::Answer raw = ask(theta, force, right, start, target, limit, forcing ? carefully : Forcing{}, x);
+    std::int64_t iterations = raw.numbers.iterations;
+    if (raw.definite() && !raw.converged() && old && iterations < most) {
+        const double first = raw.numbers.first;
         renew_now();
-        start.assign(kept_.size(), 0.0);
-        start[newest_] = 1.0;
+        start = kept_.newest_alone();
         const double again = any_softer(system_, lagged_) ? renewal_.limits().renewal_cautious : 1.0;
         const Forcing as_before = [&](double) { return again * enough; };
         raw = ask(theta, force, right, start, std::max(finest, again * tolerance), most,
                   forcing ? as_before : Forcing{}, x);
-        raw.answer.first = first;
-        iterations += raw.answer.iterations;
+        raw.numbers.first = first;
+        iterations += raw.numbers.iterations;
     }
-    const auto own = static_cast<double>(raw.answer.iterations);
+    const auto own = static_cast<double>(raw.numbers.iterations);
     renewal_.solved(own, 1.0);
     answer.iterations = iterations;
-    answer.definite = raw.answer.definite != 0;
-    answer.converged = raw.answer.converged != 0;
+    answer.definite = raw.definite();
+    answer.converged = raw.converged();
     if (!answer.definite) return answer;
-    rounding_ = raw.answer.rounding;
+    rounding_ = raw.numbers.rounding;
     settle(x);
-    answer.first = raw.answer.first;
-    answer.norm = raw.answer.norm;
-    answer.residual = raw.answer.norm == 0.0 ? 0.0 : raw.answer.norm / std::max(raw.answer.size, raw.answer.norm);
+    answer.first = raw.numbers.first;
+    answer.norm = raw.numbers.norm;
+    answer.residual = raw.numbers.norm == 0.0 ? 0.0 : raw.numbers.norm / std::max(raw.numbers.size, raw.numbers.norm);
     answer.energy_error =
-        0.5 * answer.norm * answer.norm / std::max(raw.answer.least, renewal_.limits().renewal_softest);
+        0.5 * answer.norm * answer.norm / std::max(raw.numbers.least, renewal_.limits().renewal_softest);
     answer.error = error_of(raw);
     return answer;
 }
 
-SolveError EngineSolver::error_of(const Raw& raw) const {
+SolveError EngineSolver::error_of(const EngineCalls::Answer& raw) const {
     SolveError error;
     std::vector<double> left = raw.correction_balance, force(system_.rows().size(), 0.0);
     system_.add_couplings(raw.correction, left);
-    (void)system_.multipliers(left, force);
+    (void)system_.space().multipliers(left, force);
     for (std::size_t r = 0; r < force.size(); ++r)
-        if (system_.held()[r] == 0) error.jump = std::max(error.jump, std::abs(system_.row_value(r, raw.correction)));
-    const double factor = renewal_.doubt(raw.answer.least);
+        if (system_.held()[r] == 0)
+            error.jump = std::max(error.jump, std::abs(system_.rows().value(r, raw.correction)));
+    const double factor = renewal_.doubt(raw.numbers.least);
     return {factor * error.jump, factor * max_abs(force)};
 }
 
@@ -387,43 +250,136 @@ void EngineSolver::move(std::span<const double> displacement, std::span<const do
 // The parts of a state that its variables do not show: its rigid motions, and what dead forces do along them.
 void EngineSolver::count_motion(std::span<const double> displacement, std::span<const double> combination,
                                 std::span<double> x) const {
-    add_scaled(1.0, combination, x.subspan(at_.rigid, at_.size - at_.rigid));
+    add_scaled(1.0, combination, at_.rigid(x));
+    const std::span<double> done = at_.done(x);
     for (std::size_t p = 0; p < bodies_.force().size(); ++p)
-        if (!bodies_.force()[p].empty()) x[at_.done + p] += dot(bodies_.force()[p], displacement);
-}
-
-void EngineSolver::require_numbers(const Raw& raw, std::span<const double> state,
-                                   std::span<const double> products) const {
-    const delam_experimental_answer& a = raw.answer;
-    const double scalars[] = {a.first, a.norm, a.size, a.least, a.rounding};
-    for (const std::span<const double> list :
-         {state, products, std::span<const double>(raw.correction), std::span<const double>(raw.correction_balance),
-          std::span<const double>(scalars)})
-        if (!std::all_of(list.begin(), list.end(), [](double v) { return std::isfinite(v); }))
-            fail(DELAM_ERROR_NUMERICAL, "engine: solve: the answer is not finite");
-    // 64 bits hold the sum of more solves than an analysis can make.
-    constexpr std::int64_t most = std::int64_t{1} << 32;
-    if (a.iterations < 0 || a.iterations > most)
-        fail(DELAM_ERROR_NUMERICAL, "engine: solve: iterations = ", a.iterations, ", allowed: 0 to ", most);
+        if (!bodies_.force()[p].empty()) done[p] += dot(bodies_.force()[p], displacement);
 }
 
 std::vector<double> EngineSolver::held_forces(std::span<const double>, std::span<const double> x,
                                               std::span<double> force) const {
-    const std::span<const double> balance = part(x, at_.balance, at_.done);
+    const std::span<const double> balance = at_.balance(x);
     std::vector<double> left(balance.begin(), balance.end());
     for (std::size_t r = 0; r < force.size(); ++r) {
         if (system_.held()[r] != 0)
             force[r] = 0.0;
         else
-            system_.add_row(r, -force[r], left);
+            system_.rows().add(r, -force[r], left);
     }
-    return system_.multipliers(left, force);
+    return system_.space().multipliers(left, force);
 }
 
 double EngineSolver::load_size(std::span<const double> theta) const {
     double size = 0.0;
     for (std::size_t p = 0; p < theta.size(); ++p) size += std::abs(theta[p]) * load_sizes_[p];
     return size;
+}
+
+std::optional<std::vector<double>> EngineSolver::known_weights(std::span<const double> x,
+                                                               std::span<const double> theta) const {
+    if (x.size() != at_.size()) return {};
+    return kept_.weights_of(at_, x, theta, floating_.in_variables(at_.rigid(x)));
+}
+
+std::vector<double> EngineSolver::weights_of(std::span<const double> theta, std::span<const double> x) {
+    claim();
+    if (std::optional<std::vector<double>> known = known_weights(x, theta)) return *std::move(known);
+    return solve_again(theta, x);
+}
+
+// With all trailing variables given, the rest of the bodies is definite. The engine's preconditioner is then one for
+// other solves no longer.
+std::vector<double> EngineSolver::solve_again(std::span<const double> theta, std::span<const double> x,
+                                              bool with_rigid) {
+    const std::size_t n = index(system_.count());
+    const std::vector<double> moved = with_rigid ? std::vector<double>(n, 0.0) : floating_.in_variables(at_.rigid(x));
+    std::vector<double> given(n), none(n, 0.0), state;
+    std::vector<std::int64_t> all(n);
+    EngineEntries stiff;
+    const double largest = max_abs(system_.diagonal());
+    for (std::size_t i = 0; i < n; ++i) {
+        given[i] = x[i] - moved[i];
+        all[i] = static_cast<std::int64_t>(i);
+        const double d = system_.diagonal()[i];
+        stiff.add(all[i], all[i], held_as * (d > 0.0 ? d : largest));
+    }
+    applied_ = renewed_ = false;
+    (void)calls_.renew(stiff);
+    calls_.set({}, {}, all, {});
+    const EngineCalls::Answer raw =
+        ask(theta, none, given, {}, finest, bodies_.problem().options.linear_limit, {}, state, true);
+    if (state.empty()) fail(DELAM_ERROR_NUMERICAL, "engine: the stiffness of the bodies is not positive definite");
+    if (!raw.converged())
+        fail(DELAM_ERROR_NUMERICAL, "engine: the displacements of this state cannot be found again within ",
+             raw.numbers.iterations, " iterations (option linear_limit)");
+    const std::span<const double> weights = at_.weights(std::span<const double>(state));
+    return {weights.begin(), weights.end()};
+}
+
+BodySolver::Work EngineSolver::work(std::span<const double> theta, std::span<const double> x) {
+    const std::vector<double> weights = weights_of(theta, x);
+    Work work;
+    work.strain = kept_.strain(weights);
+    const std::span<const double> done = at_.done(x), on_lift = at_.lifted(x);
+    const std::size_t patterns = theta.size();
+    for (std::size_t p = 0; p < patterns; ++p) {
+        work.done.push_back(done[p]);
+        double lifted = on_lift[p];
+        for (std::size_t k = 0; k < patterns; ++k) lifted -= theta[k] * lift_force_[p * patterns + k];
+        work.lifted.push_back(lifted);
+    }
+    return work;
+}
+
+void EngineSolver::recover(std::span<const double> theta, std::span<const double> x, std::vector<double>& displacement,
+                           std::vector<double>& stressed) {
+    const std::vector<double> weights = weights_of(theta, x);
+    displacement.assign(index(bodies_.dofs()), 0.0);
+    stressed.assign(index(bodies_.dofs()), 0.0);
+    calls_.recover(weights, displacement, stressed);
+    if (!at_.has_motions()) return;
+    const std::vector<double> moved = floating_.rigid_displacement(at_.rigid(x));
+    for (std::size_t i = 0; i < moved.size(); ++i) displacement[i] += moved[i];
+}
+
+// The kept answers lack the rigid motions, which the engine gets as displacements of the mesh. An engine with other
+// nodes refuses them: with all variables given as they are, the bodies are then solved for once more.
+void EngineSolver::recover_in_engine(std::span<const double> theta, std::span<const double> x) {
+    const std::vector<double> weights = weights_of(theta, x);
+    std::vector<double> moved;
+    if (x.size() == at_.size() && max_abs(at_.rigid(x)) > 0.0) moved = floating_.rigid_displacement(at_.rigid(x));
+    if (calls_.recover_within(weights, std::move(moved))) return;
+    (void)calls_.recover_within(solve_again(theta, x, true), {});
+}
+
+// Springs of the preconditioner, the iterations that a new one would have saved, the iterations of its first solve, its
+// worth.
+std::vector<double> EngineSolver::memory() {
+    std::vector<double> m = lagged_;
+    if (m.empty()) return m;
+    m.push_back(renewal_.excess());
+    m.push_back(renewal_.first());
+    m.push_back(cost_);
+    return m;
+}
+
+void EngineSolver::require_memory(std::span<const double> memory) const {
+    if (memory.empty()) return;
+    const std::size_t expected = system_.rows().size() + 3;
+    if (memory.size() != expected ||
+        !std::all_of(memory.begin(), memory.end(), [](double m) { return m >= 0.0 && std::isfinite(m); }))
+        fail(DELAM_ERROR_SNAPSHOT, "snapshot holds springs that the operator of an engine cannot have");
+}
+
+void EngineSolver::recall(std::span<const double> memory) {
+    if (std::ranges::equal(memory, this->memory())) return;
+    require_memory(memory);
+    const std::size_t rows = system_.rows().size();
+    lagged_.assign(memory.begin(),
+                   memory.empty() ? memory.begin() : memory.begin() + static_cast<std::ptrdiff_t>(rows));
+    renewal_.restore(memory.empty() ? 0.0 : memory[rows], memory.empty() ? 0.0 : memory[rows + 1]);
+    cost_ = memory.empty() ? 1.0 : memory[rows + 2];
+    renewed_ = false;
 }
 
 }  // namespace delam

@@ -2,9 +2,7 @@
 // A body solver that leaves the bodies to an engine of the host (scene/engine.hpp). It knows the trailing variables
 // alone: jumps, and displacements in long constraints. What it knows of the others it knows from the engine's answers.
 //
-// A state x is [variables v | T^T (f - K u) there | f_p^T u | U_p^T K u | weights | rigid]: linear all of them, so that
-// combinations of states are right by themselves. weights: which kept answers u_s of the engine make up the state, u =
-// sum of w_s u_s + R rigid, R the rigid motions of floating parts. The energy follows from the products u_s^T K u_t, to
+// Of what a state consists is in engine_state.hpp. The energy follows from the products u_s^T K u_t of kept answers, to
 // second order in what the solves have left; a state of another time (a saved one) is solved for once more, with all
 // its variables given.
 #pragma once
@@ -15,9 +13,11 @@
 #include <vector>
 
 #include "base/monitor.hpp"
-#include "linalg/dense/dense.hpp"
 #include "reduction/operator/body_system.hpp"
 #include "reduction/sparse/body_solver.hpp"
+#include "reduction/sparse/engine/engine_calls.hpp"
+#include "reduction/sparse/engine/engine_state.hpp"
+#include "reduction/sparse/engine/kept_answers.hpp"
 #include "reduction/sparse/floating.hpp"
 #include "reduction/sparse/renewal.hpp"
 #include "scene/engine.hpp"
@@ -28,10 +28,9 @@ class EngineSolver final : public BodySolver {
 public:
     // bodies: without a stiffness.
     EngineSolver(const BodySystem& bodies, std::shared_ptr<Engine> engine, Monitor& monitor);
-    ~EngineSolver() override;
 
     const JumpSystem& system() const override { return system_; }
-    std::int64_t state_size() const override;
+    std::int64_t state_size() const override { return static_cast<std::int64_t>(at_.size()); }
     void compare_energies(bool yes) override { comparing_ = yes; }
     bool set(std::vector<Zone::Coupling> couplings, std::span<const std::uint8_t> held) override;
     Answer solve(std::span<const double> theta, std::span<const double> row_force, double tolerance,
@@ -54,13 +53,6 @@ public:
     void require_memory(std::span<const double> memory) const override;
 
 private:
-    // Beginnings of the parts of a state.
-    struct Layout {
-        std::size_t variables, balance, done, lifted, weights, rigid, size;
-    };
-    std::span<const double> part(std::span<const double> x, std::size_t first, std::size_t next) const {
-        return x.subspan(first, next - first);
-    }
     void claim();  // the engine has the variables of this operator
     void apply();  // the couplings and held rows
     void renew_now();
@@ -69,18 +61,11 @@ private:
     bool has_minimum();
     std::vector<double> forces(std::span<const double> theta, std::span<const double> row_force) const;
     std::vector<double> rights(std::span<const double> theta) const;
-    // Answer of the engine.
-    struct Raw {
-        delam_experimental_answer answer{};
-        std::vector<double> correction, correction_balance;
-    };
     // Fills x, but for the rigid motions.
-    Raw ask(std::span<const double> theta, std::span<const double> force, std::span<const double> right,
-            std::span<const double> start, double tolerance, std::int64_t limit, const Forcing& forcing,
-            std::vector<double>& x, bool reading = false);
-    void require_numbers(const Raw& raw, std::span<const double> state, std::span<const double> products) const;
-    SolveError error_of(const Raw& raw) const;
-    std::size_t free_place(std::span<const double> start) const;
+    EngineCalls::Answer ask(std::span<const double> theta, std::span<const double> force, std::span<const double> right,
+                            std::span<const double> start, double tolerance, std::int64_t limit, const Forcing& forcing,
+                            std::vector<double>& x, bool reading = false);
+    SolveError error_of(const EngineCalls::Answer& raw) const;
     // The weights of a state, as long as the answers that they name are kept. theta: of the state; empty: any.
     std::optional<std::vector<double>> known_weights(std::span<const double> x, std::span<const double> theta) const;
     std::vector<double> weights_of(std::span<const double> theta, std::span<const double> x);
@@ -91,22 +76,14 @@ private:
                       std::span<double> x) const;
 
     const BodySystem& bodies_;
-    std::shared_ptr<Engine> engine_;
     Monitor& monitor_;
+    EngineCalls calls_;
     JumpSystem system_;
     Floating floating_;
-    Layout at_{};
+    EngineLayout at_;
+    KeptAnswers kept_;
     std::vector<double> load_sizes_;  // [patterns]
     std::vector<double> lift_force_;  // [patterns][patterns] U_p^T f_k
-
-    struct Kept {
-        std::vector<double> variables, theta;
-        bool there = false;
-        void forget() { *this = {}; }
-    };
-    std::vector<Kept> kept_;  // [places]
-    DenseMatrix products_;    // [places][places]
-    std::size_t newest_ = 0;
 
     std::vector<double> lagged_;  // [rows] springs of the preconditioner; empty: there is none
     bool comparing_ = false;      // energies

@@ -29,7 +29,7 @@ IteratedSize Iterated::size() const {
             static_cast<double>(reanalysis().system().matrix().entries()),
             whole.size(),
             whole.entries(),
-            static_cast<double>(reanalysis().system().equations().size()),
+            static_cast<double>(reanalysis().system().rows().equations().size()),
             Reanalysis::keeps_two_factors(problem()) ? 2.0 : 1.0,
             static_cast<double>(problem().softening_count())};
 }

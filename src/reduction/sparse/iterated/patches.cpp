@@ -38,7 +38,7 @@ Patches::Patches(const JumpSystem& system)
       member_(barred_) {
     const SparseMatrix& a = system.matrix();
     const double mean = static_cast<double>(a.entries()) / static_cast<double>(std::max<std::int64_t>(1, a.rows));
-    for (const SparseVector& equation : system.equations())
+    for (const SparseVector& equation : system.rows().equations())
         for (const auto& [i, c] : equation)
             barred_[index(i)] =
                 !(system.diagonal()[index(i)] > 0.0) ||
@@ -149,7 +149,7 @@ Patches::Patch Patches::make(std::vector<std::int64_t> variables, const Poll& po
 // The parts of constraints that lie in the patch, independent ones.
 void Patches::take_equations(Patch& patch) const {
     SparseElimination known;
-    for (const SparseVector& equation : system_.equations()) {
+    for (const SparseVector& equation : system_.rows().equations()) {
         SparseVector own;
         for (const auto& [i, c] : equation) {
             const auto at = std::lower_bound(patch.variables.begin(), patch.variables.end(), i);

@@ -21,6 +21,9 @@ namespace {
 // Rounding of a sum that cancels, relative to the work of all tangents along a rigid motion.
 constexpr double cancelled = 1e-13;
 
+// Numbers of a saved state between the springs and the seeds.
+constexpr std::size_t saved_numbers = 3;
+
 }  // namespace
 
 bool Reanalysis::keeps_two_factors(const Problem& problem) { return problem.options.solution == "energetic"; }
@@ -31,8 +34,9 @@ Reanalysis::Reanalysis(const BodySystem& bodies, SparseMatrix transformed, Monit
       system_(bodies, std::move(transformed), [&monitor] { monitor.progress("assemble", 0, 0); }),
       floating_(bodies, system_),
       patches_(system_),
-      renewal_(bodies.problem().options.limits, bodies.problem().options.limits.renewal_most_first),
-      comes_back_(keeps_two_factors(bodies.problem())) {
+      factor_(system_, keeps_two_factors(bodies.problem()), monitor),
+      preconditioner_(system_, patches_, factor_),
+      renewal_(bodies.problem().options.limits, bodies.problem().options.limits.renewal_most_first) {
     const std::size_t patterns = bodies_.problem().patterns.size();
     std::vector<double> nodal(index(bodies_.dofs()));
     for (std::size_t p = 0; p < patterns; ++p) {
@@ -42,8 +46,6 @@ Reanalysis::Reanalysis(const BodySystem& bodies, SparseMatrix transformed, Monit
         load_.emplace_back(index(system_.count()));
         multiply_transposed(bodies_.variables().transform, nodal, load_.back());
     }
-    monitor_.progress("analyse", 0, 0);
-    whole_ = std::make_unique<WholeFactor>(system_, [&monitor] { monitor.progress("analyse", 0, 0); });
 }
 
 std::vector<double> Reanalysis::load(std::span<const double> theta) const {
@@ -59,7 +61,7 @@ bool Reanalysis::plain() const {
 }
 
 std::vector<std::int64_t> Reanalysis::changed() const {
-    const std::vector<std::uint8_t> row = differing_rows(system_, lagged_);
+    const std::vector<std::uint8_t> row = differing_rows(system_, factor_.springs());
     std::vector<std::int64_t> variables;
     for (std::size_t r = 0; r < row.size(); ++r)
         for (const auto& [i, n] : system_.rows()[r].unknowns)
@@ -71,51 +73,21 @@ std::vector<std::int64_t> Reanalysis::changed() const {
 
 double Reanalysis::iteration_cost() const {
     const double matrix = static_cast<double>(system_.matrix().entries());
-    return triangular_slowdown * (4.0 * whole_->entries() + 6.0 * matrix + 8.0 * patches_.entries());
+    return triangular_slowdown * (4.0 * factor_.whole().entries() + 6.0 * matrix + 8.0 * patches_.entries());
 }
 
 std::int64_t Reanalysis::affordable() const {
     const Limits& limits = bodies_.problem().options.limits;
-    const double worth = (whole_->size().flops - renewal_.excess()) / iteration_cost();
+    const double worth = (factor_.whole().size().flops - renewal_.excess()) / iteration_cost();
     return std::clamp(static_cast<std::int64_t>(worth), limits.patch_least_attempt, limits.patch_longest_attempt);
 }
 
-void Reanalysis::factorise_whole() {
-    monitor_.progress("factor", factorisations_, 0);
-    std::vector<Zone::Coupling> springs;
-    for (std::size_t r = 0; r < lagged_.size(); ++r)
-        if (lagged_[r] != 0.0)
-            springs.push_back({static_cast<std::int64_t>(r), static_cast<std::int64_t>(r), lagged_[r]});
-    ++factorisations_;
-    whole_->factorise(spring_entries(system_, springs, std::vector<std::uint8_t>(lagged_.size(), 0)),
-                      [this] { monitor_.progress("factor", factorisations_, 0); });
-}
-
-void Reanalysis::swap_factor_out() {
-    if (!comes_back_ || !remembered_ || lagged_.empty()) return;
-    if (other_factor_ == nullptr)
-        other_factor_ = std::make_unique<WholeFactor>(system_, [this] { monitor_.progress("analyse", 0, 0); });
-    other_factor_.swap(whole_);
-    other_springs_ = std::move(lagged_);
-    lagged_.clear();
-    remembered_ = false;
-}
-
 void Reanalysis::renew(std::vector<double> springs) {
-    swap_factor_out();
-    lagged_.clear();  // an interrupted factorisation is never taken for a valid one
+    factor_.leave();
     patches_.forget();
-    std::vector<double> now = std::move(springs);
-    lagged_.swap(now);
-    try {
-        factorise_whole();
-    } catch (...) {
-        lagged_.clear();
-        throw;
-    }
+    factor_.factorise(std::move(springs));
     renewal_.renewed();
     rounded_ = 0.0;
-    remembered_ = false;
 }
 
 void Reanalysis::renew_now() {
@@ -147,7 +119,7 @@ bool Reanalysis::factorise_patches() {
 bool Reanalysis::set(std::vector<Zone::Coupling> couplings, std::span<const std::uint8_t> held) {
     system_.set(std::move(couplings), held);
     floating_.update();
-    const bool renewed = lagged_.empty() || (renewal_.due(whole_->size().flops) && !changed().empty());
+    const bool renewed = factor_.empty() || (renewal_.due(factor_.whole().size().flops) && !changed().empty());
     if (renewed) renew_now();
     // A factor of the whole cannot have tangents: those of some pairs are negative.
     if (!cover(renewed || !plain())) {
@@ -155,26 +127,17 @@ bool Reanalysis::set(std::vector<Zone::Coupling> couplings, std::span<const std:
         cover(true);
     }
     const bool definite = factorise_patches();
-    null_.clear();
-    for (std::vector<double> motion : floating_.free()) {
-        system_.reduce(motion);
-        for (int pass = 0; pass < 2; ++pass)
-            for (const std::vector<double>& other : null_) add_scaled(-dot(other, motion), other, motion);
-        const double length = std::sqrt(dot(motion, motion));
-        if (!(length > 0.0)) continue;
-        for (double& m : motion) m /= length;
-        null_.push_back(std::move(motion));
-    }
+    preconditioner_.set_free(floating_.free());
     return definite;
 }
 
 std::vector<double> Reanalysis::right_side(std::span<const double> theta, std::span<const double> row_force) const {
     std::vector<double> b = load(theta);
     for (std::size_t r = 0; r < row_force.size(); ++r)
-        if (system_.held()[r] == 0 && row_force[r] != 0.0) system_.add_row(r, row_force[r], b);
-    const std::vector<double> offset = system_.offsets(theta);
+        if (system_.held()[r] == 0 && row_force[r] != 0.0) system_.rows().add(r, row_force[r], b);
+    const std::vector<double> offset = system_.rows().offsets(theta);
     for (const Zone::Coupling& c : system_.couplings())
-        if (offset[index(c.column)] != 0.0) system_.add_row(index(c.row), -c.value * offset[index(c.column)], b);
+        if (offset[index(c.column)] != 0.0) system_.rows().add(index(c.row), -c.value * offset[index(c.column)], b);
     return b;
 }
 
@@ -182,7 +145,7 @@ std::vector<double> Reanalysis::right_side(std::span<const double> theta, std::s
 double Reanalysis::work_of_couplings(std::span<const double> x) const {
     double work = 0.0;
     for (const Zone::Coupling& c : system_.couplings())
-        work += std::abs(system_.row_value(index(c.row), x) * c.value * system_.row_value(index(c.column), x));
+        work += std::abs(system_.rows().value(index(c.row), x) * c.value * system_.rows().value(index(c.column), x));
     return work;
 }
 
@@ -209,9 +172,9 @@ SolveError Reanalysis::error_of(std::span<const double> correction, double least
     std::vector<double> left(correction.size()), force(system_.rows().size(), 0.0);
     system_.multiply_held(correction, left);
     system_.add_couplings(correction, left);
-    system_.multipliers(left, force);
+    system_.space().multipliers(left, force);
     for (std::size_t r = 0; r < force.size(); ++r)
-        if (system_.held()[r] == 0) error.jump = std::max(error.jump, std::abs(system_.row_value(r, correction)));
+        if (system_.held()[r] == 0) error.jump = std::max(error.jump, std::abs(system_.rows().value(r, correction)));
     const double factor = renewal_.doubt(least);
     return {factor * error.jump, factor * max_abs(force)};
 }
@@ -225,24 +188,24 @@ std::vector<double> Reanalysis::held_forces(std::span<const double> theta, std::
         if (system_.held()[r] != 0)
             force[r] = 0.0;
         else
-            system_.add_row(r, -force[r], left);
+            system_.rows().add(r, -force[r], left);
     }
-    return system_.multipliers(left, force);
+    return system_.space().multipliers(left, force);
 }
 
 // The recursion's residual against the true one, in units of what rounding does to each component.
 bool Reanalysis::confirm(std::span<const double> right, std::span<const double> theta, std::span<const double> x,
                          std::span<const double> residual) const {
-    if (!null_.empty() || !floating_.weak().empty()) return false;
+    if (preconditioner_.any_free() || !floating_.weak().empty()) return false;
     std::vector<double> at(x.begin(), x.end()), r(x.size()), sizes(x.size());
-    system_.spread(at, theta);
+    system_.space().spread(at, theta);
     system_.apply(at, r, sizes);
     for (std::size_t i = 0; i < r.size(); ++i) {
         r[i] = right[i] - r[i];
         sizes[i] += std::abs(right[i]);
     }
-    system_.gather(r);
-    system_.gather_sizes(sizes);
+    system_.space().gather(r);
+    system_.space().gather_sizes(sizes);
     for (std::size_t i = 0; i < r.size(); ++i)
         if (!(std::abs(r[i] - residual[i]) <= bodies_.problem().options.limits.restart_rounding_units *
                                                   std::numeric_limits<double>::epsilon() * sizes[i]))
@@ -261,47 +224,10 @@ double Reanalysis::rounding_at(std::span<const double> right, std::span<const do
         seed = seed * 6364136223846793005u + 1442695040888963407u;
         if ((seed >> 63U) == 0) d = -d;
     }
-    system_.gather(delta);
-    for (const std::vector<double>& motion : null_) add_scaled(-dot(motion, delta), motion, delta);
-    precondition(delta, z);
+    system_.space().gather(delta);
+    preconditioner_.project(delta);
+    preconditioner_.apply(delta, z);
     return std::numeric_limits<double>::epsilon() * std::sqrt(std::abs(dot(delta, z)));
-}
-
-void Reanalysis::precondition(std::span<const double> r, std::span<double> z) {
-    const auto reduced = [&](std::vector<double>& v) {
-        system_.gather(v);
-        for (const std::vector<double>& motion : null_) add_scaled(-dot(motion, v), motion, v);
-    };
-    const auto subtract_image = [&] {  // work_ = r - A z
-        for (std::size_t i = 0; i < work_.size(); ++i) work_[i] = r[i] - image_[i];
-        reduced(work_);
-    };
-    work_.resize(r.size());
-    image_.resize(r.size());
-    std::fill(z.begin(), z.end(), 0.0);
-    const bool patched = patches_.count() > 0;
-    if (patched) {
-        patches_.add(r, z);
-        system_.spread(z);
-        system_.apply_sparse(z, image_);
-        subtract_image();
-    } else {
-        std::copy(r.begin(), r.end(), work_.begin());
-    }
-    whole_->apply(work_, image_);
-    system_.spread(image_);
-    for (std::size_t i = 0; i < z.size(); ++i) z[i] += image_[i];
-    if (patched) {
-        if (null_.empty())
-            system_.apply(z, image_, patches_.members());
-        else
-            system_.apply(z, image_);
-        subtract_image();
-        std::fill(image_.begin(), image_.end(), 0.0);
-        patches_.add(work_, image_);
-        system_.spread(image_);
-        for (std::size_t i = 0; i < z.size(); ++i) z[i] += image_[i];
-    }
 }
 
 // The multiple of the start that has the least energy: a load that has only grown needs nothing else. No start is used
@@ -310,9 +236,9 @@ void Reanalysis::precondition(std::span<const double> r, std::span<double> z) {
 std::vector<double> Reanalysis::start_from(std::span<const double> right, std::span<const double> theta,
                                            std::span<double> x) const {
     std::vector<double> y(x.begin(), x.end()), image(x.size());
-    system_.spread(y);
+    system_.space().spread(y);
     std::vector<double> rest(x.size(), 0.0), of_rest(x.size(), 0.0);
-    system_.spread(rest, theta);
+    system_.space().spread(rest, theta);
     double pull = dot(y, right);
     if (std::any_of(rest.begin(), rest.end(), [](double v) { return v != 0.0; })) {
         system_.apply(rest, of_rest);
@@ -336,7 +262,7 @@ bool Reanalysis::weak_directions(std::vector<Direction>& given) const {
         Direction d{motion, std::vector<double>(motion.size(), 0.0), 0.0};
         system_.add_couplings(d.p, d.ap);  // the bodies do not resist
         const double size = work_of_couplings(d.p);
-        system_.gather(d.ap);
+        system_.space().gather(d.ap);
         for (int pass = 0; pass < 2; ++pass)
             for (const Direction& other : given) {
                 const double share = dot(other.ap, d.p) / other.pap;
@@ -400,20 +326,20 @@ Reanalysis::Answer Reanalysis::solve(std::span<const double> theta, std::span<co
     CgSystem cg;
     cg.apply = [&](std::span<const double> p, std::span<double> ap) {
         std::vector<double> full(p.begin(), p.end());
-        system_.spread(full);
+        system_.space().spread(full);
         system_.apply(full, ap);
-        system_.gather(ap);
+        system_.space().gather(ap);
     };
     // Free motions are null vectors; removing them keeps them from growing. Expressed variables have zeros.
     cg.precondition = [&](std::span<const double> r, std::span<double> z) {
-        precondition(r, z);
-        for (const std::vector<double>& motion : null_) add_scaled(-dot(motion, z), motion, z);
-        system_.spread(z);
+        preconditioner_.apply(r, z);
+        preconditioner_.project(z);
+        system_.space().spread(z);
     };
     answer.definite = weak_directions(cg.given);
     if (!answer.definite) return answer;
     cg.restart = [&](std::span<double> at, std::span<double> r) {
-        system_.spread(at, theta);
+        system_.space().spread(at, theta);
         std::vector<double> springs(at.size(), 0.0);
         for (const Direction& d : cg.given) {
             // Loads and springs alone act along a rigid motion.
@@ -428,13 +354,13 @@ Reanalysis::Answer Reanalysis::solve(std::span<const double> theta, std::span<co
             std::copy(image.begin(), image.end(), r.begin());
         image.clear();
         for (std::size_t i = 0; i < r.size(); ++i) r[i] = right[i] - r[i];
-        system_.gather(r);
-        for (const std::vector<double>& motion : null_) add_scaled(-dot(motion, r), motion, r);
+        system_.space().gather(r);
+        preconditioner_.project(r);
         for (const Direction& d : cg.given) add_scaled(-dot(d.p, r) / d.pap, d.ap, r);
     };
     cg.size = [&](std::span<const double> at) {
         std::vector<double> full(at.begin(), at.end());
-        system_.spread(full, theta);
+        system_.space().spread(full, theta);
         return size_of(theta, full);
     };
     cg.rounding = [&](std::span<const double> at) { return rounding_at(right, at); };
@@ -444,7 +370,7 @@ Reanalysis::Answer Reanalysis::solve(std::span<const double> theta, std::span<co
     cg.each_iteration = [&](std::int64_t iteration) { monitor_.progress("linear solve", iteration, 0); };
     cg.enough = forcing;
     const CgOutcome outcome = iterate(cg, std::max(tolerance, finest), x);
-    system_.spread(x, theta);
+    system_.space().spread(x, theta);
     floating_.settle(x);
     answer.iterations = outcome.iterations;
     answer.residual = outcome.residual;
@@ -471,6 +397,67 @@ BodySolver::Work Reanalysis::work(std::span<const double> theta, std::span<const
 
 double Reanalysis::energy_rounding(std::span<const double> theta, std::span<const double> x) {
     return energy_rounding_of_state(bodies_, theta, x);
+}
+
+// Springs of the whole factor [rows], the operations that a new one would have saved, the rounding of a residual, the
+// iterations of its first solve, then the seeds of the patches.
+std::vector<double> Reanalysis::memory() {
+    factor_.remember();
+    return history();
+}
+
+std::vector<double> Reanalysis::history() const {
+    std::vector<double> m = factor_.springs();
+    if (m.empty()) return m;
+    m.push_back(renewal_.excess());
+    m.push_back(rounded_);
+    m.push_back(renewal_.first());
+    for (const std::int64_t i : patches_.seeds()) m.push_back(static_cast<double>(i));
+    return m;
+}
+
+void Reanalysis::require_memory(std::span<const double> memory) const {
+    if (memory.empty()) return;
+    const auto damaged = [](bool yes) {
+        if (yes) fail(DELAM_ERROR_SNAPSHOT, "snapshot holds springs or patches that the iterated operator cannot have");
+    };
+    const std::size_t rows = system_.rows().size();
+    damaged(memory.size() < rows + saved_numbers);
+    for (std::size_t i = 0; i < rows; ++i) damaged(!(memory[i] >= 0.0 && std::isfinite(memory[i])));
+    damaged(!(memory[rows + 1] >= 0.0 && memory[rows + 1] < 1.0));
+    damaged(!renewal_.allows(memory[rows], memory[rows + 2]));
+    for (std::size_t i = rows + saved_numbers; i < memory.size(); ++i)
+        damaged(!(memory[i] >= 0.0 && memory[i] < static_cast<double>(system_.count())) ||
+                memory[i] != std::floor(memory[i]) || (i > rows + saved_numbers && !(memory[i] > memory[i - 1])));
+}
+
+void Reanalysis::recall(std::span<const double> memory) {
+    if (std::ranges::equal(memory, history())) return;
+    if (memory.empty()) {
+        factor_.leave();
+        patches_.forget();
+        renewal_.renewed();
+        rounded_ = 0.0;
+        return;
+    }
+    require_memory(memory);
+    const std::size_t rows = system_.rows().size();
+    std::vector<double> springs(memory.begin(), memory.begin() + static_cast<std::ptrdiff_t>(rows));
+    for (double& s : springs) s += 0.0;  // negative zero would be saved with its sign
+    std::vector<std::int64_t> seeds;
+    for (std::size_t i = rows + saved_numbers; i < memory.size(); ++i)
+        seeds.push_back(static_cast<std::int64_t>(memory[i]));
+    if (springs != factor_.springs()) {
+        if (factor_.come_back(springs))
+            patches_.forget();
+        else
+            renew(std::move(springs));
+    }
+    factor_.remember();
+    patches_.forget();
+    patches_.cover(seeds, true, [this] { monitor_.progress("patch", 0, 0); });
+    renewal_.restore(memory[rows], memory[rows + 2]);
+    rounded_ = memory[rows + 1] + 0.0;
 }
 
 }  // namespace delam

@@ -17,8 +17,9 @@
 #include "reduction/sparse/body_solver.hpp"
 #include "reduction/sparse/floating.hpp"
 #include "reduction/sparse/iterated/conjugate_gradients.hpp"
+#include "reduction/sparse/iterated/lagged_factor.hpp"
 #include "reduction/sparse/iterated/patches.hpp"
-#include "reduction/sparse/iterated/whole_factor.hpp"
+#include "reduction/sparse/iterated/schwarz.hpp"
 #include "reduction/sparse/jump_system.hpp"
 #include "reduction/sparse/renewal.hpp"
 
@@ -48,8 +49,8 @@ public:
     }
     // g = T^T (f - K U theta)
     std::vector<double> load(std::span<const double> theta) const;
-    std::int64_t factorisations() const override { return factorisations_; }
-    const WholeFactor* whole() const { return whole_.get(); }
+    std::int64_t factorisations() const override { return factor_.factorisations(); }
+    const WholeFactor* whole() const { return &factor_.whole(); }
     const Patches& patches() const { return patches_; }
 
     // True for an analysis that solves other states and comes back.
@@ -66,17 +67,14 @@ private:
     bool cover(bool any_size);
     bool factorise_patches();
     void renew(std::vector<double> springs);
-    void swap_factor_out();
     std::vector<double> history() const;
     void renew_now();  // at the springs that act
-    void factorise_whole();
     std::vector<double> right_side(std::span<const double> theta, std::span<const double> row_force) const;
     double work_of_couplings(std::span<const double> x) const;
     double size_of(std::span<const double> theta, std::span<const double> x) const;
     bool confirm(std::span<const double> right, std::span<const double> theta, std::span<const double> x,
                  std::span<const double> residual) const;
     double rounding_at(std::span<const double> right, std::span<const double> x);
-    void precondition(std::span<const double> r, std::span<double> z);
     std::vector<double> start_from(std::span<const double> right, std::span<const double> theta,
                                    std::span<double> x) const;
     SolveError error_of(std::span<const double> correction, double least) const;
@@ -90,21 +88,12 @@ private:
     JumpSystem system_;
     Floating floating_;
     Patches patches_;
+    LaggedFactor factor_;
+    Schwarz preconditioner_;
     std::vector<std::vector<double>> load_;  // [patterns][variables]
-    std::unique_ptr<WholeFactor> whole_;
-    std::vector<double> lagged_;  // [rows] springs of the factor; held ones as springs. Empty: there is none
-    Renewal renewal_;             // its price and excess in operations
-    bool attempt_ = false;        // too much differs for wide patches, but the factor is still the one before
-    double rounded_ = 0.0;        // rounding of a residual, relative; 0: not yet met with this factor
-    // A search solves other states and comes back: the factor of the state that it leaves is kept beside the one in
-    // use.
-    bool comes_back_;
-    bool remembered_ = false;  // memory() has told of the factor in use
-    std::unique_ptr<WholeFactor> other_factor_;
-    std::vector<double> other_springs_;  // [rows]; empty: there is none
-    std::int64_t factorisations_ = 0;
-    std::vector<std::vector<double>> null_;  // free motions in the reduced space, orthonormal
-    std::vector<double> work_, image_;
+    Renewal renewal_;                        // its price and excess in operations
+    bool attempt_ = false;  // too much differs for wide patches, but the factor is still the one before
+    double rounded_ = 0.0;  // rounding of a residual, relative; 0: not yet met with this factor
 };
 
 }  // namespace delam

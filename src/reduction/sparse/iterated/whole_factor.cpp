@@ -16,7 +16,7 @@ void WholeFactor::factorise(std::span<const Triplet> springs, const Poll& poll) 
     std::vector<Triplet> added(springs.begin(), springs.end());
     double largest = 0.0;
     for (const double d : system_.diagonal()) largest = std::max(largest, d);
-    for (const SparseVector& row : system_.equations())
+    for (const SparseVector& row : system_.rows().equations())
         for (const auto& [i, c] : row) {
             const double d = system_.diagonal()[index(i)];
             added.push_back({i, i, constraint_shift * (d > 0.0 ? d : largest)});
@@ -29,8 +29,8 @@ void WholeFactor::factorise(std::span<const Triplet> springs, const Poll& poll) 
             "the stiffness of bodies and interfaces is not positive definite: check supports, materials and the shapes "
             "of cells");
     const auto solve = [&](std::span<const double> b, std::span<double> x) { factor_.solve(b, x); };
-    if (!constraints_.set(system_.equations(), system_.count(), solve, poll))
-        fail(DELAM_ERROR_NUMERICAL, "the ", system_.equations().size(),
+    if (!constraints_.set(system_.rows().equations(), system_.count(), solve, poll))
+        fail(DELAM_ERROR_NUMERICAL, "the ", system_.rows().equations().size(),
              " constraints on many displacements depend on each other");
     factor_.keep_single();  // every iteration reads it twice
 }
