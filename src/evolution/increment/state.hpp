@@ -101,6 +101,15 @@ struct StepOutcome {
     double search_gap = 0.0;
     std::int64_t jumps = 0;  // instants of this step at which the state jumps
     double released = 0.0;   // energy that the step sets free and nothing stores or dissipates, F L
+    std::int64_t pops = 0;   // pairs that came apart one by one at one load, because the mesh resolves no zone
+    double popped = 0.0;     // part of `released` that they set free, F L
+};
+
+// How the growth of a step went on at its end, for the parts of the next one (step/load_path.hpp).
+struct Growth {
+    double rate = 0.0;       // da/dlnM of the last part that is not flat, L or L2; 0: not known
+    double part_time = 0.0;  // length of the part that would have come next; 0: not known
+    double pop_time = 0.0;   // time from one pair that pops to the next; 0: none does
 };
 
 // The way in which the step was computed.
@@ -143,7 +152,7 @@ struct State {
     StepHistory history;
     JumpWithin jump_within;
     Sensitivity sensitivity;
-    double growth = 0.0;  // da/dlnM of the last part of the step (step/load_path.hpp), L or L2; 0: not known
+    Growth growth;
     // [bodies] the step since which nothing holds all of a body's motions; negative: something does.
     std::vector<std::int64_t> free_since;
 };

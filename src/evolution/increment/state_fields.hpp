@@ -114,7 +114,11 @@ inline constexpr auto saved_fields<State> = std::tuple_cat(
     saved_since(12,
         &State::free_since),
     saved_since(13,
-        &State::growth));
+        member_of(&State::growth, &Growth::rate),
+        member_of(&State::growth, &Growth::part_time),
+        member_of(&State::growth, &Growth::pop_time),
+        member_of(&State::outcome, &StepOutcome::pops),
+        member_of(&State::outcome, &StepOutcome::popped)));
 // clang-format on
 
 static_assert(complete<Response>(saved_fields<Response>) && complete<Ledger>(saved_fields<Ledger>) &&

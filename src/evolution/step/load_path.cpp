@@ -3,293 +3,238 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
+#include <optional>
+#include <string>
 #include <utility>
-#include <vector>
 
 #include "base/numbers.hpp"
+#include "evolution/path/advance.hpp"
+#include "evolution/step/backtrack.hpp"
+#include "evolution/step/bounds.hpp"
+#include "evolution/step/growth_events.hpp"
 
 namespace delam {
 
 namespace {
 
-constexpr double eps = 0.03;           // relative rise of the load over which a whole interface may debond in a jump
-constexpr double jumping_pairs = 2.5;  // of each front: a smaller event is that of single pairs
-constexpr double share = 0.5;          // of the pairs on a front that a part of mixed mode dissipates
-constexpr double steady = 3.0;         // times the rate of the part before: about the same rate
-constexpr double spent = 0.98;         // share of its toughness from which on a pair lies behind the front
-constexpr double damaged = 1e-3;       // share that tells damage from rounding
-constexpr double over = 1.2;           // times what a part should dissipate
+// Pairs on a front that a part of mixed mode dissipates, or one where pairs pop.
+constexpr double pairs_of_part = 0.5, popping_pairs = 1.0;
+constexpr double resolving_pairs_of_zone = 3.0;  // pairs of a process zone that the mesh resolves
+constexpr double same_rate = 3.0;      // times the rate of the part before: the growth goes on as it did
+constexpr double allowance = 1.2;      // times what a part should dissipate
+constexpr double telling_part = 0.25;  // pairs on a front: less of an advance does not tell how a front grows
+constexpr double set_free = 0.05;      // of what a part dissipates: it would release more than by its own error
+constexpr int most_refused = 40;       // parts in a row; then one is kept, however far it goes
 
-// What a part has dissipated, of the interface where that is most.
-struct Advance {
-    double area = 0.0;   // sum w dg/Gc, L or L2
-    double row = 0.0;    // of the pairs on its fronts
-    double zone = 0.0;   // of all pairs that it damages
-    double whole = 0.0;  // of the interface, as far as it adhered at first
+// The instants of a part.
+struct Plan {
+    double start;       // from which on pairs may be damaged
+    double reach;       // end of the part
+    double shortest;    // that changes anything beyond the tolerance of the minimisation
 };
 
-std::vector<double> shares(const PairLaws& pairs, const State& state) {
-    std::vector<double> of(state.adhesion.size(), 0.0);
-    for (std::size_t p = 0; p < of.size(); ++p) {
-        if (pairs.law[p] == nullptr) continue;
-        const Toughness t = pairs.toughness(p, state.mixity[p]);
-        of[p] = state.adhesion[p] > 0.0 ? pairs.law[p]->dissipated(t, state.adhesion[p]) / t.total : 1.0;
-    }
-    return of;
-}
-
-Advance advance_of(const PairLaws& pairs, const PairGraph& graph, std::span<const double> initial, const State& before,
-                   const State& after) {
-    const std::vector<double> from = shares(pairs, before), to = shares(pairs, after);
-    std::vector<Advance> of;
-    std::vector<double> smallest;
-    for (std::size_t p = 0; p < from.size(); ++p) {
-        const std::size_t i = index(graph.interface_of(p));
-        if (of.size() <= i) of.resize(i + 1), smallest.resize(i + 1, std::numeric_limits<double>::infinity());
-        if (pairs.law[p] == nullptr || !(initial[p] > 0.0)) continue;
-        of[i].whole += pairs.weight[p];
-        if (!(after.adhesion[p] < before.adhesion[p])) continue;
-        const double change = std::max(0.0, to[p] - from[p]);
-        of[i].area += pairs.weight[p] * change;
-        if (change < damaged) continue;
-        of[i].zone += pairs.weight[p];
-        smallest[i] = std::min(smallest[i], pairs.weight[p]);
-        const auto neighbours = graph.neighbours(p);
-        if (from[p] < spent && std::any_of(neighbours.begin(), neighbours.end(),
-                                           [&](std::int64_t q) { return from[index(q)] >= spent; }))
-            of[i].row += pairs.weight[p];
-    }
-    Advance most;
-    for (std::size_t i = 0; i < of.size(); ++i)
-        if (of[i].area > most.area) {
-            most = of[i];
-            if (!(most.row > 0.0)) most.row = std::min(smallest[i], most.zone);
-        }
-    return most;
-}
-
-// ln of the load after over that before, both at the damage before: E = M^2 / 2.
-double rise(const State& before, const State& after, double upper) {
-    if (const std::optional<double> a = load_ratio(before.theta, after.theta)) return -std::log(*a);
-    const double from = before.ledger.energy(), to = from + upper;
-    return from * to > 0.0 ? 0.5 * std::abs(std::log(to / from)) : std::numeric_limits<double>::infinity();
-}
-
-class Follower {
+class LoadPath {
 public:
-    Follower(Stepper& stepper, const PairGraph& graph, const State& before, double end, const Options& options)
-        : stepper_(stepper), graph_(graph), options_(options), end_(end), begin_(before.time), at_(before), rate_(before.growth) {
+    LoadPath(Stepper& stepper, const PairGraph& graph, const State& before, double end, const Options& options)
+        : stepper_(stepper),
+          options_(options),
+          end_(end),
+          at_(before),
+          graph_(graph),
+          events_(stepper.pairs(), graph),
+          growth_(before.growth),
+          popping_(before.growth.pop_time > 0.0),
+          popped_(popping_) {
         history_.revised_from = before.step + 1;
+        least_rise_ = std::max(smallest_share(stepper.pairs(), graph, stepper.initial_adhesion()) * one_pair_rise,
+                               10.0 * options.damage_tolerance);
     }
 
     ControlledStep run() {
-        while (at_.time < end_) part();
+        while (at_.time < end_) advance();
         return close();
     }
 
 private:
-    struct Part {
-        double rise = 0.0;  // of ln M, from the first damage on
-        double area = 0.0, row = 0.0, whole = 0.0;
-        bool flat = false;
-    };
+    static constexpr double one_pair_rise = 0.01;  // a third of what makes the advance of one pair flat
 
-    // Factor on the load at which the first pair meets its threshold; 1: some do now.
-    double margin() const {
-        double least = std::numeric_limits<double>::infinity();
-        const PairLaws& pairs = stepper_.pairs();
-        for (std::size_t p = 0; p < at_.adhesion.size(); ++p) {
-            if (pairs.law[p] == nullptr || !(at_.adhesion[p] > 0.0)) continue;
-            const Driving y = driving_energy(pairs, p, at_.response.jump);
-            if (!(y.total() > 0.0)) continue;
-            const double b = pairs.mixed(p) ? (y.total() > 0.0 ? y.tangential / y.total() : 0.0) : at_.mixity[p];
-            const double need = pairs.law[p]->driving(pairs.toughness(p, b), at_.adhesion[p]);
-            least = std::min(least, std::sqrt(need / y.total()));
-        }
-        return std::max(1.0, least);
-    }
-
-    void part() {
-        const double length = end_ - at_.time;
-        double start = at_.time;  // from where on pairs may be damaged
-        double reach = end_;
-        const std::optional<double> a =
-            at_.loaded != 0 ? load_ratio(at_.theta, stepper_.factors(end_)) : std::nullopt;
-        const double least_rise = std::max(0.3 * eps * least_share(), 10.0 * options_.damage_tolerance);
-        if (a && *a < 1.0) {
-            // In proportion, the instant of the first damage is known.
-            const double factor = margin(), per_rise = *a / (1.0 - *a) * length;  // time over d(M/M_0)
-            const double onset = factor > 1.0 + 0.1 * least_rise ? (factor - 1.0) * per_rise : 0.0;
-            const double first = least_rise * per_rise;
-            if (onset >= length) {
-                start = end_;
-            } else {
-                start = at_.time + onset;
-                reach = std::min(end_, start + (onset > 0.0 ? first : next_length_ > 0.0 ? std::max(next_length_, first) : length));
-            }
-        } else if (next_length_ > 0.0) {
-            reach = std::min(end_, at_.time + next_length_);
-        }
-        while (true) {
-            if (!(reach > at_.time)) reach = std::nextafter(at_.time, end_);
-            Stepper::Result result = stepper_.step(at_, reach);
-            effort_.add(result.state.effort);
-            const Advance advance = advance_of(stepper_.pairs(), graph_, stepper_.initial_adhesion(), at_, result.state);
-            const double own = reach - start;
-            const double rose = rise(at_, result.state, result.state.ledger.upper) * std::clamp(own / (reach - at_.time), 0.0, 1.0);
-            if (!(advance.zone > 0.0)) {
-                if (own > 0.0) next_length_ = 4.0 * own;
-                accept(std::move(result), {}, start);
-                return;
-            }
-            const bool one_mode = stepper_.one_mode(at_, result.state);
-            const bool flat = rose <= eps * advance.area / advance.whole;
-            const double target = one_mode ? jumping_pairs * advance.row : share * advance.row;
-            const double wanted = std::max(target, options_.path_step * advance.zone);
-            const bool same_rate = one_mode && rate_ > 0.0 && advance.area <= steady * rate_ * rose;
-            if (flat || same_rate || advance.area <= over * wanted) {
-                next_length_ = own * std::clamp(wanted / advance.area, 0.2, 4.0);
-                if (same_rate) next_length_ = std::max(next_length_, 4.0 * own);
-                if (rose > 0.0 && std::isfinite(rose) && !flat) rate_ = advance.area / rose;
-                accept(std::move(result), {rose, advance.area, advance.row, advance.whole, flat}, start);
-                return;
-            }
-            ++refused_;
-            reach = start + own * std::clamp(0.8 * wanted / advance.area, 0.05, 0.5);
-        }
-    }
-
-    // Smallest weight of a pair over the area of its interface: the least advance that counts.
-    double least_share() {
-        if (least_share_ > 0.0) return least_share_;
-        const PairLaws& pairs = stepper_.pairs();
-        std::vector<double> whole, smallest;
-        for (std::size_t p = 0; p < pairs.law.size(); ++p) {
-            const std::size_t i = index(graph_.interface_of(p));
-            if (whole.size() <= i) whole.resize(i + 1, 0.0), smallest.resize(i + 1, std::numeric_limits<double>::infinity());
-            if (pairs.law[p] == nullptr || !(stepper_.initial_adhesion()[p] > 0.0)) continue;
-            whole[i] += pairs.weight[p];
-            smallest[i] = std::min(smallest[i], pairs.weight[p]);
-        }
-        least_share_ = 1.0;
-        for (std::size_t i = 0; i < whole.size(); ++i)
-            if (whole[i] > 0.0) least_share_ = std::min(least_share_, smallest[i] / whole[i]);
-        return least_share_;
-    }
-
-    void accept(Stepper::Result result, Part part, double start) {
-        State& next = result.state;
-        Ledger& ledger = next.ledger;
-        const Ledger& before = at_.ledger;
-        double trapezoid = 0.0;
-        for (std::size_t p = 0; p < next.theta.size(); ++p)
-            trapezoid += 0.5 * (next.theta[p] - at_.theta[p]) * (next.response.conjugate[p] + at_.response.conjugate[p]);
-        const bool moved_first = part.flat || (start > at_.time && part.area > 0.0);
-        const double work = moved_first && load_ratio(at_.theta, next.theta) ? ledger.upper : trapezoid;
-        next.outcome.released = part.flat ? std::max(0.0, work - ledger.increment) : 0.0;
-        ledger.work = before.work + work;
-        ledger.released = before.released + next.outcome.released;
-        next.jump_within = {};
-        watch(part, next);
-        sum_.lower += ledger.lower;
-        sum_.increment += ledger.increment;
-        sum_.upper += ledger.upper;
-        sum_.increment_lower += ledger.increment_lower;
-        sum_.mixity_error = std::max(sum_.mixity_error, ledger.mixity_error);
-        outcome_.released += next.outcome.released;
-        outcome_.mixity_held += next.outcome.mixity_held;
-        converged_ = converged_ && result.converged;
-        searched_ += result.searched;
-        ++parts_;
-        if (std::getenv("DELAM_TRACE"))
-            std::fprintf(stderr, "part %.9g..%.9g rise %.3g area %.4g row %.3g whole %.3g flat %d work %.5g incr %.5g am %ld rate %.4g\n", at_.time, next.time,
-                         part.rise, part.area, part.row, part.whole, part.flat, work, ledger.increment, (long)next.effort.am_iterations, rate_);
-        at_ = std::move(next);
-        --at_.step;
-    }
-
-    // Extends or ends the event of which the part may belong.
-    void watch(const Part& part, State& next) {
-        const double area = event_.area + part.area, lift = event_.rise + part.rise;
-        const bool belongs = in_event_ && part.area > 0.0 && lift <= eps * area / std::max(part.whole, event_.whole);
-        if (in_event_ && !belongs) end_event();
-        if (!in_event_ && part.flat) {
-            in_event_ = true;
-            event_ = {};
-            event_begin_ = at_;
-        }
-        if (!in_event_) return;
-        event_.area += part.area;
-        event_.rise += part.rise;
-        event_.row = std::max(event_.row, part.row);
-        event_.whole = std::max(event_.whole, part.whole);
-        event_end_ = next;
-    }
-
-    void end_event() {
-        in_event_ = false;
-        const bool jump = event_.area > std::min(jumping_pairs * event_.row, 0.5 * event_.whole);
-        if (!jump) {
-            ++pops_;
-            popped_ += event_end_.ledger.released - event_begin_.ledger.released;
-            return;
-        }
-        jumps_.push_back(describe_jump(stepper_.pairs(), graph_, event_begin_, event_end_));
-        jumps_.back().step = at_.step + 1;
-    }
-
-    ControlledStep close() {
-        if (in_event_) end_event();
-        ++at_.step;
-        ControlledStep out{{std::move(at_), converged_, std::move(searched_)}, std::move(jumps_)};
-        State& state = out.result.state;
-        state.ledger.lower = sum_.lower;
-        state.ledger.increment = sum_.increment;
-        state.ledger.upper = sum_.upper;
-        state.ledger.increment_lower = sum_.increment_lower;
-        state.ledger.mixity_error = sum_.mixity_error;
-        outcome_.damage_change = state.outcome.damage_change;
-        outcome_.jumps = static_cast<std::int64_t>(out.jumps.size());
-        history_.substeps = parts_;
-        history_.refused_steps = refused_;
-        state.effort = effort_;
-        state.outcome = outcome_;
-        state.history = history_;
-        state.growth = rate_;
-        return out;
-    }
+    Plan plan() const;
+    void advance();
+    double wanted(const Advance& advance, bool one_mode) const;
+    void learn(const GrowthPart& part, const Plan& plan, bool one_mode, bool pops);
+    void accept(Stepper::Result result, const GrowthPart& part);
+    double work(const State& next) const;
+    ControlledStep close();
 
     Stepper& stepper_;
-    const PairGraph& graph_;
     const Options& options_;
-    double end_, begin_;
-    State at_, event_begin_, event_end_;
-    double rate_ = 0.0, next_length_ = 0.0, least_share_ = 0.0;
-    Part event_;
-    bool in_event_ = false, converged_ = true;
-    std::vector<JumpEvent> jumps_;
+    double end_;
+    State at_;  // end of the parts accepted so far
+    const PairGraph& graph_;
+    GrowthEvents events_;
+    Growth growth_;
+    bool popping_, popped_;  // pairs pop; the last part took one
+    bool resolved_ = true;
+    double least_rise_ = 0.0;
+    double last_pop_ = -std::numeric_limits<double>::infinity();
+    bool converged_ = true;
     std::string searched_;
     Effort effort_;
     StepOutcome outcome_;
-    StepHistory history_;
+    StepHistory history_{0, 0, 0, 0, 0};
     Ledger sum_;
-    std::int64_t parts_ = 0, refused_ = 0, pops_ = 0;
-    double popped_ = 0.0;
 };
+
+Plan LoadPath::plan() const {
+    const double length = end_ - at_.time;
+    Plan plan{at_.time, end_, 0.0};
+    const std::optional<double> a = at_.loaded != 0 ? load_ratio(at_.theta, stepper_.factors(end_)) : std::nullopt;
+    if (a && *a < 1.0) {
+        const double per_rise = *a / (1.0 - *a) * length;  // time over dM/M
+        const double margin = load_margin(stepper_.pairs(), at_) - 1.0;
+        plan.shortest = least_rise_ * per_rise;
+        if (margin > 0.1 * least_rise_) plan.start = std::min(end_, at_.time + margin * per_rise);
+    }
+    if (popping_ && growth_.pop_time > 0.0)
+        plan.reach = at_.time + growth_.pop_time * (popped_ ? 1.0 : 0.3);
+    else if (growth_.part_time > 0.0)
+        plan.reach = plan.start + growth_.part_time;
+    plan.reach = std::min(end_, std::max(plan.reach, plan.start + plan.shortest));
+    return plan;
+}
+
+double LoadPath::wanted(const Advance& advance, bool one_mode) const {
+    const double pairs = one_mode ? pairs_of_jump : popping_ ? popping_pairs : pairs_of_part;
+    return std::max(pairs * advance.row, options_.path_step * advance.zone);
+}
+
+// Work of the reactions, by the trapezoidal rule.
+double LoadPath::work(const State& next) const {
+    double sum = 0.0;
+    for (std::size_t p = 0; p < next.theta.size(); ++p)
+        sum += 0.5 * (next.theta[p] - at_.theta[p]) * (next.response.conjugate[p] + at_.response.conjugate[p]);
+    return sum;
+}
+
+// Makes parts from the present state, shorter and shorter, until one may be kept.
+void LoadPath::advance() {
+    Plan plan = this->plan();
+    bool along_path = popping_;  // the part is followed in parts at its own load
+    for (int refused = 0;;) {
+        plan.reach = std::max(plan.reach, std::nextafter(at_.time, end_));
+        Stepper::Result result = stepper_.step(at_, plan.reach, {}, along_path ? options_.path_step : 1.0);
+        effort_.add(result.state.effort);
+        const double own = std::max(plan.reach - plan.start, 0.0);
+        GrowthPart part{
+            advance_between(stepper_.pairs(), graph_, stepper_.initial_adhesion(), at_, result.state),
+            load_rise(at_, result.state) * own / (plan.reach - at_.time), std::min(plan.start, plan.reach), false};
+        if (!(part.advance.zone > 0.0)) {
+            part.advance = {};
+            if (own > 0.0) growth_.part_time = 4.0 * own;
+            return accept(std::move(result), part);
+        }
+        const bool one_mode = stepper_.one_mode(at_, result.state);
+        const double limit = wanted(part.advance, one_mode);
+        const bool goes_on = one_mode && growth_.rate > 0.0 && part.advance.area <= same_rate * growth_.rate * part.rise;
+        if (flat(part) || goes_on || part.advance.area <= allowance * limit || refused > most_refused) {
+            const bool telling = part.advance.area > telling_part * part.advance.row;
+            if (telling) resolved_ = part.advance.zone > resolving_pairs_of_zone * part.advance.row;
+            const double dissipated = result.state.ledger.dissipated - at_.ledger.dissipated;
+            const bool releases = work(result.state) - result.state.ledger.increment > set_free * dissipated;
+            const bool pops = telling && single_pairs(part.advance) &&
+                              (!resolved_ || flat(part) || (!one_mode && releases));
+            if (!along_path && !one_mode && (flat(part) || pops)) {
+                along_path = true;  // what it dissipates depends on its path
+                continue;
+            }
+            popping_ = popping_ || pops;
+            part.pops = popping_;
+            learn(part, plan, one_mode, telling && popping_);
+            return accept(std::move(result), part);
+        }
+        ++refused;
+        ++history_.refused_steps;
+        growth_.pop_time *= 0.5;
+        plan.reach = plan.start + own * std::clamp(0.8 * limit / part.advance.area, 0.05, 0.5);
+    }
+}
+
+// Plans the next part from this one.
+void LoadPath::learn(const GrowthPart& part, const Plan& plan, bool one_mode, bool pops) {
+    const double own = plan.reach - plan.start;
+    const bool goes_on = one_mode && growth_.rate > 0.0 && part.advance.area <= same_rate * growth_.rate * part.rise;
+    growth_.part_time = own * std::clamp(wanted(part.advance, one_mode) / part.advance.area, goes_on ? 4.0 : 0.2, 4.0);
+    if (part.rise > 0.0 && std::isfinite(part.rise) && !flat(part)) growth_.rate = part.advance.area / part.rise;
+    popped_ = pops;
+    if (popping_ && !pops) growth_.pop_time *= 1.6;
+    if (!pops) return;
+    growth_.pop_time = std::isfinite(last_pop_) ? plan.reach - last_pop_ : growth_.pop_time;
+    last_pop_ = plan.reach;
+}
+
+// Books the part. Of a flat one, and of one that begins without damage, the work is that at the damage before.
+void LoadPath::accept(Stepper::Result result, const GrowthPart& part) {
+    State& next = result.state;
+    Ledger& ledger = next.ledger;
+    const bool followed = part.pops && !flat(part) && next.jump_within.known != 0;
+    if (!followed) {
+        const bool moves_first = flat(part) || (part.advance.area > 0.0 && part.start > at_.time);
+        const double own = moves_first && load_ratio(at_.theta, next.theta) ? ledger.upper : work(next);
+        next.outcome.released = flat(part) || part.pops ? std::max(0.0, own - ledger.increment) : 0.0;
+        ledger.work = at_.ledger.work + own;
+        ledger.released = at_.ledger.released + next.outcome.released;
+    }
+    next.jump_within = {};
+    events_.add(part, at_, next);
+    sum_.lower += ledger.lower;
+    sum_.increment += ledger.increment;
+    sum_.upper += ledger.upper;
+    sum_.increment_lower += ledger.increment_lower;
+    sum_.mixity_error = std::max(sum_.mixity_error, ledger.mixity_error);
+    outcome_.released += next.outcome.released;
+    outcome_.mixity_held += next.outcome.mixity_held;
+    converged_ = converged_ && result.converged;
+    searched_ += result.searched;
+    ++history_.substeps;
+    at_ = std::move(next);
+    --at_.step;  // the parts of a step share its number
+}
+
+// The whole step: the last state, with the sums and the effort of all parts.
+ControlledStep LoadPath::close() {
+    events_.end();
+    ++at_.step;
+    ControlledStep out{{std::move(at_), converged_, std::move(searched_)}, std::move(events_.jumps)};
+    for (JumpEvent& jump : out.jumps) jump.step = out.result.state.step;
+    State& state = out.result.state;
+    state.ledger.lower = sum_.lower;
+    state.ledger.increment = sum_.increment;
+    state.ledger.upper = sum_.upper;
+    state.ledger.increment_lower = sum_.increment_lower;
+    state.ledger.mixity_error = sum_.mixity_error;
+    outcome_.damage_change = state.outcome.damage_change;
+    outcome_.jumps = static_cast<std::int64_t>(out.jumps.size());
+    outcome_.pops = events_.pops;
+    outcome_.popped = events_.popped;
+    if (!popping_) growth_.pop_time = 0.0;
+    state.effort = effort_;
+    state.outcome = outcome_;
+    state.history = history_;
+    state.growth = growth_;
+    return out;
+}
 
 }  // namespace
 
 bool follows_load(const Options& options) {
     return options.solution == "local" && options.mixity_rule == "converged" && options.minimisation != "alternate" &&
-           options.path_step < 1.0 && !controls_steps(options) && options.backtracking != "on" &&
-           std::getenv("DELAM_WHOLE") == nullptr;
+           options.path_step < 1.0 && !keeps_past(options) && !controls_steps(options);
 }
 
 ControlledStep followed_step(Stepper& stepper, const PairGraph& graph, const State& before, double time,
                              const Options& options) {
-    return Follower(stepper, graph, before, time, options).run();
+    return LoadPath(stepper, graph, before, time, options).run();
 }
 
 }  // namespace delam

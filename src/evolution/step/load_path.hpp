@@ -1,24 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A load step followed along its load: the step is cut into parts, each a minimisation at its own load, so that a part
-// dissipates little of the toughness of a front, unless the state jumps. With a = sum w g/Gc the area that has been
-// dissipated and M the size of the load (in the norm of the energy at fixed damage):
+// A load step followed along its load: it is cut into parts, each a minimisation at its own load, so that no part
+// dissipates much while the load is the same (path/advance.hpp says how that is measured).
 //
-//   - a part without damage reaches to the load at which the first pair meets its threshold, which is known: at fixed
-//     damage jumps are affine in the load
-//   - a part of one mode may dissipate any area at about the rate da/dlnM of the part before, since what it dissipates
-//     does not depend on the path; a part of mixed mode `share` of the pairs on its front
-//   - a part is flat if its advance needs hardly more load,  dlnM <= eps da/A, with the area A of the interface: shorter
-//     parts would not tell more. The load moves first, and then the state jumps.
+//   - Where all loads grow in proportion, the load at which the first pair meets its threshold is known, since jumps at
+//     fixed damage grow with it.
+//   - What a part of one mode dissipates does not depend on its path. Such a part may advance at the rate da/dlnM of the
+//     part before, or by single pairs.
+//   - A part of mixed mode dissipates `path_step` of its process zone, or half of the pairs on its front.
+//   - A part that is flat (growth_events.hpp) advances as far as it does: shorter ones would not tell more. The load
+//     moves first, and then the state jumps; what the jump dissipates is integrated along its own parts at that load
+//     (path/inner_path.hpp), and what is neither stored nor dissipated is released.
+//   - Where the mesh does not resolve the process zone, single pairs pop. A part then takes one of them.
 //
-// Flat parts, and their neighbours as long as the whole is flat, are an event: a jump if it extends over more than 2.5
-// pairs of each front, else pairs that pop, because the mesh does not resolve the process zone.
+// Besides what jumps and pops release, the work of the reactions by the trapezoidal rule, the stored and the dissipated
+// energy do not know of each other: what they leave open (value defect) is the error of the parts.
 #pragma once
 
 #include "evolution/step/step_control.hpp"
 
 namespace delam {
 
-// True if steps are followed in this way.
+// True if steps are followed in this way: local ones with mixity_rule = converged, in more than one part, unless another
+// option controls the steps.
 bool follows_load(const Options& options);
 ControlledStep followed_step(Stepper& stepper, const PairGraph& graph, const State& before, double time,
                              const Options& options);

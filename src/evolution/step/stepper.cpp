@@ -182,7 +182,7 @@ void Stepper::record_step(State& next, const StepRule& step, const InnerPath* pa
 }
 
 InnerPath Stepper::inner_path() {
-    return {pairs_, graph_, problem_.options.path_step,
+    return {pairs_, graph_, stride_,
             [this](const State& before, std::span<const double> mixity, double stride) {
                 return rule_->increment(pairs_, before, mixity, {problem_.options.damage_tolerance, stride});
             },
@@ -270,7 +270,8 @@ bool Stepper::start(State& next, const State& before, double time) {
     return converged;
 }
 
-Stepper::Result Stepper::step(const State& before, double time, std::span<const Start> also) {
+Stepper::Result Stepper::step(const State& before, double time, std::span<const Start> also, double stride) {
+    stride_ = stride > 0.0 ? stride : problem_.options.path_step;
     places_.emplace(*operator_, before.theta, before.response);
     State first;
     const bool converged = start(first, before, time);

@@ -52,7 +52,8 @@ public:
         std::vector<double> adhesion, mixity;  // [pairs]
         double dissipated, dissipated_linear;
     };
-    Result step(const State& before, double time, std::span<const Start> also = {});
+    // stride: the largest share of its toughness that a pair may dissipate in a part; 0: the option path_step.
+    Result step(const State& before, double time, std::span<const Start> also = {}, double stride = 0.0);
     // Displacements alone, at the state's adhesion and a time.
     Result equilibrate(const State& before, double time, std::span<const double> adhesion);
     // d2E / dtheta2 at the state's adhesion and contact set, [patterns][patterns].
@@ -126,6 +127,7 @@ private:
     std::unique_ptr<JumpOperator> operator_;
     Design design_;
     Lift lift_;
+    double stride_ = 1.0;
     std::unique_ptr<JumpOperator> twin_;  // for the search, so that its zone does not disturb that of the analysis
     std::optional<Search> search_;
 };

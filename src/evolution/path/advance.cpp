@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evolution/path/advance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "base/numbers.hpp"
+#include "evolution/step/bounds.hpp"
+#include "law/mixity.hpp"
+
+namespace delam {
+
+namespace {
+
+constexpr double no_limit = std::numeric_limits<double>::infinity();
+// Share of its toughness from which on a pair lies behind the front, as in inner_path.cpp.
+constexpr double spent = 0.98;
+// Smaller changes of this share are what a minimisation leaves open (damage_tolerance is 1e-5).
+constexpr double damaged = 1e-3;
+
+// g/Gc, [pairs]; 1 where nothing adheres.
+std::vector<double> spent_shares(const PairLaws& pairs, const State& state) {
+    std::vector<double> share(state.adhesion.size(), 0.0);
+    for (std::size_t p = 0; p < share.size(); ++p) {
+        if (pairs.law[p] == nullptr) continue;
+        const Toughness t = pairs.toughness(p, state.mixity[p]);
+        share[p] = state.adhesion[p] > 0.0 ? pairs.law[p]->dissipated(t, state.adhesion[p]) / t.total : 1.0;
+    }
+    return share;
+}
+
+}  // namespace
+
+Advance advance_between(const PairLaws& pairs, const PairGraph& graph, std::span<const double> initial,
+                        const State& before, const State& after) {
+    const std::vector<double> from = spent_shares(pairs, before), to = spent_shares(pairs, after);
+    std::vector<Advance> of;
+    std::vector<double> smallest;  // pair that was damaged
+    for (std::size_t p = 0; p < from.size(); ++p) {
+        const std::size_t i = index(graph.interface_of(p));
+        if (of.size() <= i) {
+            of.resize(i + 1);
+            smallest.resize(i + 1, no_limit);
+        }
+        if (pairs.law[p] == nullptr || !(initial[p] > 0.0)) continue;
+        of[i].whole += pairs.weight[p];
+        if (!(after.adhesion[p] < before.adhesion[p])) continue;
+        of[i].area += pairs.weight[p] * std::max(0.0, to[p] - from[p]);
+        if (to[p] - from[p] < damaged) continue;
+        of[i].zone += pairs.weight[p];
+        smallest[i] = std::min(smallest[i], pairs.weight[p]);
+        const auto neighbours = graph.neighbours(p);
+        if (from[p] < spent && std::any_of(neighbours.begin(), neighbours.end(),
+                                           [&](std::int64_t q) { return from[index(q)] >= spent; }))
+            of[i].row += pairs.weight[p];
+    }
+    Advance most;
+    for (std::size_t i = 0; i < of.size(); ++i) {
+        if (!(of[i].area > most.area)) continue;
+        most = of[i];
+        if (!(most.row > 0.0) && most.zone > 0.0) most.row = smallest[i];
+    }
+    return most;
+}
+
+double load_rise(const State& before, const State& after) {
+    if (const std::optional<double> a = load_ratio(before.theta, after.theta)) return -std::log(*a);
+    const double from = before.ledger.energy(), to = from + after.ledger.upper;
+    return from * to > 0.0 ? 0.5 * std::abs(std::log(to / from)) : no_limit;
+}
+
+double load_margin(const PairLaws& pairs, const State& state) {
+    double least = no_limit;
+    for (std::size_t p = 0; p < state.adhesion.size(); ++p) {
+        if (pairs.law[p] == nullptr || !(state.adhesion[p] > 0.0)) continue;
+        const Driving y = driving_energy(pairs, p, state.response.jump);
+        if (!(y.total() > 0.0)) continue;
+        const double mixity = pairs.mixed(p) ? mode_mixity(y.normal, y.tangential) : state.mixity[p];
+        const double threshold = pairs.law[p]->driving(pairs.toughness(p, mixity), state.adhesion[p]);
+        least = std::min(least, std::sqrt(threshold / y.total()));
+    }
+    return std::max(1.0, least);
+}
+
+double smallest_share(const PairLaws& pairs, const PairGraph& graph, std::span<const double> initial) {
+    std::vector<double> whole, smallest;
+    for (std::size_t p = 0; p < pairs.law.size(); ++p) {
+        const std::size_t i = index(graph.interface_of(p));
+        if (whole.size() <= i) {
+            whole.resize(i + 1, 0.0);
+            smallest.resize(i + 1, no_limit);
+        }
+        if (pairs.law[p] == nullptr || !(initial[p] > 0.0)) continue;
+        whole[i] += pairs.weight[p];
+        smallest[i] = std::min(smallest[i], pairs.weight[p]);
+    }
+    double least = 1.0;
+    for (std::size_t i = 0; i < whole.size(); ++i)
+        if (whole[i] > 0.0) least = std::min(least, smallest[i] / whole[i]);
+    return least;
+}
+
+}  // namespace delam
