@@ -652,8 +652,8 @@ DELAM_API int32_t delam_problem_set_orthotropic(delam_problem *problem, int32_t 
 DELAM_API int32_t delam_problem_set_orientation(delam_problem *problem, int32_t body, int64_t count,
                                                 const int64_t *cells, const double *axes, int32_t index_base);
 /* Sets the element formulation of a body (-1: of all). These are the values of formulation:
- *   "incompatible"     the default of bodies with quad4 or hex8 cells: adds internal bending modes after Wilson, Taylor
- *                      and Beresford to these cells, condensed in each; other cells of the body are standard
+ *   "incompatible"     the default of bodies with quad4 or hex8 cells: adds internal bending modes to these cells,
+ *                      condensed in each; other cells of the body are standard
  *   "standard"         without such modes; the default of other bodies
  *   "mean-dilatation"  for nearly incompressible bodies, in which the other formulations lock: projects the dilatation
  *                      of each cell onto constants (quad4, hex8, tri6, tet10) or linear functions (quad8, quad9, hex20)
@@ -1148,15 +1148,15 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  * nor of saved bytes.
  * `field_recoveries` counts recoveries of the displacements from the interfaces, each of one sparse solve. The fields
  * displacement, stress, rotation and mesh_error need one for each state, and with the condensed operator reaction. The
- * values rotation_max, mesh_... and kkt_... need one, and so does delam_solver_average. No other field or value needs one; a step needs
- * one only where rounding may spoil its balance of forces.
+ * values rotation_max, mesh_... and kkt_... need one, and so does delam_solver_average. No other field or value needs
+ * one; a step needs one only where rounding may spoil its balance of forces.
  * `damage_tolerance` bounds `damage_change`, which is <= `damage_tolerance` when converged.
  * `rotation_max` follows from the skew part of the displacement gradient at the centre of the cell. The theory of small
  * strains has a relative error of about half the square of this rotation. The solver warns once (log level 1) if it
  * exceeds 0.1.
  * `mesh_error` R comes from the stresses (Zienkiewicz and Zhu 1987, field mesh_error). It tells whether the mesh is too
- * coarse or its cells lock. Under prescribed displacements, the loads are too high by about R/(1 - R). NaN: no energy is
- * stored, or a body has no material.
+ * coarse or its cells lock. Under prescribed displacements, the loads are too high by about R/(1 - R). NaN: no energy
+ * is stored, or a body has no material.
  * `crack_length` is at most the size of the interface, and in 3D an area. The initially open part goes up to the pair
  * at the tip in 2D. In 3D, it consists of the faces that touch a pair without initial adhesion.
  * delam_solver_front explains `energy_release_rate` and the other values of the fronts. In 3D, G scatters from point to
@@ -1194,10 +1194,11 @@ DELAM_API int32_t delam_solver_value_info(const delam_solver *solver, int64_t in
  * delam_solver_commit records the value of each step. After backtracking, the record holds the values of the replacing
  * steps. delam_solver_equilibrate keeps the number of the committed step, so its commit replaces the entry of that
  * step.
- * key is one of delam_solver_value, with two exceptions: the values that recover the displacements (`rotation_max`, the
- * mesh_ and kkt_ values), and those that count since the solver was created (`bulk_factorisations`, `field_recoveries`). A second
- * request for the same key has no effect. delam_solver_save includes the record. delam_solver_load replaces the record
- * by the one in the bytes; therefore load first, and then request the keys. DELAM_ERROR_STATE: a step is pending.
+ * key is one of delam_solver_value, with two exceptions. One is the values that recover the displacements
+ * (`rotation_max`, the mesh_ and kkt_ values), the other those that count since the solver was created
+ * (`bulk_factorisations`, `field_recoveries`). A second request for the same key has no effect. delam_solver_save
+ * includes the record. delam_solver_load replaces the record by the one in the bytes; therefore load first, and then
+ * request the keys. DELAM_ERROR_STATE: a step is pending.
  * DELAM_ERROR_PROBLEM: a host law failed while the values of a front were computed; the key is not recorded.
  * [null none; status argument, problem, state; since 0.1] */
 DELAM_API int32_t delam_solver_record(delam_solver *solver, const char *key);

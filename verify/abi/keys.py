@@ -148,7 +148,7 @@ def fields_of(header):
 
 
 def texts_of(header, name):
-    return re.findall(r'"([a-z-]+)"', header.functions[name].comment)
+    return list(dict.fromkeys(re.findall(r'"([a-z-]+)"', header.functions[name].comment)))
 
 
 # ---- two beams that are peeled apart ----

@@ -22,6 +22,7 @@ inline reference::Scene make_mmf(double h, const reference::LawData& law, const 
     scene.interface(0, 1);
     scene.begin();
     scene.elastic(-1, 75e9, 0.3);
+    REQUIRE(scene, delam_problem_set_formulation, scene.problem(), -1, "standard");
     scene.law(0, law);
     const auto x = enf_positions(scene);
     std::vector<std::int64_t> notch;

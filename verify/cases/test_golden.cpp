@@ -19,12 +19,13 @@ namespace {
 using reference::Scene;
 using reference::Solver;
 
-// A bar of two cells, pulled and sheared until its interface softens.
+// A bar of two cells, pulled and sheared until its interface softens. They are standard, as the first states have them.
 Scene bar(const char* name) {
     Scene scene(2, {1.0}, {2}, {1.0, 1.0}, {1, 1}, DELAM_QUAD4);
     scene.interface(0, 1);
     scene.begin();
     scene.elastic(-1, 1e12, 0.25);
+    REQUIRE(scene, delam_problem_set_formulation, scene.problem(), -1, "standard");
     scene.law(0, {125e9, 125e9, 100.0, 100.0, 250.0, 500.0});
     const auto bottom = scene.find(0, {0.0, 0.0}, {1.0, 0.0});
     scene.hold(bottom, {1.0, 0.0});
@@ -46,6 +47,7 @@ Scene slab() {
     scene.interface(0, 1);
     scene.begin();
     scene.elastic(-1, 1e12, 0.25);
+    REQUIRE(scene, delam_problem_set_formulation, scene.problem(), -1, "standard");
     scene.law(0, {125e9, 125e9, 100.0, 100.0, 250.0, 500.0});
     const auto bottom = scene.find(0, {0.0, 0.0, 0.0}, {1.0, 0.5, 0.0});
     for (const std::vector<double>& axis : {std::vector<double>{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}})

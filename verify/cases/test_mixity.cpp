@@ -123,6 +123,7 @@ Scene floating_ply(int d, const LawData& law, const char* rule, const char* redu
     scene.interface(1, 2);
     scene.begin();
     scene.elastic(-1, 5e9, 0.3);
+    REQUIRE(scene, delam_problem_set_formulation, scene.problem(), -1, "standard");
     scene.law(0, law);
     LawData upper = law;
     upper.normal_toughness *= 1.3;

@@ -171,8 +171,8 @@ TEST(later_keys_and_set_states) {
 TEST(refused) {
     const reference::Scene scene = cases::small_enf();
     Solver solver(scene, 0.0);
-    for (const char* key : {"no_such_value", "", "kkt_gap", "kkt_equilibrium", "rotation_max", "bulk_factorisations",
-                            "field_recoveries", "crack_length:7"})
+    for (const char* key : {"no_such_value", "", "kkt_gap", "kkt_equilibrium", "rotation_max", "mesh_error",
+                            "mesh_excess", "bulk_factorisations", "field_recoveries", "crack_length:7"})
         cases::expect(delam_solver_record(solver.get(), key) == DELAM_ERROR_ARGUMENT, std::string("recorded: ") + key);
     cases::expect(size_of(solver).steps == 0, "a refusal leaves nothing");
     cases::expect(
@@ -205,7 +205,7 @@ TEST(descriptions_and_aliases) {
                       name.c_str());
         cases::expect(*unit != '\0' && *meaning != '\0', name);
         const std::string price = cost, part = scope;
-        const bool recovers = name.rfind("kkt_", 0) == 0 || name == "rotation_max";
+        const bool recovers = name.rfind("kkt_", 0) == 0 || name.rfind("mesh_", 0) == 0 || name == "rotation_max";
         cases::expect(price == (recovers ? "recovers" : price) && (price != "recovers" || recovers), name + ": cost");
         const bool of_pattern = name.find("load:") == 0 || name.find("reaction:") == 0;
         cases::expect((part == "pattern") == of_pattern, name + ": scope");

@@ -81,6 +81,8 @@ Arms arms(const Setting& setting, bool with_machine) {
     }
     scene.begin();
     scene.elastic(-1, 70e9, 0.3);
+    // The steps are chosen so that Newton's method of the host converges with standard cells.
+    REQUIRE(scene, delam_problem_set_formulation, scene.problem(), -1, "standard");
     scene.law(0, {1e12, 1e12, 20.0, 40.0, 600.0, 1500.0});
     const auto pairs = scene.pairs(0);
     std::vector<std::int64_t> notch;

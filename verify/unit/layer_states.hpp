@@ -105,6 +105,8 @@ inline Problem make_layers_of(const LayerCase& c) {
     f.law.normal_stiffness = f.law.tangential_stiffness = c.stiffness;
     f.control = c.opening == LayerCase::Opening::control;
     Problem problem = unit::make_flexure(f);
+    // What weak springs leave of the digits depends on the cells: the tolerances are those of standard ones.
+    if (c.floating) problem.formulation.assign(problem.formulation.size(), Formulation::standard);
     problem.options.subdomains = c.subdomains;
     problem.options.preconditioner = c.preconditioner;
     if (c.touching) {

@@ -99,9 +99,28 @@ code, text, _ = delam("run", quiet, "--out", out, "--set", "solver.jump_toleranc
 expect(read(os.path.join(out, "jumps.csv")).decode() == COLUMNS + LOADS + ",name\n" and
        about_of(out)["jumps"] == {"count": 0, "released": 0, "debonded": 0, "largest": []}, "no jump")
 found = closing(text)
-expect(len(found) == 1 and found[0].startswith("energy balance: off by "), f"a calm run ends with its balance: {found}")
+expect(len(found) == 2 and found[0].startswith("energy balance: off by ") and
+       found[1].startswith("mesh: error of the stored energy about "),
+       f"a calm run ends with its balance and the error of its mesh: {found}")
 expect(about_of(out)["load_drops"] == {"steps": [], "largest": None} and about_of(out)["mixity_error"]["relative"] == 0,
        "nothing to report in result.json")
+
+# Standard cells of half the thickness of an arm are too stiff, by what incompatible modes would take off.
+coarse = write(changed("h = 0.0015", "h = 0.003", changed("steps = 20", "steps = 2", changed("values = [0.0, 0.006]",
+                                                                                             "values = [0.0, 0.0006]"))))
+loads = {}
+for formulation in ("incompatible", "standard"):
+    code, text, _ = delam("run", coarse, "--out", out, "--set", f"materials[0].formulation={formulation}")
+    error, loads[formulation] = about_of(out)["mesh_error"], float(table(out, "history.csv")[-1]["reaction"])
+    lines = [line for line in closing(text) if "mesh: " in line]
+    expect(code == 0 and error["step"] in (1, 2) and len(lines) == 1, f"{formulation}: {lines}, {error}")
+    if formulation == "incompatible":
+        expect(lines[0].startswith("mesh: ") and error["error"] < 0.03 and error["excess"] == 0, "a mesh that bends")
+    else:
+        expect(lines[0].startswith("warning: mesh: ") and 'formulation = "incompatible" takes off ' in lines[0] and
+               0.03 < error["excess"] <= (1 + 1e-9) * (error["error"] + error["fronts"]), "a mesh that does not")
+        high = loads["standard"] / loads["incompatible"] - 1
+        expect(0.5 * high < error["error"] / (1 - error["error"]) < 2 * high, f"loads are too high by {high}: {error}")
 
 # Interrupted after its first jump: the file has it already, and after --resume it is that of an uninterrupted run.
 whole, half = folder(), folder()

@@ -9,8 +9,10 @@
 
 #include <fmt/format.h>
 
+#include "delam/delam.h"
 #include "result/closing/closing.hpp"
 #include "result/closing/estimate.hpp"
+#include "result/closing/mesh_error.hpp"
 
 namespace {
 
@@ -179,6 +181,29 @@ void estimate() {
     expect(cli::inconclusive_line({}).empty() && cli::violated_steps(rows, 1e-3).empty(), "and holds");
 }
 
+void mesh_error() {
+    cli::Scene flat = scene_of(2, {"press"}), space = scene_of(3, {"press"});
+    flat.geometry.cell_type = DELAM_QUAD4;
+    space.geometry.cell_type = DELAM_TET4;
+    const cli::MeshError small{0.004, 0.02, 0.0, 3, 0.5}, locked{0.1, 0.0, 0.08, 2, 1.0},
+        coarse{0.04, 0.0, 0.0, 2, 1.0}, most{0.6, 0.0, 0.0, 2, 1.0};
+    expect_line(cli::mesh_error_line(small, flat),
+                "mesh: error of the stored energy about 0.4 % (step 3, time 0.5); at the fronts of cracks, 2 %");
+    expect_line(cli::mesh_error_line(locked, flat),
+                "warning: mesh: error of the stored energy about 10 %, loads too high by about 11 % (step 2, time 1): "
+                "formulation = \"incompatible\" takes off 8 %");
+    expect_line(cli::mesh_error_line(coarse, flat),
+                "warning: mesh: error of the stored energy about 4 %, loads too high by about 4.2 % (step 2, time 1): "
+                "use smaller or less distorted cells");
+    expect_line(
+        cli::mesh_error_line(most, space),
+        "warning: mesh: at least half of the stiffness is that of the mesh, not of the bodies (step 2, time 1): "
+        "use tet10 instead of tet4");
+    flat.geometry.cell_type = DELAM_TRI3;
+    expect(cli::mesh_error_line(coarse, flat).ends_with(": use tri6 instead of tri3"), "triangles");
+    expect_line(cli::mesh_error_line({}, flat), "");
+}
+
 }  // namespace
 
 int main() {
@@ -188,5 +213,6 @@ int main() {
     search();
     drops();
     jumps();
+    mesh_error();
     return failures == 0 ? 0 : 1;
 }

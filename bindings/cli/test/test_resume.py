@@ -158,7 +158,8 @@ slow = changed("h = 0.0015", "h = 0.0005", text)
 scene, kept = write(slow), scene
 code, error = stop_after(1, signal.SIGINT, folder())
 expect(code == 130 and error.startswith("delam: interrupted after step"), f"within a step: {error.strip()}")
-expect(not any("cancel" in line or "error" in line for line in shown), f"nothing else is said: {shown[-1].strip()}")
+expect(not any("cancel" in line or "error" in line for line in shown if not line.startswith("mesh: error of the stored energy")),
+       f"nothing else is said: {shown[-1].strip()}")
 scene = kept
 expect_error(delam("run", other, "--out", out, "--resume"), 2, "the scene, with its --set, is not the one")
 

@@ -12,8 +12,8 @@ end
 A field of the step that `look!` has selected, otherwise of the pending state, or of the committed one if no step is
 pending: one column per entry, or a vector of numbers.
 
-Over nodes: displacement. Cells: stress, rotation, mesh_error. Pairs of an interface, or of all one after another: jump, traction,
-adhesion, mixity, contact. Constraints: reaction. Bodies: free_since, free_motion.
+Over nodes: displacement. Cells: stress, rotation, mesh_error. Pairs of an interface, or of all one after another: jump,
+traction, adhesion, mixity, contact. Constraints: reaction. Bodies: free_since, free_motion.
 """
 function field(solver::Solver, key, interface=nothing)
     part = from_zero(interface)

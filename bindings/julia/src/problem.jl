@@ -87,7 +87,7 @@ function set_orientation!(problem::Problem, axes; cells=nothing, body=nothing)
     return problem
 end
 
-"\"incompatible\" (initially, for bodies with quad4 or hex8), \"standard\" (initially, for others) or \"mean-dilatation\"."
+"\"incompatible\" (initially, of bodies with quad4 or hex8), \"standard\" (initially, of others), \"mean-dilatation\"."
 function set_formulation!(problem::Problem, formulation; body=nothing)
     ask(handle -> Raw.delam_problem_set_formulation(handle, body_label(body), formulation), problem)
     return problem

@@ -13,7 +13,7 @@ namespace delam {
 
 namespace {
 
-// What a row of a field belongs to.
+// Tells what a row of a field belongs to.
 enum class Of { nodes, cells, pairs, constraints, bodies };
 
 struct FieldRow {

@@ -27,8 +27,8 @@ constexpr std::size_t in_plane[] = {0, 1, 3};  // xx, yy, xy among all six
 using Stress = std::array<double, most_strains>;
 
 // Factor on eta^2. Stresses of quadratic cells, and of hex8 with incompatible modes, are closer to their own nodal
-// means than to the solution. (Measured, as verify/cases/mesh_error.py prints it: medians of estimated over true
-// errors.)
+// means than to the solution. (Measured, as verify/cases/mesh_error/effectivity.py prints it: medians of estimated over
+// true errors.)
 double calibration(CellType type, Formulation formulation) {
     const bool modes = type == CellType::hex8 && formulation == Formulation::incompatible;
     return modes || !cell_row(type).linear() ? 2.0 : 1.0;

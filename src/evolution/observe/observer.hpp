@@ -23,7 +23,7 @@ class EngineOperator;
 struct MeshErrorShares {
     double away = 0.0;    // error in cells away from the fronts of cracks
     double fronts = 0.0;  // error in cells at fronts, where stresses are singular
-    double excess = 0.0;  // what incompatible modes would take off standard cells
+    double excess = 0.0;  // energy that incompatible modes would take off standard cells
 };
 
 class Observer {

@@ -302,8 +302,8 @@ BREAKS = {
                                                              s=lambda v, g: g["xi"][::-1])),
     "plane stress by default": ("nine constants in the plane", then(
         "problem_create", lambda host, g: host.status("problem_set_plane", g["out"], "plane-stress"))),
-    "incompatible by default": ("formulation by default", then(
-        "problem_create", lambda host, g: host.status("problem_set_formulation", g["out"], -1, "incompatible"))),
+    "standard by default": ("formulation by default", then(
+        "problem_create", lambda host, g: host.status("problem_set_formulation", g["out"], -1, "standard"))),
     "body -1 is body 0": ("materials of all bodies", given("problem_set_elastic", body=default(0, -1)) | given(
         "problem_set_orthotropic", body=default(0, -1)) | given("solver_average", body=default(0, -1))),
     "axes 2 and 1": ("material axes", axes(lambda v, g: blocks(v, 3, (1, 0)))),
@@ -377,6 +377,10 @@ BREAKS = {
         {"stored_bulk": "stored_interface", "stored_interface": "stored_bulk"})),
     "damage without its slope": ("values of a bar", key_as({"dissipated": "dissipated_slides"})),
     "front as zone": ("values of a bar", key_as({"front": "process_zone"})),
+    "error of a mesh as a norm": ("error of a mesh", value_of("mesh_error", each(lambda n: math.sqrt(abs(n))))),
+    "error of all cells": ("error at a front", key_as({"mesh_error_fronts": "mesh_error"})),
+    "excess as error": ("error of a mesh", key_as({"mesh_excess": "mesh_error"})),
+    "error of cells as share": ("error of a mesh", field("mesh_error", lambda v, g: [n / max(sum(v), 1e-300) for n in v])),
     "reaction of the body": ("values of a bar", value_of("reaction:", NEGATED)),
     "levels of the log upside down": ("callbacks of a context", callback(
         "context_set_log", None, ctypes.c_int32, ctypes.c_char_p,

@@ -140,6 +140,7 @@ def golden_bar(host):
     host("mesh_add_interface", mesh, 0, 1, 0.0, Out())
     problem = host("problem_create", host.context, mesh, Out())
     host("problem_set_elastic", problem, -1, 1e12, 0.25)
+    host("problem_set_formulation", problem, -1, "standard")
     law = scenes.bilinear(host, (125e9, 125e9), (100.0, 100.0), (250.0, 500.0))
     host("problem_set_law", problem, 0, law)
     scenes.hold(host, problem, [0, 1, 2], [[1.0, 0.0], [0.0, 1.0]])

@@ -38,7 +38,7 @@ def solution(host, see):
     see.near("solution = energetic", run([("solution", "energetic")]), [toughness, 0.0], "F L", scale=1.0)
 
     def returns(options):
-        bar = brittle_bar(host, bulk, stiffness, toughness, [0.5, 0.6, *openings[2:], 1.01], options)
+        bar = brittle_bar(host, bulk, stiffness, toughness, [0.5, 0.6, *openings[2:], 1.01], options, 1.01)
         return [int(bar.value("backtracks"))]
 
     observe(see, "backtracking", returns, ["on"], [0])

@@ -72,6 +72,7 @@ def prescribed(host, see):
     mesh = cells(host, 2, 2)
     problem = host("problem_create", host.context, mesh, Out())
     host("problem_set_elastic", problem, 0, 50.0, 0.25)
+    host("problem_set_formulation", problem, 0, "standard")
     for name, end in (("a", 1.0), ("b", 2.0), ("c", 3.0)):
         scenes.ramp(host, problem, name, values=(0.0, end))
     host("problem_prescribe_nodes", problem, 2, [2, 5], [3.0, 4.0], 2, [2, 0], [1e-3, 5e-3, -2e-3, 4e-3], 0)

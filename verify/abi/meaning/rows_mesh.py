@@ -383,6 +383,7 @@ def obstacle(host, see):
     see.near("normals", [given[3][:2], given[3][4:6]], normals)
     problem = host("problem_create", host.context, mesh, Out())
     host("problem_set_elastic", problem, 0, 100.0, 0.3)
+    host("problem_set_formulation", problem, 0, "standard")
     host("problem_set_contact", problem, 0)
     rise = scenes.ramp(host, problem)
     scenes.hold(host, problem, [2, 3], [[1.0, 0.0], [0.0, 1.0]])

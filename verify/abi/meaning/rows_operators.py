@@ -118,6 +118,7 @@ class Block:
         problem = host("problem_create", host.context, mesh, Out())
         host("problem_set_elastic", problem, 0, 1e3, 0.25)
         host("problem_set_elastic", problem, 1, 1e3 * contrast, 0.25)
+        host("problem_set_formulation", problem, -1, "standard")  # the counts of iterations are theirs
         host("problem_set_law", problem, 0, scenes.strong(host, springs, springs))
         load = scenes.ramp(host, problem)
         last = 2 * (columns + 1) * (rows + 1)

@@ -157,6 +157,7 @@ def on_slopes(host, times, values):
     host("mesh_add_obstacle", mesh, 2, [1, 0], [c for n in NORMALS for c in n], [0.125, 0.5], 4, 0, Out())
     problem = host("problem_create", host.context, mesh, Out())
     host("problem_set_elastic", problem, 0, 100.0, 0.3)
+    host("problem_set_formulation", problem, 0, "standard")
     host("problem_set_contact", problem, 0)
     rise, apart = scenes.ramp(host, problem, "rise"), scenes.ramp(host, problem, "apart", times, values)
     scenes.hold(host, problem, [2, 3], [[1.0, 0.0], [0.0, 1.0]])

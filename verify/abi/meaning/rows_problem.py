@@ -132,7 +132,8 @@ def all_bodies(host, see):
 
 @row("formulation by default", says=["problem_set_formulation: the default", "problem_set_formulation: -1: of all"])
 def formulation(host, see):
-    """The energy of a square quad4 that is bent, u = x y: standard cells add the shear y."""
+    """The energy of a square quad4 that is bent, u = x y: standard cells add the shear y. Bodies without quad4 and hex8
+    are standard."""
     for given in (None, "standard", "incompatible"):
         mesh = host("mesh_create", host.context, 2, 4, [-0.5, -0.5, 0.5, -0.5, 0.5, 0.5, -0.5, 0.5], Out())
         host("mesh_add_cells", mesh, TYPES["quad4"], 1, [0, 1, 2, 3], None, 0)
@@ -145,7 +146,18 @@ def formulation(host, see):
         solver = host("solver_create", problem, 1.0, Out())
         # 1/2 E I for the bending alone; and 1/2 G int x^2 for the shear.
         see.near(f"energy, {given or 'default'}", scenes.value(host, solver, "stored_bulk"),
-                 1.0 + (0.0 if given == "incompatible" else 0.5), "F L")
+                 1.0 + (0.5 if given == "standard" else 0.0), "F L")
+    for cell in TYPES:
+        places, hashes = scenes.places_of(cell), {}
+        mesh = host("mesh_create", host.context, len(places[0]), len(places), [c for p in places for c in p], Out())
+        host("mesh_add_cells", mesh, TYPES[cell], 1, list(range(len(places))), None, 0)
+        for given in (None, "standard", "incompatible"):
+            problem = host("problem_create", host.context, mesh, Out())
+            if given is None or host.status("problem_set_formulation", problem, -1, given) == 0:
+                hashes[given] = host("problem_hash", problem, Out(17))
+        initial = "incompatible" if cell in ("quad4", "hex8") else "standard"
+        see.that(f"{cell} is {initial} by default: {hashes}", hashes[None] == hashes[initial])
+        see.equal(f"formulations of {cell}", len(hashes), 3 if initial == "incompatible" else 2)
 
 
 @row("eigenstrain", tells=["problem_add_eigenstrain strain", "problem_forces forces",
@@ -184,6 +196,7 @@ def body_matrix(host, see):
     host("mesh_add_cells", mesh, TYPES["quad4"], 1, [4, 5, 2, 1], None, 0)
     problem = host("problem_create", host.context, mesh, Out())
     host("problem_set_orthotropic", problem, 0, NINE)
+    host("problem_set_formulation", problem, 0, "standard")
     host("problem_set_orientation", problem, 0, 1, None, [3.0, 1.0, 0.0, -1.0, 3.0, 0.0], 0)
     rows, entries = host("problem_body_matrix", problem, 0, Out(), Out(), None, None, None)[:2]
     starts, columns, values = host("problem_body_matrix", problem, 0, None, None, Out(rows + 1), Out(entries),

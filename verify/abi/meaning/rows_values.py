@@ -109,6 +109,59 @@ def reactions_of_a_jump(host, see):
     see.near("after", after, [rest, 0.25 * rest], "F L", rel=1e-5)
 
 
+@row("error of a mesh", tells=["solver_field values mesh_error"])
+def mesh_error(host, see):
+    """A bar of two cells, stretched by a and by b: nodal means leave a hat of stress, of height E (a - b)/2 in the middle.
+    And a square that is bent, u = x y, of which incompatible modes would take the shear y."""
+    young, a, b = 30.0, 0.01, 0.04
+    nodes, cells = scenes.unit_cells(2)
+    mesh = host("mesh_create", host.context, 2, 6, [c for p in nodes for c in p], Out())
+    host("mesh_add_cells", mesh, TYPES["quad4"], 2, [n for cell in cells for n in cell], None, 0)
+    problem = host("problem_create", host.context, mesh, Out())
+    host("problem_set_elastic", problem, 0, young, 0.0)
+    scenes.fill(host, problem, list(range(6)), lambda n: [[0.0, a, a + b][n % 3], 0.0], scenes.ramp(host, problem))
+    solver = host("solver_create", problem, 1.0, Out())
+    hat, stored = young * (a - b) ** 2 / 24, 0.5 * young * (a * a + b * b)
+    see.near("errors of two cells", scenes.field(host, solver, "mesh_error"), [hat, hat], "F L")
+    for key, share in ("mesh_error", 2 * hat / stored), ("mesh_error_fronts", 0.0), ("mesh_excess", 0.0):
+        see.near(f"{key} of two cells", value(host, solver, key), share, scale=1.0)
+    for formulation, excess in ("standard", 0.5), ("incompatible", 0.0):
+        mesh = host("mesh_create", host.context, 2, 4, [-0.5, -0.5, 0.5, -0.5, 0.5, 0.5, -0.5, 0.5], Out())
+        host("mesh_add_cells", mesh, TYPES["quad4"], 1, [0, 1, 2, 3], None, 0)
+        problem = host("problem_create", host.context, mesh, Out())
+        host("problem_set_elastic", problem, 0, 24.0, 0.0)
+        host("problem_set_formulation", problem, 0, formulation)
+        scenes.fill(host, problem, [0, 1, 2, 3], lambda n: [0.25 - 0.5 * (n % 2), 0.0], scenes.ramp(host, problem))
+        solver = host("solver_create", problem, 1.0, Out())
+        see.near(f"error of a square, {formulation}", scenes.field(host, solver, "mesh_error"), [excess], "F L", scale=1.0)
+        for key in ("mesh_error", "mesh_excess"):
+            see.near(f"{key} of a square, {formulation}", value(host, solver, key), excess / (1.0 + excess), scale=1.0)
+
+
+@row("error at a front")
+def error_at_a_front(host, see):
+    """Two beams that are peeled apart, of 24 columns of cells: the errors of all cells are those at the front and those
+    away from it, and none of the former is farther than three columns from the front."""
+    columns, notch = 24, 12
+    mesh = host("mesh_create_layers", host.context, 2, [12.0], [columns], 2, [0.5, 0.5], [1, 1], TYPES["quad4"], Out())
+    host("mesh_add_interface", mesh, 0, 1, 0.0, Out())
+    problem = host("problem_create", host.context, mesh, Out())
+    host("problem_set_elastic", problem, -1, 1e5, 0.3)
+    host("problem_set_law", problem, 0, scenes.strong(host, 1e4, 1e4))
+    host("problem_set_adhesion", problem, 0, notch, list(range(notch)), [0.0] * notch, 0)
+    load, row_of = scenes.ramp(host, problem), columns + 1
+    scenes.hold(host, problem, [row_of - 1, 4 * row_of - 1], [[1.0, 0.0], [0.0, 1.0]])
+    scenes.drive(host, problem, [0, 3 * row_of], [0.0, 1.0], load, [-0.1, 0.1])
+    solver = host("solver_create", problem, 1.0, Out())
+    errors = [e[0] for e in scenes.field(host, solver, "mesh_error")]
+    stored, away, fronts = (value(host, solver, key) for key in ("stored_bulk", "mesh_error", "mesh_error_fronts"))
+    see.near("error of all cells", (away + fronts) * stored, sum(errors), "F L")
+    near = sum(e for c, e in enumerate(errors) if abs(c % columns + 0.5 - notch) < 4)
+    see.that(f"the error at the front is of cells there: {fronts * stored}, of {near}",
+             0.1 * near < fronts * stored <= near * (1 + 1e-9))
+    see.that(f"there is error elsewhere: {away}", away > 1e-6)
+
+
 @row("values and fields of a march")
 def march(host, see):
     """For the baseline alone: values and fields of two beams that are peeled apart, in the plane and in space."""

@@ -159,7 +159,7 @@ public:
         outcome.problem_hash = state_.problem_hash;
         BulkFacts bulk = fields_.assemble(model_, scene_, static_cast<std::size_t>(state_.step), state_.problem_hash,
                                           concept_of(model_.problem.get()));
-        // Without fields, the last state tells; on many processes none has all displacements.
+        // Without fields, the last state is estimated; of many processes, none has all displacements.
         if (!std::isfinite(bulk.mesh_error.away) && !fields_.on_many_processes())
             bulk.mesh_error = mesh_error_of(model_, solver_.get());
         outcome.closing = closing_of(model_, solver_.get(), scene_, rows_->text(), bulk);

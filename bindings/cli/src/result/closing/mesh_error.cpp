@@ -15,13 +15,13 @@ namespace cli {
 
 namespace {
 
-// Part of the energy from which on a mesh is too coarse. (Measured, as verify/cases/mesh_error.py prints it: all beams
-// whose loads are wrong by more than 5 % have more, none whose loads are right to 1 %.)
+// Part of the energy from which on a mesh is too coarse. (Measured, as verify/cases/mesh_error/effectivity.py prints
+// it: all beams whose loads are wrong by more than 5 % have more, none whose loads are right to 1 %.)
 constexpr double too_coarse = 0.03;
 // Beyond half of the energy the estimate is no more than a bound.
 constexpr double bound = 0.5;
 
-// What to change: cells of another kind where they would help, else smaller ones.
+// Says what to change: it names cells of another kind where they would help, else smaller ones.
 std::string remedy(const MeshError& error, const Scene& scene) {
     if (error.excess > 0.5 * error.away)
         return fmt::format("formulation = \"incompatible\" takes off {}", percent_text(error.excess));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the fields of nodes and cells say about an analysis as a whole.
+// Facts about an analysis as a whole, which the fields of nodes and cells tell.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace cli {
 struct MeshError {
     double away = std::numeric_limits<double>::quiet_NaN();  // from the fronts of cracks; NaN: not estimated
     double fronts = 0;
-    double excess = 0;  // what incompatible modes would take off
+    double excess = 0;  // energy that incompatible modes would take off
     std::int64_t step = 0;
     double time = 0;
 };
