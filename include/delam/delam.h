@@ -1081,6 +1081,8 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  *   kkt_equilibrium           -        largest out-of-balance nodal force over the largest reaction or nodal force of
  *                                      eigenstrains
  *   free_bodies               -        number of bodies of which nothing holds all motions (field free_since)
+ *   pops                      -        pairs that came apart one by one at one load: the mesh resolves no process zone
+ *   popped                    F L      part of `released` that these pairs set free
  *   mesh_error                -        estimated discretisation error of the bodies' elastic energy, relative to it,
  *                                      away from the fronts of cracks
  *   mesh_error_fronts         -        the same in the cells at fronts, where stresses are singular
@@ -1140,9 +1142,10 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  * also the contact. It covers advances of a single front by whole rings of pairs. It does not cover new cracks, fronts
  * that advance together or partly damaged states. `search_gap` is infinite where there is no such bound (dead loads on
  * parts that nothing holds, `mixity_rule = variational`).
- * With `mixity_rule = converged` and loads in proportion, `released` is what the parts of the step release while the
- * load stands still. Otherwise, a located jump releases upper - increment. A step in which a pair loses more than 0.1
- * of its toughness releases its work less `increment` where that is positive. All other steps release 0.
+ * A local step with `mixity_rule = converged` is followed along its load (option `path_step`): jumps and pairs that pop
+ * release what their path at one load neither stores nor dissipates, and the rest releases 0. Otherwise, a located jump
+ * releases upper - increment. A step in which a pair loses more than 0.1 of its toughness releases its work less
+ * `increment` where that is positive. All other steps release 0.
  * `bulk_factorisations` is 1 with the condensed operator, and one per subdomain with FETI. With the iterated operator,
  * it is one for each renewal of the factor. `bulk_factorisations` and `field_recoveries` are part neither of the state
  * nor of saved bytes.
@@ -1408,17 +1411,17 @@ DELAM_API int32_t delam_solver_look(delam_solver *solver, int64_t step);
 
 /* Returns in *count the number of jumps of the state, i.e. abrupt changes, up to the pending state, or up to the
  * committed state if no step is pending. delam_solver_look does not change it. The jumps are ordered by time. With the
- * option `jump_tolerance`, jumps are the located ones. Without it, a step is a jump if all of this is true:
+ * option `jump_tolerance`, jumps are the located ones. In a step that is followed along its load (value `released`), a
+ * jump is an advance da during which the load M hardly rises, dlnM <= 0.03 da/A. A is the area of the interface, and da
+ * that on which the toughness is dissipated. It extends over more than 2.5 pairs of each front or over half of the
+ * interface, and may release nothing. In other steps, a step is a jump if all of this is true:
  *   - it releases energy (value `released`)
  *   - on some interface, it debonds more than 1.5 rows of pairs
  *   - the load falls by more than 2 %, or the step releases more than 1e-3 of the larger of |stored energy +
  *     load_potential| and |work|
  * The debonded size is the sum of weight times loss of adhesion. 1.5 rows are 1.5 mean weights times the number of
  * pairs that the step damages right next to the debonded region. A front in the plane has one such pair, and a front in
- * space a row of them. The load is the sum of factor times reaction over the norm of the factors.
- * The parts of a step may be known (`mixity_rule = converged`, loads in proportion). Those that happen at one load and
- * release more than 1e-3 of what they dissipate then count together. The conditions apply to the longest advance among
- * them, of all interfaces together, and to the pairs of the interface that debonds most. An energetic step to another
+ * space a row of them. The load is the sum of factor times reaction over the norm of the factors. An energetic step to another
  * state counts even if it releases nothing.
  * [null none; status argument; since 0.1] */
 DELAM_API int32_t delam_solver_jump_count(const delam_solver *solver, int64_t *count);

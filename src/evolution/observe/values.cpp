@@ -313,6 +313,10 @@ constexpr Row table[] = {
             return count(
                 std::count_if(s.free_since.begin(), s.free_since.end(), [](std::int64_t k) { return k >= 0; }));
         }),
+    row("pops", "-", "pairs that came apart one by one at one load, because the mesh resolves no process zone",
+        [](const State& s) { return count(s.outcome.pops); }),
+    row("popped", "F L", "part of `released` that these pairs set free",
+        [](const State& s) { return s.outcome.popped; }),
     recovered_row("mesh_error", "-", "estimated error of the bodies' elastic energy, away from the fronts of cracks",
                   [](const Reading& r) { return r.observer().mesh_error(r.state()).away; }),
     recovered_row("mesh_error_fronts", "-", "the same in the cells at the fronts of cracks",

@@ -52,8 +52,8 @@ Advance advance_between(const PairLaws& pairs, const PairGraph& graph, std::span
         of[i].zone += pairs.weight[p];
         smallest[i] = std::min(smallest[i], pairs.weight[p]);
         const auto neighbours = graph.neighbours(p);
-        if (from[p] < spent && std::any_of(neighbours.begin(), neighbours.end(),
-                                           [&](std::int64_t q) { return from[index(q)] >= spent; }))
+        if (from[p] < spent &&
+            std::any_of(neighbours.begin(), neighbours.end(), [&](std::int64_t q) { return from[index(q)] >= spent; }))
             of[i].row += pairs.weight[p];
     }
     Advance most;

@@ -21,17 +21,17 @@ namespace {
 // Pairs on a front that a part of mixed mode dissipates, or one where pairs pop.
 constexpr double pairs_of_part = 0.5, popping_pairs = 1.0;
 constexpr double resolving_pairs_of_zone = 3.0;  // pairs of a process zone that the mesh resolves
-constexpr double same_rate = 3.0;      // times the rate of the part before: the growth goes on as it did
-constexpr double allowance = 1.2;      // times what a part should dissipate
-constexpr double telling_part = 0.25;  // pairs on a front: less of an advance does not tell how a front grows
-constexpr double set_free = 0.05;      // of what a part dissipates: it would release more than by its own error
-constexpr int most_refused = 40;       // parts in a row; then one is kept, however far it goes
+constexpr double same_rate = 3.0;                // times the rate of the part before: the growth goes on as it did
+constexpr double allowance = 1.2;                // times what a part should dissipate
+constexpr double telling_part = 0.25;            // pairs on a front: less of an advance does not tell how a front grows
+constexpr double set_free = 0.05;  // of what a part dissipates: it would release more than by its own error
+constexpr int most_refused = 40;   // parts in a row; then one is kept, however far it goes
 
 // The instants of a part.
 struct Plan {
-    double start;       // from which on pairs may be damaged
-    double reach;       // end of the part
-    double shortest;    // that changes anything beyond the tolerance of the minimisation
+    double start;     // from which on pairs may be damaged
+    double reach;     // end of the part
+    double shortest;  // that changes anything beyond the tolerance of the minimisation
 };
 
 class LoadPath {
@@ -126,9 +126,9 @@ void LoadPath::advance() {
         Stepper::Result result = stepper_.step(at_, plan.reach, {}, along_path ? options_.path_step : 1.0);
         effort_.add(result.state.effort);
         const double own = std::max(plan.reach - plan.start, 0.0);
-        GrowthPart part{
-            advance_between(stepper_.pairs(), graph_, stepper_.initial_adhesion(), at_, result.state),
-            load_rise(at_, result.state) * own / (plan.reach - at_.time), std::min(plan.start, plan.reach), false};
+        GrowthPart part{advance_between(stepper_.pairs(), graph_, stepper_.initial_adhesion(), at_, result.state),
+                        load_rise(at_, result.state) * own / (plan.reach - at_.time), std::min(plan.start, plan.reach),
+                        false};
         if (!(part.advance.zone > 0.0)) {
             part.advance = {};
             if (own > 0.0) growth_.part_time = 4.0 * own;
@@ -136,14 +136,15 @@ void LoadPath::advance() {
         }
         const bool one_mode = stepper_.one_mode(at_, result.state);
         const double limit = wanted(part.advance, one_mode);
-        const bool goes_on = one_mode && growth_.rate > 0.0 && part.advance.area <= same_rate * growth_.rate * part.rise;
+        const bool goes_on =
+            one_mode && growth_.rate > 0.0 && part.advance.area <= same_rate * growth_.rate * part.rise;
         if (flat(part) || goes_on || part.advance.area <= allowance * limit || refused > most_refused) {
             const bool telling = part.advance.area > telling_part * part.advance.row;
             if (telling) resolved_ = part.advance.zone > resolving_pairs_of_zone * part.advance.row;
             const double dissipated = result.state.ledger.dissipated - at_.ledger.dissipated;
             const bool releases = work(result.state) - result.state.ledger.increment > set_free * dissipated;
-            const bool pops = telling && single_pairs(part.advance) &&
-                              (!resolved_ || flat(part) || (!one_mode && releases));
+            const bool pops =
+                telling && single_pairs(part.advance) && (!resolved_ || flat(part) || (!one_mode && releases));
             if (!along_path && !one_mode && (flat(part) || pops)) {
                 along_path = true;  // what it dissipates depends on its path
                 continue;

@@ -4,7 +4,8 @@
 //
 //   - Where all loads grow in proportion, the load at which the first pair meets its threshold is known, since jumps at
 //     fixed damage grow with it.
-//   - What a part of one mode dissipates does not depend on its path. Such a part may advance at the rate da/dlnM of the
+//   - What a part of one mode dissipates does not depend on its path. Such a part may advance at the rate da/dlnM of
+//   the
 //     part before, or by single pairs.
 //   - A part of mixed mode dissipates `path_step` of its process zone, or half of the pairs on its front.
 //   - A part that is flat (growth_events.hpp) advances as far as it does: shorter ones would not tell more. The load
@@ -20,8 +21,8 @@
 
 namespace delam {
 
-// True if steps are followed in this way: local ones with mixity_rule = converged, in more than one part, unless another
-// option controls the steps.
+// True if steps are followed in this way: local ones with mixity_rule = converged, in more than one part, unless
+// another option controls the steps.
 bool follows_load(const Options& options);
 ControlledStep followed_step(Stepper& stepper, const PairGraph& graph, const State& before, double time,
                              const Options& options);

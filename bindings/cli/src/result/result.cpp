@@ -59,7 +59,11 @@ Json balance_json(const Balance& balance) {
             {"time", balance.time},
             {"defect", balance.defect},
             {"last_defect", balance.last_defect},
-            {"work", balance.work}};
+            {"work", balance.work},
+            {"last_work", balance.last_work},
+            {"stored", balance.stored},
+            {"dissipated", balance.dissipated},
+            {"released", balance.released}};
 }
 
 Json mixity_error_json(const MixityError& error) {
@@ -188,6 +192,7 @@ std::string result_text(const Model& model, delam_solver* solver, const Scene& s
         {"estimate_violated", outcome.closing.estimate_violated},
         {"estimate_hollow", outcome.closing.estimate_inconclusive},
         {"front_unresolved", outcome.closing.front_unresolved},
+        {"pops", {{"pairs", outcome.closing.pops.pairs}, {"released", outcome.closing.pops.released}}},
         {"free_bodies", free_bodies_json(outcome.closing.free_bodies)},
         {"rotation_max", outcome.closing.bulk.rotation_max},
         {"mesh_error", mesh_error_json(outcome.closing.bulk.mesh_error)},

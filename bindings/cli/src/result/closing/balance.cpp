@@ -13,13 +13,14 @@ namespace cli {
 
 namespace {
 
-constexpr double noticeable = 0.01;  // of the work
+constexpr double noticeable = 0.01;  // of the dissipated energy
 
 }  // namespace
 
 double Balance::relative() const {
     if (defect == 0.0) return 0.0;
-    return work > 0.0 ? std::abs(defect) / work : std::numeric_limits<double>::infinity();
+    const double scale = dissipated > 0.0 ? dissipated : work;
+    return scale > 0.0 ? std::abs(defect) / scale : std::numeric_limits<double>::infinity();
 }
 
 Balance balance_of(const Rows& rows, bool slides) {
@@ -33,7 +34,11 @@ Balance balance_of(const Rows& rows, bool slides) {
     for (const Row& row : rows) {
         released += number_of(row, "released");
         const double work = number_of(row, "work");
-        out.last_defect = stored(row) - stored(rows.front()) + number_of(row, "dissipated" + split) + released - work;
+        out.last_work = work;
+        out.stored = stored(row) - stored(rows.front());
+        out.dissipated = number_of(row, "dissipated" + split);
+        out.released = released;
+        out.last_defect = out.stored + out.dissipated + released - work;
         out.work = std::max(out.work, std::abs(work));
         // Negated, so that NaN counts, and stays.
         if (std::isnan(out.defect) || std::abs(out.last_defect) <= std::abs(out.defect)) continue;
@@ -44,13 +49,17 @@ Balance balance_of(const Rows& rows, bool slides) {
     return out;
 }
 
-std::string balance_line(const Balance& balance, const Scene& scene) {
+std::string balance_line(const Balance& balance, std::size_t jumps, const Scene& scene) {
     if (balance.work == 0.0 && balance.defect == 0.0) return "energy balance: no work was done";
+    const std::string in = jumps > 0 ? fmt::format(" in {} {}", jumps, jumps == 1 ? "jump" : "jumps") : "";
     return fmt::format(
-        "{}energy balance: off by {} of the work (stored + dissipated + released - work is {} in {}; the "
-        "work is up to {})",
-        balance.relative() <= noticeable ? "" : "warning: ", percent_text(balance.relative()),
-        energy_text(balance.defect, scene), instant_text(balance.step, balance.time), energy_text(balance.work, scene));
+        "{}energy balance: work {} = stored {} + dissipated {} + released{} {} + open {}; open is {} of the {} at most "
+        "({} in {})",
+        balance.relative() <= noticeable ? "" : "warning: ", energy_text(balance.last_work, scene),
+        energy_text(balance.stored, scene), energy_text(balance.dissipated, scene), in,
+        energy_text(balance.released, scene), energy_text(-balance.last_defect, scene),
+        percent_text(balance.relative()), balance.dissipated > 0.0 ? "dissipated energy" : "work",
+        energy_text(-balance.defect, scene), instant_text(balance.step, balance.time));
 }
 
 }  // namespace cli

@@ -2,6 +2,7 @@
 // The ledger of an analysis: stored + dissipated + released energy against the work, from the rows of history.csv.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -16,12 +17,16 @@ struct Balance {
     double defect = 0;       // there: what is stored, dissipated and released since the start, less the work
     double work = 0;         // the largest of the analysis
     double last_defect = 0;  // at the end
-    // The largest defect over the largest work; 0 if there is neither.
+    // At the end, since the start; stored: with the potential of dead forces.
+    double last_work = 0, stored = 0, dissipated = 0, released = 0;
+    // The largest defect over what it is judged by: the dissipated energy, in an analysis without damage the work; 0 if
+    // there is neither.
     [[nodiscard]] double relative() const;
 };
 
 // slides: the ledger of mixity_rule = variational, the columns that end in _slides.
 Balance balance_of(const Rows& rows, bool slides);
-std::string balance_line(const Balance& balance, const Scene& scene);
+// jumps: how many there were.
+std::string balance_line(const Balance& balance, std::size_t jumps, const Scene& scene);
 
 }  // namespace cli

@@ -20,6 +20,7 @@ Closing closing_of(const Model& model, delam_solver* solver, const Scene& scene,
     out.estimate_violated = violated_steps(rows, out.estimate_tolerance);
     out.estimate_inconclusive = inconclusive_steps(rows);
     out.front_unresolved = unresolved_steps(rows, model, scene);
+    out.pops = pops_of(rows);
     out.free_bodies = free_bodies_of(model, solver, scene);
     out.bulk = bulk;
     return out;
@@ -27,14 +28,14 @@ Closing closing_of(const Model& model, delam_solver* solver, const Scene& scene,
 
 std::vector<std::string> closing_lines(const Closing& closing, const Scene& scene) {
     std::vector<std::string> out = jump_lines(closing.jumps, scene);
-    out.push_back(balance_line(closing.balance, scene));
+    out.push_back(balance_line(closing.balance, closing.jumps.size(), scene));
     out.push_back(estimate_line(closing.estimate_violated, closing.estimate_tolerance));
     out.push_back(inconclusive_line(closing.estimate_inconclusive));
     out.push_back(mixity_error_line(closing.mixity_error, scene));
-    out.push_back(load_drops_line(closing.load_drops));
     for (std::string& line : search_lines(closing.search, scene)) out.push_back(std::move(line));
     for (std::string& line : free_body_lines(closing.free_bodies, scene)) out.push_back(std::move(line));
     out.push_back(unresolved_line(closing.front_unresolved));
+    out.push_back(pops_line(closing.pops));
     out.push_back(mesh_error_line(closing.bulk.mesh_error, scene));
     out.push_back(rotation_line(closing.bulk.rotation_max));
     std::erase(out, "");

@@ -13,6 +13,7 @@
 #include "result/closing/load_drops.hpp"
 #include "result/closing/mesh_error.hpp"
 #include "result/closing/mixity_error.hpp"
+#include "result/closing/resolution.hpp"
 #include "result/closing/search_limits.hpp"
 #include "result/fields/bulk_facts.hpp"
 #include "result/history/jumps.hpp"
@@ -28,8 +29,9 @@ struct Closing {
     std::vector<std::int64_t> estimate_violated, estimate_inconclusive;
     double estimate_tolerance = 0;
     std::vector<std::int64_t> front_unresolved;  // steps in which a crack grew with too few pairs in its process zone
-    std::vector<FreeBody> free_bodies;           // at the end
-    BulkFacts bulk;                              // of the steps with fields
+    Pops pops;
+    std::vector<FreeBody> free_bodies;  // at the end
+    BulkFacts bulk;                     // of the steps with fields
 };
 
 Closing closing_of(const Model& model, delam_solver* solver, const Scene& scene, std::string_view history,

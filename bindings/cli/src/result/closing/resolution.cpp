@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 
 #include "model/call.hpp"
+#include "scene/labels.hpp"
+#include "text/say.hpp"
 
 namespace cli {
 
@@ -16,6 +18,7 @@ namespace {
 
 constexpr double resolving_pairs = 3.0;
 constexpr double small_rotation = 0.1;
+constexpr double told_pops = 0.01;  // of the work
 constexpr double stiffest =
     100.0;  // times the least: a further digit of the layer's stiffness is not worth its rounding
 
@@ -191,6 +194,24 @@ std::string unresolved_line(const std::vector<std::int64_t>& steps) {
         "warning: in {} (the first is step {}) a crack grew with fewer than {:g} pairs in its process zone: the load "
         "and the length of its growth depend on the mesh",
         steps.size() == 1 ? "1 step" : fmt::format("{} steps", steps.size()), steps.front(), resolving_pairs);
+}
+
+Pops pops_of(const Rows& rows) {
+    Pops out;
+    for (const Row& row : rows) {
+        out.pairs += static_cast<std::int64_t>(number_of(row, "pops"));
+        out.released += number_of(row, "popped");
+        out.work = std::max(out.work, std::abs(number_of(row, "work")));
+    }
+    return out;
+}
+
+std::string pops_line(const Pops& pops) {
+    if (!(pops.released > told_pops * pops.work)) return "";
+    return fmt::format(
+        "warning: {} popped one by one and released {} of the work: the mesh does not resolve the process zone (use "
+        "smaller cells or less strength, which `delam check` proposes)",
+        counted(pops.pairs, "pair"), percent_text(pops.released / pops.work));
 }
 
 std::string rotation_line(double largest) {

@@ -28,6 +28,14 @@ std::vector<Advice> advice(const Model& model, const Scene& scene);
 // solutions and for scenes whose laws do not soften.
 std::vector<std::int64_t> unresolved_steps(const Rows& rows, const Model& model, const Scene& scene);
 std::string unresolved_line(const std::vector<std::int64_t>& steps);
+// Pairs that came apart one by one at one load, because the mesh does not resolve the process zone.
+struct Pops {
+    std::int64_t pairs = 0;
+    double released = 0, work = 0;
+};
+Pops pops_of(const Rows& rows);
+// "" where they released little.
+std::string pops_line(const Pops& pops);
 // "" below 0.1 rad.
 std::string rotation_line(double largest);
 

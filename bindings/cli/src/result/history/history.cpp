@@ -22,6 +22,9 @@ constexpr const char* where_known[] = {"revisions",   "search_candidates", "sear
 // Columns of scenes in which an interface may break.
 constexpr const char* of_cracks[] = {"crack_length", "energy_release_rate", "front_mixity", "process_zone_pairs"};
 
+// Columns that came later: a column keeps its place for ever.
+constexpr const char* later[] = {"pops", "popped"};
+
 constexpr const char* unknown_title = "sensitivities_unknown";
 
 }  // namespace
@@ -96,6 +99,8 @@ History::History(const Model& model, const Scene& scene) : model_(model), scene_
     // Words after the numbers: a row that is copied elsewhere still states its solution concept.
     for (const auto& [key, value] : concept_of(model.problem.get()))
         if (key == "solution" || key == "mixity_rule") add(key, "", value);
+    for (const char* key : later)
+        if (knows(key)) add(key, key);
 }
 
 void History::add(const std::string& title, const std::string& key, const std::string& text) {
