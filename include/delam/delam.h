@@ -1157,8 +1157,8 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  * at the tip in 2D. In 3D, it consists of the faces that touch a pair without initial adhesion.
  * `crack_area` is the area behind a line between the pairs, in 2D the length up to a point. On that line, 4/9 of the
  * toughness that was left at the start is dissipated, at the mixity of the jumps. This share is linear between pairs.
- * The line lies in the middle of the process zone. `crack_length` follows the adhesion, which on a stiff interface falls
- * at the outer rim of the zone. Where a front grows steadily, the change of `dissipated` over that of `crack_area` is
+ * The line lies in the middle of the process zone. `crack_length` follows the adhesion, which falls at the outer rim of
+ * the zone on a stiff interface. Where a front grows steadily, the change of `dissipated` over that of `crack_area` is
  * the toughness, on curved fronts as well. The area is at most the size of the interface. At the start it is the
  * initially open part of `crack_length`.
  * On an interface without faces, it is the weight of the pairs behind that line.

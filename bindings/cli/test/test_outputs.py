@@ -75,7 +75,7 @@ with open(os.path.join(wide, "history.csv"), newline="", encoding="utf-8") as fi
              if int(row["step"]) >= 10]
 rates = [row["energy_release_rate_mean"] for row in grown]
 expect(len(rates) == 11 and all(abs(rate / decks.G_I - 1) < 0.1 for rate in rates), f"mean rates {rates}")
-expect(all(row["energy_release_rate_mean"] <= row["energy_release_rate"] * (1 + 1e-9) < 1.05 * row["energy_release_rate_mean"]
+expect(all(row["energy_release_rate_mean"] <= row["energy_release_rate"] * (1 + 1e-9) < 1.1 * row["energy_release_rate_mean"]
            for row in grown), "the largest is close to them")
 per_area = (grown[-1]["dissipated"] - grown[0]["dissipated"]) / (grown[-1]["crack_area"] - grown[0]["crack_area"])
 expect(abs(per_area / decks.G_I - 1) < 0.05, f"dissipated per area {per_area}")

@@ -313,7 +313,7 @@ private:
     double whole_ = 0.0, half_ = 0.0;
 };
 
-// What the bands of the points of one front collect, each [points].
+// Holds what the bands of the points of one front collect, each [points].
 struct Collected {
     std::vector<Vector3> ahead;   // - int grad s dA, s the spent share
     std::vector<double> front;    // its component along the directions: length of front times the spent share behind

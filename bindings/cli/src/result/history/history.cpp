@@ -22,7 +22,7 @@ constexpr const char* where_known[] = {"revisions",   "search_candidates", "sear
 // Columns of scenes in which an interface may break.
 constexpr const char* of_cracks[] = {"crack_length", "energy_release_rate", "front_mixity", "process_zone_pairs"};
 
-// In space also these: single points of a front follow the mesh more than the means along it.
+// These follow in space, where single points of a front depend on the mesh more than the means along it.
 constexpr const char* of_cracks_in_space[] = {"crack_area", "energy_release_rate_mean", "front_mixity_mean",
                                               "process_zone_pairs_mean"};
 
