@@ -1096,6 +1096,9 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  *   process_zone_pairs        -        number of pairs in the process zone at that point
  *   energy_release_rate_mean  F/L      mean of G along the fronts, in 3D weighted by length, in 2D over the tips
  *   front_mixity_mean         -        (G_II + G_III)/G of that mean
+ *   crack_area                L or L2  initially open part, plus what the middle of the process zone has swept
+ *   process_zone_length_mean  L        mean length of the process zone along the fronts, weighted likewise
+ *   process_zone_pairs_mean   -        mean number of pairs in it, weighted likewise
  * Values of the load pattern NAME:
  *   load:NAME                 -        factor of the pattern
  *   reaction:NAME             F L      derivative of the energy by the factor
@@ -1162,9 +1165,14 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  * is stored, or a body has no material.
  * `crack_length` is at most the size of the interface, and in 3D an area. The initially open part goes up to the pair
  * at the tip in 2D. In 3D, it consists of the faces that touch a pair without initial adhesion.
- * delam_solver_front explains `energy_release_rate` and the other values of the fronts. In 3D, G scatters from point to
- * point on coarse meshes, its mean much less. What growth dissipates per area, the change of `dissipated` over that of
- * `crack_length`, is the better check there.
+ * `crack_area` is the area behind a line between the pairs, in 2D the length up to a point. On that line, 4/9 of the
+ * toughness that was left at the start is dissipated, at the mixity of the jumps. This share is linear between pairs.
+ * The line lies in the middle of the process zone. `crack_length` follows the adhesion, which falls at the outer rim of
+ * the zone on a stiff interface. Where a front grows steadily, the change of `dissipated` over that of `crack_area` is
+ * the toughness, on curved fronts as well. The area is at most the size of the interface. At the start it is the
+ * initially open part of `crack_length`.
+ * On an interface without faces, it is the weight of the pairs behind that line.
+ * delam_solver_front explains `energy_release_rate` and the other values of the fronts.
  * For prescribed displacements, `reaction:NAME` is the force that the testing machine exerts along each of them, times
  * its coefficient, summed. It is positive when it acts in the direction of a growing factor, also while the factor
  * falls. For a force pattern, it is minus the displacement along its forces, each times its force, summed. For an
@@ -1289,13 +1297,16 @@ DELAM_API int32_t delam_solver_front_count(const delam_solver *solver, int64_t i
  * front.
  * As the mesh is refined, the rates become exact if the interface is straight, the bodies do not vary along it, and
  * there are no eigenstrains. They are approximate on curved interfaces (radius not much larger than the process zone),
- * with eigenstrains, and where materials change along the interface. In 3D each part of the integral is assigned to the
- * nearest point of a front; values at single points scatter more than averages along the front. The weights of
- * quadratic cells in 3D alternate. There, averages along an unresolved front are good. Values at single points are
- * accurate only to about 40 % (too small at corner nodes, too large between them).
+ * with eigenstrains, and where materials change along the interface. In 3D, the rates of a point are means over a band
+ * of two faces to either side along the front, or an eighth of a small loop. The weights fall linearly to 0. The
+ * integral over the band is divided by the length of front in the middle of its process zone. With 5 pairs in the
+ * zone, the rates of single points in growth are within about 3 % of the toughness. The band does not show what
+ * changes along the front within fewer faces, such as the last faces at a free edge.
+ * directions: in 3D, the mean over the same band.
  * zone_lengths, zone_pairs: a pair in the process zone has lost at least 1e-3 of its adhesion. It also has at least
  * 1e-3 of its toughness left to dissipate, at the mixity of its jump. With fewer than about 3 pairs in the process
- * zone, the traction there depends on the mesh, and so does the load of a local solution.
+ * zone, the traction there depends on the mesh, and so does the load of a local solution. In 3D, both are means over
+ * the band of the rates.
  * [unit places L, directions 1, lengths L, rates F/L, zone_lengths L, zone_pairs 1; null starts, closed, places,
  * directions, lengths, rates, zone_lengths, zone_pairs; status argument, problem; source J. Rice, J. Appl. Mech. 35
  * (1968) 379-386; since 0.1] */

@@ -62,7 +62,6 @@ SENTENCES = [
     ("solver_record", "replaces the record by the one in the bytes", "row what loading replaces"),
     ("solver_recorded", "NaN for the steps before", "row record"),
     ("solver_field_shape", "of the state before the step", "row mixity_rule"),
-    ("solver_front", "accurate only to about 40 %", "cases/test_front_rate.cpp: G at single points of quadratic"),
     ("solver_look", "pending step replaces earlier steps", "row steps that a return replaces"),
     ("solver_jump", "between *before and *time", "row what a bar releases"),
     ("solver_jump", "*before and *time are both this instant", "row instant of a jump"),

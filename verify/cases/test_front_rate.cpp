@@ -263,9 +263,9 @@ LOOP_TEST(dcb_in_space, 0, 3) {
             }
             std::printf("DCB in space, hex20: G / plane %.4f on average, %.4f to %.4f\n", sum / width / plane,
                         least / plane, most / plane);
-            expect_near(sum / width, plane, 0.05, plane, "mean G on quadratic faces");
-            for (const FrontPoint& point : points)  // at corner nodes too small, between them too large
-                expect_near(point.total(), plane, 0.4, plane, "G at single points of quadratic faces");
+            expect_near(sum / width, plane, 0.005, plane, "mean G on quadratic faces");
+            for (const FrontPoint& point : points)
+                expect_near(point.total(), plane, 0.01, plane, "G at single points of quadratic faces");
             continue;
         }
         expect(points.size() == 11, "a point at each row of pairs, " + std::to_string(points.size()));

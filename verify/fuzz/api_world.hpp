@@ -124,7 +124,8 @@ inline const std::vector<const char*> value_keys = words_of(
     "kkt_complementarity kkt_equilibrium rotation_max damage_change linear_residual crack_length "
     "crack_length:0 crack_length:7 energy_release_rate front_mixity:1 process_zone_length process_zone_pairs:0 "
     "load:load reaction:load reaction:none search_gap debonded_length contact_pairs mixity_error "
-    "increment_lower bulk_factorisations field_recoveries crack_length: crack_length:99999999999999999999 "
+    "increment_lower bulk_factorisations field_recoveries crack_area process_zone_pairs_mean:0 crack_length: "
+    "crack_length:99999999999999999999 "
     "crack_length:-1 load:");
 inline const std::vector<const char*> field_keys =
     words_of("displacement stress rotation jump traction adhesion mixity contact reaction");

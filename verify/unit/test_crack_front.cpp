@@ -56,6 +56,12 @@ struct Bed {
     std::vector<CrackFront> fronts() const { return crack_fronts(interface()); }
 };
 
+struct Kind {
+    CellType type;
+    std::int64_t cells;
+};
+constexpr Kind kinds[] = {{CellType::hex8, 20}, {CellType::tet4, 20}, {CellType::hex20, 10}, {CellType::tet10, 10}};
+
 double one(double, double) { return 1.0; }
 double none(double, double) { return 0.0; }
 
@@ -69,6 +75,7 @@ LOOP_TEST(fronts_on_a_line, 0, 2) {
     near(bed.fronts()[0].points[0].place[0], 2.0);
     near(bed.fronts()[0].points[0].length, 2.0);
     near(crack_length(bed.interface()), 2.0);
+    near(crack_area(bed.interface()), 2.0);
 
     bed.set(bed.adhesion, [](double x, double) { return x < 2.9 || (x > 4.9 && x < 6.1) || x > 9.4 ? 0.0 : 1.0; });
     const std::vector<CrackFront> fronts = bed.fronts();
@@ -91,9 +98,47 @@ LOOP_TEST(fronts_on_a_line, 0, 2) {
     double lengths = fronts[0].points[0].length + fronts[1].points[0].length + fronts[3].points[0].length;
     near(lengths, sum);
 
+    // A front lies 5/9 of a cell beyond the pair that broke, where 4/9 is spent; the notch counts from its tip.
+    near(crack_area(bed.interface()), 3.0 + 1.0 + 0.5 + 3.0 * 5.0 / 18.0);
+
     bed.set(bed.adhesion, none);
     ck_assert_uint_eq(bed.fronts().size(), 0);
     near(crack_length(bed.interface()), 10.0);
+    near(crack_area(bed.interface()), 10.0);
+}
+
+// A sharp front that breaks pair after pair advances by a cell each; a softening law puts the front where 4/9 of the
+// toughness is spent, however the adhesion varies. Bilinear law: onset at a jump of 1, nothing left at 5.
+TEST(area_of_a_line) {
+    Bed bed = Bed::layers({10.0}, {20}, CellType::quad4);
+    bed.law.normal_onset = bed.law.tangential_onset = 1.5;          // 3/2 * 1^2
+    bed.law.normal_toughness = bed.law.tangential_toughness = 7.5;  // 3/2 * 1 * 5
+    bed.set(bed.initial, [](double x, double) { return x < 1.9 ? 0.0 : 1.0; });
+    for (const double broken : {1.9, 2.4, 2.9, 3.4}) {
+        bed.set(bed.adhesion, [&](double x, double) { return x < broken ? 0.0 : 1.0; });
+        near(crack_area(bed.interface()), broken + 0.1);
+    }
+    // The jump falls from 5 at x = 3 to 1 at x = 7; the spent share is (jump - 1)/4, 4/9 at x = 7 - 16/9. At the start
+    // the front lies 4/9 of a cell behind the tip of the notch.
+    const auto opening = [](double x, double) { return 8.0 - x; };
+    bed.open(opening, none);
+    bed.set(bed.adhesion, [&](double x, double y) {
+        const double s = opening(x, y);
+        return s <= 1.0 ? 1.0 : std::max((5.0 - s) / (4.0 * s), 0.0);
+    });
+    near(spent(bed.interface(), 8), 0.75, 1e-12);
+    near(crack_area(bed.interface()), 7.0 - 16.0 / 9.0 + 4.0 / 18.0, 1e-9);
+}
+
+// A blister with a straight-sided cone of spent share: the area inside its 4/9, on all kinds of faces.
+LOOP_TEST(area_of_a_blister, 0, 4) {
+    const Kind kind = kinds[loop];
+    Bed bed = Bed::layers({20.0, 20.0}, {kind.cells, kind.cells}, kind.type);
+    bed.law.normal_onset = bed.law.tangential_onset = 2.0;  // Griffith's law: the spent share is 1 - zeta
+    bed.set(bed.adhesion, [](double x, double y) {
+        return std::clamp(0.5 + (std::hypot(x - 10.0, y - 10.0) - 6.0) / 4.0, 0.0, 1.0);
+    });
+    near(crack_area(bed.interface()), M_PI * std::pow(6.0 + 4.0 / 18.0, 2), 0.8);
 }
 
 // With constant jumps int Y dzeta/dx dx = Y, however the adhesion varies; a patch of lower initial adhesion ahead adds
@@ -158,12 +203,6 @@ LOOP_TEST(ring, 0, 4) {
     bed.set(bed.adhesion, none);
     ck_assert_uint_eq(bed.fronts().size(), 0);
 }
-
-struct Kind {
-    CellType type;
-    std::int64_t cells;
-};
-constexpr Kind kinds[] = {{CellType::hex8, 20}, {CellType::tet4, 20}, {CellType::hex20, 10}, {CellType::tet10, 10}};
 
 // A stiff interface: the jump rises in unit steps from the onset s_0 = 1e-5 s_c to s_c = 8, where the adhesion is
 // (s_0/s)(s_c - s)/(s_c - s_0), at most 1e-5 in between. Its process zone is where the traction decreases, not where

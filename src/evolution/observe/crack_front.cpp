@@ -40,6 +40,23 @@ bool exhausted(const CrackedInterface& interface, std::int64_t pair) {
     return interface.law.dissipated(toughness, adhesion) >= (1.0 - zone_ends) * toughness.total;
 }
 
+double spent(const CrackedInterface& interface, std::int64_t pair) {
+    const double initial = interface.initial[index(pair)], adhesion = interface.adhesion[index(pair)];
+    if (!(initial > 0.0) || !(adhesion > 0.0)) return 1.0;
+    if (!(adhesion < initial)) return 0.0;
+    const Toughness toughness = interface.law.toughness(mixity_of(interface, pair));
+    const double before = interface.law.dissipated(toughness, initial);
+    const double left = toughness.total - before;
+    if (!(left > 0.0)) return 1.0;
+    return std::clamp((interface.law.dissipated(toughness, adhesion) - before) / left, 0.0, 1.0);
+}
+
+std::vector<double> spent(const CrackedInterface& interface) {
+    std::vector<double> shares(interface.adhesion.size());
+    for (std::size_t p = 0; p < shares.size(); ++p) shares[p] = spent(interface, static_cast<std::int64_t>(p));
+    return shares;
+}
+
 double process_zone(const CrackedInterface& interface) {
     double zone = 0.0;
     for (std::size_t p = 0; p < interface.adhesion.size(); ++p)
@@ -118,33 +135,6 @@ void mark_cells_at_fronts(const CrackedInterface& interface, std::span<std::uint
         for (const std::int64_t n : mesh.cell(c)) box = around(box, position(mesh, n));
         tree.meeting(box, [&](std::int64_t) { cells[index(c)] = 1; });
     }
-}
-
-namespace {
-
-double measure(const CrackedInterface& interface, const PairPiece& piece) {
-    std::array<std::int64_t, 4> node{};
-    for (int k = 0; k < piece.pairs; ++k) node[index(k)] = interface.geometry.node_b[index(piece.pair[index(k)])];
-    const auto area = area_vector(interface.mesh, std::span<const std::int64_t>(node).first(index(piece.pairs)));
-    return std::hypot(area[0], area[1], area[2]);
-}
-
-}  // namespace
-
-double crack_length(const CrackedInterface& interface) {
-    double length = 0.0, all = 0.0;
-    for (std::size_t p = 0; p < interface.adhesion.size(); ++p) {
-        const double weight = interface.geometry.weight[p];
-        all += weight;
-        if (interface.initial[p] > 0.0) length += weight * (1.0 - interface.adhesion[p]);
-    }
-    for (const PairPiece& piece : pair_pieces(interface.geometry, interface.mesh.dimension())) {
-        const auto pairs = std::span(piece.pair).first(index(piece.pairs));
-        if (std::any_of(pairs.begin(), pairs.end(),
-                        [&](std::int64_t p) { return !(interface.initial[index(p)] > 0.0); }))
-            length += measure(interface, piece);
-    }
-    return std::min(length, all);
 }
 
 }  // namespace delam

@@ -11,6 +11,10 @@
 //     1/2 (t_1.[u]_0 - t_0.[u]_1) = 1/2 k (zeta_1 - zeta_0) [u]_0 [u]_1,
 // at a sharp tip 1/2 t_tip.[u]_behind: the virtual crack closure of Rybicki and Kanninen (Eng. Fract. Mech. 9, 1977).
 // Its components are the modes.
+//
+// In 3D the rate of a point is that of a band about it: the integral of w Y grad zeta . n over the faces, divided by
+// the length of front in the band, - int w grad s . n dA. The spent share s falls from 1 to 0 across the zone, so that
+// where the front is curved this is the length in the middle of the zone.
 #pragma once
 
 #include <array>
@@ -56,6 +60,11 @@ struct CrackedInterface {
 
 // The adhesion at a front.
 inline constexpr double front_adhesion = 0.5;
+// Share of the toughness of a pair that is spent, at the mixity of its jump: 0 before damage, 1 where the crack is open
+// and where nothing adhered at first. What an initial adhesion below 1 had spent before the start does not count.
+double spent(const CrackedInterface& interface, std::int64_t pair);
+// The same of all pairs, [pairs].
+std::vector<double> spent(const CrackedInterface& interface);
 // True if a pair lies in the process zone: it has lost a thousandth of its adhesion, and a thousandth of its toughness
 // is left to dissipate. The adhesion alone does not show where the zone ends: beyond the onset it is below (onset
 // jump)/(jump), which is small throughout the zone of a stiff interface.
@@ -79,12 +88,20 @@ std::vector<CrackFront> crack_fronts_on_faces(const CrackedInterface& interface)
 // that touch a pair without initial adhesion; in 2D it reaches to the pair at the tip. The length is at most the size
 // of the interface.
 double crack_length(const CrackedInterface& interface);
+// A = a_0 + what the front has swept, L or L2. This front is the contour of the spent share, linear between pairs, in
+// the middle of the zone (front_spent). At the start it lies about half a cell behind a_0, and that distance stays.
+// Without faces A is the weight of the pairs behind the front. A zone that travels and keeps its shape dissipates Gc
+// per area: the contour of zeta = 1/2, the outer rim of the zone of a stiff interface, sweeps more where it is curved.
+// The area is at most the size of the interface.
+double crack_area(const CrackedInterface& interface);
 
 // Straight pieces of the faces as pair indices, without padding entries: 2 pairs (2D), 3 or 4.
 struct PairPiece {
     int pairs;
     std::array<std::int64_t, 4> pair;
 };
+// A quadrilateral as two triangles, in both ways: each of the four counts half.
+inline constexpr std::array<std::array<int, 3>, 4> quad_halves{{{0, 1, 2}, {0, 2, 3}, {0, 1, 3}, {1, 2, 3}}};
 std::vector<PairPiece> pair_pieces(const InterfaceGeometry& geometry, int dimension);
 
 Vector3 place_of(const CrackedInterface& interface, std::int64_t pair);

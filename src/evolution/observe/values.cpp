@@ -162,6 +162,20 @@ Vector3 mean_rate(const Reading& r, std::int64_t interface) {
     for (double& rate : sum) rate = whole > 0.0 ? rate / whole : 0.0;
     return sum;
 }
+// The mean of another number of the points, with the same weights.
+double mean_of(const Reading& r, std::int64_t interface, double FrontPoint::*member) {
+    double sum = 0.0, whole = 0.0;
+    for (std::int64_t i = 0; i < r.interfaces(); ++i) {
+        if (interface >= 0 && i != interface) continue;
+        for (const CrackFront& front : r.fronts(i))
+            for (const FrontPoint& point : front.points) {
+                const double share = r.dimension() == 2 ? 1.0 : point.length;
+                sum += share * point.*member;
+                whole += share;
+            }
+    }
+    return whole > 0.0 ? sum / whole : 0.0;
+}
 double total_of(const Vector3& rate) { return rate[0] + rate[1] + rate[2]; }
 
 constexpr const char* by_recovery = "reading it takes a sparse solve, which recovers the displacements";
@@ -340,6 +354,13 @@ constexpr Row table[] = {
                   const Vector3 rate = mean_rate(r, i);
                   return total_of(rate) > 0.0 ? (rate[1] + rate[2]) / total_of(rate) : 0.0;
               }),
+    front_row("crack_area", "L or L2",
+              "initially open length or area plus what the line in the middle of the process zone has swept",
+              [](const Reading& r, std::int64_t i) { return over_interfaces(r, i, crack_area); }),
+    front_row("process_zone_length_mean", "L", "mean length of the process zone along the fronts",
+              [](const Reading& r, std::int64_t i) { return mean_of(r, i, &FrontPoint::zone); }),
+    front_row("process_zone_pairs_mean", "-", "mean number of pairs across the process zone along the fronts",
+              [](const Reading& r, std::int64_t i) { return mean_of(r, i, &FrontPoint::zone_pairs); }),
     pattern_row("load", "-", "factor of the load pattern",
                 [](const Reading& r, std::int64_t p) { return r.state().theta[index(p)]; }),
     pattern_row("reaction", "F L",

@@ -187,6 +187,24 @@ def fronts(host, see):
     see.near("pairs of the zones", pairs, [2.0, 1.0])
     see.near("crack_length", value(host, solver, "crack_length"), 2.0 + 0.7 + 0.2 + 1.0 + 0.4, "L")
 
+    def spent(pair):
+        if adhesion[pair] in (0.0, 1.0):
+            return 1.0 - adhesion[pair]
+        energies = [0.5 * k * u * u for k, u in zip(springs, (opening[pair], 0.03))]
+        mixity = energies[1] / sum(energies)
+        onset, total = (forms.toughness(*pure, mixity) for pure in ((0.3, 0.5), (1.2, 3.0)))
+        return forms.bilinear_dissipated(onset, total, adhesion[pair]) / total
+
+    def behind(shares):
+        return sum(1.0 if min(s, t) > 4 / 9 else max(max(s, t) - 4 / 9, 0.0) / abs(s - t) if s != t else 0.0
+                   for s, t in zip(shares, shares[1:]))
+
+    grown = behind([spent(p) for p in range(columns + 1)]) - behind([float(a == 0.0) for a in
+                                                                    (0.0, 0.0, 1, 1, 1, 1, 1, 1, 0.0)])
+    see.near("crack_area", value(host, solver, "crack_area"), 3.0 + grown, "L")
+    see.near("process_zone_length_mean", value(host, solver, "process_zone_length_mean"), 1.5, "L")
+    see.near("process_zone_pairs_mean", value(host, solver, "process_zone_pairs_mean"), 1.5)
+
 
 @row("crack fronts in space", tells=["solver_front starts", "solver_front closed", "solver_front places",
                                      "solver_front directions", "solver_front lengths", "solver_front rates"])
@@ -231,6 +249,8 @@ def fronts_in_space(host, see):
     see.near("directions of the loop", directions[3 * n + 3:],
              [[2 * (a - b) for a, b in zip(places[3 * k:3 * k + 3], (4.0, 3.0, 1.0))] for k in range(n + 1, n + 5)])
     see.near("lengths of the loop", lengths[n + 1:], [math.sqrt(0.5)] * 4, "L")
+    # A rigid body releases as much all around.
+    see.near("opening rates of the loop", rates[3 * n + 3::3], [0.5 * springs[0] * jump[2] ** 2] * 4, "F/L")
     see.recorded("fronts", places + directions + lengths + rates + zones + pairs, "mixed")
 
 

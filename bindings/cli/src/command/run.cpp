@@ -115,6 +115,8 @@ public:
         fields_.resume(step, sealed ? std::optional(state.companions.fields) : std::nullopt);
         // Rows of steps after the saved state are computed again, and with them the earlier ones that they revise.
         rows_.emplace(running_history_, step + 1, sealed ? std::optional(state.companions.history) : std::nullopt);
+        const std::string text = rows_->text();
+        history_.go_on_under(text.substr(0, text.find('\n') + 1));
         write_atomic(running_origin_, packed(origin_));
     }
 

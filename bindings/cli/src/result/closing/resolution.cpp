@@ -177,12 +177,15 @@ std::vector<std::int64_t> unresolved_steps(const Rows& rows, const Model& model,
         return !data.bonded && !data.contact && has_onset(scene.laws[data.law].kind);
     };
     if (energetic(model) || std::none_of(model.interfaces.begin(), model.interfaces.end(), softens)) return out;
+    // In space the mean along the fronts; histories of earlier versions have that of one point alone.
+    const bool means = !rows.empty() && rows.front().contains("process_zone_pairs_mean");
+    const char* pairs = means ? "process_zone_pairs_mean" : "process_zone_pairs";
     for (std::size_t i = 1; i < rows.size(); ++i) {
         const auto best = [&](const char* key) {
             return std::max(number_of(rows[i - 1], key), number_of(rows[i], key));
         };
         const bool grew = number_of(rows[i], "debonded_length") > number_of(rows[i - 1], "debonded_length");
-        if (grew && best("energy_release_rate") > 0 && best("process_zone_pairs") < resolving_pairs)
+        if (grew && best("energy_release_rate") > 0 && best(pairs) < resolving_pairs)
             out.push_back(static_cast<std::int64_t>(number_of(rows[i], "step")));
     }
     return out;

@@ -25,6 +25,10 @@ constexpr const char* of_cracks[] = {"crack_length", "energy_release_rate", "fro
 // Columns that came later: a column keeps its place for ever.
 constexpr const char* later[] = {"pops", "popped"};
 
+// These follow in space, where single points of a front depend on the mesh more than the means along it.
+constexpr const char* of_cracks_in_space[] = {"crack_area", "energy_release_rate_mean", "front_mixity_mean",
+                                              "process_zone_pairs_mean"};
+
 constexpr const char* unknown_title = "sensitivities_unknown";
 
 }  // namespace
@@ -68,8 +72,9 @@ History::History(const Model& model, const Scene& scene) : model_(model), scene_
         add(key, key);
     for (const char* key : where_known)
         if (knows(key)) add(key, key);
-    const auto breaks = [](const InterfaceData& data) { return !data.bonded && !data.contact; };
-    if (std::any_of(model.interfaces.begin(), model.interfaces.end(), breaks))
+    const bool cracks = std::any_of(model.interfaces.begin(), model.interfaces.end(),
+                                    [](const InterfaceData& data) { return !data.bonded && !data.contact; });
+    if (cracks)
         for (const char* key : of_cracks)
             if (knows(key)) add(key, key);
     if (const auto forces = force_patterns(scene); std::find(forces.begin(), forces.end(), true) != forces.end())
@@ -84,8 +89,7 @@ History::History(const Model& model, const Scene& scene) : model_(model), scene_
                             "behind it{}",
                             key, suggestion(key, known), listing(known), scene.mesh ? "BODY" : "LAYER",
                             scene.cell ? ", cell_strain_xx, cell_stress_xx (strains along its periods)" : ""));
-        const auto same_key = [&key](const Column& column) { return column.key == key; };
-        if (std::none_of(columns_.begin(), columns_.end(), same_key)) add(key, key);
+        if (!has(key)) add(key, key);
     }
     const std::vector<LawNumber> numbers = sensitivities_of(model, scene);
     followed_ = numbers.size();
@@ -99,8 +103,16 @@ History::History(const Model& model, const Scene& scene) : model_(model), scene_
     // Words after the numbers: a row that is copied elsewhere still states its solution concept.
     for (const auto& [key, value] : concept_of(model.problem.get()))
         if (key == "solution" || key == "mixity_rule") add(key, "", value);
+    // Columns keep their order for ever, so that these came to the end.
+    if (cracks && scene.geometry.dimension == 3)
+        for (const char* key : of_cracks_in_space)
+            if (knows(key) && !has(key)) add(key, key);
     for (const char* key : later)
-        if (knows(key)) add(key, key);
+        if (knows(key) && !has(key)) add(key, key);
+}
+
+bool History::has(const std::string& key) const {
+    return std::any_of(columns_.begin(), columns_.end(), [&](const Column& column) { return column.key == key; });
 }
 
 void History::add(const std::string& title, const std::string& key, const std::string& text) {
@@ -111,6 +123,15 @@ std::string History::header() const {
     std::string out;
     for (const Column& column : columns_) out += (out.empty() ? "" : ",") + column.title;
     return out + "\n";
+}
+
+void History::go_on_under(std::string_view header) {
+    History older = *this;
+    while (older.header() != header && !older.columns_.empty() &&
+           std::find(std::begin(of_cracks_in_space), std::end(of_cracks_in_space), older.columns_.back().key) !=
+               std::end(of_cracks_in_space))
+        older.columns_.pop_back();
+    if (older.header() == header) columns_ = older.columns_;
 }
 
 double History::value(delam_solver* solver, const std::string& key) const {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "model/model.hpp"
@@ -23,6 +24,8 @@ public:
     History(const Model& model, const Scene& scene);
 
     [[nodiscard]] std::string header() const;
+    // Leaves out the columns in space if the table that goes on has been begun by a version without them.
+    void go_on_under(std::string_view header);
     // Row of the committed state, or of the earlier step being read. Numbers have 17 significant digits, so that
     // reading them back gives the same bits.
     [[nodiscard]] std::string row(delam_solver* solver) const;
@@ -40,6 +43,7 @@ private:
         std::string text;  // the text of the column if it has no key
     };
     void add(const std::string& title, const std::string& key, const std::string& text = "");
+    [[nodiscard]] bool has(const std::string& key) const;
 
     std::vector<Column> columns_;
     std::map<std::string, AverageColumn> averages_;     // by key
