@@ -25,6 +25,7 @@ contains
     call make_mesh(s, context, mesh)
     call problem%create(context, mesh)
     call problem%set_elastic(young, poisson)
+    call problem%set_formulation('standard', body=4)   ! as the host assembles it
     call join(s, context, mesh, problem, interfaces)
     call hold(s, travel, mesh, problem)
     call problem%set('damage_tolerance', s%users(1)%props(9))

@@ -280,6 +280,7 @@ def enf(folder, clock):
     own_mesh = delam.Mesh.layers(length, across, [height, height], [upwards, upwards], "quad4")
     own_problem = scene(own_mesh, own_mesh.add_interface(0, 1))
     own_problem.set_elastic(young, poisson)
+    own_problem.set_formulation("standard")  # the cells of GetFEM are
     _, own = clock("library, its own bodies", march, own_problem, times)
 
     nodes = same_places(arms.nodes, arms.bodies, own_mesh.nodes, own_mesh.node_bodies)
@@ -324,6 +325,7 @@ def dcb_3d(folder, clock):
         problem = delam.Problem(mesh)
         # Of the host's bodies the material serves the stresses that libdelam is asked for.
         problem.set_elastic(young, poisson)
+        problem.set_formulation("standard")  # the cells of GetFEM are
         problem.set_law(glue, delam.Law(
             "piecewise-linear", normal_stiffness=3e12, tangential_stiffness=3e12, normal_onset=20.0,
             tangential_onset=20.0, normal_toughness=250.0, tangential_toughness=250.0))
