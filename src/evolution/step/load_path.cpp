@@ -64,7 +64,7 @@ private:
     double wanted(const Advance& advance, bool one_mode) const;
     void learn(const GrowthPart& part, const Plan& plan, bool one_mode, bool pops);
     void accept(Stepper::Result result, const GrowthPart& part);
-    double work(const State& next) const;
+    double work(const State& next, double start) const;
     ControlledStep close();
 
     Stepper& stepper_;
@@ -109,11 +109,17 @@ double LoadPath::wanted(const Advance& advance, bool one_mode) const {
     return std::max(pairs * advance.row, options_.path_step * advance.zone);
 }
 
-// Work of the reactions, by the trapezoidal rule.
-double LoadPath::work(const State& next) const {
+// Work of the reactions, by the trapezoidal rule from the first damage on: up to there, reactions grow with the load.
+double LoadPath::work(const State& next, double start) const {
+    const double length = next.time - at_.time, undamaged = start > at_.time ? (start - at_.time) / length : 0.0;
+    const std::optional<double> a = undamaged > 0.0 ? load_ratio(at_.theta, next.theta) : std::nullopt;
     double sum = 0.0;
-    for (std::size_t p = 0; p < next.theta.size(); ++p)
-        sum += 0.5 * (next.theta[p] - at_.theta[p]) * (next.response.conjugate[p] + at_.response.conjugate[p]);
+    for (std::size_t p = 0; p < next.theta.size(); ++p) {
+        const double from = at_.response.conjugate[p], to = next.response.conjugate[p];
+        const double change = next.theta[p] - at_.theta[p], split = a ? undamaged : 0.0;
+        const double between = a ? from * (1.0 + split * (1.0 / *a - 1.0)) : from;
+        sum += 0.5 * change * (split * (from + between) + (1.0 - split) * (between + to));
+    }
     return sum;
 }
 
@@ -142,7 +148,7 @@ void LoadPath::advance() {
             const bool telling = part.advance.area > telling_part * part.advance.row;
             if (telling) resolved_ = part.advance.zone > resolving_pairs_of_zone * part.advance.row;
             const double dissipated = result.state.ledger.dissipated - at_.ledger.dissipated;
-            const bool releases = work(result.state) - result.state.ledger.increment > set_free * dissipated;
+            const bool releases = work(result.state, plan.start) - result.state.ledger.increment > set_free * dissipated;
             const bool pops =
                 telling && single_pairs(part.advance) && (!resolved_ || flat(part) || (!one_mode && releases));
             if (!along_path && !one_mode && (flat(part) || pops)) {
@@ -174,14 +180,14 @@ void LoadPath::learn(const GrowthPart& part, const Plan& plan, bool one_mode, bo
     last_pop_ = plan.reach;
 }
 
-// Books the part. Of a flat one, and of one that begins without damage, the work is that at the damage before.
+// Books the part. Of a flat one the work is that at the damage before.
 void LoadPath::accept(Stepper::Result result, const GrowthPart& part) {
     State& next = result.state;
     Ledger& ledger = next.ledger;
     const bool followed = part.pops && !flat(part) && next.jump_within.known != 0;
     if (!followed) {
-        const bool moves_first = flat(part) || (part.advance.area > 0.0 && part.start > at_.time);
-        const double own = moves_first && load_ratio(at_.theta, next.theta) ? ledger.upper : work(next);
+        const bool moves_first = flat(part) && load_ratio(at_.theta, next.theta);
+        const double own = moves_first ? ledger.upper : work(next, part.start);
         next.outcome.released = flat(part) || part.pops ? std::max(0.0, own - ledger.increment) : 0.0;
         ledger.work = at_.ledger.work + own;
         ledger.released = at_.ledger.released + next.outcome.released;

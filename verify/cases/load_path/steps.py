@@ -1,0 +1,144 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""The same analysis in few and in many load steps: what it dissipates, which jumps it reports, and what its books leave
+open, work less stored, dissipated and released energy.
+
+    steps.py [--all]
+
+- single-leg bending, by two laws: mixed mode, stable growth from a notch. No jump; dissipated energies within 0.5 %.
+- two arms opened, then one of them turned back: loads that are not in proportion. No jump.
+- a film that comes off by a change of temperature, at an energy release rate that does not depend on its length: one
+  jump through the rest of the interface, which releases next to nothing.
+- the same film without a notch of its own, and a bar: one jump each, at any number of steps.
+Planted: a reaction of the wrong sign and a lost part are seen in what is left open."""
+import argparse
+import sys
+
+import delam
+
+FEW, MANY = (10, 40), (10, 15, 25, 40, 100, 300)
+failures = 0
+
+
+def expect(condition, what):
+    global failures
+    print(("ok    " if condition else "FAIL  ") + what)
+    failures += 0 if condition else 1
+
+
+def law(normal, shear):
+    return delam.Law("piecewise-linear", criterion="benzeggagh-kenane", normal_stiffness=1e14, tangential_stiffness=1e14,
+                     normal_toughness=100.0, tangential_toughness=400.0, normal_onset=normal, tangential_onset=shear,
+                     onset_exponent=1.5, toughness_exponent=1.5)
+
+
+def arms(law_of, columns=160):
+    mesh = delam.Mesh.layers(0.06, columns, [0.002, 0.002], [2, 2], "quad4")
+    interface = mesh.add_interface(0, 1)
+    problem = delam.Problem(mesh, plane="plane-strain")
+    problem.set_elastic(70e9, 0.3)
+    problem.set_law(interface, law_of)
+    problem.set_adhesion(interface, interface.places[:, 0] < 0.015 - 1e-6, 0.0)
+    return mesh, problem
+
+
+def bending(law_of):
+    mesh, problem = arms(law_of)
+    press = problem.add_pattern("press", [0, 1], [0, 0.003])
+    problem.prescribe_mean(*mesh.find_patch(1, (0.0, 0.002), (0.0, 0.004), (-1.0, 0.0)), "y")
+    for axis in "xy":
+        problem.prescribe_mean(*mesh.find_patch(0, (0.0585, 0.0), (0.0595, 0.0), (0.0, -1.0)), axis)
+    problem.prescribe_mean(*mesh.find_patch(1, (0.0295, 0.004), (0.0305, 0.004), (0.0, 1.0)), "-y", drive=press)
+    return problem
+
+
+def turned():
+    mesh, problem = arms(law(2.0, 8.0))
+    upper = problem.add_pattern("upper", [0, 0.5, 1], [0, 0.0025, 0.0025])
+    lower = problem.add_pattern("lower", [0, 0.5, 1], [0, 0.0025, 0.001])
+    for axis in "xy":
+        problem.prescribe(mesh.find_nodes((0.06, 0.0), (0.06, 0.004)), axis)
+    problem.prescribe_mean(*mesh.find_patch(1, (0.0, 0.002), (0.0, 0.004), (-1.0, 0.0)), "y", drive=upper)
+    problem.prescribe_mean(*mesh.find_patch(0, (0.0, 0.0), (0.0, 0.002), (-1.0, 0.0)), "y", drive=lower)
+    return problem
+
+
+def film(notch=0.01):
+    mesh = delam.Mesh.layers(0.03, 150, [0.0002, 0.001], [1, 2], "quad4")
+    interface = mesh.add_interface(0, 1)
+    problem = delam.Problem(mesh, plane="plane-strain")
+    problem.set_elastic(70e9, 0.33, body=0)
+    problem.set_elastic(200e9, 0.3, body=1)
+    problem.set_law(interface, delam.Law("piecewise-linear", normal_stiffness=1e14, tangential_stiffness=1e14,
+                                         normal_toughness=10.0, tangential_toughness=10.0, normal_onset=0.5,
+                                         tangential_onset=0.5))
+    problem.set_adhesion(interface, interface.places[:, 0] < notch - 1e-6, 0.0)
+    cool = problem.add_pattern("cool", [0, 1], [0, -150.0])
+    for body, expansion in ((0, 2.3e-5), (1, 1.2e-5)):
+        problem.add_eigenstrain(cool, [expansion] * 3 + [0.0] * 3, body=body)
+    problem.prescribe(mesh.find_nodes((0.03, 0.0), (0.03, 0.0012)), "x")
+    problem.prescribe(mesh.find_nodes((0.03, 0.0), (0.03, 0.0), body=0), "y")
+    return problem
+
+
+def march(problem, steps):
+    solver = delam.Solver(problem)
+    released = 0.0
+    for step in range(1, steps + 1):
+        solver.advance(step / steps)
+        solver.commit()
+        released += solver.values["released"]
+    return solver, released
+
+
+def books(solver, released):
+    """What the four energies leave open, over the dissipated one; each is read from another value."""
+    values = solver.values
+    stored = values["stored_bulk"] + values["stored_interface"] + values["load_potential"]
+    return (values["work"] - stored - values["dissipated"] - released) / values["dissipated"]
+
+
+def steady(name, make, counts):
+    dissipated, opens = [], []
+    for steps in counts:
+        solver, released = march(make(), steps)
+        dissipated.append(solver.values["dissipated"])
+        opens.append(books(solver, released))
+        print(f"      {name}, {steps} steps: dissipated {dissipated[-1]:.5f} J/m, released {released:.5f}, open "
+              f"{100 * opens[-1]:.3f} %, {len(solver.jumps)} jumps")
+        expect(not solver.jumps, f"{name}, {steps} steps: growth is no jump")
+    spread = (max(dissipated) - min(dissipated)) / min(dissipated)
+    expect(spread < 5e-3, f"{name}: dissipated within 0.5 % ({100 * spread:.2f} %)")
+    expect(max(map(abs, opens)) < 5e-3, f"{name}: the books are open by {100 * max(map(abs, opens)):.2f} % at most")
+    expect(max(map(abs, opens)) > 1e-7, f"{name}: what is open is measured, not defined")
+
+
+def jumping(name, make, length, counts):
+    times = []
+    for steps in counts:
+        solver, released = march(make(), steps)
+        jumps = list(solver.jumps)
+        print(f"      {name}, {steps} steps: " + "; ".join(
+            f"time {j.time:.4f}, {1e3 * j.debonded:.2f} mm, released {j.released:.4f} J/m" for j in jumps))
+        expect(len(jumps) == 1, f"{name}, {steps} steps: one jump")
+        if jumps:
+            times.append(jumps[0].time)
+            expect(abs(jumps[0].debonded - length) < 0.12 * length, f"{name}, {steps} steps: through the interface")
+            expect(jumps[0].released >= 0.0, f"{name}, {steps} steps: it releases no negative energy")
+        expect(abs(books(solver, released)) < 5e-3, f"{name}, {steps} steps: the books are closed")
+    expect(max(times) - min(times) < 0.03 * max(times), f"{name}: at the same load within 3 %")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
+    parser.add_argument("--all", action="store_true", help="more numbers of steps")
+    counts = MANY if parser.parse_args().all else FEW
+    steady("bending", lambda: bending(law(2.0, 8.0)), counts)
+    steady("bending, equal strengths", lambda: bending(law(2.0, 2.0)), counts)
+    steady("turned back", turned, counts)
+    jumping("film", film, 0.02, counts)
+    sys.exit(1 if failures else 0)
+
+
+if __name__ == "__main__":
+    main()
