@@ -64,6 +64,8 @@ inline Strip make_strip(const Layers& m, std::int64_t first, std::int64_t last) 
     require(delam_problem_create(context, mesh, &problem), "problem");
     for (std::int32_t body = 0; body < 2; ++body)
         require(delam_problem_set_elastic(problem, body, body == 0 ? 70e9 : 120e9, 0.3), "elastic");
+    // How far an old preconditioner may be off is measured with these.
+    require(delam_problem_set_formulation(problem, -1, "standard"), "formulation");
     std::int64_t count = 0;
     require(delam_mesh_size(mesh, nullptr, &count, nullptr, nullptr, nullptr), "size");
     strip.coordinates.resize(at(count * m.dimension));
