@@ -1145,10 +1145,11 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  * also the contact. It covers advances of a single front by whole rings of pairs. It does not cover new cracks, fronts
  * that advance together or partly damaged states. `search_gap` is infinite where there is no such bound (dead loads on
  * parts that nothing holds, `mixity_rule = variational`).
- * A local step with `mixity_rule = converged` is followed along its load (option `path_step`): jumps and pairs that pop
- * release what their path at one load neither stores nor dissipates, and the rest releases 0. Otherwise, a located jump
- * releases upper - increment. A step in which a pair loses more than 0.1 of its toughness releases its work less
- * `increment` where that is positive. All other steps release 0.
+ * With `step_control = load`, jumps and pairs that pop release what their path at one load neither stores nor
+ * dissipates, and the rest releases 0. Otherwise, with `mixity_rule = converged` and loads in proportion, `released` is
+ * what the parts of the step release while the load stands still. Otherwise, a located jump releases upper - increment.
+ * A step in which a pair loses more than 0.1 of its toughness releases its work less `increment` where that is positive.
+ * All other steps release 0.
  * `bulk_factorisations` is 1 with the condensed operator, and one per subdomain with FETI. With the iterated operator,
  * it is one for each renewal of the factor. `bulk_factorisations` and `field_recoveries` are part neither of the state
  * nor of saved bytes.
@@ -1422,18 +1423,21 @@ DELAM_API int32_t delam_solver_look(delam_solver *solver, int64_t step);
 
 /* Returns in *count the number of jumps of the state, i.e. abrupt changes, up to the pending state, or up to the
  * committed state if no step is pending. delam_solver_look does not change it. The jumps are ordered by time. With the
- * option `jump_tolerance`, jumps are the located ones. In a step that is followed along its load (value `released`), a
- * jump is an advance da during which the load M hardly rises, dlnM <= 0.03 da/A. A is the area of the interface, and da
- * that on which the toughness is dissipated. It extends over more than 2.5 pairs of each front or over half of the
- * interface, and may release nothing. In other steps, a step is a jump if all of this is true:
+ * option `jump_tolerance`, jumps are the located ones. Without it, a step is a jump if all of this is true:
  *   - it releases energy (value `released`)
  *   - on some interface, it debonds more than 1.5 rows of pairs
  *   - the load falls by more than 2 %, or the step releases more than 1e-3 of the larger of |stored energy +
  *     load_potential| and |work|
  * The debonded size is the sum of weight times loss of adhesion. 1.5 rows are 1.5 mean weights times the number of
  * pairs that the step damages right next to the debonded region. A front in the plane has one such pair, and a front in
- * space a row of them. The load is the sum of factor times reaction over the norm of the factors. An energetic step to another
+ * space a row of them. The load is the sum of factor times reaction over the norm of the factors.
+ * The parts of a step may be known (`mixity_rule = converged`, loads in proportion). Those that happen at one load and
+ * release more than 1e-3 of what they dissipate then count together. The conditions apply to the longest advance among
+ * them, of all interfaces together, and to the pairs of the interface that debonds most. An energetic step to another
  * state counts even if it releases nothing.
+ * With `step_control = load`, a jump is an advance da during which the load M hardly rises, dlnM <= 0.03 da/A. A is the
+ * area of the interface, and da that on which the toughness is dissipated. It extends over more than 2.5 pairs of each
+ * front or over half of the interface, and may release nothing.
  * [null none; status argument; since 0.1] */
 DELAM_API int32_t delam_solver_jump_count(const delam_solver *solver, int64_t *count);
 /* Returns one jump of the state, in step *step. It lies between *before and *time: in the interval that bisection has

@@ -10,7 +10,6 @@
 
 #include "base/numbers.hpp"
 #include "evolution/path/advance.hpp"
-#include "evolution/step/backtrack.hpp"
 #include "evolution/step/bounds.hpp"
 #include "evolution/step/growth_events.hpp"
 
@@ -148,7 +147,8 @@ void LoadPath::advance() {
             const bool telling = part.advance.area > telling_part * part.advance.row;
             if (telling) resolved_ = part.advance.zone > resolving_pairs_of_zone * part.advance.row;
             const double dissipated = result.state.ledger.dissipated - at_.ledger.dissipated;
-            const bool releases = work(result.state, plan.start) - result.state.ledger.increment > set_free * dissipated;
+            const bool releases =
+                work(result.state, plan.start) - result.state.ledger.increment > set_free * dissipated;
             const bool pops =
                 telling && single_pairs(part.advance) && (!resolved_ || flat(part) || (!one_mode && releases));
             if (!along_path && !one_mode && (flat(part) || pops)) {
@@ -184,8 +184,9 @@ void LoadPath::learn(const GrowthPart& part, const Plan& plan, bool one_mode, bo
 void LoadPath::accept(Stepper::Result result, const GrowthPart& part) {
     State& next = result.state;
     Ledger& ledger = next.ledger;
-    const bool followed = part.pops && !flat(part) && next.jump_within.known != 0;
-    if (!followed) {
+    // Where nothing is damaged, the work may have been integrated over changes of the contact.
+    const bool known = !(part.advance.area > 0.0) || (part.pops && !flat(part) && next.jump_within.known != 0);
+    if (!known) {
         const bool moves_first = flat(part) && load_ratio(at_.theta, next.theta);
         const double own = moves_first ? ledger.upper : work(next, part.start);
         next.outcome.released = flat(part) || part.pops ? std::max(0.0, own - ledger.increment) : 0.0;
@@ -234,10 +235,7 @@ ControlledStep LoadPath::close() {
 
 }  // namespace
 
-bool follows_load(const Options& options) {
-    return options.solution == "local" && options.mixity_rule == "converged" && options.minimisation != "alternate" &&
-           options.path_step < 1.0 && !keeps_past(options) && !controls_steps(options);
-}
+bool follows_load(const Options& options) { return options.step_control == "load"; }
 
 ControlledStep followed_step(Stepper& stepper, const PairGraph& graph, const State& before, double time,
                              const Options& options) {

@@ -21,8 +21,7 @@
 
 namespace delam {
 
-// True if steps are followed in this way: local ones with mixity_rule = converged, in more than one part, unless
-// another option controls the steps.
+// True if steps are followed in this way (step_control = load).
 bool follows_load(const Options& options);
 ControlledStep followed_step(Stepper& stepper, const PairGraph& graph, const State& before, double time,
                              const Options& options);

@@ -127,6 +127,21 @@ void check_mixity_rule(const Problem& problem) {
     }
 }
 
+// Following the load needs local minimisers from part to part, whose damage may be eliminated.
+void check_step_control(const Options& options) {
+    if (options.step_control != "load") return;
+    const auto require = [](bool holds, const char* what) {
+        if (!holds) fail(DELAM_ERROR_PROBLEM, "step_control = load needs ", what);
+    };
+    require(options.solution == "local", "solution = local");
+    require(options.mixity_rule == "converged", "mixity_rule = converged");
+    require(options.minimisation != "alternate", "an accelerated minimisation (minimisation = auto)");
+    require(options.backtracking != "on", "backtracking = off or auto");
+    require(options.path_step < 1.0, "path_step < 1");
+    require(!(options.jump_tolerance > 0.0) && !(options.mixity_step_tolerance > 0.0),
+            "jump_tolerance = 0 and mixity_step_tolerance = 0: it locates jumps, and takes parts, by itself");
+}
+
 void check_loads(const Problem& problem) {
     for (const Pattern& pattern : problem.patterns) {
         if (pattern.drives == Pattern::Drives::nothing) {

@@ -82,6 +82,8 @@ def film(notch=0.01):
 
 
 def march(problem, steps):
+    problem.options["step_control"] = "load"
+    problem.options["path_step"] = 0.1
     solver = delam.Solver(problem)
     released = 0.0
     for step in range(1, steps + 1):

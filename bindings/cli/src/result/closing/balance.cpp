@@ -13,14 +13,18 @@ namespace cli {
 
 namespace {
 
-constexpr double noticeable = 0.01;  // of the dissipated energy
+constexpr double noticeable = 0.01;  // of the work, or of the dissipated energy
 
 }  // namespace
 
 double Balance::relative() const {
     if (defect == 0.0) return 0.0;
-    const double scale = dissipated > 0.0 ? dissipated : work;
-    return scale > 0.0 ? std::abs(defect) / scale : std::numeric_limits<double>::infinity();
+    return work > 0.0 ? std::abs(defect) / work : std::numeric_limits<double>::infinity();
+}
+
+double Balance::open() const {
+    if (defect == 0.0 || !(dissipated > 0.0)) return relative();
+    return std::abs(defect) / dissipated;
 }
 
 Balance balance_of(const Rows& rows, bool slides) {
@@ -49,17 +53,26 @@ Balance balance_of(const Rows& rows, bool slides) {
     return out;
 }
 
-std::string balance_line(const Balance& balance, std::size_t jumps, const Scene& scene) {
+std::string balance_line(const Balance& balance, const Scene& scene) {
+    if (balance.work == 0.0 && balance.defect == 0.0) return "energy balance: no work was done";
+    return fmt::format(
+        "{}energy balance: off by {} of the work (stored + dissipated + released - work is {} in {}; the "
+        "work is up to {})",
+        balance.relative() <= noticeable ? "" : "warning: ", percent_text(balance.relative()),
+        energy_text(balance.defect, scene), instant_text(balance.step, balance.time), energy_text(balance.work, scene));
+}
+
+std::string books_line(const Balance& balance, std::size_t jumps, const Scene& scene) {
     if (balance.work == 0.0 && balance.defect == 0.0) return "energy balance: no work was done";
     const std::string in = jumps > 0 ? fmt::format(" in {} {}", jumps, jumps == 1 ? "jump" : "jumps") : "";
     return fmt::format(
         "{}energy balance: work {} = stored {} + dissipated {} + released{} {} + open {}; open is {} of the {} at most "
         "({} in {})",
-        balance.relative() <= noticeable ? "" : "warning: ", energy_text(balance.last_work, scene),
+        balance.open() <= noticeable ? "" : "warning: ", energy_text(balance.last_work, scene),
         energy_text(balance.stored, scene), energy_text(balance.dissipated, scene), in,
-        energy_text(balance.released, scene), energy_text(-balance.last_defect, scene),
-        percent_text(balance.relative()), balance.dissipated > 0.0 ? "dissipated energy" : "work",
-        energy_text(-balance.defect, scene), instant_text(balance.step, balance.time));
+        energy_text(balance.released, scene), energy_text(-balance.last_defect, scene), percent_text(balance.open()),
+        balance.dissipated > 0.0 ? "dissipated energy" : "work", energy_text(-balance.defect, scene),
+        instant_text(balance.step, balance.time));
 }
 
 }  // namespace cli

@@ -19,14 +19,17 @@ struct Balance {
     double last_defect = 0;  // at the end
     // At the end, since the start; stored: with the potential of dead forces.
     double last_work = 0, stored = 0, dissipated = 0, released = 0;
-    // The largest defect over what it is judged by: the dissipated energy, in an analysis without damage the work; 0 if
-    // there is neither.
+    // The largest defect over the largest work; 0 if there is neither.
     [[nodiscard]] double relative() const;
+    // The same over the dissipated energy, in an analysis without damage over the work.
+    [[nodiscard]] double open() const;
 };
 
 // slides: the ledger of mixity_rule = variational, the columns that end in _slides.
 Balance balance_of(const Rows& rows, bool slides);
-// jumps: how many there were.
-std::string balance_line(const Balance& balance, std::size_t jumps, const Scene& scene);
+std::string balance_line(const Balance& balance, const Scene& scene);
+// The same where work, stored, dissipated and released energy do not know of each other (step_control = load). jumps:
+// how many there were.
+std::string books_line(const Balance& balance, std::size_t jumps, const Scene& scene);
 
 }  // namespace cli

@@ -16,6 +16,7 @@ Closing closing_of(const Model& model, delam_solver* solver, const Scene& scene,
     out.mixity_error = mixity_error_of(rows);
     out.search = search_limits_of(rows, option_number(solver, "search_tolerance"));
     out.load_drops = load_drops_of(rows, out.jumps, scene);
+    out.follows_load = option_text(solver, "step_control") == "load";
     out.estimate_tolerance = option_number(solver, "backtracking_tolerance");
     out.estimate_violated = violated_steps(rows, out.estimate_tolerance);
     out.estimate_inconclusive = inconclusive_steps(rows);
@@ -28,10 +29,13 @@ Closing closing_of(const Model& model, delam_solver* solver, const Scene& scene,
 
 std::vector<std::string> closing_lines(const Closing& closing, const Scene& scene) {
     std::vector<std::string> out = jump_lines(closing.jumps, scene);
-    out.push_back(balance_line(closing.balance, closing.jumps.size(), scene));
+    out.push_back(closing.follows_load ? books_line(closing.balance, closing.jumps.size(), scene)
+                                       : balance_line(closing.balance, scene));
     out.push_back(estimate_line(closing.estimate_violated, closing.estimate_tolerance));
     out.push_back(inconclusive_line(closing.estimate_inconclusive));
     out.push_back(mixity_error_line(closing.mixity_error, scene));
+    // Along the load, growth and jumps are told apart: what falls without a jump falls steadily.
+    if (!closing.follows_load) out.push_back(load_drops_line(closing.load_drops));
     for (std::string& line : search_lines(closing.search, scene)) out.push_back(std::move(line));
     for (std::string& line : free_body_lines(closing.free_bodies, scene)) out.push_back(std::move(line));
     out.push_back(unresolved_line(closing.front_unresolved));

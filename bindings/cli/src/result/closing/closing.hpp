@@ -23,6 +23,7 @@ namespace cli {
 struct Closing {
     std::vector<Jump> jumps;
     Balance balance;
+    bool follows_load = false;  // step_control = load
     MixityError mixity_error;
     SearchLimits search;
     LoadDrops load_drops;

@@ -49,4 +49,13 @@ LoadDrops load_drops_of(const Rows& rows, const std::vector<Jump>& jumps, const 
     return out;
 }
 
+std::string load_drops_line(const LoadDrops& drops) {
+    if (drops.steps.empty()) return "";
+    return fmt::format(
+        "load drops without a recorded jump: in {} the {} falls by more than {} of its largest value; "
+        "most in {}, from {:.4g} to {:.4g}; smaller steps tell a steady fall from a jump",
+        counted(static_cast<std::int64_t>(drops.steps.size()), "step"), drops.column, percent_text(told_drop),
+        instant_text(drops.step, drops.time), drops.from, drops.to);
+}
+
 }  // namespace cli

@@ -25,5 +25,6 @@ struct LoadDrops {
 // grows. Falls under a factor that shrinks or rests, while other loads change, say nothing.
 LoadDrops load_drops_of(const Rows& rows, const std::vector<Jump>& jumps, const Scene& scene);
 // "" if there is none.
+std::string load_drops_line(const LoadDrops& drops);
 
 }  // namespace cli
