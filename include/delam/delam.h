@@ -1148,8 +1148,8 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  * With `step_control = load`, jumps and pairs that pop release what their path at one load neither stores nor
  * dissipates, and the rest releases 0. Otherwise, with `mixity_rule = converged` and loads in proportion, `released` is
  * what the parts of the step release while the load stands still. Otherwise, a located jump releases upper - increment.
- * A step in which a pair loses more than 0.1 of its toughness releases its work less `increment` where that is positive.
- * All other steps release 0.
+ * A step in which a pair loses more than 0.1 of its toughness releases its work less `increment` where that is
+ * positive. All other steps release 0.
  * `bulk_factorisations` is 1 with the condensed operator, and one per subdomain with FETI. With the iterated operator,
  * it is one for each renewal of the factor. `bulk_factorisations` and `field_recoveries` are part neither of the state
  * nor of saved bytes.

@@ -56,14 +56,14 @@ void balance() {
                 "warning: energy balance: off by 25 % of the work (stored + dissipated + released - work is -2 J/m in "
                 "step 2, time 1; the work is up to 8 J/m)");
     expect(off.open() == 2.0 / 3.0, "over the dissipated energy");
-    expect_line(cli::books_line(off, 0, flat),
+    expect_line(cli::energies_line(off, 0, flat),
                 "warning: energy balance: work 7 J/m = stored 2 J/m + dissipated 3 J/m + released 1 J/m + open 1 J/m; "
                 "open is 67 % of the dissipated energy at most (2 J/m in step 2, time 1)");
     const cli::Balance nearly = cli::balance_of(cli::rows_of(head + start + "2,1,2,1,3,8,2.996,2,3,0\n"), false);
     expect_line(cli::balance_line(nearly, space),
                 "energy balance: off by 0.05 % of the work (stored + dissipated + released - work is -0.004 J in step "
                 "2, time 1; the work is up to 8 J)");
-    expect_line(cli::books_line(nearly, 2, space),
+    expect_line(cli::energies_line(nearly, 2, space),
                 "energy balance: work 8 J = stored 2 J + dissipated 3 J + released in 2 jumps 3 J + open 0.004 J; open "
                 "is 0.13 % of the dissipated energy at most (0.004 J in step 2, time 1)");
     expect_line(

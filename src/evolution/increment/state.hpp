@@ -105,7 +105,7 @@ struct StepOutcome {
     double popped = 0.0;     // part of `released` that they set free, F L
 };
 
-// How the growth of a step went on at its end, for the parts of the next one (step/load_path.hpp).
+// Tells the parts of the next step how the growth of this one went on (step/load_path.hpp).
 struct Growth {
     double rate = 0.0;       // da/dlnM of the last part that is not flat, L or L2; 0: not known
     double part_time = 0.0;  // length of the part that would have come next; 0: not known

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "base/numbers.hpp"
-#include "evolution/step/bounds.hpp"
 #include "law/mixity.hpp"
 
 namespace delam {
@@ -63,12 +62,6 @@ Advance advance_between(const PairLaws& pairs, const PairGraph& graph, std::span
         if (!(most.row > 0.0) && most.zone > 0.0) most.row = smallest[i];
     }
     return most;
-}
-
-double load_rise(const State& before, const State& after) {
-    if (const std::optional<double> a = load_ratio(before.theta, after.theta)) return -std::log(*a);
-    const double from = before.ledger.energy(), to = from + after.ledger.upper;
-    return from * to > 0.0 ? 0.5 * std::abs(std::log(to / from)) : no_limit;
 }
 
 double load_margin(const PairLaws& pairs, const State& state) {

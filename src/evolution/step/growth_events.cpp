@@ -45,7 +45,7 @@ void GrowthEvents::add(const GrowthPart& part, const State& before, const State&
         together = part.advance;
         begin_ = before;
         begin_.time = part.start;
-        // At fixed damage the conjugates grow with the load, up to that at which the state jumps.
+        // The conjugates grow with the load at fixed damage, up to that at which the state jumps.
         if (const std::optional<double> a = load_ratio(before.theta, after.theta))
             for (double& q : begin_.response.conjugate) q /= *a;
     }

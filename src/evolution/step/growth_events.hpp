@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What of the growth in a load step is a jump. Parts whose advance needs hardly more load,
+// Tells which growth in a load step is a jump. Parts whose advance needs hardly more load,
 //
 //   dlnM <= eps da/A       (A: the interface; the whole of it would debond for 3 % more load),
 //

@@ -33,6 +33,14 @@ struct Plan {
     double shortest;  // that changes anything beyond the tolerance of the minimisation
 };
 
+// Returns how much larger the load of the state after is, as ln M with E = M^2 / 2 at the damage before: the factor of
+// the loads where they grow in proportion. Infinity: the energy does not tell it.
+double load_rise(const State& before, const State& after) {
+    if (const std::optional<double> a = load_ratio(before.theta, after.theta)) return -std::log(*a);
+    const double from = before.ledger.energy(), to = from + after.ledger.upper;
+    return from * to > 0.0 ? 0.5 * std::abs(std::log(to / from)) : std::numeric_limits<double>::infinity();
+}
+
 class LoadPath {
 public:
     LoadPath(Stepper& stepper, const PairGraph& graph, const State& before, double end, const Options& options)
@@ -152,7 +160,7 @@ void LoadPath::advance() {
             const bool pops =
                 telling && single_pairs(part.advance) && (!resolved_ || flat(part) || (!one_mode && releases));
             if (!along_path && !one_mode && (flat(part) || pops)) {
-                along_path = true;  // what it dissipates depends on its path
+                along_path = true;  // its path decides what it dissipates
                 continue;
             }
             popping_ = popping_ || pops;
@@ -180,7 +188,7 @@ void LoadPath::learn(const GrowthPart& part, const Plan& plan, bool one_mode, bo
     last_pop_ = plan.reach;
 }
 
-// Books the part. Of a flat one the work is that at the damage before.
+// Records the part. The work of a flat one is that at the damage before.
 void LoadPath::accept(Stepper::Result result, const GrowthPart& part) {
     State& next = result.state;
     Ledger& ledger = next.ledger;

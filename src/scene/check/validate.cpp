@@ -128,7 +128,8 @@ void check_mixity_rule(const Problem& problem) {
 }
 
 // Following the load needs local minimisers from part to part, whose damage may be eliminated.
-void check_step_control(const Options& options) {
+void check_step_control(const Problem& problem) {
+    const Options& options = problem.options;
     if (options.step_control != "load") return;
     const auto require = [](bool holds, const char* what) {
         if (!holds) fail(DELAM_ERROR_PROBLEM, "step_control = load needs ", what);
@@ -216,8 +217,8 @@ void check_supports(const Problem& problem) {
 }  // namespace
 
 void validate(const Problem& problem, const Poll& poll) {
-    for (const auto& check :
-         {check_bodies, check_interfaces, check_mixity_rule, check_loads, check_constraints, check_supports}) {
+    for (const auto& check : {check_bodies, check_interfaces, check_mixity_rule, check_step_control, check_loads,
+                              check_constraints, check_supports}) {
         call_if_set(poll);
         check(problem);
     }

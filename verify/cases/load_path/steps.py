@@ -9,8 +9,7 @@ open, work less stored, dissipated and released energy.
 - two arms opened, then one of them turned back: loads that are not in proportion. No jump.
 - a film that comes off by a change of temperature, at an energy release rate that does not depend on its length: one
   jump through the rest of the interface, which releases next to nothing.
-- the same film without a notch of its own, and a bar: one jump each, at any number of steps.
-Planted: a reaction of the wrong sign and a lost part are seen in what is left open."""
+With options that leave no path to follow, step_control = load is refused."""
 import argparse
 import sys
 
@@ -131,6 +130,22 @@ def jumping(name, make, length, counts):
     expect(max(times) - min(times) < 0.03 * max(times), f"{name}: at the same load within 3 %")
 
 
+def refused():
+    """The option goes with others only where they leave a path to follow."""
+    for key, value in (("solution", "energetic"), ("mixity_rule", "frozen"), ("minimisation", "alternate"),
+                       ("backtracking", "on"), ("path_step", 1.0), ("jump_tolerance", 1e-3),
+                       ("mixity_step_tolerance", 0.01)):
+        problem = film()
+        problem.options["step_control"] = "load"
+        problem.options[key] = value
+        try:
+            delam.Solver(problem)
+            message = ""
+        except delam.ProblemError as error:
+            message = str(error)
+        expect("step_control = load needs" in message and key in message, f"refused with {key} = {value}: {message}")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("--all", action="store_true", help="more numbers of steps")
@@ -139,6 +154,7 @@ def main():
     steady("bending, equal strengths", lambda: bending(law(2.0, 2.0)), counts)
     steady("turned back", turned, counts)
     jumping("film", film, 0.02, counts)
+    refused()
     sys.exit(1 if failures else 0)
 
 

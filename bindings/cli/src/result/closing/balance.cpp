@@ -62,7 +62,7 @@ std::string balance_line(const Balance& balance, const Scene& scene) {
         energy_text(balance.defect, scene), instant_text(balance.step, balance.time), energy_text(balance.work, scene));
 }
 
-std::string books_line(const Balance& balance, std::size_t jumps, const Scene& scene) {
+std::string energies_line(const Balance& balance, std::size_t jumps, const Scene& scene) {
     if (balance.work == 0.0 && balance.defect == 0.0) return "energy balance: no work was done";
     const std::string in = jumps > 0 ? fmt::format(" in {} {}", jumps, jumps == 1 ? "jump" : "jumps") : "";
     return fmt::format(

@@ -17,7 +17,7 @@ struct Balance {
     double defect = 0;       // there: what is stored, dissipated and released since the start, less the work
     double work = 0;         // the largest of the analysis
     double last_defect = 0;  // at the end
-    // At the end, since the start; stored: with the potential of dead forces.
+    // Sums at the end, since the start; stored: with the potential of dead forces.
     double last_work = 0, stored = 0, dissipated = 0, released = 0;
     // The largest defect over the largest work; 0 if there is neither.
     [[nodiscard]] double relative() const;
@@ -30,6 +30,6 @@ Balance balance_of(const Rows& rows, bool slides);
 std::string balance_line(const Balance& balance, const Scene& scene);
 // The same where work, stored, dissipated and released energy do not know of each other (step_control = load). jumps:
 // how many there were.
-std::string books_line(const Balance& balance, std::size_t jumps, const Scene& scene);
+std::string energies_line(const Balance& balance, std::size_t jumps, const Scene& scene);
 
 }  // namespace cli

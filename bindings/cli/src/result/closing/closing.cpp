@@ -29,7 +29,7 @@ Closing closing_of(const Model& model, delam_solver* solver, const Scene& scene,
 
 std::vector<std::string> closing_lines(const Closing& closing, const Scene& scene) {
     std::vector<std::string> out = jump_lines(closing.jumps, scene);
-    out.push_back(closing.follows_load ? books_line(closing.balance, closing.jumps.size(), scene)
+    out.push_back(closing.follows_load ? energies_line(closing.balance, closing.jumps.size(), scene)
                                        : balance_line(closing.balance, scene));
     out.push_back(estimate_line(closing.estimate_violated, closing.estimate_tolerance));
     out.push_back(inconclusive_line(closing.estimate_inconclusive));

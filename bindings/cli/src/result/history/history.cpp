@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include <string_view>
+
 #include <fmt/format.h>
 
 #include "model/call.hpp"
@@ -22,8 +24,8 @@ constexpr const char* where_known[] = {"revisions",   "search_candidates", "sear
 // Columns of scenes in which an interface may break.
 constexpr const char* of_cracks[] = {"crack_length", "energy_release_rate", "front_mixity", "process_zone_pairs"};
 
-// Columns that came later: a column keeps its place for ever.
-constexpr const char* later[] = {"pops", "popped"};
+// Columns of step_control = load.
+constexpr const char* along_load[] = {"pops", "popped"};
 
 // These follow in space, where single points of a front depend on the mesh more than the means along it.
 constexpr const char* of_cracks_in_space[] = {"crack_area", "energy_release_rate_mean", "front_mixity_mean",
@@ -107,8 +109,10 @@ History::History(const Model& model, const Scene& scene) : model_(model), scene_
     if (cracks && scene.geometry.dimension == 3)
         for (const char* key : of_cracks_in_space)
             if (knows(key) && !has(key)) add(key, key);
-    for (const char* key : later)
-        if (knows(key) && !has(key)) add(key, key);
+    const char* control = delam_problem_option(model.problem.get(), "step_control");
+    if (control != nullptr && std::string_view(control) == "load")
+        for (const char* key : along_load)
+            if (knows(key) && !has(key)) add(key, key);
 }
 
 bool History::has(const std::string& key) const {
