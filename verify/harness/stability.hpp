@@ -148,6 +148,8 @@ struct Cantilever {
     double delta = 1e-5;
 };
 reference::Scene make_cantilever(const Cantilever& c);
+// Begins the problem of a scene, of standard cells: the references of all subjects have them.
+void begin_standard(reference::Scene& scene);
 
 // Two bodies of one cell each, completely prescribed: the device prescribes the jump, (normal, tangential) in the two
 // patterns "open" and "slide" over the same times. The interface has two pairs that respond alike.

@@ -75,7 +75,7 @@ Scene make_ring(std::int32_t cell, std::int64_t corners, const std::string& form
     }
     Scene scene(2, nodes, cell, cells, bodies);
     scene.interface(0, 1);
-    scene.begin();
+    begin_standard(scene);
     scene.elastic(-1, young, nu);
     REQUIRE(scene, delam_problem_set_formulation, scene.problem(), -1, formulation.c_str());
     scene.bonded(0);
@@ -149,7 +149,7 @@ Scene make_graded(int dimension, double ratio, double unit) {
                 plane ? std::vector<std::int64_t>{columns} : std::vector<std::int64_t>{columns, 3},
                 {arm, thin, thin, arm}, {rows, 1, 1, rows}, plane ? DELAM_QUAD4 : DELAM_HEX8);
     for (std::int32_t b = 0; b < 3; ++b) scene.interface(b, b + 1);
-    scene.begin();
+    begin_standard(scene);
     scene.elastic(-1, 70e9, 0.3);
     scene.bonded(0);
     scene.law(1, in_units(unit));
@@ -282,7 +282,7 @@ void slender(Study& study) {
             const double length = span * unit, thickness = length / ratio;
             Scene scene(2, {length}, {columns}, {thickness, thickness}, {1, 1}, DELAM_QUAD8);
             scene.interface(0, 1);
-            scene.begin();
+            begin_standard(scene);
             scene.elastic(-1, young, 0.0);
             scene.law(0, {k / unit, k / unit, 1e30, 1e30, 1e30, 1e30});
             const auto pairs = scene.pairs(0).node_a;

@@ -29,7 +29,7 @@ Scene plies(int loose, double push, bool pinned, double dead = 0.0) {
     const auto count = static_cast<std::size_t>(loose) + 1;
     Scene scene(2, {length}, {20}, std::vector<double>(count, ply), std::vector<std::int64_t>(count, 2), DELAM_QUAD4);
     for (std::int32_t i = 0; i < loose; ++i) scene.interface(i, i + 1);
-    scene.begin();
+    begin_standard(scene);
     scene.elastic(-1, young, 0.3);
     for (std::int64_t i = 0; i < loose; ++i) {
         scene.law(i, intact);
@@ -102,7 +102,7 @@ void floating(Study& study) {
         t.scene = [=] {
             Scene scene(2, {length}, {20}, {ply, ply}, {2, 2}, DELAM_QUAD4);
             scene.interface(0, 1);
-            scene.begin();
+            begin_standard(scene);
             // No Poisson effect: the traction is uniform.
             scene.elastic(-1, young, 0.0);
             scene.law(0, law);
@@ -167,7 +167,7 @@ void corner(Study& study) {
             Scene scene(2, nodes, DELAM_QUAD4, cells, std::vector<std::int32_t>(static_cast<std::size_t>(n * n), 0));
             scene.obstacle(below, walls({0.0, 1.0}), control);
             scene.obstacle(left, walls({1.0, 0.0}), control);
-            scene.begin();
+            begin_standard(scene);
             scene.elastic(0, young, 0.3);
             scene.contact(0);
             scene.contact(1);
@@ -195,7 +195,7 @@ void reversed(Study& study) {
         t.scene = [=] {
             Scene scene(2, {length}, {40}, {ply, ply}, {3, 3}, DELAM_QUAD4);
             scene.interface(0, 1);
-            scene.begin();
+            begin_standard(scene);
             scene.elastic(-1, young, 0.3);
             scene.law(0, intact);
             std::vector<std::int64_t> notch;
@@ -234,7 +234,7 @@ Scene blocks(std::int64_t n, bool bonded, const char* gluing, bool twice) {
         }
     Scene scene = Scene::conforming(2, nodes, DELAM_QUAD4, cells, bodies);
     const std::int64_t count = scene.all_interfaces();
-    scene.begin();
+    begin_standard(scene);
     scene.elastic(-1, young, 0.3);
     for (std::int64_t i = 0; i < count; ++i)
         if (bonded)

@@ -191,7 +191,7 @@ private:
 Scene make_layer(double k, std::int64_t columns) {
     Scene scene(2, {Layer::length}, {columns}, {Layer::half, Layer::half}, {columns / 4, columns / 4}, DELAM_QUAD4);
     scene.interface(0, 1);
-    scene.begin();
+    begin_standard(scene);
     scene.elastic(-1, Layer::young, Layer::poisson);
     scene.law(0, elastic_law(k));
     const double top = 2.0 * Layer::half, h = Layer::length / static_cast<double>(columns);
@@ -397,7 +397,7 @@ void brittleness(Study& study) {
         t.scene = [=] {
             Scene scene(2, {side}, {1}, {1.0, 1.0}, {1, 1}, DELAM_QUAD4);
             scene.interface(0, 1);
-            scene.begin();
+            begin_standard(scene);
             scene.elastic(-1, 2.0 * spring, 0.0);
             scene.law(0, law);
             scene.hold(scene.find(-1, {0.0, 0.0}, {side, 2.0}), {1.0, 0.0});

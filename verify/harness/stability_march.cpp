@@ -24,7 +24,7 @@ struct Series {
     Scene scene(const std::vector<double>& times, const std::vector<double>& ends, double delta) const {
         Scene s(2, {side}, {10}, {1.0, 1.0}, {2, 2}, DELAM_QUAD4);
         s.interface(0, 1);
-        s.begin();
+        begin_standard(s);
         s.elastic(-1, 2.0 * spring, 0.0);
         s.law(0, law);
         s.hold(s.find(-1, {0.0, 0.0}, {side, 2.0}), {1.0, 0.0});

@@ -21,7 +21,7 @@ Scene strip(std::int64_t cells, double k, double pull) {
     const double h = 1e-3, length = h * static_cast<double>(cells);
     Scene scene(2, {length}, {cells}, {h, h}, {1, 1}, DELAM_QUAD4);
     scene.interface(0, 1);
-    scene.begin();
+    begin_standard(scene);
     scene.elastic(-1, modulus, 0.0);
     scene.law(0, {k, k, 1e30, 1e30, 1e30, 1e30});
     const auto bottom = scene.find(0, {0.0, 0.0}, {length, 0.0}), top = scene.find(1, {0.0, 2 * h}, {length, 2 * h});
@@ -40,7 +40,7 @@ Scene one_pair(double pull) {
     const double normal[2] = {0.0, 1.0}, weight = 1e-3;
     std::int64_t index = -1;
     REQUIRE(scene, delam_mesh_add_pairs, scene.mesh(), 0, 1, 1, &a, &b, normal, &weight, 0, 2, nullptr, 0, &index);
-    scene.begin();
+    begin_standard(scene);
     scene.elastic(-1, modulus, 0.0);
     scene.law(0, intact);
     scene.hold({0, 1}, {1.0, 0.0});
@@ -180,7 +180,7 @@ void subdomains(Study& study) {
             std::vector<double> normals;
             for (std::int64_t i = 0; i < 21; ++i) below.push_back(i), normals.insert(normals.end(), {0.0, 1.0});
             scene.obstacle(below, normals, control);
-            scene.begin();
+            begin_standard(scene);
             scene.elastic(0, modulus, 0.3);
             scene.contact(0);
             scene.hold({control}, {1.0, 0.0});
@@ -215,7 +215,7 @@ Scene combs(std::int64_t teeth, bool bonded) {
         }
     Scene scene = Scene::conforming(2, nodes, DELAM_QUAD4, cells, bodies);
     scene.interface(0, 1);
-    scene.begin();
+    begin_standard(scene);
     scene.elastic(-1, modulus, 0.3);
     if (bonded)
         scene.bonded(0);

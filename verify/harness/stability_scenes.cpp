@@ -52,6 +52,11 @@ long double OwnLaw::spent(long double mixity, long double adhesion) const {
     return gc * go * (1.0L - adhesion) / (go + (gc - go) * adhesion);
 }
 
+void begin_standard(Scene& scene) {
+    scene.begin();
+    REQUIRE(scene, delam_problem_set_formulation, scene.problem(), -1, "standard");
+}
+
 Scene make_cantilever(const Cantilever& c) {
     const bool plane = c.dimension == 2;
     const std::int32_t cell = c.cell != 0 ? c.cell : plane ? DELAM_QUAD4 : DELAM_HEX8;
@@ -59,7 +64,7 @@ Scene make_cantilever(const Cantilever& c) {
                 plane ? std::vector<std::int64_t>{c.columns} : std::vector<std::int64_t>{c.columns, c.ranks},
                 {c.arm, c.arm}, {c.rows, c.rows}, cell);
     scene.interface(0, 1);
-    scene.begin();
+    begin_standard(scene);
     scene.elastic(0, c.young_lower, c.poisson);
     scene.elastic(1, c.young_upper, c.poisson);
     REQUIRE(scene, delam_problem_set_formulation, scene.problem(), -1, c.formulation.c_str());
@@ -99,7 +104,7 @@ Scene make_driven(const reference::LawData& law, const std::vector<double>& time
                   const std::vector<double>& slide, double delta) {
     Scene scene(2, {1e-3}, {1}, {1e-3, 1e-3}, {1, 1}, DELAM_QUAD4);
     scene.interface(0, 1);
-    scene.begin();
+    begin_standard(scene);
     scene.elastic(-1, 70e9, 0.3);
     scene.law(0, law);
     const auto lower = scene.find(0, {0.0, 0.0}, {1.0, 1.0}), upper = scene.find(1, {0.0, 0.0}, {1.0, 1.0});

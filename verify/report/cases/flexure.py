@@ -35,8 +35,7 @@ def scene(delam, specimen, h, patch=0.0, element="quad4", **options):
     interface = mesh.add_interface(0, 1)
     problem = delam.Problem(mesh, plane="plane-strain")
     problem.set_elastic(75e9, 0.3)
-    if element == "quad4-incompatible":
-        problem.set_formulation("incompatible")
+    problem.set_formulation("incompatible" if element == "quad4-incompatible" else "standard")
     problem.set_law(interface, delam.Law("piecewise-linear", normal_stiffness=stiffness, tangential_stiffness=stiffness,
                                          normal_onset=onset, tangential_onset=onset,
                                          normal_toughness=toughness, tangential_toughness=toughness))
