@@ -12,6 +12,7 @@
 #include "evolution/path/advance.hpp"
 #include "evolution/step/bounds.hpp"
 #include "evolution/step/growth_events.hpp"
+#include "scene/advice/process_zone.hpp"
 
 namespace delam {
 
@@ -19,12 +20,11 @@ namespace {
 
 // Pairs on a front that a part of mixed mode dissipates, or one where pairs pop.
 constexpr double pairs_of_part = 0.5, popping_pairs = 1.0;
-constexpr double resolving_pairs_of_zone = 3.0;  // pairs of a process zone that the mesh resolves
-constexpr double same_rate = 3.0;                // times the rate of the part before: the growth goes on as it did
-constexpr double allowance = 1.2;                // times what a part should dissipate
-constexpr double telling_part = 0.25;            // pairs on a front: less of an advance does not tell how a front grows
-constexpr double set_free = 0.05;  // of what a part dissipates: it would release more than by its own error
-constexpr int most_refused = 40;   // parts in a row; then one is kept, however far it goes
+constexpr double same_rate = 3.0;      // times the rate of the part before: the growth goes on as it did
+constexpr double allowance = 1.2;      // times what a part should dissipate
+constexpr double telling_part = 0.25;  // pairs on a front: less of an advance does not tell how a front grows
+constexpr double set_free = 0.05;      // of what a part dissipates: it would release more than by its own error
+constexpr int most_refused = 40;       // parts in a row; then one is kept, however far it goes
 
 // The instants of a part.
 struct Plan {
@@ -153,7 +153,7 @@ void LoadPath::advance() {
             one_mode && growth_.rate > 0.0 && part.advance.area <= same_rate * growth_.rate * part.rise;
         if (flat(part) || goes_on || part.advance.area <= allowance * limit || refused > most_refused) {
             const bool telling = part.advance.area > telling_part * part.advance.row;
-            if (telling) resolved_ = part.advance.zone > resolving_pairs_of_zone * part.advance.row;
+            if (telling) resolved_ = part.advance.zone > resolving_pairs * part.advance.row;
             const double dissipated = result.state.ledger.dissipated - at_.ledger.dissipated;
             const bool releases =
                 work(result.state, plan.start) - result.state.ledger.increment > set_free * dissipated;

@@ -56,7 +56,8 @@ std::string mesh_error_line(const MeshError& error, const Scene& scene) {
     const std::string fronts =
         error.fronts > 0 ? fmt::format("; at the fronts of cracks, {}", percent_text(error.fronts)) : "";
     if (error.away < too_coarse)
-        return fmt::format("mesh: error of the stored energy about {} ({}){}", percent_text(error.away), where, fronts);
+        return fmt::format("mesh: error of the stored energy {}{} ({}){}", error.away < 1e-5 ? "" : "about ",
+                           percent_text(error.away), where, fronts);
     if (error.away > bound)
         return fmt::format(
             "warning: mesh: at least half of the stiffness is that of the mesh, not of the bodies ({}): {}", where,
