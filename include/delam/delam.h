@@ -1340,12 +1340,15 @@ DELAM_API int32_t delam_solver_tangent(delam_solver *solver, int64_t capacity, d
  * adhesion that depends on the end of the step. The tangent takes this adhesion as fixed. Hosts that iterate set
  * `path_step = 1`, with which a step has one part. In the very first loaded step, the tangent treats the mixity as
  * fixed (with `mixity_rule = frozen`, it is that of the elastic solution).
+ * In a step of several substeps, each ends at its share of the change of the loads. A pair that comes to rest in one of
+ * them keeps the derivative of its adhesion. The call then follows the substeps once more.
  * The call costs one displacement solve per pattern and one per damaging pair (`mixity_rule = variational`: per
  * component of such a pair). The state does not change. DELAM_ERROR_NUMERICAL: the tangent is singular, i.e. a jump is
  * about to happen. DELAM_ERROR_STATE: one of these is true:
  *   - no step is pending
  *   - the pending step comes from delam_solver_equilibrate
- *   - the pending step has more than one substep (value `substeps`) or has replaced earlier steps (backtracking)
+ *   - the pending step has replaced earlier steps (backtracking), or has more than one substep (value `substeps`) with
+ *     a search or backtracking in each, or with `mixity_rule = variational`
  *   - `mixity_rule = variational` is used with a gradient term
  *   - a force pattern acts along a motion that nothing holds
  * [unit matrix of factors; null none; status cancelled, argument, state, numerical; source J. Simo, R. Taylor, Comput.

@@ -30,6 +30,7 @@ Scene enf(double h, const LawData& law, const char* reduction, const char* minim
     scene.text("reduction", reduction);
     scene.text("mixity_rule", "frozen");
     scene.text("minimisation", minimisation);
+    scene.text("step_control", "fixed");  // one minimisation a step, by two methods
     scene.number("damage_tolerance", delta);
     scene.number("minimisation_limit", 100000);
     return scene;
@@ -124,6 +125,7 @@ Scene peel(const Peel& p, const char* reduction, const char* minimisation, doubl
     if (std::string(reduction) == "feti") scene.number("subdomains", 3);
     scene.text("mixity_rule", rule);
     scene.text("minimisation", minimisation);
+    scene.text("step_control", "fixed");  // one minimisation a step, by two methods
     scene.number("damage_tolerance", delta);
     scene.number("minimisation_limit", limit);
     return scene;

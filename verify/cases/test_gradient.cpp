@@ -71,6 +71,7 @@ Scene make(const Peel& p) {
     scene.text("reduction", p.reduction);
     if (std::string(p.reduction) == "feti") scene.number("subdomains", 3);
     scene.text("minimisation", p.minimisation);
+    scene.text("step_control", "fixed");  // one minimisation a step, by two methods
     scene.number("damage_tolerance", p.delta);
     scene.number("minimisation_limit", 20000);
     return scene;

@@ -113,6 +113,7 @@ March march(const reference::Flexure& data, int steps, const char* reduction = "
     f.scene.text("reduction", reduction);
     f.scene.text("minimisation", minimisation);
     f.scene.number("path_step", path_step);
+    f.scene.text("step_control", "fixed");  // so that each step is followed at its own load
     f.scene.number("damage_tolerance", 1e-7);
     if (std::string(reduction) == "feti") f.scene.number("subdomains", 3);
     Solver solver(f.scene, 0.0);

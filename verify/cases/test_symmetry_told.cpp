@@ -68,8 +68,9 @@ TEST(lost_and_kept) {
             const std::vector<std::string> lines = told(d, false, reduction);
             for (const std::string& line : lines) std::printf("%s%s\n", name.c_str(), line.c_str());
             cases::expect(lines.size() == 1, name + "told once");
-            // A reflection exchanges the interfaces, and so does a half-turn about each axis of the layers.
-            cases::expect(std::ranges::count(lines[0], ';') == d, name + "all of them");
+            // A reflection exchanges the interfaces, and so does a half-turn about each axis of the layers. In space
+            // the interface that breaks may open from one side first.
+            cases::expect(std::ranges::count(lines[0], ';') >= d, name + "all of them");
             cases::expect(told(d, true, reduction).empty(), name + "none is lost");
         }
 }

@@ -29,10 +29,11 @@ RULES = [
      + ["evolution/step/stepper.hpp", "evolution/step/stepper.cpp"]),
     ("the option mixity_rule compared, besides the table of its rules and the check of a scene",
      r"\bmixity_rule\s*[!=]=|[!=]=\s*(?:\w+(?:\.|->))*mixity_rule\b",
-     ["evolution/increment/rule/mixity_rule.cpp", "scene/check/validate.cpp"]),
+     ["evolution/increment/rule/mixity_rule.cpp", "scene/check/step_control.cpp", "scene/check/validate.cpp"]),
     ("the option mixity_rule read, besides where a step is constructed, the plan and the check of a scene",
      r"\boptions(?:\(\))?(?:\.|->)mixity_rule\b",
-     ["evolution/step/stepper.cpp", "evolution/analysis/plan.cpp", "scene/check/validate.cpp"]),
+     ["evolution/step/stepper.cpp", "evolution/analysis/plan.cpp", "scene/check/step_control.cpp",
+      "scene/check/validate.cpp"]),
     ("the stiffness of a component chosen by hand, besides Law::stiffness() of law/law.hpp",
      r"\?\s*[\w.>-]*\bnormal_stiffness\s*:", ["law/law.hpp"]),
 ]

@@ -196,6 +196,7 @@ March march(const char* reduction) {
     Problem problem = unit::make_flexure(f);
     problem.formulation.assign(problem.formulation.size(), Formulation::standard);  // the counts below are theirs
     problem.options.reduction = reduction;
+    problem.options.step_control = "fixed";
     Monitor monitor;
     March m;
     monitor.progress_user = &m;

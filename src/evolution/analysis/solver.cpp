@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "base/numbers.hpp"
 #include "base/team.hpp"
+#include "evolution/analysis/parts_tangent.hpp"
 #include "evolution/observe/balance.hpp"
 #include "evolution/observe/soundness.hpp"
 #include "evolution/observe/values.hpp"
@@ -17,10 +18,20 @@
 #include "evolution/step/load_path.hpp"
 #include "evolution/step/step_control.hpp"
 #include "scene/advice/scene_warnings.hpp"
+#include "scene/check/step_control.hpp"
 
 namespace delam {
 
 namespace {
+
+// The problem with the step control that its options lead to.
+Problem with_used_control(Problem problem) {
+    Options& options = problem.options;
+    const std::string control = used_step_control(options);
+    options.path_step = used_path_step(options);
+    options.step_control = control;
+    return problem;
+}
 
 // The part of the minimisation that did not come to its end, with its measure and limit.
 std::string what_did_not_converge(const State& state, const Options& options) {
@@ -54,7 +65,7 @@ std::string what_did_not_converge(const State& state, const Options& options) {
 }  // namespace
 
 Solver::Solver(const Problem& problem, Monitor& monitor, double time)
-    : problem_(problem),
+    : problem_(with_used_control(problem)),
       first_patterns_(problem.patterns),
       scene_hash_(hash(problem)),
       monitor_(monitor),
@@ -123,6 +134,7 @@ Outcome Solver::advance(double time) {
         ControlledStep followed = followed_step(stepper_, graph_, committed, time, options);
         result = std::move(followed.result);
         pending.jumps = std::move(followed.jumps);
+        pending.parts = std::move(followed.parts);
     } else {
         result = keeps_past(options) ? backtracked_step(stepper_, chain, committed.step, time, options)
                                      : stepper_.step(committed, time);
@@ -132,6 +144,7 @@ Outcome Solver::advance(double time) {
         ControlledStep controlled =
             controlled_step(stepper_, graph_, chain.at(committed.step), std::move(result), options);
         result = std::move(controlled.result);
+        pending.parts = std::move(controlled.parts);
         std::ranges::move(controlled.jumps, std::back_inserter(pending.jumps));
     } else if (!follows_load(options)) {
         note_jump(chain.at(committed.step), result.state, pending.jumps);
@@ -162,7 +175,7 @@ Outcome Solver::equilibrate(double time, std::span<const double> adhesion) {
     if (!result.converged) outcome = unconverged_displacement(result.state);
     require_sound(problem_, result.state, result.converged);
     judge_balance(result.state, outcome);
-    states_.propose({std::move(result.state), {}, {}, {}});
+    states_.propose({std::move(result.state), {}, {}, {}, {}});
     observer_.show(states_.present());
     return outcome;
 }
@@ -243,9 +256,12 @@ std::vector<double> Solver::step_tangent() {
     if (!pending->revised.empty())
         fail(DELAM_ERROR_STATE, "step tangent: not available, because backtracking has replaced the steps from ",
              pending->revised.front().step, " on");
-    if (const std::int64_t parts = pending->state.history.substeps; parts > 1)
-        fail(DELAM_ERROR_STATE, "step tangent: not available, because the step was divided into ", parts,
-             " substeps (step_control, jump_tolerance or mixity_step_tolerance)");
+    if (pending->parts.size() > 1) {
+        if (keeps_past(problem_.options))
+            fail(DELAM_ERROR_STATE, "step tangent: not available, because the step was divided into ",
+                 pending->parts.size(), " substeps, with a search or backtracking in each");
+        return parts_tangent(stepper_, problem_.patterns, states_.committed(), pending->parts);
+    }
     return stepper_.step_tangent(states_.committed(), pending->state);
 }
 

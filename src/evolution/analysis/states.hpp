@@ -19,6 +19,7 @@ struct PendingStep {
     std::vector<State> revised;  // earlier steps that backtracking has replaced, ascending
     std::vector<JumpEvent> jumps;
     std::string searched;  // a text about its search; empty: there was none
+    std::vector<StepPart> parts;
 };
 
 class States {

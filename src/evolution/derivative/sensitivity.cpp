@@ -74,13 +74,19 @@ public:
         for (std::size_t r = 0; r < jump_.size(); ++r) jump_[r] = -moved.jump[r];
         conjugate_.assign(patterns_, 0.0);
         for (std::size_t p = 0; p < patterns_; ++p) conjugate_[p] = -moved.conjugate[p];
+        if (!parameter_.load.empty()) {
+            const Response loaded = linearised_.loaded(parameter_.load);
+            for (std::size_t r = 0; r < jump_.size(); ++r) jump_[r] += loaded.jump[r];
+            for (std::size_t p = 0; p < patterns_; ++p) conjugate_[p] += loaded.conjugate[p];
+        }
         adhesion_.assign(at_rest.begin(), at_rest.end());
         const auto n = static_cast<std::int64_t>(damaging_.directions.size());
         if (n > 0) {
             DenseMatrix system = damaging_.system, right(n, 1);
             for (std::int64_t a = 0; a < n; ++a) {
                 const PairDirection& direction = damaging_.directions[index(a)];
-                right(a, 0) = linearised_.along(direction, jump_) + residual(direction.pair, mixity);
+                right(a, 0) = linearised_.along(direction, jump_) + residual(direction.pair, mixity) +
+                              linearised_.coupling(direction.pair, at_rest);
             }
             known_ = solve_general(system, right, singular_damage);
             for (std::int64_t a = 0; a < n && known_; ++a) add(index(a), right(a, 0));
@@ -215,7 +221,7 @@ Sensitivity sensitivity(Linearised linearised, std::span<const FollowedParameter
     const State& state = linearised.state();
     const std::size_t pairs = state.adhesion.size();
     const Linearised::Damaging damaging =
-        step != nullptr ? linearised.damaging(patterns.size(), step->directions(state)) : Linearised::Damaging{};
+        step != nullptr ? linearised.damaging(patterns.size(), step->directions(state), true) : Linearised::Damaging{};
     std::vector<std::uint8_t> active(pairs, 0);
     for (const PairDirection& direction : damaging.directions) active[direction.pair] = 1;
     Sensitivity out;

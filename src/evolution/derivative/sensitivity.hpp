@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Derivatives of an analysis by parameters of the laws, followed step by step.
+// Derivatives of an analysis by parameters of the laws, followed step by step, and of a step in parts by its loads.
 //
 // At the end of a step the bodies and springs are at rest, and each pair that damages satisfies Y(j) = D(B, zeta)
 // (step_tangent.hpp). Both depend on a parameter p by the stiffness and the toughness of the law. With dzeta given for
@@ -7,7 +7,7 @@
 //
 //   F = w zeta dk j + sum over pairs at rest of v dzeta
 //
-// and the jumps by  dj = -(answer to F) - U dzeta.  For the pairs that damage
+// and the jumps by  dj = J dtheta - (answer to F) - U dzeta.  For the pairs that damage
 //
 //   own dzeta = omega . dj + r,     r = d(Y - D)/dp at fixed jump and adhesion
 //
@@ -28,11 +28,12 @@
 
 namespace delam {
 
-// A number of the laws of some interfaces, changed in all of them together.
+// A number of the laws of some interfaces, changed in all of them together, or a factor of the loads.
 struct FollowedParameter {
     std::vector<Law> more, less;    // the laws with a slightly larger and a smaller value
     double difference = 0.0;        // between their values
     std::vector<std::int64_t> law;  // [pairs] index into more and less; -1: not concerned
+    std::vector<double> load;       // [patterns] derivative of the load factors; empty: 0
 };
 
 // The parameter of these interfaces. Error(DELAM_ERROR_ARGUMENT): an interface has no law, its law has no such number

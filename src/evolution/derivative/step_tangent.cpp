@@ -54,23 +54,24 @@ double Linearised::along(const PairDirection& direction, std::span<const double>
     return sum;
 }
 
-void Linearised::add_gradient(std::span<const PairDirection> directions, DenseMatrix& system) const {
-    const auto n = static_cast<std::int64_t>(directions.size());
-    for (const auto& term : pairs_.gradient)
-        for (std::int64_t a = 0; a < n; ++a) {
-            const std::size_t pair = directions[index(a)].pair;
-            if (pair < term->first() || pair >= term->first() + term->pairs()) continue;
-            const SparseMatrix& k = term->matrix();
-            const std::size_t row = pair - term->first();
-            const auto begin = k.column.begin() + k.start[row], end = k.column.begin() + k.start[row + 1];
-            for (std::int64_t b = 0; b < n; ++b) {
-                const std::size_t other = directions[index(b)].pair;
-                if (other < term->first() || other >= term->first() + term->pairs()) continue;
-                const auto column = static_cast<std::int64_t>(other - term->first());
-                if (const auto found = std::lower_bound(begin, end, column); found != end && *found == column)
-                    system(a, b) -= k.value[index(found - k.column.begin())] / pairs_.weight[pair];
-            }
-        }
+double Linearised::coupling(std::size_t pair, std::span<const double> z) const {
+    double sum = 0.0;
+    for (const auto& term : pairs_.gradient) {
+        if (pair < term->first() || pair >= term->first() + term->pairs()) continue;
+        const SparseMatrix& k = term->matrix();
+        const std::size_t row = pair - term->first();
+        for (std::int64_t e = k.start[row]; e < k.start[row + 1]; ++e)
+            sum += k.value[index(e)] * z[term->first() + index(k.column[index(e)])];
+    }
+    return sum / pairs_.weight[pair];
+}
+
+Response Linearised::loaded(std::span<const double> theta) {
+    Response response = unit(theta, {});
+    if (!response.balanced)
+        fail(DELAM_ERROR_STATE,
+             "tangent: the loads act along a rigid motion that nothing holds at the present contact set");
+    return response;
 }
 
 Response Linearised::answer(std::size_t patterns, const std::vector<double>& force) {
@@ -78,7 +79,7 @@ Response Linearised::answer(std::size_t patterns, const std::vector<double>& for
     return unit(still, force);
 }
 
-Linearised::Damaging Linearised::damaging(std::size_t patterns, std::vector<PairDirection> found) {
+Linearised::Damaging Linearised::damaging(std::size_t patterns, std::vector<PairDirection> found, bool coupled) {
     Damaging of{std::move(found), {}, {}};
     const auto n = static_cast<std::int64_t>(of.directions.size());
     of.system = DenseMatrix(n, n);
@@ -91,6 +92,14 @@ Linearised::Damaging Linearised::damaging(std::size_t patterns, std::vector<Pair
         std::fill_n(first, dim_, 0.0);
         for (std::int64_t a = 0; a < n; ++a) of.system(a, b) = along(of.directions[index(a)], of.answers.back().jump);
         of.system(b, b) += direction.own;
+    }
+    if (!coupled || pairs_.gradient.empty()) return of;
+    std::vector<double> one(state_.adhesion.size(), 0.0);
+    for (std::int64_t b = 0; b < n; ++b) {
+        const std::size_t pair = of.directions[index(b)].pair;
+        one[pair] = 1.0;
+        for (std::int64_t a = 0; a < n; ++a) of.system(a, b) -= coupling(of.directions[index(a)].pair, one);
+        one[pair] = 0.0;
     }
     return of;
 }
@@ -107,7 +116,7 @@ std::vector<double> Linearised::yielding(std::span<const Pattern> patterns, std:
                                          bool coupled) {
     const auto count = static_cast<std::int64_t>(patterns.size());
     std::vector<double> matrix = elastic(patterns);
-    auto [directions, answers, system] = damaging(patterns.size(), std::move(found));
+    auto [directions, answers, system] = damaging(patterns.size(), std::move(found), coupled);
     const auto n = static_cast<std::int64_t>(directions.size());
     if (n == 0) return matrix;
 
@@ -115,7 +124,6 @@ std::vector<double> Linearised::yielding(std::span<const Pattern> patterns, std:
     DenseMatrix right(n, count);
     for (std::int64_t a = 0; a < n; ++a)
         for (std::int64_t q = 0; q < count; ++q) right(a, q) = along(directions[index(a)], columns_[index(q)].jump);
-    if (coupled) add_gradient(directions, system);
     if (!solve_general(system, right, singular))
         fail(DELAM_ERROR_NUMERICAL, coupled ? "step tangent" : "tangent", ": singular with ", n,
              " partly damaged pairs; an instability (a jump of the state) is imminent");

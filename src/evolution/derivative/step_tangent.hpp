@@ -35,14 +35,17 @@ public:
     // Returns the tangent of the step of `increment`.
     std::vector<double> step_tangent(std::span<const Pattern> patterns, const Increment& increment);
 
-    // The response of the pairs that damage in a step: own + omega U, and the answers U to v. Without the gradient
-    // term.
+    // The response of the pairs that damage in a step: own + omega U (coupled: - kappa A / w), and the answers U to v.
     struct Damaging {
         std::vector<PairDirection> directions;
         std::vector<Response> answers;
         DenseMatrix system;
     };
-    Damaging damaging(std::size_t patterns, std::vector<PairDirection> directions);
+    Damaging damaging(std::size_t patterns, std::vector<PairDirection> directions, bool coupled);
+    // Returns kappa A z / w of the gradient term at a pair, z [pairs].
+    double coupling(std::size_t pair, std::span<const double> z) const;
+    // Returns the response to these load factors. Error(DELAM_ERROR_STATE): they act along a motion that nothing holds.
+    Response loaded(std::span<const double> theta);
     // Returns the response to forces on the rows, without loads.
     Response answer(std::size_t patterns, const std::vector<double>& force);
     double along(const PairDirection& direction, std::span<const double> jump) const;
@@ -57,8 +60,6 @@ private:
     // couples them.
     std::vector<double> yielding(std::span<const Pattern> patterns, std::vector<PairDirection> directions,
                                  bool coupled);
-    // The gradient term couples pairs that damage: - kappa A / w.
-    void add_gradient(std::span<const PairDirection> directions, DenseMatrix& system) const;
 
     JumpOperator& op_;
     const PairLaws& pairs_;

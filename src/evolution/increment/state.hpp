@@ -112,6 +112,12 @@ struct Growth {
     double pop_time = 0.0;   // time from one pair that pops to the next; 0: none does
 };
 
+// A part of a load step.
+struct StepPart {
+    double time;    // its end
+    double stride;  // share of its toughness that a pair may dissipate at one load; 0: that of the options
+};
+
 // The way in which the step was computed.
 struct StepHistory {
     std::int64_t backtracks = 0;     // number of times that this step was computed anew after a return

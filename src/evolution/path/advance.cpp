@@ -18,6 +18,8 @@ constexpr double no_limit = std::numeric_limits<double>::infinity();
 constexpr double spent = 0.98;
 // Smaller changes of this share are what a minimisation leaves open (damage_tolerance is 1e-5).
 constexpr double damaged = 1e-3;
+// Part of the largest loss from which on a pair counts as one of the first ones, where no front tells them.
+constexpr double of_the_most = 0.5;
 
 // g/Gc, [pairs]; 1 where nothing adheres.
 std::vector<double> spent_shares(const PairLaws& pairs, const State& state) {
@@ -36,12 +38,13 @@ Advance advance_between(const PairLaws& pairs, const PairGraph& graph, std::span
                         const State& before, const State& after) {
     const std::vector<double> from = spent_shares(pairs, before), to = spent_shares(pairs, after);
     std::vector<Advance> of;
-    std::vector<double> smallest;  // pair that was damaged
+    std::vector<double> most_lost;
+    std::vector<std::uint8_t> lost(from.size(), 0);
     for (std::size_t p = 0; p < from.size(); ++p) {
         const std::size_t i = index(graph.interface_of(p));
         if (of.size() <= i) {
             of.resize(i + 1);
-            smallest.resize(i + 1, no_limit);
+            most_lost.resize(i + 1, 0.0);
         }
         if (pairs.law[p] == nullptr || !(initial[p] > 0.0)) continue;
         of[i].whole += pairs.weight[p];
@@ -49,18 +52,21 @@ Advance advance_between(const PairLaws& pairs, const PairGraph& graph, std::span
         of[i].area += pairs.weight[p] * std::max(0.0, to[p] - from[p]);
         if (to[p] - from[p] < damaged) continue;
         of[i].zone += pairs.weight[p];
-        smallest[i] = std::min(smallest[i], pairs.weight[p]);
+        lost[p] = 1;
+        most_lost[i] = std::max(most_lost[i], to[p] - from[p]);
         const auto neighbours = graph.neighbours(p);
         if (from[p] < spent &&
             std::any_of(neighbours.begin(), neighbours.end(), [&](std::int64_t q) { return from[index(q)] >= spent; }))
             of[i].row += pairs.weight[p];
     }
-    Advance most;
-    for (std::size_t i = 0; i < of.size(); ++i) {
-        if (!(of[i].area > most.area)) continue;
-        most = of[i];
-        if (!(most.row > 0.0) && most.zone > 0.0) most.row = smallest[i];
+    for (Advance& own : of) own.fronts = own.row > 0.0;
+    for (std::size_t p = 0; p < from.size(); ++p) {
+        const std::size_t i = index(graph.interface_of(p));
+        if (lost[p] != 0 && !of[i].fronts && to[p] - from[p] > of_the_most * most_lost[i]) of[i].row += pairs.weight[p];
     }
+    Advance most;
+    for (const Advance& own : of)
+        if (own.area > most.area) most = own;
     return most;
 }
 
@@ -75,24 +81,6 @@ double load_margin(const PairLaws& pairs, const State& state) {
         least = std::min(least, std::sqrt(threshold / y.total()));
     }
     return std::max(1.0, least);
-}
-
-double smallest_share(const PairLaws& pairs, const PairGraph& graph, std::span<const double> initial) {
-    std::vector<double> whole, smallest;
-    for (std::size_t p = 0; p < pairs.law.size(); ++p) {
-        const std::size_t i = index(graph.interface_of(p));
-        if (whole.size() <= i) {
-            whole.resize(i + 1, 0.0);
-            smallest.resize(i + 1, no_limit);
-        }
-        if (pairs.law[p] == nullptr || !(initial[p] > 0.0)) continue;
-        whole[i] += pairs.weight[p];
-        smallest[i] = std::min(smallest[i], pairs.weight[p]);
-    }
-    double least = 1.0;
-    for (std::size_t i = 0; i < whole.size(); ++i)
-        if (whole[i] > 0.0) least = std::min(least, smallest[i] / whole[i]);
-    return least;
 }
 
 }  // namespace delam

@@ -12,10 +12,12 @@ namespace delam {
 
 // Sizes, L or L2, of the interface on which most has been dissipated.
 struct Advance {
-    double area = 0.0;  // that has been dissipated
-    double row = 0.0;  // of the pairs on the fronts, next to pairs whose toughness is spent; of one pair without fronts
-    double zone = 0.0;   // of all pairs that were damaged
-    double whole = 0.0;  // of the interface, as far as it adhered at first
+    double area = 0.0;    // that has been dissipated
+    double row = 0.0;     // of the pairs on the fronts, next to pairs whose toughness is spent; without, of those that
+                          // lose most
+    bool fronts = false;  // there are such fronts
+    double zone = 0.0;    // of all pairs that were damaged
+    double whole = 0.0;   // of the interface, as far as it adhered at first
 };
 // initial: the adhesion at first, [pairs].
 Advance advance_between(const PairLaws& pairs, const PairGraph& graph, std::span<const double> initial,
@@ -23,7 +25,5 @@ Advance advance_between(const PairLaws& pairs, const PairGraph& graph, std::span
 
 // Returns the factor on the load, and with it on the jumps, at which the first pair meets its threshold; 1: some do.
 double load_margin(const PairLaws& pairs, const State& state);
-// Returns the smallest pair as a part of its interface.
-double smallest_share(const PairLaws& pairs, const PairGraph& graph, std::span<const double> initial);
 
 }  // namespace delam

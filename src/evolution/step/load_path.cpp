@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "base/numbers.hpp"
 #include "evolution/path/advance.hpp"
@@ -18,19 +19,33 @@ namespace delam {
 
 namespace {
 
-// Pairs on a front that a part of mixed mode dissipates, or one where pairs pop.
-constexpr double pairs_of_part = 0.5, popping_pairs = 1.0;
-constexpr double same_rate = 3.0;      // times the rate of the part before: the growth goes on as it did
-constexpr double allowance = 1.2;      // times what a part should dissipate
-constexpr double telling_part = 0.25;  // pairs on a front: less of an advance does not tell how a front grows
-constexpr double set_free = 0.05;      // of what a part dissipates: it would release more than by its own error
-constexpr int most_refused = 40;       // parts in a row; then one is kept, however far it goes
+// Pairs on a front that a part of mixed mode dissipates, over path_step, and at most; one where pairs pop.
+constexpr double pairs_of_part = 5.0, most_pairs_of_part = 0.5, popping_pairs = 1.0;
+constexpr double softening_of_part = 0.5;  // of the pairs that soften in one mode, before any of them is spent
+constexpr double same_rate = 3.0;          // times the rate of the part before: the growth goes on as it did
+constexpr double allowance = 1.2;          // times what a part should dissipate
+constexpr double telling_part = 0.25;      // pairs on a front: less of an advance does not tell how a front grows
+constexpr double set_free = 0.05;          // of what a part dissipates: it would release more than by its own error
+constexpr int most_refused = 40;           // parts in a row; then one is kept, however far it goes
+constexpr double steps_per_octave = 4.0;   // of the lengths of parts
 
 // The instants of a part.
 struct Plan {
     double start;     // from which on pairs may be damaged
     double reach;     // end of the part
     double shortest;  // that changes anything beyond the tolerance of the minimisation
+};
+
+// A part that may be kept.
+struct Trial {
+    Stepper::Result result;
+    GrowthPart part;
+    double stride;
+    double own = 0.0;      // length of the part in which pairs may be damaged
+    bool damages = false;  // beyond what a minimisation leaves open
+    bool settled = true;   // damage and mixities have converged
+    bool one_mode = false;
+    double limit = 0.0;  // area that it may dissipate
 };
 
 // Returns how much larger the load of the state after is, as ln M with E = M^2 / 2 at the damage before: the factor of
@@ -40,6 +55,19 @@ double load_rise(const State& before, const State& after) {
     const double from = before.ledger.energy(), to = from + after.ledger.upper;
     return from * to > 0.0 ? 0.5 * std::abs(std::log(to / from)) : std::numeric_limits<double>::infinity();
 }
+
+// Returns the next shorter of the lengths of parts. They are few, so that rounding in the states, and what their
+// minimisation leaves open, cannot change the parts little by little.
+double length_of_part(double length) {
+    return std::exp2(std::floor(std::log2(length) * steps_per_octave + 0.01) / steps_per_octave);
+}
+
+bool tells(const Advance& advance) { return advance.area > telling_part * advance.row; }
+
+// Returns the factor on the length of a part that dissipated `times` what it should. A part that is far too long may
+// end in one of several states, so that its end tells little.
+double shorter(double times) { return times > 10.0 ? 0.125 : times > 2.5 ? 0.25 : 0.5; }
+constexpr double unsettled = 5.0;  // times: a part whose mixities did not converge is cut to a quarter
 
 class LoadPath {
 public:
@@ -54,8 +82,7 @@ public:
           popping_(before.growth.pop_time > 0.0),
           popped_(popping_) {
         history_.revised_from = before.step + 1;
-        least_rise_ = std::max(smallest_share(stepper.pairs(), graph, stepper.initial_adhesion()) * one_pair_rise,
-                               10.0 * options.damage_tolerance);
+        least_rise_ = 10.0 * options.damage_tolerance;
     }
 
     ControlledStep run() {
@@ -64,13 +91,15 @@ public:
     }
 
 private:
-    static constexpr double one_pair_rise = 0.01;  // a third of what makes the advance of one pair flat
-
     Plan plan() const;
     void advance();
     double wanted(const Advance& advance, bool one_mode) const;
-    void learn(const GrowthPart& part, const Plan& plan, bool one_mode, bool pops);
-    void accept(Stepper::Result result, const GrowthPart& part);
+    Trial attempt(const Plan& plan, bool along_path);
+    bool goes_on(const Trial& trial) const;
+    bool short_enough(const Trial& trial) const;
+    bool pops(const Trial& trial, const Plan& plan) const;
+    void learn(const Trial& trial, const Plan& plan, bool pops);
+    void accept(Trial trial);
     double work(const State& next, double start) const;
     ControlledStep close();
 
@@ -90,6 +119,7 @@ private:
     Effort effort_;
     StepOutcome outcome_;
     StepHistory history_{0, 0, 0, 0, 0};
+    std::vector<StepPart> parts_;
     Ledger sum_;
 };
 
@@ -104,15 +134,18 @@ Plan LoadPath::plan() const {
         if (margin > 0.1 * least_rise_) plan.start = std::min(end_, at_.time + margin * per_rise);
     }
     if (popping_ && growth_.pop_time > 0.0)
-        plan.reach = at_.time + growth_.pop_time * (popped_ ? 1.0 : 0.3);
+        plan.reach = at_.time + length_of_part(growth_.pop_time * (popped_ ? 1.0 : 0.3));
     else if (growth_.part_time > 0.0)
-        plan.reach = plan.start + growth_.part_time;
+        plan.reach = plan.start + length_of_part(growth_.part_time);
     plan.reach = std::min(end_, std::max(plan.reach, plan.start + plan.shortest));
     return plan;
 }
 
 double LoadPath::wanted(const Advance& advance, bool one_mode) const {
-    const double pairs = one_mode ? pairs_of_jump : popping_ ? popping_pairs : pairs_of_part;
+    if (!advance.fronts) return (one_mode ? softening_of_part : options_.path_step) * advance.zone;
+    const double pairs = one_mode   ? pairs_of_jump
+                         : popping_ ? popping_pairs
+                                    : std::min(most_pairs_of_part, pairs_of_part * options_.path_step);
     return std::max(pairs * advance.row, options_.path_step * advance.zone);
 }
 
@@ -130,56 +163,92 @@ double LoadPath::work(const State& next, double start) const {
     return sum;
 }
 
+// Computes a part. along_path: it is followed in parts at its own load.
+Trial LoadPath::attempt(const Plan& plan, bool along_path) {
+    const double stride = along_path ? options_.path_step : 1.0;
+    Trial trial{stepper_.step(at_, plan.reach, {}, stride), {}, stride};
+    const State& next = trial.result.state;
+    effort_.add(next.effort);
+    trial.own = std::max(plan.reach - plan.start, 0.0);
+    trial.part = {advance_between(stepper_.pairs(), graph_, stepper_.initial_adhesion(), at_, next),
+                  load_rise(at_, next) * trial.own / (plan.reach - at_.time), std::min(plan.start, plan.reach), false};
+    trial.damages = trial.part.advance.zone > 0.0;
+    if (!trial.damages) {
+        trial.part.advance = {};
+        return trial;
+    }
+    trial.settled = trial.result.converged && next.outcome.mixity_held == 0;
+    trial.one_mode = stepper_.one_mode(at_, next);
+    trial.limit = wanted(trial.part.advance, trial.one_mode);
+    return trial;
+}
+
+// One mode grows on as in the part before.
+bool LoadPath::goes_on(const Trial& trial) const {
+    return trial.one_mode && growth_.rate > 0.0 &&
+           trial.part.advance.area <= same_rate * growth_.rate * trial.part.rise;
+}
+
+// One mode dissipates the same on any path, but its work is that of the trapezoidal rule.
+bool LoadPath::short_enough(const Trial& trial) const {
+    if (flat(trial.part)) return true;
+    const double area = trial.part.advance.area;
+    if (!trial.one_mode) return area <= allowance * trial.limit;
+    const Ledger& next = trial.result.state.ledger;
+    const double pairs_on_fronts = trial.part.advance.fronts ? pairs_of_jump : 0.0;
+    const double open = std::abs(work(trial.result.state, trial.part.start) - next.increment);
+    return (goes_on(trial) || area <= allowance * trial.limit) &&
+           (open <= options_.accuracy * (next.dissipated - at_.ledger.dissipated) ||
+            area <= allowance * std::max(wanted(trial.part.advance, false), pairs_on_fronts * trial.part.advance.row));
+}
+
+// True if a part takes a pair that the mesh lets pop.
+bool LoadPath::pops(const Trial& trial, const Plan& plan) const {
+    const Advance& advance = trial.part.advance;
+    const Ledger& next = trial.result.state.ledger;
+    const double dissipated = next.dissipated - at_.ledger.dissipated;
+    const bool releases = work(trial.result.state, plan.start) - next.increment > set_free * dissipated;
+    return tells(advance) && single_pairs(advance) && (!resolved_ || flat(trial.part) || (!trial.one_mode && releases));
+}
+
 // Makes parts from the present state, shorter and shorter, until one may be kept.
 void LoadPath::advance() {
     Plan plan = this->plan();
-    bool along_path = popping_;  // the part is followed in parts at its own load
-    for (int refused = 0;;) {
+    bool along_path = popping_;
+    for (int refused = 0;; ++refused) {
         plan.reach = std::max(plan.reach, std::nextafter(at_.time, end_));
-        Stepper::Result result = stepper_.step(at_, plan.reach, {}, along_path ? options_.path_step : 1.0);
-        effort_.add(result.state.effort);
-        const double own = std::max(plan.reach - plan.start, 0.0);
-        GrowthPart part{advance_between(stepper_.pairs(), graph_, stepper_.initial_adhesion(), at_, result.state),
-                        load_rise(at_, result.state) * own / (plan.reach - at_.time), std::min(plan.start, plan.reach),
-                        false};
-        if (!(part.advance.zone > 0.0)) {
-            part.advance = {};
-            if (own > 0.0) growth_.part_time = 4.0 * own;
-            return accept(std::move(result), part);
+        Trial trial = attempt(plan, along_path);
+        if (!trial.damages) {
+            if (growth_.part_time > 0.0) growth_.part_time = std::max(growth_.part_time, 4.0 * trial.own);
+            return accept(std::move(trial));
         }
-        const bool one_mode = stepper_.one_mode(at_, result.state);
-        const double limit = wanted(part.advance, one_mode);
-        const bool goes_on =
-            one_mode && growth_.rate > 0.0 && part.advance.area <= same_rate * growth_.rate * part.rise;
-        if (flat(part) || goes_on || part.advance.area <= allowance * limit || refused > most_refused) {
-            const bool telling = part.advance.area > telling_part * part.advance.row;
-            if (telling) resolved_ = part.advance.zone > resolving_pairs * part.advance.row;
-            const double dissipated = result.state.ledger.dissipated - at_.ledger.dissipated;
-            const bool releases =
-                work(result.state, plan.start) - result.state.ledger.increment > set_free * dissipated;
-            const bool pops =
-                telling && single_pairs(part.advance) && (!resolved_ || flat(part) || (!one_mode && releases));
-            if (!along_path && !one_mode && (flat(part) || pops)) {
-                along_path = true;  // its path decides what it dissipates
-                continue;
+        const bool last = refused > most_refused || trial.own < plan.shortest;
+        if (tells(trial.part.advance)) resolved_ = trial.part.advance.zone > resolving_pairs * trial.part.advance.row;
+        if (short_enough(trial) && !along_path && !trial.one_mode && (flat(trial.part) || pops(trial, plan))) {
+            // Its path decides what it dissipates.
+            if (Trial finer = attempt(plan, true); finer.settled) {
+                along_path = true;
+                trial = std::move(finer);
             }
-            popping_ = popping_ || pops;
-            part.pops = popping_;
-            learn(part, plan, one_mode, telling && popping_);
-            return accept(std::move(result), part);
         }
-        ++refused;
+        if (last || (trial.settled && short_enough(trial))) {
+            const bool popped = pops(trial, plan);
+            popping_ = popping_ || popped;
+            trial.part.pops = popping_;
+            learn(trial, plan, popping_ && tells(trial.part.advance));
+            return accept(std::move(trial));
+        }
         ++history_.refused_steps;
         growth_.pop_time *= 0.5;
-        plan.reach = plan.start + own * std::clamp(0.8 * limit / part.advance.area, 0.05, 0.5);
+        const double times = trial.settled ? trial.part.advance.area / trial.limit : unsettled;
+        plan.reach = plan.start + length_of_part(trial.own * shorter(times));
     }
 }
 
 // Plans the next part from this one.
-void LoadPath::learn(const GrowthPart& part, const Plan& plan, bool one_mode, bool pops) {
-    const double own = plan.reach - plan.start;
-    const bool goes_on = one_mode && growth_.rate > 0.0 && part.advance.area <= same_rate * growth_.rate * part.rise;
-    growth_.part_time = own * std::clamp(wanted(part.advance, one_mode) / part.advance.area, goes_on ? 4.0 : 0.2, 4.0);
+void LoadPath::learn(const Trial& trial, const Plan& plan, bool pops) {
+    const GrowthPart& part = trial.part;
+    growth_.part_time = trial.own * std::clamp(trial.limit / part.advance.area, goes_on(trial) ? 4.0 : 0.2, 4.0);
     if (part.rise > 0.0 && std::isfinite(part.rise) && !flat(part)) growth_.rate = part.advance.area / part.rise;
     popped_ = pops;
     if (popping_ && !pops) growth_.pop_time *= 1.6;
@@ -189,7 +258,9 @@ void LoadPath::learn(const GrowthPart& part, const Plan& plan, bool one_mode, bo
 }
 
 // Records the part. The work of a flat one is that at the damage before.
-void LoadPath::accept(Stepper::Result result, const GrowthPart& part) {
+void LoadPath::accept(Trial trial) {
+    Stepper::Result& result = trial.result;
+    const GrowthPart& part = trial.part;
     State& next = result.state;
     Ledger& ledger = next.ledger;
     // Where nothing is damaged, the work may have been integrated over changes of the contact.
@@ -212,7 +283,7 @@ void LoadPath::accept(Stepper::Result result, const GrowthPart& part) {
     outcome_.mixity_held += next.outcome.mixity_held;
     converged_ = converged_ && result.converged;
     searched_ += result.searched;
-    ++history_.substeps;
+    parts_.push_back({next.time, trial.stride});
     at_ = std::move(next);
     --at_.step;  // the parts of a step share its number
 }
@@ -221,7 +292,8 @@ void LoadPath::accept(Stepper::Result result, const GrowthPart& part) {
 ControlledStep LoadPath::close() {
     events_.end();
     ++at_.step;
-    ControlledStep out{{std::move(at_), converged_, std::move(searched_)}, std::move(events_.jumps)};
+    history_.substeps = static_cast<std::int64_t>(parts_.size());
+    ControlledStep out{{std::move(at_), converged_, std::move(searched_)}, std::move(events_.jumps), std::move(parts_)};
     for (JumpEvent& jump : out.jumps) jump.step = out.result.state.step;
     State& state = out.result.state;
     state.ledger.lower = sum_.lower;

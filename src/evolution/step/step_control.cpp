@@ -73,12 +73,13 @@ private:
     State at_;  // end of the parts accepted so far
     std::vector<Goal> goals_;
     std::vector<JumpEvent> jumps_;
+    std::vector<StepPart> done_;
     Effort effort_;
     StepOutcome outcome_;
     Ledger sum_;  // of the parts
     std::string searched_;
     bool converged_ = true;
-    std::int64_t parts_ = 0, refused_ = 0;
+    std::int64_t refused_ = 0;
 
     void count(const Stepper::Result& computed);
     bool too_long(const Stepper::Result& result, double change) const;
@@ -178,9 +179,9 @@ void Parts::accept(Goal goal) {
     sum_.mixity_error = std::max(sum_.mixity_error, next.ledger.mixity_error);
     const double margin = next.outcome.search_margin;
     outcome_.search_gap = std::max(outcome_.search_gap, next.outcome.search_gap);
-    outcome_.search_margin = parts_ == 0 ? margin : std::min(outcome_.search_margin, margin);
+    outcome_.search_margin = done_.empty() ? margin : std::min(outcome_.search_margin, margin);
     converged_ = converged_ && goal.reached->converged;
-    ++parts_;
+    done_.push_back({next.time, 0.0});
     searched_ += goal.reached->searched;
     outcome_.released += next.outcome.released;
     at_ = std::move(next);
@@ -196,7 +197,8 @@ void Parts::accept(Goal goal) {
 // The whole step: the last state, with the sums and the effort of all parts.
 ControlledStep Parts::close() {
     ++at_.step;
-    ControlledStep out{{std::move(at_), converged_, std::move(searched_)}, std::move(jumps_)};
+    history_.substeps = static_cast<std::int64_t>(done_.size());
+    ControlledStep out{{std::move(at_), converged_, std::move(searched_)}, std::move(jumps_), std::move(done_)};
     State& state = out.result.state;
     state.ledger.lower = sum_.lower;
     state.ledger.increment = sum_.increment;
@@ -205,7 +207,6 @@ ControlledStep Parts::close() {
     state.ledger.mixity_error = sum_.mixity_error;
     outcome_.damage_change = state.outcome.damage_change;
     outcome_.jumps = static_cast<std::int64_t>(out.jumps.size());
-    history_.substeps = parts_;
     history_.refused_steps = refused_;
     state.effort = effort_;
     state.outcome = outcome_;

@@ -19,6 +19,7 @@ namespace delam {
 struct ControlledStep {
     Stepper::Result result;  // ledger and counts of the whole step
     std::vector<JumpEvent> jumps;
+    std::vector<StepPart> parts;  // that lead to the result
 };
 
 bool controls_steps(const Options& options);

@@ -74,6 +74,9 @@ public:
     const PairLaws& pairs() const { return pairs_; }
     const ContactScene& contact() const { return contact_; }
     const JumpOperator& op() const { return *operator_; }
+    JumpOperator& op() { return *operator_; }
+    // The minimisation of a step that starts from these mixities.
+    std::unique_ptr<StepRule> increment(const State& before, std::span<const double> mixity) const;
     // Gives the operator the memory that it had at a state.
     void recall(const State& state) { operator_->recall(state.memory); }
     const ReductionChoice& reduction() const { return design_.choice; }
@@ -86,7 +89,6 @@ public:
 private:
     Minimiser minimiser();
     void begin(State& next, const State& before, double time);
-    std::unique_ptr<StepRule> increment(const State& before, std::span<const double> mixity) const;
     // The state from which the minimisations of a step begin; false: its elastic displacements reached a limit.
     bool start(State& next, const State& before, double time);
     // False: not known without a solve.

@@ -16,6 +16,7 @@
 #include "linalg/sparse/sparse_elimination.hpp"
 #include "mesh/face_gaps.hpp"
 #include "mesh/points.hpp"
+#include "scene/check/step_control.hpp"
 #include "scene/check/supports.hpp"
 #include "scene/check/validate.hpp"
 
@@ -125,22 +126,6 @@ void check_mixity_rule(const Problem& problem) {
                  "; partly damaged pairs would close in the tougher mode instead of breaking: use mixity_rule = frozen "
                  "or converged");
     }
-}
-
-// Following the load needs local minimisers from part to part, whose damage may be eliminated.
-void check_step_control(const Problem& problem) {
-    const Options& options = problem.options;
-    if (options.step_control != "load") return;
-    const auto require = [](bool holds, const char* what) {
-        if (!holds) fail(DELAM_ERROR_PROBLEM, "step_control = load needs ", what);
-    };
-    require(options.solution == "local", "solution = local");
-    require(options.mixity_rule == "converged", "mixity_rule = converged");
-    require(options.minimisation != "alternate", "an accelerated minimisation (minimisation = auto)");
-    require(options.backtracking != "on", "backtracking = off or auto");
-    require(options.path_step < 1.0, "path_step < 1");
-    require(!(options.jump_tolerance > 0.0) && !(options.mixity_step_tolerance > 0.0),
-            "jump_tolerance = 0 and mixity_step_tolerance = 0: it locates jumps, and takes parts, by itself");
 }
 
 void check_loads(const Problem& problem) {

@@ -17,7 +17,8 @@ DEFAULTS = {
     "search_limit": 100000, "search_tolerance": 1e-2, "step_control": "fixed", "step_tolerance": 1e-2,
     "mixity_step_tolerance": 0, "smallest_step": 1e-4, "jump_tolerance": 0, "jump_size": 0.5, "damage_tolerance": 1e-5,
     "minimisation_limit": 5000, "backtracking_tolerance": 1e-3, "minimisation": "auto", "reduction": "auto",
-    "contact": "auto", "mixity": "auto", "mixity_rule": "converged", "path_step": 0.15, "contact_limit": 200,
+    "contact": "auto", "mixity": "auto", "mixity_rule": "converged", "path_step": 0.15, "accuracy": 3e-3,
+    "contact_limit": 200,
     "subdomains": 0, "gluing": "orthonormal", "preconditioner": "series", "scaling": "stiffness",
     "linear_tolerance": 1e-13, "linear_limit": 2000, "threads": 1, "memory_limit": 0,
 }
@@ -350,7 +351,7 @@ def leaning(host, rule):
     return solver, [tangential / (normal + tangential) for normal, tangential in parts]
 
 
-@row("path_step", options=["path_step"])
+@row("path_step", options=["path_step", "accuracy"])
 def path_step(host, see):
     """Eight pairs, in turn in mode I and II, with every node prescribed: at onset + s (end - onset) of its jump, a pair
     has dissipated the share s of its toughness. Steps from 0.3 to a share just below and just above 0.45: one part, and
@@ -382,6 +383,7 @@ def path_step(host, see):
         return [int(found[1] > found[0])]
 
     observe(see, "path_step", run, [0.1485, 0.1515], [1])
+    observe(see, "accuracy", run, [2.94e-3, 3.06e-3], [1])
 
 
 @row("mixity", options=["mixity"])

@@ -24,12 +24,12 @@ constexpr const char* where_known[] = {"revisions",   "search_candidates", "sear
 // Columns of scenes in which an interface may break.
 constexpr const char* of_cracks[] = {"crack_length", "energy_release_rate", "front_mixity", "process_zone_pairs"};
 
-// Columns of step_control = load.
-constexpr const char* along_load[] = {"pops", "popped"};
-
 // These follow in space, where single points of a front depend on the mesh more than the means along it.
 constexpr const char* of_cracks_in_space[] = {"crack_area", "energy_release_rate_mean", "front_mixity_mean",
                                               "process_zone_pairs_mean"};
+
+// Columns of pairs that came apart one by one (step_control = load).
+constexpr const char* of_pops[] = {"pops", "popped"};
 
 constexpr const char* unknown_title = "sensitivities_unknown";
 
@@ -110,8 +110,8 @@ History::History(const Model& model, const Scene& scene) : model_(model), scene_
         for (const char* key : of_cracks_in_space)
             if (knows(key) && !has(key)) add(key, key);
     const char* control = delam_problem_option(model.problem.get(), "step_control");
-    if (control != nullptr && std::string_view(control) == "load")
-        for (const char* key : along_load)
+    if (cracks && control != nullptr && std::string_view(control) != "fixed")
+        for (const char* key : of_pops)
             if (knows(key) && !has(key)) add(key, key);
 }
 
@@ -130,10 +130,11 @@ std::string History::header() const {
 }
 
 void History::go_on_under(std::string_view header) {
+    const auto later = [](const std::string& key) {
+        return std::ranges::count(of_cracks_in_space, key) + std::ranges::count(of_pops, key) > 0;
+    };
     History older = *this;
-    while (older.header() != header && !older.columns_.empty() &&
-           std::find(std::begin(of_cracks_in_space), std::end(of_cracks_in_space), older.columns_.back().key) !=
-               std::end(of_cracks_in_space))
+    while (older.header() != header && !older.columns_.empty() && later(older.columns_.back().key))
         older.columns_.pop_back();
     if (older.header() == header) columns_ = older.columns_;
 }

@@ -24,7 +24,7 @@ public:
     History(const Model& model, const Scene& scene);
 
     [[nodiscard]] std::string header() const;
-    // Leaves out the columns in space if the table that goes on has been begun by a version without them.
+    // Leaves out the last columns if the table that goes on has been begun by a version without them.
     void go_on_under(std::string_view header);
     // Row of the committed state, or of the earlier step being read. Numbers have 17 significant digits, so that
     // reading them back gives the same bits.
