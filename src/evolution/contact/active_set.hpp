@@ -56,7 +56,8 @@ struct ActiveSet {
     std::int64_t doubts = 0;  // sets of which a solve left open whether a row violates its side
 };
 
-// Violations below this part of the largest jump or force are rounding of the solve.
+// Violations below this part of the largest jump or force are rounding of the solve. (Measured by
+// verify/bench/constants.py on 250 random scenes: half and twice decide alike.)
 inline constexpr double contact_rounding = 1e-11;
 // Forces below this part of the forces of which they are the difference are rounding, too. (Measured with
 // verify/cases/contact/random_scenes.py: 2e-14 to 1e-13 decide alike; with 1e-14 rounding holds blocks that are free,
