@@ -11,7 +11,7 @@ namespace delam {
 namespace {
 
 // The scenes of a film that comes off tell: with 0.003 and 0.01 one jump is cut into several, with 0.03 and 0.1 it is
-// one; growth that beam theory calls stable needs 1 to 4. (Measured by verify/bench/constants.py with
+// one. Growth that beam theory calls stable needs 1 to 4. (Measured by verify/bench/constants.py with
 // verify/cases/load_path/steps.py: half and twice move the load of the film's jump by 1.5 and 1.8 %.)
 constexpr double eps = 0.03;
 // With few pairs, this part of an interface may come apart in one event. (Half and twice change no digit there.)
