@@ -53,7 +53,7 @@ threads_checked() {
 thread_sanitizer() {
     check "build with the thread sanitizer" build tsan "${sanitized_build[@]}"
     check "thread sanitizer, 8 islands" threads_checked build/tsan/verify/fault_threads 4
-    check "thread sanitizer, the library's own threads" threads_checked build/tsan/verify/case_test_host_march
+    check "thread sanitizer, the library's own threads" threads_checked build/tsan/verify/case_test_host_analysis
     check "thread sanitizer, cancel from another thread" threads_checked build/tsan/verify/case_test_threads_host
 }
 

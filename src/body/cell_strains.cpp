@@ -11,7 +11,7 @@ namespace delam {
 
 namespace {
 
-constexpr std::size_t most_modes = 9;
+constexpr std::size_t most_modes = 9;  // of a hex8: three, each in three directions
 
 std::size_t shear(std::size_t dim, std::size_t i, std::size_t j) {
     return dim == 2 ? 2 : i + j == 1 ? 3 : i + j == 3 ? 4 : 5;

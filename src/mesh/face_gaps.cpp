@@ -14,13 +14,15 @@ namespace delam {
 
 namespace {
 
-// Part of the mesh's size that is the rounding of coordinates in files.
+// Part of the mesh's size that is the rounding of coordinates in files. (Measured by verify/bench/constants.py with
+// case_test_gaps and case_test_unmatched: half and twice close the same gaps.)
 constexpr double seven_digits = 1e-6;
 // Cosine of the angle from which on two facets meet at an edge of the body, not on a curved face: 30 degrees, as in a
 // circle of 12 facets. Half of it takes coarse circles for polygons, twice lets gaps at edges of 120 degrees be closed.
 constexpr double smooth = 0.866;
 // Facets of a polygon in a circle cut off arcs of height h^2 / 8 R = h phi / 8, phi being the angle between them; gaps
-// between two meshes of it vary by that. The margin is for uneven facets.
+// between two meshes of it vary by that. The margin is for uneven facets. (The same tests: half and twice of it close
+// the same gaps.)
 constexpr double arc = 1.1 / 8.0;
 
 struct Facet {

@@ -34,10 +34,9 @@ struct PairsInBox {
     std::vector<std::int64_t> pairs;  // ascending
     std::vector<MovedEnd> moved;
 };
-// Returns the pairs of an interface inside the closed box. A pair exactly on a side of the box (to 1e-6 of the shortest
-// edge of the two bodies) counts unless the interface continues beyond that side, because it is then the tip of the
-// part in the box. The interface continues where a face at the pair reaches beyond; without faces, where any pair lies
-// beyond.
+// Returns the pairs of an interface inside the closed box. A pair on a side of the box, to 1e-6 of the shortest edge of
+// the two bodies, counts unless the interface continues beyond that side. There it is the tip of the part in the box.
+// The interface continues where a face at the pair reaches beyond; without faces, where any pair lies beyond.
 PairsInBox find_pairs(const Mesh& mesh, std::int64_t interface, std::span<const double> lower,
                       std::span<const double> upper);
 

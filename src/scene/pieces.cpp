@@ -71,6 +71,7 @@ Pieces find_pieces(const Problem& problem) {
 }
 
 // Part of the displacements that remains of a motion without strain: rounding of the modes, which are orthonormal.
+// (Measured by verify/bench/constants.py on 250 random scenes: from a hundredth to a hundred times all decide alike.)
 constexpr double rigid = 1e-8;
 
 // Largest displacement after subtracting each piece's own rigid motion.

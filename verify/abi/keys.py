@@ -153,20 +153,20 @@ def texts_of(header, name):
 
 # ---- two beams that are peeled apart ----
 def recorded_of(library, header):
-    """key -> yes, or no if a march in the plane or in space refuses it; key -> its alias."""
+    """key -> yes, or no if an analysis in the plane or in space refuses it; key -> its alias."""
     refused = int(header.constants["DELAM_ERROR_ARGUMENT"])
     found, aliases = {}, {}
     for dimension in (2, 3):
-        march = March(library, header, dimension, SMALL)
-        for name, info in march.infos().items():
+        analysis = Analysis(library, header, dimension, SMALL)
+        for name, info in analysis.infos().items():
             aliases[general(name)] = info["alias"]
-        for name in march.values():
-            status = library.delam_solver_record(march.solver, name.encode())
+        for name in analysis.values():
+            status = library.delam_solver_record(analysis.solver, name.encode())
             if status not in (0, refused):
                 raise SystemExit(f"delam_solver_record of '{name}': status {status}")
             key = general(name)
             found[key] = "yes" if status == 0 and found.get(key) != "no" else "no"
-        march.end()
+        analysis.end()
     return found, aliases
 
 
@@ -175,7 +175,7 @@ def general(name):
     return re.sub(r":\d+$", ":I", re.sub(r":open$", ":NAME", name))
 
 
-class March:
+class Analysis:
     def __init__(self, library, header, dimension, units):
         length, force, time = units
         self.library, self.made = library, []
@@ -331,7 +331,7 @@ def measured(library, header):
         wrong.append(f"kinds of laws: {', '.join(kinds)} by delam_law_kind_info, {', '.join(kinds_of(header))} in the "
                      f"table of the header")
     for dimension in (2, 3):
-        one, other = (March(library, header, dimension, units) for units in (SMALL, LARGE))
+        one, other = (Analysis(library, header, dimension, units) for units in (SMALL, LARGE))
         before, after = one.values(), other.values()
         for name, info in one.infos().items():
             if values.get(general(name), info["unit"]).replace("-", "1") != info["unit"].replace("-", "1"):

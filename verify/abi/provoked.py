@@ -78,7 +78,7 @@ def dissipation(_mixity, zeta, dissipated, slope, mixity_slope, _user):
 
 
 def of_host(steps=0):
-    """A scene whose law is the host's, marched, and then fails."""
+    """A scene whose law is the host's, analysed, and then fails."""
     fails[0] = False
     s = bare()
     s.law = made("law_create_host", s.context, words("host"), adhesion, dissipation, None)
@@ -349,27 +349,27 @@ ROWS = {
                                           lambda s: [s.solver, 0.5]),
     ("solver_advance", "limit"): (lambda: loose_part(0.0), lambda s: [s.solver, 1.0]),
     ("solver_advance", "problem"): (failing, lambda s: [s.solver, 0.5]),
-    ("solver_advance", "state"): (lambda: full().marched(), lambda s: [s.solver, 0.9]),
+    ("solver_advance", "state"): (lambda: full().analysed(), lambda s: [s.solver, 0.9]),
     ("solver_commit", "problem"): (lambda: failing(2), lambda s: [s.solver]),
     ("solver_commit", "state"): (full, lambda s: [s.solver]),
     ("solver_rollback", "state"): (full, lambda s: [s.solver]),
-    ("solver_set_history", "state"): (lambda: full().marched(), usual("solver_set_history")),
+    ("solver_set_history", "state"): (lambda: full().analysed(), usual("solver_set_history")),
     ("solver_equilibrate", "not_converged"): (lambda: unbalanced(0.0), lambda s: [s.solver, 1.0, None]),
     ("solver_equilibrate", "cancelled"): (cancelled(full), usual("solver_equilibrate")),
     ("solver_equilibrate", "limit"): (lambda: loose_part(0.0), lambda s: [s.solver, 1.0, real(0, 0)]),
     ("solver_equilibrate", "problem"): (failing, usual("solver_equilibrate")),
-    ("solver_equilibrate", "state"): (lambda: full().marched(), usual("solver_equilibrate")),
+    ("solver_equilibrate", "state"): (lambda: full().analysed(), usual("solver_equilibrate")),
     ("solver_value", "cancelled"): (stopping(many_solved), lambda s: number(s, "rotation_max")),
     ("solver_field", "cancelled"): (stopping(many_solved), lambda s: [s.solver, words("stress"), -1, 4800,
                                                                       room(c_double, 4800)]),
     ("solver_value", "problem"): (lambda: failing(1), lambda s: number(s, "energy_release_rate")),
     ("solver_record", "problem"): (lambda: failing(1), lambda s: [s.solver, words("energy_release_rate")]),
-    ("solver_record", "state"): (lambda: full().marched(), lambda s: [s.solver, words("time")]),
+    ("solver_record", "state"): (lambda: full().analysed(), lambda s: [s.solver, words("time")]),
     ("solver_front_count", "problem"): (lambda: failing(1), usual("solver_front_count")),
     ("solver_front", "problem"): (lambda: failing(1), front),
     ("solver_tangent", "cancelled"): (cancelled(full), usual("solver_tangent")),
     ("solver_tangent", "state"): (floating, usual("solver_tangent")),
-    ("solver_step_tangent", "cancelled"): (cancelled(lambda: full().marched()), usual("solver_step_tangent")),
+    ("solver_step_tangent", "cancelled"): (cancelled(lambda: full().analysed()), usual("solver_step_tangent")),
     ("solver_step_tangent", "state"): (full, usual("solver_step_tangent")),
     ("solver_condensed_size", "state"): (lambda: with_options(("reduction", "feti"), time=0.0),
                                          usual("solver_condensed_size")),

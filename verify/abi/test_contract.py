@@ -157,12 +157,12 @@ class Scene:
             fine("problem_set_number", self.problem, words("jump_tolerance"), 0.1)
         self.solver = made("solver_create", self.problem, 0.0)
 
-    def marched(self):
+    def analysed(self):
         fine("solver_advance", self.solver, 0.5)
         return self
 
     def committed(self):
-        self.marched()
+        self.analysed()
         fine("solver_commit", self.solver)
         return self
 
@@ -322,8 +322,8 @@ CALLS = {
     "problem_plan": (full, lambda s: [s.problem, c_void_p(), real(0), real(0)]),
     "solver_create": (full, lambda s: [s.problem, 0.0, c_void_p()]),
     "solver_advance": (full, lambda s: [s.solver, 0.5]),
-    "solver_commit": (lambda: full().marched(), lambda s: [s.solver]),
-    "solver_rollback": (lambda: full().marched(), lambda s: [s.solver]),
+    "solver_commit": (lambda: full().analysed(), lambda s: [s.solver]),
+    "solver_rollback": (lambda: full().analysed(), lambda s: [s.solver]),
     "solver_pending": (full, lambda s: [s.solver, short(0)]),
     "solver_set_history": (full, lambda s: [s.solver, 0, 2, real(0.5, 1), real(0.1, 0.2)]),
     "solver_equilibrate": (full, lambda s: [s.solver, 0.5, real(1, 1)]),
@@ -341,7 +341,7 @@ CALLS = {
                                       room(c_double, 8), room(c_double, 4), room(c_double, 12), room(c_double, 4),
                                       room(c_double, 4)]),
     "solver_tangent": (full, lambda s: [s.solver, 9, room(c_double, 9)]),
-    "solver_step_tangent": (lambda: full().marched(), lambda s: [s.solver, 9, room(c_double, 9)]),
+    "solver_step_tangent": (lambda: full().analysed(), lambda s: [s.solver, 9, room(c_double, 9)]),
     "solver_condensed_size": (full, lambda s: [s.solver, whole(0), whole(0)]),
     "solver_condensed": (full, lambda s: [s.solver, 16, room(c_double, 16), room(c_double, 12), room(c_double, 9),
                                           room(c_int64, 5), room(c_int64, 16), room(c_double, 16), room(c_double, 12)]),

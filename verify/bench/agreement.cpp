@@ -7,7 +7,7 @@
 
 namespace bench {
 
-Json compare(const March& a, const March& b) {
+Json compare(const Analysis& a, const Analysis& b) {
     const std::size_t steps = std::min(a.steps.size(), b.steps.size());
     double reaction_scale = 0.0;
     double energy_scale = 0.0;
@@ -37,30 +37,30 @@ Json measure_agreement(const std::string& scene, double delta, double cap) {
     Json result;
     result["scene"] = scene;
     result["delta"] = delta;
-    std::vector<std::pair<std::string, March>> marches;
+    std::vector<std::pair<std::string, Analysis>> analyses;
     for (const Method& method : methods()) {
         progress(scene + ": delta " + std::to_string(delta) + ", " + method.key);
         std::string refusal;
-        March march;
+        Analysis analysis;
         if (method.reduction == nullptr) {
             BaselineOptions options;
             options.delta = delta;
-            march = run_baseline(stage, options, cap);
+            analysis = run_baseline(stage, options, cap);
         } else {
             const auto choice = resolve(stage, method, delta, refusal);
             if (!choice) {
                 result["methods"][method.key]["skipped"] = refusal;
                 continue;
             }
-            march = run_library(stage, *choice, cap);
+            analysis = run_library(stage, *choice, cap);
         }
         result["methods"][method.key] = {
-            {"capped", march.capped}, {"counts", counts(march)}, {"history", history(march)}};
-        for (const auto& [name, other] : marches) {
-            if (!other.steps.empty() && !march.steps.empty())
-                result["agreement"][name + " / " + method.key] = compare(other, march);
+            {"capped", analysis.capped}, {"counts", counts(analysis)}, {"history", history(analysis)}};
+        for (const auto& [name, other] : analyses) {
+            if (!other.steps.empty() && !analysis.steps.empty())
+                result["agreement"][name + " / " + method.key] = compare(other, analysis);
         }
-        marches.emplace_back(method.key, std::move(march));
+        analyses.emplace_back(method.key, std::move(analysis));
     }
     return result;
 }

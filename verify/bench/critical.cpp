@@ -79,7 +79,7 @@ Json measure_critical(const std::string& scene, double cap) {
             std::vector<double> last;
             double last_time = 0.0;
             std::vector<double> last_jump;
-            const March march = run_baseline(stage, {}, cap, 0, nullptr, [&](Baseline& b, int k) {
+            const Analysis analysis = run_baseline(stage, {}, cap, 0, nullptr, [&](Baseline& b, int k) {
                 see(b.jump(), b.mixity(), b.adhesion());
                 last = b.adhesion();
                 last_jump = b.jump();
@@ -96,15 +96,15 @@ Json measure_critical(const std::string& scene, double cap) {
                 difference = std::max(difference, std::abs(jump[i] - last_jump[i]));
                 largest = std::max(largest, std::abs(jump[i]));
             }
-            m = {{"capped", march.capped},
-                 {"steps", march.steps.size()},
+            m = {{"capped", analysis.capped},
+                 {"steps", analysis.steps.size()},
                  {"jump_against_library", largest > 0.0 ? difference / largest : 0.0},
                  {"damage_fixed_point_worst_of_steps", worst_defect},
                  {"damage_fixed_point_end", defects.back()},
                  {"damage_fixed_point", defects},
-                 {"last_damage_change", march.steps.back().damage_change},
-                 {"counts", counts(march)},
-                 {"history", history(march)}};
+                 {"last_damage_change", analysis.steps.back().damage_change},
+                 {"counts", counts(analysis)},
+                 {"history", history(analysis)}};
             continue;
         }
         std::string refusal;
@@ -113,18 +113,18 @@ Json measure_critical(const std::string& scene, double cap) {
             m["skipped"] = refusal;
             continue;
         }
-        const March march = run_library(stage, *choice, cap, [&](reference::Solver& solver, int k) {
+        const Analysis analysis = run_library(stage, *choice, cap, [&](reference::Solver& solver, int k) {
             see(solver.field("jump"), solver.field("mixity"), solver.field("adhesion"));
             if (k == stage.data.steps) end = text_of(reference::accept(solver, exported));
         });
-        m = {{"capped", march.capped},
-             {"steps", march.steps.size()},
+        m = {{"capped", analysis.capped},
+             {"steps", analysis.steps.size()},
              {"damage_fixed_point_worst_of_steps", worst_defect},
              {"damage_fixed_point_end", defects.empty() ? Json() : defects.back()},
              {"damage_fixed_point", defects},
              {"end_state_kkt", end},
-             {"counts", counts(march)},
-             {"history", history(march)}};
+             {"counts", counts(analysis)},
+             {"history", history(analysis)}};
     }
     return result;
 }

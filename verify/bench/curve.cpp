@@ -10,9 +10,9 @@ namespace {
 
 constexpr int samples = 5000;  // of the trapezoidal rule; far more than steps
 
-Curve make(const March& march, double StepRecord::*value) {
+Curve make(const Analysis& analysis, double StepRecord::*value) {
     Curve c;
-    for (const StepRecord& r : march.steps) {
+    for (const StepRecord& r : analysis.steps) {
         c.x.push_back(r.load);
         c.y.push_back(r.*value);
     }
@@ -30,8 +30,8 @@ double Curve::at(double where) const {
     return y[i - 1] * (1.0 - part) + y[i] * part;
 }
 
-Curve reaction_curve(const March& march) { return make(march, &StepRecord::reaction); }
-Curve dissipation_curve(const March& march) { return make(march, &StepRecord::dissipated); }
+Curve reaction_curve(const Analysis& analysis) { return make(analysis, &StepRecord::reaction); }
+Curve dissipation_curve(const Analysis& analysis) { return make(analysis, &StepRecord::dissipated); }
 
 double distance(const Curve& a, const Curve& b) {
     const double end = b.x.back();

@@ -12,8 +12,8 @@ struct Curve {
     std::vector<double> x{0.0}, y{0.0};  // from the unloaded state
     double at(double where) const;
 };
-Curve reaction_curve(const March& march);
-Curve dissipation_curve(const March& march);
+Curve reaction_curve(const Analysis& analysis);
+Curve dissipation_curve(const Analysis& analysis);
 
 // Integral of |a - b| over the path, divided by that of |b|.
 double distance(const Curve& a, const Curve& b);

@@ -137,7 +137,7 @@ struct SeriesEntry {
     std::vector<double> total, factor, iterate, processor;
     std::vector<double> units;     // total over the mean of the LSE measured before and after it
     std::vector<double> to_local;  // total over that of the local analysis of the same round
-    std::optional<March> first;
+    std::optional<Analysis> first;
     Course course;
 };
 
@@ -176,15 +176,15 @@ Json measure_concepts(const std::string& scene, int repeat, double cap) {
             SeriesEntry& entry = entries[method.key];
             if (!entry.choice || entry.first->capped) continue;
             progress(scene + ": round " + std::to_string(round + 1) + ", " + method.key);
-            const March march = run_library(stage, *entry.choice, cap);
+            const Analysis analysis = run_library(stage, *entry.choice, cap);
             const double after = unit();
-            entry.total.push_back(march.total());
-            entry.factor.push_back(march.setup + march.factor);
-            entry.iterate.push_back(march.iterate);
-            entry.processor.push_back(march.processor);
-            entry.units.push_back(march.total() / (0.5 * (before + after)));
-            if (method.solution == nullptr) local = march.total();
-            entry.to_local.push_back(march.total() / local);
+            entry.total.push_back(analysis.total());
+            entry.factor.push_back(analysis.setup + analysis.factor);
+            entry.iterate.push_back(analysis.iterate);
+            entry.processor.push_back(analysis.processor);
+            entry.units.push_back(analysis.total() / (0.5 * (before + after)));
+            if (method.solution == nullptr) local = analysis.total();
+            entry.to_local.push_back(analysis.total() / local);
             before = after;
         }
         if (turn % 2 != 0) unit();

@@ -2,8 +2,8 @@
 // The table of the solution concepts: local, with backtracking, energetic, on the same brittle scenes.
 #include <cstdio>
 
+#include "analysis.hpp"
 #include "child.hpp"
-#include "march.hpp"
 #include "measure.hpp"
 #include "report.hpp"
 #include "tables.hpp"
@@ -115,12 +115,12 @@ Json energetic_table(const Settings& settings) {
         }
         result["scenes"][name] = std::move(scene);
     }
-    print_rows({"scene", "thr", "march", "total_s", "q1..q3", "LSE", "by round", "LSE_cpu", "/local", "setup_s",
+    print_rows({"scene", "thr", "analysis", "total_s", "q1..q3", "LSE", "by round", "LSE_cpu", "/local", "setup_s",
                 "steps_s", "peak_MB", "note"},
                costs);
     std::printf("\n");
-    print_rows({"scene", "march", "jump_step", "load_mm", "advance_mm", "released", "defect_end", "violated", "excess",
-                "AM", "displ", "Newton", "candidates", "returns", "refused", "gap", "gap_rel", "margin"},
+    print_rows({"scene", "analysis", "jump_step", "load_mm", "advance_mm", "released", "defect_end", "violated",
+                "excess", "AM", "displ", "Newton", "candidates", "returns", "refused", "gap", "gap_rel", "margin"},
                found);
     return result;
 }

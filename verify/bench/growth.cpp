@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <map>
 
+#include "analysis.hpp"
 #include "child.hpp"
-#include "march.hpp"
 #include "measure.hpp"
 #include "report.hpp"
 #include "tables.hpp"

@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char* usage =
     "usage: delam_bench [--json FILE] [--quick] [--scene NAME]... [--repeat N] [--cap SECONDS] [--threads N]... "
-    "march | precision | methods | growth | energetic\n"
+    "analysis | precision | methods | growth | energetic\n"
     "       delam_bench [--json FILE] [--repeat N] [--cap SECONDS] --scene FILE... [--set KEY=VALUE]... scene-file\n"
     "       delam_bench [--json FILE] [--repeat N] --scene FILE... [--set KEY=VALUE]... side-by-side\n"
     "       delam_bench [--json FILE] [--repeat N] [--cap SECONDS] --scene FILE [--set KEY=VALUE]... [--size "
@@ -61,13 +61,10 @@ int main(int argc, char** argv) {
     const struct {
         const char* name;
         bench::Json (*make)(const bench::Settings&);
-    } tables[] = {{"march", bench::march_table},
-                  {"precision", bench::precision_table},
-                  {"methods", bench::methods_table},
-                  {"growth", bench::growth_table},
+    } tables[] = {{"analysis", bench::analysis_table},         {"precision", bench::precision_table},
+                  {"methods", bench::methods_table},           {"growth", bench::growth_table},
 #ifdef DELAM_SCENE_FILES
-                  {"scene-file", bench::scene_file_table},
-                  {"size", bench::size_table},
+                  {"scene-file", bench::scene_file_table},     {"size", bench::size_table},
                   {"side-by-side", bench::side_by_side_table},
 #endif
                   {"energetic", bench::energetic_table}};

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Single measurements of the tables `march`, `energetic` and `side-by-side`; each runs in a separate process
+// Single measurements of the tables `analysis`, `energetic` and `side-by-side`; each runs in a separate process
 // (child.hpp). `cap`: maximal seconds of an analysis.
 #pragma once
 
 #include <limits>
 #include <string>
 
+#include "analysis.hpp"
 #include "lse.hpp"
-#include "march.hpp"
 
 namespace bench {
 
@@ -34,7 +34,7 @@ Json measure_analysis(const std::string& path, const std::vector<std::string>& s
 
 // Largest relative differences of two analyses over their common steps: reaction relative to the largest reaction,
 // energies relative to the largest total energy.
-Json compare(const March& a, const March& b);
+Json compare(const Analysis& a, const Analysis& b);
 
 // Predicted cost of the baseline, from the counts of another analysis by plain alternate minimisation, whose iterates
 // are the same, and from times of single linear systems.
@@ -43,7 +43,7 @@ struct Price {
     std::int64_t factorisations = 0;
     std::int64_t solves = 0;
 };
-Price price(const March& counted, double factor_seconds, double solve_seconds);
+Price price(const Analysis& counted, double factor_seconds, double solve_seconds);
 
 // Prints one line on stderr.
 void progress(const std::string& text);

@@ -43,9 +43,9 @@ Json measure_memory(const std::string& scene, const std::string& method, double 
     result["reset"] = reset_peak_memory();
     result["before_MB"] = 1e-6 * peak_memory();
     // The baseline has reached its largest matrix after a few systems.
-    const March march = choice ? run_library(stage, *choice, cap) : run_baseline(stage, {}, cap, 3);
+    const Analysis analysis = choice ? run_library(stage, *choice, cap) : run_baseline(stage, {}, cap, 3);
     result["peak_MB"] = 1e-6 * peak_memory();
-    result["capped"] = march.capped && choice.has_value();
+    result["capped"] = analysis.capped && choice.has_value();
     return result;
 }
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Error against cost by method: the ductile ENF on patches, 4-node cells, the four methods of the table `march` on each
-// of a few meshes. Errors are those of the mesh: all analyses and the reference (quadratic cells on a fine mesh) have
-// the same steps.
+// Error against cost by method: the ductile ENF on patches, 4-node cells, the four methods of the table `analysis` on
+// each of a few meshes. Errors are those of the mesh: all analyses and the reference (quadratic cells on a fine mesh)
+// have the same steps.
 #include <cmath>
 #include <cstdio>
 
+#include "analysis.hpp"
 #include "child.hpp"
 #include "curve.hpp"
-#include "march.hpp"
 #include "measure.hpp"
 #include "report.hpp"
 #include "tables.hpp"
@@ -21,15 +21,15 @@ struct Fine {
     std::int64_t unknowns = 0;
 };
 
-Fine march_fine(const Element& element, double h, double cap) {
+Fine analyse_fine(const Element& element, double h, double cap) {
     progress(std::string("methods: reference, ") + element.name + ", h " + number(h) + " mm");
     SceneData data = find_scene("enf-patch-1");
     data.element = &element;
     data.h = h * 1e-3;
     Stage stage = make_mesh(data);
-    const March march = run_library(stage, {"auto", "auto"}, cap);
-    if (march.capped) throw reference::Failure(0, "the reference was stopped by the cap");
-    Fine fine{reaction_curve(march), dissipation_curve(march), h};
+    const Analysis analysis = run_library(stage, {"auto", "auto"}, cap);
+    if (analysis.capped) throw reference::Failure(0, "the reference was stopped by the cap");
+    Fine fine{reaction_curve(analysis), dissipation_curve(analysis), h};
     std::int64_t dual = 0;
     delam_problem_dofs(stage.scene.problem(), &fine.unknowns, &dual);
     return fine;
@@ -52,7 +52,7 @@ Json methods_table(const Settings& settings) {
 
     const Element& element = *find_element("quad9");
     std::vector<Fine> fine;
-    for (const double h : reference_meshes(settings.quick)) fine.push_back(march_fine(element, h, 600.0));
+    for (const double h : reference_meshes(settings.quick)) fine.push_back(analyse_fine(element, h, 600.0));
     const Fine& best = fine.back();
     const auto judge = [&](Curve Fine::*curve) {
         const auto e = richardson(fine[0].h, fine[1].h, best.h, distance(fine[0].*curve, best.*curve),

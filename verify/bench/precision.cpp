@@ -12,9 +12,9 @@
 #include <map>
 #include <optional>
 
+#include "analysis.hpp"
 #include "curve.hpp"
 #include "lse.hpp"
-#include "march.hpp"
 #include "measure.hpp"
 #include "report.hpp"
 #include "tables.hpp"
@@ -54,11 +54,11 @@ struct Run {
     int steps;
     double delta;
     std::int64_t primal = 0, dual = 0;
-    March march;
+    Analysis analysis;
     std::vector<double> seconds;
     std::vector<double> setup, factor, iterate;
     double lse = nan;  // s, of one linear solve
-    bool complete() const { return !march.capped && static_cast<int>(march.steps.size()) == steps; }
+    bool complete() const { return !analysis.capped && static_cast<int>(analysis.steps.size()) == steps; }
 };
 
 Run run(const Element& element, double h, int steps, double delta, int repeat, double cap, bool with_lse) {
@@ -77,12 +77,12 @@ Run run(const Element& element, double h, int steps, double delta, int repeat, d
     }
     for (int i = 0; i < repeat; ++i) {
         if (lse) unit.push_back(lse->measure());
-        March march = run_library(stage, *choice, cap);
-        r.seconds.push_back(march.total());
-        r.setup.push_back(march.setup);
-        r.factor.push_back(march.factor);
-        r.iterate.push_back(march.iterate);
-        if (i == 0) r.march = std::move(march);
+        Analysis analysis = run_library(stage, *choice, cap);
+        r.seconds.push_back(analysis.total());
+        r.setup.push_back(analysis.setup);
+        r.factor.push_back(analysis.factor);
+        r.iterate.push_back(analysis.iterate);
+        if (i == 0) r.analysis = std::move(analysis);
         if (!r.complete() || r.seconds.back() > 0.2 * cap) break;
     }
     if (lse) r.lse = median(unit);
@@ -152,14 +152,14 @@ Json precision_table(const Settings& settings) {
     const Run& reference = mesh_reference.at(fine_steps);
     const Run middle = run(*best, fine[1], line_steps, 1e-5, 1, 10.0 * cap, false);
     const Run coarse = run(*best, fine[0], line_steps, 1e-5, 1, 10.0 * cap, false);
-    const auto judge = [&](Curve (*curve)(const March&)) {
-        const auto& at_lines = mesh_reference.at(line_steps).march;
-        const auto mesh = richardson(coarse.h, middle.h, fine_h, distance(curve(coarse.march), curve(at_lines)),
-                                     distance(curve(middle.march), curve(at_lines)));
-        const auto& fewest = mesh_reference.at(steps[steps.size() - 2]).march;
-        const auto& fewer = mesh_reference.at(steps.back()).march;
-        const auto step = richardson(4.0, 2.0, 1.0, distance(curve(fewest), curve(reference.march)),
-                                     distance(curve(fewer), curve(reference.march)));
+    const auto judge = [&](Curve (*curve)(const Analysis&)) {
+        const auto& at_lines = mesh_reference.at(line_steps).analysis;
+        const auto mesh = richardson(coarse.h, middle.h, fine_h, distance(curve(coarse.analysis), curve(at_lines)),
+                                     distance(curve(middle.analysis), curve(at_lines)));
+        const auto& fewest = mesh_reference.at(steps[steps.size() - 2]).analysis;
+        const auto& fewer = mesh_reference.at(steps.back()).analysis;
+        const auto step = richardson(4.0, 2.0, 1.0, distance(curve(fewest), curve(reference.analysis)),
+                                     distance(curve(fewer), curve(reference.analysis)));
         return Json{{"observed_order_h", mesh.order},
                     {"error_h", mesh.error},
                     {"observed_order_tau", step.order},
@@ -207,12 +207,12 @@ Json precision_table(const Settings& settings) {
             continue;
         }
         const double lse = median(r.seconds) / unit[{r.element->name, r.h}];
-        const Curve f = reaction_curve(r.march);
-        const Curve d = dissipation_curve(r.march);
-        const March& same = mesh_reference.at(r.steps).march;
-        const double error = distance(f, reaction_curve(reference.march));
+        const Curve f = reaction_curve(r.analysis);
+        const Curve d = dissipation_curve(r.analysis);
+        const Analysis& same = mesh_reference.at(r.steps).analysis;
+        const double error = distance(f, reaction_curve(reference.analysis));
         const double error_h = distance(f, reaction_curve(same));
-        const double dissipated = distance(d, dissipation_curve(reference.march));
+        const double dissipated = distance(d, dissipation_curve(reference.analysis));
         const double dissipated_h = distance(d, dissipation_curve(same));
         row["seconds"] = spread(r.seconds);
         row["setup_s"] = median(r.setup);
@@ -224,7 +224,7 @@ Json precision_table(const Settings& settings) {
         row["error_dissipated"] = dissipated;
         row["error_dissipated_mesh"] = dissipated_h;
         row["within_reach_of_reference"] = error_h >= reach_h;
-        row["counts"] = counts(r.march);
+        row["counts"] = counts(r.analysis);
         result["rows"].push_back(row);
         rows.push_back({r.element->name, number(r.h), std::to_string(r.steps), number(r.delta),
                         std::to_string(r.primal), number(median(r.seconds)), number(lse), number(error, "%.2e"),

@@ -25,7 +25,7 @@ struct StepRecord {
     double seconds = 0.0;  // of this step, by the library
 };
 
-struct March {
+struct Analysis {
     std::vector<StepRecord> steps;
     double setup = 0.0;      // s, problem and its checks
     double factor = 0.0;     // s, everything that is done once: assembly, analysis, condensation, first factors

@@ -17,7 +17,7 @@ namespace bench {
 namespace {
 
 struct Outcome {
-    double setup = 0.0, march = 0.0, peak = 0.0;  // s, s, bytes above the use before
+    double setup = 0.0, analysis = 0.0, peak = 0.0;  // s, s, bytes above the use before
     std::size_t steps = 0;
     double alternations = 0.0, linear = 0.0, solves = 0.0, dissipated = 0.0;
 };
@@ -39,7 +39,7 @@ Outcome run(reference::SceneFile& file, const char* reduction, double cap) {
         out.solves += solver.value("displacement_solves");
         ++out.steps;
     }
-    out.march = clock.seconds();
+    out.analysis = clock.seconds();
     out.peak = peak_memory() - before;
     out.dissipated = solver.value("dissipated");
     return out;
@@ -71,13 +71,13 @@ Json scene_file_table(const Settings& settings) {
         lse();
         std::vector<double> solves{lse()};
         for (const char* reduction : {"auto", "feti"}) {
-            std::vector<double> marches;
+            std::vector<double> analyses;
             Outcome out;
             // The FETI analysis takes too long to be repeated.
             for (int i = 0; i < (reduction[0] == 'a' ? repeat : 1); ++i) {
                 progress(std::string("  ") + reduction);
                 out = run(file, reduction, reduction[0] == 'a' ? 1e9 : cap);
-                marches.push_back(out.march);
+                analyses.push_back(out.analysis);
                 solves.push_back(lse());
             }
             const double unit = median(solves);
@@ -90,7 +90,7 @@ Json scene_file_table(const Settings& settings) {
                               {"unknowns", matrix.size()},
                               {"entries_L", entries},
                               {"lse_s", spread(solves)},
-                              {"march_s", spread(marches)},
+                              {"analysis_s", spread(analyses)},
                               {"setup_s", out.setup},
                               {"steps", out.steps},
                               {"whole", whole},
@@ -102,13 +102,13 @@ Json scene_file_table(const Settings& settings) {
                               {"lse_MB", 1e-6 * factor_bytes}});
             rows.push_back({path.substr(path.find_last_of('/') + 1), reduction, std::to_string(matrix.size()),
                             std::to_string(file.scene.pair_count()),
-                            std::to_string(out.steps) + (whole ? "" : " (cap)"), number(unit), number(median(marches)),
-                            number(out.setup / unit), number(median(marches) / unit), number(out.alternations),
+                            std::to_string(out.steps) + (whole ? "" : " (cap)"), number(unit), number(median(analyses)),
+                            number(out.setup / unit), number(median(analyses) / unit), number(out.alternations),
                             number(out.solves), number(out.linear), number(1e-6 * out.peak),
                             number(1e-6 * factor_bytes), number(out.dissipated, "%.8g")});
         }
     }
-    print_rows({"scene", "reduction", "unknowns", "pairs", "steps", "LSE_s", "march_s", "setup/LSE", "march/LSE",
+    print_rows({"scene", "reduction", "unknowns", "pairs", "steps", "LSE_s", "analysis_s", "setup/LSE", "analysis/LSE",
                 "alternations", "solves", "linear", "peak_MB", "LSE_MB", "dissipated"},
                rows);
     return result;

@@ -11,9 +11,9 @@
 namespace bench {
 namespace {
 
-constexpr double slow_march = 30.0;   // s; a longer analysis is not repeated
-constexpr double counting_cap = 4.0;  // the counting analysis may take this many caps
-constexpr int priced_systems = 24;    // factorisations timed when the baseline is priced instead of run
+constexpr double long_analysis = 30.0;  // s; a longer analysis is not repeated
+constexpr double counting_cap = 4.0;    // the counting analysis may take this many caps
+constexpr int priced_systems = 24;      // factorisations timed when the baseline is priced instead of run
 
 // All data of one method.
 struct Entry {
@@ -21,7 +21,7 @@ struct Entry {
     std::optional<Choice> choice;  // library methods
     std::string refusal;
     std::vector<double> total, setup, factor, iterate;
-    std::optional<March> first;
+    std::optional<Analysis> first;
     bool slow = false;  // measured once
     // The baseline alone.
     bool priced = false;
@@ -29,26 +29,26 @@ struct Entry {
     std::vector<std::int64_t> factorisations;
 };
 
-void keep(Entry& entry, March march) {
-    entry.total.push_back(march.total());
-    entry.setup.push_back(march.setup);
-    entry.factor.push_back(march.factor);
-    entry.iterate.push_back(march.iterate);
-    if (!entry.first) entry.first = std::move(march);
+void keep(Entry& entry, Analysis analysis) {
+    entry.total.push_back(analysis.total());
+    entry.setup.push_back(analysis.setup);
+    entry.factor.push_back(analysis.factor);
+    entry.iterate.push_back(analysis.iterate);
+    if (!entry.first) entry.first = std::move(analysis);
 }
 
 void run_baseline_round(Entry& entry, Stage& stage, bool wide, double cap) {
     BaselineOptions options;
     options.wide = wide;
     BaselineTimes times;
-    March march = run_baseline(stage, options, cap, entry.priced ? priced_systems : 0, &times);
+    Analysis analysis = run_baseline(stage, options, cap, entry.priced ? priced_systems : 0, &times);
     entry.factor_times.insert(entry.factor_times.end(), times.factor.begin(), times.factor.end());
     entry.solve_times.insert(entry.solve_times.end(), times.solve.begin(), times.solve.end());
-    keep(entry, std::move(march));
+    keep(entry, std::move(analysis));
 }
 
 // Equal in every digit: then both are the same method under two names.
-bool same_march(const March& a, const March& b) {
+bool same_analysis(const Analysis& a, const Analysis& b) {
     if (a.steps.size() != b.steps.size()) return false;
     for (std::size_t k = 0; k < a.steps.size(); ++k) {
         const StepRecord& x = a.steps[k];
@@ -63,7 +63,7 @@ bool same_march(const March& a, const March& b) {
 
 void progress(const std::string& text) { std::fprintf(stderr, "%s\n", text.c_str()); }
 
-Price price(const March& counted, double factor_seconds, double solve_seconds) {
+Price price(const Analysis& counted, double factor_seconds, double solve_seconds) {
     Price p;
     for (const StepRecord& r : counted.steps) p.solves += r.contact_iterations;
     // The first system of a step has the last matrix of the step before, and the first step begins twice (elastic).
@@ -109,8 +109,8 @@ Json measure_series(const std::string& scene, int repeat, double cap) {
     Choice counting = *counter.choice;
     counting.minimisation = "alternate";
     progress(scene + ": counting the alternations (" + counter.method->key + ")");
-    const March counted = run_library(stage, counting, counting_cap * cap);
-    if (counts_itself && (counted.capped || counted.total() > slow_march)) {
+    const Analysis counted = run_library(stage, counting, counting_cap * cap);
+    if (counts_itself && (counted.capped || counted.total() > long_analysis)) {
         keep(counter, counted);
         counter.slow = true;
     }
@@ -132,7 +132,7 @@ Json measure_series(const std::string& scene, int repeat, double cap) {
             } else {
                 keep(entry, run_library(stage, *entry.choice, cap));
             }
-            entry.slow = (entry.first->capped && !entry.priced) || entry.total.back() > slow_march;
+            entry.slow = (entry.first->capped && !entry.priced) || entry.total.back() > long_analysis;
             unit();
         }
         if (turn % 2 != 0) unit();
@@ -160,8 +160,8 @@ Json measure_series(const std::string& scene, int repeat, double cap) {
         double iterate = median(entry.iterate);
         const std::string method_key = method.key;
         const auto& plain = entries["condensed"].first;
-        if (method_key == "accelerated" && plain && same_march(*plain, *entry.first))
-            label += ", the same march as condensed";
+        if (method_key == "accelerated" && plain && same_analysis(*plain, *entry.first))
+            label += ", the same analysis as condensed";
         if (method.reduction == nullptr) {
             m["factor_system_s"] = spread(entry.factor_times);
             m["rest_of_system_s"] = spread(entry.solve_times);

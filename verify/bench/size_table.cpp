@@ -48,7 +48,7 @@ struct Unit {
     }
 };
 
-struct Analysis {
+struct SizedAnalysis {
     double seconds = 0.0, setup = 0.0, peak = 0.0;  // s of processor time; bytes above the use before
     std::size_t steps = 0, not_converged = 0;
     double alternations = 0.0, iterations = 0.0, solves = 0.0, factors = 0.0, dissipated = 0.0, defect = 0.0;
@@ -66,8 +66,8 @@ struct Analysis {
     }
 };
 
-Analysis analyse(const reference::SceneFile& file, double cap, std::size_t units, Unit& unit) {
-    Analysis out;
+SizedAnalysis analyse(const reference::SceneFile& file, double cap, std::size_t units, Unit& unit) {
+    SizedAnalysis out;
     reset_peak_memory();
     const double before = peak_memory();
     Watch watch(file.scene.context());
@@ -131,7 +131,7 @@ Json size_table(const Settings& settings) {
         unit.measure();
         progress("LSE " + number(unit.whole.front()) + " s, factorisation and solve " +
                  number(unit.refactored.front()) + " s, order " + unit.ordering);
-        const Analysis a = analyse(file, cap, units, unit);
+        const SizedAnalysis a = analyse(file, cap, units, unit);
         const double lse = median(unit.whole), refactored = a.solves * median(unit.refactored);
         const bool whole = a.steps + 1 == file.times.size();
         if (whole) {

@@ -19,7 +19,7 @@ struct Settings {
     std::vector<std::string> sizes;     // KEY=VALUE, one for each size of a scene file
 };
 
-Json march_table(const Settings& settings);
+Json analysis_table(const Settings& settings);
 Json precision_table(const Settings& settings);
 Json methods_table(const Settings& settings);
 Json growth_table(const Settings& settings);

@@ -184,8 +184,8 @@ inline Rivals::Run run(const reference::Scene& scene, std::int64_t interface, do
 
 // An analysis in which no step may have more energy than the rivals reachable from its start, or than the candidates of
 // its search. Returns the dissipated energy of every step.
-inline std::vector<double> march_below(const reference::Scene& scene, const Rivals& rivals, int steps,
-                                       double tolerance = 1e-8) {
+inline std::vector<double> analyse_below(const reference::Scene& scene, const Rivals& rivals, int steps,
+                                         double tolerance = 1e-8) {
     reference::Solver solver(scene, 0.0);
     std::vector<double> dissipated;
     for (int k = 1; k <= steps; ++k) {

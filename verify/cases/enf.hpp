@@ -71,7 +71,7 @@ inline reference::Scene make_enf(const Enf& e) {
 inline double enf_time(int step, int steps) { return enf_end_time * step / steps; }
 
 // Adhesion of every step of one analysis, step 0 included.
-inline std::vector<std::vector<double>> enf_march(const Enf& e, int steps) {
+inline std::vector<std::vector<double>> enf_analysis(const Enf& e, int steps) {
     const auto scene = make_enf(e);
     reference::Solver solver(scene, 0.0);
     std::vector<std::vector<double>> states{solver.field("adhesion")};

@@ -32,11 +32,11 @@ struct DirectStates {
 
 inline DirectStates::DirectStates(double h, int stride) : enf{h}, scene(make_enf(enf)), exported(scene) {
     constexpr int steps = 40;
-    const auto march = enf_march(enf, steps);
+    const auto analysis = enf_analysis(enf, steps);
     reference::DirectReference direct(scene);
     for (int k = stride; k <= steps; k += stride) {
         const double time = enf_time(k, steps);
-        const auto& adhesion = march[static_cast<std::size_t>(k)];
+        const auto& adhesion = analysis[static_cast<std::size_t>(k)];
         entries.push_back({time, adhesion, direct.solve(time, adhesion)});
     }
 }

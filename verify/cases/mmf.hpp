@@ -42,7 +42,7 @@ inline reference::Scene make_mmf(double h, const reference::LawData& law, const 
     return scene;
 }
 
-struct MmfMarch {
+struct MmfAnalysis {
     double dissipated, front, defect, defect_slides;  // at the end
     double worst_error = 0.0;                         // of the mixity, in a step
     double solves = 0.0;
@@ -50,11 +50,11 @@ struct MmfMarch {
     std::vector<std::string> warnings;         // of the mode mixity
 };
 
-inline MmfMarch march_mmf(double h, const reference::LawData& law, const char* rule, int steps) {
+inline MmfAnalysis analyse_mmf(double h, const reference::LawData& law, const char* rule, int steps) {
     const reference::Scene scene = make_mmf(h, law, rule);
     const Warnings warnings(scene);
     reference::Solver solver(scene, 0.0);
-    MmfMarch m{};
+    MmfAnalysis m{};
     for (int k = 1; k <= steps; ++k) {
         const std::int32_t status = solver.advance(enf_end_time * k / steps);
         scene.require(status < 0 ? status : 0, "delam_solver_advance");

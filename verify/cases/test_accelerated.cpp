@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Accelerated against plain alternate minimisation. Where the incremental problem has one critical point the analyses
-// agree; where it has many, each end state is shown to be one (watched_march.hpp) and the energies are printed.
+// agree; where it has many, each end state is shown to be one (watched_analysis.hpp) and the energies are printed.
 #include <array>
 #include <cstdio>
 #include <functional>
@@ -8,7 +8,7 @@
 
 #include "condensed_scenes.hpp"
 #include "enf.hpp"
-#include "watched_march.hpp"
+#include "watched_analysis.hpp"
 
 namespace {
 
@@ -51,28 +51,28 @@ LOOP_TEST(ductile_enf, 0, 2) {
     const double delta = loop == 0 ? 1e-5 : 1e-10;
     const double tolerance = loop == 0 ? 1e-4 : 1e-8;
     Watch w = watch_enf(ductile, 20, delta);
-    const auto march = [&](const char* reduction, const char* minimisation) {
+    const auto analyse = [&](const char* reduction, const char* minimisation) {
         const std::string where =
             std::string("ductile ENF, ") + (loop == 0 ? "1e-5, " : "1e-10, ") + reduction + ", " + minimisation;
         const Scene scene = enf(1.5e-3, ductile, reduction, minimisation, delta);
         return cases::watch(scene, w, where);
     };
-    const Watched plain = march("condensed", "alternate");
-    const Watched fast = march("condensed", "accelerated");
-    const Watched feti = march("feti", "accelerated");
-    const Watched iterated = march("iterated", "accelerated");
-    cases::expect_same_march(fast, plain, tolerance, "condensed, accelerated");
-    cases::expect_same_march(iterated, plain, tolerance, "iterated, accelerated");
-    cases::expect_same_march(feti, plain, tolerance, "feti, accelerated");
+    const Watched plain = analyse("condensed", "alternate");
+    const Watched fast = analyse("condensed", "accelerated");
+    const Watched feti = analyse("feti", "accelerated");
+    const Watched iterated = analyse("iterated", "accelerated");
+    cases::expect_same_analysis(fast, plain, tolerance, "condensed, accelerated");
+    cases::expect_same_analysis(iterated, plain, tolerance, "iterated, accelerated");
+    cases::expect_same_analysis(feti, plain, tolerance, "feti, accelerated");
     if (loop == 0 && cases::whole())
-        cases::expect_same_march(march("feti", "alternate"), plain, tolerance, "feti, alternate");
-    cases::expect_below(fast.alternations, 0.2 * plain.alternations, "alternations of the accelerated march");
-    cases::expect_below(feti.alternations, 1.2 * fast.alternations, "alternations of the march by FETI");
-    cases::expect_below(feti.newton, 1.2 * fast.newton, "Newton solves of the march by FETI");
-    cases::expect_below(iterated.alternations, 1.2 * fast.alternations, "alternations of the iterated march");
+        cases::expect_same_analysis(analyse("feti", "alternate"), plain, tolerance, "feti, alternate");
+    cases::expect_below(fast.alternations, 0.2 * plain.alternations, "alternations of the accelerated analysis");
+    cases::expect_below(feti.alternations, 1.2 * fast.alternations, "alternations of the analysis by FETI");
+    cases::expect_below(feti.newton, 1.2 * fast.newton, "Newton solves of the analysis by FETI");
+    cases::expect_below(iterated.alternations, 1.2 * fast.alternations, "alternations of the iterated analysis");
     // The count includes solves in a part of the bodies; at 1e-10 the last few depend on rounding (131 to 137 beside
     // 67).
-    cases::expect_below(iterated.newton, 2.2 * fast.newton, "Newton solves of the iterated march");
+    cases::expect_below(iterated.newton, 2.2 * fast.newton, "Newton solves of the iterated analysis");
 }
 
 // ---- peeling: mode I, mixed, several interfaces, 3D, all laws -------------------------------------------------------
@@ -154,40 +154,40 @@ const Peel peels[] = {
 };
 constexpr int peel_count = static_cast<int>(std::size(peels));
 
-void march_peel(const Peel& p, int steps, const char* rule) {
+void analyse_peel(const Peel& p, int steps, const char* rule) {
     Watch w;
     w.laws = {p.law};
     w.times = cases::even_times(1.0, steps);
     w.reaction = "peel";
     w.delta = 1e-6;
     w.in_parts = std::string(rule) == "converged";
-    const auto march = [&](const char* reduction, const char* minimisation) {
+    const auto analyse = [&](const char* reduction, const char* minimisation) {
         const Scene scene = peel(p, reduction, minimisation, w.delta, 100000, rule);
         return cases::watch(scene, w,
                             std::string(p.name) + ", " + rule + ", " + std::to_string(steps) + " steps, " + reduction +
                                 ", " + minimisation);
     };
-    const Watched plain = march("condensed", "alternate");
-    const Watched fast = march("condensed", "accelerated");
-    if (p.unique) cases::expect_same_march(fast, plain, 1e-4, p.name);
+    const Watched plain = analyse("condensed", "alternate");
+    const Watched fast = analyse("condensed", "accelerated");
+    if (p.unique) cases::expect_same_analysis(fast, plain, 1e-4, p.name);
     cases::expect(fast.steps.back().dissipated > 0.0, std::string(p.name) + ": nothing was damaged");
     if (p.dimension == 3 && !p.unique) return;  // the Krylov solves of long alternations take long
-    const Watched feti = march("feti", "accelerated");
-    if (p.unique) cases::expect_same_march(feti, plain, 1e-4, std::string(p.name) + ", feti");
-    const Watched iterated = march("iterated", "accelerated");
-    if (p.unique) cases::expect_same_march(iterated, plain, 1e-4, std::string(p.name) + ", iterated");
+    const Watched feti = analyse("feti", "accelerated");
+    if (p.unique) cases::expect_same_analysis(feti, plain, 1e-4, std::string(p.name) + ", feti");
+    const Watched iterated = analyse("iterated", "accelerated");
+    if (p.unique) cases::expect_same_analysis(iterated, plain, 1e-4, std::string(p.name) + ", iterated");
 }
 
 // loop: the scene, then in how many steps the load is applied.
 LOOP_TEST(peeling, 0, 2 * peel_count) {
     if ((loop == 2 || loop == 3) && !cases::whole()) return;  // in one step all the same
-    march_peel(peels[loop % peel_count], loop < peel_count ? 6 : 1, "frozen");
+    analyse_peel(peels[loop % peel_count], loop < peel_count ? 6 : 1, "frozen");
 }
 
 // Modes that change while a front grows, which the default rule follows in parts.
 LOOP_TEST(peeling_in_parts, 0, 5) {
     const int scenes[] = {1, 2, 3, 5, 9};
-    march_peel(peels[scenes[loop]], 6, "converged");
+    analyse_peel(peels[scenes[loop]], 6, "converged");
 }
 
 // ---- many critical points ------------------------------------------------------------------------------------------
@@ -206,17 +206,17 @@ LOOP_TEST(brittle_enf, 0, 2) {
 TEST(brittle_steps_from_the_same_states) {
     const Scene fast = enf(1.5e-3, brittle, "condensed", "accelerated", 1e-5);
     const Scene plain = enf(1.5e-3, brittle, "condensed", "alternate", 1e-5);
-    Solver march(fast, 0.0);
+    Solver analysis(fast, 0.0);
     int lower = 0, higher = 0, same = 0, steps = 0;
     double time = 0.0;
     for (const double next : cases::even_times(cases::enf_end_time, 40)) {
         const double from = std::exchange(time, next);
         if (steps++ % 4 != 1) {  // every fourth state
-            march.step(next);
-            march.commit();
+            analysis.step(next);
+            analysis.commit();
             continue;
         }
-        const auto zeta = march.field("adhesion");
+        const auto zeta = analysis.field("adhesion");
         double increment[2] = {0.0, 0.0}, scale = 0.0;
         for (const bool accelerated : {true, false}) {
             Solver solver(accelerated ? fast : plain, 0.0);
@@ -232,8 +232,8 @@ TEST(brittle_steps_from_the_same_states) {
         if (std::abs(difference) > 1e-7)
             std::printf("brittle ENF, step to %.2f: accelerated %.9g, plain %.9g J/m\n", next, increment[0],
                         increment[1]);
-        march.step(next);
-        march.commit();
+        analysis.step(next);
+        analysis.commit();
     }
     std::printf("brittle ENF: accelerated lower in %d steps, higher in %d, equal in %d\n", lower, higher, same);
     cases::expect(lower + higher + same == 10, "steps");
@@ -241,7 +241,7 @@ TEST(brittle_steps_from_the_same_states) {
 
 // ---- counts --------------------------------------------------------------------------------------------------------
 
-TEST(counts_of_the_ductile_march) {
+TEST(counts_of_the_ductile_analysis) {
     const Scene scene = enf(0.5e-3, ductile, "condensed", "accelerated", 1e-5);
     const Watched w = cases::watch(scene, watch_enf(ductile, 40, 1e-5), "ductile ENF, h = 0.5 mm");
     cases::expect_below(w.newton + w.solves, 260.0, "linear solves");

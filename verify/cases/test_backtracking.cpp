@@ -4,7 +4,7 @@
 #include "energetic_scenes.hpp"
 #include "flexure.hpp"
 #include "mmf.hpp"
-#include "small_march.hpp"
+#include "small_analysis.hpp"
 #include "step_ledger.hpp"
 
 namespace {
@@ -110,7 +110,7 @@ LOOP_TEST(no_bound_is_missed_afterwards, 0, 4) {
         a.commit();
         plain.push_back(read(a, k, steps));
     }
-    cases::expect(violated(plain) > 0, "a local march misses bounds");
+    cases::expect(violated(plain) > 0, "a local analysis misses bounds");
     cases::expect(walk(b, 1, steps, steps, &on.data.law) > 0.0, "and is returned in");
     const auto rows = history(b, steps, steps);
     expect_one_history(rows, on.data.law, "in the end");
@@ -188,7 +188,7 @@ LOOP_TEST(rollback_of_a_return, 0, 2) {
     cases::expect_same(solver, cases::read_bits(solver), pending, "taken again");
 }
 
-LOOP_TEST(resumed_march, 0, 2) {
+LOOP_TEST(resumed_analysis, 0, 2) {
     const int steps = 40;
     const FlexureScene f = make(brittle(2.0), "on", concept_of(loop));
     const int k = std::max(2, first_return(f, steps));
@@ -279,7 +279,7 @@ LOOP_TEST(returns_end, 0, 6) {
 
 // Fine analyses of the mixed-mode flexure test with returns (long tier): the loops terminate, and the results satisfy
 // the same checks as without returns.
-LOOP_TEST(returns_of_fine_marches_end, 0, 6) {
+LOOP_TEST(returns_of_fine_analyses_end, 0, 6) {
     if (!cases::whole()) return;
     const char* rules[] = {"frozen", "converged", "variational"};
     const bool brittle = loop >= 3;

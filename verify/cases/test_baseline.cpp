@@ -56,15 +56,15 @@ void compare(const bench::SceneData& data, double tolerance, bool wide) {
     }
 }
 
-LOOP_TEST(same_march, 0, 2) { compare(coarse(), 1e-8, loop == 1); }
+LOOP_TEST(same_analysis, 0, 2) { compare(coarse(), 1e-8, loop == 1); }
 
-TEST(same_march_with_patches) {
+TEST(same_analysis_with_patches) {
     auto data = coarse();
     data.patch = 2e-3;
     compare(data, 1e-8, false);
 }
 
-TEST(same_march_in_3d) {
+TEST(same_analysis_in_3d) {
     auto data = bench::find_scene("block-2");
     data.steps = 4;
     compare(data, 1e-8, false);

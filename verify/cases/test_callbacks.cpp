@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "host_bilinear.hpp"
-#include "small_march.hpp"
+#include "small_analysis.hpp"
 
 namespace {
 

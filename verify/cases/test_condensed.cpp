@@ -208,7 +208,7 @@ LOOP_TEST(every_scene, 0, entry_count) {
                                           std::to_string(direct_states) + " states");
 }
 
-// ---- marches with constraints --------------------------------------------------------------------------------------
+// ---- analyses with constraints --------------------------------------------------------------------------------------
 
 // Means, control nodes, periodic cells and tied nodes while interfaces soften: the iterated operator takes the path of
 // the condensed one.
@@ -226,7 +226,7 @@ const Constrained constrained[] = {{"means", 0.012},    {"bound jumps", 1.0}, {"
                                    {"obstacles", 1.0}};
 constexpr int constrained_count = static_cast<int>(std::size(constrained));
 
-LOOP_TEST(marches_with_constraints, 0, 2 * constrained_count) {
+LOOP_TEST(analyses_with_constraints, 0, 2 * constrained_count) {
     const int d = loop < constrained_count ? 2 : 3;
     const Constrained& own = constrained[loop % constrained_count];
     const std::string name = own.name + std::string(d == 2 ? "" : " 3D");

@@ -82,7 +82,7 @@ LOOP_TEST(iterations_at_constant_ratio, 0, damage_count) {
 
 // ---- the ductile analysis, h = 1 mm ----------------------------------------------------------------------------
 
-struct March {
+struct Analysis {
     int steps = 0;
     int not_converged = 0;
     double work = 0.0;
@@ -94,13 +94,13 @@ struct March {
     double fallbacks = 0.0;
 };
 
-March march(int steps, std::int64_t subdomains) {
+Analysis analyse(int steps, std::int64_t subdomains) {
     cases::Enf e;
     e.h = 1e-3;
     e.subdomains = subdomains;
     const auto scene = cases::make_enf(e);
     reference::Solver solver(scene, 0.0);
-    March m;
+    Analysis m;
     m.steps = steps;
     for (int k = 1; k <= steps; ++k) {
         const std::int32_t status = solver.advance(cases::enf_time(k, steps));
@@ -117,7 +117,8 @@ March march(int steps, std::int64_t subdomains) {
         m.fallbacks += solver.value("contact_fallbacks");
     }
     std::printf(
-        "march: %d steps, %d subdomains: defect / work %.3e, band %.6g J/m, %.0f solves, active-set steps mean %.3f, "
+        "analysis: %d steps, %d subdomains: defect / work %.3e, band %.6g J/m, %.0f solves, active-set steps mean "
+        "%.3f, "
         "max %.0f, %.0f fallbacks, %d not converged\n",
         steps, static_cast<int>(subdomains), m.defect / m.work, m.band, m.solves, m.contact / m.solves, m.contact_worst,
         m.fallbacks, m.not_converged);
@@ -125,26 +126,26 @@ March march(int steps, std::int64_t subdomains) {
 }
 
 // Computed once before Check forks; the tests only read the numbers.
-std::vector<March> marches;
-March cut_march;  // 40 steps with 8 subdomains
-std::string march_failure;
+std::vector<Analysis> analyses;
+Analysis cut_analysis;  // 40 steps with 8 subdomains
+std::string analysis_failure;
 
-void make_marches() {
-    if (!marches.empty()) return;
+void make_analyses() {
+    if (!analyses.empty()) return;
     try {
-        for (const int steps : {20, 40, 80}) marches.push_back(march(steps, 2));
-        cut_march = march(40, 8);
+        for (const int steps : {20, 40, 80}) analyses.push_back(analyse(steps, 2));
+        cut_analysis = analyse(40, 8);
     } catch (const std::exception& e) {
-        march_failure = e.what();
+        analysis_failure = e.what();
     }
 }
-BEFORE_TESTS(make_marches);
+BEFORE_TESTS(make_analyses);
 
 TEST(balance_closes_with_the_step) {
-    cases::expect(march_failure.empty(), march_failure);
-    for (std::size_t i = 1; i < marches.size(); ++i) {
-        const March& coarse = marches[i - 1];
-        const March& fine = marches[i];
+    cases::expect(analysis_failure.empty(), analysis_failure);
+    for (std::size_t i = 1; i < analyses.size(); ++i) {
+        const Analysis& coarse = analyses[i - 1];
+        const Analysis& fine = analyses[i];
         const std::string at = std::to_string(fine.steps) + " steps: ";
         cases::expect(fine.work > 0.0, at + "the device does work");
         cases::expect_below(fine.defect / fine.work, 0.5 * coarse.defect / coarse.work, at + "defect of the balance");
@@ -153,8 +154,8 @@ TEST(balance_closes_with_the_step) {
 }
 
 TEST(contact_is_found_quickly) {
-    cases::expect(march_failure.empty(), march_failure);
-    for (const March& m : {marches.at(1), cut_march}) {
+    cases::expect(analysis_failure.empty(), analysis_failure);
+    for (const Analysis& m : {analyses.at(1), cut_analysis}) {
         cases::expect(m.not_converged == 0, std::to_string(m.not_converged) + " steps did not converge");
         cases::expect(m.solves > 0.0, "nothing was solved");
         cases::expect_below(m.contact / m.solves, 2.0, "mean active-set steps per displacement solve");

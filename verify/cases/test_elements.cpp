@@ -82,7 +82,7 @@ struct Outcome {
     double reaction;
 };
 
-Outcome march(const Element& e) {
+Outcome analyse(const Element& e) {
     const Scene scene = peel(e);
     Solver solver(scene, 0.0);
     DirectReference direct(scene);
@@ -109,16 +109,16 @@ void expect_moves(const Element& e, const Outcome& o) {
 constexpr int first_solid = 5;
 LOOP_TEST(solids, 0, element_count - first_solid) {
     const Element& e = elements[first_solid + loop];
-    expect_moves(e, march(e));
+    expect_moves(e, analyse(e));
 }
 
 // One cell across a ply is enough for elements that bend well: plane strain, so the plane ones are comparable.
 TEST(plane_elements_agree) {
-    const Outcome fine = march(elements[4]);
+    const Outcome fine = analyse(elements[4]);
     expect_moves(elements[4], fine);
     for (const Element& e : elements) {
         if (e.dimension == 3 || e.cell == DELAM_QUAD9) continue;
-        const Outcome o = march(e);
+        const Outcome o = analyse(e);
         expect_moves(e, o);
         const bool quadratic = e.cell != DELAM_QUAD4;
         const double off = std::abs(o.front / fine.front - 1.0);

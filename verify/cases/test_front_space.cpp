@@ -93,7 +93,7 @@ reference::Scene circular(const Kind& kind, std::int64_t cells) {
     return scene;
 }
 
-Seen march(reference::Scene scene, double toughness, double from) {
+Seen analyse(reference::Scene scene, double toughness, double from) {
     scene.number("damage_tolerance", 1e-6);
     reference::Solver solver(scene, 0.0);
     constexpr int steps = 16;
@@ -138,15 +138,15 @@ LOOP_TEST(straight_front_grows, 0, 3) {
     constexpr Kind kinds[] = {
         {"hex8", DELAM_HEX8, 60, 90}, {"hex20", DELAM_HEX20, 30, 45}, {"tet10", DELAM_TET10, 30, 45}};
     const Kind kind = kinds[loop];
-    judge("straight", kind, march(straight(kind, kind.coarse), gc, 0.4), march(straight(kind, kind.fine), gc, 0.4));
+    judge("straight", kind, analyse(straight(kind, kind.coarse), gc, 0.4), analyse(straight(kind, kind.fine), gc, 0.4));
 }
 
 LOOP_TEST(circular_front_grows, 0, 3) {
     constexpr Kind kinds[] = {
         {"hex8", DELAM_HEX8, 32, 40}, {"hex20", DELAM_HEX20, 15, 20}, {"tet10", DELAM_TET10, 13, 20}};
     const Kind kind = kinds[loop];
-    judge("circular", kind, march(circular(kind, kind.coarse), blister_gc, 0.6),
-          march(circular(kind, kind.fine), blister_gc, 0.6));
+    judge("circular", kind, analyse(circular(kind, kind.coarse), blister_gc, 0.6),
+          analyse(circular(kind, kind.fine), blister_gc, 0.6));
 }
 
 // One arm is pulled, so that the front grows in mixed mode: one cell of hex20 across the width against quad8.

@@ -8,7 +8,7 @@
 #include <iterator>
 #include <sstream>
 
-#include "small_march.hpp"
+#include "small_analysis.hpp"
 
 #ifndef DELAM_GOLDEN
 #error "DELAM_GOLDEN: folder of the saved states"
@@ -74,7 +74,7 @@ constexpr Golden goldens[] = {{"feti", 5}, {"energetic", 5}, {"told", 6}, {"spac
 constexpr int steps = 8, saved = 5;
 
 // told: the host changes a history halfway; recorded: it records a value. Both are then part of the saved state.
-void march(Solver& solver, int first, int last, const std::string& name) {
+void analyse(Solver& solver, int first, int last, const std::string& name) {
     for (int k = first; k <= last; ++k) {
         const double times[] = {0.6, 1.0}, values[] = {2e-5, 9e-5};
         if (name == "told" && k == 4)
@@ -121,7 +121,7 @@ void write(const std::filesystem::path& folder) {
     for (const auto& [name, since] : goldens) {
         const Scene scene = scene_of(name);
         Solver solver(scene, 0.0);
-        march(solver, 1, saved, name);
+        analyse(solver, 1, saved, name);
         const auto bytes = solver.save();
         const std::string stem = stem_of(version_of(bytes), name);
         std::ofstream(folder / (stem + ".state"), std::ios::binary)
@@ -199,8 +199,8 @@ TEST(every_version_is_read) {
         for (; text >> key >> value; ++compared) cases::expect(solver.value(key) == value, stem + ": " + key);
         cases::expect(compared == static_cast<int>(std::size(keys)), stem + ": its values are not there");
         // Continuing from it equals never having stopped, except for the rounding of another machine.
-        march(solver, saved + 1, steps, name);
-        march(whole, 1, steps, name);
+        analyse(solver, saved + 1, steps, name);
+        analyse(whole, 1, steps, name);
         cases::expect(whole.value("dissipated") > 0.0, "nothing was damaged");
         for (const char* k : keys)
             cases::expect_near(solver.value(k), whole.value(k), 1e-8,

@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "condensed_scenes.hpp"
-#include "small_march.hpp"
+#include "small_analysis.hpp"
 
 namespace {
 
@@ -120,15 +120,15 @@ struct Outside {
     }
 };
 
-struct March {
+struct Analysis {
     std::vector<double> reaction, stored, dissipated, zeta, x;
     double alternations = 0.0, balance = 0.0, front = 0.0;
 };
 
-March march(const Peel& p, int steps, const std::string& where) {
+Analysis analyse(const Peel& p, int steps, const std::string& where) {
     const Scene scene = make(p);
     Solver solver(scene, 0.0);
-    March m;
+    Analysis m;
     for (int k = 1; k <= steps; ++k) {
         const auto old = solver.field("adhesion");
         const std::string at = where + ", step " + std::to_string(k);
@@ -157,7 +157,7 @@ March march(const Peel& p, int steps, const std::string& where) {
     return m;
 }
 
-void expect_same(const March& a, const March& b, double tolerance, const std::string& where) {
+void expect_same(const Analysis& a, const Analysis& b, double tolerance, const std::string& where) {
     double force = 0.0, total = 0.0;
     for (std::size_t k = 0; k < b.stored.size(); ++k) {
         force = std::max(force, std::abs(b.reaction[k]));
@@ -185,15 +185,15 @@ LOOP_TEST(accelerated_is_plain, 0, 6) {
     if (loop == 4) p.cell = DELAM_HEX20, p.h = 4e-3, where = "quadratic bricks";
     if (loop == 5) p.dimension = 2, p.cell = DELAM_QUAD8, p.h = 2e-3, where = "quadratic cells";
     const int steps = loop < 2 ? 10 : 5;
-    const March fast = march(p, steps, where + ", accelerated");
+    const Analysis fast = analyse(p, steps, where + ", accelerated");
     p.minimisation = "alternate";
-    const March plain = march(p, steps, where + ", plain");
+    const Analysis plain = analyse(p, steps, where + ", plain");
     expect_same(fast, plain, 1e-5, where);
     cases::expect(plain.dissipated.back() > 0.0, where + ": nothing was damaged");
     cases::expect_below(fast.alternations, plain.alternations, where + ": alternations");
     p.minimisation = "accelerated";
     p.reduction = "feti";
-    expect_same(march(p, steps, where + ", feti"), plain, 1e-5, where + ", feti");
+    expect_same(analyse(p, steps, where + ", feti"), plain, 1e-5, where + ", feti");
 }
 
 // ---- the profile of the process zone depends on kappa, not on the mesh ---------------------------------------------
@@ -204,15 +204,15 @@ LOOP_TEST(profile_converges, 0, 2) {
     p.delta = 1e-6;
     if (loop == 1) p.opening = 8e-4;
     const std::string where = loop == 0 ? "bilinear" : "Griffith";
-    std::vector<March> level;
+    std::vector<Analysis> level;
     for (const double h : {2e-3, 1e-3, 0.5e-3, 0.25e-3}) {
         p.h = h;
         p.through = static_cast<int>(std::lround(ply / h));
-        level.push_back(march(p, 10, where + ", h = " + std::to_string(1e3 * h) + " mm"));
+        level.push_back(analyse(p, 10, where + ", h = " + std::to_string(1e3 * h) + " mm"));
     }
     std::vector<double> distance, slope;  // in L1 from the finest, mm; 1/mm
     for (std::size_t l = 0; l < level.size(); ++l) {
-        const March &a = level[l], &b = level.back();
+        const Analysis &a = level[l], &b = level.back();
         double sum = 0.0;
         for (std::size_t i = 0; i < a.x.size(); ++i) {
             std::size_t near = 0;
@@ -241,15 +241,15 @@ LOOP_TEST(profile_converges, 0, 2) {
 
 // ---- limits of kappa -----------------------------------------------------------------------------------------------
 
-TEST(small_kappa_is_the_pointwise_march) {
+TEST(small_kappa_is_the_pointwise_analysis) {
     Peel p;
     p.law = ductile;
     p.delta = 1e-9;
-    const March without = march(p, 6, "kappa = 0");
+    const Analysis without = analyse(p, 6, "kappa = 0");
     std::vector<double> distance;
     for (const double part : {1e-3, 1e-4, 1e-5}) {
         p.law = with(ductile, part * kappa);
-        const March small = march(p, 6, "kappa times " + std::to_string(part));
+        const Analysis small = analyse(p, 6, "kappa times " + std::to_string(part));
         double moved = 0.0;
         for (std::size_t i = 0; i < small.zeta.size(); ++i)
             moved = std::max(moved, std::abs(small.zeta[i] - without.zeta[i]));
@@ -308,7 +308,7 @@ TEST(ledger_closes) {
     p.law.exponent = 1.0;  // one toughness for every mixity: the ledger has only the defect of the finite steps
     std::vector<double> defect;
     for (const int steps : {10, 20, 40, 80}) {
-        const March m = march(p, steps, std::to_string(steps) + " steps");
+        const Analysis m = analyse(p, steps, std::to_string(steps) + " steps");
         defect.push_back(std::abs(m.balance) / (m.stored.back() + m.dissipated.back()));
     }
     for (std::size_t i = 1; i < defect.size(); ++i)
@@ -318,7 +318,7 @@ TEST(ledger_closes) {
 
 // ---- save, load, continue -------------------------------------------------------------------------------------------
 
-TEST(resumed_march) {
+TEST(resumed_analysis) {
     Peel p;
     p.law = with(ductile, kappa);
     const Scene scene = make(p), again = make(p);

@@ -58,15 +58,15 @@ constexpr const char* keys[] = {
     "energy_release_rate", "contact_pairs",    "debonded_length", "reaction:drive"};
 
 // Results of every step of an analysis.
-struct Marched {
+struct Analysed {
     std::vector<std::map<std::string, double>> values;
     std::vector<std::vector<double>> displacement;
     double equilibrium = 0.0;  // of the last step
 };
 
-Marched march_of(const Scene& scene, double end, int steps) {
+Analysed analysis_of(const Scene& scene, double end, int steps) {
     Solver solver(scene, 0.0);
-    Marched m;
+    Analysed m;
     for (int k = 1; k <= steps; ++k) {
         solver.step(end * k / steps);
         solver.commit();
@@ -79,7 +79,7 @@ Marched march_of(const Scene& scene, double end, int steps) {
 }
 
 // Same analysis, same values and jumps, relative to the largest of the analysis.
-void expect_same(const Marched& own, const Marched& other, double tolerance, const std::string& what) {
+void expect_same(const Analysed& own, const Analysed& other, double tolerance, const std::string& what) {
     std::map<std::string, double> largest;
     double opening = 0.0;
     for (std::size_t k = 0; k < own.values.size(); ++k) {
@@ -169,7 +169,7 @@ const std::vector<Example>& examples() {
 
 constexpr int steps = 8;
 
-LOOP_TEST(march_is_the_same, 0, 2 * static_cast<int>(examples().size())) {
+LOOP_TEST(analysis_is_the_same, 0, 2 * static_cast<int>(examples().size())) {
     const Example& example = examples()[static_cast<std::size_t>(loop / 2)];
     const bool feti = loop % 2 == 1;
     const auto options = [&](Scene& scene) {
@@ -183,9 +183,9 @@ LOOP_TEST(march_is_the_same, 0, 2 * static_cast<int>(examples().size())) {
     const std::string name = std::string(example.name) + (feti ? ", FETI" : ", condensed");
     const double tolerance = feti ? 1e-6 : 1e-9;  // FETI alternates, to its own tolerance
 
-    const Marched expected = march_of(own, example.end, steps);
-    const auto same_march = [&](const Scene& other, const char* what) {
-        expect_same(expected, march_of(other, example.end, steps), tolerance, name + what);
+    const Analysed expected = analysis_of(own, example.end, steps);
+    const auto same_analysis = [&](const Scene& other, const char* what) {
+        expect_same(expected, analysis_of(other, example.end, steps), tolerance, name + what);
     };
 
     // Bodies without cells, one call for each.
@@ -194,14 +194,14 @@ LOOP_TEST(march_is_the_same, 0, 2 * static_cast<int>(examples().size())) {
         bare.require(give(bare, nodes_of(own, body), body_matrix(own, body)), "delam_problem_set_stiffness");
     example.dress(bare);
     options(bare);
-    same_march(bare, ", without cells");
+    same_analysis(bare, ", without cells");
 
     // One call for all, with another numbering.
     Scene shuffled = without_cells(own, example.bodies);
     give_shuffled(shuffled, own, example.bodies);
     example.dress(shuffled);
     options(shuffled);
-    same_march(shuffled, ", shuffled");
+    same_analysis(shuffled, ", shuffled");
 
     // Bodies with cells, one of them stiffened by the host: cells only provide the faces.
     Scene mixed = example.make();
@@ -210,7 +210,7 @@ LOOP_TEST(march_is_the_same, 0, 2 * static_cast<int>(examples().size())) {
                   "delam_problem_set_stiffness");
     example.dress(mixed);
     options(mixed);
-    same_march(mixed, ", cells");
+    same_analysis(mixed, ", cells");
 }
 
 // A bar on the host's own springs: the host adds them to the diagonal, and the library finds the motions that they
@@ -342,12 +342,12 @@ LOOP_TEST(emptied_rows, 0, 2) {
     example.dress(own);
     own.text("reduction", feti ? "feti" : "condensed");
     own.number("damage_tolerance", 1e-10);
-    const Marched expected = march_of(own, example.end, steps);
+    const Analysed expected = analysis_of(own, example.end, steps);
     for (const double diagonal : {1.0, 1e-3, 1e25}) {
         Scene scene = emptied_scene(example, own, diagonal);
         scene.text("reduction", feti ? "feti" : "condensed");
         scene.number("damage_tolerance", 1e-10);
-        expect_same(expected, march_of(scene, example.end, steps), feti ? 1e-6 : 1e-9,
+        expect_same(expected, analysis_of(scene, example.end, steps), feti ? 1e-6 : 1e-9,
                     std::string(feti ? "FETI" : "condensed") + ", diagonal " + std::to_string(diagonal));
     }
 }

@@ -190,7 +190,7 @@ Scene pulled(const Shape& shape, const Layout& layout, int subdomains) {
 }
 
 // Each realisation runs its own analysis; at its adhesion the direct solver must find its state.
-LOOP_TEST(marches_agree, 0, 6) {
+LOOP_TEST(analyses_agree, 0, 6) {
     if ((loop == 1 || loop == 5) && !cases::whole()) return;  // in space one layout alone
     const Shape& shape = shapes[loop % 2 == 0 ? 0 : 2];
     const Layout& layout = layouts[loop / 2];

@@ -234,7 +234,7 @@ Law bilinear(const Scene& scene, laws::Bilinear& data, bool host) {
     return law;
 }
 
-LOOP_TEST(host_law_marches_like_ours, 0, 2) {
+LOOP_TEST(host_law_gives_the_history_of_ours, 0, 2) {
     const int dimension = 2 + loop;
     const Scene first = flexure(dimension), second = flexure(dimension);
     laws::Bilinear data;
@@ -257,7 +257,7 @@ LOOP_TEST(host_law_marches_like_ours, 0, 2) {
     cases::expect_below(worst, 1e-9, "adhesion");
     const auto mixity = own.field("mixity");
     const auto [low, high] = std::minmax_element(mixity.begin(), mixity.end());
-    cases::expect(own.value("front") > 0.0 && *high - *low > 0.2, "the march is mixed and damages");
+    cases::expect(own.value("front") > 0.0 && *high - *low > 0.2, "the analysis is mixed and damages");
 }
 
 TEST(callback_fails) {

@@ -6,7 +6,7 @@
 #include "acceptance.hpp"
 #include "condensed_scenes.hpp"
 #include "mmf.hpp"
-#include "small_march.hpp"
+#include "small_analysis.hpp"
 #include "support.hpp"
 #include "turning_pair.hpp"
 
@@ -25,8 +25,8 @@ constexpr const char* rules[] = {"frozen", "converged", "variational"};
 LOOP_TEST(brittle_mmf, 0, 2) {
     const double h = loop == 0 ? 1e-3 : 0.5e-3;
     const double criterion = 25.0 / std::hypot(3.0 / 7.0, 4.0 / 7.0);
-    const cases::MmfMarch frozen = cases::march_mmf(h, cases::mmf_brittle, "frozen", 40);
-    const cases::MmfMarch converged = cases::march_mmf(h, cases::mmf_brittle, "converged", 40);
+    const cases::MmfAnalysis frozen = cases::analyse_mmf(h, cases::mmf_brittle, "frozen", 40);
+    const cases::MmfAnalysis converged = cases::analyse_mmf(h, cases::mmf_brittle, "converged", 40);
     cases::expect(frozen.unfinished == 0 && converged.unfinished == 0, "steps not converged");
     cases::expect_near(converged.dissipated / converged.front, criterion, 0.03, criterion, "converged: J/m2");
     cases::expect_below(frozen.dissipated / frozen.front, 28.0, "frozen: J/m2");
@@ -41,14 +41,14 @@ LOOP_TEST(brittle_mmf, 0, 2) {
 
 // ---- snaps ---------------------------------------------------------------------------------------------------------
 
-TEST(coarse_frozen_march_warns) {
-    const cases::MmfMarch frozen = cases::march_mmf(1e-3, cases::mmf_ductile, "frozen", 40);
+TEST(coarse_frozen_analysis_warns) {
+    const cases::MmfAnalysis frozen = cases::analyse_mmf(1e-3, cases::mmf_ductile, "frozen", 40);
     cases::expect(frozen.warnings.size() == 1, std::to_string(frozen.warnings.size()) + " warnings instead of 1");
     for (const std::string& line : frozen.warnings)
         for (const char* word : {"step ", "at time ", " %", "smaller steps", "mixity_rule = converged", "later steps"})
             cases::expect(line.find(word) != std::string::npos, "the warning '" + line + "' lacks '" + word + "'");
     for (const char* rule : {"converged", "variational"}) {
-        const cases::MmfMarch m = cases::march_mmf(1e-3, cases::mmf_ductile, rule, 40);
+        const cases::MmfAnalysis m = cases::analyse_mmf(1e-3, cases::mmf_ductile, rule, 40);
         cases::expect(m.warnings.empty() && m.unfinished == 0, std::string(rule) + ": warnings or unfinished steps");
         cases::expect(m.below == 0 && m.above == 0, std::string(rule) + ": bounds");
     }
@@ -153,7 +153,7 @@ struct Seen {
     double least = 1.0;  // adhesion
 };
 
-Seen march(const Scene& scene, int steps, double end = 1.0) {
+Seen analyse(const Scene& scene, int steps, double end = 1.0) {
     Solver solver(scene, 0.0);
     Seen seen;
     for (int k = 1; k <= steps; ++k) {
@@ -197,19 +197,19 @@ LOOP_TEST(one_answer, 0, 6) {
     const std::string where = std::string(rule) + ", " + std::to_string(d) + "D: ";
     const int steps = loop == 5 ? 3 : 6;  // of six
     const double end = steps / 6.0;
-    const Seen plain = march(floating_ply(d, law_of(rule), rule, "condensed", "alternate", 1e-9), steps, end);
+    const Seen plain = analyse(floating_ply(d, law_of(rule), rule, "condensed", "alternate", 1e-9), steps, end);
     std::printf("%sleast adhesion %.3f, dissipated %.9g\n", where.c_str(), plain.least, plain.dissipated.back());
     cases::expect(plain.least < 0.6, where + "hardly damaged");
-    expect_alike(march(floating_ply(d, law_of(rule), rule, "feti", "alternate", 1e-9), steps, end), plain, 1e-6, 1e-6,
+    expect_alike(analyse(floating_ply(d, law_of(rule), rule, "feti", "alternate", 1e-9), steps, end), plain, 1e-6, 1e-6,
                  where + "feti");
     // The variational functional favours changing the mode while damage grows, so it has several critical points in the
     // block. A pair that breaks has the mixity of another iterate in each method of minimisation, and only the recorded
     // dissipation beside the ledger of PANM 15 (2010) shows this.
     if (loop == 5) return;
     const double recorded = loop == 2 ? 1e-3 : 1e-5;
-    expect_alike(march(floating_ply(d, law_of(rule), rule, "condensed", "accelerated", 1e-9), steps, end), plain, 1e-5,
-                 recorded, where + "accelerated");
-    expect_alike(march(floating_ply(d, law_of(rule), rule, "feti", "accelerated", 1e-9), steps, end), plain, 1e-5,
+    expect_alike(analyse(floating_ply(d, law_of(rule), rule, "condensed", "accelerated", 1e-9), steps, end), plain,
+                 1e-5, recorded, where + "accelerated");
+    expect_alike(analyse(floating_ply(d, law_of(rule), rule, "feti", "accelerated", 1e-9), steps, end), plain, 1e-5,
                  recorded, where + "feti, accelerated");
 }
 
@@ -347,11 +347,11 @@ LOOP_TEST(saved_and_loaded, 0, 3) {
 LOOP_TEST(provable_bounds, 0, 3) {
     if (!cases::whole()) return;
     const int steps[] = {160, 320, 640}, below[] = {1, 1, 0};
-    const cases::MmfMarch m = cases::march_mmf(1e-3, cases::mmf_ductile, "frozen", steps[loop]);
+    const cases::MmfAnalysis m = cases::analyse_mmf(1e-3, cases::mmf_ductile, "frozen", steps[loop]);
     cases::expect(m.below == below[loop] && m.above == 0,
                   std::to_string(m.below) + " lower and " + std::to_string(m.above) + " upper bounds missed");
     if (steps[loop] == 640)
-        cases::expect(m.warnings.empty(), "a fine march warns: " + (m.warnings.empty() ? "" : m.warnings.front()));
+        cases::expect(m.warnings.empty(), "a fine analysis warns: " + (m.warnings.empty() ? "" : m.warnings.front()));
 }
 
 // Recorded defects decrease with the step; those of the ledger of PANM 15 (2010) stay, unless the mixity is
@@ -360,16 +360,16 @@ TEST(defects_side_by_side) {
     if (!cases::whole()) return;
     const int steps[] = {40, 160, 640};
     for (const char* rule : {"frozen", "converged", "variational"}) {
-        std::vector<cases::MmfMarch> m;
-        for (const int n : steps) m.push_back(cases::march_mmf(1e-3, cases::mmf_ductile, rule, n));
-        for (const cases::MmfMarch& march : m)
-            cases::expect(march.unfinished == 0, std::string(rule) + ": unfinished steps");
+        std::vector<cases::MmfAnalysis> m;
+        for (const int n : steps) m.push_back(cases::analyse_mmf(1e-3, cases::mmf_ductile, rule, n));
+        for (const cases::MmfAnalysis& analysis : m)
+            cases::expect(analysis.unfinished == 0, std::string(rule) + ": unfinished steps");
         if (std::string(rule) != "converged") continue;
         // The work errs by the softening of a step; what is dissipated is that of fine steps from the first.
         cases::expect_below(std::abs(m[2].defect), 0.4 * std::abs(m[0].defect), "converged: recorded defect");
-        for (const cases::MmfMarch& march : m) {
-            cases::expect_below(std::abs(march.defect), 1e-3 * march.dissipated, "converged: recorded defect");
-            cases::expect_near(march.dissipated, m[2].dissipated, 2e-3, m[2].dissipated, "converged: dissipated");
+        for (const cases::MmfAnalysis& analysis : m) {
+            cases::expect_below(std::abs(analysis.defect), 1e-3 * analysis.dissipated, "converged: recorded defect");
+            cases::expect_near(analysis.dissipated, m[2].dissipated, 2e-3, m[2].dissipated, "converged: dissipated");
         }
     }
 }

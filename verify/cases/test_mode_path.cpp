@@ -51,7 +51,7 @@ Scene bending(double h) {
     return scene;
 }
 
-struct March {
+struct Analysis {
     std::vector<double> load, crack, dissipated;
     double defect = 0.0, work = 0.0;  // largest |stored + dissipated + released - work|; work at the end
     double worst_fall = 1.0;          // least ratio of the loads after and before a step
@@ -71,9 +71,9 @@ std::vector<std::int64_t> steps_of_jumps(const Scene& scene, const Solver& solve
     return steps;
 }
 
-March march(const Scene& scene, int steps) {
+Analysis analyse(const Scene& scene, int steps) {
     Solver solver(scene, 0.0);
-    March m;
+    Analysis m;
     double released = 0.0;
     for (int k = 1; k <= steps; ++k) {
         solver.step(static_cast<double>(k) / steps);
@@ -101,7 +101,7 @@ March march(const Scene& scene, int steps) {
 
 TEST(steps_do_not_matter) {
     const Scene scene = bending(1e-3);
-    const March coarse = march(scene, 20), fine = march(scene, 80);
+    const Analysis coarse = analyse(scene, 20), fine = analyse(scene, 80);
     for (std::size_t k = 0; k < coarse.load.size(); ++k)
         cases::expect_near(coarse.load[k], fine.load[4 * k + 3], 0.02, fine.load[4 * k + 3],
                            "load in step " + std::to_string(k + 1) + " of 20");
@@ -110,10 +110,10 @@ TEST(steps_do_not_matter) {
     const double spent = fine.dissipated.back();
     cases::expect_near(coarse.dissipated.back(), spent, 0.05, spent, "dissipated energy of 20 steps");
     cases::expect_below(20.0, spent, "dissipated energy, J/m: the crack runs");
-    for (const March* m : {&coarse, &fine})
+    for (const Analysis* m : {&coarse, &fine})
         cases::expect_below(m->defect / m->work, 1e-3, "defect of the ledger with its released energy, over the work");
     cases::expect_below(fine.worst_fall, 0.9, "largest fall of the load in a step of 80, ratio");
-    for (const March* m : {&coarse, &fine})
+    for (const Analysis* m : {&coarse, &fine})
         cases::expect(m->named, "no jump is recorded in the step in which the load falls most");
 }
 

@@ -99,7 +99,7 @@ reference::Flexure jumping(double h, double stiffness) {
     return data;
 }
 
-struct March {
+struct Analysis {
     std::vector<double> load, error, balance;  // balance: stored, dissipated and released less the work
     double dissipated, released, work, jumps;
     std::vector<double> adhesion;
@@ -107,8 +107,8 @@ struct March {
     std::size_t step = 0;
 };
 
-March march(const reference::Flexure& data, int steps, const char* reduction = "condensed",
-            const char* minimisation = "auto", double path_step = 0.1) {
+Analysis analyse(const reference::Flexure& data, int steps, const char* reduction = "condensed",
+                 const char* minimisation = "auto", double path_step = 0.1) {
     reference::FlexureScene f = reference::make_flexure(data);
     f.scene.text("reduction", reduction);
     f.scene.text("minimisation", minimisation);
@@ -117,7 +117,7 @@ March march(const reference::Flexure& data, int steps, const char* reduction = "
     f.scene.number("damage_tolerance", 1e-7);
     if (std::string(reduction) == "feti") f.scene.number("subdomains", 3);
     Solver solver(f.scene, 0.0);
-    March m{};
+    Analysis m{};
     for (int k = 1; k <= steps; ++k) {
         solver.step(data.end_time * k / steps);
         solver.commit();
@@ -154,10 +154,10 @@ March march(const reference::Flexure& data, int steps, const char* reduction = "
 TEST(one_path_by_all_methods) {
     const reference::Flexure data = jumping(1.5e-3, 1e12);
     constexpr int steps = 20;
-    const March own = march(data, steps, "condensed", "accelerated");
+    const Analysis own = analyse(data, steps, "condensed", "accelerated");
     const double largest = *std::max_element(own.load.begin(), own.load.end());
     cases::expect(own.load[5] < 0.75 * largest && own.load.back() > 0.75 * largest, "the load falls and rises again");
-    const auto same = [&](const March& other, double dissipated, const std::string& what) {
+    const auto same = [&](const Analysis& other, double dissipated, const std::string& what) {
         cases::expect_near(other.dissipated, own.dissipated, dissipated, own.dissipated, what + ": dissipated");
         for (std::size_t k = 0; k < own.load.size(); ++k)
             cases::expect_near(other.load[k], own.load[k], 1e-4, largest,
@@ -165,14 +165,14 @@ TEST(one_path_by_all_methods) {
         for (std::size_t p = 0; p < own.adhesion.size(); ++p)
             cases::expect_near(other.adhesion[p], own.adhesion[p], 1e-4, 1.0, what + ": adhesion");
     };
-    same(march(data, steps, "condensed", "alternate"), 1e-4, "alternate");
-    same(march(data, steps, "feti", "accelerated"), 1e-4, "feti");
-    same(march(data, steps, "iterated", "accelerated"), 1e-4, "iterated");
-    same(march(data, steps, "condensed", "accelerated", 0.05), 2e-3, "parts half as long");
+    same(analyse(data, steps, "condensed", "alternate"), 1e-4, "alternate");
+    same(analyse(data, steps, "feti", "accelerated"), 1e-4, "feti");
+    same(analyse(data, steps, "iterated", "accelerated"), 1e-4, "iterated");
+    same(analyse(data, steps, "condensed", "accelerated", 0.05), 2e-3, "parts half as long");
     if (!cases::whole()) return;
-    same(march(data, steps, "feti", "alternate"), 1e-4, "feti, alternate");
-    same(march(data, steps, "iterated", "alternate"), 1e-4, "iterated, alternate");
-    same(march(data, steps, "condensed", "accelerated", 0.02), 3e-3, "parts a fifth as long");
+    same(analyse(data, steps, "feti", "alternate"), 1e-4, "feti, alternate");
+    same(analyse(data, steps, "iterated", "alternate"), 1e-4, "iterated, alternate");
+    same(analyse(data, steps, "condensed", "accelerated", 0.02), 3e-3, "parts a fifth as long");
 }
 
 // The work of the loads is stored, dissipated or released, and the jump is one, in coarse steps as in fine ones,
@@ -181,7 +181,7 @@ LOOP_TEST(ledger_of_a_jump, 0, 2) {
     const reference::Flexure data = jumping(loop == 0 ? 3e-3 : 1.5e-3, 1e13);
     double fine = 0.0, carried = 0.0, instant = 0.0;
     for (const int steps : {80, 20}) {
-        const March m = march(data, steps);
+        const Analysis m = analyse(data, steps);
         const auto time_of = [&](std::size_t step) { return data.end_time * static_cast<double>(step) / steps; };
         cases::expect(m.before == m.time && m.time >= time_of(m.step - 1) && m.time <= time_of(m.step),
                       "one instant, within its step");
@@ -204,7 +204,7 @@ LOOP_TEST(ledger_of_a_jump, 0, 2) {
 // Steps sixteen times as long: the same front, and what it dissipates as well as their own estimate says.
 TEST(coarse_and_fine_steps) {
     const reference::Flexure data = jumping(1.5e-3, 1e12);
-    const March coarse = march(data, 20), fine = march(data, 320);
+    const Analysis coarse = analyse(data, 20), fine = analyse(data, 320);
     const double estimate = *std::max_element(coarse.error.begin(), coarse.error.end());
     cases::expect_near(coarse.load.back(), fine.load.back(), 1e-4, fine.load.back(), "load in the end");
     cases::expect_near(coarse.dissipated, fine.dissipated, estimate, fine.dissipated, "dissipated");

@@ -6,7 +6,7 @@
 
 #include "condensed_scenes.hpp"
 #include "flexure.hpp"
-#include "small_march.hpp"
+#include "small_analysis.hpp"
 
 namespace {
 
@@ -94,7 +94,7 @@ TEST(steps_that_returns_replace) {
         plain.step(time_of(k));
         plain.commit();
         cases::expect_same(solver, cases::read_bits(solver), cases::read_bits(plain),
-                           "a march that records, step " + std::to_string(k));
+                           "an analysis that records, step " + std::to_string(k));
     }
     const std::vector<double> revisions = recorded(solver, "revisions");
     cases::expect(*std::max_element(revisions.begin(), revisions.end()) >= 1.0, "no step was replaced");

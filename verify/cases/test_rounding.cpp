@@ -61,7 +61,7 @@ struct Found {
     std::string words;
 };
 
-Found march(const Scene& scene) {
+Found analyse(const Scene& scene) {
     Found found;
     try {
         Solver solver(scene, 0.0);
@@ -80,7 +80,7 @@ LOOP_TEST(slender, 0, 4) {
     const int dimension = loop % 2 == 0 ? 2 : 3;
     const bool opened = loop / 2 == 0;
     for (const double ratio : {10.0, 100.0, 1e3, 3e3, 1e4, 3e4}) {
-        const Found found = march(plies(dimension, ratio, opened));
+        const Found found = analyse(plies(dimension, ratio, opened));
         const std::string where = std::to_string(dimension) + "D, " + (opened ? "opened, " : "bent, ") +
                                   std::to_string(static_cast<int>(ratio)) +
                                   " times longer than thick: " + delam_status_name(found.status) + " " + found.words;

@@ -3,7 +3,7 @@
 // loads, limits, other operators, other units. Rivals are whole displacement solves (energetic_scenes.hpp).
 #include "energetic_scenes.hpp"
 #include "mmf.hpp"
-#include "small_march.hpp"
+#include "small_analysis.hpp"
 
 namespace {
 
@@ -28,7 +28,7 @@ LOOP_TEST(two_fronts_of_a_flexure, 0, 4) {
     const Rivals rivals(scene, {cases::run(scene, 0, b.left - 0.25 * h, middle + 4 * h),
                                 cases::run(scene, 0, middle - 4 * h, cases::beam_length - b.right + 0.25 * h, true)});
     cases::set_energetic(scene);
-    const auto dissipated = cases::march_below(scene, rivals, 12);
+    const auto dissipated = cases::analyse_below(scene, rivals, 12);
     cases::expect(dissipated.front() == 0.0 && dissipated.back() > 0.0, "a front moves");
 }
 
@@ -42,7 +42,7 @@ TEST(only_the_joint_advance_pays) {
     cases::notch(scene, 0, 3.5 * h, 9.5 * h);
     const Rivals rivals(scene, {cases::run(scene, 0, -h, 3.5 * h, true), cases::run(scene, 0, 9.5 * h, b.width + h)});
     cases::set_energetic(scene);
-    const auto dissipated = cases::march_below(scene, rivals, 13);
+    const auto dissipated = cases::analyse_below(scene, rivals, 13);
     double all = 0.0;
     for (const std::size_t p : cases::run(scene, 0, -h, b.width + h))
         all += p <= 3 || p >= 10 ? cases::toughness * cases::all_weights(scene)[p] : 0.0;
@@ -65,7 +65,7 @@ LOOP_TEST(two_interfaces, 0, 4) {
     const Rivals rivals(
         scene, {cases::run(scene, 0, b.left - 0.25 * h, 0.066), cases::run(scene, 1, b.left_above - 0.25 * h, 0.066)});
     cases::set_energetic(scene);
-    const auto dissipated = cases::march_below(scene, rivals, 10);
+    const auto dissipated = cases::analyse_below(scene, rivals, 10);
     cases::expect(dissipated.back() > 0.0, "a front moves");
 }
 
@@ -101,7 +101,7 @@ TEST(weak_spot) {
     for (const auto p : weak) run.push_back(static_cast<std::size_t>(p));
     const Rivals rivals(scene, {run});
     cases::set_energetic(scene);
-    const auto dissipated = cases::march_below(scene, rivals, 8);
+    const auto dissipated = cases::analyse_below(scene, rivals, 8);
     cases::expect(dissipated.back() > 0.0, "the weak spot breaks");
 }
 
@@ -182,7 +182,7 @@ LOOP_TEST(floating_block_comes_off, 0, 2) {
     if (loop == 1) cases::notch(scene, 0, -1.0, 0.4 * b.width);
     const Rivals rivals(scene, {cases::run(scene, 0, loop == 1 ? 0.4 * b.width : -1.0, 1.0)});
     cases::set_energetic(scene);
-    const auto dissipated = cases::march_below(scene, rivals, 6);
+    const auto dissipated = cases::analyse_below(scene, rivals, 6);
     cases::expect(dissipated.back() > 0.0, "the block comes off");
 }
 

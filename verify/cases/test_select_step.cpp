@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reading an earlier step changes nothing; a gradient term is counted once where fronts are searched.
 #include "mmf.hpp"
-#include "small_march.hpp"
+#include "small_analysis.hpp"
 
 namespace {
 

@@ -92,7 +92,7 @@ LOOP_TEST(a_slab_is_plane_strain, 0, 8) {
             expect_near(slab_zeta[p], flat_zeta[p / 2], 1e-7, 1.0, "adhesion");
     }
     // Steps that are followed in parts have as many of them in space.
-    cases::expect_below(in_space, 2.0 * in_plane + 10.0, "alternations of the slab's march");
+    cases::expect_below(in_space, 2.0 * in_plane + 10.0, "alternations of the slab's analysis");
     expect(flat.value("dissipated") > 0.0 && flat.value("process_zone") > 0.0, "something was damaged");
 }
 

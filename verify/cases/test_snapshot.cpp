@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Save, load, continue: the same bits as without the interruption. Bytes that are damaged, truncated or from another
 // scene are refused and leave the solver unchanged. A step that is rolled back leaves no trace.
-#include "small_march.hpp"
+#include "small_analysis.hpp"
 
 namespace {
 
@@ -10,7 +10,7 @@ using reference::Solver;
 
 constexpr int half = 8;
 
-TEST(resumed_march) {
+TEST(resumed_analysis) {
     const Scene scene = cases::small_enf();
     Solver whole(scene, 0.0);
     cases::walk(whole, 1, half);

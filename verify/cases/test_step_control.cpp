@@ -7,7 +7,7 @@
 #include "energetic_scenes.hpp"
 #include "flexure.hpp"
 #include "mmf.hpp"
-#include "small_march.hpp"
+#include "small_analysis.hpp"
 
 namespace {
 
@@ -106,7 +106,7 @@ LOOP_TEST(block_jumps_where_it_should, 0, 6) {
 }
 
 // Damage that grows steadily is no jump, however fine or coarse the tolerance.
-LOOP_TEST(smooth_march_has_no_jump, 0, 4) {
+LOOP_TEST(smooth_analysis_has_no_jump, 0, 4) {
     const double tolerance[] = {0.2, 0.1, 1e-2, 1e-3};
     reference::Flexure data = reference::find_flexure("enf-ductile");
     data.law.exponent = 1.0;
@@ -196,7 +196,7 @@ LOOP_TEST(jumps_of_a_flexure, 0, 2) {
     again.equilibrate(again.value("time"), again.field("adhesion"));
     cases::expect(jumps(again).size() == before.size(), "jumps while a set state is pending");
     again.commit();
-    cases::expect(jumps(again).size() == before.size(), "jumps of the march after a set state is committed");
+    cases::expect(jumps(again).size() == before.size(), "jumps of the analysis after a set state is committed");
 }
 
 bool open() { return std::getenv("DELAM_OPEN_TESTS") != nullptr; }

@@ -7,7 +7,7 @@
 #include <csignal>
 #include <thread>
 
-#include "small_march.hpp"
+#include "small_analysis.hpp"
 
 namespace {
 
@@ -16,7 +16,7 @@ using reference::Solver;
 
 constexpr int few = 10;
 
-cases::Bits march(std::int64_t subdomains) {
+cases::Bits analyse(std::int64_t subdomains) {
     const Scene scene = cases::small_enf(subdomains);
     Solver solver(scene, 0.0);
     cases::walk(solver, 1, few);
@@ -24,14 +24,14 @@ cases::Bits march(std::int64_t subdomains) {
 }
 
 TEST(two_threads_same_bits) {
-    const auto alone = march(6);
+    const auto alone = analyse(6);
     cases::Bits in_thread[2];
     std::string failure[2];
     std::thread threads[2];
     for (int t = 0; t < 2; ++t) {
         threads[t] = std::thread([&, t] {
             try {
-                in_thread[t] = march(6);
+                in_thread[t] = analyse(6);
             } catch (const std::exception& e) {
                 failure[t] = e.what();
             }
@@ -202,7 +202,7 @@ std::string written_during(void (*work)()) {
 }
 
 void provoke() {
-    march(8);
+    analyse(8);
     Scene scene(2, {1.0}, {2}, {1.0, 1.0}, {1, 1}, DELAM_QUAD4);
     scene.interface(0, 1);
     scene.begin();

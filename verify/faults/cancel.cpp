@@ -84,9 +84,9 @@ int main(int argc, char** argv) {
         if (!wanted) continue;
         try {
             faults::Calm calm;
-            faults::march(calm, strip);
+            faults::analyse(calm, strip);
             Canceller canceller(stride);
-            faults::march(canceller, strip);
+            faults::analyse(canceller, strip);
             const std::string difference = calm.transcript.difference(canceller.transcript);
             expect(difference.empty(), "result: " + difference);
             expect(canceller.cancelled > 0, "nothing was cancelled");

@@ -61,7 +61,7 @@ Transcripts all() {
     Transcripts found;
     for (const faults::Strip& strip : faults::strips()) {
         faults::Calm host;
-        faults::march(host, strip);
+        faults::analyse(host, strip);
         found.emplace(strip.name, std::move(host.transcript));
     }
     found.emplace("refusals", refusals());
@@ -143,7 +143,7 @@ private:
 void with_environment(const std::function<void()>& set) {
     for (const faults::Strip& strip : faults::strips()) {
         Elsewhere host(set);
-        faults::march(host, strip);
+        faults::analyse(host, strip);
         const std::string difference = calm().at(strip.name).difference(host.transcript);
         expect(difference.empty(), strip.name + ": " + difference);
     }

@@ -61,7 +61,7 @@ void watched(const reference::Scene& scene, const std::vector<double>& times) {
     REQUIRE(scene, delam_context_set_progress, scene.context(), Watch::poll, &watch);
     std::unique_ptr<reference::Solver> solver;
     watch.during("create", [&] { solver = std::make_unique<reference::Solver>(scene, 0.0); });
-    watch.during("march", [&] {
+    watch.during("analysis", [&] {
         for (const double time : times) {
             solver->step(time);
             solver->commit();

@@ -106,12 +106,12 @@ int main(int argc, char** argv) {
         try {
             scattered = false;
             faults::Calm calm;
-            faults::march(calm, strip);
+            faults::analyse(calm, strip);
             scattered = true;
             moved = 0;
             for (int run = 0; run < runs; ++run) {
                 faults::Calm other;
-                faults::march(other, strip);
+                faults::analyse(other, strip);
                 const std::string difference = calm.transcript.difference(other.transcript);
                 faults::expect(difference.empty(), "other places in memory: " + difference);
             }

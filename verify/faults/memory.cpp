@@ -74,7 +74,7 @@ void starve(const faults::Strip& strip, long most, const faults::Transcript& cal
     const long before = faults::live_blocks();
     {
         Starver starver(most);
-        faults::march(starver, strip);
+        faults::analyse(starver, strip);
         const std::string difference = calm.difference(starver.transcript);
         expect(difference.empty(), "result: " + difference);
         expect(starver.failed > 0, "nothing has failed");
@@ -102,7 +102,7 @@ int main(int argc, char** argv) {
         if (!wanted) continue;
         try {
             faults::Calm calm;
-            faults::march(calm, strip);
+            faults::analyse(calm, strip);
             starve(strip, most, calm.transcript);
         } catch (const std::exception& e) {
             faults::stop_failing();

@@ -345,7 +345,7 @@ std::vector<std::uint8_t> save(Host& host, delam_solver* solver) {
 
 }  // namespace
 
-void march(Host& host, const Strip& s) {
+void analyse(Host& host, const Strip& s) {
     Handles h;
     laws::Bilinear bilinear;
     host.create(
@@ -408,7 +408,7 @@ void march(Host& host, const Strip& s) {
         advance(time(k));
         commit();
     }
-    expect(save(host, h.solver) == last, s.name + ": a march that was loaded ends elsewhere");
+    expect(save(host, h.solver) == last, s.name + ": an analysis that was loaded ends elsewhere");
     host.watch(nullptr);
     host.create(
         "delam_solver_create", [&] { return delam_solver_create(h.problem, 0.0, &h.other); },

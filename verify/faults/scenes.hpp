@@ -27,6 +27,6 @@ struct Strip {
 };
 
 const std::vector<Strip>& strips();
-void march(Host& host, const Strip& strip);
+void analyse(Host& host, const Strip& strip);
 
 }  // namespace faults

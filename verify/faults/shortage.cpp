@@ -66,7 +66,7 @@ int child(const faults::Strip* strip, long room, int words) {
     }
     try {
         Modest host;
-        faults::march(host, *strip);
+        faults::analyse(host, *strip);
         return 0;
     } catch (const NoMemory&) {
         return 1;
@@ -114,7 +114,7 @@ int one_process() {
     strip.texts = {{"reduction", "condensed"}, {"minimisation", "alternate"}};
     try {
         Modest host;
-        faults::march(host, strip);
+        faults::analyse(host, strip);
         return finished + delam_blas_threads();
     } catch (const NoMemory&) {
         return 1;

@@ -25,10 +25,10 @@ public:
     }
 };
 
-void* march(void* strip) {
+void* analyse(void* strip) {
     try {
         Plain host;
-        faults::march(host, *static_cast<const faults::Strip*>(strip));
+        faults::analyse(host, *static_cast<const faults::Strip*>(strip));
         return nullptr;
     } catch (const std::exception& e) {
         std::printf("%s\n", e.what());
@@ -46,7 +46,7 @@ bool run(faults::Strip strip, std::size_t kib) {
         void* failed = &strip;
         pthread_attr_init(&attributes);
         if (pthread_attr_setstacksize(&attributes, kib << 10) != 0 ||
-            pthread_create(&thread, &attributes, march, &strip) != 0)
+            pthread_create(&thread, &attributes, analyse, &strip) != 0)
             std::_Exit(2);
         pthread_join(thread, &failed);
         std::fflush(stdout);

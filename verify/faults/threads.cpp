@@ -18,7 +18,7 @@ int main(int argc, char** argv) {
     try {
         for (const faults::Strip& strip : strips) {
             faults::Calm host;
-            faults::march(host, strip);
+            faults::analyse(host, strip);
             alone.push_back(std::move(host.transcript));
         }
         std::vector<std::thread> all;
@@ -29,7 +29,7 @@ int main(int argc, char** argv) {
                         const std::size_t i = (t + static_cast<std::size_t>(round)) % strips.size();
                         faults::Strip strip = strips[i];
                         faults::Calm host;
-                        faults::march(host, strip);
+                        faults::analyse(host, strip);
                         const std::string difference = alone[i].difference(host.transcript);
                         faults::expect(difference.empty(), strip.name + ": " + difference);
                     }

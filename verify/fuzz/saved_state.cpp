@@ -21,28 +21,28 @@ using namespace fuzz;
 using Bytes = std::vector<std::uint8_t>;
 
 // A scene with the states that its analysis saved, and the results that follow each state.
-class March {
+class Analysis {
 public:
-    explicit March(const Bytes& recipe) {
+    explicit Analysis(const Bytes& recipe) {
         Input in(recipe.data(), recipe.size());
         SmallScene scene = small_scene(host_, in);
-        expect(delam_solver_create(scene.problem, 0.0, &solver_) >= 0, "a march begins", "delam_solver_create");
+        expect(delam_solver_create(scene.problem, 0.0, &solver_) >= 0, "an analysis begins", "delam_solver_create");
         destroy(scene);
-        expect(solver_ != nullptr, "a march begins", "delam_solver_create");
+        expect(solver_ != nullptr, "an analysis begins", "delam_solver_create");
         for (const char* key : {"time", "front", "energy_release_rate"})
             expect(delam_solver_record(solver_, key) == DELAM_OK, "values are recorded", "delam_solver_record");
         states_.push_back(saved(solver_));
         for (std::size_t step = 1; step <= steps; ++step) {
-            expect(goes_on(step), "a march goes on", "delam_solver_advance");
+            expect(goes_on(step), "an analysis goes on", "delam_solver_advance");
             delam_solver_commit(solver_);
             states_.push_back(saved(solver_));
         }
         for (const Bytes& bytes : states_)
             expect(with_checksum(bytes) == bytes, "the checksum is the library's", "with_checksum");
     }
-    ~March() { delam_solver_destroy(&solver_); }
-    March(const March&) = delete;
-    March& operator=(const March&) = delete;
+    ~Analysis() { delam_solver_destroy(&solver_); }
+    Analysis(const Analysis&) = delete;
+    Analysis& operator=(const Analysis&) = delete;
 
     static constexpr std::size_t steps = 4;
     const Bytes& state(std::size_t step) const { return states_[step]; }
@@ -84,7 +84,7 @@ private:
     }
     void go_on_from(std::size_t step) {
         host_.polls_left = 4000;
-        expect(goes_on(step + 1), "a march goes on", "delam_solver_advance");
+        expect(goes_on(step + 1), "an analysis goes on", "delam_solver_advance");
         delam_solver_commit(solver_);
         expect(saved(solver_) == states_[step + 1], "the rest is bitwise the same", "delam_solver_load");
     }
@@ -122,7 +122,7 @@ private:
         host_.begin();
         host_.settle("delam_solver_front_count", delam_solver_front_count(solver_, 0, &fronts, &points),
                      may::argument | may::problem);
-        for (std::int64_t step = -1; step < static_cast<std::int64_t>(March::steps); ++step) {
+        for (std::int64_t step = -1; step < static_cast<std::int64_t>(Analysis::steps); ++step) {
             host_.begin();
             host_.settle("delam_solver_look", delam_solver_look(solver_, step), may::argument);
         }
@@ -151,15 +151,15 @@ private:
 };
 
 // Bytes of small_scene: a bilinear peel; brittle, with jumps and kept steps; FETI; a gradient; a search in space.
-March& march(std::size_t which) {
+Analysis& analyse(std::size_t which) {
     static const Bytes recipes[] = {
         {0, 0, 0, 4, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0},           {0, 0, 0, 4, 4, 0, 0, 0, 0, 1, 1, 0, 0, 3, 1, 14, 16},
         {0, 0, 1, 3, 1, 1, 1, 0, 0, 1, 0, 1, 0, 0, 2, 3, 18}, {0, 2, 0, 4, 0, 0, 0, 15, 0, 0, 1, 0, 0, 1, 14},
         {7, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 0},
     };
-    static std::unique_ptr<March> marches[std::size(recipes)];
-    std::unique_ptr<March>& found = marches[which % std::size(recipes)];
-    if (found == nullptr) found = std::make_unique<March>(recipes[which % std::size(recipes)]);
+    static std::unique_ptr<Analysis> analyses[std::size(recipes)];
+    std::unique_ptr<Analysis>& found = analyses[which % std::size(recipes)];
+    if (found == nullptr) found = std::make_unique<Analysis>(recipes[which % std::size(recipes)]);
     return *found;
 }
 
@@ -192,13 +192,13 @@ private:
 };
 
 // Continues from each state of an analysis with a new solver and with the one that reached the state.
-void any_march(Input& in) {
+void any_analysis(Input& in) {
     const bool energetic = in.flag();
     const Bytes recipe = in.rest();
     Walker first(recipe, energetic);
     if (first.solver() == nullptr) return;
     std::vector<Bytes> states{saved(first.solver())};
-    while (states.size() <= March::steps && first.goes_on(states.size())) states.push_back(saved(first.solver()));
+    while (states.size() <= Analysis::steps && first.goes_on(states.size())) states.push_back(saved(first.solver()));
     for (std::size_t from = 0; from + 1 < states.size(); ++from) {
         Walker anew(recipe, energetic);
         for (Walker* walker : {&anew, &first}) {
@@ -268,19 +268,19 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     Input in(data, size);
     const std::uint8_t which = in.byte();
     if (which >= 250) {
-        any_march(in);
+        any_analysis(in);
         return 0;
     }
-    March& mine = march(which);
+    Analysis& mine = analyse(which);
     const std::uint8_t how = in.byte();
-    Bytes bytes = mine.state(how % (March::steps + 1));
+    Bytes bytes = mine.state(how % (Analysis::steps + 1));
     bool put_right = false;
     switch (in.byte() % 8) {
         case 0:
             bytes = in.rest();
             break;  // unchanged
         case 1:
-            bytes = march(in.byte()).state(how % (March::steps + 1));
+            bytes = analyse(in.byte()).state(how % (Analysis::steps + 1));
             break;  // from another scene
         case 2:
         case 3:

@@ -6,8 +6,8 @@
 #include <limits>
 #include <vector>
 
+#include "analysis.hpp"
 #include "fronts.hpp"
-#include "march.hpp"
 #include "orders.hpp"
 #include "table.hpp"
 
@@ -42,11 +42,11 @@ Choice choose(const std::string& method, reference::MixityRule rule) {
 
 // First step in which the debonded length grew by at least a quarter of the scan's first jump: a process zone that
 // develops ahead of a front is no jump. 0: none.
-int first_jump(const March& march, double scan_advance) {
+int first_jump(const Analysis& analysis, double scan_advance) {
     double before = 0.0;
-    for (std::size_t k = 0; k < march.steps.size(); ++k) {
-        if (march.steps[k].debonded - before > 0.25 * scan_advance) return static_cast<int>(k) + 1;
-        before = march.steps[k].debonded;
+    for (std::size_t k = 0; k < analysis.steps.size(); ++k) {
+        if (analysis.steps[k].debonded - before > 0.25 * scan_advance) return static_cast<int>(k) + 1;
+        before = analysis.steps[k].debonded;
     }
     return 0;
 }
@@ -60,33 +60,33 @@ void compare(Table& table, reference::Flexure data, const reference::Fronts& fro
     int scan_step = 0;
     while (scan_step < steps && scan[static_cast<std::size_t>(scan_step)].front == 0) ++scan_step;
     for (const char* method : methods) {
-        // To locate a jump takes ten times as long as to march; case/test_energetic_scan has it, too.
+        // To locate a jump takes ten times as long as an analysis; case/test_energetic_scan has it, too.
         if (quick && method == methods[3]) continue;
         progress(std::string("energetic: ") + c.specimen + ", " + method);
         const char* rule = c.rule == reference::MixityRule::pure ? "any" : reference::rule_name(c.rule);
         table.rows.push_back({c.specimen, c.exponent, rule, data.h * 1e3, data.patch * 1e3, method});
         std::vector<Cell>& row = table.rows.back();
-        const March march = run(data, steps, choose(method, c.rule));
-        if (!march.refused.empty()) {
+        const Analysis analysis = run(data, steps, choose(method, c.rule));
+        if (!analysis.refused.empty()) {
             while (row.size() + 1 < table.columns.size()) row.push_back("-");
-            row.push_back(skipped(march.refused));
+            row.push_back(skipped(analysis.refused));
             continue;
         }
         double excess = -std::numeric_limits<double>::infinity();
         long above = 0;
         long refused = 0;
-        for (std::size_t k = 0; k < march.steps.size(); ++k) {
-            const double e = march.steps[k].total() / scan[k].total() - 1.0;
+        for (std::size_t k = 0; k < analysis.steps.size(); ++k) {
+            const double e = analysis.steps[k].total() / scan[k].total() - 1.0;
             excess = std::max(excess, e);
             above += e > 1e-6 ? 1 : 0;
-            refused += march.steps[k].converged ? 0 : 1;
+            refused += analysis.steps[k].converged ? 0 : 1;
         }
         const double scan_advance =
             scan_step < steps ? fronts.list()[scan[static_cast<std::size_t>(scan_step)].front].advance : 0.0;
-        const int move = first_jump(march, scan_advance);
+        const int move = first_jump(analysis, scan_advance);
         const auto at_jump = static_cast<std::size_t>(std::max(1, move) - 1);
-        const Record& jump = march.steps[at_jump];
-        const Record& end = march.steps.back();
+        const Record& jump = analysis.steps[at_jump];
+        const Record& end = analysis.steps.back();
         const reference::ScanStep& scan_end = scan.back();
         for (const Cell& cell : std::vector<Cell>{excess,
                                                   above,
@@ -99,14 +99,14 @@ void compare(Table& table, reference::Flexure data, const reference::Fronts& fro
                                                   jump.released,
                                                   end.dissipated / end.front,
                                                   scan_end.dissipated / fronts.list()[scan_end.front].advance,
-                                                  march.defect(),
-                                                  march.first_jump * 1e3,
+                                                  analysis.defect(),
+                                                  analysis.first_jump * 1e3,
                                                   fronts.crossing(c.rule).load * 1e3,
-                                                  march.spent.backtracks,
-                                                  march.spent.am_iterations,
-                                                  march.spent.newton_solves,
-                                                  march.spent.displacement_solves,
-                                                  march.spent.candidates,
+                                                  analysis.spent.backtracks,
+                                                  analysis.spent.am_iterations,
+                                                  analysis.spent.newton_solves,
+                                                  analysis.spent.displacement_solves,
+                                                  analysis.spent.candidates,
                                                   refused,
                                                   ""})
             row.push_back(cell);

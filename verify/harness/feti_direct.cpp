@@ -14,17 +14,18 @@ Table feti_direct(const Options& options) {
     Table table;
     table.name = "feti-direct";
     const double h = options.quick ? 1e-3 : 0.5e-3;
-    table.note = std::string("Ductile ENF, h = ") + (options.quick ? "1" : "0.5") +
-                 " mm: worst relative differences over " + std::to_string(40 / stride) +
-                 " states of the march (max norm over the interface), contacts that differ, Krylov iterations in all, "
-                 "states whose linear solves stalled above the tolerance; kkt: worst violation of the primal KKT "
-                 "conditions, from "
-                 "exported fields.";
+    table.note =
+        std::string("Ductile ENF, h = ") + (options.quick ? "1" : "0.5") + " mm: worst relative differences over " +
+        std::to_string(40 / stride) +
+        " states of the analysis (max norm over the interface), contacts that differ, Krylov iterations in all, "
+        "states whose linear solves stalled above the tolerance; kkt: worst violation of the primal KKT "
+        "conditions, from "
+        "exported fields.";
     table.columns = {
         "subdomains", "preconditioner", "gluing",           "jump",     "traction",          "displacement",
         "reaction",   "stored_bulk",    "stored_interface", "contacts", "linear_iterations", "stalled",
         "kkt",        "outcome"};
-    progress("feti-direct: the march and the direct solutions");
+    progress("feti-direct: the analysis and the direct solutions");
     const cases::DirectStates states(h, stride);
     for (const std::int64_t subdomains : {2, 8, 32}) {
         for (const char* preconditioner : {"series", "dirichlet", "lumped", "none"}) {

@@ -16,11 +16,12 @@ Table scene_direct(const Options& options) {
              std::to_string(file.scene.pair_count()) + " pairs");
     Table table;
     table.name = "scene-direct";
-    table.note = options.scene + ": " + std::to_string(file.scene.node_count()) + " nodes, " +
-                 std::to_string(file.scene.pair_count()) +
-                 " pairs. One displacement step at the adhesion of a condensed march: largest relative differences to "
-                 "the direct solution; kkt: "
-                 "worst violation of the primal KKT conditions, from exported fields.";
+    table.note =
+        options.scene + ": " + std::to_string(file.scene.node_count()) + " nodes, " +
+        std::to_string(file.scene.pair_count()) +
+        " pairs. One displacement step at the adhesion of a condensed analysis: largest relative differences to "
+        "the direct solution; kkt: "
+        "worst violation of the primal KKT conditions, from exported fields.";
     table.columns = {"time",
                      "debonded",
                      "closed",

@@ -26,7 +26,7 @@ double worse(double a, double b) { return std::isnan(a) || std::isnan(b) ? infin
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
 // The analysis of one realisation, its cost and its outcome.
-struct TrialMarch {
+struct TrialAnalysis {
     std::vector<Result> states;
     std::string status = "converged", message;
     bool ended = false;  // by an error, or by an outcome without a state
@@ -203,8 +203,8 @@ double difference(const Result& a, const Result& b, const Compared& what) {
 }
 
 // The analysis, its energies computed again from fields, and the primal KKT conditions of every state.
-TrialMarch march(const Trial& trial, Realisation realisation) {
-    TrialMarch m;
+TrialAnalysis analyse(const Trial& trial, Realisation realisation) {
+    TrialAnalysis m;
     std::optional<Scene> kept;
     try {
         kept.emplace(trial.scene());
@@ -262,8 +262,8 @@ TrialMarch march(const Trial& trial, Realisation realisation) {
 }
 
 // The reference's displacement steps at the adhesions of an analysis.
-TrialMarch direct_march(const Trial& trial, const std::vector<Result>& states) {
-    TrialMarch m;
+TrialAnalysis direct_analysis(const Trial& trial, const std::vector<Result>& states) {
+    TrialAnalysis m;
     try {
         const Scene scene = trial.held ? trial.held() : trial.scene();
         DirectReference direct(scene);
@@ -300,9 +300,9 @@ std::vector<Result> undamaged(const Trial& trial) {
 }
 
 // Relative difference of the direct energies of the last step in two units of length.
-double left_by_rounding(const Trial& trial, const TrialMarch& march) {
+double left_by_rounding(const Trial& trial, const TrialAnalysis& analysis) {
     constexpr double unit = 3.0;
-    const Result& at = march.states.back();
+    const Result& at = analysis.states.back();
     const Scene scene = trial.in_unit(unit);
     const reference::State s = DirectReference(scene).solve(at.time, at.adhesion);
     return std::abs((s.stored_bulk + s.stored_interface) /
@@ -317,11 +317,11 @@ std::string format(const char* text, double value) {
 }
 
 // Rows of a trial from its analyses, and from the direct ones beside them.
-void judge(Study& study, const Trial& trial, std::vector<std::pair<Realisation, TrialMarch>> all,
-           std::vector<std::optional<TrialMarch>> beside) {
+void judge(Study& study, const Trial& trial, std::vector<std::pair<Realisation, TrialAnalysis>> all,
+           std::vector<std::optional<TrialAnalysis>> beside) {
     for (std::size_t i = 0; i < all.size(); ++i) {
-        TrialMarch& m = all[i].second;
-        const TrialMarch* other = beside[i] ? &*beside[i] : beside[0] ? &*beside[0] : nullptr;
+        TrialAnalysis& m = all[i].second;
+        const TrialAnalysis* other = beside[i] ? &*beside[i] : beside[0] ? &*beside[0] : nullptr;
         for (std::size_t k = 0; k < m.states.size(); ++k) {
             if (trial.error) {
                 m.error = worse(m.error, trial.error(m.states[k]));
@@ -335,7 +335,7 @@ void judge(Study& study, const Trial& trial, std::vector<std::pair<Realisation, 
     }
     double raised = 0.0;
     if (beside[0] && trial.refused.empty()) {
-        TrialMarch& m = *beside[0];
+        TrialAnalysis& m = *beside[0];
         for (const Result& r : m.states) m.error = trial.error ? worse(m.error, trial.error(r)) : 0.0;
         if (m.ended) m.error = unknown;
         if (trial.in_unit && !m.states.empty()) {
@@ -389,7 +389,7 @@ void judge(Study& study, const Trial& trial, std::vector<std::pair<Realisation, 
 }  // namespace
 
 std::vector<Result> states_of(const Trial& trial, Realisation realisation) {
-    TrialMarch m = march(trial, realisation);
+    TrialAnalysis m = analyse(trial, realisation);
     if (m.states.size() != trial.times.size()) throw reference::Failure(0, m.message);
     return std::move(m.states);
 }
@@ -417,7 +417,7 @@ Study::Study(const Options& options) : options_(options) {
         "fields. ledger: energies and work booked less those computed from the fields, over the largest. defect: what "
         "the balance of energies at the end misses (it falls with the steps where something is damaged). damage: "
         "adhesions less the minimisers at their jumps. direct: the monolithic reference at the adhesions of the "
-        "condensed march; FETI whose adhesions are others is compared with a direct solution at its own. Where the "
+        "condensed analysis; FETI whose adhesions are others is compared with a direct solution at its own. Where the "
         "error of the direct reference is against itself in other units, that is what rounding of the assembled "
         "matrices leaves, and twenty times as much is allowed. active_set, krylov, alternations: sums over "
         "the steps.";
@@ -448,12 +448,12 @@ void Study::row(const std::string& subject, const std::string& parameter_name, d
 }
 
 void Study::run(const Trial& trial, const Trial* also) {
-    std::vector<std::pair<Realisation, TrialMarch>> all;
-    if (trial.condensed) all.emplace_back(Realisation::condensed, march(trial, Realisation::condensed));
-    if (trial.feti) all.emplace_back(Realisation::feti, march(trial, Realisation::feti));
+    std::vector<std::pair<Realisation, TrialAnalysis>> all;
+    if (trial.condensed) all.emplace_back(Realisation::condensed, analyse(trial, Realisation::condensed));
+    if (trial.feti) all.emplace_back(Realisation::feti, analyse(trial, Realisation::feti));
     // FETI at its own adhesions if they differ from the condensed ones, so that only the solves are compared.
-    std::vector<std::optional<TrialMarch>> beside(std::max<std::size_t>(all.size(), 1));
-    if (all.empty() && trial.direct) beside[0] = direct_march(trial, undamaged(trial));
+    std::vector<std::optional<TrialAnalysis>> beside(std::max<std::size_t>(all.size(), 1));
+    if (all.empty() && trial.direct) beside[0] = direct_analysis(trial, undamaged(trial));
     for (std::size_t i = 0; i < all.size() && trial.direct; ++i) {
         const bool first = i == 0;
         const auto same = [&] {
@@ -463,7 +463,7 @@ void Study::run(const Trial& trial, const Trial* also) {
                 if (a[k].adhesion != b[k].adhesion) return false;
             return true;
         };
-        if (first || !same()) beside[i] = direct_march(trial, all[i].second.states);
+        if (first || !same()) beside[i] = direct_analysis(trial, all[i].second.states);
     }
     if (also != nullptr) {
         judge(*this, trial, all, beside);
@@ -485,7 +485,7 @@ Table stability(const Options& options) {
     stability_bodies(study);
     stability_units(study);
     stability_contact(study);
-    stability_march(study);
+    stability_analysis(study);
     stability_partition(study);
     if (study.table().rows.empty())
         throw reference::Failure(DELAM_ERROR_ARGUMENT, "no subject '" + *options.subjects.begin() + "'");

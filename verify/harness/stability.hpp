@@ -160,7 +160,7 @@ void stability_interface(Study& study);
 void stability_bodies(Study& study);
 void stability_units(Study& study);
 void stability_contact(Study& study);
-void stability_march(Study& study);
+void stability_analysis(Study& study);
 void stability_partition(Study& study);
 
 }  // namespace harness

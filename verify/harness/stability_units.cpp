@@ -52,7 +52,7 @@ struct Unscaled {
     }
 };
 
-Unscaled unscaled_march(int dimension, const std::vector<double>& times) {
+Unscaled unscaled_analysis(int dimension, const std::vector<double>& times) {
     Trial t;
     t.scene = [=] { return make_cantilever(scaled({1.0, 1.0}, dimension)); };
     t.times = times;
@@ -83,15 +83,15 @@ struct Range {
     std::vector<double> factors;
     Scale (*scale)(double factor);
     double limit;
-    std::string reference = "the march in SI units";
+    std::string reference = "the analysis in SI units";
     int dimension = 2;
     std::size_t stride = 9;  // for --quick
 };
 
-void scaled_marches(Study& study, const Range& range) {
+void scaled_analyses(Study& study, const Range& range) {
     if (!study.wanted(range.subject)) return;
     const std::vector<double> times{0.25, 0.5, 0.75, 1.0};
-    const auto unscaled = std::make_shared<const Unscaled>(unscaled_march(range.dimension, times));
+    const auto unscaled = std::make_shared<const Unscaled>(unscaled_analysis(range.dimension, times));
     for (const double factor : study.range(range.factors, range.stride)) {
         const Scale by = range.scale(factor);
         const Cantilever c = scaled(by, range.dimension);
@@ -127,49 +127,49 @@ void stability_units(Study& study) {
     // The square root in a Cholesky factor keeps its digits only for powers of four. A unit of length changes the
     // stiffness by its square, so odd powers of two do, too.
     const std::vector<double> four = powers(2.0, -30, 30, 6), odd = powers(2.0, -29, 29, 2);
-    scaled_marches(study,
-                   {"size", "length / 40 mm", powers(10.0, -6, 6, 1), size, rounded, "the march at 40 mm", 2, 4});
-    scaled_marches(study, {.subject = "unit-length-binary",
-                           .parameter_name = "unit of length",
-                           .factors = four,
-                           .scale = length,
-                           .limit = exact,
-                           .stride = 5});
-    scaled_marches(study, {.subject = "unit-force-binary",
-                           .parameter_name = "unit of force",
-                           .factors = four,
-                           .scale = force,
-                           .limit = exact,
-                           .stride = 5});
-    scaled_marches(study, {.subject = "unit-length-odd",
-                           .parameter_name = "unit of length",
-                           .factors = odd,
-                           .scale = length,
-                           .limit = exact,
-                           .stride = 15});
-    scaled_marches(study, {.subject = "unit-force-odd",
-                           .parameter_name = "unit of force",
-                           .factors = odd,
-                           .scale = force,
-                           .limit = rounded,
-                           .stride = 15});
-    scaled_marches(study, {.subject = "unit-length",
-                           .parameter_name = "unit of length",
-                           .factors = decimal,
-                           .scale = length,
-                           .limit = rounded});
-    scaled_marches(study, {.subject = "unit-force",
-                           .parameter_name = "unit of force",
-                           .factors = decimal,
-                           .scale = force,
-                           .limit = rounded});
-    scaled_marches(study, {.subject = "unit-length-3d",
-                           .parameter_name = "unit of length",
-                           .factors = {1e-9, 1e-6, 1e-3, 1.0 / 0.0254, 1e3, 1e9},
-                           .scale = length,
-                           .limit = rounded,
-                           .dimension = 3,
-                           .stride = 5});
+    scaled_analyses(study,
+                    {"size", "length / 40 mm", powers(10.0, -6, 6, 1), size, rounded, "the analysis at 40 mm", 2, 4});
+    scaled_analyses(study, {.subject = "unit-length-binary",
+                            .parameter_name = "unit of length",
+                            .factors = four,
+                            .scale = length,
+                            .limit = exact,
+                            .stride = 5});
+    scaled_analyses(study, {.subject = "unit-force-binary",
+                            .parameter_name = "unit of force",
+                            .factors = four,
+                            .scale = force,
+                            .limit = exact,
+                            .stride = 5});
+    scaled_analyses(study, {.subject = "unit-length-odd",
+                            .parameter_name = "unit of length",
+                            .factors = odd,
+                            .scale = length,
+                            .limit = exact,
+                            .stride = 15});
+    scaled_analyses(study, {.subject = "unit-force-odd",
+                            .parameter_name = "unit of force",
+                            .factors = odd,
+                            .scale = force,
+                            .limit = rounded,
+                            .stride = 15});
+    scaled_analyses(study, {.subject = "unit-length",
+                            .parameter_name = "unit of length",
+                            .factors = decimal,
+                            .scale = length,
+                            .limit = rounded});
+    scaled_analyses(study, {.subject = "unit-force",
+                            .parameter_name = "unit of force",
+                            .factors = decimal,
+                            .scale = force,
+                            .limit = rounded});
+    scaled_analyses(study, {.subject = "unit-length-3d",
+                            .parameter_name = "unit of length",
+                            .factors = {1e-9, 1e-6, 1e-3, 1.0 / 0.0254, 1e3, 1e9},
+                            .scale = length,
+                            .limit = rounded,
+                            .dimension = 3,
+                            .stride = 5});
 }
 
 }  // namespace harness

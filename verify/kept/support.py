@@ -10,7 +10,7 @@ import compare
 
 HERE = pathlib.Path(__file__).resolve().parent
 MADE = sorted(path.parent for path in HERE.glob("*/scenes"))  # one folder for each commit that made data
-# The program forces its files to disk, which takes longer than these marches: in memory where the system has a folder.
+# The program forces its files to disk, which takes longer than these analyses: in memory where the system has a folder.
 MEMORY = "/dev/shm" if os.access("/dev/shm", os.W_OK) else None
 STATE = "state"  # the column of an entry that says a state is no longer read
 

@@ -239,15 +239,15 @@ def kept():
         def hand_over():
             ranks.take_cells(mesh, problem, None if mesh is None else sections(mesh, ranks.size))
 
-        def march(time):
+        def analyse(time):
             solver.advance(time)
             solver.commit()
         hand_over()
         ranks.attach(problem)
         solver = ranks.run(lambda: delam.Solver(problem))
-        ranks.run(lambda: (march(TIMES[0]), ranks.recover(solver)))
+        ranks.run(lambda: (analyse(TIMES[0]), ranks.recover(solver)))
         first = ranks.part_field("displacement")
-        ranks.run(lambda: march(TIMES[1]))
+        ranks.run(lambda: analyse(TIMES[1]))
         expect(np.array_equal(ranks.part_field("displacement"), first), "a step changes nothing that was recovered")
         ranks.run(lambda: ranks.recover(solver))
         expect(not np.array_equal(ranks.part_field("displacement"), first), "the next recovery is of the next state")

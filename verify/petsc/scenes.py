@@ -23,10 +23,10 @@ from launch import alone, expect, finish, folder, last_lines, on_ranks
 TIGHT = "1e-10"
 # Between two runs on the same ranks, of the largest value of its kind: bindings/cli/MANUAL.md promises it.
 REPEATED = 1e-6
-# On several ranks only marches of so many solves: a solve takes 15 ms on 2 and 4 ranks, 0.1 s on 8 and 0.7 to 1 s on 16
-# where there are two cores, so that a march ends within a minute.
+# On several ranks, only analyses of so many solves: one takes 15 ms on 2 and 4 ranks, 0.1 s on 8 and 0.7 to 1 s on 16
+# where there are two cores, so that an analysis ends within a minute.
 MOST_SOLVES = {2: 5000, 4: 5000, 8: 300, 16: 60}
-# In s. Beside other programs a rank that waits for a message gets its processor back milliseconds later, and marches
+# In s. Beside other programs a rank that waits for a message gets its processor back milliseconds later, and analyses
 # have taken six times as long.
 LIMIT = 600
 

@@ -163,7 +163,7 @@ void recover_by_the_core(const Case& c, const Values& weights) {
     expect(first() == before, "what the ranks have after it", 0.0, 0.0);
 }
 
-// A sequence as a march has it: stiffer and stiffer springs, debonding with an old preconditioner, contact,
+// A sequence as an analysis has it: stiffer and stiffer springs, debonding with an old preconditioner, contact,
 // constraints.
 void sequence(const Case& c, const Variables& v, const EngineClient& client, double k) {
     const DenseReference dense = reference(c, v);

@@ -259,12 +259,12 @@ def result(reference: dict, *, tables=(), orders=(), ledger=None, plots=(), figu
 LEDGER_VALUES = ("stored_bulk", "stored_interface", "dissipated", "work", "lower", "increment_lower", "increment", "upper")
 
 
-def ledger_of(marches: dict, unit: str, slack: float = 1e-9) -> dict:
-    """The energy ledger of marches, by name: each the values of the public API after every step, lists by their names,
+def ledger_of(analyses: dict, unit: str, slack: float = 1e-9) -> dict:
+    """The energy ledger of analyses, by name: each the values of the public API after every step, lists by their names,
     the initial state first. Sums of the two-sided estimate beside what was booked; beyond: steps outside of it by more
     than `slack` of the largest energy. With "released", what jumps set free in each step, it is a column too."""
-    rows, gone = [], any("released" in at for at in marches.values())
-    for name, at in marches.items():
+    rows, gone = [], any("released" in at for at in analyses.values())
+    for name, at in analyses.items():
         bulk, interface, spent, work, lower, own, now, upper = ([float(v) for v in at[key]] for key in LEDGER_VALUES)
         slack_here = slack * max(max(abs(v) for v in bulk), max(abs(v) for v in work))
         gained, released = bulk[-1] + interface[-1] - bulk[0] - interface[0], sum(at["released"] if "released" in at else ())
@@ -273,10 +273,10 @@ def ledger_of(marches: dict, unit: str, slack: float = 1e-9) -> dict:
                      gained + spent[-1] + released - work[-1], sum(lower), sum(now), sum(upper), beyond])
     energies = ("stored, bodies", "stored, interface", "dissipated", *(["released"] if gone else []), "work", "defect",
                 "lower, sum", "increments, sum", "upper, sum")
-    columns = [column("march", "", key=True), *(column(what, unit) for what in energies),
+    columns = [column("analysis", "", key=True), *(column(what, unit) for what in energies),
                column("beyond a bound", "steps")]
-    return table("At the end of the march", columns, rows,
-                 "A march: all load steps of a scene in turn. As the library books it, by its public values. Defect: growth of what is stored, and dissipated"
+    return table("At the end of the analysis", columns, rows,
+                 "An analysis: all load steps of a scene in turn. As the library books it, by its public values. Defect: growth of what is stored, and dissipated"
                  + (" and released" if gone else "") + ", less the work; bounds and increments are summed over the steps.")
 
 

@@ -7,8 +7,8 @@ CLAIMS = [
                              "the library."},
     {"chapter": "b", "text": "Every step books all energies and a two-sided estimate; balance and band shrink with the step, mesh and step "
                              "refined together converge (in mixed mode with the mixity of the step itself; a frozen one "
-                             "needs short steps for it), and energetic marches find what an exhaustive scan of crack fronts finds."},
-    {"chapter": "c", "text": "At equal error a march costs a few linear solves of the scene, tens of times less than alternate "
+                             "needs short steps for it), and energetic analyses find what an exhaustive scan of crack fronts finds."},
+    {"chapter": "c", "text": "At equal error an analysis costs a few linear solves of the scene, tens of times less than alternate "
                              "minimisation with a factorisation in every iteration; where it costs more, that is listed first. For orientation, not "
                              "measured here: in a trial by other people, on ductile end-notched flexure with cells of 0.5 and 0.25 mm, an established "
                              "open-source finite element code took 65 and 75 times the processor time of this library's command line, from start to files."},

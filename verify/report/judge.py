@@ -119,7 +119,7 @@ def numbers(data: dict) -> dict:
 
 
 def _kind(name: str) -> str:
-    """Names of one column whose rows differ in numbers alone (states of a march, sizes) are of one kind."""
+    """Names of one column whose rows differ in numbers alone (states of an analysis, sizes) are of one kind."""
     parts = name.split(" | ")
     if len(parts) == 3:
         parts[1] = ", ".join(key for key in parts[1].split(", ") if not NUMBER.fullmatch(key))

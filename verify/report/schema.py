@@ -121,7 +121,7 @@ def check(data: dict) -> dict:
     if data["ledger"] is not None and not isinstance(data["ledger"], str):
         _table(data["ledger"], f"{where}, ledger")
         if not data["ledger"]["rows"]:
-            raise Invalid(f"{where}, ledger: no march")
+            raise Invalid(f"{where}, ledger: no analysis")
     for i, plot in enumerate(data["plots"]):
         _plot(plot, f"{where}, plot {i}")
     for o in data["orders"]:

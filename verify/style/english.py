@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Checks the English of comments, messages and names in src and bindings/cli/src: no comment begins with a fragment in
-the place of a sentence, and no private word stands where the field has one.
+the place of a sentence, and no private word stands where the field has one. In verify, some of these words do not come
+back.
 
     python3 verify/style/english.py [--glossary]
 """
@@ -13,6 +14,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 FOLDERS = ("src", "bindings/cli/src")
 CODE = {".c", ".h", ".cpp", ".hpp", ".inc"}
+VERIFY_TEXT = {".py", ".sh", ".json", ".txt"}  # besides code and documents
 
 # These words never begin a sentence that is understood at once; behind code, they begin no noun phrase either.
 NEVER = re.compile(r"(?:what|whether|which|how)\b", re.I)
@@ -44,8 +46,11 @@ GLOSSARY = {
     "violent": (r"violent(?:ly)?", "breaking softening"),
     "creeping": (r"creep(?:s|ing)?", "slow; converges slowly"),
 }
+# Words that verify has not any more, but in its rules and in what earlier versions wrote.
+GONE_FROM_VERIFY = ("march",)
+OWN_WORDS = re.compile(r"verify/(?:style/|kept/\w+/|fuzz/corpus/|cases/golden/)")
 # What users and hosts have keeps its name, and a term of the field stays.
-ALLOWED = re.compile(r"delam_solver_look|`_look`|estimate_hollow|up-looking")
+ALLOWED = re.compile(r"delam_solver_look|`_look`|estimate_hollow|up-looking|(?<=solver\.)march(?=\()")
 WORDS = {name: re.compile(rf"(?<![A-Za-z])(?:{word})(?![A-Za-z])", re.I) for name, (word, _) in GLOSSARY.items()}
 
 TOKEN = re.compile(r"//[^\n]*|/\*.*?\*/|R\"(?P<mark>[^(\s]*)\(.*?\)(?P=mark)\"|\"(?:\\.|[^\"\\\n])*\""
@@ -91,24 +96,29 @@ def fragments(name, text):
             yield f"{name}:{line}: a comment needs a subject and a verb: {comment[:60]}"
 
 
-def private_words(name, text):
+def private_words(name, text, words=tuple(GLOSSARY)):
     """Each private word of a file, with that of the field."""
     for n, line in enumerate(text.splitlines(), 1):
-        for word, pattern in WORDS.items():
-            if pattern.search(ALLOWED.sub("", line)):
+        for word in words:
+            if WORDS[word].search(ALLOWED.sub("", line)):
                 yield f"{name}:{n}: \"{word}\" is a private word, the field's is: {GLOSSARY[word][1]}"
 
 
 def problems(name, text):
     """Lists what this rule refuses in a file, a line each."""
+    if name.startswith("verify/"):
+        yield from () if OWN_WORDS.match(name) else private_words(name, text, GONE_FROM_VERIFY)
+        return
     if pathlib.PurePath(name).suffix in CODE:
         yield from fragments(name, text)
     yield from private_words(name, text)
 
 
 def sources():
-    paths = (p for folder in FOLDERS for p in (ROOT / folder).rglob("*"))
-    return sorted(p for p in paths if p.is_file() and (p.suffix in CODE | {".md", ".cmake"} or p.name == "CMakeLists.txt"))
+    paths = (p for folder in (*FOLDERS, "verify") for p in (ROOT / folder).rglob("*"))
+    text = CODE | {".md", ".cmake"}
+    return sorted(p for p in paths if p.is_file() and (p.name == "CMakeLists.txt" or p.suffix in text or
+                  p.suffix in VERIFY_TEXT and p.is_relative_to(ROOT / "verify")))
 
 
 def main():
@@ -121,6 +131,7 @@ def main():
     texts = {p.relative_to(ROOT).as_posix(): p.read_text(encoding="utf-8") for p in sources()}
     wrong = [line for name, text in texts.items() for line in problems(name, text)]
     comments = sum(1 for name, text in texts.items() if pathlib.PurePath(name).suffix in CODE
+                   and not name.startswith("verify/")
                    for _, _, comment in blocks(text) if comment and not comment.startswith("SPDX-"))
     print(f"{len(texts)} files, {comments} comments, {len(GLOSSARY)} private words")
     for line in wrong:

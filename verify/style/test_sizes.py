@@ -186,6 +186,7 @@ def planted_english():
     ]
     for text in fine:
         assert not list(english.problems("src/a/b.cpp", text)), f"{text!r} was refused"
+    assert list(english.problems("verify/a.py", "marches = []\n")) and not list(english.problems("verify/a.py", "solver.march(t)\n"))
     assert list(english.problems("src/a/README.md", "A fresh factor.\n")) and not list(english.problems("src/a/README.md", "Whether.\n"))
     return len(refused) + 1
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Layers with interfaces in states that a march may meet: a notch, some pairs damaged, some closed, some parts afloat.
+// Layers with interfaces in states that an analysis may meet: a notch, some pairs damaged, some closed, some parts
+// afloat.
 #pragma once
 
 #include <algorithm>
@@ -167,7 +168,7 @@ inline void expect_close(std::span<const double> a, std::span<const double> b, d
     ck_assert_msg(off <= tolerance * size, "%s: off by %.2e of %.3g", what.c_str(), off, size);
 }
 
-// A state that a march may meet: a notch, some pairs damaged, some closed.
+// A state that an analysis may meet: a notch, some pairs damaged, some closed.
 struct LayerState {
     Problem problem;
     Springs springs;

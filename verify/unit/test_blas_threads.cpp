@@ -99,7 +99,7 @@ TEST(one_thread_for_good) {
 TEST(an_analysis_leaves_the_number) {
     if (!host_wants(2)) return;
     const Problem problem = unit::make_flexure({});
-    const auto march = [&] {
+    const auto analyse = [&] {
         Monitor monitor;
         Solver solver(problem, monitor, 0.0);
         for (int k = 1; k <= 4; ++k) {
@@ -109,10 +109,10 @@ TEST(an_analysis_leaves_the_number) {
         return solver.states().shown().adhesion;
     };
     calls = most = 0;
-    const std::vector<double> two = march();
+    const std::vector<double> two = analyse();
     ck_assert_int_eq(openblas_get_num_threads(), 2);
     ck_assert_int_gt(calls, 0);
     ck_assert_int_eq(most, 1);
     ck_assert(host_wants(1));
-    ck_assert(march() == two);
+    ck_assert(analyse() == two);
 }

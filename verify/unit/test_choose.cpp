@@ -56,7 +56,7 @@ unit::Flexure scene(int which) {
 }
 
 // Peak memory of an analysis of a few steps, including the solver, above the use before.
-double counted_march(const Problem& problem, double& predicted, double& unknowns) {
+double counted_analysis(const Problem& problem, double& predicted, double& unknowns) {
     Monitor monitor;
     const long before = unit::live_bytes;
     unit::peak_bytes = before;
@@ -89,7 +89,7 @@ LOOP_TEST(memory_is_what_was_predicted, 0, 9) {
     constexpr const char* ways[] = {"condensed", "feti", "iterated"};
     problem.options.reduction = ways[loop / 3];
     double predicted = 0.0, unknowns = 0.0;
-    const double counted = counted_march(problem, predicted, unknowns);
+    const double counted = counted_analysis(problem, predicted, unknowns);
     expect_within(predicted, counted, 1.5,
                   "bytes, scene " + std::to_string(loop % 3) + ", " + problem.options.reduction);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The bodies solved by an engine of the host: energies of combinations, whole marches against the condensed operator,
+// The bodies solved by an engine of the host: energies of combinations, whole analyses against the condensed operator,
 // states that the engine keeps no longer, what an engine does wrong.
 #include <algorithm>
 #include <cmath>
@@ -83,7 +83,7 @@ TEST(energy_of_combinations) {
 
 namespace {
 
-struct March {
+struct Analysis {
     const char* name;
     int dimension;
     const char *solution, *mixity_rule;
@@ -91,7 +91,7 @@ struct March {
     std::size_t layers;
     double brittle;  // onset over the toughness
 };
-constexpr March marches[] = {
+constexpr Analysis analyses[] = {
     {"ductile", 2, "local", "frozen", 1.0, 2, 0.4},
     {"ductile in space", 3, "local", "frozen", 1.0, 2, 0.4},
     {"three layers, mixed mode", 2, "local", "frozen", 2.5, 3, 0.4},
@@ -101,7 +101,7 @@ constexpr March marches[] = {
     {"brittle, energetic", 2, "energetic", "frozen", 1.0, 2, 1.0},
 };
 
-Problem march_of(const March& m) {
+Problem analysis_of(const Analysis& m) {
     unit::Flexure f;
     f.dimension = m.dimension;
     f.layers = m.layers;
@@ -120,9 +120,9 @@ Problem march_of(const March& m) {
 
 }  // namespace
 
-LOOP_TEST(marches_as_without_an_engine, 0, std::size(marches)) {
-    const March& m = marches[loop];
-    Problem plain = march_of(m);
+LOOP_TEST(analyses_as_without_an_engine, 0, std::size(analyses)) {
+    const Analysis& m = analyses[loop];
+    Problem plain = analysis_of(m);
     Engined engined(plain);
     plain.options.reduction = "condensed";
     Monitor monitor;
@@ -217,10 +217,10 @@ std::pair<Problem, SparseMatrix> skeleton_of(const Problem& whole) {
 
 // The library knows the interfaces alone, of bodies that float once they have come off.
 LOOP_TEST(bodies_that_only_the_engine_knows, 0, 3) {
-    const March& m = marches[loop];
-    Problem plain = march_of(m);
+    const Analysis& m = analyses[loop];
+    Problem plain = analysis_of(m);
     plain.options.reduction = "condensed";
-    auto [problem, stiffness] = skeleton_of(march_of(m));
+    auto [problem, stiffness] = skeleton_of(analysis_of(m));
     unit::SerialEngine engine(std::move(stiffness));
     problem.engine = std::make_shared<Engine>(engine.functions());
     ck_assert_int_lt(problem.mesh->node_count(), plain.mesh->node_count());
@@ -283,7 +283,7 @@ TEST(forces_on_a_part_that_floats) {
 
 // Two solvers of one problem take turns: the engine has room for the variables of one of them.
 TEST(solvers_take_turns) {
-    const Problem plain = march_of(marches[0]);
+    const Problem plain = analysis_of(analyses[0]);
     Engined engined(plain);
     Monitor monitor;
     {
@@ -306,7 +306,7 @@ TEST(solvers_take_turns) {
 }
 
 TEST(failures_and_cancellation) {
-    Engined engined(march_of(marches[0]));
+    Engined engined(analysis_of(analyses[0]));
     Monitor monitor;
     Solver solver(engined.problem, monitor, 0.0);
     ck_assert_int_eq(solver.advance(0.5).status, DELAM_OK);
@@ -320,7 +320,7 @@ TEST(failures_and_cancellation) {
     ck_assert_refused(DELAM_CANCELLED, "", solver.advance(0.9));
     monitor.progress_callback = nullptr;
     ck_assert(solver.states().committed().adhesion == adhesion);
-    Problem plain = march_of(marches[0]);
+    Problem plain = analysis_of(analyses[0]);
     Solver other(plain, monitor, 0.0);
     for (const double time : {0.5, 0.9}) {
         ck_assert_int_eq(other.advance(time).status, DELAM_OK);

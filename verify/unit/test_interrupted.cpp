@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A march on the iterated operator that is cancelled in each of its stages goes on with the same bits: in the solver
-// that was cancelled, and in a new one that loads its saved state.
+// An analysis on the iterated operator that is cancelled in each of its stages goes on with the same bits: in the
+// solver that was cancelled, and in a new one that loads its saved state.
 #include <cstring>
 #include <map>
 #include <memory>
@@ -41,11 +41,11 @@ struct Watch {
     }
 };
 
-struct March {
+struct Analysis {
     Watch watch;
     Monitor monitor;
 
-    March() {
+    Analysis() {
         monitor.progress_user = &watch;
         monitor.progress_callback = &Watch::poll;
     }
@@ -83,15 +83,15 @@ struct Reference {
     std::vector<std::map<std::string, int>> polls;  // of the step to each state
 
     Reference() {
-        March march;
+        Analysis analysis;
         const Problem problem = scene();
-        Solver solver(problem, march.monitor, 0.0);
-        polls.push_back(march.watch.polls);
+        Solver solver(problem, analysis.monitor, 0.0);
+        polls.push_back(analysis.watch.polls);
         for (int k = 1; k <= steps; ++k) {
-            march.watch.stop("", 0);
+            analysis.watch.stop("", 0);
             if (advance(solver, k) != DELAM_OK) throw Error(DELAM_ERROR_INTERNAL, "a step fails undisturbed");
             solver.commit();
-            polls.push_back(march.watch.polls);
+            polls.push_back(analysis.watch.polls);
         }
         if (!(value(solver, "dissipated") > 0.0)) throw Error(DELAM_ERROR_INTERNAL, "nothing is damaged");
         end = save(solver);
@@ -99,8 +99,8 @@ struct Reference {
 };
 
 std::unique_ptr<const Reference> undisturbed;
-void march_undisturbed() { undisturbed = std::make_unique<const Reference>(); }
-BEFORE_TESTS(march_undisturbed);
+void analyse_undisturbed() { undisturbed = std::make_unique<const Reference>(); }
+BEFORE_TESTS(analyse_undisturbed);
 
 void expect_same(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
     ck_assert_uint_eq(a.size(), b.size());
@@ -115,12 +115,12 @@ LOOP_TEST(cancelled_while_it_is_set_up, 0, 2) {
     const Reference& reference = *undisturbed;
     const int polls = reference.polls[0].at(of_setup[loop]);
     for (const int at : {1, (polls + 1) / 2, polls}) {
-        March march;
-        march.watch.stop(of_setup[loop], at);
-        ck_assert_refused(DELAM_CANCELLED, "", Solver(problem, march.monitor, 0.0));
+        Analysis analysis;
+        analysis.watch.stop(of_setup[loop], at);
+        ck_assert_refused(DELAM_CANCELLED, "", Solver(problem, analysis.monitor, 0.0));
         if (at != polls) continue;
-        march.watch.stop("", 0);
-        Solver solver(problem, march.monitor, 0.0);
+        analysis.watch.stop("", 0);
+        Solver solver(problem, analysis.monitor, 0.0);
         finish(solver);
         expect_same(save(solver), reference.end);
     }
@@ -135,19 +135,19 @@ LOOP_TEST(cancelled_in_a_step, 0, 3) {
     for (int k = 2; k <= steps && cancelled < 2; ++k) {
         const auto found = reference.polls[static_cast<std::size_t>(k)].find(stage);
         if (found == reference.polls[static_cast<std::size_t>(k)].end()) continue;
-        March march;
-        Solver solver(problem, march.monitor, 0.0);
+        Analysis analysis;
+        Solver solver(problem, analysis.monitor, 0.0);
         for (int j = 1; j < k; ++j) {
             ck_assert_int_eq(advance(solver, j), DELAM_OK);
             solver.commit();
         }
         const std::vector<std::uint8_t> before = save(solver);
-        march.watch.stop(stage, (found->second + 1) / 2);
+        analysis.watch.stop(stage, (found->second + 1) / 2);
         ck_assert_int_eq(advance(solver, k), DELAM_CANCELLED);
-        march.watch.stop("", 0);
+        analysis.watch.stop("", 0);
         const std::vector<std::uint8_t> kept = save(solver);
         expect_same(kept, before);
-        Solver other(problem, march.monitor, 0.0);
+        Solver other(problem, analysis.monitor, 0.0);
         load(other, kept);
         finish(other);
         expect_same(save(other), reference.end);

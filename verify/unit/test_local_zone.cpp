@@ -181,13 +181,13 @@ LOOP_TEST(only_small_parts_are_offered, 0, scenes) {
 
 namespace {
 
-struct March {
+struct Analysis {
     std::int64_t whole = 0;       // solves of all bodies that iterate
     std::int64_t iterations = 0;  // of all of them
     double dissipated = 0.0;
 };
 
-March march(const char* reduction) {
+Analysis analyse(const char* reduction) {
     unit::Flexure f;
     f.along = 480;
     f.through = 2;
@@ -198,12 +198,12 @@ March march(const char* reduction) {
     problem.options.reduction = reduction;
     problem.options.step_control = "fixed";
     Monitor monitor;
-    March m;
+    Analysis m;
     monitor.progress_user = &m;
     monitor.progress_callback = [](const char* stage, std::int64_t done, std::int64_t, void* user) {
         if (std::strcmp(stage, "linear solve") != 0) return 0;
-        static_cast<March*>(user)->whole += done == 1 ? 1 : 0;
-        ++static_cast<March*>(user)->iterations;
+        static_cast<Analysis*>(user)->whole += done == 1 ? 1 : 0;
+        ++static_cast<Analysis*>(user)->iterations;
         return 0;
     };
     Solver solver(problem, monitor, 0.0);
@@ -219,7 +219,7 @@ March march(const char* reduction) {
 
 // The front of a slender laminate crosses some hundred pairs.
 TEST(parts_spare_solves_of_the_whole) {
-    const March a = march("iterated"), b = march("condensed");
+    const Analysis a = analyse("iterated"), b = analyse("condensed");
     ck_assert_double_gt(b.dissipated, 0.0);
     ck_assert_double_le(std::abs(a.dissipated - b.dissipated), 1e-6 * b.dissipated);
     std::printf("%d solves, %d iterations\n", static_cast<int>(a.whole), static_cast<int>(a.iterations));

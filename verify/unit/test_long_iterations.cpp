@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Iterations of the linear solves of whole marches with the iterated operator, contact and Newton's method included,
+// Iterations of the linear solves of whole analyses with the iterated operator, contact and Newton's method included,
 // whatever the stiffness of the interfaces, the shape of the cells, and the number of interfaces.
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@ struct Count {
     std::int64_t solves = 0, iterations = 0, worst = 0;
 };
 
-struct March {
+struct Analysis {
     double stiffness = 1e13;  // N/m3
     double aspect = 5.0;      // length of a cell over its thickness
     std::size_t layers = 2;
@@ -32,7 +32,7 @@ constexpr std::size_t stacks[] = {3, 5, 9};
 
 // A flexure in space, pressed until its cracks have grown in five steps. Solves that need no iteration,
 // because the solution before is still right, are not counted.
-Count march(const March& m) {
+Count analyse(const Analysis& m) {
     unit::Flexure f;
     f.dimension = 3;
     f.along = 24;
@@ -86,9 +86,9 @@ Count march(const March& m) {
     return count;
 }
 
-void expect_few(std::span<const March> marches) {
-    for (const March& m : marches) {
-        const Count c = march(m);
+void expect_few(std::span<const Analysis> analyses) {
+    for (const Analysis& m : analyses) {
+        const Count c = analyse(m);
         ck_assert(static_cast<double>(c.iterations) <= 6.0 * static_cast<double>(c.solves));
         ck_assert_int_le(c.worst, m.worst);
     }
@@ -97,19 +97,19 @@ void expect_few(std::span<const March> marches) {
 }  // namespace
 
 TEST(whatever_the_stiffness) {
-    std::vector<March> marches;
-    for (const double k : stiffnesses) marches.push_back({.stiffness = k});
-    expect_few(marches);
+    std::vector<Analysis> analyses;
+    for (const double k : stiffnesses) analyses.push_back({.stiffness = k});
+    expect_few(analyses);
 }
 
 TEST(whatever_the_shape_of_the_cells) {
-    std::vector<March> marches;
-    for (const double aspect : aspects) marches.push_back({.aspect = aspect});
-    expect_few(marches);
+    std::vector<Analysis> analyses;
+    for (const double aspect : aspects) analyses.push_back({.aspect = aspect});
+    expect_few(analyses);
 }
 
 TEST(however_many_interfaces) {
-    std::vector<March> marches;
-    for (const std::size_t layers : stacks) marches.push_back({.layers = layers});
-    expect_few(marches);
+    std::vector<Analysis> analyses;
+    for (const std::size_t layers : stacks) analyses.push_back({.layers = layers});
+    expect_few(analyses);
 }

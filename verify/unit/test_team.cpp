@@ -102,7 +102,7 @@ TEST(analysis) {
     scene.along = 30;
     scene.across = 6;
     const Problem problem = unit::make_flexure(scene);
-    const auto march = [&](std::int64_t threads) {
+    const auto analyse = [&](std::int64_t threads) {
         const TeamScope team(threads);
         Monitor monitor;
         Solver solver(problem, monitor, 0.0);
@@ -112,9 +112,9 @@ TEST(analysis) {
         }
         return solver.states().shown().adhesion;
     };
-    const std::vector<double> one = march(1);
-    ck_assert(march(2) == one);
-    ck_assert(march(3) == one);
+    const std::vector<double> one = analyse(1);
+    ck_assert(analyse(2) == one);
+    ck_assert(analyse(3) == one);
 }
 
 }  // namespace

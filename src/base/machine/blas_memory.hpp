@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The working memory of OpenBLAS: a block of addresses for each thread that computes at the same time, its own or a
-// caller's. A block that the system refuses is asked for again for ever, and whoever waits for that thread waits too;
-// one that was granted is never given back. So the library checks for room before a thread asks.
+// OpenBLAS has a block of addresses as working memory for each thread that computes at the same time, its own or a
+// caller's. It asks for ever for a block that the system refuses, and whoever waits for that thread waits too. It never
+// gives a block back. So the library checks for room before a thread asks.
 #pragma once
 
 #include <cstdint>

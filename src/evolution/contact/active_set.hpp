@@ -56,7 +56,8 @@ struct ActiveSet {
     std::int64_t doubts = 0;  // sets of which a solve left open whether a row violates its side
 };
 
-// Violations below this part of the largest jump or force are rounding of the solve.
+// Violations below this part of the largest jump or force are rounding of the solve. (Measured by
+// verify/bench/constants.py on 250 random scenes: half and twice decide alike.)
 inline constexpr double contact_rounding = 1e-11;
 // Forces below this part of the forces of which they are the difference are rounding, too. (Measured with
 // verify/cases/contact/random_scenes.py: 2e-14 to 1e-13 decide alike; with 1e-14 rounding holds blocks that are free,
@@ -173,11 +174,11 @@ concept FloatingSystem = requires(S system, const ContactRows& rows, std::vector
 };
 
 // The active set that cannot cycle (Nocedal, Wright, Numerical Optimization, 2nd ed., 16.5). A point without
-// penetration moves towards the minimiser of the present set as far as no open row penetrates; rows that stop it close,
-// and where nothing does, rows that pull open. Energy is convex along the way to a minimiser, so that it falls in each
-// step of some length, whatever rigid motions of free parts that minimiser has, and no set whose minimiser was reached
-// comes back. In steps of no length (several rows at one corner) a set may come back; from then on rows open one at a
-// time, that of least index (R. Bland, Math. Oper. Res. 2, 1977).
+// penetration moves towards the minimiser of the present set as far as no open row penetrates. Rows that stop it close;
+// if none does, rows that pull open. Energy is convex along the way to a minimiser, so that it falls in each step of
+// some length, whatever rigid motions of free parts that minimiser has, and no set whose minimiser was reached comes
+// back. In steps of no length (several rows at one corner) a set may come back; from then on rows open one at a time,
+// that of least index (R. Bland, Math. Oper. Res. 2, 1977).
 class FeasibleDescent {
 public:
     // Starts with all contact rows at zero.

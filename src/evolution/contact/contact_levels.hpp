@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Nested coarse sets of pairs for a cold start of the contact search.
 //
-// An active set first changes by whole regions and then, on a fine interface, by one pair at each end of a region, so
-// the number of its steps grows with 1/h. If the search begins among pairs far apart, continues among twice as many,
-// and so on, every level starts near its solution.
+// An active set first changes by whole regions, then by one pair at each end of a region. The number of its steps
+// therefore grows with 1/h. The search begins among pairs that are far apart, and each level has twice as many, so that
+// it starts near its solution.
 #pragma once
 
 #include <cstdint>

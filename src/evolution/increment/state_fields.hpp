@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The saved members of a state. There is a row for each member, in the order of the bytes, in the group of the version
+// The saved members of a state. Each member has a row, in the order of the bytes. It stands in the group of the version
 // of the format that introduced it (snapshot.cpp). To save another member, add a row at the end, in the group of a new
 // version. A state is refused if an array differs in size from the solver's own or a number is not finite, unless the
 // row allows it.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One incremental problem by the staggered scheme (Zeman, Kruzik, Gruber, PANM 15 (2010), "Alternate minimization
-// algorithm"): displacements at frozen damage, damage at frozen displacements, until no traction would change by more
-// than the tolerance (Increment::change). The state that is kept is the one that was tested: displacements that belong
-// to its adhesion, and a damage step from there that changes no traction by more.
+// algorithm"): displacements at frozen damage alternate with damage at frozen displacements. They end when no traction
+// would change by more than the tolerance (Increment::change). The state that is kept is the one that was tested:
+// displacements that belong to its adhesion, and a damage step from there that changes no traction by more.
 #pragma once
 
 #include <span>

@@ -12,9 +12,9 @@
 // at a sharp tip 1/2 t_tip.[u]_behind: the virtual crack closure of Rybicki and Kanninen (Eng. Fract. Mech. 9, 1977).
 // Its components are the modes.
 //
-// In 3D the rate of a point is that of a band about it: the integral of w Y grad zeta . n over the faces, divided by
-// the length of front in the band, - int w grad s . n dA. The spent share s falls from 1 to 0 across the zone, so that
-// where the front is curved this is the length in the middle of the zone.
+// In 3D, the rate of a point is that of a band about it. It is the integral of w Y grad zeta . n over the faces,
+// divided by the length of front in the band, - int w grad s . n dA. The spent share s falls from 1 to 0 across the
+// zone, so that where the front is curved this is the length in the middle of the zone.
 #pragma once
 
 #include <array>

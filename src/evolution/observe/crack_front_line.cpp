@@ -211,9 +211,9 @@ private:
     }
 
     // Adds the links from a pair to the next. The weights of quadratic cells alternate, and with them the tractions.
-    // There every pair is combined with the next one of its kind, corners with the factor one third (Simpson's share of
-    // an edge), middle nodes with two thirds, so that a sharp tip gives the virtual crack closure of quadratic cells,
-    // 1/(2 l) (F_corner.[u] one cell behind + F_middle.[u] one cell behind).
+    // There every pair is combined with the next one of its kind. Corners have the factor one third (Simpson's share of
+    // an edge), middle nodes two thirds. A sharp tip thus gives the virtual crack closure of quadratic cells, 1/(2 l)
+    // (F_corner.[u] one cell behind + F_middle.[u] one cell behind).
     void add_links(std::int64_t i0, std::int64_t i1, FrontPoint& out) const {
         if (interface_.geometry.nodes_per_face == 2) return add_link(i0, i1, 1.0, out);
         const std::int64_t i2 = 2 * i1 - i0;

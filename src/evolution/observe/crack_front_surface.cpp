@@ -270,12 +270,12 @@ private:
 
 // Half of the width of the band of a point, in sides of faces. Measured on circular fronts that grow, with 5 pairs in
 // the zone: rates of single points within 5 % of the toughness (hex8, hex20, tet10). With 1 they fall to a quarter of
-// it; 3 and 4 give the same as 2, and smear the edge of a wide beam more, whose rate falls there within few cells.
+// it. 3 and 4 give the same as 2, but smear the edge of a wide beam more, where the rate falls within few cells.
 constexpr double half_band = 2.0;
 
-// The bands of the points of a front: what lies within half_band along the front counts with a weight that falls
-// linearly from 1 at the point to 0. At an end the band is mirrored and in a loop it goes round, so that everything
-// counts as much in the mean along the front.
+// Each point of a front has a band. Whatever lies within half_band along the front counts with a weight that falls
+// linearly from 1 at the point to 0. The band is mirrored at an end, and goes round in a loop. Everything thus counts
+// as much in the mean along the front.
 class Bands {
 public:
     // spacing: between pairs

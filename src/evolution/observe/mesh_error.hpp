@@ -3,9 +3,9 @@
 //
 //   eta^2 = 1/2 int (s* - s) : C^-1 : (s* - s) dx
 //
-// (O. Zienkiewicz, J. Zhu, Int. J. Numer. Meth. Eng. 24 (1987) 337-357), s: stresses at the Gauss points, of all modes
-// that a cell has; s*: continuous stresses, nodal means of what s is at the nodes, within a body and among cells of
-// about the same elasticity: stresses of different materials differ with reason.
+// (O. Zienkiewicz, J. Zhu, Int. J. Numer. Meth. Eng. 24 (1987) 337-357), where s are the stresses at the Gauss points,
+// of all modes that a cell has. s* are continuous stresses: nodal means of s within a body and among cells of about the
+// same elasticity, since stresses of different materials differ with reason.
 #pragma once
 
 #include <cstdint>

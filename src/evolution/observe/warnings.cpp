@@ -15,7 +15,7 @@ namespace {
 
 constexpr double small_rotation = 0.1;  // rad
 constexpr double noticeable = 0.01;     // of the energy: what a ledger may leave open
-constexpr double unequal = 0.01;        // adhesions of a pair and its image
+constexpr double unequal = 0.01;        // adhesions of a pair and its image; half and twice warn alike (test_periodic)
 constexpr double of_debonding = 0.02;   // of the energy that debonds all interfaces: from here on an energy counts
 
 }  // namespace

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One load step, followed in parts at the fixed load of its end. If the toughness depends on the mode, the energy that
 // a pair dissipates depends on its path. The iterates of a minimisation are no such path in a jump of the state, or in
-// a step that moves a front by more than its process zone. Here each part is an incremental minimisation from the state
-// that the part before has reached, and bounds the share of its toughness that a pair may dissipate (option path_step;
-// more where few pairs soften at once). The path ends where no pair reaches this bound (M. Efendiev, A. Mielke, J.
-// Convex Anal. 13, 2006; D. Knees, M. Negri, M3AS 27, 2017). The dissipated energy is that of every pair along the
-// jumps that it meets (increment/path_dissipation.hpp).
+// a step that moves a front by more than its process zone. Each part is an incremental minimisation from the state that
+// the part before has reached. It bounds the share of its toughness that a pair may dissipate (option path_step; more
+// where few pairs soften at once). The path ends where no pair reaches this bound (M. Efendiev, A. Mielke, J. Convex
+// Anal. 13, 2006; D. Knees, M. Negri, M3AS 27, 2017). The dissipated energy is that of every pair along the jumps that
+// it meets (increment/path_dissipation.hpp).
 //
-// A step in which no pair reaches the bound is a path of one part. If all loaded pairs have the same toughness (one
-// mode), the path does not matter, and the step is not bounded. If they differ at the end of the step, the step is
-// followed in parts after all. A law that debonds at once (Griffith's) is not bounded either.
+// If no pair reaches the bound, the path has one part. If all loaded pairs have the same toughness (one mode), the path
+// does not matter, and the step is not bounded. If they differ at the end of the step, the step is followed in parts
+// after all. A law that debonds at once (Griffith's) is not bounded either.
 #pragma once
 
 #include <functional>

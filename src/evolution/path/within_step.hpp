@@ -18,9 +18,9 @@
 
 namespace delam {
 
-// A state of the path. In the order of the members: the energy at the load of the end of the step, F L; the gradient
-// energy in it; the energy dissipated until then; sum w (1 - zeta) of each interface, L or L2; dE/dtheta of each
-// pattern at the load of the end.
+// A state of the path. The members are, in this order: the energy at the load of the end of the step, F L; the gradient
+// energy in it; the energy dissipated until then. Then follow sum w (1 - zeta) of each interface, L or L2, and
+// dE/dtheta of each pattern at the load of the end.
 struct PathPoint {
     double energy = 0.0, gradient = 0.0, dissipated = 0.0;
     std::vector<double> debonded, conjugate;

@@ -2,11 +2,11 @@
 // Backtracking by the two-sided energy estimate (Zeman, Kruzik, Gruber, PANM 15 (2010), "Backtracking algorithm";
 // Mielke, Roubicek, Zeman, CMAME 199 (2010) 1242-1253).
 //
-// If the lower bound of step k fails, the state k, taken back to the time of step k - 1, has less energy there than the
-// state k - 1: that step was not minimal. It is computed again from state k - 2, from both starts, and the lowest of
-// all states is kept. Only the lower bound decides (a minimisation from z_{k-1} always satisfies the upper one), with
-// the mixity of step k - 2, because the bound holds for what was minimised. Each return lowers the incremental energy
-// of the step to which it returns, so the algorithm terminates; a return that finds nothing lower is the last.
+// If the lower bound of step k fails, state k has less energy at the time of step k - 1 than state k - 1 has. Step k -
+// 1 was then not minimal. It is computed again from state k - 2, from both starts, and the lowest of all states is
+// kept. Only the lower bound decides (a minimisation from z_{k-1} always satisfies the upper one), with the mixity of
+// step k - 2, because the bound holds for what was minimised. Each return lowers the incremental energy of the step to
+// which it returns, so the algorithm terminates; a return that finds nothing lower is the last.
 #pragma once
 
 #include <cstdint>

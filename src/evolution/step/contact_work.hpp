@@ -11,8 +11,8 @@
 
 namespace delam {
 
-// Returns the integral of q . d over the way s from 0 to 1 by the trapezoidal rule on parts that are halved where that
-// changes most, until it agrees with `energy` within `tolerance` (both F L), or `most` values of q have been asked for.
+// Returns the integral of q . d over the way s from 0 to 1, by the trapezoidal rule. Parts are halved where that
+// changes the integral most. It ends within `tolerance` of `energy` (both F L), or after `most` values of q.
 //   d: change of the factors; first, last: q at both ends; at(s): q in between; [patterns] each
 double work_along(std::span<const double> d, std::span<const double> first, std::span<const double> last,
                   const std::function<std::vector<double>(double)>& at, double energy, double tolerance,

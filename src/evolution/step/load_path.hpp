@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A load step followed along its load: it is cut into parts, each a minimisation at its own load, so that no part
-// dissipates much while the load is the same (path/advance.hpp says how that is measured).
+// A load step followed along its load: the step is cut into parts, each a minimisation at its own load. No part may
+// dissipate much while the load is the same (path/advance.hpp says how that is measured).
 //
 //   - Where all loads grow in proportion, the load at which the first pair meets its threshold is known, since jumps at
 //     fixed damage grow with it.
@@ -12,8 +12,8 @@
 //     (path/inner_path.hpp), and what is neither stored nor dissipated is released.
 //   - Where the mesh does not resolve the process zone, single pairs pop. A part then takes one of them.
 //
-// Besides what jumps and pops release, the work of the reactions by the trapezoidal rule, the stored and the dissipated
-// energy do not know of each other: what they leave open (value defect) is the error of the parts.
+// The work of the reactions by the trapezoidal rule, the stored energy and the dissipated one are computed apart from
+// each other. The difference that jumps and pops do not release (value defect) is the error of the parts.
 #pragma once
 
 #include "evolution/step/step_control.hpp"

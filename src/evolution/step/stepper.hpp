@@ -39,8 +39,8 @@ public:
     // The initial state: displacements at the initial adhesion.
     Result initial(double time);
     // A start from another state of the same scene: its adhesion, clipped to `before`, for broken pairs the mixity with
-    // which they broke, and the energy dissipated since the beginning of the analysis, F L. descends: the state was
-    // reached from `before`, so that the difference was dissipated in between.
+    // which they broke, and the energy dissipated since the beginning of the analysis, F L. descends: true if the state
+    // was reached from `before`, so that the difference was dissipated in between.
     struct Start {
         Start(const State& state, bool descends_)
             : descends(descends_),

@@ -79,8 +79,8 @@ double ExponentialSoftening::slope(const Toughness& t, double driving, double ze
     return -0.5 * zeta * (std::sqrt(driving / t.onset) / decay_length(t) + 1.0) / driving;
 }
 
-// g is the maximum over x of (energy under the curve up to x) - zeta Y, so its derivative at the same zeta is that of
-// the area at the same x: d/dGc of Go [1 + 2 lambda (1-s)].
+// g is the maximum over x of (energy under the curve up to x) - zeta Y. Its derivative at the same zeta is therefore
+// that of the area at the same x: d/dGc of Go [1 + 2 lambda (1-s)].
 double ExponentialSoftening::total_share(const Toughness& t, double zeta) const {
     if (!(zeta > 0.0)) return 1.0;
     const double decays = place_of(decay_length(t), zeta).decays;

@@ -24,13 +24,14 @@
 // supernodal (GPL) kernels are reached through cholmod_l_factorize if the installed CHOLMOD has them, and never if
 // DELAM_CHOLMOD_SIMPLICIAL is defined.
 
-// CHOLMOD 3 requests four OpenMP threads on any machine; on fewer cores they wait for each other at every supernode
-// (measured: twice the time of one thread). Small factorisations, those in a piece of a team's work, and all solves get
-// one: no region of the calling thread is parallel meanwhile. For large ones the "dynamic" setting of the calling
-// thread lets the runtime provide fewer than four: GNU's provides as many as there are processors, less the load of the
-// last 15 minutes. The threads share the scattering of blocks, not sums, so that no digit depends on their number. Not
-// where OpenBLAS has OpenMP's threads (2): it waits for as many as it has asked for, and for ever if the runtime
-// provides fewer. Weak symbols: a CHOLMOD without OpenMP, and another BLAS, lack these functions.
+// CHOLMOD 3 requests four OpenMP threads on any machine. On fewer cores they wait for each other at every supernode,
+// which takes twice the time of one thread (measured). All solves, small factorisations and those in a piece of a
+// team's work get one thread, since no region of the calling thread is parallel meanwhile. For large ones the "dynamic"
+// setting of the calling thread lets the runtime provide fewer than four: GNU's provides as many as there are
+// processors, less the load of the last 15 minutes. The threads share the scattering of blocks, not sums, so that no
+// digit depends on their number. Not where OpenBLAS has OpenMP's threads (2): it waits for as many as it has asked for,
+// and for ever if the runtime provides fewer. Weak symbols: a CHOLMOD without OpenMP, and another BLAS, lack these
+// functions.
 extern "C" {
 int openblas_get_parallel() __attribute__((weak));
 int omp_get_dynamic() __attribute__((weak));

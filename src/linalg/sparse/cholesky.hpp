@@ -21,8 +21,8 @@ struct FactorSize {
 class SparseCholesky {
 public:
     // Symbolic analysis of a symmetric matrix (both triangles stored). The last `trailing` variables are eliminated
-    // last, in their given order; the others come first, by (constrained) minimum degree or by nested dissection,
-    // whichever is estimated to need fewer operations. poll: called between orderings and analyses.
+    // last, in their given order. The others come first, by (constrained) minimum degree or nested dissection,
+    // whichever needs fewer operations by estimate. poll: called between orderings and analyses.
     explicit SparseCholesky(const SparseMatrix& matrix, std::int64_t trailing = 0, const Poll& poll = {});
     ~SparseCholesky();
     SparseCholesky(SparseCholesky&&) noexcept;

@@ -9,8 +9,10 @@
 namespace delam {
 
 namespace {
+// Coefficients below this part of the largest of their row are rounding. (Measured by verify/bench/constants.py on 250
+// random scenes: half and twice decide alike.)
 constexpr double cancelled = 1e-10;
-}
+}  // namespace
 
 double SparseElimination::reduce(Row& row) const {
     double largest = 0.0, right = max_abs(row.right);

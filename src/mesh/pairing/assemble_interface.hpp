@@ -14,9 +14,9 @@ namespace delam {
 
 using NodePair = std::pair<std::int64_t, std::int64_t>;  // of a, of b
 
-// `faces` have the nodes that `side` selects from the pairs (all of them), and face from a to b. Pairs are ordered by
-// the positions of these nodes, where coordinates closer than `distance` count as equal; weights and normals are those
-// of the faces. The caller sets the bodies.
+// `faces` have the nodes that `side` selects from the pairs (all of them), and face from a to b. The positions of these
+// nodes order the pairs; coordinates closer than `distance` count as equal. Weights and normals are those of the faces.
+// The caller sets the bodies.
 enum class FaceSide { a, b };
 InterfaceGeometry assemble_interface(const Mesh& mesh, std::span<const NodePair> pairs,
                                      std::span<const BoundaryFace> faces, FaceSide side, double distance);

@@ -37,9 +37,12 @@ namespace {
 constexpr int points_linear = 3, points_quadratic = 5, most_points = 20;
 // Otherwise they are rational, and the error falls about as the distortion to the power of twice the points. (Measured,
 // as unit/test_mortar prints it: uniform traction between hex8 whose tangents vary by a quarter; the 11 points that
-// follow leave 1.4e-13 of the force, 8 leave 3e-11, 16 leave 3e-15.)
+// follow leave 1.4e-13 of the force, 8 leave 3e-11, 16 leave 3e-15. Half and twice of this error change
+// those of distorted cells within 2e-13.)
 constexpr double integral_error = 1e-12;
 // Weights of a tie below this are rounding of projections of size 1: ten times what those of matching faces leave.
+// (Measured by verify/bench/constants.py with unit_test_mortar and case_test_unmatched, of this and the next three:
+// half and twice, for `covered` of what may be missing, make the same interfaces.)
 constexpr double rounded = 1e-13;
 // Segments below this part of a face are rounding of its corners.
 constexpr double no_area = 1e-12;

@@ -60,7 +60,7 @@ enum class LeavingFaces { refuse, take };
 class UnmatchedFaces {
 public:
     // Throws Error(DELAM_ERROR_ARGUMENT) for labels of bodies that do not exist, are joined or have no cells, and for a
-    // gap that is negative or not finite; Error(DELAM_ERROR_MESH) where a face of b lies on a only in part, or none
+    // gap that is negative or not finite. Throws Error(DELAM_ERROR_MESH) if a face of b lies on a only in part, or none
     // lies on a.
     UnmatchedFaces(const Mesh& mesh, std::int32_t label_a, std::int32_t label_b, double gap, LeavingFaces leaving);
 

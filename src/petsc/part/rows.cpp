@@ -18,7 +18,7 @@ namespace delam::petsc {
 namespace {
 
 // The bound is that of a stiffness in one process (delam_problem_set_stiffness), relative to sqrt(k_rr k_cc): by Cauchy
-// and Schwarz no entry of a positive semidefinite matrix is larger, nor are the terms that a host has added up to it.
+// and Schwarz, no entry of a positive semidefinite matrix is larger. Nor are the terms that a host has added up to it.
 constexpr double allowed_asymmetry = 1e-9;
 
 // The ranks that have the rows of the nodes: rank node mod size keeps the entry of a node, and the others ask it.

@@ -52,8 +52,8 @@ private:
     std::size_t d_;
 };
 
-// Returns three of these nodes (two in the plane), in an order that all ranks agree on: the one farthest from the
-// first, the one farthest from that and, in space, the one that makes the largest triangle with these.
+// Returns three of these nodes (two in the plane), in an order that all ranks agree on. The first is the farthest from
+// the first of the list, the second the farthest from that. In space, the third makes the largest triangle with both.
 std::vector<std::size_t> spread_out(const std::vector<std::size_t>& nodes, const Points& points,
                                     std::size_t dimension) {
     const auto most = [&](const auto& measure) {

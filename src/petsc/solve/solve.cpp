@@ -107,9 +107,9 @@ bool Solve::largest_rounding(const Question& question) {
     return true;
 }
 
-// The finest tolerances ask for all that rounding leaves. Where a spring has become softer than in the
-// preconditioner, M takes little notice of the residual there (a contact that opens, with a tension of 2e-6 of the
-// largest: 3.5e-12 of the state, less than a fifth of its rounding): no component may then be larger than its rounding.
+// The finest tolerances ask for all that rounding leaves. Where a spring has become softer than in the preconditioner,
+// M takes little notice of the residual there (a contact that opens, with a tension of 2e-6 of the largest: 3.5e-12 of
+// the state, less than a fifth of its rounding): hence no component may be larger than its rounding.
 bool Solve::asks_for_all(const Restarts& restarts) {
     return restarts.tolerance() <= std::max(finest_tolerance, restarts.rounded());
 }

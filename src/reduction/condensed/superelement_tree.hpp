@@ -2,13 +2,13 @@
 // Cuts the bodies into pieces across the interfaces, as a binary tree of nested dissection (A. George, SIAM J. Numer.
 // Anal. 10, 1973).
 //
-// A leaf is a piece of the bodies with the jumps on it, a superelement (J. S. Przemieniecki, AIAA J. 1, 1963). An
-// inner node owns the variables on the cut between its two children: without them nothing couples one child to the
-// other. What a subtree shares with the rest is its border, variables that nodes above it own.
+// A leaf is a piece of the bodies with the jumps on it, a superelement (J. S. Przemieniecki, AIAA J. 1, 1963). An inner
+// node owns the variables on the cut between its two children, which alone couple one child to the other. What a
+// subtree shares with the rest is its border, variables that nodes above it own.
 //
-// Every variable belongs to the jump that is the fewest cells away, and of several to the nearest, so that cuts run
-// straight from the interface through the bodies; METIS divides the graph of these columns, which has as many vertices
-// as there are pairs.
+// Every variable belongs to the jump that is the fewest cells away, and of several to the nearest. Cuts thus run
+// straight from the interface through the bodies. METIS divides the graph of these columns, which has a vertex for each
+// pair.
 #pragma once
 
 #include <cstdint>

@@ -16,6 +16,7 @@ namespace delam {
 namespace {
 
 // Columns are right to 1e-12 (jump_columns.cpp): what is left of a stiffness without its springs has three digits then.
+// (Measured by verify/bench/constants.py on 250 random scenes: from a hundredth to a hundred times all decide alike.)
 constexpr double least_difference = 1e-9;
 
 }  // namespace

@@ -22,7 +22,8 @@ struct JumpRow {
 };
 
 // Jump of a held row, of its offset and the jumps of its unknowns: zero, exactly, but where constraints and other held
-// rows leave it no choice.
+// rows leave it no choice. Sums below `rounded` of their terms are rounding. (Measured by verify/bench/constants.py on
+// 250 random scenes: from a hundredth to a hundred times all decide alike.)
 inline double held_jump(const JumpRow& row, double offset, std::span<const double> x) {
     constexpr double rounded = 1e-9;
     double sum = offset, size = std::abs(offset);

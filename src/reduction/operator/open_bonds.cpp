@@ -15,7 +15,8 @@ namespace delam {
 namespace {
 
 // Part of the largest prescribed displacement by which equations may miss each other: as in contact (contact.cpp) and
-// between constraints (validate.cpp), far above rounding, far below what a host means.
+// between constraints (validate.cpp), far above rounding, far below what a host means. (Measured by
+// verify/bench/constants.py on 250 random scenes: from a hundredth to a hundred times all decide alike.)
 constexpr double contradiction = 1e-9;
 
 bool moves(const std::vector<double>& offset) { return max_abs(offset) > 0.0; }

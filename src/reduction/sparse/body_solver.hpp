@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bodies and interfaces solved by iteration, as the sparse operator (sparse_operator.hpp) wants it: the library's own
-// (reanalysis.hpp), or an engine of the host (engine/engine_solver.hpp).
+// Solves bodies and interfaces by iteration for the sparse operator (sparse_operator.hpp). It is the library's own
+// (reanalysis.hpp) or an engine of the host (engine/engine_solver.hpp).
 //
 // A solution is a *state*, numbers of which the first system().count() are the variables of system(). Combinations of
 // states whose weights sum to 1 are states, too.

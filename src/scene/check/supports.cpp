@@ -24,7 +24,8 @@ namespace delam {
 namespace {
 
 // Relative pivot below which a motion counts as unresisted. Rows enter squared: supports closer together than 1e-5 of
-// the size of the supported part do not count as holding its rotation.
+// the size of the supported part do not count as holding its rotation. (Measured by verify/bench/constants.py on 250
+// random scenes: half and twice decide alike.)
 constexpr double pivot_tolerance = 1e-10;
 
 class Sets {

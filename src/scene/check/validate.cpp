@@ -100,10 +100,10 @@ void check_interfaces(const Problem& problem) {
 }
 
 // Under the variational rule a partly damaged pair gains up to the difference between the largest toughness of any mode
-// and that of its own when its jump turns there. Turning costs the energy zeta Y of the pair, at most about the onset,
-// and none as the jump goes to 0, where the mixity is not defined: with a larger gain pairs close in the tougher mode
-// instead of breaking. (Measured peak loads on beams against those of mixity_rule = converged: up to 0.9 % higher at
-// 2.0, 29 % at 2.07, 101 % at 5. A test in one mode alone, such as ENF, does not show it.)
+// and that of its own when its jump turns there. Turning costs the energy zeta Y of the pair, at most about the onset.
+// It costs none as the jump goes to 0, where the mixity is not defined. With a larger gain, pairs close in the tougher
+// mode instead of breaking. (Measured peak loads on beams against those of mixity_rule = converged: up to 0.9 % higher
+// at 2.0, 29 % at 2.07, 101 % at 5. A test in one mode alone, such as ENF, does not show it.)
 constexpr double weak_dependence = 2.0;  // difference of the toughnesses over the smallest onset
 
 void check_mixity_rule(const Problem& problem) {

@@ -162,8 +162,8 @@ def error_at_a_front(host, see):
     see.that(f"there is error elsewhere: {away}", away > 1e-6)
 
 
-@row("values and fields of a march")
-def march(host, see):
+@row("values and fields of an analysis")
+def analyse(host, see):
     """For the baseline alone: values and fields of two beams that are peeled apart, in the plane and in space."""
     for d in (2, 3):
         mesh = host("mesh_create_layers", host.context, d, [4.0] + [1.0] * (d - 2), [8] + [1] * (d - 2), 2, [0.5, 0.75],

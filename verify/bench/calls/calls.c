@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
  * calls_c CALLS STEPS: prints nanoseconds of processor time of a call of delam_solver_value for a key that costs
- * nothing (time), and of a step (advance, commit) of a small march that damages nothing; behind them, not timed, what
- * ten more steps that do damage end with: reaction, energies and the adhesion of all pairs, in digits that give every
- * bit back, for all hosts alike.
+ * nothing (time), and of a step (advance, commit) of a small analysis that damages nothing; behind them, not timed,
+ * what ten more steps that do damage end with: reaction, energies and the adhesion of all pairs, in digits that give
+ * every bit back, for all hosts alike.
  */
 #define _POSIX_C_SOURCE 199309L
 #include <stdint.h>

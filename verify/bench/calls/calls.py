@@ -5,7 +5,7 @@
 FOLDER     the build folder (default build/release) with the targets bench_calls_c, _cpp and _fortran
 A round runs each language once, in a process of its own, in an order that turns; Julia where it is. Prints medians and
 quartiles of nanoseconds of processor time (Julia: of the wall clock), and the median over rounds of the difference to C
-in the same round with its quartiles. Behind the times every program prints what its march ends with; these must be
+in the same round with its quartiles. Behind the times every program prints what its analysis ends with; these must be
 those of C in every bit and every round: exit status 1 if they are not.
 """
 import argparse

@@ -97,7 +97,7 @@ def scenes(whole):
 KEYS = ("stored_bulk", "stored_interface", "dissipated", "work", "released")
 
 
-def march(problem, steps):
+def analyse(problem, steps):
     """The values of each step, and what is wrong with it."""
     solver, rows, wrong = delam.Solver(problem, not_converged="raise"), [], []
     resumed = delam.Solver(problem)
@@ -129,7 +129,7 @@ def compare(name, builder, solution, steps):
         problem.options["solution"] = solution
         for key, value in TOLERANCES.items():
             problem.options[key] = value
-        rows, failed = march(problem, steps)
+        rows, failed = analyse(problem, steps)
         by[reduction] = rows
         wrong += [f"{name}, {solution}, {reduction}: {words}" for words in failed]
         for time, row in zip(steps, rows):

@@ -17,7 +17,7 @@ WORKS, REFUSED, FAILED = "w", "r", "F"
 REFUSALS = ("DELAM_ERROR_ARGUMENT", "DELAM_ERROR_PROBLEM", "DELAM_ERROR_STATE")
 
 
-def march(scene, queries=(), times=TIMES):
+def analyse(scene, queries=(), times=TIMES):
     """[(values, fields)] of all steps, the initial state included, and what was asked."""
     solver = probes.new_solver(scene)
     asked = [probes.PROBES[query](scene, solver) for query in queries]
@@ -40,7 +40,7 @@ def plain(features, toughness=1.0, parts=1):
     """The history without questions, with each step in parts; features in the order of their names."""
     scene = Scene(features, toughness)
     times = [b - (b - a) * left / parts for a, b in zip((0.0, *TIMES), TIMES) for left in reversed(range(parts))]
-    return scene.run(lambda: march(scene, times=times)[0])
+    return scene.run(lambda: analyse(scene, times=times)[0])
 
 
 def ordered(features):
@@ -80,7 +80,7 @@ def judge_damage(scene, history):
 def judge(features):
     features = ordered(features)
     scene = Scene(features)
-    history, asked = scene.run(lambda: march(scene, [feature for feature in features if feature in QUERIES]))
+    history, asked = scene.run(lambda: analyse(scene, [feature for feature in features if feature in QUERIES]))
     judge_books(features, history)
     judge_damage(scene, history)
     if asked:  # what is asked changes nothing

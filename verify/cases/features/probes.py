@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What is asked of a march while it goes on: derivatives, which are compared with difference quotients, and saved
+"""What is asked of an analysis while it goes on: derivatives, which are compared with difference quotients, and saved
 states, which are loaded and continued."""
 import ctypes
 
@@ -20,7 +20,7 @@ def new_solver(scene):
 
 
 class Probe:
-    """Asks one thing of a march; a twin takes the same steps, and others beside them."""
+    """Asks one thing of an analysis; a twin takes the same steps, and others beside them."""
 
     def __init__(self, scene, solver):
         self.scene, self.twin = scene, new_solver(scene)
@@ -114,7 +114,7 @@ class Saved(Probe):
 
 
 class Sensitivity(Probe):
-    """Against marches with another toughness."""
+    """Against analyses with another toughness."""
 
     def __init__(self, scene, solver):
         super().__init__(scene, solver)
@@ -125,7 +125,7 @@ class Sensitivity(Probe):
         self.found.append(sensitivity(solver))
 
     def judge(self, more, less):
-        """more, less: marches with a toughness that is larger and smaller."""
+        """more, less: analyses with a toughness that is larger and smaller."""
         change = 2.0 * SHARE * LAW["normal_toughness"]
         quotients = [self.ends * [(a[0][f"reaction:{name}"] - b[0][f"reaction:{name}"]) / change
                                   for name in self.scene.patterns] for a, b in zip(more[1:], less[1:])]

@@ -188,7 +188,7 @@ ITERATED = Feature("iterated", "reduction", ("iterated",), option("reduction", "
 FETI = Feature("FETI", "reduction", ("feti",), option("reduction", "feti", subdomains=6))
 HOST = Feature("host stiffness", "", ("stiffness",), chosen(hosted=True))
 NOSE = Feature("control node", "", ("control node",), chosen(nose=True))
-# Pairs break at once: without a process zone marches jump.
+# Pairs break at once: without a process zone analyses jump.
 BRITTLE = Feature("brittle law", "", ("law", "onset"),
                   lambda scene: scene.law.update(normal_onset=180.0, tangential_onset=230.0))
 

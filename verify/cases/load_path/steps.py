@@ -80,7 +80,7 @@ def film(notch=0.01):
     return problem
 
 
-def march(problem, steps):
+def analyse(problem, steps):
     problem.options["step_control"] = "load"
     problem.options["path_step"] = 0.1
     solver = delam.Solver(problem)
@@ -102,7 +102,7 @@ def books(solver, released):
 def steady(name, make, counts):
     dissipated, opens = [], []
     for steps in counts:
-        solver, released = march(make(), steps)
+        solver, released = analyse(make(), steps)
         dissipated.append(solver.values["dissipated"])
         opens.append(books(solver, released))
         print(f"      {name}, {steps} steps: dissipated {dissipated[-1]:.5f} J/m, released {released:.5f}, open "
@@ -117,7 +117,7 @@ def steady(name, make, counts):
 def jumping(name, make, length, counts):
     times = []
     for steps in counts:
-        solver, released = march(make(), steps)
+        solver, released = analyse(make(), steps)
         jumps = list(solver.jumps)
         print(f"      {name}, {steps} steps: " + "; ".join(
             f"time {j.time:.4f}, {1e3 * j.debonded:.2f} mm, released {j.released:.4f} J/m" for j in jumps))

@@ -54,14 +54,14 @@ std::vector<Judged> judge(SceneFile& file, const std::vector<std::size_t>& steps
     if (steps.empty()) return {};
     Scene& scene = file.scene;
     scene.text("reduction", "condensed");
-    Solver march(scene, file.times.front());
+    Solver analysis(scene, file.times.front());
     std::vector<std::vector<double>> adhesion;
     for (std::size_t k = 0; k <= *std::max_element(steps.begin(), steps.end()); ++k) {
         if (k > 0) {
-            march.step(file.times[k]);
-            march.commit();
+            analysis.step(file.times[k]);
+            analysis.commit();
         }
-        if (std::find(steps.begin(), steps.end(), k) != steps.end()) adhesion.push_back(march.field("adhesion"));
+        if (std::find(steps.begin(), steps.end(), k) != steps.end()) adhesion.push_back(analysis.field("adhesion"));
     }
     if (subdomains > 0) scene.number("subdomains", static_cast<double>(subdomains));
     std::vector<std::pair<std::string, Solver>> solvers;

@@ -22,7 +22,7 @@ def difference_columns(past="rounding"):
     return [column(WORDS.get(name, name), "relative", past=past, **{"from": name}) for name, _ in QUANTITIES]
 
 
-def enf_march(context):
+def enf_analysis(context):
     rows = context.harness("feti-direct")
     columns = [column("subdomains", "", key=True), column("preconditioner", "", key=True), column("gluing", "", key=True),
                *difference_columns(), column("contacts", "pairs"), column("Krylov iterations", "", past="count", **{"from": "linear_iterations"}), column("stalled", "states", may=True),
@@ -54,7 +54,7 @@ def enf_march(context):
            check("primal KKT", largest(rows.column("kkt")), 1e-8, KKT_WHY)],
         plots=[plot("Difference to the direct solution, default preconditioner", axis("subdomains", "", "log"),
                     axis("largest difference", "relative", "log"), differences, [{"kind": "horizontal", "value": 1e-8, "label": "limit"}],
-                    "Worst of the states of the march; the limit holds for every choice in the table."),
+                    "Worst of the states of the analysis; the limit holds for every choice in the table."),
                plot("Krylov iterations", axis("subdomains", "", "log"), axis("iterations, all states", "", "log"), iterations, (),
                     "The default (series) is made for compliant interfaces; the others are the textbook's.")],
         figures=[figure("feti_direct_worst", max(worst.values()), "", "FETI against the direct solve, ductile ENF: largest relative difference", past="rounding"),
@@ -119,9 +119,9 @@ def scene_case(scene):
         rounding = difference_columns()
         columns = [column("time", "", key=True), column("realisation", "", key=True), column("debonded", "of the pairs"), column("closed", "pairs"), *rounding,
                    column("contacts", "pairs", past="free"), column("Krylov iterations", "", past="free", **{"from": "linear_iterations"}),
-                   column("stalled", "", may=scene.get("stalls", False)), column("KKT, worst", "relative", past="rounding", part="States of the march: worst violations of the primal KKT conditions", **{"from": "kkt"}),
+                   column("stalled", "", may=scene.get("stalls", False)), column("KKT, worst", "relative", past="rounding", part="States of the analysis: worst violations of the primal KKT conditions", **{"from": "kkt"}),
                    *[column(n, "relative", past="rounding", **{"from": f"kkt_{n}"}) for n in ("gap", "pressure", "complementarity", "equilibrium")]]
-        why = scene.get("why", "what the linear tolerances of the march leave; ten times less than any of the march's own tolerances")
+        why = scene.get("why", "what the linear tolerances of the analysis leave; ten times less than any of the analysis' own tolerances")
         checks, curves, kkt = [], [], []
         for name, role in REALISATIONS:
             of = rows.where(realisation=name)
@@ -143,17 +143,17 @@ def scene_case(scene):
         if scene.get("stalls") and sum(stalled):
             losses.append(f"FETI stops above its linear tolerance in {sum(stalled):.0f} of {len(stalled)} states, and says so")
         return result(
-            DIRECT, tables=[rows.table("States of the march: relative differences to the direct solution, primal KKT", columns, rows.note)], checks=checks,
-            plots=[plot("Largest difference to the direct solution", axis("time of the march"), axis("difference", "relative", "log"), curves,
+            DIRECT, tables=[rows.table("States of the analysis: relative differences to the direct solution, primal KKT", columns, rows.note)], checks=checks,
+            plots=[plot("Largest difference to the direct solution", axis("time of the analysis"), axis("difference", "relative", "log"), curves,
                         [{"kind": "horizontal", "value": scene["limit"], "label": "limit"}],
-                        "Of jumps, tractions, displacements, reactions and both energies, at the adhesion of a condensed march."),
-                   plot("Primal KKT conditions", axis("time of the march"), axis("worst violation", "relative", "log"), kkt,
+                        "Of jumps, tractions, displacements, reactions and both energies, at the adhesion of a condensed analysis."),
+                   plot("Primal KKT conditions", axis("time of the analysis"), axis("worst violation", "relative", "log"), kkt,
                         [{"kind": "horizontal", "value": max(scene["limit"], 1e-8), "label": "limit"}],
                         "Penetration, pull at closed pairs, complementarity, equilibrium, supports, law; from exported fields.")],
             warnings=warnings, losses=losses)
 
     return Case(id=f"a-scene-{scene['name']}", chapter="a", title=scene["title"],
-                requirement="At states of the march, each realisation of the jump operator gives the jumps, tractions, displacements, reactions and energies of the direct "
+                requirement="At states of the analysis, each realisation of the jump operator gives the jumps, tractions, displacements, reactions and energies of the direct "
                             f"solution within {scene['limit']:.0e}, and meets the primal KKT conditions.",
                 geometry=scene["geometry"], materials=scene["materials"], supports=scene["supports"], units="SI; differences are relative to the largest value",
                 run=run, quick=scene["quick"], seconds=900, expected=scene["expected"])
@@ -161,8 +161,8 @@ def scene_case(scene):
 
 def cases():
     return [Case(id="a-feti-direct", chapter="a", title="FETI by subdomains and preconditioner",
-                 requirement="On states of the ductile end-notched flexure march, FETI with any number of subdomains, preconditioner and gluing gives the "
+                 requirement="On states of the ductile end-notched flexure analysis, FETI with any number of subdomains, preconditioner and gluing gives the "
                              "direct solution within 1e-8.",
                  geometry="two arms 120 mm x 3 mm, notch 30 mm, 4-node cells of 0.5 mm (quick: 1), plane strain", materials="E = 75 GPa, nu = 0.3; k = 125e9 N/m3, Go = 100, "
                  "Gc = 250 J/m2", supports="bottom corners on points, midspan pressed by 6 mm in 40 steps", units="SI; differences are relative to the largest value",
-                 run=enf_march, quick=True, seconds=1800, expected=300), *[scene_case(s) for s in SCENES]]
+                 run=enf_analysis, quick=True, seconds=1800, expected=300), *[scene_case(s) for s in SCENES]]

@@ -31,7 +31,7 @@ def balance(context):
                check("violated upper bounds", largest(rows.column("upper_violated")), 0, "beyond 1e-9 of the energy"),
                check("largest defect of the balance, finest step, over the work", rows.column("max_defect")[-1],
                      2e-4 if context.quick else 5e-5,
-                     "three times what was measured when it was set; a ductile march has no jump to release energy, "
+                     "three times what was measured when it was set; a ductile analysis has no jump to release energy, "
                      "and the defect is of second order until softening sets in")]
     columns = [column("h", "mm", key=True), column("level", ""), column("steps", "", key=True), column("tau",
             "of the loading"), column("DOFs", ""),
@@ -45,13 +45,13 @@ def balance(context):
                column("alternations", "", past="count"), column("not_converged", "steps")]
     last = rows.column("max_defect")[-1]
     h, steps = 1e-3 * rows.column("h_mm")[-1], round(rows.column("steps")[-1])
-    marched = flexure.march(delam, "enf-ductile", h, steps)
-    checks.append(check("work of the finest march, by Python beside the table's",
-                        abs(marched.at["work"][-1] / rows.column("final_work")[-1] - 1.0), 1e-6,
+    analysed = flexure.analyse(delam, "enf-ductile", h, steps)
+    checks.append(check("work of the finest analysis, by Python beside the table's",
+                        abs(analysed.at["work"][-1] / rows.column("final_work")[-1] - 1.0), 1e-6,
                         "the table is by FETI, the ledger below by the condensed interface: their tolerances"))
     return result(BALANCE, tables=[table("Balance and band against the step", columns, levels, rows.note)],
                   orders=found, checks=checks,
-                  ledger=ledger_of({f"h = {1e3 * h:g} mm, {steps} steps": marched.at}, "J/m"),
+                  ledger=ledger_of({f"h = {1e3 * h:g} mm, {steps} steps": analysed.at}, "J/m"),
                   plots=[plot("Defect of the energy balance", axis("step tau", "of the loading", "log"),
                               axis("largest defect", "of the work", "log"), curves,
                               [{"kind": "slope", "order": 1, "label": "order 1"}],
@@ -59,13 +59,13 @@ def balance(context):
                          plot("Width of the two-sided estimate", axis("step tau", "of the loading", "log"),
                               axis("sum of upper - lower", "J/m", "log"), bands,
                               [{"kind": "slope", "order": 1, "label": "order 1"}],
-                              "Summed over the steps; it bounds what the march may have missed.")],
+                              "Summed over the steps; it bounds what the analysis may have missed.")],
                   figures=[figure("balance_defect", last, "of the work", f"Energy balance, ductile ENF, "
                                   f"{rows.column('steps')[-1]:.0f} steps: largest defect", past=1e-4)])
 
 
 def ledger(context):
-    """The march of examples/enf, by the Python package: every energy over the load, the work integrated again from
+    """The analysis of examples/enf, by the Python package: every energy over the load, the work integrated again from
     the reaction."""
     delam = context.python()
     context.commands.append("examples/enf/enf.py is the same scene as a program")
@@ -106,7 +106,7 @@ def ledger(context):
     return result(
         reference("physics", "work of the load integrated from its reaction by the trapezoidal rule, outside the "
                              "library", "O(tau^2): 1e-4 of the work at 40 steps"),
-        tables=[{"title": "Energies over the load, every tenth of the march", "note": "",
+        tables=[{"title": "Energies over the load, every tenth of the analysis", "note": "",
                  "columns": [column("load", "mm", key=True), column("reaction", "N/m"), column("bodies", "J/m"),
                              column("interface", "J/m", past=1e-5),
                              column("dissipated", "J/m", past=1e-5), column("work, booked", "J/m"),
@@ -157,11 +157,11 @@ def estimate_case(specimen, solution, quick, expected):
 
     def run(context):
         delam = context.python()
-        found, losses, checks, rows, curves, bands, marches, judged = [], [], [], [], [], [], {}, []
+        found, losses, checks, rows, curves, bands, analyses, judged = [], [], [], [], [], [], {}, []
         series_of = {}
         for h, rule, steps in estimate_levels(specimen, solution, context.quick):
             options = {**RULES[rule], **({"solution": solution} if solution != "local" else {})}
-            m = flexure.march(delam, specimen, h, steps, **options)
+            m = flexure.analyse(delam, specimen, h, steps, **options)
             off = flexure.violations(m.at)
             wrong = [k + 1 for k, v in enumerate(off) if max(v) > ETA]
             of = series_of.setdefault((h, rule), {"tau": [], "band": [], "defect": [], "first": len(rows), "open": 0,
@@ -181,7 +181,7 @@ def estimate_case(specimen, solution, quick, expected):
                                                  wrong[:12])) + (" ..." if len(wrong) > 12 else "") if wrong else ""])
             if rule != "variational":
                 judged.append((low, high, m.open, lags and rule == "frozen" and steps >= 160))
-            marches[f"h = {1e3 * h:g} mm, {rule}, {steps} steps"] = m.at
+            analyses[f"h = {1e3 * h:g} mm, {rule}, {steps} steps"] = m.at
         for (h, rule), of in series_of.items():
             safe, tau, first = rule != "variational", of["tau"], of["first"]
             name = f"{rule}, h = {1e3 * h:g} mm"
@@ -222,15 +222,15 @@ def estimate_case(specimen, solution, quick, expected):
         if local_brittle:
             # Alternation passes a jump too late: the lower bound must say so, that is what it is for.
             checks.append(check("steps below the lower bound, frozen and converged", below, 1,
-                                "a local brittle march jumps late and the estimate must show it", ">="))
-            losses.append(f"the local march jumps late: {below} steps below the lower bound in {len(judged)} marches, "
+                                "a local brittle analysis jumps late and the estimate must show it", ">="))
+            losses.append(f"the local analysis jumps late: {below} steps below the lower bound in {len(judged)} analyses, "
                           f"and the defect of the balance does "
                           "not vanish with the step; with solution = energetic it does")
         else:
             early = sum(j[3] for j in judged)
             checks.append(check("steps below the lower bound, frozen and converged", below, early,
                                 "by more than eta = 1e-3 of max(|E|, work)" + ("; the frozen MMF may jump early once in "
-                                    "each march of 160 or more steps" if lags else "")))
+                                    "each analysis of 160 or more steps" if lags else "")))
             others = sum(j[0] for j in judged if not j[3])
             if lags:
                 checks.append(check("of them with the rule converged, or in fewer steps", others, 0,
@@ -253,7 +253,7 @@ def estimate_case(specimen, solution, quick, expected):
                 "steps that violate a bound by more than eta = 1e-3 of max(|E|, work). Largest release: the most "
                 "energy that one step set free. Expected orders stand where "
                 "one is claimed.")
-        finest = {name: at for name, at in marches.items() if name.endswith(f", "
+        finest = {name: at for name, at in analyses.items() if name.endswith(f", "
                 f"{1 / min(series_of[1e-3, 'frozen']['tau']):.0f} steps")}
         return result(BALANCE, tables=[table("Two-sided estimate and balance", columns, rows, note)], orders=found,
                       checks=checks, losses=losses, ledger=ledger_of(finest, "J/m"),
@@ -266,7 +266,7 @@ def estimate_case(specimen, solution, quick, expected):
                                   axis("sum of upper - lower", "J/m", "log"), bands,
                                   [{"kind": "slope", "order": 1, "label": "order 1"}])])
 
-    need = ("The upper bound holds in every step; the lower bound shows the late jump of the local march."
+    need = ("The upper bound holds in every step; the lower bound shows the late jump of the local analysis."
             if local_brittle else
             "Both bounds hold in every step but one early jump that they show; the band shrinks with the step, the "
             "defect too where the mixity is that of the step itself." if lags else
@@ -281,7 +281,7 @@ def cases():
                  requirement="Defect of the balance and width of the two-sided estimate shrink "
                  "with the step; no bound is violated.", materials=DUCTILE, run=balance, quick=True, seconds=600,
                  expected=30, **ENF),
-            Case(id="b-ledger", chapter="b", title="Energy ledger of a march", requirement="What is stored and "
+            Case(id="b-ledger", chapter="b", title="Energy ledger of an analysis", requirement="What is stored and "
                  "dissipated is the work of the load, "
                  "integrated outside the library, and every step lies between its bounds.", materials=DUCTILE,
                  run=ledger, quick=True, seconds=300, expected=10, **ENF),

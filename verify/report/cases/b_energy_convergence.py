@@ -57,11 +57,11 @@ def convergence_case(specimen, expected):
         delam = context.python()
         made = {}
 
-        def march(element, rule, h, steps):
+        def analyse(element, rule, h, steps):
             key = (element, rule, h, steps)
             if key not in made:
                 options = {"mixity_step_tolerance": 0.02} if rule == LIMITED else RULES[rule]
-                made[key] = flexure.march(delam, specimen, 1e-3 * h, steps, 2e-3, element, True, **options)
+                made[key] = flexure.analyse(delam, specimen, 1e-3 * h, steps, 2e-3, element, True, **options)
             return made[key]
 
         together = [(3.0, 20), (1.5, 40), (0.75, 80), (0.375, 160)] + ([] if context.quick else [(0.1875, 320)])
@@ -78,8 +78,8 @@ def convergence_case(specimen, expected):
                                                     QUANTITIES.items()):
             rows = []
             for by, element, rule, levels in sets:
-                marches = [march(element, rule, *level) for level in levels]
-                samples = [sampled(m, key) for m in marches]
+                analyses = [analyse(element, rule, *level) for level in levels]
+                samples = [sampled(m, key) for m in analyses]
                 finals = [float(a[-1] if key else a[-480:].mean()) for a in samples]
                 sizes = [h if by == "h" else 1.0 / n if by == "tau" else h for h, n in levels]
                 errors = [distance(a, samples[-1], key) for a in samples[:-1]] + [None]
@@ -93,7 +93,7 @@ def convergence_case(specimen, expected):
                 claimed = element == good and rule == judged_rule and name != "interface" and not opposite
                 p = orders.observed(sizes, finals)
                 limit = orders.richardson(sizes, finals, p)[0] if p else None
-                for i, ((h, steps), m) in enumerate(zip(levels, marches)):
+                for i, ((h, steps), m) in enumerate(zip(levels, analyses)):
                     last = i + 1 == len(levels)
                     rows.append([by, element, rule, i + 1, h, steps, 1.0 / steps, m.dofs, errors[i],
                                  changes[i - 1] if i else None, rates[i], 1.0 if claimed and i > first else None,
@@ -139,14 +139,14 @@ def convergence_case(specimen, expected):
             opened += m.open
         checks.append(check("steps that are not converged", opened, 0, "a step at its limit is no evidence"))
         if mixed:
-            mechanism(march, in_tau, good, rules, found, checks, losses, tables)
+            mechanism(analysis, in_tau, good, rules, found, checks, losses, tables)
         plots = [plot(f"Changes between levels, {specimen}", axis("cell size h", "mm", "log"),
                       axis("change to the level before", "relative", "log"), curves,
                       [{"kind": "slope", "order": n, "label": f"order {n}"} for n in (1, 2)],
                       f"h and tau halved together, incompatible 4-node cells, {judged_rule} mixity; adhesion: mean "
                       f"absolute change.")]
         if mixed:
-            falls = {rule: [largest_fall(march(good, rule, *level)) for level in in_tau] for rule in rules}
+            falls = {rule: [largest_fall(analyse(good, rule, *level)) for level in in_tau] for rule in rules}
             plots.append(plot("Largest share of the run that breaks in one step",
                               axis("step tau", "of the loading", "log"), axis("share of the bonded run", "", "log"),
                               [series(rule, role, [1.0 / n for _, n in in_tau], falls[rule])
@@ -154,7 +154,7 @@ def convergence_case(specimen, expected):
                               [{"kind": "slope", "order": 1, "label": "order 1"}],
                               "h = 0.75 mm. A continuous evolution breaks less in shorter steps; with frozen mixity "
                               "one step breaks a tenth of the run until T/640."))
-        shown = {f"h = {h:g} mm, {steps} steps, {rule}": march(good, rule, h, steps).at
+        shown = {f"h = {h:g} mm, {steps} steps, {rule}": analyse(good, rule, h, steps).at
                  for rule in rules for h, steps in together[-2:]}
         return result(reference("Richardson", "successive levels of one series: orders from their changes; the finest "
                                               "level for the errors",
@@ -174,17 +174,17 @@ def convergence_case(specimen, expected):
                                                                 "patches of 2 mm so that a limit exists"})
 
 
-def mechanism(march, levels, element, rules, found, checks, losses, tables):
+def mechanism(analysis, levels, element, rules, found, checks, losses, tables):
     """Why frozen mixity does not converge at once: a step that changes the mixity much breaks pairs at the toughness of
     another mode, and more of them the less that is. The controls have it not: the converged rule, and the frozen one in
     steps that are halved where it misses the toughness."""
-    limit = march(element, LIMITED, *levels[-1]).at["dissipated"][-1]
+    limit = analyse(element, LIMITED, *levels[-1]).at["dissipated"][-1]
     rows, reach = [], 0.0
     for rule in rules:
-        marches = [march(element, rule, *level) for level in levels]
-        tau, falls = [1.0 / n for _, n in levels], [largest_fall(m) for m in marches]
+        analyses = [analyse(element, rule, *level) for level in levels]
+        tau, falls = [1.0 / n for _, n in levels], [largest_fall(m) for m in analyses]
         fitted = orders.fit(tau, falls)
-        for i, (m, rate) in enumerate(zip(marches, orders.rates(tau, falls))):
+        for i, (m, rate) in enumerate(zip(analyses, orders.rates(tau, falls))):
             off, bound = abs(m.at["dissipated"][-1] / limit - 1.0), missed(m)
             if rule == "frozen":
                 reach = max(reach, off / bound)
@@ -195,16 +195,16 @@ def mechanism(march, levels, element, rules, found, checks, losses, tables):
             found.append(order(f"largest share of the run that breaks in one step, {rule}", "tau", fitted, 1.0, 0.2,
                                tau, falls, "at least"))
         else:
-            offs = [abs(m.at["dissipated"][-1] / limit - 1.0) for m in marches]
+            offs = [abs(m.at["dissipated"][-1] / limit - 1.0) for m in analyses]
             few = len(levels) - 2
             losses.append(f"frozen mixity (the default) does not converge with order 1 in these steps: at every "
                           f"length of step down to T/{levels[few][1]} one step breaks "
                           f"{100 * min(falls[:few + 1]):.0f} to {100 * max(falls[:few + 1]):.0f} % of the run at "
                           f"once, at a toughness that its own mixity_error says is "
-                          f"{100 * max(max(m.at['mixity_error']) for m in marches):.0f} % off; the dissipated energy "
+                          f"{100 * max(max(m.at['mixity_error']) for m in analyses):.0f} % off; the dissipated energy "
                           f"ends {100 * offs[0]:.1f} to {100 * offs[few]:.1f} % off, within "
-                          f"mixity_error times what was dissipated ({100 * missed(marches[0]):.1f} to "
-                          f"{100 * missed(marches[few]):.1f} %). mixity_rule = converged and mixity_step_tolerance "
+                          f"mixity_error times what was dissipated ({100 * missed(analyses[0]):.1f} to "
+                          f"{100 * missed(analyses[few]):.1f} %). mixity_rule = converged and mixity_step_tolerance "
                           "cure it, and are the controls")
     checks.append(check("frozen mixity: dissipated energy off, over its bound", reach, 1.0,
                         "the bound is the sum of mixity_error times what each step dissipated: the toughness that was "

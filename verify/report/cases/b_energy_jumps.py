@@ -46,7 +46,7 @@ def jump_instant(context):
                                 "Error: to Richardson's limit of the quadratic cells; the crossing is exact for any "
                                 "load, "
                                 "there is no step. " + rows.note)], orders=found,
-                  ledger="None: nothing is marched. The energies of all fronts are scanned at one load, and the load "
+                  ledger="None: nothing is analysed. The energies of all fronts are scanned at one load, and the load "
                          "is that where two of them cross.",
                   checks=[check("beam theory above the finest meshes, most", max(1.0 - v / 0.281 for v in finest.values()), 0.04, soft),
                           check("beam theory above the finest meshes, least", min(1.0 - v / 0.281 for v in finest.values()), 0.02, soft, ">="),
@@ -119,7 +119,7 @@ def energetic_case(specimen, quick, expected):
                 checks.append(check(f"{method}, converged: energy above the scan's, over the difference of the toughnesses",
                                     other, 1.0, "the scan books mixities of fronts at rest, this rule those of the path at "
                                     "the load at which the step ends; at least 1e-4"))
-            checks.append(check(f"{method}: marches whose jump is in another step than the scan's",
+            checks.append(check(f"{method}: analyses whose jump is in another step than the scan's",
                                 sum(r[of.index("jump_step")] != r[of.index("scan_step")] for r in same), 0,
                                 "the jump is found in the step in which it pays"))
             checks.append(check(f"{method}: steps not converged", sum(r[of.index("not_converged")] for r in same), 0,
@@ -155,25 +155,25 @@ def energetic_case(specimen, quick, expected):
             at = points.where(method=method).column("jump_mm")
             figures.append(figure(f"jump_{method}_mm", at[0], "mm", f"Brittle ENF, 40 steps, points as supports: load "
                                                                     f"of the first jump, {method}"))
-        marches = {f"{name}, h = 1 mm, 40 steps": flexure.march(delam, specimen, 1e-3, 40, **options).at for name,
+        analyses = {f"{name}, h = 1 mm, 40 steps": flexure.analyse(delam, specimen, 1e-3, 40, **options).at for name,
                    options in (
             ("local", {}), ("backtracking", {"backtracking": "on"}), ("energetic", {"solution": "energetic"}))}
         return result(reference("exhaustive scan", "verify/reference/fronts: every front position of every step, own "
                                                    "history and mixity",
                                 "none within contiguous fronts on the same mesh; other sets of broken pairs are "
                                 "outside the scan"),
-                      tables=[rows.table("Marches beside the scan", columns, "No order is expected: march and scan "
+                      tables=[rows.table("Analyses beside the scan", columns, "No order is expected: analysis and scan "
                                          "are of one mesh and one step, and must agree on each. Mixity: the rule for it; any: the mode is pure, "
                                          "no rule changes it. " + rows.note)],
-                      checks=checks, losses=losses, figures=figures, ledger=ledger_of(marches, "J/m"),
+                      checks=checks, losses=losses, figures=figures, ledger=ledger_of(analyses, "J/m"),
                       plots=[plot(f"Load of the first jump, {specimen}", axis("cell size h", "mm"),
                                   axis("load of the jump", "mm"), curves,
-                                  [], "Supports and load on patches of 2 mm, 40 steps of 0.15 mm: the energetic march "
+                                  [], "Supports and load on patches of 2 mm, 40 steps of 0.15 mm: the energetic analysis "
                                       "jumps in the step of the scan.")])
 
-    return Case(id=f"b-energetic-{specimen}", chapter="b", title=f"Energetic marches beside the scan of fronts, "
+    return Case(id=f"b-energetic-{specimen}", chapter="b", title=f"Energetic analyses beside the scan of fronts, "
                                                                  f"{specimen}",
-                requirement="An energetic march is never above the lowest front that an exhaustive scan finds, and "
+                requirement="An energetic analysis is never above the lowest front that an exhaustive scan finds, and "
                             "jumps in the same step.",
                 materials=BRITTLE, run=run, quick=quick, seconds=2400, expected=expected, **ENF)
 

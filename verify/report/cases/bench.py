@@ -11,7 +11,7 @@ import xml.etree.ElementTree
 
 from case import Failed, Skip, environment
 
-COSTS = ("a march: all load steps of a scene, from the mesh in memory to the last; a linear solve: CHOLMOD's analysis, factor and one solve of the "
+COSTS = ("an analysis: all load steps of a scene, from the mesh in memory to the last; a linear solve: CHOLMOD's analysis, factor and one solve of the "
          "assembled, undamaged system of the same scene")
 MACHINE_WHY = "ratios of one run whose measurements take turns; times themselves are of this machine and judged by nothing"
 

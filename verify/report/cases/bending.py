@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The specimens of chapter (h): mixed-mode bending, ENF and DCB of IM7/8552, by the Python package with its default
-options; their corrected beam theory (ASTM D6671); and what a march of one shows."""
+options; their corrected beam theory (ASTM D6671); and what an analysis of one shows."""
 import dataclasses
 import math
 import types
@@ -23,7 +23,7 @@ def toughness(mixity):
 
 @dataclasses.dataclass(frozen=True)
 class Specimen:
-    """kind: "mmb", "enf" or "dcb"; lever: the arm c of the MMB; end: displacement at the end of its march; reach: the
+    """kind: "mmb", "enf" or "dcb"; lever: the arm c of the MMB; end: displacement at the end of its analysis; reach: the
     crack length up to which its beam theory holds; same: up to which its mixity does. All in metres."""
 
     kind: str
@@ -173,8 +173,8 @@ def asked(points, shear):
                for (y, b), (z, c) in zip(way, way[1:]))
 
 
-def march(delam, specimen, h, steps, path=None, **more):
-    """A march of equal steps to the specimen's end, or along `path`, legs of (displacement, steps). `zones`: the
+def analyse(delam, specimen, h, steps, path=None, **more):
+    """An analysis of equal steps to the specimen's end, or along `path`, legs of (displacement, steps). `zones`: the
     softening zone of each state."""
     legs = path or [(specimen.end, steps)]
     problem, interface = scene(delam, specimen, h, [0.0, *(d for d, _ in legs)], **more)
@@ -189,7 +189,7 @@ def march(delam, specimen, h, steps, path=None, **more):
 
 
 def run(delam, problem, legs, keys=(), look=None):
-    """A march of a problem with one pattern, a leg in each unit of time. `at`: lists of the values after every step,
+    """An analysis of a problem with one pattern, a leg in each unit of time. `at`: lists of the values after every step,
     the initial state first; `load`, `down` (displacement), `crack`; `jumps`: recorded() ones; `open`: steps that met an
     iteration limit. look(solver) is called after every step."""
     out = types.SimpleNamespace(steps=sum(n for _, n in legs), open=0)
@@ -234,7 +234,7 @@ def curve(of):
     return down, load
 
 
-# ---- what a march shows
+# ---- what an analysis shows
 
 def stored(at):
     return [a + b for a, b in zip(at["stored_bulk"], at["stored_interface"])]
@@ -275,15 +275,15 @@ def fall(of, k):
     return 1.0 - of.load[k] / of.load[k - 1]
 
 
-def at_once(marches):
-    """Steps in which the load falls at once, a list for each march of one scene with different steps. In the march of
-    most steps: by more than 2 %, and by half or more of the fall that the march of fewer steps has there; a smooth
+def at_once(analyses):
+    """Steps in which the load falls at once, a list for each analysis of one scene with different steps. In the analysis of
+    most steps: by more than 2 %, and by half or more of the fall that the analysis of fewer steps has there; a smooth
     fall shrinks with the step. In the others: the largest fall by more than 2 % about each of these instants."""
-    ordered = sorted(marches, key=lambda m: -m.steps)
-    fine, found = ordered[0], {id(m): set() for m in marches}
+    ordered = sorted(analyses, key=lambda m: -m.steps)
+    fine, found = ordered[0], {id(m): set() for m in analyses}
 
     def near(of, k):
-        """Steps of another march about a step of the finest, one more at each side."""
+        """Steps of another analysis about a step of the finest, one more at each side."""
         length = of.down[-1] / of.steps
         return [i for i in range(1, len(of.load)) if of.down[i] - 2.0 * length < fine.down[k] < of.down[i] + length]
 
@@ -295,7 +295,7 @@ def at_once(marches):
         for of in ordered[1:]:
             steps = [i for i in near(of, k) if i in drops(of.load)]
             found[id(of)].update(sorted(steps, key=lambda i: -fall(of, i))[:1])
-    return [sorted(found[id(m)]) for m in marches]
+    return [sorted(found[id(m)]) for m in analyses]
 
 
 def unnamed(of, steps):
@@ -305,7 +305,7 @@ def unnamed(of, steps):
 
 
 def apart(coarse, fine):
-    """Largest relative difference of the loads at the displacements that both marches have, and where."""
+    """Largest relative difference of the loads at the displacements that both analyses have, and where."""
     there = {round(d, 9): p for d, p in zip(fine.down, fine.load)}
     worst, place, met = 0.0, 0.0, 0
     for d, p in zip(coarse.down, coarse.load):

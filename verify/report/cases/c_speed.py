@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Chapter (c): what a march costs beside the baseline that a competent engineer would write, and beside itself at equal error. Ratios of
+"""Chapter (c): what an analysis costs beside the baseline that a competent engineer would write, and beside itself at equal error. Ratios of
 interleaved measurements; absolute times only where somebody wants to know how long it took."""
 import math
 
@@ -22,7 +22,7 @@ FREE = {"past": "free"}
 GOALS = {"enf-ductile-1.5": 8, "enf-ductile-1": 8, "enf-ductile-0.5": 5, "enf-ductile-0.1": 4, "enf-brittle-0.1": 6,
          "energetic enf-brittle-1": 25, "energetic enf-brittle-0.5": 15, "energetic enf-brittle-0.1": 10,
          "mmb": 20, "dcb-alfano": 53, "fibres-30": 150}  # dcb-alfano: half of what it was
-RATIOS = {"enf-ductile-0.5": 50, "enf-ductile-0.1": 100, "enf-brittle-0.1": 500}  # baseline over the march, at least
+RATIOS = {"enf-ductile-0.5": 50, "enf-ductile-0.1": 100, "enf-brittle-0.1": 500}  # baseline over the analysis, at least
 EQUAL_ERROR = 100  # the same at equal error, on the two finest meshes
 MEMORY = {"enf-ductile-0.1": 1.3, "fibres-30": 3}  # of one factorisation
 AT_LEAST = ", stopped: at least"
@@ -37,7 +37,7 @@ def noise(ratio):
 
 
 def by_threads(found):
-    """Rows of the accelerated march by number of threads, each in linear solves with as many, and the ratio of their times to one thread."""
+    """Rows of the accelerated analysis by number of threads, each in linear solves with as many, and the ratio of their times to one thread."""
     rows, alone = [], middle(found["1"]["methods"]["accelerated"]["total_s"])
     for count, part in sorted(found.items()):
         m = part["methods"]["accelerated"]
@@ -45,7 +45,7 @@ def by_threads(found):
     return rows
 
 
-def march_case(scene, *, quick, expected, cap, shipped=False):
+def analysis_case(scene, *, quick, expected, cap, shipped=False):
     """One of the meshes of 40 steps; with one thread and, in the full report, with two, in turns."""
     name = f"{scene}-shipped" if shipped else scene
     brittle, fine = "brittle" in scene, scene
@@ -55,7 +55,7 @@ def march_case(scene, *, quick, expected, cap, shipped=False):
         scene = "enf-ductile-1.5" if context.quick else fine
         goal, ratio_goal = GOALS[scene], RATIOS.get(scene, 0)
         threads = ["1"] if context.quick or shipped else ["1", "2"]
-        data = bench(context, "march", "--repeat", "1" if context.quick else "3", "--cap", str(limit), *[w for n in threads for w in ("--threads", n)], "--scene", scene,
+        data = bench(context, "analysis", "--repeat", "1" if context.quick else "3", "--cap", str(limit), *[w for n in threads for w in ("--threads", n)], "--scene", scene,
                      **({"DELAM_BENCH_AS_SHIPPED": "1"} if shipped else {}))
         found = data["scenes"][scene]
         part, memory = found["threads"]["1"], found["memory"]
@@ -80,7 +80,7 @@ def march_case(scene, *, quick, expected, cap, shipped=False):
                 losses.append(f"{label} was stopped after {limit} s without an end ({m['lse']:.3g} linear solves up to there)")
         best = part["methods"]["accelerated"]
         if "skipped" in best or best["label"].startswith("stopped"):
-            raise Failed("the accelerated march did not end: " + best.get("skipped", best["label"]))
+            raise Failed("the accelerated analysis did not end: " + best.get("skipped", best["label"]))
         cost, ratio = best["lse"], best["baseline_over_this"]
         priced = part["methods"]["baseline"]["label"] != "measured"
         if cost > goal:
@@ -89,11 +89,11 @@ def march_case(scene, *, quick, expected, cap, shipped=False):
             losses.append(f"the baseline takes {ratio:.3g} times as long; the goal is {ratio_goal}" + (", its time priced from counted factorisations" if priced else ""))
         peaks = memory["accelerated"]["peak_MB"] / peak
         if peaks > 1.0:
-            losses.append(f"the march holds {peaks:.3g} times the memory of one factorisation" + (f"; the goal is {MEMORY[scene]}" if peaks > MEMORY.get(scene, peaks) else ""))
+            losses.append(f"the analysis holds {peaks:.3g} times the memory of one factorisation" + (f"; the goal is {MEMORY[scene]}" if peaks > MEMORY.get(scene, peaks) else ""))
         if not context.quick:
-            checks.append(check("baseline over the march" + (", baseline extrapolated" if priced else ""), ratio, 20.0, "tens of times is what is claimed"
+            checks.append(check("baseline over the analysis" + (", baseline extrapolated" if priced else ""), ratio, 20.0, "tens of times is what is claimed"
                                 + ("; the baseline is priced from counted factorisations, of which a part was timed" if priced else ""), ">="))
-        checks += [check("steps of the accelerated march that did not converge", best["counts"]["not_converged"], 0, "a step at its limit is no evidence")]
+        checks += [check("steps of the accelerated analysis that did not converge", best["counts"]["not_converged"], 0, "a step at its limit is no evidence")]
         pairs = part.get("agreement", {})
         agreed = [[pair, "1e-5", d["common_steps"], *(d[k] for k in ("reaction", "stored_bulk", "stored_interface", "dissipated"))] for pair, d in pairs.items()]
         tight = found.get("agreement_1e-10", {}).get("agreement", {})
@@ -122,7 +122,7 @@ def march_case(scene, *, quick, expected, cap, shipped=False):
         text = f"{'Brittle' if brittle else 'Ductile'} ENF, {scene.rsplit('-', 1)[1]} mm{', OpenMP as Debian CHOLMOD sets it' if shipped else ''}"
         held = {r[0]: r[9] / peak for r in rows if r[9] is not None}
         bounded = {r[0] for r in rows if "lower bound" in r[10]}  # stopped, or priced from what was
-        plots = [plot("Time and memory of the march", axis("peak memory", "of one factorisation"), axis("time", "linear solves", "log"),
+        plots = [plot("Time and memory of the analysis", axis("peak memory", "of one factorisation"), axis("time", "linear solves", "log"),
                       [series(label + AT_LEAST * (label in bounded), roles[label], [held[label]], [value], line="none",
                               hollow=label in bounded) for label, value in over if label in held],
                       [{"kind": "horizontal", "value": float(goal), "label": "goal"}], "Further left and further down is better. Where the note in the table says so, the baseline is "
@@ -131,25 +131,25 @@ def march_case(scene, *, quick, expected, cap, shipped=False):
             plots.append(plot("What they all compute", axis("displacement of mid-span", "mm"), axis("reaction", "N/m"), history))
         return result(
             BASELINE, checks=checks, losses=losses, plots=plots,
-            warnings=[f"Noise: two series of the same linear solve, in turns with the marches, differ by {100 * noise(part['noise_floor']['ratio_of_medians']):.0f} %; smaller differences are noise."],
+            warnings=[f"Noise: two series of the same linear solve, in turns with the analyses, differ by {100 * noise(part['noise_floor']['ratio_of_medians']):.0f} %; smaller differences are noise."],
             tables=[table("Cost over one linear solve of the scene", [column("method", key=True), column("whole", "linear solves", optional=True, **FREE), column("baseline / this", "", optional=True, **FREE),
                           *(column(n, "linear solves", optional=True, **FREE) for n in ("setup", "factor", "iterate")), column("alternations", optional=True, past="count", capped=True),
                           column("active-set steps", optional=True, past="count", capped=True), column("factorisations of the bodies", optional=True, past="count", capped=True),
                           column("peak memory", "MB", optional=True, **FREE), column("note", may=True)], rows, MACHINE_WHY),
-                    *([table("The accelerated march by number of threads, in turns", [column("threads", key=True), column("linear solve", "s", **FREE), column("march", "linear solves with as many", **FREE),
+                    *([table("The accelerated analysis by number of threads, in turns", [column("threads", key=True), column("linear solve", "s", **FREE), column("analysis", "linear solves with as many", **FREE),
                              column("time over that of one thread", **FREE), column("baseline / this", optional=True, **FREE)], by_threads(found["threads"]))] if len(threads) > 1 else []),
                     *([table("Agreement: largest relative difference over the common steps", [column("methods", key=True), column("delta", key=True), column("common steps", **FREE),
                              *(column(n, "relative", **FREE) for n in ("reaction", "bodies", "interface", "dissipated"))], agreed, "Where a brittle crack jumps, several states are critical: such differences are not judged." if brittle else "")] if agreed else [])],
             figures=[figure(f"speed_{key}_unknowns", part["primal_dofs"], "", f"{text}: unknowns"),
-                     figure(f"speed_{key}_seconds", middle(best["total_s"]), "s", f"{text}: whole march", past="free"),
-                     figure(f"speed_{key}_lse", cost, "linear solves", f"{text}: whole march in linear solves of the scene", past="free"),
+                     figure(f"speed_{key}_seconds", middle(best["total_s"]), "s", f"{text}: whole analysis", past="free"),
+                     figure(f"speed_{key}_lse", cost, "linear solves", f"{text}: whole analysis in linear solves of the scene", past="free"),
                      figure(f"speed_{key}_ratio", ratio, "", f"{text}: alternate minimisation with a factorisation in every iteration, over this", past="free"),
                      figure(f"speed_{key}_noise", noise(part["noise_floor"]["ratio_of_medians"]), "", f"{text}: noise, by how much two series of the same linear solve differ", past="free"),
                      figure(f"speed_{key}_memory", peaks, "", f"{text}: peak memory over that of one factorisation", past="free")])
 
-    return Case(id=f"c-march-{name.removeprefix('enf-')}", chapter="c", title=f"March, {'brittle' if brittle else 'ductile'}, cells of {scene.rsplit('-', 1)[1]} mm"
+    return Case(id=f"c-analysis-{name.removeprefix('enf-')}", chapter="c", title=f"Analysis, {'brittle' if brittle else 'ductile'}, cells of {scene.rsplit('-', 1)[1]} mm"
                 + (" (quick: 1.5)" if quick else "") + (", OpenMP as shipped" if shipped else ""),
-                requirement=f"A march to the same tolerance takes a twentieth of the baseline's time at most and gives the same history"
+                requirement=f"An analysis to the same tolerance takes a twentieth of the baseline's time at most and gives the same history"
                 f"{' (brittle: ends in critical points)' if brittle else ''}; the goals are {GOALS[scene]} linear solves"
                 f"{f' and {RATIOS[scene]} times the baseline' if scene in RATIOS else ''}.",
                 materials=BRITTLE if brittle else DUCTILE, **ENF, run=run, quick=quick, timing=True, seconds=1500, expected=expected)
@@ -239,10 +239,10 @@ def precision(context):
     checks += [check("incompatible modes: error of the reaction over that without, same mesh", largest(found["quad4-incompatible"][h] / found["quad4"][h] for h in shared), 0.1,
                      "they bend exactly where 4-node cells are too stiff by their part of the arm, which is nearly all of the error of these"),
                check("change of the error between tolerances of 1e-3 and less", moved / errors[tightest]["error_reaction"], 1e-9,
-                     "a step ends with a Newton step, exact on its piece of the law, whatever the tolerance: rounding and the march's amplification of it are left"),
+                     "a step ends with a Newton step, exact on its piece of the law, whatever the tolerance: rounding and the analysis' amplification of it are left"),
                check("steps that did not converge", largest(r["counts"]["not_converged"] for r in rows), 0, "a step at its limit is no evidence")]
     if stopped:
-        losses.append(f"{len(stopped)} of {len(data['rows'])} marches were stopped by the cap")
+        losses.append(f"{len(stopped)} of {len(data['rows'])} analyses were stopped by the cap")
     listed = [[r["element"], r["h_mm"], r["steps"], r["delta"], r["primal_dofs"], middle(r["seconds"]) / unit, r.get("lse"), r["error_reaction"], r["error_reaction_mesh"],
                r["error_dissipated"], r["error_dissipated_mesh"]] for r in rows]
     label = f"time over that of quad4 at {anchor_h:g} mm"
@@ -250,8 +250,8 @@ def precision(context):
         richardson(source), checks=checks, losses=losses, warnings=warnings, figures=figures,
         tables=[table(f"At equal error: that of quad4 at {anchor_h:g} mm, 40 steps, mesh alone", [column("error of", key=True), column("element", key=True), column("target", "relative", past=1e-4),
                       column("quad4 / this", "time", optional=True, **FREE), column("how", **FREE)], ratios, MACHINE_WHY),
-                table("All marches", [column("element", key=True), column("h", "mm", key=True), column("steps", key=True), column("delta", key=True), column("unknowns"),
-                      column("time", "of quad4's", **FREE), column("march", "linear solves", optional=True, **FREE), *(column(n, "relative L1", past=1e-2) for n in ("reaction", "reaction, mesh alone", "dissipated")),
+                table("All analyses", [column("element", key=True), column("h", "mm", key=True), column("steps", key=True), column("delta", key=True), column("unknowns"),
+                      column("time", "of quad4's", **FREE), column("analysis", "linear solves", optional=True, **FREE), *(column(n, "relative L1", past=1e-2) for n in ("reaction", "reaction, mesh alone", "dissipated")),
                       column("dissipated, mesh alone", "relative L1", past="free")], listed)],
         plots=[plot("Work against precision: reaction", axis("error of the reaction, mesh alone", "relative", "log"), axis("time", label, "log"), curves["error_reaction_mesh"],
                     [{"kind": "vertical", "value": anchor["error_reaction_mesh"], "label": "equal error"}], "40 steps; further left and further down is better."),
@@ -273,7 +273,7 @@ def reached(points, stopped, target):
 
 
 def by_method(meshes, error):
-    """Points (error, seconds, h) of every method: those that got to the end, those that were stopped. On a mesh where a march was
+    """Points (error, seconds, h) of every method: those that got to the end, those that were stopped. On a mesh where an analysis was
     priced or stopped it has the error of those that were not: all realise the same problem."""
     points = {key: ([], []) for key in NAMES}
     for mesh in meshes:
@@ -316,13 +316,13 @@ def methods(context):
             labels.append(m["label"])
             apart = max([apart, *(abs(m[error] / best[error] - 1.0) for error, _ in ERRORS.values() if error in m)])
         if best["lse"] > 8:
-            losses.append(f"cells of {mesh['h_mm']:g} mm: the accelerated march costs {best['lse']:.3g} linear solves of its own "
+            losses.append(f"cells of {mesh['h_mm']:g} mm: the accelerated analysis costs {best['lse']:.3g} linear solves of its own "
                           "mesh; the goal is 8")
 
     for mesh in meshes[-2:]:
         ratio = middle(mesh["methods"]["baseline"]["total_s"]) / middle(mesh["methods"]["accelerated"]["total_s"])
         if ratio < EQUAL_ERROR:
-            losses.append(f"cells of {mesh['h_mm']:g} mm, at equal error: the baseline takes {ratio:.3g} times as long as the accelerated march; the goal is {EQUAL_ERROR}")
+            losses.append(f"cells of {mesh['h_mm']:g} mm, at equal error: the baseline takes {ratio:.3g} times as long as the accelerated analysis; the goal is {EQUAL_ERROR}")
     priced = any(label.startswith("extrapolated") for label in labels)
     cut = sum("lower bound" in label for label in labels)
     ratios, checks, plots = [], [], []
@@ -348,7 +348,7 @@ def methods(context):
         if slower:
             losses.insert(0, f"{NAMES[key]} takes {min(slower):.3g} to {max(slower):.3g} times as long as the baseline at equal error, "
                           f"in {len(slower)} of {len(found)} comparisons"
-                          + (f"; stopped after {data['cap_s']:g} s: {cut} marches, which take more than that" if cut else ""))
+                          + (f"; stopped after {data['cap_s']:g} s: {cut} analyses, which take more than that" if cut else ""))
         if key == "feti":
             continue
         checks.append(check(f"time of {NAMES[key]} over the baseline's at equal error, largest", 1 / min(found),
@@ -365,7 +365,7 @@ def methods(context):
                       [column("error of", key=True), column("error", "relative", key=True),
                        *(column(NAMES[key], optional=True, **FREE) for key in OTHERS), column("note", **FREE)], ratios,
                       f"Between meshes by straight lines in the logarithms; {MACHINE_WHY}."),
-                table("All marches",
+                table("All analyses",
                       [column("h", "mm", key=True), column("method", key=True), column("unknowns"),
                        column("whole", "linear solves of its mesh", **FREE), column("time", "linear solves of the finest mesh", **FREE),
                        *(column(n, optional=True, past="count", capped=True) for n in ("alternations", "active-set steps", "Krylov iterations")),
@@ -398,20 +398,20 @@ def energetic(context):
                 curves.append(series(key, key, [1e3 * v for v in m["history"]["load"]], [1e3 * v for v in m["history"]["debonded_length"]], marker=False))
         found = part["methods"]["energetic"]
         if None in jumps.values():
-            raise Failed(f"{scene}: a march without a jump")
+            raise Failed(f"{scene}: an analysis without a jump")
         if found["lse"] > GOALS[f"energetic {scene}"]:
             losses.append(f"{scene}: the energetic analysis costs {found['lse']:.3g} linear solves; the goal is {GOALS[f'energetic {scene}']}")
         if "to_local" in found and middle(found["to_local"]) > 1:
-            losses.append(f"{scene}: it takes {middle(found['to_local']):.2g} times as long as the local march")
+            losses.append(f"{scene}: it takes {middle(found['to_local']):.2g} times as long as the local analysis")
         if jumps["backtracking"] >= jumps["local"]:
-            losses.append(f"{scene}: with backtracking alone the jump comes no earlier than in the local march, the estimate sees no violation")
+            losses.append(f"{scene}: with backtracking alone the jump comes no earlier than in the local analysis, the estimate sees no violation")
         checks += [check(f"{scene}: load of the energetic jump over that of the local one", jumps["energetic"] / jumps["local"], 1.0, "a state of lower energy is found at the same load or earlier"),
-                   check(f"{scene}: steps of the energetic march outside the two-sided estimate", len(found["violated"]), 0, "by more than eta = 1e-3 of max(stored, work)")]
+                   check(f"{scene}: steps of the energetic analysis outside the two-sided estimate", len(found["violated"]), 0, "by more than eta = 1e-3 of max(stored, work)")]
         if (found.get("search") or {}).get("gap_relative") is not None:
             checks.append(check(f"{scene}: what the search left open, over the energy", found["search"]["gap_relative"], 0.05, "search_tolerance is 1e-2 of it by step; the worst of 40 steps"))
-        figures += [figure(f"energetic_{scene.rsplit('-', 1)[1]}_lse", found["lse"], "linear solves", f"Energetic march, brittle ENF, {scene.rsplit('-', 1)[1]} mm", past="free")]
+        figures += [figure(f"energetic_{scene.rsplit('-', 1)[1]}_lse", found["lse"], "linear solves", f"Energetic analysis, brittle ENF, {scene.rsplit('-', 1)[1]} mm", past="free")]
     return result(
-        reference("own past", "the local march of the same scene in the same rounds, and one linear solve in turns with it (verify/bench, table energetic)",
+        reference("own past", "the local analysis of the same scene in the same rounds, and one linear solve in turns with it (verify/bench, table energetic)",
                   "times: quartiles of the rounds; what is found does not depend on the clock; how good it is against an exhaustive scan is chapter (b)"),
         checks=checks, losses=losses, figures=figures,
         tables=[table("What each solution costs", [column("scene", key=True), column("solution", key=True), column("whole", "linear solves", **FREE), column("processor time", "linear solves", optional=True, **FREE),
@@ -421,22 +421,22 @@ def energetic(context):
                       column("advance", "mm", optional=True, past=1e-3), column("released", "J/m", optional=True, past=1e-2), column("defect at the end", "J/m", optional=True, past="free"),
                       column("violated", "steps"), column("candidates", past="count"), column("gap", "relative", optional=True, past="free")], finds)],
         plots=[plot(f"Debonded length, {scenes[-1]}", axis("displacement of mid-span", "mm"), axis("debonded length", "mm"), curves, (),
-                    "The local march waits until the state before has lost its stability; the energetic one goes where the energy is lowest.")])
+                    "The local analysis waits until the state before has lost its stability; the energetic one goes where the energy is lowest.")])
 
 
 def cases():
-    return [march_case("enf-ductile-1.5", quick=False, expected=15, cap=5),
-            march_case("enf-ductile-1", quick=False, expected=20, cap=5),
-            march_case("enf-ductile-0.5", quick=True, expected=60, cap=5),
-            march_case("enf-ductile-0.1", quick=False, expected=360, cap=20),
-            march_case("enf-ductile-0.1", quick=False, expected=220, cap=20, shipped=True),
-            march_case("enf-brittle-0.1", quick=False, expected=500, cap=20),
-            Case(id="c-methods", chapter="c", title="Work against precision, by method", requirement="At equal error the condensed marches take a fraction of the time of the baseline; where a method "
+    return [analysis_case("enf-ductile-1.5", quick=False, expected=15, cap=5),
+            analysis_case("enf-ductile-1", quick=False, expected=20, cap=5),
+            analysis_case("enf-ductile-0.5", quick=True, expected=60, cap=5),
+            analysis_case("enf-ductile-0.1", quick=False, expected=360, cap=20),
+            analysis_case("enf-ductile-0.1", quick=False, expected=220, cap=20, shipped=True),
+            analysis_case("enf-brittle-0.1", quick=False, expected=500, cap=20),
+            Case(id="c-methods", chapter="c", title="Work against precision, by method", requirement="At equal error the condensed analyses take a fraction of the time of the baseline; where a method "
                  "is slower than the baseline, that is listed first.", geometry="two arms 120 mm x 3 mm, notch 30 mm, 4-node cells of 1.5 to 0.25 (quick: 0.5) mm, plane strain", materials=DUCTILE,
                  supports=PATCHES, units=f"relative L1 errors; ratios of times; {COSTS}", run=methods, quick=False, timing=True, seconds=1200, expected=90),
             Case(id="c-precision", chapter="c", title="Work against precision, by element", requirement="At equal error elements that bend take less time than 4-node cells; the error is one of mesh and "
                  "step, not of the tolerance.", geometry="two arms 120 mm x 3 mm, notch 30 mm, five elements, cells of 3 to 0.1 mm, plane strain", materials=DUCTILE,
                  supports=PATCHES, units=f"relative L1 errors; ratios of times; {COSTS}",
                  run=precision, quick=False, timing=True, seconds=1500, expected=150),
-            Case(id="c-energetic", chapter="c", title="What an energetic march costs", requirement="An energetic march jumps no later than a local one and stays within the two-sided "
+            Case(id="c-energetic", chapter="c", title="What an energetic analysis costs", requirement="An energetic analysis jumps no later than a local one and stays within the two-sided "
                  "estimate; the goals are 25, 15 and 10 linear solves on cells of 1, 0.5 and 0.1 mm.", materials=BRITTLE, **ENF, run=energetic, quick=True, timing=True, seconds=1200, expected=90)]

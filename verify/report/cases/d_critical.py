@@ -9,7 +9,7 @@ import numpy as np
 from case import LEDGER_VALUES, Case, axis, check, column, ledger_of, plot, reference, result, series
 from e_closed import law_of
 
-LENGTH, ARM, COLUMNS, NOTCH, LIFT, END = 0.04, 2e-3, 40, 11.75e-3, 1.5e-3, 0.75  # m; the march ends at time END
+LENGTH, ARM, COLUMNS, NOTCH, LIFT, END = 0.04, 2e-3, 40, 11.75e-3, 1.5e-3, 0.75  # m; the analysis ends at time END
 # Stiffness, onset, toughness, each of opening and shear: as those of the harness.
 BRITTLE = ((1e13, 2e13), (50.0, 80.0), (200.0, 400.0))
 DUCTILE = ((1e12, 2e12), (10.0, 16.0), (200.0, 400.0))
@@ -50,7 +50,7 @@ def scene(delam, law, **options):
     return problem
 
 
-def march(delam, law, steps, **options):
+def analyse(delam, law, steps, **options):
     """Values at the end and before, adhesions of every step, and the warnings said on the way."""
     heard, logger = Warnings(), logging.getLogger("delam")
     logger.addHandler(heard)
@@ -100,8 +100,8 @@ def distance(a, b):
 
 def critical_states(context):
     delam = context.python()
-    long = {name: march(delam, BRITTLE, 3, **options) for name, _, options in LONG}
-    short = {(name, n): march(delam, BRITTLE, n, **options) for n in (20, 100) for name, _, options in LONG if name in ("condensed, joint", "energetic search")}
+    long = {name: analyse(delam, BRITTLE, 3, **options) for name, _, options in LONG}
+    short = {(name, n): analyse(delam, BRITTLE, n, **options) for n in (20, 100) for name, _, options in LONG if name in ("condensed, joint", "energetic search")}
     alternating, feti, joint, feti_joint, energetic = long.values()
     found = energetic.stored_and_spent
     gap = energetic.values["search_gap"]
@@ -116,7 +116,7 @@ def critical_states(context):
               check("damage change of all ends", worst, DELTA, "each is a fixed point of its own damage, to damage_tolerance"),
               check("ways that did not converge", sum(m.status != "converged" for m in (*long.values(), *short.values())), 0, "limits of iterations are not met")]
 
-    smooth = {(rule, name): march(delam, DUCTILE, 3, mixity_rule=rule, **options) for rule in ("frozen", "converged") for name, options in (("condensed, joint", {}), ("FETI, alternating", FETI | ALTERNATE))}
+    smooth = {(rule, name): analyse(delam, DUCTILE, 3, mixity_rule=rule, **options) for rule in ("frozen", "converged") for name, options in (("condensed, joint", {}), ("FETI, alternating", FETI | ALTERNATE))}
     one, other = (smooth["frozen", name] for name in ("condensed, joint", "FETI, alternating"))
     checks.append(check("zone of several pairs, frozen mixity: condensed joint and FETI alternating", distance(one, other), 1e-9, "one critical state: the way does not matter; as above"))
     near, far = (smooth["converged", name] for name in ("condensed, joint", "FETI, alternating"))
@@ -160,5 +160,5 @@ def cases():
     return [Case(id="d-critical-states", chapter="d", title="Several critical states in one long step", run=critical_states, quick=True, expected=5,
                  requirement="Where the process zone is one pair long, a long step has several critical states, and the way of minimising decides where it ends: every end is a fixed point of the damage, alternating ways agree to 1e-9 whichever "
                              "realisation takes them, none is lower than the energetic search in the same three steps, and the library warns. With a zone of several pairs condensed and FETI end at the same adhesions, with a frozen mixity at the same energies, too.",
-                 geometry="two arms 40 mm x 2 mm, 40 x 2 cells an arm, notch of 12 mm at the loaded end, plane strain", supports="right end clamped; upper left corner lifted by 1.5 mm at time 1, marched to 0.75; FETI with 4 subdomains",
+                 geometry="two arms 40 mm x 2 mm, 40 x 2 cells an arm, notch of 12 mm at the loaded end, plane strain", supports="right end clamped; upper left corner lifted by 1.5 mm at time 1, analysed to 0.75; FETI with 4 subdomains",
                  materials="arms E = 70 GPa, nu = 0.3; brittle: kn = 1e13, kt = 2e13 N/m3, Go 50/80, Gc 200/400 J/m2 by mode; zone of several pairs: 1e12, 2e12, 10/16, 200/400", units="SI, per unit thickness; differences relative")]

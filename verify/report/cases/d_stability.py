@@ -11,14 +11,14 @@ REALISATIONS = (("condensed", "condensed"), ("FETI", "feti"), ("direct", "direct
 SAID = "DELAM_NOT_CONVERGED"
 BY_ROUNDING = "its matrices' rounding"
 DIRECT = reference("direct solver", "verify/reference/direct: SuiteSparse's CHOLMOD on the whole system of bodies, springs and supports, its own active set, "
-                   "at the adhesions of the condensed march; FETI that ends at others is compared with a direct solution at its own; no solver code is shared", "its own KKT violation is drawn and tabled beside those of the others")
+                   "at the adhesions of the condensed analysis; FETI that ends at others is compared with a direct solution at its own; no solver code is shared", "its own KKT violation is drawn and tabled beside those of the others")
 KKT_WHY = ("gap, pressure, complementarity, equilibrium, supports and law from exported fields, outside the library, each over the largest of "
            "its kind; iterations stop at 1e-12 of the residual, three decades and more are left for the condition of the scene")
 LEDGER_WHY = "energies booked against Clapeyron's theorem, springs and work computed from fields, over the largest; only rounding may differ"
 
 
 LEGEND = ("KKT: worst violation of gap, pressure, complementarity, equilibrium, supports and law. Ledger: booked energies against those computed from fields. Defect: what the balance of "
-          "energy over the march misses; it falls with the length of the steps, is large where a step breaks much at once, and is judged only where a check above names it. Damage: what a "
+          "energy over the analysis misses; it falls with the length of the steps, is large where a step breaks much at once, and is judged only where a check above names it. Damage: what a "
           "further damage step would change.")
 
 
@@ -273,7 +273,7 @@ def stability(id, title, requirement, subjects, ref=DIRECT, quick=True, expected
             numbers.append(figure(name, max(used), "of the limit", text, past="free"))
         return result(ref, tables=tables, checks=checks, plots=plots, losses=losses, orders=found, figures=numbers, refused="" if answered else words)
 
-    scene.setdefault("units", "SI; errors relative to the largest value of their kind over the march")
+    scene.setdefault("units", "SI; errors relative to the largest value of their kind over the analysis")
     return Case(id=f"d-{id}", chapter="d", title=title, requirement=requirement, run=run, quick=quick, expected=expected, seconds=seconds, **scene)
 
 
@@ -286,7 +286,7 @@ DRIVEN = dict(geometry="two cells of 1 mm, one interface of two pairs that answe
 SERIES = dict(geometry="bar of two halves of 1 m, 50 mm wide, the interface across", supports="one end held, the other pulled; sideways held or nu = 0")
 KNOWN = ("Defect: the mixity of the step before, and work from the tractions at the ends of the steps, leave one that the law itself has; it is judged against that, to "
          "1e-10, within the verdict.")
-OWN = reference("closed form", "the piecewise-linear law written apart from the library's, in extended precision, marched with the jumps that the device prescribes",
+OWN = reference("closed form", "the piecewise-linear law written apart from the library's, in extended precision, integrated with the jumps that the device prescribes",
                 "extended precision; below 1e-15")
 BAR = reference("closed form", "an elastic spring three times stiffer than the softening slope in series with the law: one continuous solution, linear in each branch",
                 "double precision of the formula; exact for uniform stress")
@@ -340,13 +340,13 @@ def cases():
                                 "0.1 % for pairs a twelfth of the root length apart, 15 (t/l)^2 for shear and thickness of the arms; rounding of the matrices, 2e-17 (l/t)^4 for a chain of cells"),
                   geometry="arms of 1 m, 120 cells of 8 nodes, 10 to 1000 times longer than thick; in space 16 x 2 x 2 cells", supports="right end clamped, left end opened", materials="E = 70 GPa, nu = 0 (0.3 in space)", expected=25),
         stability("size", "From nanometres to kilometres", "The same specimen of 40 nm to 40 km gives the same numbers to 1e-8: there is no hidden absolute tolerance.",
-                  [Subject("size", "sizes", "length / 40 mm")], ref=reference("physics", "the same march at 40 mm, scaled", "none: an identity of the model; data of other sizes are rounded, 1e-16"),
+                  [Subject("size", "sizes", "length / 40 mm")], ref=reference("physics", "the same analysis at 40 mm, scaled", "none: an identity of the model; data of other sizes are rounded, 1e-16"),
                   materials=f"{STEEL}; {DUCTILE}; energies and stiffness scaled with the size; damage_tolerance = 1e-12", expected=4, **CANTILEVER),
-        stability("units", "Units of length and force", "Powers of four leave all digits; so do odd powers of two of the unit of length, which change stiffness by powers of four, but not those of the unit of force, whose square root in Cholesky's factor rounds otherwise. These, and factors of ten, leave 1e-8: metres or micrometres, Pa or GPa, each realisation makes the same march.",
+        stability("units", "Units of length and force", "Powers of four leave all digits; so do odd powers of two of the unit of length, which change stiffness by powers of four, but not those of the unit of force, whose square root in Cholesky's factor rounds otherwise. These, and factors of ten, leave 1e-8: metres or micrometres, Pa or GPa, each realisation makes the same analysis.",
                   [Subject("unit-length-binary", "length, powers of four", "unit of length", "m"), Subject("unit-force-binary", "force, powers of four", "unit of force", "N"),
                    Subject("unit-length-odd", "length, odd powers of two", "unit of length", "m"), Subject("unit-force-odd", "force, odd powers of two", "unit of force", "N"), Subject("unit-length", "length", "unit of length", "m"),
                    Subject("unit-force", "force", "unit of force", "N"), Subject("unit-length-3d", "length, in space", "unit of length", "m", quick=False)],
-                  ref=reference("physics", "the same march in SI units, scaled", "none: an identity of arithmetic for powers of four; 1e-16 of the data else"),
+                  ref=reference("physics", "the same analysis in SI units, scaled", "none: an identity of arithmetic for powers of four; 1e-16 of the data else"),
                   materials=f"{STEEL}; {DUCTILE}; damage_tolerance = 1e-12", expected=20, **CANTILEVER),
         stability("floating", "Bodies that nothing holds", "Loose plies that are pressed are held by contact; lifted, they float, at no stress; a bond that a dead load exceeds ends with the refusal `no equilibrium`.",
                   [Subject("floating-pressed", "pressed", "loose plies", scale="linear", defect=1e-10), Subject("floating-lifted", "lifted", "loose plies", scale="linear"),
@@ -354,7 +354,7 @@ def cases():
                   ref=reference("closed form", "no stress (lifted), uniform tension (dead load); pressed: the direct solver with one node of each ply held sideways", "exact; 1e-10 of the solver"),
                   geometry="plies 40 mm x 3 mm, 20 x 2 cells, on a held one", supports="bottom held; top ply pressed or lifted in its middle third, or under a dead load",
                   materials="E = 70 GPa, nu = 0.3; no adhesion, or a bond of 50/200 J/m2", expected=4),
-        stability("loose-load", "A dead load on a loose ply", "A dead load along a motion that nothing but contact could hold is refused before the march, in words, whatever its size.",
+        stability("loose-load", "A dead load on a loose ply", "A dead load along a motion that nothing but contact could hold is refused before the analysis, in words, whatever its size.",
                   [Subject("dead-load-on-loose-ply", "dead load", "force", "N/m")], ref=reference("physics", "no equilibrium exists: a body without supports under a force that pushes it sideways or up", "none"),
                   geometry="two loose plies 40 mm x 3 mm on a held one", supports="bottom held; a dead load on the top ply", materials="E = 70 GPa, nu = 0.3; no adhesion", expected=1),
         stability("held-by-contact", "A block held by contact alone", "Pushed into the corner of two rigid walls under any angle the block is held by contact, and its solution is that of the direct solver.",
@@ -387,7 +387,7 @@ def cases():
         stability("one-step", "Everything breaks in one step", "One step of up to a million times the load of full debond: the bar as its closed form, the cantilever with KKT and ledger.",
                   [Subject("one-step", "bar", "load / load of full debond", legend=sudden), Subject("one-step-cantilever", "cantilever", "lift / 1.5 mm", legend=sudden)], ref=reference("closed form", BAR["source"] + "; of the cantilever the direct solver", BAR["uncertainty"]),
                   geometry=SERIES["geometry"] + "; or " + CANTILEVER["geometry"], supports=SERIES["supports"] + "; or " + CANTILEVER["supports"], materials=f"k = 125e9 N/m3, Go = 100, Gc = 250 J/m2 (bar); cantilever: {BRITTLE}", expected=3),
-        stability("damage-tolerance", "Tolerance of the minimisation, down to nothing", "What a further damage step would change falls with damage_tolerance (delta) down to rounding; fields and energies of these scenes, where the condensed march minimises jointly, are right to 1e-11 at any delta; with delta = 0 the march ends, converged or with the limit status.",
+        stability("damage-tolerance", "Tolerance of the minimisation, down to nothing", "What a further damage step would change falls with damage_tolerance (delta) down to rounding; fields and energies of these scenes, where the condensed analysis minimises jointly, are right to 1e-11 at any delta; with delta = 0 the analysis ends, converged or with the limit status.",
                   [Subject(name, text, "log10 of delta" + none, "", "linear", decades, apart=lambda delta: max(1e-3, delta)) for name, text in (("damage-tolerance", "bar"), ("damage-tolerance-cantilever", "cantilever"), ("damage-tolerance-0", "delta = 0"))],
                   ref=reference("closed form", BAR["source"] + "; limit 10 delta + 1e-11; of the cantilever the direct solver", BAR["uncertainty"]),
                   geometry=SERIES["geometry"] + "; or " + CANTILEVER["geometry"], supports=SERIES["supports"] + "; or " + CANTILEVER["supports"], materials=f"k = 125e9 N/m3, Go = 100, Gc = 250 J/m2 (bar); cantilever: {DUCTILE}", expected=8),

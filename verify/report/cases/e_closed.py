@@ -29,7 +29,7 @@ def box(mesh, lower, upper, body=None):
 def pair(context):
     delam = context.python()
     turns, per_leg = [0.0, 0.3, 0.6, 0.1, 0.75, 0.2, 1.2, 0.4], 16 if context.quick else 64
-    rows, checks, plots, marches = [], [], [], {}
+    rows, checks, plots, analyses = [], [], [], {}
     for mode, name, along in ((0, "mode I", "y"), (1, "mode II", "x")):
         stiffness, onset, toughness = ((125e9, 100.0, 250.0), (80e9, 160.0, 480.0))[mode]
         first = math.sqrt(2 * onset / stiffness)
@@ -48,12 +48,12 @@ def pair(context):
         off = dict.fromkeys(("adhesion", "traction", "stored", "dissipated"), 0.0)
         jumps, found, exact, furthest = [0.0], [0.0], [0.0], 0.0
         with delam.Solver(problem, not_converged="raise") as solver:
-            marches[name] = delam.History(solver, LEDGER_VALUES)
+            analyses[name] = delam.History(solver, LEDGER_VALUES)
             for k in range(1, per_leg * (len(turns) - 1) + 1):
                 time = k / per_leg
                 solver.advance(time)
                 solver.commit()
-                marches[name].record()
+                analyses[name].record()
                 w = float(np.interp(time, range(len(turns)), turns)) * last
                 furthest = max(furthest, w)
                 zeta = 1.0 if furthest <= first else 0.0 if furthest >= last else first * (last - furthest) / (furthest * (last - first))
@@ -74,7 +74,7 @@ def pair(context):
                           "Loading, unloading on the secant, reloading, past the final jump."))
     return result(reference("closed form", "the bilinear law of traction and jump with its secant after the largest jump, modes of different strength", "exact; 1e-16"),
                   tables=[{"title": "Largest difference over the path", "note": "", "columns": [column("mode", key=True), column("quantity", key=True), column("difference", "relative", past="rounding")], "rows": rows}],
-                  checks=checks, plots=plots, ledger=ledger_of(marches, "J/m"), figures=[figure("pair_law", max(r[2] for r in rows), "relative", "One pair through loading, unloading and reloading: largest difference to the closed form", past="rounding")])
+                  checks=checks, plots=plots, ledger=ledger_of(analyses, "J/m"), figures=[figure("pair_law", max(r[2] for r in rows), "relative", "One pair through loading, unloading and reloading: largest difference to the closed form", past="rounding")])
 
 
 # ---- a spring in series
@@ -97,11 +97,11 @@ def spring_scene(delam, spring, end, **options):
 
 def spring(context):
     delam = context.python()
-    rows, checks, curves, steps, known_w, known_t, marches = [], [], [], 60, [], [], {}
+    rows, checks, curves, steps, known_w, known_t, analyses = [], [], [], 60, [], [], {}
     for ratio, role in ((1.5, "first"), (3.0, "second"), (10.0, "third")):
         stiff, worst, w_mm, t_found, t_exact = ratio * SLOPE, 0.0, [0.0], [0.0], [0.0]
         with delam.Solver(spring_scene(delam, stiff, 1.1 * DC), not_converged="raise") as solver:
-            history = marches[f"K = {ratio:g} of the slope"] = delam.History(solver, LEDGER_VALUES)
+            history = analyses[f"K = {ratio:g} of the slope"] = delam.History(solver, LEDGER_VALUES)
             for i in range(1, steps + 1):
                 solver.advance(i / steps)
                 solver.commit()
@@ -150,7 +150,7 @@ def spring(context):
                   tables=[{"title": "Stiff springs: one continuous solution", "note": "", "columns": [column("K over the slope", key=True), column("largest difference", "of final jump, strength", past="rounding")], "rows": rows},
                           {"title": "Soft springs: load of the jump", "note": "", "columns": [column("solution", key=True), column("K over the slope", key=True), column("closed form", "mm"), column("located", "mm", past=1e-4), column("difference", "relative", past="free"),
                            column("difference, from the work", "relative", past="free"), column("released", "J/m2", past="rounding"), column("released, closed form", "J/m2", past=1e-4)], "rows": loads}],
-                  checks=checks, ledger=ledger_of(marches, "J/m"), plots=[plot("Stiff springs (K over the softening slope)", axis("end displacement", "mm"), axis("traction", "MPa"), curves), plot("Load of the jump, soft springs", axis("K over the softening slope", "", "log"), axis("load", "mm", "log"), x)],
+                  checks=checks, ledger=ledger_of(analyses, "J/m"), plots=[plot("Stiff springs (K over the softening slope)", axis("end displacement", "mm"), axis("traction", "MPa"), curves), plot("Load of the jump, soft springs", axis("K over the softening slope", "", "log"), axis("load", "mm", "log"), x)],
                   figures=[figure("spring_jump_load", largest(max(abs(r[4]), abs(r[5])) for r in loads), "relative", "Spring in series: load of the jump against the closed form, local and energetic, largest difference", past="free")])
 
 
@@ -187,7 +187,7 @@ def bar_scene(delam, cells, held, end, **options):
 def bar(context):
     delam = context.python()
     meshes = (50, 100) if context.quick else (50, 100, 200)
-    rows, curves, checks, found, loads, marches = [], [], [], [], [], {}
+    rows, curves, checks, found, loads, analyses = [], [], [], [], [], {}
 
     def load_of(front):
         return (front + BAR["bond"]) * PLATEAU / BAR["membrane"]
@@ -195,14 +195,14 @@ def bar(context):
     for solution, role in (("local", "local"), ("energetic", "energetic")):
         errors, sizes = [], []
         for cells in meshes:
-            # The local march passes the tip late by h over the length of the bond: it takes twice the cells.
+            # The local analysis passes the tip late by h over the length of the bond: it takes twice the cells.
             n = 2 * cells if solution == "local" else cells
             h, end = 1.0 / n, load_of(0.6)
             steps = 4 * n if solution == "local" else 60
             off = front = 0.0
             w_mm, force = [0.0], [0.0]
             with delam.Solver(bar_scene(delam, n, True, end, **({"solution": "energetic"} if solution == "energetic" else {})), not_converged="raise") as solver:
-                history = marches[f"{solution}, {n} cells"] = delam.History(solver, LEDGER_VALUES)
+                history = analyses[f"{solution}, {n} cells"] = delam.History(solver, LEDGER_VALUES)
                 for i in range(1, steps + 1):
                     solver.advance(i / steps)
                     solver.commit()
@@ -245,7 +245,7 @@ def bar(context):
     return result(reference("closed form", "a bar on a bond of membrane stiffness Et and length lam = sqrt(Et/k): F = Et w/(a + lam), plateau sqrt(2 G Et); with a free far end it comes off at once at (a + lam) = (L + lam)/2", "the far end many lam away: exp(-7) of the force at the ends of the range"),
                   tables=[{"title": "Peeling of the held bar", "note": "", "columns": [column("solution", key=True), column("cells", key=True), column("h", "mm"), column("force, off", "of the plateau", past=1e-4), column("front, off", "mm", past=1e-4)], "rows": rows},
                           {"title": "Free bar: load at which it comes off, energetic", "note": "", "columns": [column("cells", key=True), column("closed form", "mm"), column("found", "mm", past=1e-4), column("difference", "relative", past="free"), column("dissipated, off", "relative", past="rounding")], "rows": loads}],
-                  orders=found, checks=checks, ledger=ledger_of(marches, "J/m"), plots=[plot("Force over end displacement", axis("end displacement", "mm"), axis("force", "N/m"), curves)],
+                  orders=found, checks=checks, ledger=ledger_of(analyses, "J/m"), plots=[plot("Force over end displacement", axis("end displacement", "mm"), axis("force", "N/m"), curves)],
                   figures=[figure("bar_jump_load", abs(loads[-1][3]), "relative", "Bar on a bond: load at which it comes off, against the closed form", past="free")])
 
 
@@ -308,7 +308,7 @@ def cases():
     return [
         Case(id="e-pair", chapter="e", title="One pair under a prescribed jump", requirement="Loading, unloading and reloading in modes I and II follow the bilinear law, energies included, to rounding.", run=pair, quick=True, expected=3, seconds=300,
              geometry="two cells of 1 m, an interface of two pairs", materials="kn = 125e9, kt = 80e9 N/m3; Go 100/160, Gc 250/480 J/m2 by mode", **blocks),
-        Case(id="e-spring", chapter="e", title="A spring in series with the interface", requirement="Stiff springs follow the one solution; soft ones jump at the local load, or in energetic marches where the energies cross.", run=spring, quick=True, expected=3, seconds=300, **series_),
+        Case(id="e-spring", chapter="e", title="A spring in series with the interface", requirement="Stiff springs follow the one solution; soft ones jump at the local load, or in energetic analyses where the energies cross.", run=spring, quick=True, expected=3, seconds=300, **series_),
         Case(id="e-bar", chapter="e", title="A bar peels off a rigid base", requirement="Force and front follow the plateau to first order in h, local and energetic; a bar with a free end comes off at once at the load where the energies cross.", run=bar, quick=True, expected=10, seconds=900,
              geometry="bar of 1 m, free over the first 0.2 m, bonded beyond with a take-up length of 40 mm", materials="Et = 1e6 N/m, Griffith's law with G = 50 J/m2", supports="pulled at the free end; far end held, or free", units="mm, N/m"),
         Case(id="e-enf-beams", chapter="e", title="Beam theory of the ENF", requirement="Over the crack length the compliance follows beam theory within 5 %, the energy release rate that of a crack that is longer by a third of the arm at most, in mode II alone.", run=enf, quick=True, expected=3, seconds=300,

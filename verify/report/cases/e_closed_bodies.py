@@ -267,7 +267,7 @@ def getfem(context):
     sys.path.insert(0, str(context.root / "examples" / "host-getfem"))
     import host_getfem
 
-    folder = context.out / "marches" / "getfem"
+    folder = context.out / "analyses" / "getfem"
     folder.mkdir(parents=True, exist_ok=True)
     context.commands.append("python3 examples/host-getfem/host_getfem.py " + ("enf" if context.quick else ""))
     rows, checks, plots, tables = [], [], [], []

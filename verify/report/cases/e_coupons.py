@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Chapter (e): published coupons, marched by the command line from their scenes in examples/; --quick takes coarser cells."""
+"""Chapter (e): published coupons, analysed by the command line from their scenes in examples/; --quick takes coarser cells."""
 import csv
 import math
 import pathlib
@@ -8,12 +8,12 @@ import shutil
 from case import Case, Failed, axis, check, column, figure, largest, ledger_of, plot, reference, result, series
 
 MIXITY_OFF = 0.03    # G_II/G of a front beside corrected beam theory
-NUMBERS_PAST = 1e-5  # of marches with softening over hundreds of steps; BLAS kernels of other processors move them by less
+NUMBERS_PAST = 1e-5  # of analyses with softening over hundreds of steps; BLAS kernels of other processors move them by less
 
 
-def march(context, name, coarse):
+def analyse(context, name, coarse):
     """History of a scene of examples/, a list a column; `coarse` in the quick report."""
-    out = context.out / "marches" / name
+    out = context.out / "analyses" / name
     shutil.rmtree(out, ignore_errors=True)
     out.parent.mkdir(parents=True, exist_ok=True)
     settings = [word for setting in (coarse if context.quick else []) for word in ("--set", setting)]
@@ -30,7 +30,7 @@ def at(x, y, place):
     for k in range(1, len(x)):
         if x[k] >= place:
             return y[k - 1] + (y[k] - y[k - 1]) * (place - x[k - 1]) / (x[k] - x[k - 1])
-    raise Failed(f"the march ends at {x[-1]:g}, before {place:g}")
+    raise Failed(f"the analysis ends at {x[-1]:g}, before {place:g}")
 
 
 def energy_checks(h):
@@ -62,7 +62,7 @@ def beam(name, title, need, source, own, width, points, peak, why, fronts, coars
     are with the coarse cells of the quick report; `strong`: peak load of root-corrected beams of infinite strength."""
 
     def run(context):
-        h = march(context, name, coarse)
+        h = analyse(context, name, coarse)
         opening, load = [1e3 * v for v in h["load"]], [0.5 * width * v for v in h["reaction"]]
         more = loose if context.quick else 0.0
         peaks = " to ".join(dict.fromkeys(f"{v:g}" for v in peak))
@@ -101,7 +101,7 @@ def beam(name, title, need, source, own, width, points, peak, why, fronts, coars
 
 
 def plateau(context):
-    h = march(context, "4enf", ["geometry.divisions=200", "time.steps=44"])
+    h = analyse(context, "4enf", ["geometry.divisions=200", "time.steps=44"])
     young, depth, toughness, arm = 161e9 / (1 - 0.32 ** 2 * 11.38 / 161), 2e-3, 774.0, 0.02
     exact = 2 / arm * math.sqrt(4 * young * depth ** 3 * toughness / 9)
     crack, load, down = [1e3 * v for v in h["crack_length"]], h["reaction"], [1e3 * v for v in h["load"]]
@@ -125,7 +125,7 @@ def plateau(context):
 
 
 def mixed(context):
-    h = march(context, "mmb", ["geometry.divisions=400", "time.steps=40"])
+    h = analyse(context, "mmb", ["geometry.divisions=400", "time.steps=40"])
     crack, mixity, rate, down, load = [1e3 * v for v in h["crack_length"]], h["front_mixity"], h["energy_release_rate"], [1e3 * v for v in h["load"]], h["reaction"]
     growing = [k for k in range(len(crack)) if 36 < crack[k] < 46]
     criterion = {k: 212 + (774 - 212) * mixity[k] ** 2.1 for k in growing}

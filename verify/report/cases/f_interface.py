@@ -177,12 +177,12 @@ def group_case(case_id, title, pattern, requirement, source, quick, expected, co
 LINE = re.compile(r"^(c|cpp|fortran|python|julia)" + 4 * r"\s+(-?\d+) \((-?\d+) to (-?\d+)\)" + r"\s*$")
 VALUES = re.compile(r"^values: (c|cpp|fortran|python|julia): (\d+) numbers in (\d+) rounds, (\d+) not the bits of C, relative difference (\S+), (\d+) pairs partly damaged$")
 TITLES = {"c": "C", "cpp": "C++", "fortran": "Fortran", "python": "Python", "julia": "Julia"}
-# Nanoseconds over C that a step may cost: a hundredth of the shortest steps that are worth a march, 10 ms, for Python; scatter for the others.
+# Nanoseconds over C that a step may cost: a hundredth of the shortest steps that are worth an analysis, 10 ms, for Python; scatter for the others.
 STEP_LIMIT = {"cpp": 5e3, "fortran": 5e3, "python": 1e5, "julia": 1e5}
 
 
 def same_values(lines, spoken):
-    """Table, checks: what the marches of all languages ended with, bit by bit beside C."""
+    """Table, checks: what the analyses of all languages ended with, bit by bit beside C."""
     found = {m.group(1): m.groups()[1:] for m in map(VALUES.match, lines) if m}
     lost = [TITLES[n] for n in spoken if n not in found]
     if lost:
@@ -192,7 +192,7 @@ def same_values(lines, spoken):
               for n in spoken if n != "c"]
     checks += [check("numbers that every language hands over", min(r[1] for r in rows), 7, "reaction, energies and a field; a build of before prints the reaction alone", ">="),
                check("pairs that are partly damaged at the end", int(found["c"][4]), 1, "else nothing but zeros and ones would be compared in the field", ">=")]
-    return table("What the marches end with, beside C", [column("language", key=True), column("numbers"), column("rounds", past="free"), column("other bits"), column("largest difference", "relative")],
+    return table("What the analyses end with, beside C", [column("language", key=True), column("numbers"), column("rounds", past="free"), column("other bits"), column("largest difference", "relative")],
                  rows, "After the timed steps ten more that do damage: reaction, stored, dissipated energies, work, adhesion of all pairs, printed with 17 digits."), checks
 
 
@@ -238,7 +238,7 @@ def calls(context):
         if key > 1.5 * key_c:
             losses.append(f"a value by its key through {name} takes {key / key_c:.2g} times as long as in C")
     return result(
-        reference("other code", "the same calls in C, in the same round; what the marches end with is compared bit by bit", "values: none; times: the quartiles of the rounds, ns of processor time "
+        reference("other code", "the same calls in C, in the same round; what the analyses end with is compared bit by bit", "values: none; times: the quartiles of the rounds, ns of processor time "
                   "(Julia: of the wall clock)"),
         checks=checks, losses=losses, warnings=warnings,
         tables=[values, table("What a call costs", [column("language", key=True), column("value by key", "ns", past="free"), column("over C", "ns", past="free"), column("to C", "", past="free"),
@@ -258,7 +258,7 @@ def cases():
                  "break is found.", **WHERE, run=abi, seconds=900, expected=60),
             Case(id="f-languages", chapter="f", title="Languages", requirement="Each language is parsed, checked against the header and run, or the table says what was not done and why; what "
                  "ran gives the numbers of one table of reference values to its digits (bit by bit: f-calls).", **WHERE, run=languages, seconds=1500, expected=90),
-            Case(id="f-calls", chapter="f", title="What a call costs", requirement="A march ends with the same numbers through each language, in every bit; a step costs at most 0.1 ms more than in C.",
+            Case(id="f-calls", chapter="f", title="What a call costs", requirement="An analysis ends with the same numbers through each language, in every bit; a step costs at most 0.1 ms more than in C.",
                  geometry="two arms 100 mm x 2 mm, 84 nodes; nothing is damaged while it is timed", materials="E = 70 GPa, nu = 0.3; k = 1e12 N/m3, Go = 50, Gc = 250 J/m2", supports="three-point bending: corners on "
                  "points, midspan pressed by 1 um while it is timed, then by 4 mm", units="SI; ns of processor time", run=calls, quick=True, timing=True,
                  seconds=600, expected=25),
@@ -270,4 +270,4 @@ def cases():
                        [("fault/long_cancel", r"(\d+) calls cancelled", "calls cancelled", "fault_cancelled"),
                         ("fault/long_memory", r"(\d+) (?:failed )?allocations", "allocations failed", "fault_allocations")], long="^fault/long_(cancel|memory)$"),
             group_case("f-threads", "Threads", "^(fault/threads|case/test_threads_host|python/threads)$", "Solvers in eight threads at once give the bits that each gives alone; handles are guarded as the "
-                       "contract says.", "each march alone, bit by bit", True, 15, quick_pattern="^fault/threads$")]
+                       "contract says.", "each analysis alone, bit by bit", True, 15, quick_pattern="^fault/threads$")]

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The flexure specimens of chapter (b) by the Python package: end-notched (ENF) and mixed-mode (MMF), ductile and
-brittle, and their marches."""
+brittle, and their analyses."""
 import types
 
 import numpy as np
@@ -64,8 +64,8 @@ def dofs(delam, specimen, h, element="quad4"):
     return scene(delam, specimen, h, element=element)[0].dofs[0]
 
 
-def march(delam, specimen, h, steps, patch=0.0, element="quad4", adhesion=False, **options):
-    """A march of equal steps: `at`, lists of the values after every step, the initial state first; `open`, the steps
+def analyse(delam, specimen, h, steps, patch=0.0, element="quad4", adhesion=False, **options):
+    """An analysis of equal steps: `at`, lists of the values after every step, the initial state first; `open`, the steps
     that met an iteration limit; `adhesion`, that of all pairs after every step, where asked for; `x`, their places."""
     problem, interface = scene(delam, specimen, h, patch, element, **options)
     out = types.SimpleNamespace(h=h, steps=steps, dofs=problem.dofs[0], open=0, x=interface.places[:, 0], adhesion=[])

@@ -16,7 +16,7 @@ QUICK = ("The quick report judges no time here: of its few small meshes, each ti
          "peak memory. Exponents of times are shown, and judged in the full report alone.")
 # A fit over few meshes of small scenes.
 NOISE = 0.3
-GOAL = 1.2  # of the accelerated march in the plane
+GOAL = 1.2  # of the accelerated analysis in the plane
 
 
 def growth(context, scenes, time_limit, memory_limit, cap, space):
@@ -48,7 +48,7 @@ def growth(context, scenes, time_limit, memory_limit, cap, space):
                 counts.append((n, m["counts"]["am_iterations"]))
             for what, where in PARTS:
                 points.setdefault(key, {}).setdefault(what, []).append((n, middle(m[where])))
-    losses += [f"{label} was stopped by the cap on {len(over)} of {len(scenes)} meshes, after {min(over):.2g} times the time of the accelerated march or more"
+    losses += [f"{label} was stopped by the cap on {len(over)} of {len(scenes)} meshes, after {min(over):.2g} times the time of the accelerated analysis or more"
                for label, over in stops.items()]
     memory, peaks = [], {}
     for name in scenes:
@@ -90,27 +90,27 @@ def growth(context, scenes, time_limit, memory_limit, cap, space):
     total = next(f for f in fits if f[0] == "condensed, total")
     linear = next(f for f in fits if f[0] == "one linear solve, total")
     if total[2] > linear[2] + NOISE:
-        losses.append(f"the march grows faster than one linear solve: n^{total[2]:.2f} against n^{linear[2]:.2f}")
-    march = next(f for f in fits if f[0] == "condensed, accelerated, total")
-    if not space and not context.quick and march[2] > GOAL:
-        losses.append(f"the accelerated march grows as n^{march[2]:.2f}; the goal is n^{GOAL}")
+        losses.append(f"the analysis grows faster than one linear solve: n^{total[2]:.2f} against n^{linear[2]:.2f}")
+    analysis = next(f for f in fits if f[0] == "condensed, accelerated, total")
+    if not space and not context.quick and analysis[2] > GOAL:
+        losses.append(f"the accelerated analysis grows as n^{analysis[2]:.2f}; the goal is n^{GOAL}")
     key = "space" if space else "plane"
     return result(
         REFERENCE, losses=losses, checks=checks, warnings=[QUICK] if context.quick else [],
         tables=[table("Fitted exponents p of c n^p, beside the largest expected", [column("of", key=True), column("meshes", past="free"), column("fitted", past="free"),
                       column("expected at most", past="free")], fits),
-                table("Parts of a march, in linear solves of the same mesh", [column("scene", key=True), column("method", key=True), column("unknowns"),
+                table("Parts of an analysis, in linear solves of the same mesh", [column("scene", key=True), column("method", key=True), column("unknowns"),
                       *(column(n, "linear solves", optional=True, past="free") for n in ("setup", "factor", "iterate")), column("whole", "linear solves", past="free"),
                       column("alternations", "", optional=True, past="free"), column("note", may=True)], rows, MACHINE_WHY),
-                table("Alternations of the condensed marches", [column("scene", key=True), column("method", key=True), column("alternations", past="count")], alternations,
+                table("Alternations of the condensed analyses", [column("scene", key=True), column("method", key=True), column("alternations", past="count")], alternations,
                       "Counts that no cap on the time cuts short; these alone have a past."),
                 table("Peak memory beyond the mesh", [column("scene", key=True), column("method", key=True), column("unknowns"), column("peak", "MB", past="free"),
                       column("per unknown", "bytes", past="free")], memory, "The kernel's high-water mark, each in a process of its own.")],
         plots=[plot("Time against size", axis("unknowns n", "", "log"), axis("time", "solves of the coarsest mesh", "log"), curves,
-                    [{"kind": "slope", "order": time_limit, "label": f"n^{time_limit:.3g}"}], f"Whole marches in {dimension}; what the cap stopped is left out."),
+                    [{"kind": "slope", "order": time_limit, "label": f"n^{time_limit:.3g}"}], f"Whole analyses in {dimension}; what the cap stopped is left out."),
                plot("Peak memory against size", axis("unknowns n", "", "log"), axis("memory beyond the mesh", "MB", "log"), held,
                     [{"kind": "slope", "order": memory_limit, "label": f"n^{memory_limit:.3g}"}])],
-        figures=[figure(f"growth_{key}_time", total[2], "", f"Exponent of the time of a condensed march over the unknowns, in {dimension} (at most {time_limit:.3g} expected)", past="free"),
+        figures=[figure(f"growth_{key}_time", total[2], "", f"Exponent of the time of a condensed analysis over the unknowns, in {dimension} (at most {time_limit:.3g} expected)", past="free"),
                  *(figure(f"growth_{key}_memory", f[2], "", f"Exponent of its memory, in {dimension} (at most {memory_limit:.3g} expected)", past="free")
                    for f in fits if f[0] == "condensed, memory")])
 
@@ -123,11 +123,11 @@ def cases():
     def space(context):
         return growth(context, ["block-2", "block-1", "block-0.6666667", "block-0.5"], 2.0, 4.0 / 3.0, 60, True)
 
-    return [Case(id="g-plane", chapter="g", title="Growth in the plane", requirement="Over the unknowns n the time of a condensed march grows as n^1.5 at most, its memory as n "
+    return [Case(id="g-plane", chapter="g", title="Growth in the plane", requirement="Over the unknowns n the time of a condensed analysis grows as n^1.5 at most, its memory as n "
                  "log n (n^1.1 here), and the number of alternations does not grow; fits within 0.3. The full report alone judges times.",
                  geometry="two arms 120 mm x 3 mm, notch 30 mm, 4-node cells of 1 to 0.1 mm (quick: 2 to 1), plane strain", materials="E = 75 GPa, nu = 0.3; k = 125e9 N/m3, "
                  "Go = 100, Gc = 250 J/m2", supports="bottom corners on points, midspan pressed by 6 mm in 40 steps", units=COSTS, run=plane, quick=True, timing=True, seconds=1200, expected=180),
-            Case(id="g-space", chapter="g", title="Growth in space", requirement="Over the unknowns n the time of a condensed march grows as n^2 at most, its memory as n^(4/3), "
+            Case(id="g-space", chapter="g", title="Growth in space", requirement="Over the unknowns n the time of a condensed analysis grows as n^2 at most, its memory as n^(4/3), "
                  "and the number of alternations does not grow; fits within 0.3.",
                  geometry="two arms 40 mm x 10 mm x 2 mm, notch 10 mm, 8-node bricks of 2 to 0.5 mm", materials="E = 75 GPa, nu = 0.3; k = 125e9 "
                  "N/m3, Go = 100, Gc = 250 J/m2", supports="bottom edges on lines, midspan pressed by 1.5 mm in 10 steps", units=COSTS, run=space, timing=True, seconds=1800, expected=300)]

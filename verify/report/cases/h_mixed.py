@@ -17,7 +17,7 @@ BEAMS = reference(
     "foundation ahead of the crack, criterion of Benzeggagh and Kenane; critical loads of 126.6, 379 and 725 N at "
     "25.4 mm of width and G_II/G = 0.2, 0.5, 0.8",
     "about 2 % of the load; a softening zone lowers the peak by its share of the crack. Displacements hold the "
-    "compliance of the march's first step, for what beam theory leaves out where the crack is not")
+    "compliance of the analysis' first step, for what beam theory leaves out where the crack is not")
 
 
 def newtons(load):
@@ -28,7 +28,7 @@ def millimetres(length):
     return [1e3 * v for v in length]
 
 
-# ---- what must hold of the marches of one specimen
+# ---- what must hold of the analyses of one specimen
 
 def peak_of(of):
     """The largest load, its displacement, and what the elastic line gains in one step: the peak may lie that much above
@@ -61,22 +61,22 @@ def scene_of(of):
     return of.h, of.shear
 
 
-def finest(of, marches):
-    """The march of most steps with its mesh and strengths."""
-    return max((m for m in marches.values() if scene_of(m) == scene_of(of)), key=lambda m: m.steps)
+def finest(of, analyses):
+    """The analysis of most steps with its mesh and strengths."""
+    return max((m for m in analyses.values() if scene_of(m) == scene_of(of)), key=lambda m: m.steps)
 
 
-def judged(name, marches, turned=(), jumps=None):
-    """Checks of the marches of a specimen, by their names: marches at whose fronts the mixity is that of beam theory;
+def judged(name, analyses, turned=(), jumps=None):
+    """Checks of the analyses of a specimen, by their names: analyses at whose fronts the mixity is that of beam theory;
     turned: those whose strengths turn it in the softening zone. jumps: whether beam theory has one."""
     specimen, turned = bending.SPECIMENS[name], dict(turned)
-    everything = {**marches, **turned}
+    everything = {**analyses, **turned}
     fine = {n: finest(m, everything) for n, m in everything.items()}
     compared = [(*bending.apart(m, fine[n]), n) for n, m in everything.items() if m is not fine[n]]
     off, where, _, who = max(compared)
-    checks = [check("loads of marches with different steps, apart", off, APART, "at every displacement that two "
-                    f"marches with the same cells and strengths share; the largest at {1e3 * where:.4g} mm ({who})"),
-              check("displacements that they share", min(c[2] for c in compared), 40, "fewer would be no march", ">=")]
+    checks = [check("loads of analyses with different steps, apart", off, APART, "at every displacement that two "
+                    f"analyses with the same cells and strengths share; the largest at {1e3 * where:.4g} mm ({who})"),
+              check("displacements that they share", min(c[2] for c in compared), 40, "fewer would be no analysis", ">=")]
     booked, high, low = {n: bending.booked(m) for n, m in everything.items()}, [], []
     for n, m in everything.items():
         top, _, gain = peak_of(m)
@@ -108,25 +108,25 @@ def judged(name, marches, turned=(), jumps=None):
                ledgers.work({n: m for n, m in whole.items() if m is fine[n]}, due)]
     falls = [len(due[n]) for n, m in everything.items() if m is fine[n]]
     if jumps is True:
-        checks.append(check("jumps of each mesh in its march of most steps, at least", min(falls), 1, "beyond the peak "
+        checks.append(check("jumps of each mesh in its analysis of most steps, at least", min(falls), 1, "beyond the peak "
                             "beam theory has no equilibrium near by: the load falls at once", ">="))
     elif jumps is False:
-        checks.append(check("jumps of a mesh in its march of most steps, at most", max(falls), 0,
+        checks.append(check("jumps of a mesh in its analysis of most steps, at most", max(falls), 0,
                             "beam theory is stable at every crack length"))
     return checks
 
 
 # ---- their tables and pictures
 
-def rows_of(name, marches):
-    specimen, rows, due = bending.SPECIMENS[name], [], ledgers.falls_at_once(marches, scene_of)
-    for title, m in marches.items():
-        (top, where, _), fine, booked = peak_of(m), finest(m, marches), bending.booked(m)
+def rows_of(name, analyses):
+    specimen, rows, due = bending.SPECIMENS[name], [], ledgers.falls_at_once(analyses, scene_of)
+    for title, m in analyses.items():
+        (top, where, _), fine, booked = peak_of(m), finest(m, analyses), bending.booked(m)
         rows.append([title, m.steps, newtons(top), top / specimen.critical(bending.NOTCH),
                      1e3 * where, bending.pairs(m), *(None if math.isnan(v) else v for v in booked),
                      None if m is fine else bending.apart(m, fine)[0], ledgers.defect_of(m), sum(m.at["released"]),
                      len(due[title]), len(bending.unnamed(m, due[title])), len(m.jumps), m.open])
-    return table("Marches", [column("march", key=True), column("steps"), column("peak", "N at 25.4 mm", past=PAST),
+    return table("Analyses", [column("analysis", key=True), column("steps"), column("peak", "N at 25.4 mm", past=PAST),
                              column("peak over beam theory", past=PAST), column("at", "mm", past=PAST),
                              column("pairs in the softening zone", past=1e-2),
                              column("dissipated over its softening zone", optional=True, past=1e-3),
@@ -140,10 +140,10 @@ def rows_of(name, marches):
                  "criterion at the mixity of beam theory.")
 
 
-def loads(name, marches, of, title="Load over displacement"):
-    """Picture: marches as (name, role, march), beside the growth by beam theory with the first compliance of one."""
+def loads(name, analyses, of, title="Load over displacement"):
+    """Picture: analyses as (name, role, analysis), beside the growth by beam theory with the first compliance of one."""
     down, load, _ = bending.SPECIMENS[name].envelope(of.down[1] / of.load[1])
-    lines = [series(who, role, millimetres(m.down), newtons(m.load), marker=False) for who, role, m in marches]
+    lines = [series(who, role, millimetres(m.down), newtons(m.load), marker=False) for who, role, m in analyses]
     return plot(title, axis("displacement", "mm"), axis("load", "N at 25.4 mm"),
                 [*lines, series("growth by beam theory", "reference", millimetres(down), newtons(load))])
 
@@ -154,40 +154,40 @@ def energies(of):
         released.append(released[-1] + v)
     parts = (("work", "reference", of.at["work"]), ("stored", "first", bending.stored(of.at)),
              ("dissipated", "second", of.at["dissipated"]), ("released", "third", released))
-    return plot("Energies of the march of most steps", axis("displacement", "mm"), axis("energy", "J/m"),
+    return plot("Energies of the analysis of most steps", axis("displacement", "mm"), axis("energy", "J/m"),
                 [series(title, role, millimetres(of.down), values, marker=False) for title, role, values in parts])
 
 
-# ---- local marches
+# ---- local analyses
 
 def local(name, jumps):
-    """The marches of a specimen by step counts; with other cells and strengths."""
+    """The analyses of a specimen by step counts; with other cells and strengths."""
     specimen, label = bending.SPECIMENS[name], TITLES[name]
 
     def run(context):
         delam = context.python()
 
         def one(h, steps, shear=bending.TURON):
-            return bending.march(delam, specimen, 1e-3 * h, steps, shear=shear)
+            return bending.analyse(delam, specimen, 1e-3 * h, steps, shear=shear)
 
         if context.quick:
             steps, turned = {f"{n} steps": one(0.2, n) for n in (100, 400)}, {}
-            marches = dict(steps)
+            analyses = dict(steps)
         else:
             steps = {f"{n} steps": one(0.1, n) for n in (100, 400, 1600)}
-            marches = {**steps, **{f"cells of {h:g} mm, {n} steps": one(h, n) for h in (0.2, 0.05) for n in (100, 400)}}
+            analyses = {**steps, **{f"cells of {h:g} mm, {n} steps": one(h, n) for h in (0.2, 0.05) for n in (100, 400)}}
             turned = {f"90 MPa, {n} steps": one(0.1, n, OUT_OF_RATIO) for n in (100, 400)}
         if specimen.kind != "mmb":  # no strength changes the mixity of a pure mode
-            marches.update(turned)
+            analyses.update(turned)
             turned = {}
-        fine, everything = max(steps.values(), key=lambda m: m.steps), {**marches, **turned}
+        fine, everything = max(steps.values(), key=lambda m: m.steps), {**analyses, **turned}
         off = {n: bending.booked(m)[1] - 1.0 for n, m in everything.items() if m.steps == 400}
         losses = [f"{n}: a new crack dissipates {100 * abs(v):.2g} % {'more' if v > 0 else 'less'} than the criterion "
                   "has at the mixity of beam theory: that of pairs in the softening zone is another, also in Turon's "
                   "ratio of strengths, because in slender arms the zones of the two modes have different lengths"
                   for n, v in off.items() if abs(v) > BOOKED]
         beam = newtons(specimen.critical(bending.NOTCH))
-        return result(BEAMS, tables=[rows_of(name, everything)], checks=judged(name, marches, turned, jumps),
+        return result(BEAMS, tables=[rows_of(name, everything)], checks=judged(name, analyses, turned, jumps),
                       losses=losses, ledger=ledger_of({n: m.at for n, m in everything.items()}, "J/m"),
                       plots=[loads(name, [(n, role, m) for (n, m), role in zip(steps.items(), ledgers.ROLES)], fine),
                              energies(fine), ledgers.picture(steps, 1e3, "displacement", "mm")],
@@ -196,10 +196,10 @@ def local(name, jumps):
     return run
 
 
-# ---- energetic marches
+# ---- energetic analyses
 
 def legs_of(name):
-    """Of an energetic march: at 0.8 short steps about the jump, at others the whole march in a hundred."""
+    """Of an energetic analysis: at 0.8 short steps about the jump, at others the whole analysis in a hundred."""
     return [(1.50e-3, 10), (1.66e-3, 100), (2.4e-3, 10)] if name == "0.8" else [(bending.SPECIMENS[name].end, 100)]
 
 
@@ -218,13 +218,13 @@ def jump_of(of, beside):
     """Checks and the row of the energetic jump at 0.8."""
     falls = bending.drops(of.load)
     if not falls:
-        raise Failed("0.8: the load of the energetic march never falls at once")
+        raise Failed("0.8: the load of the energetic analysis never falls at once")
     k = min(falls, key=lambda i: of.load[i] / of.load[i - 1])
     place = 0.5 * (of.down[k] + of.down[k - 1])
     theory, landing = of.specimen.energetic_jump(of.down[1] / of.load[1])
     later = [i for i in bending.drops(beside.load) if i < k]
     checks = [check("0.8: energetic jump off 1.580 mm", abs(place / JUMP - 1.0), 0.01, "where E + D of the notch "
-                    f"crosses that of another crack; {1e3 * theory:.4g} mm with the elastic compliance of the march"),
+                    f"crosses that of another crack; {1e3 * theory:.4g} mm with the elastic compliance of the analysis"),
               check("0.8: change of E + D - work in the jump, over the energy", abs(discontinuity(of, k)), 1e-3,
                     "energies cross where an energetic solution jumps; the work up to the recorded instant and after it"),
               check("0.8: falls of the local load before the energetic jump", len(later), 0,
@@ -235,11 +235,11 @@ def jump_of(of, beside):
 
 
 def energetic(context):
-    delam, checks, rows, marches, plots = context.python(), [], [], {}, []
+    delam, checks, rows, analyses, plots = context.python(), [], [], {}, []
     for name in ("0.2", "0.5", "0.8"):
-        of, beside = (bending.march(delam, bending.SPECIMENS[name], 1e-4, 0, legs_of(name), **more)
+        of, beside = (bending.analyse(delam, bending.SPECIMENS[name], 1e-4, 0, legs_of(name), **more)
                       for more in (dict(solution="energetic"), {}))
-        marches.update({f"{name}, energetic": of, f"{name}, local": beside})
+        analyses.update({f"{name}, energetic": of, f"{name}, local": beside})
         plots.append(loads(name, [("energetic", "energetic", of), ("local", "local", beside)], of,
                            f"Load over displacement, G_II/G = {name}"))
         rows.append([name, newtons(peak_of(of)[0]), newtons(peak_of(beside)[0]), PUBLISHED[name], *bending.booked(of),
@@ -251,24 +251,24 @@ def energetic(context):
         off, where, met = bending.apart(of, beside)
         checks += [check(f"{name}: energetic and local loads, apart", off, APART, "growth is stable: both follow the "
                          f"criterion; the largest at {1e3 * where:.4g} mm"),
-                   check(f"{name}: displacements compared", met, 40, "fewer would be no march", ">=")]
+                   check(f"{name}: displacements compared", met, 40, "fewer would be no analysis", ">=")]
     booked = largest(abs(row[4] - 1.0) for row in rows)
-    checks += [ledgers.balance(marches), check("dissipated per new crack, off its softening zone", booked, BOOKED,
-                                               "as of the local marches; the jump included")]
-    marched = table("Marches", [
+    checks += [ledgers.balance(analyses), check("dissipated per new crack, off its softening zone", booked, BOOKED,
+                                               "as of the local analyses; the jump included")]
+    analysed = table("Analyses", [
         column("G_II/G", key=True), column("peak, energetic", "N at 25.4 mm", past=PAST),
         column("peak, local", "N at 25.4 mm", past=PAST), column("published", "N"),
         column("dissipated over its softening zone", past=1e-3), column("dissipated over the criterion", past=1e-3),
         column("defect", "of the work", past="free"), column("released", "J/m", past="free"),
         column("recorded jumps", "", past="count"),
-        column("not_converged", "steps")], rows, "Energetic; not converged: with the local marches.")
+        column("not_converged", "steps")], rows, "Energetic; not converged: with the local analyses.")
     jumped = table("The energetic jump, G_II/G = 0.8", [
         column("at", "mm", past=1e-3), column("energies of beam theory cross at", "mm", past=1e-3),
         column("crack before", "mm", past=1e-3), column("crack after", "mm", past=1e-3),
         column("after, by beam theory", "mm", past=1e-3),
         column("change of E + D - work", "of the energy", past="free")], [jump])
-    return result(BEAMS, tables=[marched, jumped], checks=checks, plots=plots,
-                  ledger=ledger_of({n: m.at for n, m in marches.items()}, "J/m"),
+    return result(BEAMS, tables=[analysed, jumped], checks=checks, plots=plots,
+                  ledger=ledger_of({n: m.at for n, m in analyses.items()}, "J/m"),
                   figures=[figure("mixed_energetic_jump", jump[0], "mm", "MMB, G_II/G = 0.8: displacement of the "
                                   "energetic jump, 1.580 mm by beam theory", past=1e-3)])
 
@@ -295,6 +295,6 @@ def cases():
                    run=local(n, JUMPS.get(n)), quick=n == "0.8", expected=120, **how)
               for n, s in bending.SPECIMENS.items()),
             Case(id="h-energetic", title="MMB, energetic", run=energetic, expected=160,
-                 supports="as of the local marches",
+                 supports="as of the local analyses",
                  requirement="The energetic jump at 0.8 is where energies cross, and E + D is continuous there; at 0.2 "
-                             "and 0.5 energetic and local marches are the same.", **how)]
+                             "and 0.5 energetic and local analyses are the same.", **how)]

@@ -19,7 +19,7 @@ IDENTITY = reference("physics", "stored + dissipated + released = work, step by 
 
 def by_default(context, name, title, *settings, **added):
     """History and jumps of a scene of examples/ without the options that the chapter is about; added: options."""
-    out = context.out / "marches" / title
+    out = context.out / "analyses" / title
     shutil.rmtree(out, ignore_errors=True)
     out.parent.mkdir(parents=True, exist_ok=True)
     text = (context.root / "examples" / name / f"{name}.toml").read_text(encoding="utf-8")
@@ -57,60 +57,60 @@ def falls_of(title, of, due, scale):
     return rows
 
 
-def structure(marches, what, unit, scale, least, extra=(), figures=()):
-    """Marches of a structure, by step counts: every fall has a name, every ledger is closed. least: falls at once."""
-    due = ledgers.falls_at_once(marches, lambda m: getattr(m, "options", ()))
-    fine = max(marches.items(), key=lambda item: item[1].steps)
-    checks = [ledgers.named(marches, due), ledgers.balance(marches), ledgers.work(dict([fine]), due), *extra]
+def structure(analyses, what, unit, scale, least, extra=(), figures=()):
+    """Analyses of a structure, by step counts: every fall has a name, every ledger is closed. least: falls at once."""
+    due = ledgers.falls_at_once(analyses, lambda m: getattr(m, "options", ()))
+    fine = max(analyses.items(), key=lambda item: item[1].steps)
+    checks = [ledgers.named(analyses, due), ledgers.balance(analyses), ledgers.work(dict([fine]), due), *extra]
     if least:
         checks.append(check("falls of the load at once", min(len(steps) for steps in due.values()), least,
                             "fewer would test nothing", ">="))
-    falls = [row for n, m in marches.items() for row in falls_of(n, m, due[n], scale)]
+    falls = [row for n, m in analyses.items() for row in falls_of(n, m, due[n], scale)]
     ends = [[n, m.steps, max(bending.curve(m)[1]), m.at["dissipated"][-1], sum(m.at["released"]), ledgers.defect_of(m), len(m.jumps),
-             m.open] for n, m in marches.items()]
-    tables = [table("Marches", [column("march", key=True), column("steps"), column("peak", "N/m", past=PAST),
+             m.open] for n, m in analyses.items()]
+    tables = [table("Analyses", [column("analysis", key=True), column("steps"), column("peak", "N/m", past=PAST),
                                 column("dissipated", "J/m", past=1e-3), column("released", "J/m", past=1e-2),
                                 column("defect", "of the work", past="free"),
                                 column("recorded jumps", "", past="count"), column("not_converged", "steps")], ends)]
     if falls:
         tables.append(table("Falls of the load at once", [
-            column("march", key=True), column("step", "", past="free"), column(what, unit, past="free"),
+            column("analysis", key=True), column("step", "", past="free"), column(what, unit, past="free"),
             column("load before", "N/m", past="free"), column("load after", "N/m", past="free"),
             column("released by the recorded jumps", "J/m", optional=True, past="free")], falls))
     lines = [series(n, role, [scale * v for v in m.down], m.load, marker=False)
-             for (n, m), role in zip(marches.items(), ledgers.ROLES)]
+             for (n, m), role in zip(analyses.items(), ledgers.ROLES)]
     return result(IDENTITY, checks=checks, tables=tables, figures=figures,
-                  ledger=ledger_of({n: m.at for n, m in marches.items()}, "J/m"),
+                  ledger=ledger_of({n: m.at for n, m in analyses.items()}, "J/m"),
                   plots=[plot("Load", axis(what, unit), axis("load", "N/m"), lines),
-                         ledgers.picture(marches, scale, what, unit)])
+                         ledgers.picture(analyses, scale, what, unit)])
 
 
 def alfano(context):
-    marches = {"default options": by_default(context, "dcb-alfano", "alfano"),
+    analyses = {"default options": by_default(context, "dcb-alfano", "alfano"),
                "800 steps": by_default(context, "dcb-alfano", "alfano-800", "time.steps=800"),
                "damage_tolerance 1e-8": by_default(context, "dcb-alfano", "alfano-tight", damage_tolerance=1e-8)}
-    tight = max(marches["damage_tolerance 1e-8"].load)
-    off = {n: max(m.load) / tight - 1.0 for n, m in marches.items()}
+    tight = max(analyses["damage_tolerance 1e-8"].load)
+    off = {n: max(m.load) / tight - 1.0 for n, m in analyses.items()}
     extra = [check(f"{n}: peak off that with damage_tolerance 1e-8", abs(off[n]), 5e-3,
                    "the same minimisation, ended where what is dissipated no longer changes")
              for n in ("default options", "800 steps")]
-    return structure(marches, "opening of an arm", "mm", 1e3, 0, extra,
+    return structure(analyses, "opening of an arm", "mm", 1e3, 0, extra,
                      [figure("mixed_alfano_peak", off["default options"], "relative", "DCB on a stiff interface: peak "
                              "with default options off that with a tight tolerance", past="free")])
 
 
 def double(context):
-    marches = {f"{n} steps": by_default(context, "dcb-double", f"dcb-double-{n}", f"time.steps={n}")
+    analyses = {f"{n} steps": by_default(context, "dcb-double", f"dcb-double-{n}", f"time.steps={n}")
                for n in (300, 1200)}
-    return structure(marches, "opening", "mm", 1e3, 1)
+    return structure(analyses, "opening", "mm", 1e3, 1)
 
 
 def plies(context):
     delam = context.python()
-    marches = {f"{n} steps": laminate.march(delam, 0.25e-3, n) for n in (160, 640)}
-    at = marches["640 steps"].at
+    analyses = {f"{n} steps": laminate.analyse(delam, 0.25e-3, n) for n in (160, 640)}
+    at = analyses["640 steps"].at
     grown = [at[key][-1] - at[key][0] for key in at if key.startswith("crack_length:")]
-    return structure(marches, "opening", "mm", 1e3, 1,
+    return structure(analyses, "opening", "mm", 1e3, 1,
                      [check("interfaces whose crack has grown by 1 mm", sum(v > 1e-3 for v in grown), 4,
                             "fewer would be no laminate of live interfaces", ">=")])
 

@@ -39,7 +39,7 @@ def scene(delam, h, **options):
     return problem, interfaces
 
 
-def march(delam, h, steps, **options):
+def analyse(delam, h, steps, **options):
     """bending.run with the crack lengths of the five interfaces as well."""
     problem, interfaces = scene(delam, h, **options)
     keys = [f"crack_length:{interface.index}" for interface in interfaces]

@@ -15,7 +15,7 @@ SIZES = [0.4, 0.2, 0.1, 0.05]
 
 
 def sound(**more) -> dict:
-    """Errors of order 2, a check within its limit, a converged march."""
+    """Errors of order 2, a check within its limit, a converged analysis."""
     import orders
 
     errors = [3.0 * h**2 for h in SIZES]

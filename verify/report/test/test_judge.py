@@ -260,12 +260,12 @@ class Sound(unittest.TestCase):
         self.assertIn('no column "b"', str(caught.exception))
 
     def test_ledger(self):
-        march = {"stored_bulk": [0.0, 3.0, 2.0], "stored_interface": [0.0, 0.5, 0.5], "dissipated": [0.0, 0.0, 1.25],
+        analysis = {"stored_bulk": [0.0, 3.0, 2.0], "stored_interface": [0.0, 0.5, 0.5], "dissipated": [0.0, 0.0, 1.25],
                  "work": [0.0, 3.5, 3.75], "lower": [0.0, 3.0, 0.2], "increment": [0.0, 3.5, 0.25],
                  "upper": [0.0, 4.0, 0.3], "increment_lower": [0.0, 3.5, 0.25]}
 
         def row(**changed):
-            of = c.ledger_of({"one": {**march, **changed}}, "J/m")
+            of = c.ledger_of({"one": {**analysis, **changed}}, "J/m")
             schema.check({**self.data(), "ledger": of})
             self.assertEqual({x["unit"] for x in of["columns"][1:-1]}, {"J/m"})
             return dict(zip((x["name"] for x in of["columns"]), of["rows"][0]))
@@ -276,9 +276,9 @@ class Sound(unittest.TestCase):
         self.assertEqual(row(dissipated=[0.0, 0.0, -1.25])["defect"], -2.5)
         self.assertEqual(row(increment=[0.0, 3.5, 0.31])["beyond a bound"], 1)
         self.assertEqual(row(increment_lower=[0.0, 2.9, 0.19])["beyond a bound"], 2)
-        for empty in (" ", {**c.ledger_of({"one": march}, "J/m"), "rows": []}):
+        for empty in (" ", {**c.ledger_of({"one": analysis}, "J/m"), "rows": []}):
             self.invalid({**self.data(), "ledger": empty}, "ledger")
-        schema.check({**self.data(), "ledger": "None: nothing is marched."})
+        schema.check({**self.data(), "ledger": "None: nothing is analysed."})
 
     def test_missing_keys(self):
         for key in self.data():

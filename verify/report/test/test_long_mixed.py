@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Marches of the library: the claims of chapter (h) hold for mixed-mode bending, and fail if the scene has a wrong
+"""Analyses of the library: the claims of chapter (h) hold for mixed-mode bending, and fail if the scene has a wrong
 toughness in one mode."""
 import os
 import sys
@@ -15,14 +15,14 @@ from test_mixed import BOOKED, HIGH, LOW, failed  # noqa: E402
 
 
 @unittest.skipUnless(os.environ.get("DELAM_LIBRARY"), "DELAM_LIBRARY names no library")
-class Marched(unittest.TestCase):
+class Analysed(unittest.TestCase):
     def judged(self, **more):
         import delam
 
-        marches = {}
+        analyses = {}
         for steps in (100, 400):
-            marches[f"{steps} steps"] = bending.march(delam, bending.SPECIMENS["0.8"], 0.2e-3, steps, **more)
-        return failed(h_mixed.judged("0.8", marches, jumps=True))
+            analyses[f"{steps} steps"] = bending.analyse(delam, bending.SPECIMENS["0.8"], 0.2e-3, steps, **more)
+        return failed(h_mixed.judged("0.8", analyses, jumps=True))
 
     def test_the_right_scene_passes(self):
         self.assertEqual(self.judged(), set())

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Marches of mixed-mode bending as theory has them, spoilt one by one: the claims of chapter (h) must see each."""
+"""Analyses of mixed-mode bending as theory has them, spoilt one by one: the claims of chapter (h) must see each."""
 import copy
 import sys
 import types
@@ -22,7 +22,7 @@ UNNAMED = "falls of the load without a recorded jump"
 
 
 def exact(steps, second=bending.MODE_II):
-    """The local march by beam theory: elastic up to the peak, then the crack whose growth needs this displacement. What
+    """The local analysis by beam theory: elastic up to the peak, then the crack whose growth needs this displacement. What
     the jump neither stores nor dissipates is released, and recorded."""
     specimen = bending.SPECIMENS["0.8"]
     with mock.patch.object(bending, "MODE_II", second):
@@ -75,12 +75,12 @@ class Judged(unittest.TestCase):
         cls.sound = {f"{n} steps": exact(n) for n in (100, 400)}
 
     def judged(self, **spoilt):
-        marches = {name: copy.deepcopy(m) for name, m in self.sound.items()}
+        analyses = {name: copy.deepcopy(m) for name, m in self.sound.items()}
         for name, spoil in spoilt.items():
-            spoil(marches[name.strip("_") + " steps"])
-        return failed(h_mixed.judged("0.8", marches, jumps=True))
+            spoil(analyses[name.strip("_") + " steps"])
+        return failed(h_mixed.judged("0.8", analyses, jumps=True))
 
-    def test_sound_marches_pass(self):
+    def test_sound_analyses_pass(self):
         self.assertEqual(self.judged(), set())
 
     def test_a_wrong_toughness_in_one_mode(self):
@@ -110,7 +110,7 @@ class Judged(unittest.TestCase):
             for i in range(k, k + 3):
                 of.load[i] = of.down[i] / ELASTIC
         seen = self.judged(_100=later)
-        self.assertIn("loads of marches with different steps, apart", seen)
+        self.assertIn("loads of analyses with different steps, apart", seen)
         self.assertIn(HIGH, seen)
 
     def test_a_jump_without_a_record(self):
@@ -124,16 +124,16 @@ class Judged(unittest.TestCase):
 
     def test_a_jump_that_theory_does_not_have(self):
         self.assertEqual(failed(h_mixed.judged("0.8", self.sound, jumps=False)),
-                         {"jumps of a mesh in its march of most steps, at most"})
+                         {"jumps of a mesh in its analysis of most steps, at most"})
 
 
-class Marches(unittest.TestCase):
+class Analyses(unittest.TestCase):
     def test_smooth_falls_of_long_steps_are_no_jumps(self):
         coarse, fine = exact(20), exact(400)
         self.assertGreater(len(bending.drops(coarse.load)), 1)
         self.assertEqual(len(bending.drops(fine.load)), 1)
         self.assertEqual(bending.at_once([coarse, fine]), [[m.jumps[0]["step"]] for m in (coarse, fine)])
-        # The march of more steps tells that they shrink.
+        # The analysis of more steps tells that they shrink.
         middle, jump = exact(40), coarse.jumps[0]["step"]
         self.assertGreater(len(bending.drops(middle.load)), 1)
         self.assertEqual(bending.at_once([coarse, middle]), [[jump], [middle.jumps[0]["step"]]])
@@ -145,7 +145,7 @@ class Marches(unittest.TestCase):
             self.assertAlmostEqual(specimen.mixity(bending.NOTCH), float(name), delta=0.01)
 
     def test_the_ledger_counts_what_is_released(self):
-        ledger = case.ledger_of({"march": exact(100).at}, "J/m")
+        ledger = case.ledger_of({"analysis": exact(100).at}, "J/m")
         of = dict(zip([c["name"] for c in ledger["columns"]], ledger["rows"][0]))
         self.assertGreater(of["released"], 5e-3 * of["work"])
         self.assertLess(abs(of["defect"]), 1e-9 * of["work"])

@@ -135,13 +135,13 @@ class Report(unittest.TestCase):
         self.assertNotIn("<b>the baseline</b>", index)
 
     def test_commands_name_no_folder_of_this_machine(self):
-        program = self.base / "with-program" / "bin" / "march"
+        program = self.base / "with-program" / "bin" / "analysis"
         program.parent.mkdir(parents=True)
         program.write_text("#!/bin/sh\necho \"$2\"\n", encoding="utf-8")
         program.chmod(0o755)
         context = case.Context(planted.REPORT.parent.parent, program.parent.parent, self.out, True)
-        self.assertEqual(context.command("march", "--out", str(self.out / "marches" / "x"), stdout_json=False).strip(), str(self.out / "marches" / "x"))
-        self.assertEqual(context.commands, ["march --out out/report/marches/x"])
+        self.assertEqual(context.command("analysis", "--out", str(self.out / "analyses" / "x"), stdout_json=False).strip(), str(self.out / "analyses" / "x"))
+        self.assertEqual(context.commands, ["analysis --out out/report/analyses/x"])
 
     def test_no_external_references(self):
         for page in (self.out / "index.html", *sorted((self.out / "cases").glob("*.html"))):

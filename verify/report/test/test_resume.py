@@ -171,7 +171,7 @@ class Resume(unittest.TestCase):
             table.write_text(spoilt, encoding="utf-8")
             self.assertFalse(resume.is_table(table), spoilt)
         (self.out / "raw" / "ctest-1").mkdir()
-        for name in ("ctest-1/junit.xml", "bench-march-1.json", table.name + ".unfinished"):
+        for name in ("ctest-1/junit.xml", "bench-analysis-1.json", table.name + ".unfinished"):
             (self.out / "raw" / name).touch()
         self.make("--resume")
         self.assertEqual(self.ran(), ["nothing", "wait", "harness", "second", "last"])

@@ -62,8 +62,8 @@ std::vector<double> node_coordinates(const Model& model, std::size_t dimension, 
     return out;
 }
 
-// A point at the distance r from the centre of a small rotation w moves by w x r, along a direction d by w . (r x d).
-// In the plane, w is the first component of its control node.
+// A small rotation w moves a point at the distance r from its centre by w x r; along a direction d, this is w . (r x
+// d). In the plane, w is the first component of its control node.
 std::vector<double> lever(const std::vector<double>& r, const std::vector<double>& d) {
     if (r.size() == 2) return {r[0] * d[1] - r[1] * d[0], 0.0};
     return {r[1] * d[2] - r[2] * d[1], r[2] * d[0] - r[0] * d[2], r[0] * d[1] - r[1] * d[0]};

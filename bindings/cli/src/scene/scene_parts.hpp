@@ -31,9 +31,9 @@ void read_controls(const Table& root, Scene& scene);
 // [[equations]], [[couplings]], [[obstacles]] and [cell].
 void read_constraints(const Table& root, Scene& scene);
 
-// The place of an action and its components: common to supports, loads, forces and constraints (scene_loads.cpp).
-// places: which of point, box, patch, set, body (alone) and control are allowed; those that a scene of layers does not
-// have are skipped.
+// Reads the place of an action and its components, as supports, loads, forces and constraints have them
+// (scene_loads.cpp). places: which of point, box, patch, set, body (alone) and control are allowed; those that a scene
+// of layers does not have are skipped.
 using Places = std::vector<std::string>;
 extern const Places any_place;
 Selection read_selection(const Table& table, const Scene& scene, const Places& places = any_place);

@@ -7,8 +7,8 @@
 
 namespace cli {
 
-// Returns the text with \xNN for each byte that could command a terminal or disguise a line: control characters other
-// than the end of a line and the tabulator, separators of lines, marks of direction, and bytes that are no UTF-8.
+// Returns the text with \xNN for each byte that could command a terminal or disguise a line. These are control
+// characters other than newline and tabulator, separators of lines, marks of direction, and bytes that are no UTF-8.
 std::string printable(std::string_view text);
 // The same for what must stay on one line, such as a comment: ends of lines, too.
 std::string one_line(std::string_view text);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The displacement step of the variational rule: at frozen damage, f(B(u), zeta) is no quadratic form of u.
+// Solves the displacement step of the variational rule, whose energy f(B(u), zeta) is no quadratic form of u at frozen
+// damage.
 //
-// Around the last jumps it is replaced by its linear part and a spring that bounds its curvature from above
-// (variational.hpp). This leaves an ordinary step with springs w k (zeta + mu) and additional forces. Each solution is
-// a search direction: along the segment between two admissible displacements of the operator the bulk energy is exactly
-// quadratic,
+// Its linear part and a spring that bounds its curvature from above replace it around the last jumps (variational.hpp).
+// This leaves an ordinary step with springs w k (zeta + mu) and additional forces. Each solution is a search direction:
+// along the segment between two admissible displacements of the operator the bulk energy is exactly quadratic,
 // quadratic,
 //
 //   E(s) = (1-s) E_0 + s E_1 - s (1-s)/2 Q,     Q = (u_1-u_0)^T K (u_1-u_0) = -(j_1-j_0).(lambda_1-lambda_0),

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whose mode mixity the toughness of a step has (option mixity_rule). Each rule is an implementation of Increment:
+// Each rule says which mode mixity decides the toughness of a step (option mixity_rule). Each rule is an implementation
+// of Increment:
 //
 //   frozen       B of the state before, throughout the step                         (frozen_increment.hpp)
 //   converged    B that each pair meets on the way, in parts of the step            (converged_increment.hpp)

@@ -11,7 +11,9 @@ namespace delam {
 
 namespace {
 
-constexpr double dependence = 1e-9;  // relative size below which a row counts as a combination of others
+// Relative size below which a row counts as a combination of others. (Measured by verify/bench/constants.py on 250
+// random scenes: half and twice decide alike.)
+constexpr double dependence = 1e-9;
 
 // Columns are sorted, control nodes last.
 bool of_bodies(const SparseMatrix& b, std::int64_t row, std::int64_t body_dofs) {

@@ -3,8 +3,8 @@
 // alone: jumps, and displacements in long constraints. What it knows of the others it knows from the engine's answers.
 //
 // Of what a state consists is in engine_state.hpp. The energy follows from the products u_s^T K u_t of kept answers, to
-// second order in what the solves have left; a state of another time (a saved one) is solved for once more, with all
-// its variables given.
+// second order in what the solves have left. A saved state of another time is solved for once more, with all its
+// variables given.
 #pragma once
 
 #include <memory>

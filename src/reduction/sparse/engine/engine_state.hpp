@@ -3,7 +3,7 @@
 //
 //   [variables v | T^T (f - K u) there | f_p^T u | U_p^T K u | weights | rigid],
 //
-// linear all of them, so that combinations of states are right by themselves. weights: which kept answers u_s of the
+// whose parts are all linear, so that combinations of states need no solve. weights: which kept answers u_s of the
 // engine make up the state, u = sum of w_s u_s + R rigid, R the rigid motions of floating parts.
 #pragma once
 

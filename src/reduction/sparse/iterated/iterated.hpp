@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The jump operator for large scenes: the bodies stay sparse, and each solve is an iteration that starts from the
-// solution before (reanalysis.hpp). No dense matrix of the jumps, and a factorisation of the whole only where it pays.
+// solution before (reanalysis.hpp). There is no dense matrix of the jumps, and the whole is factored only where it
+// pays.
 #pragma once
 
 #include <memory>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Solves the system of bodies and interfaces again and again while its springs change little from one time to the next
-// (global/local reanalysis; P. Gosselet, M. Blanchard, O. Allix, G. Guguin, AMSES 5, 2018): conjugate gradients,
-// preconditioned by a factor of the whole with earlier springs, and before and after it by exact factors of patches
-// around the springs that differ (multiplicative Schwarz, symmetric).
+// Solves the system of bodies and interfaces repeatedly, while its springs change little (global/local reanalysis; P.
+// Gosselet, M. Blanchard, O. Allix, G. Guguin, AMSES 5, 2018). Conjugate gradients are preconditioned by a factor of
+// the whole with earlier springs. Exact factors of patches around the springs that differ act before and after it
+// (multiplicative Schwarz, symmetric).
 #pragma once
 
 #include <cstdint>

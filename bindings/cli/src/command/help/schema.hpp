@@ -6,9 +6,9 @@
 
 namespace cli {
 
-// Returns the schema of scenes. A schema cannot say that names refer to something, that places lie on the mesh, that
-// lists have as many entries as there are dimensions, that numbers are finite, or that laws and materials are sound as
-// a whole.
+// Returns the schema of scenes. A schema cannot say that names refer to something, that places lie on the mesh, or that
+// lists have an entry for each dimension. Nor can it say that numbers are finite, or that laws and materials are sound
+// as a whole.
 std::string scene_schema();
 
 }  // namespace cli

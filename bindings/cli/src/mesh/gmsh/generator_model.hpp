@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Common code of the generators of periodic cells: the Gmsh model of a cell [0, size] in each direction, in a unit of
-// length in which its parts are about 1 (OpenCASCADE compares lengths with 1e-7), and the resulting mesh.
+// Holds what the generators of periodic cells share: the Gmsh model of a cell [0, size] in each direction, and the
+// resulting mesh. In the model's unit of length, parts are about 1, since OpenCASCADE compares lengths with 1e-7.
 #pragma once
 
 #include <array>

@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <limits>
 
+#include "analysis.hpp"
 #include "child.hpp"
-#include "march.hpp"
 #include "measure.hpp"
 #include "report.hpp"
 #include "tables.hpp"
@@ -68,7 +68,7 @@ void print_agreement(const char* title, const Json& part) {
 
 }  // namespace
 
-Json march_table(const Settings& settings) {
+Json analysis_table(const Settings& settings) {
     const int repeat = settings.repeat > 0 ? settings.repeat : (settings.quick ? 3 : 7);
     const double cap = settings.cap > 0.0 ? settings.cap : (settings.quick ? 30.0 : 300.0);
     auto scenes = settings.scenes;

@@ -33,7 +33,7 @@ struct Record {
     double drop() const { return upper - increment; }
 };
 
-struct March {
+struct Analysis {
     std::vector<Record> steps;
     Record spent;             // counts of all calls, including steps that were replaced later
     double first_jump = 0.0;  // m, load of the first located jump; NaN: none
@@ -42,7 +42,7 @@ struct March {
     double defect() const;
 };
 
-March run(const reference::Flexure& data, int steps, const Choice& choice);
+Analysis run(const reference::Flexure& data, int steps, const Choice& choice);
 
 // "skipped: " and the reason, without the list of known values.
 std::string skipped(const std::string& refused);

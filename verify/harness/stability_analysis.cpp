@@ -252,7 +252,7 @@ void tolerances(Study& study) {
 
 }  // namespace
 
-void stability_march(Study& study) {
+void stability_analysis(Study& study) {
     giant_step(study);
     cycles(study);
     cycles_cantilever(study);

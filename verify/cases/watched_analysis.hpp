@@ -139,7 +139,7 @@ inline Watched watch(const reference::Scene& scene, const Watch& w, const std::s
 }
 
 // Reactions over the largest reaction, energies over the largest total.
-inline void expect_same_march(const Watched& a, const Watched& b, double tolerance, const std::string& where) {
+inline void expect_same_analysis(const Watched& a, const Watched& b, double tolerance, const std::string& where) {
     double force = 0.0, total = 0.0;
     for (const WatchedStep& s : b.steps) {
         force = std::max(force, std::abs(s.reaction));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "march.hpp"
+#include "analysis.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -35,25 +35,25 @@ Record read(const reference::Solver& solver) {
 
 }  // namespace
 
-double March::defect() const {
+double Analysis::defect() const {
     double worst = 0.0;
     for (const Record& r : steps) worst = std::max(worst, std::abs(r.total() - r.work));
     return worst;
 }
 
-March run(const reference::Flexure& data, int steps, const Choice& choice) {
-    March march;
+Analysis run(const reference::Flexure& data, int steps, const Choice& choice) {
+    Analysis analysis;
     const reference::FlexureScene flexure = reference::make_flexure(data);
     const reference::Scene& scene = flexure.scene;
     for (const auto& [key, value] : choice.texts) {
         if (delam_problem_set_text(scene.problem(), key.c_str(), value.c_str()) == DELAM_OK) continue;
-        march.refused = delam_context_message(scene.context());
-        return march;
+        analysis.refused = delam_context_message(scene.context());
+        return analysis;
     }
     for (const auto& [key, value] : choice.numbers) {
         if (delam_problem_set_number(scene.problem(), key.c_str(), value) == DELAM_OK) continue;
-        march.refused = delam_context_message(scene.context());
-        return march;
+        analysis.refused = delam_context_message(scene.context());
+        return analysis;
     }
     reference::Solver solver(scene, 0.0);
     for (int k = 1; k <= steps; ++k) {
@@ -64,15 +64,15 @@ March run(const reference::Flexure& data, int steps, const Choice& choice) {
         const Record now = read(solver);
         for (double Record::*count : {&Record::am_iterations, &Record::newton_solves, &Record::displacement_solves,
                                       &Record::candidates, &Record::backtracks})
-            march.spent.*count += now.*count;
+            analysis.spent.*count += now.*count;
         // Backtracking replaces earlier steps, so they are read again.
         const double revised_from = optional_value(solver, "revised_from");
         const int first = revised_from < k ? static_cast<int>(revised_from) : k;
-        march.steps.resize(static_cast<std::size_t>(k));
-        march.steps.back().converged = status == DELAM_OK;
+        analysis.steps.resize(static_cast<std::size_t>(k));
+        analysis.steps.back().converged = status == DELAM_OK;
         for (int i = first; i <= k; ++i) {
             if (first < k) REQUIRE(scene, delam_solver_look, solver.get(), i);
-            Record& r = march.steps[static_cast<std::size_t>(i - 1)];
+            Record& r = analysis.steps[static_cast<std::size_t>(i - 1)];
             const bool converged = r.converged;
             r = read(solver);
             r.converged = converged;
@@ -86,8 +86,8 @@ March run(const reference::Flexure& data, int steps, const Choice& choice) {
     if (jumps > 0)
         REQUIRE(scene, delam_solver_jump, solver.get(), 0, nullptr, nullptr, &time, nullptr, nullptr, nullptr, nullptr,
                 nullptr, nullptr, nullptr);
-    march.first_jump = data.load(time);
-    return march;
+    analysis.first_jump = data.load(time);
+    return analysis;
 }
 
 std::string skipped(const std::string& refused) {

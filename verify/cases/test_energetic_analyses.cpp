@@ -4,7 +4,7 @@
 // consistent.
 #include "energetic_scenes.hpp"
 #include "flexure.hpp"
-#include "small_march.hpp"
+#include "small_analysis.hpp"
 
 namespace {
 

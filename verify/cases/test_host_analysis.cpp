@@ -15,7 +15,7 @@
 #include <thread>
 #include <vector>
 
-#include "small_march.hpp"
+#include "small_analysis.hpp"
 
 namespace {
 

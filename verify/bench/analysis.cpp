@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "march.hpp"
+#include "analysis.hpp"
 
 #include "clock.hpp"
 
@@ -92,83 +92,83 @@ std::optional<Choice> resolve(Stage& stage, const Method& method, double delta, 
     return std::nullopt;
 }
 
-March run_library(Stage& stage, const Choice& choice, double cap,
-                  const std::function<void(reference::Solver&, int)>& at_step) {
-    March march;
+Analysis run_library(Stage& stage, const Choice& choice, double cap,
+                     const std::function<void(reference::Solver&, int)>& at_step) {
+    Analysis analysis;
     const Deadline deadline(stage.scene, cap);
     const ProcessorClock processor;
     Clock clock;
     std::string refusal;
     if (!declare(stage, choice, &refusal)) throw reference::Failure(0, refusal);
     REQUIRE(stage.scene, delam_problem_check, stage.scene.problem());
-    march.setup = clock.lap();
+    analysis.setup = clock.lap();
     std::optional<reference::Solver> solver;
     try {
         solver.emplace(stage.scene, 0.0);
     } catch (const reference::Failure& failure) {
         if (failure.status() != DELAM_CANCELLED) throw;
-        march.factor = clock.lap();
-        march.capped = true;
-        return march;
+        analysis.factor = clock.lap();
+        analysis.capped = true;
+        return analysis;
     }
-    march.factor = clock.lap();
+    analysis.factor = clock.lap();
     for (int k = 1; k <= stage.data.steps; ++k) {
         clock.lap();
         const std::int32_t status = solver->advance(step_time(stage.data, k));
         if (status == DELAM_CANCELLED) {
-            march.iterate += clock.lap();
-            march.capped = true;
+            analysis.iterate += clock.lap();
+            analysis.capped = true;
             break;
         }
         if (status < 0) stage.scene.require(status, "delam_solver_advance");
         solver->commit();
         const double seconds = clock.lap();
-        march.iterate += seconds;
-        march.steps.push_back(read(*solver, status));
-        march.steps.back().seconds = seconds;
-        march.processor = processor.seconds();
+        analysis.iterate += seconds;
+        analysis.steps.push_back(read(*solver, status));
+        analysis.steps.back().seconds = seconds;
+        analysis.processor = processor.seconds();
         if (at_step) at_step(*solver, k);
     }
-    march.bulk_factorisations = optional_value(*solver, "bulk_factorisations");
-    march.field_recoveries = optional_value(*solver, "field_recoveries");
-    march.plan = delam_solver_plan(solver->get());
-    return march;
+    analysis.bulk_factorisations = optional_value(*solver, "bulk_factorisations");
+    analysis.field_recoveries = optional_value(*solver, "field_recoveries");
+    analysis.plan = delam_solver_plan(solver->get());
+    return analysis;
 }
 
-March run_baseline(Stage& stage, const BaselineOptions& options, double cap, std::int64_t pricing, BaselineTimes* times,
-                   const std::function<void(Baseline&, int)>& at_step) {
-    March march;
+Analysis run_baseline(Stage& stage, const BaselineOptions& options, double cap, std::int64_t pricing,
+                      BaselineTimes* times, const std::function<void(Baseline&, int)>& at_step) {
+    Analysis analysis;
     const Clock whole;
     Clock clock;
     if (!declare(stage, {nullptr, nullptr, options.delta})) throw reference::Failure(0, "baseline: scene refused");
     REQUIRE(stage.scene, delam_problem_check, stage.scene.problem());
-    march.setup = clock.lap();
+    analysis.setup = clock.lap();
     Baseline baseline(stage.scene, stage.data.law, stage.adhesion, options);
-    march.factor = clock.lap();
+    analysis.factor = clock.lap();
     const auto stop = [&] { return whole.seconds() > cap || (pricing > 0 && baseline.factorisations() > pricing); };
     for (int k = 1; k <= stage.data.steps; ++k) {
         clock.lap();
         const auto record = baseline.advance(step_time(stage.data, k), stop);
-        march.iterate += clock.lap();
+        analysis.iterate += clock.lap();
         if (!record) {
-            march.capped = true;
+            analysis.capped = true;
             break;
         }
-        march.steps.push_back(*record);
+        analysis.steps.push_back(*record);
         if (at_step) at_step(baseline, k);
     }
-    march.bulk_factorisations = static_cast<double>(baseline.factorisations());
-    march.plan = std::string("monolithic CHOLMOD, ") + (options.wide ? "64" : "32") + "-bit indices, ordering " +
-                 baseline.factor().ordering() + ", " + std::to_string(baseline.system().unknowns()) + " unknowns\n";
+    analysis.bulk_factorisations = static_cast<double>(baseline.factorisations());
+    analysis.plan = std::string("monolithic CHOLMOD, ") + (options.wide ? "64" : "32") + "-bit indices, ordering " +
+                    baseline.factor().ordering() + ", " + std::to_string(baseline.system().unknowns()) + " unknowns\n";
     if (times != nullptr) *times = {baseline.factor_seconds(), baseline.solve_seconds()};
-    return march;
+    return analysis;
 }
 
-Json counts(const March& march) {
+Json counts(const Analysis& analysis) {
     StepRecord sum;
     std::int64_t refused = 0;
     std::int64_t most = 0;
-    for (const StepRecord& r : march.steps) {
+    for (const StepRecord& r : analysis.steps) {
         sum.am_iterations += r.am_iterations;
         sum.displacement_solves += r.displacement_solves;
         sum.contact_iterations += r.contact_iterations;
@@ -176,22 +176,22 @@ Json counts(const March& march) {
         most = std::max(most, r.am_iterations);
         if (r.status != DELAM_OK) ++refused;
     }
-    return {{"steps", march.steps.size()},
+    return {{"steps", analysis.steps.size()},
             {"am_iterations", sum.am_iterations},
             {"am_iterations_worst_step", most},
             {"displacement_solves", sum.displacement_solves},
             {"active_set_steps", sum.contact_iterations},
             {"linear_iterations", sum.linear_iterations},
-            {"bulk_factorisations", march.bulk_factorisations},
-            {"field_recoveries", march.field_recoveries},
+            {"bulk_factorisations", analysis.bulk_factorisations},
+            {"field_recoveries", analysis.field_recoveries},
             {"not_converged", refused}};
 }
 
-Json history(const March& march) {
+Json history(const Analysis& analysis) {
     Json h;
     for (const char* key : {"load", "reaction", "stored_bulk", "stored_interface", "dissipated", "am_iterations"})
         h[key] = Json::array();
-    for (const StepRecord& r : march.steps) {
+    for (const StepRecord& r : analysis.steps) {
         h["load"].push_back(r.load);
         h["reaction"].push_back(r.reaction);
         h["stored_bulk"].push_back(r.stored_bulk);

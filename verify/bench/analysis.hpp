@@ -18,7 +18,7 @@ struct Method {
     const char* solution = nullptr;
     const char* backtracking = nullptr;
 };
-// The four methods of the table `march`: baseline, feti, condensed, accelerated.
+// The four methods of the table `analysis`: baseline, feti, condensed, accelerated.
 const std::vector<Method>& methods();
 // The three of the table `energetic`, all accelerated: local, backtracking, energetic.
 const std::vector<Method>& concepts();
@@ -29,19 +29,19 @@ const Method& find_method(const std::string& key);  // of either; throws referen
 // has its message.
 std::optional<Choice> resolve(Stage& stage, const Method& method, double delta, std::string& refusal);
 
-// Declares the scene and runs the analysis; stops after `cap` seconds (March::capped). Library methods only. `at_step`
-// is called after each commit and is not timed.
-March run_library(Stage& stage, const Choice& choice, double cap,
-                  const std::function<void(reference::Solver&, int)>& at_step = {});
+// Declares the scene and runs the analysis; stops after `cap` seconds (Analysis::capped). Library methods only.
+// `at_step` is called after each commit and is not timed.
+Analysis run_library(Stage& stage, const Choice& choice, double cap,
+                     const std::function<void(reference::Solver&, int)>& at_step = {});
 // The same for the baseline. `pricing` > 0: stops after that many timed factorisations.
 struct BaselineTimes {
     std::vector<double> factor, solve;  // s, of single linear systems
 };
-March run_baseline(Stage& stage, const BaselineOptions& options, double cap, std::int64_t pricing = 0,
-                   BaselineTimes* times = nullptr, const std::function<void(Baseline&, int)>& at_step = {});
+Analysis run_baseline(Stage& stage, const BaselineOptions& options, double cap, std::int64_t pricing = 0,
+                      BaselineTimes* times = nullptr, const std::function<void(Baseline&, int)>& at_step = {});
 
 // Sums of the counts, and the history in columns.
-Json counts(const March& march);
-Json history(const March& march);
+Json counts(const Analysis& analysis);
+Json history(const Analysis& analysis);
 
 }  // namespace bench

@@ -27,7 +27,7 @@ struct StepRecord {
 
 std::vector<double> start_adhesion;
 
-std::vector<StepRecord> march() {
+std::vector<StepRecord> analyse() {
     const auto scene = cases::make_enf({});
     const reference::Exported exported(scene);
     reference::DirectReference direct(scene);
@@ -58,20 +58,20 @@ std::vector<StepRecord> march() {
 
 // One analysis for all tests, computed before Check forks; the tests only read its numbers.
 std::vector<StepRecord> records;
-std::string march_failure;
+std::string analysis_failure;
 
-void make_march() {
+void make_analysis() {
     if (!records.empty()) return;
     try {
-        records = march();
+        records = analyse();
     } catch (const std::exception& e) {
-        march_failure = e.what();
+        analysis_failure = e.what();
     }
 }
-BEFORE_TESTS(make_march);
+BEFORE_TESTS(make_analysis);
 
 const std::vector<StepRecord>& all() {
-    cases::expect(march_failure.empty(), march_failure);
+    cases::expect(analysis_failure.empty(), analysis_failure);
     return records;
 }
 
@@ -110,7 +110,7 @@ TEST(two_sided_estimate) {
     }
 }
 
-// All energies of the elastic, linear march are quadratic in the load: E_k = theta_k R_k / 2, so that the bounds are
+// All energies of the elastic, linear analysis are quadratic in the load: E_k = theta_k R_k / 2, so that the bounds are
 // those of a step in which the stiffness changes at its beginning, or at its end. The work lies between them.
 TEST(work_of_the_reactions) {
     cases::StepLedger before;

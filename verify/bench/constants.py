@@ -1,0 +1,124 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""What half and twice of the library's constants do: the measurement behind the comments that say so.
+
+    constants.py FOLDER --list                              every constant that can be varied, FILE_NAME
+    constants.py FOLDER [--factors 0.5,2] [--targets unit_test_mortar,..] NAMES -- COMMAND
+                                                            runs COMMAND with each constant whose FILE_NAME matches the
+                                                            expression NAMES, times each factor
+
+FOLDER holds a copy of the sources in which each `constexpr double` outside functions is multiplied by a number of the
+environment, and its build; it is made on the first call, and made anew if it is deleted. COMMAND finds that library by
+DELAM_LIBRARY (Python) or LD_LIBRARY_PATH (programs of the tests); unit tests are targets of that build, and programs in
+FOLDER/build/verify. A line for each run says its exit status, and how many
+lines of its output differ from those of the library as it is by more than 1e-5 of a number, seconds aside.
+
+    constants.py /tmp/constants 'least_motion|rigid_jumps' -- \\
+        /usr/bin/python3 verify/cases/contact/random_scenes.py --scenes 250 --outcomes
+"""
+import argparse
+import itertools
+import os
+import pathlib
+import re
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+CONSTANT = re.compile(r"^( *)(inline )?(static )?constexpr double ([^;{\[]+);", re.M)
+NUMBER = re.compile(r"[-+]?\d+\.?\d*(?:e[-+]?\d+)?")
+# Constants that stand in constant expressions or in lambdas without captures.
+FIXED = {"law/softening/law_kind.hpp", "law/admissible.cpp"}
+FACTOR = """#ifdef __cplusplus
+#include <cstdlib>
+#include <string>
+inline double delam_factor(const char* name) {
+    const char* factor = std::getenv((std::string("DELAM_FACTOR_") + name).c_str());
+    return factor != nullptr ? std::atof(factor) : 1.0;
+}
+#endif
+"""
+
+
+def varied(stem, text, names):
+    """The text of a file in which constants have factors; adds their names."""
+    def replaced(m):
+        parts = [part.split("=", 1) for part in m.group(4).split(",")]
+        if any(len(part) < 2 or "numeric_limits" in part[1] for part in parts):
+            return m.group()
+        made = []
+        for name, value in ((p[0].strip(), p[1].strip()) for p in parts):
+            names.append(f"{stem}_{name}")
+            made.append(f'{name} = ({value}) * delam_factor("{stem}_{name}")')
+        kind = "static inline " if m.group(3) else m.group(2) or ""
+        return f"{m.group(1)}{kind}const double {', '.join(made)};"
+    return CONSTANT.sub(replaced, text)
+
+
+def make(folder, targets):
+    """Copies and builds the library; the names of its constants."""
+    sources, listed = folder / "sources", folder / "names"
+    if not listed.exists():
+        sources.mkdir(parents=True, exist_ok=True)
+        tracked = subprocess.run(["git", "-C", ROOT, "ls-files", "-z"], check=True, capture_output=True).stdout
+        subprocess.run(["cp", "--parents", "-t", sources, *filter(None, tracked.decode().split("\0"))], check=True, cwd=ROOT)
+        names = []
+        for path in sorted((sources / "src").rglob("*.[ch]pp")):
+            where = path.relative_to(sources / "src")
+            if where.parts[0] != "petsc" and where.as_posix() not in FIXED:
+                path.write_text(varied(path.stem, path.read_text(encoding="utf-8"), names), encoding="utf-8")
+        (folder / "factor.hpp").write_text(FACTOR, encoding="utf-8")
+        subprocess.run(["cmake", "-S", sources, "-B", folder / "build", "--preset", "release", "-DDELAM_BUILD_TESTS=ON",
+                        f"-DCMAKE_CXX_FLAGS=-include {folder}/factor.hpp"], check=True)
+        listed.write_text("\n".join(names), encoding="utf-8")
+    subprocess.run(["cmake", "--build", folder / "build", "--target", "delam", *targets], check=True)
+    return listed.read_text(encoding="utf-8").split("\n")
+
+
+def run(folder, command, factors):
+    """Exit status and lines of a command with the library in the folder."""
+    library = folder / "build" / "lib"
+    environment = {**os.environ, "DELAM_LIBRARY": str(library / "libdelam.so"), "LD_LIBRARY_PATH": str(library),
+                   "PYTHONPATH": str(ROOT / "bindings" / "python" / "src"), "OPENBLAS_NUM_THREADS": "1",
+                   **{f"DELAM_FACTOR_{name}": str(factor) for name, factor in factors.items()}}
+    made = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+    return made.returncode, (made.stdout + made.stderr).splitlines()
+
+
+def same(one, other):
+    """True if two lines agree, their numbers to 1e-5."""
+    bare = [re.sub(r"\d+\.?\d* s\b", "", line) for line in (one, other)]
+    if NUMBER.sub("#", bare[0]) != NUMBER.sub("#", bare[1]):
+        return False
+    pairs = zip(*(map(float, NUMBER.findall(line)) for line in bare))
+    return all(abs(a - b) <= 1e-5 * max(abs(a), abs(b)) + 1e-12 for a, b in pairs)
+
+
+def main():
+    own = sys.argv[1:]
+    command = own[own.index("--") + 1:] if "--" in own else []
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("names", nargs="?", default="")
+    parser.add_argument("--factors", default="0.5,2")
+    parser.add_argument("--targets", default="")
+    parser.add_argument("--list", action="store_true")
+    arguments = parser.parse_args(own[:own.index("--")] if command else own)
+    folder = arguments.folder.resolve()
+    names = make(folder, arguments.targets.split(",") if arguments.targets else [])
+    if arguments.list or not command:
+        print("\n".join(names))
+        return 0
+    status, lines = run(folder, command, {})
+    print(f"as it is: exit status {status}, {len(lines)} lines", flush=True)
+    for name, factor in itertools.product(names, arguments.factors.split(",")):
+        if not re.search(arguments.names, name):
+            continue
+        now, found = run(folder, command, {name: factor})
+        apart = sum(one is None or other is None or not same(one, other) for one, other in itertools.zip_longest(lines, found))
+        print(f"{name} times {factor}: exit status {now}, {apart} lines differ", flush=True)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
