@@ -69,6 +69,7 @@ inline hid_t open(const std::string& path) { return H5Fopen(path.c_str(), H5F_AC
 
 // A file whose bytes are in memory, to be read: HDF5 1.10 crashes where it copies an object and cannot read the file.
 inline hid_t open_bytes(const std::string& bytes) {
+    begin();
     if (!memory_for_a_file()) throw std::bad_alloc();
     const Properties access(H5Pcreate(H5P_FILE_ACCESS), "fields.h5");
     constexpr std::size_t increment = std::size_t{1} << 16;  // of a file that grows; this one does not

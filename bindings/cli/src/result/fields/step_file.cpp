@@ -143,6 +143,7 @@ std::pair<std::int64_t, std::int64_t> mesh_rows(const Model& model) {
 
 std::string step_bytes(const Model& model, delam_solver* solver, const Scene& scene, std::int64_t step, double time,
                        bool estimate) {
+    h5::begin();
     const h5::Properties access(H5Pcreate(H5P_FILE_ACCESS), "fields.h5");
     // The image grows once, to about what it takes: HDF5 clears what it allocates.
     const auto [node_rows, cell_rows] = mesh_rows(model);
