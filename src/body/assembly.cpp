@@ -275,13 +275,16 @@ std::vector<double> centre_stress(const Mesh& mesh, std::span<const BodyModel> m
 
     std::vector<double> stress;
     stress.reserve(index(mesh.cell_count()) * (dim == 2 ? 4 : 6));
-    std::vector<double> u;
+    const std::size_t count = dim == 2 ? 3 : 6;  // of strains
+    std::array<double, 3 * most_cell_nodes> nodal;
     for (std::int64_t c = 0; c < mesh.cell_count(); ++c) {
         poll_cancel("recover");
-        u.clear();
+        auto end = nodal.begin();
         for (const std::int64_t n : mesh.cell(c))
-            for (std::size_t i = 0; i < dim; ++i) u.push_back(displacement[index(n) * dim + i]);
-        std::vector<double> strain = centre_strain(mesh.cell_type(c), cell_coordinates(mesh, c).view(), u);
+            end = std::copy_n(displacement.begin() + n * mesh.dimension(), dim, end);
+        const std::span<const double> u(nodal.begin(), end);
+        const Coordinates x = cell_coordinates(mesh, c);
+        std::array<double, 6> strain = centre_strain(mesh.cell_type(c), x.view(), u);
         const std::size_t body = index(mesh.cell_body(c));
         const BodyModel& model = models[body];
         const std::span<const double> matrix = elasticity[body].matrix(c);
@@ -291,8 +294,7 @@ std::vector<double> centre_stress(const Mesh& mesh, std::span<const BodyModel> m
             Strain e = eigenstrain.empty() ? Strain{} : eigenstrain[body];
             if (axes != nullptr) e = rotated_strain(e, *axes);
             if (projected) {
-                const double third =
-                    dilatation_correction(mesh.cell_type(c), cell_coordinates(mesh, c).view(), u) / 3.0;
+                const double third = dilatation_correction(mesh.cell_type(c), x.view(), u) / 3.0;
                 for (std::size_t i = 0; i < 3; ++i) e[i] -= third;
             }
             if (dim == 3) {
@@ -314,8 +316,8 @@ std::vector<double> centre_stress(const Mesh& mesh, std::span<const BodyModel> m
             }
         }
         std::array<double, 6> s{};
-        for (std::size_t i = 0; i < strain.size(); ++i)
-            for (std::size_t j = 0; j < strain.size(); ++j) s[i] += matrix[i * strain.size() + j] * strain[j];
+        for (std::size_t i = 0; i < count; ++i)
+            for (std::size_t j = 0; j < count; ++j) s[i] += matrix[i * count + j] * strain[j];
         if (dim == 3) {
             stress.insert(stress.end(), s.begin(), s.end());
             continue;

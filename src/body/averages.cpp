@@ -26,7 +26,7 @@ double integrate(const Mesh& mesh, std::int64_t c, std::span<const double> displ
     const Quadrature& gauss = quadrature(mesh.cell_type(c));
     double volume = 0.0;
     for (std::size_t q = 0; q < gauss.points.size(); ++q) {
-        const PhysicalGradient g = physical_gradient(mesh.cell_type(c), x, gauss.points[q]);
+        const PhysicalGradient g = physical_gradient(mesh.cell_type(c), x, gauss.gradients[q]);
         const double part = gauss.weights[q] * g.jacobian;
         volume += part;
         for (std::size_t a = 0; a < cell.size(); ++a)

@@ -13,69 +13,77 @@ namespace {
 
 constexpr std::size_t most_modes = 9;  // of a hex8: three, each in three directions
 
-std::size_t shear(std::size_t dim, std::size_t i, std::size_t j) {
+constexpr std::size_t strains_in(std::size_t dim) { return dim == 2 ? 3 : 6; }
+
+constexpr std::size_t shear(std::size_t dim, std::size_t i, std::size_t j) {
     return dim == 2 ? 2 : i + j == 1 ? 3 : i + j == 3 ? 4 : 5;
 }
 
 // Adds the strains of a displacement of this size in direction i, of which `gradient` is the gradient.
-void add_strain(std::size_t dim, std::size_t i, const double* gradient, double size, double* strain) {
+template <std::size_t dim>
+void add_strain(std::size_t i, const double* gradient, double size, double* strain) {
     for (std::size_t j = 0; j < dim; ++j) strain[i == j ? i : shear(dim, i, j)] += size * gradient[j];
 }
 
 // The internal modes of element.cpp: mode m in direction i has the gradient (det J_0 / det J) J_0^-T (-2 xi_m e_m).
+template <std::size_t dim>
 class Modes {
 public:
+    static constexpr std::size_t count = dim * dim, strains = strains_in(dim);
+    using Strains = std::array<double, count * strains>;  // [modes][strains]
+
     Modes(CellType type, std::span<const double> coordinates)
-        : dim_(index(topology(type).dimension)),
-          at_centre_(physical_gradient(type, coordinates, centre_gradient(type))) {
+        : at_centre_(physical_gradient(type, coordinates, centre_gradient(type))) {
         // Row m of J_0^-1 = dxi_m / dx = sum_a xi_m(node a) dN_a/dx, since shape functions reproduce xi.
         const std::span<const ReferencePoint> nodes = reference_nodes(type);
         for (std::size_t a = 0; a < nodes.size(); ++a)
-            for (std::size_t m = 0; m < dim_; ++m)
-                for (std::size_t j = 0; j < dim_; ++j)
-                    inverse_[m * 3 + j] += nodes[a][m] * at_centre_.gradient[a * dim_ + j];
+            for (std::size_t m = 0; m < dim; ++m)
+                for (std::size_t j = 0; j < dim; ++j)
+                    inverse_[m * 3 + j] += nodes[a][m] * at_centre_.gradient[a * dim + j];
     }
-    std::size_t count() const { return dim_ * dim_; }
-    // Strains of the modes at a point with this Jacobian, [modes][most_strains].
-    void strains(const ReferencePoint& at, double jacobian, double* strain) const {
-        std::fill_n(strain, count() * most_strains, 0.0);
-        for (std::size_t m = 0; m < dim_; ++m)
-            for (std::size_t i = 0; i < dim_; ++i)
-                add_strain(dim_, i, &inverse_[m * 3], -2.0 * at[m] * at_centre_.jacobian / jacobian,
-                           strain + (m * dim_ + i) * most_strains);
+    // Strains of the modes at a point with this Jacobian.
+    Strains at(const ReferencePoint& point, double jacobian) const {
+        Strains strain{};
+        for (std::size_t m = 0; m < dim; ++m)
+            for (std::size_t i = 0; i < dim; ++i)
+                add_strain<dim>(i, &inverse_[m * 3], -2.0 * point[m] * at_centre_.jacobian / jacobian,
+                                &strain[(m * dim + i) * strains]);
+        return strain;
     }
 
 private:
-    std::size_t dim_;
     PhysicalGradient at_centre_;
     std::array<double, 9> inverse_{};
 };
 
-double product(std::size_t strains, const double* left, std::span<const double> elasticity, const double* right) {
-    double sum = 0.0;
-    for (std::size_t r = 0; r < strains; ++r)
-        for (std::size_t c = 0; c < strains; ++c) sum += left[r] * elasticity[r * strains + c] * right[c];
-    return sum;
-}
-
 // Sizes a of the modes that minimise the energy,  K_aa a = -K_au u. Adds their strains, or only counts the energy
 // 1/2 u^T K_ua K_aa^-1 K_au u = -1/2 a^T K_au u  that they would take off.
+template <std::size_t dim>
 void bend(CellType type, std::span<const double> coordinates, std::span<const double> elasticity, bool add,
           std::span<const double> jacobian, CellStrains& cell) {
-    const Modes modes(type, coordinates);
+    using Own = Modes<dim>;
+    constexpr std::size_t n = Own::count, strains = Own::strains;
+    const Own modes(type, coordinates);
     const Quadrature& gauss = quadrature(type);
-    const std::size_t n = modes.count(), strains = n == 4 ? 3 : 6, points = gauss.points.size();
+    const std::size_t points = gauss.points.size();
     std::array<double, most_modes * most_modes> stiffness{};
     std::array<double, most_modes> right{}, size{};
-    std::array<double, most_modes * most_strains> own{};
+    std::array<typename Own::Strains, most_gauss_points> own;
     for (std::size_t q = 0; q < points; ++q) {
-        modes.strains(gauss.points[q], jacobian[q], own.data());
+        own[q] = modes.at(gauss.points[q], jacobian[q]);
         for (std::size_t a = 0; a < n; ++a) {
-            right[a] -=
-                cell.volume[q] * product(strains, &own[a * most_strains], elasticity, &cell.strain[q * most_strains]);
-            for (std::size_t b = 0; b <= a; ++b)
-                stiffness[a * most_modes + b] +=
-                    cell.volume[q] * product(strains, &own[a * most_strains], elasticity, &own[b * most_strains]);
+            // Stress of the mode.
+            std::array<double, strains> stress{};
+            for (std::size_t r = 0; r < strains; ++r)
+                for (std::size_t c = 0; c < strains; ++c)
+                    stress[c] += own[q][a * strains + r] * elasticity[r * strains + c];
+            const auto energy = [&](const double* strain) {
+                double sum = 0.0;
+                for (std::size_t c = 0; c < strains; ++c) sum += stress[c] * strain[c];
+                return cell.volume[q] * sum;
+            };
+            right[a] -= energy(&cell.strain[q * most_strains]);
+            for (std::size_t b = 0; b <= a; ++b) stiffness[a * most_modes + b] += energy(&own[q][b * strains]);
         }
     }
     size = right;
@@ -84,12 +92,10 @@ void bend(CellType type, std::span<const double> coordinates, std::span<const do
         for (std::size_t a = 0; a < n; ++a) cell.excess += 0.5 * size[a] * right[a];
         return;
     }
-    for (std::size_t q = 0; q < points; ++q) {
-        modes.strains(gauss.points[q], jacobian[q], own.data());
+    for (std::size_t q = 0; q < points; ++q)
         for (std::size_t a = 0; a < n; ++a)
             for (std::size_t s = 0; s < strains; ++s)
-                cell.strain[q * most_strains + s] += size[a] * own[a * most_strains + s];
-    }
+                cell.strain[q * most_strains + s] += size[a] * own[q][a * strains + s];
 }
 
 // (P div u - div u) / 3, P projecting onto 1, or onto 1 and x - x_0, as in element.cpp.
@@ -129,29 +135,35 @@ void project(CellType type, std::span<const double> coordinates, CellStrains& ce
     }
 }
 
-}  // namespace
-
-CellStrains cell_strains(CellType type, std::span<const double> coordinates, std::span<const double> elasticity,
-                         Formulation formulation, std::span<const double> displacement) {
+template <std::size_t dim>
+CellStrains strains_of(CellType type, std::span<const double> coordinates, std::span<const double> elasticity,
+                       Formulation formulation, std::span<const double> displacement) {
     const CellRow& row = cell_row(type);
-    const auto dim = index(row.topology.dimension);
     const Quadrature& gauss = quadrature(type);
     CellStrains cell;
-    std::array<double, most_gauss_points> jacobian{};
+    std::array<double, most_gauss_points> jacobian;
     for (std::size_t q = 0; q < gauss.points.size(); ++q) {
         const PhysicalGradient at = physical_gradient(type, coordinates, gauss.gradients[q]);
         jacobian[q] = at.jacobian;
         cell.volume[q] = gauss.weights[q] * at.jacobian;
         for (std::size_t a = 0; a < index(row.topology.nodes); ++a)
             for (std::size_t i = 0; i < dim; ++i)
-                add_strain(dim, i, &at.gradient[a * dim], displacement[a * dim + i], &cell.strain[q * most_strains]);
+                add_strain<dim>(i, &at.gradient[a * dim], displacement[a * dim + i], &cell.strain[q * most_strains]);
     }
     const bool simplex = row.simplex(), linear = row.linear();
     if (formulation == Formulation::mean_dilatation && !(simplex && linear))
         project(type, coordinates, cell);
     else if (!simplex && linear)
-        bend(type, coordinates, elasticity, formulation == Formulation::incompatible, jacobian, cell);
+        bend<dim>(type, coordinates, elasticity, formulation == Formulation::incompatible, jacobian, cell);
     return cell;
+}
+
+}  // namespace
+
+CellStrains cell_strains(CellType type, std::span<const double> coordinates, std::span<const double> elasticity,
+                         Formulation formulation, std::span<const double> displacement) {
+    return topology(type).dimension == 2 ? strains_of<2>(type, coordinates, elasticity, formulation, displacement)
+                                         : strains_of<3>(type, coordinates, elasticity, formulation, displacement);
 }
 
 }  // namespace delam

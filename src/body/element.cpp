@@ -400,8 +400,8 @@ double dilatation_correction(CellType type, std::span<const double> coordinates,
         const Projection<Cell::nodes, Cell::dim, Cell::functions> projection(type, coordinates.data());
         projected = projection.at_centre(displacement.data());
     });
-    const std::vector<double> strain = centre_strain(type, coordinates, displacement);
-    return projected - strain[0] - strain[1] - (strain.size() == 6 ? strain[2] : 0.0);
+    const std::array<double, 6> strain = centre_strain(type, coordinates, displacement);
+    return projected - strain[0] - strain[1] - (topology(type).dimension == 3 ? strain[2] : 0.0);
 }
 
 double integrate_gradients(CellType type, std::span<const double> coordinates, std::span<double> integral) {
@@ -414,12 +414,12 @@ double integrate_gradients(CellType type, std::span<const double> coordinates, s
 }
 
 // eps_ij = (u_i,j + u_j,i)/2, the shear components doubled.
-std::vector<double> centre_strain(CellType type, std::span<const double> coordinates,
-                                  std::span<const double> displacement) {
+std::array<double, 6> centre_strain(CellType type, std::span<const double> coordinates,
+                                    std::span<const double> displacement) {
     const CellTopology& shape = topology(type);
     const auto dim = index(shape.dimension);
-    const PhysicalGradient at_centre = physical_gradient(type, coordinates, centre(type));
-    std::vector<double> strain(strain_count(dim), 0.0);
+    const PhysicalGradient at_centre = physical_gradient(type, coordinates, centre_gradient(type));
+    std::array<double, 6> strain{};
     for (std::size_t a = 0; a < index(shape.nodes); ++a)
         for (std::size_t i = 0; i < dim; ++i)
             for (std::size_t j = 0; j < dim; ++j)

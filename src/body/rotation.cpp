@@ -13,14 +13,16 @@ namespace delam {
 
 std::vector<double> centre_rotation(const Mesh& mesh, std::span<const double> displacement) {
     const std::size_t dim = index(mesh.dimension());
-    std::vector<double> rotation, x;
+    std::vector<double> rotation;
+    std::array<double, 3 * most_cell_nodes> x;
     rotation.reserve(index(mesh.cell_count()) * (dim == 2 ? 1 : 3));
     for (std::int64_t c = 0; c < mesh.cell_count(); ++c) {
         poll_cancel("recover");
         const auto cell = mesh.cell(c);
-        x.clear();
-        for (const std::int64_t n : cell) x.insert(x.end(), mesh.node(n).begin(), mesh.node(n).end());
-        const PhysicalGradient g = physical_gradient(mesh.cell_type(c), x, centre(mesh.cell_type(c)));
+        auto end = x.begin();
+        for (const std::int64_t n : cell) end = std::copy_n(mesh.node(n).begin(), dim, end);
+        const PhysicalGradient g =
+            physical_gradient(mesh.cell_type(c), {x.begin(), end}, centre_gradient(mesh.cell_type(c)));
         std::array<std::array<double, 3>, 3> slope{};  // du_i/dx_j
         for (std::size_t a = 0; a < cell.size(); ++a)
             for (std::size_t i = 0; i < dim; ++i)

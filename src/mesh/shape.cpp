@@ -185,14 +185,23 @@ Shape shape(const CellRow& row, std::size_t node, const ReferencePoint& at) {
 
 using Matrix3 = std::array<double, 9>;  // row-major, the leading dimension x dimension block in use, stride 3
 
-// dx_i/dxi_j = sum_a x_ai dN_a/dxi_j
-Matrix3 tangent(int dimension, int nodes, std::span<const double> coordinates, const ShapeGradient& gradient) {
+// dx_i/dxi_j = sum_a (x_ai - x_0i) dN_a/dxi_j. Coordinates are taken relative to the first node: the sums then do not
+// cancel for a cell far from the origin.
+template <std::size_t dim>
+Matrix3 tangent(std::size_t nodes, const double* x, const ShapeGradient& gradient) {
     Matrix3 j{};
-    const auto dim = index(dimension);
-    for (std::size_t a = 0; a < index(nodes); ++a)
-        for (std::size_t r = 0; r < dim; ++r)
-            for (std::size_t c = 0; c < dim; ++c) j[3 * r + c] += coordinates[a * dim + r] * gradient[a * dim + c];
+    for (std::size_t a = 0; a < nodes; ++a)
+        for (std::size_t r = 0; r < dim; ++r) {
+            const double local = x[a * dim + r] - x[r];
+            for (std::size_t c = 0; c < dim; ++c) j[3 * r + c] += local * gradient[a * dim + c];
+        }
     return j;
+}
+
+Matrix3 tangent(const CellTopology& cell, std::span<const double> coordinates, const ShapeGradient& gradient) {
+    const std::size_t nodes = index(cell.nodes);
+    return cell.dimension == 2 ? tangent<2>(nodes, coordinates.data(), gradient)
+                               : tangent<3>(nodes, coordinates.data(), gradient);
 }
 
 double determinant(int dimension, const Matrix3& j) {
@@ -207,12 +216,15 @@ Matrix3 inverse(int dimension, const Matrix3& j, double det) {
             (j[3] * j[7] - j[4] * j[6]) / det, (j[1] * j[6] - j[0] * j[7]) / det, (j[0] * j[4] - j[1] * j[3]) / det};
 }
 
-// Coordinates are taken relative to the first node: the sums above then do not cancel for a cell far from the origin.
-ShapeGradient local_coordinates(int dimension, std::span<const double> coordinates) {
-    ShapeGradient local{};
-    const auto dim = index(dimension);
-    for (std::size_t i = 0; i < coordinates.size(); ++i) local[i] = coordinates[i] - coordinates[i % dim];
-    return local;
+// dN/dx = (dN/dxi) J^-1.
+template <std::size_t dim>
+void push_forward(std::size_t nodes, const ShapeGradient& on_reference, const Matrix3& inverse, double* gradient) {
+    for (std::size_t a = 0; a < nodes; ++a)
+        for (std::size_t c = 0; c < dim; ++c) {
+            double sum = 0.0;
+            for (std::size_t r = 0; r < dim; ++r) sum += on_reference[a * dim + r] * inverse[3 * r + c];
+            gradient[a * dim + c] = sum;
+        }
 }
 
 }  // namespace
@@ -245,31 +257,29 @@ ShapeGradient reference_gradient(CellType type, const ReferencePoint& at) {
     return g;
 }
 
-PhysicalGradient physical_gradient(CellType type, std::span<const double> coordinates, const ReferencePoint& at) {
-    return physical_gradient(type, coordinates, reference_gradient(type, at));
-}
-
 PhysicalGradient physical_gradient(CellType type, std::span<const double> coordinates,
                                    const ShapeGradient& on_reference) {
     const CellTopology& cell = topology(type);
-    const auto dim = index(cell.dimension);
-    const Matrix3 j = tangent(cell.dimension, cell.nodes, local_coordinates(cell.dimension, coordinates), on_reference);
-    PhysicalGradient result{{}, determinant(cell.dimension, j)};
+    const Matrix3 j = tangent(cell, coordinates, on_reference);
+    PhysicalGradient result;
+    result.jacobian = determinant(cell.dimension, j);
     const Matrix3 inv = inverse(cell.dimension, j, result.jacobian);
-    for (std::size_t a = 0; a < index(cell.nodes); ++a)
-        for (std::size_t c = 0; c < dim; ++c)
-            for (std::size_t r = 0; r < dim; ++r)
-                result.gradient[a * dim + c] += on_reference[a * dim + r] * inv[3 * r + c];
+    if (cell.dimension == 2)
+        push_forward<2>(index(cell.nodes), on_reference, inv, result.gradient.data());
+    else
+        push_forward<3>(index(cell.nodes), on_reference, inv, result.gradient.data());
     return result;
 }
 
-double smallest_jacobian(CellType type, std::span<const double> coordinates) {
+double jacobian(CellType type, std::span<const double> coordinates, const ShapeGradient& on_reference) {
     const CellTopology& cell = topology(type);
-    const ShapeGradient local = local_coordinates(cell.dimension, coordinates);
+    return determinant(cell.dimension, tangent(cell, coordinates, on_reference));
+}
+
+double smallest_jacobian(CellType type, std::span<const double> coordinates) {
     double smallest = std::numeric_limits<double>::infinity();
     for (const ShapeGradient& gradient : reference(type).checked)
-        smallest =
-            std::min(smallest, determinant(cell.dimension, tangent(cell.dimension, cell.nodes, local, gradient)));
+        smallest = std::min(smallest, jacobian(type, coordinates, gradient));
     return smallest;
 }
 

@@ -34,15 +34,15 @@ const ShapeGradient& centre_gradient(CellType type);  // dN/dxi there
 ShapeValues shape_values(CellType type, const ReferencePoint& at);
 ShapeGradient reference_gradient(CellType type, const ReferencePoint& at);
 
-// dN/dx at a reference point, and the determinant of dx/dxi. coordinates: [nodes][dimension].
+// dN/dx where dN/dxi is on_reference, and the determinant of dx/dxi. coordinates: [nodes][dimension].
 struct PhysicalGradient {
-    ShapeGradient gradient;
+    ShapeGradient gradient;  // entries behind those of the cell's nodes are undefined
     double jacobian;
 };
-PhysicalGradient physical_gradient(CellType type, std::span<const double> coordinates, const ReferencePoint& at);
-// The same from dN/dxi there.
 PhysicalGradient physical_gradient(CellType type, std::span<const double> coordinates,
                                    const ShapeGradient& on_reference);
+// The determinant alone.
+double jacobian(CellType type, std::span<const double> coordinates, const ShapeGradient& on_reference);
 
 // Smallest Jacobian determinant over the quadrature points and nodes; <= 0: inverted or degenerate.
 double smallest_jacobian(CellType type, std::span<const double> coordinates);

@@ -4,9 +4,13 @@
 #include <atomic>
 #include <cstdint>
 #include <thread>
+#include <vector>
 
 #include <dlfcn.h>
+#include <sys/stat.h>
+#include <time.h>
 
+#include "base/machine/blas_memory.hpp"
 #include "base/machine/blas_threads.hpp"
 #include "base/monitor.hpp"
 #include "check.hpp"
@@ -18,6 +22,8 @@
 extern "C" {
 int openblas_get_num_threads() __attribute__((weak));
 void openblas_set_num_threads(int) __attribute__((weak));
+int openblas_get_parallel() __attribute__((weak));
+void daxpy_(const int*, const double*, const double*, const int*, double*, const int*);
 }
 
 using namespace delam;
@@ -32,6 +38,25 @@ bool host_wants(int threads) {
     if (openblas_get_num_threads == nullptr || openblas_set_num_threads == nullptr) return false;
     openblas_set_num_threads(threads);
     return openblas_get_num_threads() == threads;
+}
+
+double seconds(clockid_t clock) {
+    timespec time{};
+    clock_gettime(clock, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+std::int64_t threads_of_the_process() {
+    struct stat tasks {};
+    return stat("/proc/self/task", &tasks) == 0 ? static_cast<std::int64_t>(tasks.st_nlink) - 2 : 0;
+}
+
+// Large enough for OpenBLAS to share it.
+void work_of_the_host() {
+    std::vector<double> x(std::size_t{1} << 20, 1.0);
+    const int size = 1 << 20, one = 1;
+    const double a = 0.5;
+    daxpy_(&size, &a, x.data(), &one, x.data(), &one);
 }
 
 }  // namespace
@@ -115,4 +140,43 @@ TEST(an_analysis_leaves_the_number) {
     ck_assert_int_eq(most, 1);
     ck_assert(host_wants(1));
     ck_assert(analyse() == two);
+}
+
+// Its threads would take a tenth of a second of another processor.
+TEST(a_small_analysis_has_the_processor_time_of_its_thread) {
+    if (!host_wants(2) || openblas_get_parallel == nullptr || openblas_get_parallel() != 1) return;
+    work_of_the_host();
+    prepare_blas();
+    ck_assert_int_eq(threads_of_the_process(), 1);
+    ck_assert_int_eq(openblas_get_num_threads(), 2);
+    const double process = seconds(CLOCK_PROCESS_CPUTIME_ID), thread = seconds(CLOCK_THREAD_CPUTIME_ID);
+    const Problem problem = unit::make_flexure({});
+    Monitor monitor;
+    Solver solver(problem, monitor, 0.0);
+    for (int k = 1; k <= 8; ++k) {
+        ck_assert_int_ge(solver.advance(k / 8.0).status, 0);
+        solver.commit();
+    }
+    const double own = seconds(CLOCK_THREAD_CPUTIME_ID) - thread;
+    ck_assert_double_le(seconds(CLOCK_PROCESS_CPUTIME_ID) - process, 1.1 * own);
+    ck_assert_int_eq(threads_of_the_process(), 1);
+    // A host whose work is shared has its threads again.
+    work_of_the_host();
+    ck_assert_int_eq(openblas_get_num_threads(), 2);
+    ck_assert_int_eq(threads_of_the_process(), 2);
+}
+
+// They may be at work for another thread of the host: then nothing ends them.
+TEST(threads_stay_where_the_host_has_others) {
+    if (!host_wants(2) || openblas_get_parallel == nullptr || openblas_get_parallel() != 1) return;
+    work_of_the_host();
+    std::atomic<bool> over{false};
+    std::thread other([&] {
+        while (!over) std::this_thread::yield();
+    });
+    prepare_blas();
+    const std::int64_t threads = threads_of_the_process();
+    over = true;
+    other.join();
+    ck_assert_int_eq(threads, 3);
 }

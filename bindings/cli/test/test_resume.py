@@ -9,7 +9,8 @@ import h5py
 from support import DELAM, brittle, changed, delam, expect, expect_error, finish, folder, read, write
 
 # One step violates the two-sided estimate, before the last interruption: the list must survive that.
-text = changed("steps = 20", "steps = 60\n[solver]\nbacktracking_tolerance = 1e-9", brittle())
+EVERY = "\n[output]\nevery = 1"
+text = changed("steps = 20", "steps = 60\n[solver]\nbacktracking_tolerance = 1e-9" + EVERY, brittle())
 scene = write(text)
 whole = folder()
 expect(delam("run", scene, "--out", whole)[0] == 0, "uninterrupted")

@@ -29,7 +29,9 @@ replaced = [int(row["step"]) for row in rows if row["revisions"] > 0]
 expect(returning and replaced and min(replaced) < max(returning), f"steps {returning} return, {replaced} are replaced")
 expect([row["step"] for row in rows] == list(range(21)), "each step has one row, in order")
 expect(all(a["dissipated"] <= b["dissipated"] for a, b in zip(rows, rows[1:])), "nothing heals from row to row")
-with h5py.File(os.path.join(whole, "fields.h5")) as file:
+every = folder()
+expect(delam("run", scene, "--out", every, *on, "--set", "output.every=1")[0] == 0, "with the fields of every step")
+with h5py.File(os.path.join(every, "fields.h5")) as file:
     weights = file["interfaces/interface_0/weights"][()]
     zeta = [file["steps"][name]["interface_0/zeta"][()] for name in sorted(file["steps"])]
     fronts = [float((weights * (zeta[0] - z)).sum()) for z in zeta]
@@ -55,6 +57,7 @@ for number in (signal.SIGINT, signal.SIGKILL):
                     break
             process.communicate()
         code, _, error = delam("run", scene, "--out", out, *on, "--resume")
-        expect(code == 0 and read(os.path.join(out, "history.csv")) == read(os.path.join(whole, "history.csv")),
-               f"signal {number.value} after step {step}: resumed to the same history {error.strip()}")
+        expect(code == 0 and all(read(os.path.join(out, name)) == read(os.path.join(whole, name))
+                                 for name in ("history.csv", "fields.h5", "state.bin")),
+               f"signal {number.value} after step {step}: resumed to the same history and fields {error.strip()}")
 finish()

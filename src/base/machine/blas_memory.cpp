@@ -75,9 +75,10 @@ bool is_openblas() {
 
 }  // namespace
 
+namespace {
+
 // Threads that have their blocks already are counted all the same: nothing tells.
-void prepare_blas() {
-    if (!is_openblas()) return;
+void prepare_openblas() {
     const std::lock_guard lock(mutex);
     const bool own_threads = openblas_get_parallel() == 1;  // 2: OpenMP's, whose blocks are mapped at the start
     const int threads = own_threads ? blas_threads() : 1;
@@ -96,6 +97,14 @@ void prepare_blas() {
     }
     if (threads > 1) leave_blas_one_thread();
     prepared = 1;
+}
+
+}  // namespace
+
+void prepare_blas() {
+    if (!is_openblas()) return;
+    prepare_openblas();
+    rest_blas_threads();
 }
 
 std::int64_t blas_callers(std::int64_t wanted) {

@@ -8,9 +8,9 @@
 
 namespace delam {
 
-// Reserves the memory of the BLAS for one caller and its threads. Where there may be no room for all of them, the BLAS
-// computes with one thread from then on; throws std::bad_alloc if there is none even for one. Does nothing with
-// libraries other than OpenBLAS.
+// Reserves the memory of the BLAS for one caller and its threads, which then rest (blas_threads.hpp). Where there may
+// be no room for all of them, the BLAS computes with one thread from then on; throws std::bad_alloc if there is none
+// even for one. Does nothing with libraries other than OpenBLAS.
 void prepare_blas();
 
 // The number of callers, from 1 to `wanted`, for which there is memory when they use the BLAS at the same time.

@@ -26,6 +26,11 @@ private:
     std::int32_t before_ = 0;  // of this thread, where the BLAS knows one number for each
 };
 
+// Ends the threads of OpenBLAS if the process has no others but this one, so that nobody can be using them: they spin
+// for a tenth of a second after their start and after each work. The number of threads stays, and OpenBLAS starts them
+// again with the next work that it shares, as after fork().
+void rest_blas_threads();
+
 // The host's number becomes one, for as long as the process lives.
 void leave_blas_one_thread();
 

@@ -88,7 +88,8 @@ public:
     std::size_t strains() const { return mesh_.dimension() == 2 ? 3 : 6; }
     std::span<const double> elasticity(std::int64_t cell) { return elasticity_[body(cell)].matrix(cell); }
 
-    void find(std::int64_t cell, CellStrains& strains, std::array<Stress, most_gauss_points>& stress) {
+    // Appends the stresses at the Gauss points of a cell and their volumes. Returns CellStrains::excess.
+    double append(std::int64_t cell, std::vector<Stress>& stress, std::vector<double>& volume) {
         u_.clear(), x_.clear();
         for (const std::int64_t n : mesh_.cell(cell))
             for (std::size_t i = 0; i < index(mesh_.dimension()); ++i) {
@@ -101,13 +102,17 @@ public:
         const Dilatation dilatation = projected ? elasticity_[body(cell)].dilatation(cell) : Dilatation{};
         const Stress prescribed = prescribed_stress(cell, matrix);
         const std::size_t count = this->strains(), points = quadrature(type).points.size();
-        strains = cell_strains(type, x_, matrix, models_[body(cell)].formulation, u_);
-        for (std::size_t q = 0; q < points; ++q)
+        const CellStrains strains = cell_strains(type, x_, matrix, models_[body(cell)].formulation, u_);
+        for (std::size_t q = 0; q < points; ++q) {
+            Stress& own = stress.emplace_back();
             for (std::size_t i = 0; i < count; ++i) {
-                stress[q][i] = strains.dilatation[q] * dilatation.stress[i] - prescribed[i];
+                own[i] = strains.dilatation[q] * dilatation.stress[i] - prescribed[i];
                 for (std::size_t j = 0; j < count; ++j)
-                    stress[q][i] += matrix[i * count + j] * strains.strain[q * most_strains + j];
+                    own[i] += matrix[i * count + j] * strains.strain[q * most_strains + j];
             }
+            volume.push_back(strains.volume[q]);
+        }
+        return strains.excess;
     }
 
 private:
@@ -195,72 +200,100 @@ private:
     std::size_t groups_ = 0;
 };
 
-// 1/2 s : C^-1 : s.
-double energy(std::size_t strains, std::span<const double> elasticity, const Stress& stress) {
-    std::array<double, most_strains * most_strains> factor{};
-    std::copy_n(elasticity.begin(), strains * strains, factor.begin());
-    Stress strain = stress;
-    small_solve(strains, strains, factor.data(), strain.data());
-    double sum = 0.0;
-    for (std::size_t i = 0; i < strains; ++i) sum += stress[i] * strain[i];
-    return 0.5 * sum;
+// Energies of stresses. The compliance is kept as long as the elasticity stays the same.
+template <std::size_t strains>
+class Compliance {
+public:
+    void take(std::span<const double> elasticity) {
+        if (std::equal(elasticity.begin(), elasticity.end(), elasticity_.begin())) return;
+        std::copy_n(elasticity.begin(), strains * strains, elasticity_.begin());
+        for (std::size_t k = 0; k < strains; ++k) {
+            std::array<double, strains* strains> factor = elasticity_;
+            std::array<double, strains> unit{};
+            unit[k] = 1.0;
+            small_solve(strains, strains, factor.data(), unit.data());
+            for (std::size_t i = 0; i < strains; ++i) compliance_[i * strains + k] = unit[i];
+        }
+    }
+    // 1/2 s : C^-1 : s.
+    double energy(const Stress& stress) const {
+        double sum = 0.0;
+        for (std::size_t i = 0; i < strains; ++i)
+            for (std::size_t j = 0; j < strains; ++j) sum += stress[i] * compliance_[i * strains + j] * stress[j];
+        return 0.5 * sum;
+    }
+
+private:
+    std::array<double, strains * strains> elasticity_{}, compliance_{};
+};
+
+template <std::size_t count>
+MeshError estimate(const Mesh& mesh, std::span<const BodyModel> models, std::span<const std::uint8_t> known,
+                   std::span<const double> displacement, std::span<const Strain> eigenstrain) {
+    Stresses stresses(mesh, models, displacement, eigenstrain);
+    const Corners corners(mesh, known, stresses);
+    std::map<CellType, ToNodes> to_nodes;
+    // Stresses and volumes of all Gauss points, cell after cell, and what modes would take off.
+    std::vector<Stress> stress;
+    std::vector<double> volume;
+    MeshError error{std::vector<double>(index(mesh.cell_count()), std::numeric_limits<double>::quiet_NaN()),
+                    std::vector<double>(index(mesh.cell_count()), 0.0)};
+    const auto each_cell = [&](const auto& use) {
+        std::size_t first = 0;
+        for (std::int64_t c = 0; c < mesh.cell_count(); ++c) {
+            poll_cancel("recover");
+            if (known[index(mesh.cell_body(c))] == 0) continue;
+            const CellType type = mesh.cell_type(c);
+            const ToNodes& cell = to_nodes.try_emplace(type, type).first->second;
+            use(c, cell, first);
+            first += cell.points();
+        }
+    };
+
+    // s* at a node: the mean over the cells there, by their volume.
+    std::vector<Stress> mean(corners.groups(), Stress{});
+    std::vector<double> around(corners.groups(), 0.0);
+    each_cell([&](std::int64_t c, const ToNodes& cell, std::size_t first) {
+        error.excess[index(c)] = stresses.append(c, stress, volume);
+        double own = 0.0;
+        for (std::size_t q = 0; q < cell.points(); ++q) own += volume[first + q];
+        for (std::size_t a = 0; a < cell.nodes(); ++a) {
+            const std::size_t group = corners.group(c, a);
+            around[group] += own;
+            for (std::size_t q = 0; q < cell.points(); ++q)
+                for (std::size_t i = 0; i < count; ++i)
+                    mean[group][i] += own * cell.weight(a, q) * stress[first + q][i];
+        }
+    });
+    for (std::size_t g = 0; g < mean.size(); ++g)
+        for (double& s : mean[g]) s /= around[g];
+
+    Compliance<count> compliance;
+    each_cell([&](std::int64_t c, const ToNodes& cell, std::size_t first) {
+        compliance.take(stresses.elasticity(c));
+        double sum = 0.0;
+        for (std::size_t q = 0; q < cell.points(); ++q) {
+            Stress difference{};
+            for (std::size_t i = 0; i < count; ++i) {
+                difference[i] = -stress[first + q][i];
+                for (std::size_t a = 0; a < cell.nodes(); ++a)
+                    difference[i] += cell.shape(q, a) * mean[corners.group(c, a)][i];
+            }
+            sum += volume[first + q] * compliance.energy(difference);
+        }
+        sum *= calibration(mesh.cell_type(c), models[index(mesh.cell_body(c))].formulation);
+        // Bending that all cells of a layer hide in the same way leaves stresses continuous; the modes see it.
+        error.of_cell[index(c)] = std::max(sum, error.excess[index(c)]);
+    });
+    return error;
 }
 
 }  // namespace
 
 MeshError mesh_error(const Mesh& mesh, std::span<const BodyModel> models, std::span<const std::uint8_t> known,
                      std::span<const double> displacement, std::span<const Strain> eigenstrain) {
-    Stresses stresses(mesh, models, displacement, eigenstrain);
-    const Corners corners(mesh, known, stresses);
-    std::map<CellType, ToNodes> to_nodes;
-    const std::size_t count = stresses.strains();
-    CellStrains strains;
-    std::array<Stress, most_gauss_points> stress;
-    const auto each_cell = [&](const auto& use) {
-        for (std::int64_t c = 0; c < mesh.cell_count(); ++c) {
-            poll_cancel("recover");
-            if (known[index(mesh.cell_body(c))] == 0) continue;
-            const CellType type = mesh.cell_type(c);
-            stresses.find(c, strains, stress);
-            use(c, to_nodes.try_emplace(type, type).first->second);
-        }
-    };
-
-    // s* at a node: the mean over the cells there, by their volume.
-    std::vector<Stress> mean(corners.groups(), Stress{});
-    std::vector<double> volume(corners.groups(), 0.0);
-    each_cell([&](std::int64_t c, const ToNodes& cell) {
-        double own = 0.0;
-        for (std::size_t q = 0; q < cell.points(); ++q) own += strains.volume[q];
-        for (std::size_t a = 0; a < cell.nodes(); ++a) {
-            const std::size_t group = corners.group(c, a);
-            volume[group] += own;
-            for (std::size_t q = 0; q < cell.points(); ++q)
-                for (std::size_t i = 0; i < count; ++i) mean[group][i] += own * cell.weight(a, q) * stress[q][i];
-        }
-    });
-    for (std::size_t g = 0; g < mean.size(); ++g)
-        for (double& s : mean[g]) s /= volume[g];
-
-    MeshError error{std::vector<double>(index(mesh.cell_count()), std::numeric_limits<double>::quiet_NaN()),
-                    std::vector<double>(index(mesh.cell_count()), 0.0)};
-    each_cell([&](std::int64_t c, const ToNodes& cell) {
-        double sum = 0.0;
-        for (std::size_t q = 0; q < cell.points(); ++q) {
-            Stress difference{};
-            for (std::size_t i = 0; i < count; ++i) {
-                difference[i] = -stress[q][i];
-                for (std::size_t a = 0; a < cell.nodes(); ++a)
-                    difference[i] += cell.shape(q, a) * mean[corners.group(c, a)][i];
-            }
-            sum += strains.volume[q] * energy(count, stresses.elasticity(c), difference);
-        }
-        sum *= calibration(mesh.cell_type(c), models[index(mesh.cell_body(c))].formulation);
-        // Bending that all cells of a layer hide in the same way leaves stresses continuous; the modes see it.
-        error.of_cell[index(c)] = std::max(sum, strains.excess);
-        error.excess[index(c)] = strains.excess;
-    });
-    return error;
+    return mesh.dimension() == 2 ? estimate<3>(mesh, models, known, displacement, eigenstrain)
+                                 : estimate<6>(mesh, models, known, displacement, eigenstrain);
 }
 
 }  // namespace delam

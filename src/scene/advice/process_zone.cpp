@@ -32,7 +32,7 @@ double volume_of(const Mesh& mesh, std::int32_t body) {
         for (const std::int64_t n : mesh.cell(c)) x.insert(x.end(), mesh.node(n).begin(), mesh.node(n).end());
         const Quadrature& gauss = quadrature(mesh.cell_type(c));
         for (std::size_t q = 0; q < gauss.points.size(); ++q)
-            volume += gauss.weights[q] * physical_gradient(mesh.cell_type(c), x, gauss.points[q]).jacobian;
+            volume += gauss.weights[q] * jacobian(mesh.cell_type(c), x, gauss.gradients[q]);
     }
     return volume;
 }

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <hdf5.h>
 #include <CLI/CLI.hpp>
 
 #include "command/help/completion.hpp"
@@ -342,10 +341,6 @@ int reported(int argc, char** argv, const Caller& caller) {
 }  // namespace
 
 int program(int argc, char** argv, const Caller& caller) {
-    // HDF5 would print its error stack and, after a full disk, try to write again at exit; the program handles both
-    // itself.
-    H5dont_atexit();
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
     say_json_lines(false);
     int code = reported(argc, argv, caller);
     say_event("end", fmt::format("\"exit_code\": {}", code));

@@ -112,7 +112,7 @@ public:
         if (history_.value(solver_.get(), "step") != static_cast<double>(state.step))
             throw Failure(exit_scene,
                           running_state_ + ": it is of another step than it says; run again without --resume");
-        fields_.resume(step, sealed ? std::optional(state.companions.fields) : std::nullopt);
+        fields_.resume(step, sealed ? std::optional(state.companions) : std::nullopt);
         // Rows of steps after the saved state are computed again, and with them the earlier ones that they revise.
         rows_.emplace(running_history_, step + 1, sealed ? std::optional(state.companions.history) : std::nullopt);
         const std::string text = rows_->text();
@@ -135,6 +135,7 @@ public:
                                              delam_status_name(status));
                 return status == DELAM_LIMIT ? exit_not_converged : exit_numerical;
             }
+            to_the_end([this] { choose(); });
             call(model_.context.get(), delam_solver_commit(solver_.get()), std::string("commit"));
             state_.step += 1;
             if (status == DELAM_NOT_CONVERGED) state_.not_converged.push_back(state_.step);
@@ -188,6 +189,35 @@ private:
         return exit_interrupted;
     }
 
+    [[nodiscard]] Sight sight() const {
+        Sight out{history_.value(solver_.get(), "dissipated"), history_.value(solver_.get(), "jumps"), {}};
+        for (const PatternData& pattern : scene_.patterns)
+            out.reactions.push_back(std::abs(history_.value(solver_.get(), "reaction:" + pattern.name)));
+        return out;
+    }
+
+    // Chooses instants by the pending step and those that it replaces, and writes the fields of the step before these
+    // if it is chosen now: once the pending step is committed, that one is gone.
+    void choose() {
+        if (!fields_.judges()) return;
+        const std::int64_t pending = state_.step + 1, first = revised_from(model_, solver_.get(), pending);
+        const auto seen = [this](std::int64_t step) {
+            const SelectedStep selected(model_, solver_.get(), step);
+            return sight();
+        };
+        Sight before = first == pending && last_seen_ ? *last_seen_ : seen(first - 1);
+        for (std::int64_t step = first; step <= pending; ++step) {
+            Sight now = step == pending ? sight() : seen(step);
+            fields_.judge(static_cast<std::size_t>(step), before, now);
+            before = std::move(now);
+        }
+        last_seen_ = std::move(before);
+        const auto number = static_cast<std::size_t>(first - 1);
+        if (!fields_.chosen(number) || fields_.written(number)) return;
+        const SelectedStep selected(model_, solver_.get(), first - 1);
+        fields_.write_step(model_, solver_.get(), scene_, number);
+    }
+
     // Writes the fields, then the row: a step with a row is complete. Rewrites steps that this one revised; true if
     // there were any.
     bool record() {
@@ -222,7 +252,8 @@ private:
              running_state_);
         fields_.synchronise_steps();
         rows_->synchronise();
-        state_.companions = {rows_->content(), fields_.hashes(static_cast<std::size_t>(state_.step))};
+        state_.companions.history = rows_->content();
+        fields_.seal(static_cast<std::size_t>(state_.step), state_.companions);
         write_atomic(running_state_, pack(state_));
         rows_->settle();
         fields_.settle();
@@ -247,6 +278,7 @@ private:
     std::string running_origin_;
     std::optional<RowFile> rows_;
     State state_;
+    std::optional<Sight> last_seen_;  // of the committed step
     Origin origin_;
     std::optional<std::int64_t> saved_step_;
     Clock::time_point saved_;
@@ -377,8 +409,8 @@ int analyse(const Analysis& of) {
         complain("delam: {} did not converge (of {}), the first is step {}\n",
                  counted(static_cast<std::int64_t>(outcome.not_converged.size()), "step"), total,
                  outcome.not_converged.front());
-    say("wrote {}: history.csv, {}fields.h5, fields.xdmf, result.json, state.bin\n", folder.path(),
-        outcome.has_jumps ? "jumps.csv, " : "");
+    say("wrote {}: history.csv, {}{}result.json, state.bin\n", folder.path(), outcome.has_jumps ? "jumps.csv, " : "",
+        scene.output.fields.empty() ? "" : "fields.h5, fields.xdmf, ");
     return code;
 }
 

@@ -135,12 +135,13 @@ void OutputFolder::publish() {
     remove_file(path_ + "/result.json");
     for (const char* name : {"history.csv", "state.bin"})
         rename_file(running_ + "/published_" + name, path_ + "/" + name);
-    for (const char* name : {"fields.h5", "fields.xdmf"}) rename_file(running_ + "/" + name, path_ + "/" + name);
-    // Not every result has one, and that of an earlier result must not stay.
-    if (is_there(running_ + "/jumps.csv"))
-        rename_file(running_ + "/jumps.csv", path_ + "/jumps.csv");
-    else
-        remove_file(path_ + "/jumps.csv");
+    // Not every result has them, and those of an earlier result must not stay.
+    for (const std::string name : {"/fields.h5", "/fields.xdmf", "/jumps.csv"}) {
+        if (is_there(running_ + name))
+            rename_file(running_ + name, path_ + name);
+        else
+            remove_file(path_ + name);
+    }
     synchronise(path_);
     rename_file(running_ + "/result.json", path_ + "/result.json");
     synchronise(path_);

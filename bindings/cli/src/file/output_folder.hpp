@@ -37,8 +37,8 @@ public:
     void begin();
     // The files of the result in `running`, but for result.json, which names them.
     [[nodiscard]] std::vector<NamedContent> contents() const;
-    // Moves fields.h5, fields.xdmf, result.json and jumps.csv (if it exists), and copies of history.csv and state.bin,
-    // from `running` to DIR.
+    // Moves result.json and, if they exist, fields.h5, fields.xdmf and jumps.csv, and copies of history.csv and
+    // state.bin, from `running` to DIR.
     void publish();
     // Removes the files in `running`.
     void end();

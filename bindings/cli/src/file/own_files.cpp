@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
+#include <charconv>
 #include <filesystem>
 
 #include <sys/stat.h>
@@ -29,16 +30,6 @@ constexpr std::string_view running_names[] = {"origin.json", "published_history.
 
 bool is_name(std::string_view name, std::string_view of) { return name == of || is_beside(name, of); }
 
-// True for step_NUMBER.h5, NUMBER with eight digits or more, and for what is written beside it.
-bool is_step_name(std::string_view name) {
-    constexpr std::string_view before = "step_";
-    if (!name.starts_with(before)) return false;
-    const auto digits = name.substr(before.size());
-    const auto end = std::find_if(digits.begin(), digits.end(), [](unsigned char c) { return std::isdigit(c) == 0; });
-    const auto length = static_cast<std::size_t>(end - digits.begin());
-    return length >= 8 && is_name(name, fmt::format("{}{}.h5", before, digits.substr(0, length)));
-}
-
 }  // namespace
 
 const std::vector<std::string>& result_names() {
@@ -49,9 +40,22 @@ const std::vector<std::string>& result_names() {
 
 bool is_running_name(std::string_view name) {
     const auto has_name = [name](const auto& of) { return is_name(name, of); };
-    return name == marker_name || is_step_name(name) ||
+    return name == marker_name || step_of(name) ||
            std::any_of(result_names().begin(), result_names().end(), has_name) ||
            std::any_of(std::begin(running_names), std::end(running_names), has_name);
+}
+
+// NUMBER of step_NUMBER.h5 has eight digits or more.
+std::optional<std::size_t> step_of(std::string_view name) {
+    constexpr std::string_view before = "step_";
+    if (!name.starts_with(before)) return std::nullopt;
+    const auto digits = name.substr(before.size());
+    const auto end = std::find_if(digits.begin(), digits.end(), [](unsigned char c) { return std::isdigit(c) == 0; });
+    const auto number = digits.substr(0, static_cast<std::size_t>(end - digits.begin()));
+    if (number.size() < 8 || !is_name(name, fmt::format("{}{}.h5", before, number))) return std::nullopt;
+    std::size_t step = 0;
+    const auto [last, code] = std::from_chars(number.data(), number.data() + number.size(), step);
+    return code == std::errc() ? std::optional(step) : std::nullopt;
 }
 
 std::string step_name(std::size_t step) { return fmt::format("step_{:08d}.h5", step); }

@@ -6,7 +6,9 @@
 // second name are never its own: they lead to what belongs to others.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,6 +25,8 @@ const std::vector<std::string>& result_names();
 // needs to go on.
 bool is_running_name(std::string_view name);
 std::string step_name(std::size_t step);
+// The step of such a name, or of what is written beside it; nothing: it is another name.
+std::optional<std::size_t> step_of(std::string_view name);
 
 bool is_marked(const std::string& folder);
 // Writes the marker, if it is not there.

@@ -57,10 +57,30 @@ bool is_possible(const State& state) {
            (steps.empty() || (steps.front() >= 0 && steps.back() <= state.step));
 }
 
+std::optional<ChosenInstants> read_instants(const nlohmann::json& head) {
+    const auto found = head.find("instants");
+    if (found == head.end()) return std::nullopt;
+    return ChosenInstants{
+        found->at("steps").get<std::vector<std::int64_t>>(),    found->at("kinds").get<std::vector<std::int64_t>>(),
+        found->at("patterns").get<std::vector<std::int64_t>>(), found->at("changes").get<std::vector<double>>(),
+        found->at("largest").get<std::vector<double>>(),        found->at("lowest").get<std::vector<double>>()};
+}
+
+bool is_possible(const ChosenInstants& instants, std::int64_t step) {
+    const auto& steps = instants.steps;
+    const auto patterns = static_cast<std::int64_t>(instants.largest.size());
+    return steps.size() == instants.kinds.size() && steps.size() == instants.patterns.size() &&
+           steps.size() == instants.changes.size() && instants.largest.size() == instants.lowest.size() &&
+           std::all_of(instants.patterns.begin(), instants.patterns.end(),
+                       [patterns](std::int64_t pattern) { return pattern >= 0 && pattern < patterns; }) &&
+           std::adjacent_find(steps.begin(), steps.end(), std::greater_equal<>()) == steps.end() &&
+           (steps.empty() || (steps.front() >= 0 && steps.back() <= step));
+}
+
 }  // namespace
 
 std::string pack(const State& state) {
-    const nlohmann::ordered_json head{
+    nlohmann::ordered_json head{
         {"kind", kind_of(format)},
         {"content_hash", state.content_hash},
         {"problem_hash", state.problem_hash},
@@ -69,6 +89,10 @@ std::string pack(const State& state) {
         {"history", {{"bytes", state.companions.history.bytes}, {"hash", state.companions.history.hash}}},
         {"fields", state.companions.fields},
         {"size", state.bytes.size()}};
+    if (const auto& instants = state.companions.instants)
+        head["instants"] = {{"steps", instants->steps},       {"kinds", instants->kinds},
+                            {"patterns", instants->patterns}, {"changes", instants->changes},
+                            {"largest", instants->largest},   {"lowest", instants->lowest}};
     const std::string line = head.dump();
     return line + "\n" + state.bytes + seal_of(line, state.bytes);
 }
@@ -93,7 +117,8 @@ StateFile read_state(const std::string& path) {
         if (out.format == 2) out.origin = Origin{json.at("started"), json.at("resumed")};
         if (sealed) {
             const auto& history = json.at("history");
-            state.companions = {{history.at("bytes"), history.at("hash")}, json.at("fields")};
+            state.companions = {{history.at("bytes"), history.at("hash")}, json.at("fields"), read_instants(json)};
+            if (state.companions.instants && !is_possible(*state.companions.instants, state.step)) throw damaged;
         }
         // The whole file is read: what it holds besides its first line is limited by its own length.
         state.bytes = std::move(head.behind) + file.rest();

@@ -14,10 +14,20 @@
 
 namespace cli {
 
+// Steps that an analysis has chosen so far to write their fields, and what it chooses the next ones by
+// (result/fields/instants.hpp).
+struct ChosenInstants {
+    std::vector<std::int64_t> steps;            // ascending
+    std::vector<std::int64_t> kinds, patterns;  // [steps]
+    std::vector<double> changes;                // [steps]
+    std::vector<double> largest, lowest;        // [patterns]
+};
+
 // The files beside the state.
 struct Companions {
-    Content history;                  // header and rows up to the step of the state
-    std::vector<std::string> fields;  // hash of the file of each chosen step up to that of the state
+    Content history;                         // header and rows up to the step of the state
+    std::vector<std::string> fields;         // hash of the file of each chosen step up to that of the state
+    std::optional<ChosenInstants> instants;  // nothing: the scene alone chooses
 };
 
 struct State {

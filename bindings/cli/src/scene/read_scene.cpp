@@ -200,7 +200,8 @@ void read_output(const Table& root, Scene& scene) {
     output.place = table.place();
     output.fields = {"displacement", "stress", "zeta", "jump", "traction", "contact", "front"};
     if (table.has("fields")) output.fields = table.texts("fields");
-    output.every = table.whole("every");
+    if (table.has("every")) output.every = table.whole("every");
+    output.own_snapshots = table.has("snapshots");
     output.snapshots = table.numbers("snapshots");
     output.displacement_scale = table.number("displacement_scale");
     if (table.has("columns")) output.columns = table.texts("columns");

@@ -229,8 +229,9 @@ struct SolverOption {
 
 struct Output {
     std::vector<std::string> fields;
-    std::int64_t every = 1;
+    std::optional<std::int64_t> every;  // nothing: where something happens (result/fields/instants.hpp)
     std::vector<double> snapshots;
+    bool own_snapshots = false;  // the scene names them
     double displacement_scale = 5;
     std::vector<std::string> columns;  // values of the solver beyond the standard columns of history.csv
     Place columns_place;

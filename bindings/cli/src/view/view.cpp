@@ -180,6 +180,10 @@ int view(const std::string& folder, const ViewWishes& wishes) {
     data["jumps"] = view_jumps(folder, about, history);
     data["history"] = std::move(history.columns);
     const std::string path = folder + "/fields.h5";
+    if (about.fields.empty())
+        throw Failure(exit_scene, folder +
+                                      "/result.json: the scene writes no fields (output.fields = []), and the page "
+                                      "shows fields");
     const FieldsFile file(path);
     if (const std::string hash = file.text("scene_hash"); about.scene_hash != hash)
         throw Failure(exit_scene, fmt::format("{}: it belongs to the scene {}, and result.json to {}", path, hash,

@@ -115,6 +115,8 @@ class Result:
             importlib.import_module("h5py")
         except ImportError:
             raise ImportError("fields need h5py (Debian: python3-h5py)") from None
+        if not self.about["output"]["fields"]:
+            raise ValueError(f"{self.folder}: the scene writes no fields (output.fields = [])")
         return fields_file(self.folder / "fields.h5")
 
     @property

@@ -128,20 +128,17 @@ std::vector<XdmfBlock> write_mesh(const Model& model, const Scene& scene, hid_t 
 
 }  // namespace
 
-Fields::Fields(std::string folder, const Scene& scene, Bulk* bulk) : folder_(std::move(folder)), bulk_(bulk) {
-    const std::size_t last = scene.step_count();
-    for (std::size_t k = 0; k <= last; k += static_cast<std::size_t>(scene.output.every)) chosen_.insert(k);
-    chosen_.insert(last);
-    for (const double instant : scene.output.snapshots) {
-        const auto nearer = [instant](double a, double b) { return std::abs(a - instant) < std::abs(b - instant); };
-        chosen_.insert(static_cast<std::size_t>(std::min_element(scene.times.begin(), scene.times.end(), nearer) -
-                                                scene.times.begin()));
-    }
-}
+Fields::Fields(std::string folder, const Scene& scene, Bulk* bulk)
+    : folder_(std::move(folder)), bulk_(bulk), instants_(scene) {}
 
 bool Fields::estimates_mesh_error(std::size_t step) const {
-    const auto place = static_cast<std::size_t>(std::distance(chosen_.begin(), chosen_.find(step)));
-    return std::has_single_bit(place) || step == *chosen_.rbegin();
+    const std::set<std::size_t>& fixed = instants_.fixed();
+    if (instants_.first_damage() == step) return true;
+    const auto at = fixed.find(step);
+    if (at == fixed.end()) return false;
+    const auto place = static_cast<std::size_t>(std::distance(fixed.begin(), at));
+    if (step == *fixed.rbegin()) return true;
+    return judges() ? place == fixed.size() / 2 : std::has_single_bit(place);
 }
 
 std::string Fields::step_path(std::size_t step) const { return folder_ + "/" + step_name(step); }
@@ -164,12 +161,19 @@ void Fields::write_step(const Model& model, delam_solver* solver, const Scene& s
         Appender(path, 0).append(bytes);
         hashes_[step] = hash_text(bytes);
     }
+    written_.insert(step);
     unsynchronised_.push_back(path);
 }
 
 void Fields::settle() {
     for (const std::size_t step : revised_) rename_file(revised_path(step), step_path(step));
     revised_.clear();
+    std::erase_if(written_, [this](std::size_t step) {
+        if (chosen(step)) return false;
+        remove_file(step_path(step));
+        hashes_.erase(step);
+        return true;
+    });
 }
 
 void Fields::synchronise_steps() {
@@ -177,45 +181,53 @@ void Fields::synchronise_steps() {
     unsynchronised_.clear();
 }
 
-std::vector<std::string> Fields::hashes(std::size_t last) {
-    std::vector<std::string> out;
-    for (const std::size_t step : chosen_) {
-        if (step > last) break;
+void Fields::seal(std::size_t last, Companions& companions) {
+    companions.fields.clear();
+    for (const std::size_t step : instants_.up_to(last)) {
         auto at = hashes_.find(step);
         if (at == hashes_.end()) {
             const std::string path = revised_.contains(step) ? revised_path(step) : step_path(step);
             at = hashes_.emplace(step, content_of_file(path).hash).first;
         }
-        out.push_back(at->second);
+        companions.fields.push_back(at->second);
     }
-    return out;
+    if (judges()) companions.instants = instants_.memory();
 }
 
-void Fields::resume(std::size_t last, const std::optional<std::vector<std::string>>& saved) {
+void Fields::resume(std::size_t last, const std::optional<Companions>& saved) {
+    if (judges() && saved && saved->instants)
+        instants_.restore(*saved->instants);
+    else if (judges())
+        instants_.take_every_step();
     std::size_t k = 0;
-    for (const std::size_t step : chosen_) {
+    for (const std::size_t step : instants_.up_to(last)) {
         const std::string path = step_path(step);
-        const std::string expected = saved && k < saved->size() ? (*saved)[k] : "";
+        const std::string expected = saved && k < saved->fields.size() ? saved->fields[k] : "";
         take_revised(path,
                      [&expected](const std::string& revised) { return content_of_file(revised).hash == expected; });
         ++k;
-        if (step > last) {
-            remove_file(path);  // it is computed again
-            continue;
-        }
         if (!is_there(path)) throw Failure(exit_scene, path + ": missing; run again without --resume");
         hashes_[step] = content_of_file(path).hash;
         if (saved ? hashes_[step] != expected : !is_step_file(path, step))
             throw Failure(exit_scene, path + ": not as it was when the state was saved; run again without --resume");
+        written_.insert(step);
     }
+    // Steps after the saved state are computed again, and the state counts no longer on others that have gone.
+    for (const std::string& name : names_in(folder_))
+        if (const auto step = step_of(name); step && !written_.contains(*step)) remove_file(folder_ + "/" + name);
 }
 
 BulkFacts Fields::assemble(const Model& model, const Scene& scene, std::size_t last, const std::string& problem_hash,
                            const Concept& named) const {
+    if (scene.output.fields.empty()) {
+        for (const char* name : {"/fields.h5", "/fields.xdmf"}) remove_file(folder_ + name);  // of an earlier attempt
+        return {};
+    }
     const std::string path = folder_ + "/fields.h5";
+    const std::set<std::size_t> chosen = instants_.up_to(last);
     std::int64_t bytes = std::int64_t{1} << 20;
-    for (const std::size_t step : chosen_)
-        if (step <= last) bytes += static_cast<std::int64_t>(std::filesystem::file_size(step_path(step)));
+    for (const std::size_t step : chosen)
+        bytes += static_cast<std::int64_t>(std::filesystem::file_size(step_path(step)));
     require_room(path, bytes);
 
     BulkFacts facts;
@@ -233,8 +245,7 @@ BulkFacts Fields::assemble(const Model& model, const Scene& scene, std::size_t l
         h5::attribute(file.get(), "dimension", static_cast<std::int64_t>(scene.geometry.dimension));
         blocks = write_mesh(model, scene, file.get());
         const h5::Group group(h5::new_group(file.get(), "steps"), path);
-        for (const std::size_t step : chosen_) {
-            if (step > last) break;
+        for (const std::size_t step : chosen) {
             const std::string name = fmt::format("{:08d}", step);
             const std::string image = bulk_ == nullptr ? read_bytes(step_path(step)) : "";
             const h5::File from(bulk_ == nullptr ? h5::open_bytes(image) : h5::open(step_path(step)), step_path(step));
@@ -263,10 +274,6 @@ BulkFacts Fields::assemble(const Model& model, const Scene& scene, std::size_t l
     synchronise(path);
     write_atomic(folder_ + "/fields.xdmf", xdmf_text(blocks, steps, scene.output.fields));
     return facts;
-}
-
-void Fields::remove_steps() const {
-    for (const std::size_t step : chosen_) remove_file(step_path(step));
 }
 
 }  // namespace cli

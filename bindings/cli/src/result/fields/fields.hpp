@@ -12,6 +12,7 @@
 #include "model/model.hpp"
 #include "result/fields/bulk_facts.hpp"
 #include "result/fields/bulk_fields.hpp"
+#include "result/fields/instants.hpp"
 #include "result/history/concept.hpp"
 
 namespace cli {
@@ -21,33 +22,40 @@ public:
     // folder: for the step files. bulk: where the fields are; null: here.
     Fields(std::string folder, const Scene& scene, Bulk* bulk);
 
-    // Every n-th step, the first, the last and those nearest to the snapshot instants.
-    [[nodiscard]] bool chosen(std::size_t step) const { return chosen_.contains(step); }
+    [[nodiscard]] bool chosen(std::size_t step) const { return instants_.chosen(step); }
+    [[nodiscard]] bool written(std::size_t step) const { return written_.contains(step); }
+    // Judges steps `first`, first + 1, .. by what they and the step before them show (Instants::judge).
+    [[nodiscard]] bool judges() const { return instants_.judges(); }
+    void judge(std::size_t step, const Sight& before, const Sight& now) { instants_.judge(step, before, now); }
     void write_step(const Model& model, delam_solver* solver, const Scene& scene, std::size_t step);
     // Flushes the step files to disk, before a state that relies on them is written.
     void synchronise_steps();
-    // Replaces the files of steps that were written again: the saved state counts on the new ones.
+    // Replaces the files of steps that were written again, and removes those of steps that are chosen no more: the
+    // saved state counts on what is left.
     void settle();
-    // The hashes of the files of the chosen steps up to `last`, in their order.
-    std::vector<std::string> hashes(std::size_t last);
+    // Hashes of the files of the chosen steps up to `last`, in their order, and how the next ones are chosen.
+    void seal(std::size_t last, Companions& companions);
     // Continues with the files of the chosen steps up to `last`. Throws Failure(exit_scene) if a file is missing or its
     // hash differs from the saved one; if no hashes were saved, if it is of another step.
-    void resume(std::size_t last, const std::optional<std::vector<std::string>>& saved);
-    // Combines steps 0 .. last into folder/fields.h5 and folder/fields.xdmf.
+    void resume(std::size_t last, const std::optional<Companions>& saved);
+    // Combines steps 0 .. last into folder/fields.h5 and folder/fields.xdmf; writes neither if the scene wants no
+    // field.
     BulkFacts assemble(const Model& model, const Scene& scene, std::size_t last, const std::string& problem_hash,
                        const Concept& named) const;
-    void remove_steps() const;
     [[nodiscard]] bool on_many_processes() const { return bulk_ != nullptr; }
 
 private:
-    // True for the 1st, 2nd, 4th, 8th, .. of the steps behind the initial state, and for the last.
+    // True for the last of the steps that are chosen from the beginning and, of those behind the initial state, for the
+    // 1st, 2nd, 4th, 8th, ..; where events choose steps, too, for the middle one and the step of the first damage:
+    // until then the share of the error stays the same.
     [[nodiscard]] bool estimates_mesh_error(std::size_t step) const;
     [[nodiscard]] std::string step_path(std::size_t step) const;
     [[nodiscard]] std::string revised_path(std::size_t step) const;
 
     std::string folder_;
     Bulk* bulk_;
-    std::set<std::size_t> chosen_;
+    Instants instants_;
+    std::set<std::size_t> written_;  // steps that have a file
     std::vector<std::string> unsynchronised_;
     std::set<std::size_t> revised_;              // steps whose files wait for settle()
     std::map<std::size_t, std::string> hashes_;  // by step; without those that many processes have written since

@@ -166,6 +166,11 @@ H5FD_class_t driver() {
 
 }  // namespace
 
+void begin() {
+    static const bool begun = H5dont_atexit() >= 0 && H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr) >= 0;
+    (void)begun;
+}
+
 FileTrouble take_trouble() {
     const FileTrouble opening = std::exchange(not_opened, {});
     const FileTrouble later = std::exchange(trouble, {});
@@ -180,6 +185,7 @@ bool memory_for_a_file() {
 }
 
 hid_t driver_access() {
+    begin();
     static const H5FD_class_t class_of_driver = driver();
     static const hid_t access = [] {
         const hid_t id = H5FDregister(&class_of_driver);

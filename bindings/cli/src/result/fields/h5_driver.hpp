@@ -17,6 +17,9 @@ struct FileTrouble {
     int code = 0;  // errno; 0: none
 };
 
+// Begins with HDF5, once: it would print its stack of errors and, after a full disk, try to write again at exit; the
+// program handles both itself.
+void begin();
 // The first operation that failed on this thread since the trouble was last taken.
 FileTrouble take_trouble();
 // True if there is memory for what HDF5 keeps of a file (half a megabyte): HDF5 1.10 ends by a signal where it gets

@@ -143,8 +143,14 @@ std::pair<std::int64_t, std::int64_t> mesh_rows(const Model& model) {
 
 std::string step_bytes(const Model& model, delam_solver* solver, const Scene& scene, std::int64_t step, double time,
                        bool estimate) {
+    h5::begin();
     const h5::Properties access(H5Pcreate(H5P_FILE_ACCESS), "fields.h5");
-    h5::require(H5Pset_fapl_core(access.get(), std::size_t{1} << 20, false), "fields.h5");
+    // The image grows once, to about what it takes: HDF5 clears what it allocates.
+    const auto [node_rows, cell_rows] = mesh_rows(model);
+    std::size_t room = std::size_t{1} << 16;
+    for (const BulkField& field : bulk_fields(scene))
+        room += field.columns * sizeof(double) * static_cast<std::size_t>(field.of_nodes ? node_rows : cell_rows);
+    h5::require(H5Pset_fapl_core(access.get(), room, false), "fields.h5");
     const h5::File file(h5::create("step", access.get()), "fields.h5");
     Field displacement;
     BulkSource source;

@@ -133,12 +133,16 @@ KeyTable time_table() {
 
 KeyTable output_table() {
     KeyTable table{"output", "what is written", {}, {}};
-    KeyRow fields = texts_key("fields").otherwise("all but mixity and rotation").says("fields of fields.h5");
+    KeyRow fields = texts_key("fields")
+                        .otherwise("all but mixity and rotation")
+                        .says("fields of fields.h5; none: the history alone is written");
+    fields.entries(0, 0);
     fields.choices = {"displacement", "stress", "zeta", "jump", "traction", "contact", "mixity", "rotation", "front"};
     table.rows = {
         fields,
-        whole_key("every", 1).otherwise("1").says("writes the fields of every n-th step"),
+        whole_key("every", 1).otherwise("where something happens").says("writes the fields of every n-th step"),
         numbers_key("snapshots")
+            .entries(0, 0)
             .otherwise("[0.33, 0.5, 0.66, 1.0, 1.17, 1.33, 1.5, 1.67, 1.83, 2.0]")
             .says("instants of the pictures"),
         number_key("displacement_scale", not_negative)

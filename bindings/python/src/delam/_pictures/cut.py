@@ -1,13 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Bodies in space cut open by a plane, deformed, with the adhesion of their interfaces in colour along the cut."""
-import os
-
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 
 from .cells import BODIES, ZETA, body_of_nodes, body_tones
-from .input_file import fields_file
-from .result import Nothing, plt
+from .result import Nothing, fields_of, plt
 from .section import Section, cut_triangles, on_plane, triangles_of
 from .snapshots import adhesion_bar, plane_axes, snapshot_steps, stamp_scale
 
@@ -132,7 +129,7 @@ def cut_figure(result, plane=None):
     scale = output["displacement_scale"]
     if result.about["scene"]["dimension"] == 2:
         raise Nothing("plane bodies are not cut")
-    with fields_file(os.path.join(result.folder, "fields.h5")) as file:
+    with fields_of(result) as file:
         shots = snapshot_steps(file, output["snapshots"])
         if "displacement" not in shots[0][1]:
             raise Nothing("no displacement in fields.h5")

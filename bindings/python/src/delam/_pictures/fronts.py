@@ -1,13 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Interfaces of a body in space, seen in plan."""
-import os
-
 import numpy as np
 from matplotlib.collections import LineCollection
 
 from .cells import ZETA, text_of
-from .input_file import fields_file
-from .result import Nothing, axis, plt
+from .result import Nothing, axis, fields_of, plt
 from .section import PIECES
 
 LARGEST = 8  # interfaces in one picture
@@ -92,7 +89,7 @@ def fronts_figure(result):
     """Adhesion at the last step in plan, and over it the fronts of all stored steps, by time."""
     if result.about["scene"]["dimension"] == 2:
         raise Nothing("fronts are drawn of scenes in space")
-    with fields_file(os.path.join(result.folder, "fields.h5")) as file:
+    with fields_of(result) as file:
         figure = draw_fronts(result, file)
     result.stamp(figure)
     return figure

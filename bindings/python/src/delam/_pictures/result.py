@@ -9,7 +9,7 @@ import matplotlib
 import matplotlib.pyplot as plt
 import numpy as np
 
-from .input_file import MOST_RESULT, Unreadable, read_columns, read_json
+from .input_file import MOST_RESULT, Unreadable, fields_file, read_columns, read_json
 
 WITHIN = ("strain", "gap")  # these patterns act inside the bodies and between them: their factors are no loads
 BLUE, RED, GREEN, ORANGE, GREY = "#1f5a99", "#b3312c", "#2f7d4f", "#d18b1f", "#7a7f87"
@@ -27,6 +27,13 @@ class Nothing(Exception):
     def __init__(self, reason, expected=True):
         super().__init__(reason)
         self.expected = expected
+
+
+def fields_of(result):
+    """The open fields.h5 of a result. Nothing: its scene writes no fields."""
+    if not result.about["output"]["fields"]:
+        raise Nothing("the scene writes no fields")
+    return fields_file(os.path.join(result.folder, "fields.h5"))
 
 
 def for_files():

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Bodies at some instants: deformed, with the adhesion of their interfaces in colour."""
-import os
-
 import matplotlib
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
@@ -10,8 +8,7 @@ from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 from .cells import (BODIES, ZETA, body_of_nodes, body_tones, boundary_edges, boundary_faces, cell_blocks, cell_outlines,
                    hidden_bodies, text_of, without)
 from .fronts import chosen_interfaces, plan_of, triangles_of
-from .input_file import fields_file
-from .result import Nothing, plt
+from .result import Nothing, fields_of, plt
 
 
 def snapshot_steps(file, instants):
@@ -198,7 +195,7 @@ def plot_solid(result, file, shots, scale):
 def snapshots_figure(result):
     output = result.about["output"]
     scale = output["displacement_scale"]
-    with fields_file(os.path.join(result.folder, "fields.h5")) as file:
+    with fields_of(result) as file:
         shots = snapshot_steps(file, output["snapshots"])
         if "displacement" not in shots[0][1]:
             raise Nothing("no displacement in fields.h5", expected=False)

@@ -1,13 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Stresses at some instants."""
-import os
-
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 
 from .cells import boundary_edges, cell_blocks
-from .input_file import fields_file
-from .result import Nothing, axis, plt
+from .result import Nothing, axis, fields_of, plt
 from .snapshots import load_text, snapshot_steps
 
 
@@ -31,7 +28,7 @@ def stresses_figure(result):
     if not result.prescribed_strains() or result.about["scene"]["dimension"] != 2 or "stress" not in output["fields"]:
         raise Nothing("stresses are drawn of plane scenes with prescribed strains that store the field stress")
     factor, unit = result.stress_unit()
-    with fields_file(os.path.join(result.folder, "fields.h5")) as file:
+    with fields_of(result) as file:
         shots = snapshot_steps(file, output["snapshots"])
         points = file["mesh/points"][:, :2]
         if "displacement" not in shots[0][1]:
