@@ -99,6 +99,11 @@ double toughness_at(Criterion criterion, const Modes& m, double mixity) {
     return interaction(m.normal, m.tangential, m.first, m.second, mixity);
 }
 
+double least_toughness(Criterion criterion, const Modes& m) {
+    const double r = criterion == Criterion::benzeggagh_kenane ? 1.0 : std::min({m.first, m.second, 1.0});
+    return std::exp2(1.0 - 1.0 / r) * std::min(m.normal, m.tangential);
+}
+
 double toughness_slope_at(Criterion criterion, const Modes& m, double mixity) {
     if (!depends_on_mixity(criterion, m)) return 0.0;
     if (criterion == Criterion::benzeggagh_kenane) {

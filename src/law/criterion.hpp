@@ -26,6 +26,13 @@ struct Modes {
     double second;      // q; p = q for the power law, not used by Benzeggagh and Kenane
 };
 double toughness_at(Criterion criterion, const Modes& modes, double mixity);
+// Returns a number that G(B) exceeds or reaches for every B. With r = min(p, q, 1) and the shares S = (1-B) G/G_n and
+// T = B G/G_t, which lie within [0,1],
+//
+//     1 = S^p + T^q <= S^r + T^r <= 2^(1-r) (S + T)^r,   S + T <= G / min(G_n, G_t)
+//
+// so that G >= 2^(1 - 1/r) min(G_n, G_t); Benzeggagh and Kenane's criterion is monotone: r = 1.
+double least_toughness(Criterion criterion, const Modes& modes);
 // dG/dB. Where it is infinite (an exponent below 1, at the corresponding pure mode) it is replaced by its value at a
 // distance of one part in a million.
 double toughness_slope_at(Criterion criterion, const Modes& modes, double mixity);

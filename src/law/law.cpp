@@ -63,6 +63,8 @@ double Law::least_onset() const {
     return std::min(modes.normal, modes.tangential);
 }
 
+double Law::least_total() const { return host() != nullptr ? 0.0 : least_toughness(criterion, total_modes()); }
+
 double Law::dissipated(const Toughness& t, double zeta) const {
     return std::visit([&](const auto& shape) { return shape.dissipated(t, zeta); }, softening);
 }

@@ -236,4 +236,36 @@ LOOP_TEST(other_cells, 0, 4) {
     cases::expect(solver.value("dissipated") > 0.0, "it breaks");
 }
 
+// The first jump of a march in so many steps.
+cases::Jump first_jump(int steps) {
+    Beam b;
+    b.right = 0.0;
+    Scene scene = cases::make_beam(b);
+    cases::set_energetic(scene);
+    Solver solver(scene, 0.0);
+    for (int k = 1; k <= steps; ++k) {
+        solver.step(static_cast<double>(k) / steps);
+        solver.commit();
+    }
+    const auto all = cases::jumps(solver);
+    cases::expect(!all.empty(), "the crack jumps in " + std::to_string(steps) + " steps");
+    const cases::Jump& jump = all.front();
+    std::printf("%d steps: %zu jumps, the first at time %g over %g m, %g J/m released\n", steps, all.size(), jump.time,
+                jump.debonded, jump.released);
+    cases::expect(jump.released >= 0.0 && jump.dissipated > 0.0, "energies of the jump");
+    cases::expect(jump.before <= jump.time && jump.time <= static_cast<double>(jump.step) / steps, "instant");
+    return jump;
+}
+
+// The load of a jump is that at which the energies of two states cross, however many steps lead over it: of a crack
+// that runs through a bent beam.
+TEST(jump_of_coarse_steps) {
+    const cases::Jump fine = first_jump(64);
+    for (const int steps : {16, 5}) {
+        const cases::Jump coarse = first_jump(steps);
+        cases::expect_near(coarse.time, fine.time, 0.03, fine.time, "instant of the jump");
+        cases::expect(coarse.debonded > 0.75 * fine.debonded, "length of the jump");
+    }
+}
+
 }  // namespace

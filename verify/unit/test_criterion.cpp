@@ -97,6 +97,23 @@ TEST(slopes) {
         for (const double b : {0.0, 0.5, 1.0}) ck_assert(delam::toughness_slope_at(criterion, same, b) == 0.0);
 }
 
+// No mixity has a lower toughness than the bound, and one has it where the exponents are at least 1.
+TEST(least_toughness) {
+    for (const Criterion criterion : laws::criteria)
+        for (const double p : {0.3, 0.8, 1.0, 2.0, 8.0})
+            for (const double q : {0.4, 1.0, 3.0})
+                for (const double gt : {0.2, 1.0, 5.0}) {
+                    const Modes m{1.0, gt, p, criterion == Criterion::valoroso_champaney ? q : p};
+                    const double bound = delam::least_toughness(criterion, m);
+                    double least = std::min(1.0, gt);
+                    for (int i = 0; i <= 10000; ++i)
+                        least = std::min(least, delam::toughness_at(criterion, m, 1e-4 * i));
+                    ck_assert_msg(bound > 0.0 && bound <= least * (1.0 + 1e-12), "%s p %g q %g: %g above %g",
+                                  delam::name_of(criterion), m.first, m.second, bound, least);
+                    if (m.first >= 1.0 && m.second >= 1.0) ck_assert(bound == std::min(1.0, gt));
+                }
+}
+
 // A minimum of Gc/Go between two admissible pure modes; admissible on one side of the limit and refused on the other.
 TEST(admissible) {
     // G = 100 + 300 B^eta: the onset, with eta = 1, is 250 at B = 1/2, the toughness, with eta = 4, r (100 + 300/16).

@@ -82,12 +82,13 @@ struct Effort {
 
 // The largest jump that the path of a step has shown (step/within_step.hpp); none: debonded = 0.
 struct JumpWithin {
-    std::int64_t known = 0;                                 // 1: the step was followed in parts, which tell about jumps
-    double load = 0.0;                                      // over that of the end of the step
-    double released = 0.0;                                  // F L
-    double debonded = 0.0;                                  // of all interfaces, L or L2
-    double drop = 0.0;                                      // of the load, relative
-    std::int64_t interface = -1;                            // the one that debonds most
+    static constexpr std::int64_t told_by_search = 2;
+    std::int64_t known = 0;       // 1: the step was followed in parts, which tell about jumps; 2: its search has told
+    double load = 0.0;            // over that of the end of the step
+    double released = 0.0;        // F L
+    double debonded = 0.0;        // of all interfaces, L or L2
+    double drop = 0.0;            // of the load, relative
+    std::int64_t interface = -1;  // the one that debonds most
     std::vector<double> conjugate_before, conjugate_after;  // [patterns] dE/dtheta at this load
 };
 

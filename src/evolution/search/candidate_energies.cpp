@@ -23,7 +23,14 @@ constexpr std::size_t largest_dense_zone = 1500;
 constexpr std::int64_t forgotten = 4;
 // A key is saved in two halves, which a double holds exactly.
 constexpr unsigned half = 32;
-constexpr std::size_t saved_numbers = 5;  // of an energy
+constexpr double layout = -1.0;  // begins the energies that are saved; in the first layout a key, >= 0, did
+constexpr std::size_t numbers_of_an_energy = 7, numbers_in_first_layout = 5;  // besides mixities
+
+bool whole(double v) { return v >= 0.0 && v < std::ldexp(1.0, half) && v == std::floor(v); }
+
+std::uint64_t key_of_halves(double upper, double lower) {
+    return (static_cast<std::uint64_t>(upper) << half) | static_cast<std::uint64_t>(lower);
+}
 
 std::uint64_t key_of(std::span<const double> adhesion) {
     std::uint64_t h = checksum_start;
@@ -76,26 +83,51 @@ void CandidateEnergies::focus(std::span<const std::uint8_t> wanted) {
 
 void CandidateEnergies::recall(std::span<const double> memory) {
     const std::size_t patterns = direction_.size();
-    if (memory.size() < patterns || !std::ranges::equal(memory.first(patterns), direction_)) return;
-    const std::span<const double> entries = memory.subspan(patterns);
-    const auto whole = [](double v) { return v >= 0.0 && v < std::ldexp(1.0, half) && v == std::floor(v); };
-    for (std::size_t at = 0; at + saved_numbers <= entries.size(); at += saved_numbers) {
+    if (memory.size() <= patterns || !std::ranges::equal(memory.first(patterns), direction_)) return;
+    std::span<const double> left = memory.subspan(patterns);
+    if (left.front() != layout) return recall_first_layout(left);
+    left = left.subspan(1);
+    while (left.size() >= numbers_of_an_energy) {
+        if (!whole(left[0]) || !whole(left[1]) || !whole(left[4]) || !whole(left[6])) return;
+        Known known{{left[2], left[3], {}, {}, left[5] != 0.0}, static_cast<std::int64_t>(left[4]) + 1};
+        const std::uint64_t key = key_of_halves(left[0], left[1]);
+        const auto count = static_cast<std::size_t>(left[6]);
+        left = left.subspan(numbers_of_an_energy);
+        if (left.size() < 2 * count) return;
+        for (std::size_t i = 0; i < count; ++i) {
+            if (!whole(left[2 * i]) || !(left[2 * i + 1] >= 0.0 && left[2 * i + 1] <= 1.0)) return;
+            known.energy.next.push_back(static_cast<std::int64_t>(left[2 * i]));
+            known.energy.next_mixity.push_back(left[2 * i + 1]);
+        }
+        left = left.subspan(2 * count);
+        known_[key] = std::move(known);
+    }
+}
+
+// States that earlier versions have saved.
+void CandidateEnergies::recall_first_layout(std::span<const double> entries) {
+    for (std::size_t at = 0; at + numbers_in_first_layout <= entries.size(); at += numbers_in_first_layout) {
         if (!whole(entries[at]) || !whole(entries[at + 1]) || !whole(entries[at + 4])) return;
-        const std::uint64_t key =
-            (static_cast<std::uint64_t>(entries[at]) << half) | static_cast<std::uint64_t>(entries[at + 1]);
-        known_[key] = {{entries[at + 2], entries[at + 3], {}, {}}, static_cast<std::int64_t>(entries[at + 4]) + 1};
+        known_[key_of_halves(entries[at], entries[at + 1])] = {{entries[at + 2], entries[at + 3], {}, {}},
+                                                               static_cast<std::int64_t>(entries[at + 4]) + 1};
     }
 }
 
 std::vector<double> CandidateEnergies::memory() const {
     std::vector<double> m(direction_);
+    m.push_back(layout);
     for (const auto& [key, known] : known_) {
-        if (known.age > forgotten || !std::isfinite(known.energy.value)) continue;
-        m.push_back(static_cast<double>(key >> half));
-        m.push_back(static_cast<double>(key & 0xffffffffU));
-        m.push_back(known.energy.value);
-        m.push_back(known.energy.error);
-        m.push_back(static_cast<double>(known.age));
+        const CandidateEnergy& e = known.energy;
+        if (known.age > forgotten || !std::isfinite(e.value)) continue;
+        const std::size_t count = e.next_mixity.size();
+        for (const double number :
+             {static_cast<double>(key >> half), static_cast<double>(key & 0xffffffffU), e.value, e.error,
+              static_cast<double>(known.age), e.exact ? 1.0 : 0.0, static_cast<double>(count)})
+            m.push_back(number);
+        for (std::size_t i = 0; i < count; ++i) {
+            m.push_back(static_cast<double>(e.next[i]));
+            m.push_back(e.next_mixity[i]);
+        }
     }
     return m;
 }
@@ -124,8 +156,9 @@ bool CandidateEnergies::within_zone(std::span<const double> adhesion, std::span<
     return within;
 }
 
-void CandidateEnergies::from_zone(std::span<const double> adhesion, std::span<const double> known, CandidateEnergy& e) {
-    const std::optional<double> value = zone_->energy(adhesion);
+void CandidateEnergies::from_zone(std::span<const double> adhesion, std::span<const double> known, bool exact,
+                                  CandidateEnergy& e) {
+    const std::optional<double> value = zone_->energy(adhesion, exact);
     if (!zone_->settled()) {
         from_operator(adhesion, known, e);
         return;
@@ -133,6 +166,7 @@ void CandidateEnergies::from_zone(std::span<const double> adhesion, std::span<co
     if (!value) return;
     e.value = *value / (size_ * size_);
     e.error = zone_->error() / (size_ * size_);
+    e.exact = exact;
     for (std::size_t i = 0; follow_mixity_ && i < e.next.size(); ++i) {
         const std::size_t p = index(e.next[i]);
         e.next_mixity.push_back(breaking_mixity(p, adhesion, known[p], [&](std::size_t q) {
@@ -145,6 +179,7 @@ void CandidateEnergies::from_operator(std::span<const double> adhesion, std::spa
                                       CandidateEnergy& e) {
     const PairLaws& pairs = increment_.pairs();
     focused_ = false;  // the solve may choose another zone
+    e.exact = true;
     try {
         if (!solve_contact(op_, contact_, spring_stiffness(pairs, adhesion), direction_, closed_, response_, false)
                  .converged)
@@ -163,10 +198,11 @@ void CandidateEnergies::from_operator(std::span<const double> adhesion, std::spa
 }
 
 const CandidateEnergy& CandidateEnergies::at(const std::vector<double>& adhesion, std::span<const std::int64_t> next,
-                                             std::span<const double> known, std::int64_t candidates) {
+                                             std::span<const double> known, std::int64_t candidates, bool exact) {
     const std::uint64_t key = key_of(adhesion);
     if (const auto it = known_.find(key);
-        it != known_.end() && (!follow_mixity_ || next.empty() || std::ranges::equal(it->second.energy.next, next))) {
+        it != known_.end() && (!exact || it->second.energy.exact) &&
+        (!follow_mixity_ || next.empty() || std::ranges::equal(it->second.energy.next, next))) {
         it->second.age = 0;
         return it->second.energy;
     }
@@ -177,7 +213,7 @@ const CandidateEnergy& CandidateEnergies::at(const std::vector<double>& adhesion
         wanted_.clear();
     }
     if (within_zone(adhesion, next))
-        from_zone(adhesion, known, e);
+        from_zone(adhesion, known, exact, e);
     else
         from_operator(adhesion, known, e);
     return (known_[key] = {std::move(e), 0}).energy;

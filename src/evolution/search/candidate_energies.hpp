@@ -22,6 +22,7 @@ struct CandidateEnergy {
     double error;                     // by which it may be too high
     std::vector<std::int64_t> next;   // pairs that may break next
     std::vector<double> next_mixity;  // with which they would break; empty if the mixity does not follow the iterates
+    bool exact = false;               // contact is decided everywhere, so that the error is that of the solve
 };
 
 class CandidateEnergies {
@@ -33,7 +34,8 @@ public:
                       double allowed);
     // memory() of a search of an earlier step; ignored where it is of another load, or not of this kind.
     void recall(std::span<const double> memory);
-    // The direction of the load, then key, value, error and age of each energy of the last searches.
+    // The direction of the load, the layout, then key, value, error, age, exactness and mixities of each energy of the
+    // last searches.
     std::vector<double> memory() const;
 
     double size() const { return size_; }
@@ -50,9 +52,10 @@ public:
     void recheck_contact() {
         if (focused_) zone_->recheck_contact();
     }
-    // known: B of the pairs. candidates: number compared so far (progress).
+    // known: B of the pairs. candidates: number compared so far (progress). exact: contact is not left undecided, nor
+    // unchecked outside a zone.
     const CandidateEnergy& at(const std::vector<double>& adhesion, std::span<const std::int64_t> next,
-                              std::span<const double> known, std::int64_t candidates);
+                              std::span<const double> known, std::int64_t candidates, bool exact = false);
 
 private:
     // Returns B of a pair that would break next, whose jump is then that of a broken neighbour. jump: of a pair, empty
@@ -60,7 +63,8 @@ private:
     double breaking_mixity(std::size_t pair, std::span<const double> adhesion, double known,
                            const std::function<std::span<const double>(std::size_t)>& jump) const;
     bool within_zone(std::span<const double> adhesion, std::span<const std::int64_t> next) const;
-    void from_zone(std::span<const double> adhesion, std::span<const double> known, CandidateEnergy& e);
+    void from_zone(std::span<const double> adhesion, std::span<const double> known, bool exact, CandidateEnergy& e);
+    void recall_first_layout(std::span<const double> entries);
     void from_operator(std::span<const double> adhesion, std::span<const double> known, CandidateEnergy& e);
 
     JumpOperator& op_;

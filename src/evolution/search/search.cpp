@@ -55,13 +55,17 @@ void Trials::sweep(const Front& front, const Candidate& base, const char* with) 
     SearchResult& result = search_.result;
     const char* what = front.nucleation ? "new crack" : "front";
     if (search_.left <= 0) {
-        if (!front.nucleation) result.bound = std::min(result.bound, search_.floor + search_.cost(base));
+        if (!front.nucleation) result.bound = std::min(result.bound, search_.floor + search_.least_cost(base));
         result.words +=
             text(what, " of interface ", front.interface, with, ": not searched, search_limit is reached\n");
         return;
     }
     Sweep sweep(search_, front, base);
     sweep.run();
+    if (&base == &start_) {
+        sweep.resolve_growth(from_.adhesion);
+        if (sweep.rings_kept() > 0) result.profiles.push_back(sweep.profile());
+    }
     const std::int64_t pair = front.pairs.front() - search_.graph.first_pair(front.interface);
     result.words +=
         text(what, " of interface ", front.interface, " at pair ", pair, with, ": ", sweep.sampled(), " of ",
@@ -96,9 +100,12 @@ void Trials::advance_together(std::span<const Front> fronts) {
     for (std::size_t n = 1; reached < longest && search_.left > 0; n *= 2) {
         for (const auto& r : ring)
             for (std::size_t k = reached; k < std::min(n, r.size()); ++k)
-                for (const std::int64_t p : r[k]) joint.adhesion[index(p)] = 0.0;
+                for (const std::int64_t p : r[k]) {
+                    joint.least_cost += search_.least_left(start_, index(p));
+                    joint.adhesion[index(p)] = 0.0;
+                }
         reached = std::min(n, longest);
-        search_.compare(joint, {}, nullptr);
+        search_.note_lowest(search_.compare(joint, {}, nullptr));
         if (std::isfinite(joint.incremental) && (!lowest || joint.incremental < lowest->incremental)) lowest = joint;
         if (search_.floor + search_.cost(joint) >= search_.best) break;
     }
@@ -139,6 +146,7 @@ void Trials::debond_interfaces() {
         search_.energies.lose_focus();
         if (rows <= search_.energies.largest_zone()) search_.energies.focus(wanted);
         if (!std::isfinite(search_.compare(all, {}, nullptr))) continue;
+        search_.note_lowest(all.incremental);
         search_.result.words += text(i == interfaces ? "everything" : text("interface ", i), " debonded: energy ",
                                      all.incremental - level_, " above the step's\n");
         found_.push_back(std::move(all));

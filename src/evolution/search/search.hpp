@@ -10,6 +10,11 @@
 // far apart, then around its minima, then wherever these bounds leave room for a state that is lower by more than
 // search_tolerance (sweep.hpp).
 //
+// In mixed mode a ring breaks with the mixities that it shows with the rings before it debonded. Where no sample has
+// shown them, its D is bounded below by zeta times the least toughness of all mixities (law/criterion.hpp); samples are
+// added where this lowers the bound most. The bound holds for the positions of one front, with the others in their
+// places.
+//
 // Contact without friction and springs are homogeneous, E(theta) = |theta|^2 E(theta/|theta|): under a proportional
 // load one solve gives E_all for all steps.
 //

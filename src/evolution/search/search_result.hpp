@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "evolution/search/growth_profile.hpp"
+
 namespace delam {
 
 // A candidate above the step's state by no more than this part of what it dissipates may relax below it.
@@ -16,6 +18,7 @@ struct Candidate {
     std::vector<double> adhesion;  // [pairs]
     std::vector<double> mixity;    // [pairs] with which it was recorded
     double incremental = 0.0;      // I, F L
+    double least_cost = 0.0;       // D is no less at any mixities of the pairs whose mixity no sample has shown, F L
 };
 
 struct SearchResult {
@@ -26,7 +29,8 @@ struct SearchResult {
     double bound = std::numeric_limits<double>::infinity();
     double error = 0.0;  // by which the energy of a candidate may be too high, F L; the bound takes it into account
     std::string words;
-    std::vector<double> energies;  // for the search of the next step (State::search_energies)
+    std::vector<GrowthProfile> profiles;  // of fronts and new cracks, from the state before the step
+    std::vector<double> energies;         // for the search of the next step (State::search_energies)
 };
 
 }  // namespace delam

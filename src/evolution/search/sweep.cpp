@@ -26,16 +26,16 @@ const std::vector<std::uint8_t>& SearchRun::adhering(const Candidate& base) {
     return last_adhering;
 }
 
-double SearchRun::compare(Candidate& candidate, std::span<const std::int64_t> next, std::vector<double>* next_mixity) {
+double SearchRun::compare(Candidate& candidate, std::span<const std::int64_t> next, std::vector<double>* next_mixity,
+                          bool exact) {
     --left;
     ++result.candidates;
-    const CandidateEnergy& e = energies.at(candidate.adhesion, next, candidate.mixity, result.candidates);
+    const CandidateEnergy& e = energies.at(candidate.adhesion, next, candidate.mixity, result.candidates, exact);
     if (next_mixity != nullptr) *next_mixity = e.next_mixity;
     const double size = energies.size();
     result.error = std::max(result.error, size * size * e.error);
     candidate.incremental = size * size * e.value - account.energy_before() +
                             gradient_energy(pairs(), candidate.adhesion) + cost(candidate);
-    result.lowest = std::min(result.lowest, candidate.incremental);
     best = std::min(best, candidate.incremental);
     return candidate.incremental;
 }
@@ -82,9 +82,43 @@ Sweep::Sweep(SearchRun& search, const Front& front, const Candidate& base)
     keep_rings();
 }
 
+// With g convex, g(1) = 0 and g(0) = Gc, what is left of the toughness, Gc - g(zeta), is at least zeta Gc.
+double SearchRun::least_left(const Candidate& base, std::size_t pair) const {
+    const Law& law = *pairs().law[pair];
+    if (account.follows_iterates() && pairs().mixed(pair))
+        return pairs().weight[pair] * base.adhesion[pair] * law.least_total();
+    const Toughness t = pairs().toughness(pair, base.mixity[pair]);
+    return pairs().weight[pair] * (t.total - law.dissipated(t, base.adhesion[pair]));
+}
+
+void Sweep::bound_costs() {
+    const PairLaws& pairs = search_.pairs();
+    least_cost_.assign(1, base_.least_cost);
+    unknown_.assign(1, 0);
+    for (std::size_t n = 0; n < ring_.size(); ++n) {
+        const std::vector<double>& known = mixity_[n];
+        double cost = 0.0;
+        for (std::size_t i = 0; i < ring_[n].size(); ++i) {
+            const std::size_t p = index(ring_[n][i]);
+            if (known.empty() || !pairs.mixed(p)) {
+                cost += search_.least_left(base_, p);
+                continue;
+            }
+            const Toughness t = pairs.toughness(p, known[std::min(i, known.size() - 1)]);
+            cost += pairs.weight[p] * (t.total - pairs.law[p]->dissipated(t, base_.adhesion[p]));
+        }
+        least_cost_.push_back(least_cost_.back() + cost);
+        unknown_.push_back(unknown_.back() + (known.empty() ? 1 : 0));
+    }
+}
+
+bool Sweep::shown(std::size_t n) const { return unknown_.empty() || unknown_[n] == 0; }
+
+double Sweep::least_cost(std::size_t n) const { return least_cost_.empty() ? cost_of(n) : least_cost_[n]; }
+
 void Sweep::keep_rings() {
     const PairLaws& pairs = search_.pairs();
-    double cost = search_.cost(base_);
+    double cost = search_.least_cost(base_);
     std::vector<std::uint8_t> wanted(base_.adhesion.size(), 0);
     for (std::size_t p = 0; p < wanted.size(); ++p)
         if (base_.adhesion[p] != search_.increment.adhesion_before()[p]) wanted[p] = 1;
@@ -96,8 +130,7 @@ void Sweep::keep_rings() {
         if (nucleation_ && (keep == largest_crack || touches_debonded(ring_[keep]))) break;
         for (const std::int64_t i : ring_[keep]) {
             const std::size_t p = index(i);
-            const Toughness t = pairs.toughness(p, base_.mixity[p]);
-            cost += pairs.weight[p] * (t.total - pairs.law[p]->dissipated(t, base_.adhesion[p]));
+            cost += search_.least_left(base_, p);
             wanted[p] = 1;
         }
         ++keep;
@@ -106,6 +139,7 @@ void Sweep::keep_rings() {
         for (const std::int64_t p : ring_[keep]) wanted[index(p)] = 1;  // pairs whose mixity may be needed
     ring_.resize(keep);
     mixity_.resize(ring_.size());
+    if (search_.account.follows_iterates()) bound_costs();
     search_.energies.focus(search_.with_new_cracks(std::move(wanted), nucleation_));
 }
 
@@ -122,6 +156,7 @@ Candidate Sweep::candidate(std::size_t n) const {
         }
     }
     if (const auto it = value_.find(n); it != value_.end()) c.incremental = it->second.incremental;
+    if (!least_cost_.empty()) c.least_cost = least_cost_[n];
     return c;
 }
 
@@ -130,16 +165,20 @@ std::optional<Candidate> Sweep::best() const {
     return candidate(best_at_);
 }
 
-void Sweep::sample(std::size_t n) {
-    if (value_.contains(n)) return;
+void Sweep::sample(std::size_t n, bool exact) {
+    if (value_.contains(n) && (!exact || exact_.contains(n))) return;
+    if (exact) exact_.insert(n);
     Candidate c = candidate(n);
     const std::span<const std::int64_t> next =
         n < ring_.size() ? std::span<const std::int64_t>(ring_[n]) : std::span<const std::int64_t>();
     std::vector<double> next_mixity;
-    search_.compare(c, next, &next_mixity);
-    if (n < ring_.size()) mixity_[n] = std::move(next_mixity);
+    search_.compare(c, next, &next_mixity, exact);
+    if (n < ring_.size() && !next_mixity.empty()) {
+        mixity_[n] = std::move(next_mixity);
+        bound_costs();
+    }
     cost_[n] = search_.cost(c);
-    value_[n] = Candidate{{}, {}, c.incremental};
+    value_[n].incremental = c.incremental;
 }
 
 std::size_t Sweep::place(std::size_t n) const { return ring_[n - 1].size() == 1 ? index(ring_[n - 1].front()) : n; }
@@ -161,27 +200,47 @@ double Sweep::cost_of(std::size_t n) const {
     return known->second;
 }
 
+// E falls from ring to ring, and D grows.
 double Sweep::between(std::size_t low, std::size_t high) const {
-    const double first = cost_of(low + 1);
+    const double first = least_cost(low + 1);
+    if (!std::isfinite(value_.at(high).incremental))  // its energy is unknown, or it has no equilibrium
+        return search_.floor + first;
     // The gradient energy is not monotone along the front; between samples its lower bound is 0.
     const double gradient =
         search_.pairs().gradient.empty() ? 0.0 : gradient_energy(search_.pairs(), candidate(high).adhesion);
     return value_.at(high).incremental - search_.result.error - gradient - cost_.at(high) + first;
 }
 
-double Sweep::bound() const {
-    double least = infinite;
-    for (auto low = value_.begin(), high = std::next(low); high != value_.end(); low = high++) {
-        if (!std::isfinite(high->second.incremental))  // its energy is unknown, or it has no equilibrium
-            least = std::min(least, search_.floor + cost_.at(low->first));
-        else if (high->first > low->first + 1)
-            least = std::min(least, between(low->first, high->first));
-    }
+std::optional<Sweep::Gap> Sweep::lowest_gap() const {
+    std::optional<Gap> lowest;
+    const auto consider = [&](std::size_t low, std::size_t high, double least) {
+        if (!lowest || least < lowest->least) lowest = Gap{low, high, least};
+    };
+    for (auto low = value_.begin(), high = std::next(low); high != value_.end(); low = high++)
+        if (high->first > low->first + 1 || !shown(high->first) || !std::isfinite(high->second.incremental))
+            consider(low->first, high->first, between(low->first, high->first));
     const std::size_t last = value_.rbegin()->first;
-    return last < all_ ? std::min(least, search_.floor + cost_.at(last)) : least;
+    if (last < all_) consider(last, ring_.size(), search_.floor + least_cost(std::min(last + 1, ring_.size())));
+    return lowest;
 }
 
-// Halves the intervals on both sides of the lowest sample until its neighbours are sampled.
+double Sweep::bound() const {
+    const std::optional<Gap> gap = lowest_gap();
+    return gap ? gap->least : infinite;
+}
+
+bool Sweep::sample_exactly(std::initializer_list<std::size_t> places) {
+    for (const std::size_t n : places) {
+        if (exact_.contains(n)) continue;
+        if (search_.left <= 0) return false;
+        sample(n, true);
+    }
+    return true;
+}
+
+// Halves the intervals on both sides of the lowest sample until its neighbours are sampled. Which of the three is
+// lowest must not depend on contact that is left undecided, or was left unchecked in an earlier step: they are sampled
+// exactly.
 void Sweep::refine_minimum() {
     while (search_.left > 0) {
         // The lowest sample down to which I decreases: beyond the first pairs' resistance it may lie above the start
@@ -195,31 +254,82 @@ void Sweep::refine_minimum() {
         if (best_at_ == 0) return;
         const std::size_t at = lowest->first, left = std::prev(lowest)->first;
         const std::size_t right = std::next(lowest) == value_.end() ? at : std::next(lowest)->first;
-        if (at - left <= 1 && right - at <= 1) return;
+        if (at - left <= 1 && right - at <= 1) {
+            if (exact_.contains(left) && exact_.contains(at) && exact_.contains(right)) return;
+            if (!sample_exactly({left, at, right})) break;
+            continue;
+        }
         if (at - left > 1) sample(middle(left, at));
         if (right - at > 1 && search_.left > 0) sample(middle(at, right));
     }
     stopped_ = true;
 }
 
+// A sample within a gap raises both E and D of a part of its rings; one before it raises D of all of them.
+std::size_t Sweep::best_to_sample(const Gap& gap) const {
+    double most = 0.0;
+    std::size_t best = 0;
+    for (auto low = value_.begin(); low != value_.end() && low->first <= gap.low; ++low) {
+        const auto next = std::next(low);
+        const std::size_t high = low->first == gap.low ? gap.high : next->first;
+        if (high <= low->first + 1 && value_.contains(high)) continue;
+        if (!value_.contains(high)) return high;
+        double gain = 0.0;
+        if (!unknown_.empty())
+            gain = cost_.at(high) - cost_.at(low->first) - (least_cost(high) - least_cost(low->first));
+        if (low->first == gap.low) {
+            const double falls =
+                low->second.incremental - cost_.at(low->first) - (value_.at(high).incremental - cost_.at(high));
+            gain += std::isfinite(falls) ? falls : infinite;
+        }
+        if (gain > most) {
+            most = gain;
+            best = middle(low->first, high);
+        }
+    }
+    return best;
+}
+
 void Sweep::close_gap() {
     while (true) {
-        std::size_t low = 0, high = 0;
-        double least = search_.best - search_.tolerance;
-        for (auto a = value_.begin(), b = std::next(a); b != value_.end(); a = b++) {
-            if (b->first <= a->first + 1 || !std::isfinite(b->second.incremental)) continue;
-            if (const double left = between(a->first, b->first); left < least) {
-                least = left;
-                low = a->first;
-                high = b->first;
-            }
-        }
-        if (high == 0) return;
+        const std::optional<Gap> gap = lowest_gap();
+        if (!gap || gap->least >= search_.best - search_.tolerance) return;
+        const std::size_t next = best_to_sample(*gap);
+        if (next == 0 || value_.contains(next)) return;
         if (search_.left <= 0) {
             stopped_ = true;
             return;
         }
-        sample(middle(low, high));
+        sample(next);
+    }
+}
+
+GrowthProfile Sweep::profile() const {
+    GrowthProfile profile{search_.graph.interface_of(index(ring_.front().front())), ring_, {}};
+    for (const auto& [n, sampled] : value_) {
+        const double gradient =
+            search_.pairs().gradient.empty() ? 0.0 : gradient_energy(search_.pairs(), candidate(n).adhesion);
+        profile.samples.push_back({n, sampled.incremental - cost_.at(n) - gradient, cost_.at(n) + gradient});
+    }
+    return profile;
+}
+
+// Growth that is stable over a whole edge has lower samples anywhere within it.
+void Sweep::resolve_growth(std::span<const double> adhesion) {
+    std::size_t last = 0;
+    while (last < ring_.size() &&
+           adhesion[index(ring_[last].front())] <= 0.5 * base_.adhesion[index(ring_[last].front())])
+        ++last;
+    last = std::max(last, best_at_);
+    for (bool open = last > 2; open && search_.left > 0;) {
+        sample(last);
+        open = false;
+        const GrowthProfile known = profile();
+        for (const GrowthProfile::Edge& edge : known.edges(0, last))
+            if (edge.to > edge.from + 2 && !known.sampled_within(edge) && search_.left > 0) {
+                sample(middle(edge.from, edge.to));
+                open = true;
+            }
     }
 }
 
@@ -239,7 +349,7 @@ void Sweep::sample_new_crack() {
         }
         if (!from_below && settled_by_a_larger_one(n)) return;
         sample(n);
-        if (from_below && search_.floor + cost_.at(n) >= search_.best) return;
+        if (from_below && search_.floor + least_cost(n) >= search_.best) return;
         if (!from_below) bound_smaller_cracks(n);
     }
 }
@@ -278,7 +388,7 @@ void Sweep::sample_coarsely() {
             return;
         }
         sample(n);
-        if (search_.floor + cost_.at(n) >= search_.best) return;
+        if (search_.floor + least_cost(n) >= search_.best) return;
     }
 }
 
@@ -292,6 +402,7 @@ void Sweep::run() {
         refine_minimum();
         if (!nucleation_) close_gap();
     }
+    for (const auto& [n, sampled] : value_) search_.note_lowest(sampled.incremental);
     search_.result.bound = std::min(search_.result.bound, nucleation_ ? infinite : bound());
 }
 

@@ -2,8 +2,10 @@
 // The growth of one front, or of a new crack, ring by ring from a base; and what all sweeps of one search share.
 #pragma once
 
+#include <initializer_list>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -37,11 +39,20 @@ struct SearchRun {
 
     const PairLaws& pairs() const { return increment.pairs(); }
     double cost(const Candidate& c) const { return account.cost(c.mixity, c.adhesion); }
+    // D of a candidate is no less.
+    double least_cost(const Candidate& c) const { return account.follows_iterates() ? c.least_cost : cost(c); }
     const std::vector<std::uint8_t>& adhering(const Candidate& base);
     // These pairs and those that new cracks may reach, where a small zone serves both, or always.
     std::vector<std::uint8_t> with_new_cracks(std::vector<std::uint8_t> wanted, bool always) const;
+    // Returns what a pair of the base dissipates at least when it breaks, at any mixity if that follows the iterates, F
+    // L.
+    double least_left(const Candidate& base, std::size_t pair) const;
     // I of a candidate; counts it. next_mixity: B that the pairs `next` show, where the mixity follows the iterates.
-    double compare(Candidate& candidate, std::span<const std::int64_t> next, std::vector<double>* next_mixity);
+    // exact: see CandidateEnergies::at. Samples of a sweep are noted once they are final.
+    double compare(Candidate& candidate, std::span<const std::int64_t> next, std::vector<double>* next_mixity,
+                   bool exact = false);
+
+    void note_lowest(double incremental) { result.lowest = std::min(result.lowest, incremental); }
 
     // The last answer of adhering().
     Candidate last_base{};
@@ -57,11 +68,15 @@ public:
 
     void run();
     std::size_t rings_swept() const { return all_; }
+    std::size_t rings_kept() const { return ring_.size(); }
     std::size_t sampled() const { return value_.size() - 1; }
     std::size_t best_at() const { return best_at_; }
     bool stopped() const { return stopped_; }
     // The lowest minimum beyond the base; none where I only grows.
     std::optional<Candidate> best() const;
+    // Adds samples to those on whose hull the front grows, up to the best one or to where another adhesion has it.
+    void resolve_growth(std::span<const double> adhesion);
+    GrowthProfile profile() const;
     // No state between or beyond the samples lies below.
     double bound() const;
 
@@ -70,7 +85,9 @@ private:
     void keep_rings();
     bool touches_debonded(std::span<const std::int64_t> ring) const;
     Candidate candidate(std::size_t n) const;
-    void sample(std::size_t n);
+    void sample(std::size_t n, bool exact = false);
+    // Samples these rings anew, with exact energies; false: the limit is reached.
+    bool sample_exactly(std::initializer_list<std::size_t> places);
     // A place of ring n that does not move with the front, where rings are single pairs.
     std::size_t place(std::size_t n) const;
     // Returns a place between two samples, about in the middle.
@@ -86,8 +103,24 @@ private:
     void bound_smaller_cracks(std::size_t n);
     void refine_minimum();
     void close_gap();
-    // Lower bound of what lies strictly between two samples.
+    // Rings without a sample between two that have one, or beyond the last: low, and the next sample.
+    struct Gap {
+        std::size_t low, high;
+        double least;  // no state of these rings, nor that of `high` if its mixities are not all known, lies below
+    };
+    // Returns the gap with the lowest states; none: all rings are sampled.
+    std::optional<Gap> lowest_gap() const;
+    // Lower bound of what lies between two samples.
     double between(std::size_t low, std::size_t high) const;
+    // Returns the ring whose sample raises the bound of a gap most: one within it, or one before it whose mixities are
+    // not known. 0: no sample can.
+    std::size_t best_to_sample(const Gap& gap) const;
+    // True if samples have shown the mixities with which the rings up to n break.
+    bool shown(std::size_t n) const;
+    // D of the rings up to n is no less.
+    double least_cost(std::size_t n) const;
+    // Adds up least_cost() from what the samples have shown.
+    void bound_costs();
     // D of the rings up to n, of which a sample need not exist.
     double cost_of(std::size_t n) const;
 
@@ -100,6 +133,9 @@ private:
     std::map<std::size_t, double> cost_;                // D
     mutable std::map<std::size_t, double> other_cost_;  // where it does not depend on the samples
     std::vector<std::vector<double>> mixity_;           // B of a ring, from the nearest sample before it
+    std::vector<double> least_cost_;                    // [rings and 1], where the mixity follows the iterates
+    std::vector<std::size_t> unknown_;                  // [rings and 1] rings before, whose mixity no sample has shown
+    std::set<std::size_t> exact_;                       // rings of exact samples
     std::size_t best_at_ = 0;
     std::size_t all_ = 0;  // rings of the front; those kept may matter and fit
     bool stopped_ = false;

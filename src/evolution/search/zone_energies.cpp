@@ -44,31 +44,38 @@ bool ZoneEnergies::choose() {
     zone->ask_for_energies(0.0);
     const std::optional<double> energy = zone_energy(known_->adhesion);
     if (!energy) return false;
-    zone->ask_for_energies(with_jumps_ && !whole_ ? 0.0 : allowed_);
-    system_->allow_doubt(with_jumps_ ? 0.0 : undecided * allowed_);
+    allow_errors(false);
     // The search itself handles the gradient term, which does not depend on displacements.
     offset_ = known_->ledger.energy() - gradient_energy(pairs_, known_->adhesion) - *energy;
     return true;
 }
 
-std::optional<double> ZoneEnergies::energy(std::span<const double> adhesion) {
+void ZoneEnergies::allow_errors(bool exact) {
+    system_->zone().ask_for_energies(exact || (with_jumps_ && !whole_) ? 0.0 : allowed_);
+    system_->allow_doubt(exact || with_jumps_ ? 0.0 : undecided * allowed_);
+}
+
+std::optional<double> ZoneEnergies::energy(std::span<const double> adhesion, bool exact) {
+    if (exact) allow_errors(true);
     std::size_t differ = 0;
     for (std::size_t p = 0; p < adhesion.size(); ++p) differ += adhesion[p] != known_->adhesion[p] ? 1 : 0;
     std::optional<double> energy = zone_energy(adhesion);
-    settled_ = !energy || whole_ || differ < std::max<std::size_t>(1, recheck_factor * checked_);
+    settled_ = !energy || whole_ || (!exact && differ < std::max<std::size_t>(1, recheck_factor * checked_));
     for (int round = 0; !settled_ && round < rounds_outside; ++round) {
         const std::vector<std::size_t> wrong = wrong_outside();
         settled_ = wrong.empty();
         if (settled_) {
-            checked_ = differ;
+            checked_ = std::max(checked_, differ);
             break;
         }
         if (joined_.empty()) joined_.assign(adhesion.size(), 0);
         for (const std::size_t p : wrong) joined_[p] = 1;
         if (!choose()) return std::nullopt;  // not settled: the operator has to tell
+        if (exact) allow_errors(true);
         energy = zone_energy(adhesion);
         settled_ = !energy;
     }
+    if (exact) allow_errors(false);
     return energy ? std::optional<double>(*energy + offset_) : std::nullopt;
 }
 

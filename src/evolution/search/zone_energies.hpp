@@ -45,8 +45,9 @@ public:
     bool serves(std::span<const std::uint8_t> wanted) const;
     // Checks contact outside anew: the next states differ from the known one elsewhere.
     void recheck_contact() { checked_ = 0; }
-    // E at the known state's load and another adhesion; none: no equilibrium.
-    std::optional<double> energy(std::span<const double> adhesion);
+    // E at the known state's load and another adhesion; none: no equilibrium. exact: contact is not left undecided, and
+    // that outside is checked.
+    std::optional<double> energy(std::span<const double> adhesion, bool exact = false);
     // True if contact outside the zone had settled in the last energy(), as far as it was checked.
     bool settled() const { return settled_; }
     // Returns the largest amount by which the last energy() may be too high, F L.
@@ -60,6 +61,8 @@ private:
     std::vector<std::uint8_t> start_of_contact(std::span<const double> adhesion) const;
     void remember(std::span<const double> adhesion, const std::vector<std::uint8_t>& closed);
     std::optional<double> zone_energy(std::span<const double> adhesion);
+    // Sets which errors the next energies may have.
+    void allow_errors(bool exact);
     bool wants(std::size_t pair) const { return wanted_[pair] != 0 || (!joined_.empty() && joined_[pair] != 0); }
     // Chooses the zone of `wanted_` and `joined_`.
     bool choose();

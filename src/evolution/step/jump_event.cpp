@@ -99,6 +99,7 @@ bool jumps(const PairLaws& pairs, const PairGraph& graph, const State& before, c
     const auto far = [&](std::int64_t interface, double advance) {
         return advance > 0.0 && advance > regular_advance(pairs, graph, before, after, interface);
     };
+    if (after.jump_within.known == JumpWithin::told_by_search) return after.jump_within.debonded > 0.0;
     if (const JumpWithin& jump = after.jump_within; jump.known != 0)
         return (jump.drop > load_drop || worth(jump.released)) && far(jump.interface, jump.debonded);
     if (!(after.outcome.released > 0.0)) return false;

@@ -14,6 +14,7 @@ namespace cli {
 namespace {
 
 constexpr double margin_rounding = 1e-9;  // of energy or work
+constexpr double least_share = 1e-6;      // of energy or work: smaller bounds are not worth a line
 
 }  // namespace
 
@@ -32,6 +33,11 @@ SearchLimits search_limits_of(const Rows& rows, double tolerance) {
                 out.gap = gap;
                 out.gap_allowed = tolerance * scale;
             }
+        } else if (gap > out.bound_share * scale) {
+            out.bound_step = step;
+            out.bound_time = number_of(row, "time");
+            out.bound = gap;
+            out.bound_share = gap / scale;
         }
         if (margin < -margin_rounding * scale) {
             out.margin_steps.push_back(step);
@@ -61,6 +67,12 @@ std::vector<std::string> search_lines(const SearchLimits& limits, const Scene& s
                         "kept, by up to {} ({}; search_tolerance allows {})",
                         in_steps(limits.gap_steps), energy_text(limits.gap, scene),
                         instant_text(limits.gap_step, limits.gap_time), energy_text(limits.gap_allowed, scene)));
+    else if (limits.bound_share > least_share)
+        out.push_back(fmt::format(
+            "search: no position of a front, with the other fronts in their places, has less energy than the "
+            "state kept by more than {} ({:.2g} % of the energy; {})",
+            energy_text(limits.bound, scene), 100.0 * limits.bound_share,
+            instant_text(limits.bound_step, limits.bound_time)));
     if (!limits.margin_steps.empty())
         out.push_back(
             fmt::format("warning: search: in {} a state of lower energy was seen and not kept, lower by up "

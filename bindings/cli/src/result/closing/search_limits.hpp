@@ -15,8 +15,12 @@ struct SearchLimits {
     std::vector<std::int64_t> gap_steps;  // steps whose gap exceeds what search_tolerance allows
     std::int64_t gap_step = 0;            // the largest of them
     double gap_time = 0;
-    double gap = 0;                          // infinite: the search has no bound
-    double gap_allowed = 0;                  // in that step
+    double gap = 0;               // infinite: the search has no bound
+    double gap_allowed = 0;       // in that step
+    std::int64_t bound_step = 0;  // the largest gap over the energy of its step, where it is allowed
+    double bound_time = 0;
+    double bound = 0;
+    double bound_share = 0;
     std::vector<std::int64_t> margin_steps;  // steps in which a state of lower energy was seen and not kept
     std::int64_t margin_step = 0;            // the largest of them
     double margin_time = 0;
