@@ -193,7 +193,8 @@ def rows_of(search, found):
         at, which = found.outcome.point.at[k], places.index(k)
         row["at_bound"] = bool(min(at - lower[k], upper[k] - at) < 1e-9)
         if found.intervals:
-            of_held = min(factor * held[which], most[which])
+            # Of what lies anywhere in a range, the confidence lies in the same part of it.
+            of_held = min(factor * held[which], search.level * most[which])
             one = found.intervals[which]
             row["standard_error"] = values[k] * float(np.hypot(errors[which], held[which]))
             ends = np.array([-np.hypot(one.below, of_held), np.hypot(one.above, of_held)])
