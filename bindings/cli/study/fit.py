@@ -2,13 +2,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Law parameters from measured load curves: `delam fit SCENE.toml --data curve.csv --parameters KEY ... --out DIR`.
 
-Least squares between the reaction of the scene and the curve, by SciPy's trust region (least_squares) with the
-derivatives of the march. Several scenes, each with its data, share the parameters. Writes DIR/fit.json, DIR/fit.png and
-DIR/fit.csv (data and model); the last lines say the parameters with their confidence intervals.
+Least squares between the reaction of the scene and the curve, with the derivatives of the analyses. Before the search
+it says which parameters the data tell, and holds the others. Several scenes, each with its data, share the parameters.
+Writes DIR/fit.json, DIR/fit.png and DIR/fit.csv (data and model); the last lines say the parameters with their
+intervals.
 """
 import contextlib
 import json
 import os
+from dataclasses import dataclass
 
 import command
 
@@ -22,201 +24,251 @@ require("numpy", "scipy", "matplotlib")
 import numpy as np  # noqa: E402
 
 from _pictures.input_file import MOST_RESULT, Unreadable, read_json  # noqa: E402
-from command import loading, say  # noqa: E402
-from curve_data import CurveData  # noqa: E402
-from fit_model import Infeasible, Model, Parameter  # noqa: E402
-from marches import (DONE, NUMERICAL, Trouble, given_words, hold, make_folder, read_about, refuse_set,  # noqa: E402
-                     run_study)
+from command import complain, loading, say  # noqa: E402
+from fit_model import Infeasible, Model, Parameter, read_scene, units_of_scene  # noqa: E402
+from fitting.descent import COARSE_SHORT, ENOUGH, SHORT, Outcome, descend  # noqa: E402
+from fitting.identify import TOLD, held_ranges, noise_of, told  # noqa: E402
+from fitting.misfit import Misfit, Slopes  # noqa: E402
+from fitting.profiles import Profile, shifts_of_held  # noqa: E402
+from marches import DONE, NUMERICAL, Trouble, given_words, hold, make_folder, read_about, refuse_set, run_study  # noqa: E402
+from measured.curve_data import CurveData, scale_of  # noqa: E402
 from own_files import claim, write_file  # noqa: E402
 
-WORSE = 10.0  # what a step into an infeasible region costs, in residuals: the trust region then shrinks
-
-BEGINNINGS = 6  # of a fit whose solution turns out to have neighbours with less misfit
-TRUSTED = 4.0  # by which factor the misfit at the ends of an interval may differ from that which the derivatives predict
-
-ENOUGH = 0.01  # the sum of squares over their variance changes by 1 within a standard error: so much is no news
-
-
-class Fit:
-    """The residuals and their Jacobian in terms of parameters over their start."""
-
-    def __init__(self, model, weights):
-        self.model = model
-        self.start = np.array([p.start for p in model.parameters])
-        self.y = np.concatenate([data.y for data in model.data])
-        self.size = np.concatenate([self._sizes(np.abs(data.y), weights) for data in model.data])
-        if not (self.size > 0).all():
-            raise Trouble("--data: a curve is zero throughout")
-        self.known, self.norm = {}, None
-        self.worst = None
-
-    @staticmethod
-    def _sizes(y, weights):
-        """By what residuals are divided; errors in proportion to y are no smaller than 5 % of the largest allow."""
-        if weights == "relative":
-            return np.maximum(y, 0.05 * np.max(y))
-        return np.full(len(y), np.max(y) if weights == "curve" else 1.0)
-
-    def _at(self, scaled):
-        key = scaled.tobytes()
-        if key not in self.known:
-            values = self.start * scaled
-            first = self.norm is None
-            try:
-                curves, slopes = self.model.evaluate(values)
-                residual = (np.concatenate(curves) - self.y) / self.size
-                self.norm = np.linalg.norm(residual) if self.norm is None else min(self.norm, np.linalg.norm(residual))
-                jacobian = slopes * self.start / self.size[:, None]
-                note = ""
-            except Infeasible as error:
-                if first:
-                    raise Trouble(f"the scene does not run at the start: {error}", error.code) from error
-                residual = np.full(len(self.y), WORSE * max(self.norm, 1e-12) / np.sqrt(len(self.y)))
-                jacobian, note = np.zeros((len(self.y), len(values))), f"  not feasible: {error}"
-            self.known[key] = residual, jacobian
-            shown = "  ".join(f"{p.path} {v:.6g}" for p, v in zip(self.model.parameters, values))
-            say(f"march {self.model.marches}: root mean square {np.sqrt(np.mean(residual ** 2)):.4g}  {shown}{note}")
-        return self.known[key]
-
-    def residual(self, scaled):
-        return self._at(scaled)[0]
-
-    def jacobian(self, scaled):
-        return self._at(scaled)[1]
-
-    def bounds(self):
-        return (np.array([p.lower for p in self.model.parameters]) / self.start,
-                np.array([p.upper for p in self.model.parameters]) / self.start)
-
-    def best(self, level):
-        """The solution, and the parameters whose intervals the curves do not bear out (probe). Where a probe finds less
-        misfit than the solution, the fit begins anew there: curves that depend on a parameter in steps, as cracks do
-        that advance from pair to pair, have a minimum in each."""
-        begin, doubted = np.ones(len(self.start)), []
-        for _ in range(BEGINNINGS):
-            found = self.run(begin)
-            better, doubted = probe(self, found, level)
-            if better is None:
-                break
-            begin = better
-        return found, doubted
-
-    def run(self, begin):
-        with loading():
-            from scipy.optimize import least_squares  # here, for it loads for a second, and words may be wrong
-        lower, upper = self.bounds()
-        return least_squares(self.residual, begin, jac=self.jacobian, bounds=(lower, upper),
-                             x_scale="jac", ftol=ENOUGH / len(self.y), xtol=1e-5, gtol=1e-10, max_nfev=60)
+# Analyses of a fit: so many and so many more for each parameter, 12 for two. Ends of intervals take two each of them.
+ANALYSES, MORE = 4, 4
+# Residuals of this part of the largest y are the tolerance of the analyses: there is nothing to look for in them.
+# damage_tolerance has 4e-4 as its default, and peaks of a few points have errors of this size.
+EXACT = 1e-4
+DECIDED = 1.5  # by this factor a parameter must be told better, or worse, than TOLD to be taken in, or out, again
+FARTHER = (0.25, 4.0)  # where a start without any damage is left to, by these factors
 
 
-def probe(fit, found, level):
-    """Compares the misfit at both ends of each interval with that which the derivatives predict there, the other
-    parameters following. Returns where it is lowest, if that is below the solution's, and the keys of the parameters
-    for which one of them differs by more than a factor of `TRUSTED`. For these it also looks farther away."""
-    try:
-        _, _, intervals, correlation = estimates(fit, found, level)
-    except Trouble:
-        return None, []  # report() says so
-    if not np.isfinite(intervals).all() or not np.isfinite(correlation).all():
-        return None, []
-    least = np.sum(found.fun ** 2)
-    lower, upper = fit.bounds()
-    normal = found.jac.T @ found.jac
-    inverse = np.linalg.inv(normal)
-    better, lowest, doubted = None, least * (1 - ENOUGH / len(fit.y)), []
-    for k, parameter in enumerate(fit.model.parameters):
-        ends = intervals[k] / fit.start[k]
-        farther = [found.x[k] * (1 + share) for share in (-0.1, 0.1, -0.25, 0.25)]
-        for which, end in enumerate([*ends, *farther]):
-            if which >= len(ends) and parameter.path not in doubted:
-                break
-            at = np.clip(found.x + (end - found.x[k]) * inverse[:, k] / inverse[k, k], lower, upper)
-            step = at - found.x
-            predicted = step @ normal @ step
-            if not predicted > 1e-6 * least or not np.isfinite(predicted):
-                continue
-            misfit = np.sum(fit.residual(at) ** 2)
-            if misfit < lowest:
-                better, lowest = at, misfit
-            if which < len(ends) and not predicted / TRUSTED < misfit - least < predicted * TRUSTED:
-                doubted = [*doubted, parameter.path] if parameter.path not in doubted else doubted
-    return better, doubted
+@dataclass
+class Solution:
+    """outcome of the search, mask of the parameters that the data tell, a sentence for each other one, intervals of the
+    kept ones, and the profile that they are of."""
+    outcome: Outcome
+    kept: np.ndarray
+    reasons: dict
+    intervals: list
+    profile: Profile
 
 
-def estimates(fit, found, level):
-    """Values, standard errors and intervals; the errors of the data are taken as independent."""
-    with loading():
-        from scipy.stats import t as student
-    points, count = found.jac.shape
-    values = fit.start * found.x
-    freedom = points - count
-    if freedom < 0:
-        raise Trouble(f"{points} points for {count} parameters: as many are expected, and more for intervals", NUMERICAL)
-    idle = [p.path for p, slope in zip(fit.model.parameters, found.jac.T) if not slope.any()]
-    if idle:
-        data = fit.model.data[0]
-        raise Trouble(f"{'the curve does' if len(fit.model.data) == 1 else 'the curves do'} not depend on {', '.join(idle)}"
-                      + (f" for {fit.model.x_name} from {data.x[0]:g} to {data.x[-1]:g}" if len(fit.model.data) == 1 else "")
-                      + ": numbers of laws act where the interface damages or the crack grows; are the data in the units of the "
-                        "scene, and do they reach so far?", NUMERICAL)
-    left, singular, vectors = np.linalg.svd(found.jac, full_matrices=False)
-    if singular[-1] <= 1e-10 * singular[0]:
-        weak = np.abs(vectors[-1]) > 0.1
-        names = ", ".join(p.path for p, is_weak in zip(fit.model.parameters, weak) if is_weak)
-        raise Trouble(f"the data do not tell these parameters apart: {names}; give fewer, or other curves", NUMERICAL)
-    if freedom == 0:
-        return values, np.full(count, np.nan), np.full((count, 2), np.nan), np.full((count, count), np.nan)
-    # The errors may differ from point to point (noise in proportion to the load): HC3 of J. MacKinnon, H. White, J.
-    # Econometrics 29 (1985) 305-325, with the leverages h of the points.
-    inverse = (vectors.T / singular) @ left.T
-    leverage = np.sum(left ** 2, axis=1)
-    covariance = (inverse * (found.fun / np.maximum(1 - leverage, 0.1)) ** 2) @ inverse.T
-    errors = np.sqrt(np.diag(covariance))
-    half = student.ppf(0.5 + 0.5 * level, freedom) * errors * fit.start
-    with np.errstate(invalid="ignore"):  # exact data have no errors
-        correlation = covariance / np.outer(errors, errors)
-    return values, errors * fit.start, np.array([values - half, values + half]).T, correlation
+class Search:
+    """Finds the parameters: from a start, through which of them are told, to their intervals."""
+
+    def __init__(self, model, weights, level):
+        self.model, self.level = model, level
+        self.misfit = Misfit(model, weights)
+        self.names = [p.path for p in model.parameters]
+        self.most = ANALYSES + MORE * len(self.names)
+        self.noise = max(noise_of(data, np.max(np.abs(data.y))) for data in model.data)
+
+    def left(self):
+        return self.most - self.misfit.count
+
+    def _begin(self):
+        """The start, and the derivatives there; where nothing is damaged yet, another one."""
+        point = self.misfit.point(np.zeros(len(self.names)))
+        idle = [k for k, p in enumerate(self.model.parameters) if p.of_law and not point.jacobian[:, k].any()]
+        lower, upper = self.misfit.bounds()
+        if idle and np.sqrt(point.misfit / len(self.misfit.y)) > 0.01:
+            for factor in FARTHER:
+                there = np.array(point.at)
+                there[idle] += np.clip(np.log(factor), 0.9 * lower[idle], 0.9 * upper[idle])
+                found = self.misfit.point(there)
+                if found is not None and found.misfit < point.misfit:
+                    point = found
+                    break
+        slopes = Slopes(self.misfit, point)
+        tried = [slopes.probe(point, k) for k in np.flatnonzero(slopes.chord)]
+        return point, slopes, [found for found in tried if found is not None]
+
+    def _told(self, jacobian, before=None, residual=None):
+        """Which parameters are told. before: those that were; a search must not go to and fro for the last digit."""
+        if before is None:
+            kept, reasons = told(jacobian, self.noise, self.names)
+        else:
+            noise = max(self.noise, float(np.std(residual)))
+            more, reasons = told(jacobian, noise, self.names, TOLD / DECIDED)
+            fewer, reasons_fewer = told(jacobian, noise, self.names, TOLD * DECIDED)
+            kept = (before & fewer) | more
+            reasons = {k: reasons_fewer.get(k, reasons.get(k, "")) for k in np.flatnonzero(~kept)}
+        return kept, reasons
+
+    def _nothing_told(self, reasons):
+        data = self.model.data
+        idle = [self.names[k] for k, reason in reasons.items() if "does not depend" in reason]
+        if len(idle) == len(self.names):
+            where = f" for {self.model.x_name} from {data[0].x[0]:g} to {data[0].x[-1]:g}" if len(data) == 1 else ""
+            return (f"{'the curve does' if len(data) == 1 else 'the curves do'} not depend on {', '.join(idle)}{where}: "
+                    "numbers of laws act where the interface damages or the crack grows; are the data in the units of the "
+                    "scene, and do they reach so far?")
+        return "the data tell none of the parameters: " + "; ".join(f"{self.names[k]}: {reasons[k]}" for k in sorted(reasons))
+
+    def say_left_out(self, reasons, at):
+        for k in sorted(reasons):
+            say(f"{self.names[k]} is not told by the data and stays at {self.misfit.values(at)[k]:.6g}: {reasons[k]}")
+
+    def _descend(self, slopes, begin, kept):
+        reserve, coarse = 2 * int(kept.sum()), self.model.begins_coarse
+        outcome = descend(self.misfit, slopes, begin, kept, self.left() - reserve - int(coarse),
+                          COARSE_SHORT if coarse else SHORT)
+        self.model.fine = True
+        if not coarse:
+            return outcome
+        fine = self.misfit.point(outcome.point.at)
+        if fine is None:
+            raise Trouble("the scene does not run with its own load steps where it does with fewer", NUMERICAL)
+        return descend(self.misfit, slopes, fine, kept, self.left() - reserve)
+
+    def run(self):
+        begin, slopes, tried = self._begin()
+        kept, reasons = self._told(slopes.at(begin))
+        if not kept.any():
+            raise Trouble(self._nothing_told(reasons), NUMERICAL)
+        self.say_left_out(reasons, begin.at)
+        begin = min([begin, *(found for found in tried if not found.at[~kept].any())], key=lambda one: one.misfit)
+        if kept.sum() > len(self.misfit.y):
+            raise Trouble(f"{len(self.misfit.y)} points for {kept.sum()} parameters: as many are expected, and more for "
+                          "intervals", NUMERICAL)
+        outcome = self._descend(slopes, begin, kept)
+        # At the solution more may be told, or less.
+        again, reasons_again = self._told(outcome.jacobian, kept, outcome.point.residual)
+        if (again != kept).any() and again.any() and self.left() > 2 * int(again.sum()):
+            for k in np.flatnonzero(again & ~kept):
+                say(f"{self.names[k]} is told by the data after all: from here on it is fitted")
+            self.say_left_out({k: reasons_again[k] for k in np.flatnonzero(kept & ~again)}, outcome.point.at)
+            reasons = {k: reasons_again.get(k) or reasons[k] for k in np.flatnonzero(~again)}
+            kept = again
+            outcome = self._descend(slopes, outcome.point, kept)
+        elif (kept & ~again).any():
+            outcome.converged, outcome.message = False, "the data do not tell what is fitted where the search has ended"
+        return self._intervals(slopes, outcome, kept, reasons)
+
+    def _intervals(self, slopes, outcome, kept, reasons):
+        while True:
+            profile = Profile(self.misfit, outcome, kept, slopes.chord, self.level)
+            if not self._worth_ends(outcome, profile, kept):
+                return Solution(outcome, kept, reasons, profile.of_derivatives(), profile)
+            ends = 2 * int(kept.sum())
+            intervals = []
+            for k in range(int(kept.sum())):
+                intervals.append(profile.interval(k, self.left() - ends + 2 * k))
+            news = ENOUGH * outcome.point.misfit / (len(self.misfit.y) - kept.sum())
+            better = profile.better
+            if better is None or better.misfit >= outcome.point.misfit - news:
+                return Solution(outcome, kept, reasons, intervals, profile)
+            if self.left() < ends:  # no analyses for another search and its ends
+                profile = Profile(self.misfit, Outcome(better, outcome.jacobian, False, "no analyses were left"), kept,
+                                  slopes.chord, self.level)
+                return Solution(profile.outcome, kept, reasons, profile.of_derivatives(trusted=False), profile)
+            outcome = descend(self.misfit, slopes, better, kept, self.left() - ends)
+
+    def _worth_ends(self, outcome, profile, kept):
+        """True if there are errors, and more of them than the analyses have."""
+        points = len(self.misfit.y)
+        return (points > kept.sum() and self.left() >= 2 * int(kept.sum()) and np.isfinite(profile.errors()).all()
+                and outcome.point.misfit > points * (EXACT * np.max(np.abs(self.misfit.y / self.misfit.size))) ** 2)
 
 
-def report(model, fit, found, doubted, level, out):
+def rows_of(search, found):
+    """What fit.json says of each parameter."""
+    values, misfit_start = search.misfit.values(found.outcome.point.at), search.misfit.start
+    lower, upper = search.misfit.bounds()
+    places = np.flatnonzero(found.kept).tolist()
+    held, most = np.zeros(len(places)), np.zeros(len(places))
+    if len(places) < len(values):
+        held, most = shifts_of_held(found.outcome.jacobian, found.kept, held_ranges(search.misfit, ~found.kept))
+    errors = found.profile.errors()
+    factor = found.profile.factor
+    rows = []
+    for k, parameter in enumerate(search.model.parameters):
+        row = {"key": parameter.path, "value": values[k], "start": parameter.start, "told": bool(found.kept[k]),
+               "standard_error": None, "interval": [None, None], "at_bound": False}
+        rows.append(row)
+        if not found.kept[k]:
+            row["reason"] = found.reasons[k]
+            continue
+        at, which = found.outcome.point.at[k], places.index(k)
+        row["at_bound"] = bool(min(at - lower[k], upper[k] - at) < 1e-9)
+        if found.intervals:
+            # Of what lies anywhere in a range, the confidence lies in the same part of it.
+            of_held = min(factor * held[which], search.level * most[which])
+            one = found.intervals[which]
+            row["standard_error"] = values[k] * float(np.hypot(errors[which], held[which]))
+            ends = np.array([-np.hypot(one.below, of_held), np.hypot(one.above, of_held)])
+            ends = np.clip(at + ends, lower[k], upper[k])
+            # Beyond this a logarithm has no number, and the data no say.
+            row["interval"] = [float(misfit_start[k] * np.exp(end)) if abs(end) < 300 else None for end in ends]
+            row["of_held"] = values[k] * of_held
+    return rows
+
+
+def correlations(search, found):
+    """Between all parameters; None where one is held."""
+    out = [[None] * len(search.names) for _ in search.names]
+    errors = found.profile.errors()
+    for i, a in enumerate(np.flatnonzero(found.kept)):
+        for j, b in enumerate(np.flatnonzero(found.kept)):
+            size = errors[i] * errors[j]
+            out[a][b] = float(found.profile.covariance[i, j] / size) if size > 0 and found.intervals else None
+    return out
+
+
+def report(search, found, given):
     with loading():
         from fit_pictures import draw_fit
-    values, errors, intervals, correlation = estimates(fit, found, level)
-    jumps = [sorted(set(map(float, at))) for at in model.jumps]
-    rows = []
-    for k, parameter in enumerate(model.parameters):
-        at_bound = found.active_mask[k] != 0
-        rows.append({"key": parameter.path, "value": values[k], "standard_error": errors[k],
-                     "interval": list(intervals[k]), "start": parameter.start, "at_bound": bool(at_bound)})
-    rms = float(np.sqrt(np.mean(found.fun ** 2)))
-    about = {"parameters": rows, "confidence": level, "correlation": correlation.tolist(), "rms": rms,
-             "points": len(fit.y), "marches": model.marches, "converged": bool(found.success),
-             "message": found.message, "scenes": model.files, "data": [d.path for d in model.data],
-             "jumps": jumps, "unknown_pairs": model.unknown, "doubted": doubted}
-    # JSON has no NaN: there are no intervals.
-    known = json.loads(json.dumps(about), parse_constant=lambda _: None)
-    write_file(os.path.join(out, "fit.json"), json.dumps(known, indent=1, allow_nan=False))
+    model, misfit, out = search.model, search.misfit, given.out
+    answer, residual = found.outcome.point.answer, found.outcome.point.residual
+    rows = rows_of(search, found)
+    doubted = [search.names[k] for k, one in zip(np.flatnonzero(found.kept), found.intervals) if not one.trusted]
+    rms = float(np.sqrt(np.mean(residual ** 2)))
+    jumps = [sorted(set(map(float, history[model.x_name][history["jumps"] > 0]))) for history in answer.histories]
+    about = {"parameters": rows, "confidence": given.confidence, "correlation": correlations(search, found), "rms": rms,
+             "points": len(misfit.y), "marches": model.marches, "converged": found.outcome.converged,
+             "message": found.outcome.message, "scenes": model.files, "data": [d.path for d in model.data],
+             "read": [d.said for d in model.data], "units": list(units_of_scene(model.scenes[0], model.common)), "jumps": jumps, "unknown_pairs": model.unknown, "doubted": doubted}
+    write_file(os.path.join(out, "fit.json"), json.dumps(about, indent=1, allow_nan=False))
     lines = ["scene,x,y,model,residual"]
-    for which, (data, curve) in enumerate(zip(model.data, fit.model.evaluate(values)[0])):
+    for which, (data, curve) in enumerate(zip(model.data, answer.curves)):
         lines += [f"{which + 1},{x!r},{y!r},{m!r},{m - y!r}" for x, y, m in zip(*map(np.ndarray.tolist, (data.x, data.y, curve)))]
-        draw_fit(out, which, len(model.data), model, curve, read_about(os.path.join(model.work, f"{which + 1}-at")))
+        draw_fit(out, which, model, curve, answer.histories[which], jumps[which],
+                 read_about(os.path.join(model.work, f"{which + 1}-at")))
     write_file(os.path.join(out, "fit.csv"), "\n".join(lines) + "\n")
+    say_rows(rows, given.confidence)
+    say(f"root mean square of the residuals {rms:.4g}, {len(misfit.y)} points, {model.marches} analyses")
+    warn(search, found, doubted, jumps)
+
+
+def say_rows(rows, level):
     for row in rows:
-        say(f"{row['key']} = {row['value']:.6g}, {100 * level:g} % interval {row['interval'][0]:.6g} to "
-              f"{row['interval'][1]:.6g}" + (" (at its bound)" if row["at_bound"] else ""))
-    say(f"root mean square of the residuals {rms:.4g}, {len(fit.y)} points, {model.marches} marches")
+        if not row["told"]:
+            say(f"{row['key']} is not told by the data: {row['value']:.6g} is its start")
+            continue
+        low, high = (float("nan") if end is None else end for end in row["interval"])
+        say(f"{row['key']} = {row['value']:.6g}, {100 * level:g} % interval {low:.6g} to {high:.6g}"
+            + (f", of this {row['of_held']:.2g} to each side for what is held" if row.get("of_held") else "")
+            + (" (at its bound)" if row["at_bound"] else ""))
+
+
+def warn(search, found, doubted, jumps):
+    model = search.model
+    if not found.outcome.converged:
+        say(f"warning: {model.marches} analyses have not found the least misfit ({found.outcome.message}): begin from "
+            "these values")
     if doubted:
         say(f"warning: the interval{'s' if len(doubted) > 1 else ''} of {', '.join(doubted)} cannot be trusted: at "
-              "their ends the misfit is not what the derivatives say; the curve may depend on them in steps, from pair to "
-              "pair: refine the mesh, and begin from other values")
+            "their ends the misfit is not what the derivatives say; the curve may depend on them in steps, from pair to "
+            "pair: refine the mesh, and begin from other values")
     for path, count in zip(model.files, model.unknown):
         if count:
             say(f"warning: {path}: the adhesion of {count:.0f} pairs came to rest within a step and is taken as constant; "
-                  "the derivatives, and with them the intervals, are not exact")
+                "the derivatives, and with them the intervals, are not exact")
     for path, at in zip(model.files, jumps):
         if at:
-            say(f"warning: {path} jumps at {model.x_name} {', '.join(f'{x:.6g}' for x in at[:5])}: the march has no "
-                  "derivative there, and the intervals do not know of it")
+            say(f"warning: {path} jumps at {model.x_name} {', '.join(f'{x:.6g}' for x in at[:5])}: the analysis has no "
+                "derivative there, and the intervals do not know of it")
 
 
 def claim_folder(out, curves):
@@ -231,32 +283,46 @@ def claim_folder(out, curves):
     claim(out, names, known)
 
 
-def main():
-    given = given_words()
+def read_all(given):
+    """The scenes and their data."""
     if len(given.data) != len(given.scenes):
         raise Trouble(f"--data: {len(given.data)} curves for {len(given.scenes)} scenes: one for each is expected")
-    parameters = [Parameter(text) for text in given.parameters]
-    refuse_set([p.path for p in parameters], given.set, "--parameters")
     for path in given.scenes:
         if path.lower().endswith(".inp"):
             raise Trouble(f"{path}: write the scene of a deck first: delam import {path} --out scene.toml")
+    scenes = [read_scene(path) for path in given.scenes]
+    data = []
+    for path, scene in zip(given.data, scenes):
+        units = units_of_scene(scene, given.set)
+        one = CurveData(path, given, units, scale_of(given, units[0]))
+        data.append(one)
+        say(one.said)
+        if not all(units) and any(one.named_units):
+            complain(f"warning: {path} names units, and the scene does not: the numbers are taken as they are; name "
+                     "[units] in the scene to have them converted")
+    return scenes, data
+
+
+def main():
+    given = given_words()
+    parameters = [Parameter(text) for text in given.parameters]
+    refuse_set([p.path for p in parameters], given.set, "--parameters")
     if len({p.path for p in parameters}) < len(parameters):
         raise Trouble("--parameters: a key is given twice")
-    data = [CurveData(path, given.columns, given.scale) for path in given.data]
-    model = Model(given.scenes, data, parameters, given)
-    fit = Fit(model, given.weights)
+    scenes, data = read_all(given)
+    search = Search(Model(given.scenes, scenes, data, parameters, given), given.weights, given.confidence)
     held = hold(given.out)  # until the end
     claim_folder(given.out, len(data))
     make_folder(os.path.join(given.out, "work"))
-    found, doubted = fit.best(given.confidence)
     try:
-        report(model, fit, found, doubted, given.confidence, given.out)
+        found = search.run()
     except Infeasible as error:
         raise Trouble(f"the scene does not run at the end: {error}", error.code) from error
+    report(search, found, given)
     held.close()
     say(f"wrote {given.out}: fit.json, fit.csv, fit.png" if len(data) == 1 else
-          f"wrote {given.out}: fit.json, fit.csv, fit-1.png to fit-{len(data)}.png")
-    return DONE if found.success else NUMERICAL
+        f"wrote {given.out}: fit.json, fit.csv, fit-1.png to fit-{len(data)}.png")
+    return DONE if found.outcome.converged else NUMERICAL
 
 
 if __name__ == "__main__":

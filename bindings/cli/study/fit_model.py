@@ -1,13 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a fit compares with the data: marches at given parameters, with the derivatives by them.
-
-Numbers of laws get the derivatives of the march itself ([output] sensitivities); any other number of the scene central
-differences of two more marches.
-"""
+"""What a fit compares with the data: analyses at given parameters, with the derivatives by those that are numbers of
+laws, which the analysis itself has ([output] sensitivities)."""
 import os
 import re
 import tomllib
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -15,9 +13,19 @@ from _pictures.input_file import MOST_SCENE, quoted, read_text
 from command import complain
 from marches import (DONE, INTERRUPTED, NOT_CONVERGED, NUMERICAL, WRONG, Check, Trouble, finish, last_words, number_in,
                      path_of, read_history, setting, start, value_at)
+from measured.units import kind_of
 
 SMALL_PART = 0.05  # of the range of a scene: less is covered by curves in metres, centimetres, inches for millimetres
-DIFFERENCE = 1e-3  # of a parameter without derivatives; far above what an unconverged digit moves
+# Data may lie so far before and behind the scene, as a part of its range: machines start with a preload or some slack,
+# and x jitters.
+SLACK = 0.02
+# By this factor the initial slope of the data may differ from the model's before the first step; a kilonewton, a pound
+# and a width of 20 or 25 mm differ by more. A parameter that starts at a quarter of its value changes it by less.
+STIFFER = 4.0
+DIFFERS = 1.25  # from here on it is said
+# Load steps with which a fit begins, and into how many one of the scene goes then: with fewer than 40 the curve has
+# corners where the data have none (test_studies.py, fits: 20 give a start 9 % off, 80 the same one as 40).
+BEGIN_STEPS, COARSER = 40, 4
 
 
 class Parameter:
@@ -54,7 +62,6 @@ class Parameter:
         if not self.lower < self.start < self.upper:
             raise Trouble(f"{self.path} starts at {self.start:g}, which is not between {self.lower:g} and {self.upper:g}")
 
-
     def _require_key(self, file, common):
         """What `delam check` says of two values alike is of the key: it is unknown, or its list has no such entry."""
         said = {answer.words for answer in (Check(file, common + [f"{self.path}={value}"]) for value in (1.0, 2.0))
@@ -63,16 +70,44 @@ class Parameter:
             raise Trouble(f"--parameters {said.pop().removeprefix('--set: ')}")
 
 
+def read_scene(path):
+    """A scene as it is written."""
+    try:
+        return tomllib.loads(read_text(path, MOST_SCENE))
+    except FileNotFoundError as error:
+        raise Trouble(f"{path}: cannot be read: {error.strerror}") from error
+    except RecursionError:
+        raise Trouble(f"{path}: tables and lists lie within each other too deeply") from None
+    except ValueError as error:  # of TOML, or a number of thousands of digits
+        raise Trouble(f"{path}: {error}") from error
+
+
+def units_of_scene(scene, common):
+    """The units of length and force that a scene names, "" for those that it does not."""
+    named = dict(scene["units"]) if isinstance(scene.get("units"), dict) else {}
+    for word in common:
+        key, _, value = word.partition("=")
+        if key in ("units.length", "units.force"):
+            named[key.partition(".")[2]] = value.strip("\"' ")
+    return tuple(str(named.get(key, "")) for key in ("length", "force"))
+
+
+def pattern_of(x_name, scene):
+    """The place of the pattern that a column of the history is; None: it is none."""
+    patterns = scene.get("patterns", [])
+    names = ["load"] if len(patterns) == 1 else [f"load_{pattern['name']}" for pattern in patterns]
+    return names.index(x_name) if x_name in names else None
+
+
 def range_of(x_name, scene, times):
     """From where to where a column of the history grows at least, as far as the scene tells; None: it does not."""
     begin, end = times["from"], times["to"]
     if x_name == "time":
         return begin, end
-    patterns = scene.get("patterns", [])
-    names = ["load"] if len(patterns) == 1 else [f"load_{pattern['name']}" for pattern in patterns]
-    if x_name not in names:
+    which = pattern_of(x_name, scene)
+    if which is None:
         return None
-    pattern = patterns[names.index(x_name)]
+    pattern = scene["patterns"][which]
     at = np.array([begin, *(t for t in pattern["times"] if begin < t < end), end])
     values = np.interp(at, pattern["times"], pattern["values"])
     falls = np.flatnonzero(np.diff(values) <= 0)
@@ -80,64 +115,148 @@ def range_of(x_name, scene, times):
 
 
 class Infeasible(Exception):
-    """The scene is none, or has no end, at these parameters; with the exit code of the march."""
+    """The scene is none, or has no end, at these parameters; with the exit code of the analysis."""
 
     def __init__(self, text, code):
         super().__init__(text)
         self.code = code
 
 
+@dataclass
+class Answer:
+    """All scenes at one set of values. curves: y at the data, an array for each scene; slopes[k]: its derivatives by
+    parameter k at all data, or None where the analyses have none; rough[k]: how much of them is teeth, from 0 to 1."""
+    curves: list
+    slopes: list
+    rough: list
+    histories: list
+
+
+def roughness(slope):
+    """The part of a curve, from 0 to 1, that jumps from point to point: its deviation from the mean of both neighbours
+    (Gasser, Sroka, Jennen-Steinmetz, Biometrika 73, 1986). That of a smooth curve with one corner is about 0.1."""
+    active = np.flatnonzero(slope)
+    part = slope[active[0]:] if active.size else slope
+    if len(part) < 5:
+        return 0.0
+    jumps = part[1:-1] - 0.5 * (part[:-2] + part[2:])
+    return float(min(1.0, np.sqrt(np.mean(jumps ** 2) / 1.5 / np.mean(part ** 2))))
+
+
 class Model:
     """All scenes with their data."""
 
-    def __init__(self, scenes, data, parameters, given):
-        self.files, self.data, self.parameters = scenes, data, parameters
+    def __init__(self, files, scenes, data, parameters, given):
+        self.files, self.scenes, self.data, self.parameters = files, scenes, data, parameters
         self.common, self.work, self.jobs = given.set, os.path.join(given.out, "work"), given.jobs
         self.x_name, self.y_name = given.x, given.y
         self.marches = 0
-        self.jumps = [np.zeros(0)] * len(scenes)
-        self.unknown = [0.0] * len(scenes)  # pairs that the derivatives leave out
-        parsed = []
-        for path in scenes:
-            try:
-                parsed.append(tomllib.loads(read_text(path, MOST_SCENE)))
-            except FileNotFoundError as error:
-                raise Trouble(f"{path}: cannot be read: {error.strerror}") from error
-            except RecursionError:
-                raise Trouble(f"{path}: tables and lists lie within each other too deeply") from None
-            except ValueError as error:  # of TOML, or a number of thousands of digits
-                raise Trouble(f"{path}: {error}") from error
+        self.fine = False
+        self.jumps = [np.zeros(0)] * len(files)
+        self.unknown = [0.0] * len(files)  # pairs that the derivatives leave out
+        self.ways = [[] for _ in files]  # settings that follow the way of a test
         for parameter in parameters:
-            parameter.begin(scenes, parsed, self.common)
+            parameter.begin(files, scenes, self.common)
         starts = self._settings([p.start for p in parameters])
-        for which, path in enumerate(scenes):
+        self.times = []
+        for which, path in enumerate(files):
             answer = Check(path, starts)
             if answer.errors:
                 raise Trouble(answer.words)
+            self.times.append(answer.found.get("time"))
             # Settings may change patterns.
-            if "time" in answer.found and not any(word.startswith("patterns") for word in starts):
-                self._compare_ranges(which, range_of(self.x_name, parsed[which], answer.found["time"]))
+            if self.times[-1] and not any(word.startswith("patterns") for word in starts):
+                self._compare_ranges(which, range_of(self.x_name, scenes[which], self.times[-1]))
+            if data[which].turns is not None:
+                self._follow(which)
 
     def _settings(self, values):
         return self.common + [setting(p.path, float(v)) for p, v in zip(self.parameters, values)]
 
+    # ---- load steps
+
+    def _steps(self, which):
+        """How many load steps the scene has; None where it names instants."""
+        for word in reversed(self.common):
+            if word.startswith("time"):
+                return None if not word.startswith("time.steps=") else int(float(word.partition("=")[2]))
+        steps = self.scenes[which].get("time", {}).get("steps")
+        return steps if isinstance(steps, int) else None
+
+    def _coarser(self, which):
+        """Settings with fewer load steps, where there are many."""
+        steps = self._steps(which)
+        if self.ways[which] or self.fine or steps is None or steps < 2 * BEGIN_STEPS:
+            return self.ways[which]
+        return [f"time.steps={max(BEGIN_STEPS, steps // COARSER)}"]
+
+    @property
+    def begins_coarse(self):
+        return any(word.startswith("time.steps") for which in range(len(self.files)) for word in self._coarser(which))
+
+    def _follow(self, which):
+        """The load goes the way of the test: its turns are points of the pattern, and steps end there."""
+        data, scene = self.data[which], self.scenes[which]
+        place = pattern_of(self.x_name, scene)
+        if place is None or len(scene["patterns"]) > 1:
+            raise Trouble(f"{self.files[which]}: --loops follow needs a scene with one pattern, and --x load")
+        low, high = range_of(self.x_name, scene, self.times[which])
+        turns = np.concatenate([[low], data.turns[1:]])
+        lengths = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(turns)))])
+        data.at = data.at + np.abs(data.turns[1] - low) - np.abs(data.turns[1] - data.turns[0])
+        per_step = (high - low) / (self._steps(which) or max(2, len(scene["time"].get("instants", [])) - 1))
+        instants = [0.0]
+        for begin, end in zip(lengths[:-1], lengths[1:]):
+            count = max(1, int(np.ceil((end - begin) / per_step)))
+            instants += [float(begin + (end - begin) * (k + 1) / count) for k in range(count)]
+        listed = ", ".join(map(repr, instants))
+        self.ways[which] = [f"patterns[{place}].times={list(map(float, lengths))!r}",
+                            f"patterns[{place}].values={list(map(float, turns))!r}",
+                            "time={ instants = [" + listed + "] }"]
+
+    # ---- units
+
     def _compare_ranges(self, which, known):
-        """Before a march: data in other units are noticed by their x."""
+        """Before an analysis: data in other units are noticed by their x."""
         if known is None:
             return
-        data = self.data[which].x
+        data = self.data[which]
+        outside = data.drop_outside(*known, SLACK * (known[1] - known[0]))
+        if outside:
+            complain(f"warning: {data.path}: {outside} points before {self.x_name} {known[0]:g} or behind {known[1]:g} are "
+                     "left out")
         self._require_within(which, *known)
-        if data[-1] - known[0] < SMALL_PART * (known[1] - known[0]):
-            complain(f"warning: {self.data[which].path}: {self.x_name} ends at {data[-1]:g}, that of {self.files[which]} at "
+        end = np.max(data.x)
+        if end - known[0] < SMALL_PART * (known[1] - known[0]):
+            complain(f"warning: {data.path}: {self.x_name} ends at {end:g}, that of {self.files[which]} at "
                      f"{known[1]:g}: other units?")
 
     def _require_within(self, which, low, high):
         data = self.data[which].x
         slack = 1e-9 * (high - low)
-        if data[0] < low - slack or data[-1] > high + slack:
-            raise Trouble(f"{self.data[which].path}: {self.x_name} goes from {data[0]:g} to {data[-1]:g}, that of "
+        if np.min(data) < low - slack or np.max(data) > high + slack:
+            raise Trouble(f"{self.data[which].path}: {self.x_name} goes from {np.min(data):g} to {np.max(data):g}, that of "
                           f"{self.files[which]} from {low:g} to {high:g}: other units? Else give the scene a longer time, or "
                           "less data")
+
+    def compare_slopes(self, curves):
+        """After the first analysis: data in other units are noticed by how they begin to rise."""
+        for data, curve, path, scene in zip(self.data, curves, self.files, self.scenes):
+            ratio = data.slope_over(curve)
+            if ratio is None or 1 / DIFFERS < ratio < DIFFERS:
+                continue
+            flat = scene.get("geometry", {}).get("dimension", 2) == 2
+            force = data.force_unit if kind_of(data.force_unit)[0] == "force" else ""
+            said = (f"{data.path}: the data begin to rise {ratio:.4g} times as steeply as {self.y_name} of {path}: is the "
+                    f"load{' in ' + force if force else ''} that of the scene"
+                    + (", per width of the specimen (--width), " if flat else " ")
+                    + "and of the whole specimen? Else --scale and --x-scale are factors on the data")
+            if not 1 / STIFFER < ratio < STIFFER:
+                raise Trouble(said + "; or the parameters start too far away")
+            if all(p.of_law for p in self.parameters):
+                complain("warning: " + said)
+
+    # ---- analyses
 
     def _march(self, which, name, settings):
         out = os.path.join(self.work, f"{which + 1}-{name}")
@@ -160,39 +279,37 @@ class Model:
 
     def _at_data(self, which, history, y):
         """Between the steps, straight lines."""
+        data = self.data[which]
+        if data.turns is not None:
+            return np.interp(data.at, history["time"], y)
         x = self._column(history, self.x_name, which)
         rising = np.flatnonzero(np.diff(x) <= 0)
         x, y = (x[:rising[0] + 1], y[:rising[0] + 1]) if rising.size else (x, y)
         self._require_within(which, x[0], x[-1])
-        return np.interp(self.data[which].x, x, y)
+        return np.interp(data.x, x, y)
 
     def _curve(self, job):
-        """The model and its derivatives at the data of one scene."""
+        """One scene: its curve, derivatives and history."""
         which, values = job
-        settings = self._settings(values)
+        settings = self._settings(values) + self._coarser(which)
         followed = [p.path for p in self.parameters if p.of_law]
         asked = [f"output.sensitivities={followed}"] if followed and self.y_name.startswith("reaction") else []
         history = self._march(which, "at", settings + asked)
         y = self._at_data(which, history, self._column(history, self.y_name, which))
         self.jumps[which] = self._column(history, self.x_name, which)[history["jumps"] > 0]
         self.unknown[which] = float(history["sensitivities_unknown"][-1]) if asked else 0.0
-        slopes = []
-        for k, parameter in enumerate(self.parameters):
-            if parameter.of_law and asked:
-                slope = history[f"{self.y_name}/{parameter.path}"]
-                slopes.append(self._at_data(which, history, slope))
-                continue
-            step = DIFFERENCE * values[k]
-            ends = []
-            for sign in (1, -1):
-                moved = [v + (sign * step if p is parameter else 0.0) for p, v in zip(self.parameters, values)]
-                there = self._march(which, "near", self._settings(moved))
-                ends.append(self._at_data(which, there, self._column(there, self.y_name, which)))
-            slopes.append((ends[0] - ends[1]) / (2 * step))
-        return y, np.array(slopes).T
+        slopes, rough = [], []
+        for parameter in self.parameters:
+            slope = history[f"{self.y_name}/{parameter.path}"] if parameter.of_law and asked else None
+            slopes.append(None if slope is None else self._at_data(which, history, slope))
+            rough.append(0.0 if slope is None else roughness(slope))
+        return y, slopes, rough, history
 
     def evaluate(self, values):
-        """Model and Jacobian at all data; Infeasible where a scene has none."""
+        """All scenes; Infeasible where one has no answer."""
         with ThreadPoolExecutor(self.jobs) as pool:
-            curves = list(pool.map(self._curve, [(which, values) for which in range(len(self.files))]))
-        return [y for y, _ in curves], np.vstack([slopes for _, slopes in curves])
+            found = list(pool.map(self._curve, [(which, values) for which in range(len(self.files))]))
+        slopes = [None if any(part is None for part in parts) else np.concatenate(parts)
+                  for parts in zip(*(one[1] for one in found))]
+        return Answer([one[0] for one in found], slopes, [max(parts) for parts in zip(*(one[2] for one in found))],
+                      [one[3] for one in found])

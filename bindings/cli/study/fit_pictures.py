@@ -3,18 +3,16 @@
 import os
 
 from look import BLUE, GREY, RED, axis, plt, save, units_of
-from marches import read_history
 
 
-def draw_fit(out, which, count, model, curve, about):
+def draw_fit(out, which, model, curve, history, jumps, about):
     data = model.data[which]
     length, force, _ = units_of(about)
-    history = read_history(os.path.join(model.work, f"{which + 1}-at"))
     figure, (above, below) = plt.subplots(2, 1, figsize=(7.2, 5.4), sharex=True, constrained_layout=True,
                                           height_ratios=(3, 1))
     above.plot(data.x, data.y, "o", color=GREY, markersize=3.5, label="data")
     above.plot(history[model.x_name], history[model.y_name], color=BLUE, label="model")
-    for k, x in enumerate(model.jumps[which]):
+    for k, x in enumerate(jumps):
         above.axvline(x, color=RED, linewidth=0.8, linestyle=":", label="jump" if k == 0 else None)
     above.set_ylabel(axis(model.y_name, force if model.y_name.startswith("reaction") else ""))
     above.legend()
@@ -23,4 +21,4 @@ def draw_fit(out, which, count, model, curve, about):
     below.plot(data.x, curve - data.y, "o", color=BLUE, markersize=3)
     below.set_ylabel("model - data")
     below.set_xlabel(axis(model.x_name, length if model.x_name.startswith("load") else ""))
-    save(figure, os.path.join(out, "fit.png" if count == 1 else f"fit-{which + 1}.png"))
+    save(figure, os.path.join(out, "fit.png" if len(model.data) == 1 else f"fit-{which + 1}.png"))

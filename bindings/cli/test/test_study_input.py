@@ -145,10 +145,9 @@ def numbers():
     for confidence in ("nan", "inf", "0", "1", "-1", "1e400", "x"):
         code, shown, error = fit("--confidence", confidence)
         expect(code == 2 and "Traceback" not in error and "--confidence" in error, f"--confidence {confidence}: {error!r}")
-    for y in ("1e308", "1e-320", "nan", "inf", "1e400", huge, "-1e308", "1e151"):
+    for y in ("1e308", "1e-320", "inf", "1e400", huge, "-1e308", "1e151"):
         expect_line(fit(data=file_of(GOOD.replace("10", y))), 2, "delam: fit", "curve.csv: row 2 of the numbers")
-        if y != "nan":
-            expect_line(fit(data=file_of(GOOD.replace("0.002", y))), 2, "delam: fit", "curve.csv")
+        expect_line(fit(data=file_of(GOOD.replace("0.002", y))), 2, "delam: fit", "curve.csv")
     expect_line(fit("--scale", "1e149", data=file_of(GOOD)), 2, "delam: fit", "times --scale 1e.149 is 1e.150|is expected")
     for text in ("x" * 200000, "y\n" * 3, '"' + "1" * 200000 + '"', "1\x002", "1\n2\x1b[31m", ";;;;", '"', "x,y\n1,2\n\x9b3,4"):
         for where in ("{}\n1,2\n2,3\n", "x,y\n1,{}\n2,3\n", "x,y\n1,2\n{},3\n"):

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -30,7 +31,7 @@ int run(const std::string& scene_file, const std::vector<std::string>& settings,
 int import(const std::string& deck, const std::string& scene_file, bool replace);
 // A study is a Python script of share/delam/study, which runs the program again for each analysis.
 struct Study {
-    std::string name;  // "sweep" or "fit"
+    std::string name;  // "sweep", "fit" or "evaluate"
     std::vector<std::string> scenes;
     std::vector<std::string> settings;  // for all runs
     std::string folder;
@@ -39,8 +40,11 @@ struct Study {
     std::vector<std::string> vary;  // of a sweep
     std::int64_t latin = 0, seed = 1;
     std::vector<std::string> data, parameters, columns;  // of a fit
-    std::string x = "load", y = "reaction", weights = "curve";
-    double scale = 1.0, confidence = 0.95;
+    std::string x = "load", y = "reaction", weights = "curve", width, loops = "cut";
+    double scale = 1.0, x_scale = 1.0, confidence = 0.95;
+    std::string test, crack, beside;  // of an evaluation
+    std::map<std::string, std::string> sheet;
+    std::vector<std::string> units, calibration;
 };
 int study(const Study& study);
 // Marks a folder as one of the studies (file/own_files.hpp); refuses if one of the names is there, but no marker.

@@ -56,7 +56,7 @@ struct Arguments {
 };
 
 struct Commands {
-    CLI::App *run, *check, *import, *view, *sweep, *fit, *own, *options, *schema, *man, *completion;
+    CLI::App *run, *check, *import, *view, *sweep, *fit, *evaluate, *own, *options, *schema, *man, *completion;
     std::map<std::string, std::vector<std::string>> choices;  // by option
 };
 
@@ -187,14 +187,25 @@ void add_fit(CLI::App& app, Arguments& into, Commands& of) {
     of.fit->add_option("--x", study.x, "column of history.csv over which the curve is given (default load)")
         ->type_name("COLUMN");
     of.fit->add_option("--y", study.y, "column that is fitted (default reaction)")->type_name("COLUMN");
-    of.fit->add_option("--columns", study.columns, "columns of the data (default: the first two)")
+    of.fit
+        ->add_option("--columns", study.columns,
+                     "columns of the data (default: those whose titles say displacement and load, or the first two)")
         ->type_name("X Y")
         ->expected(2);
     of.fit
-        ->add_option("--scale", study.scale,
-                     "factor on the y of the data, e.g. 1/width where a plane scene has forces per width")
-        ->type_name("NUMBER")
-        ->check(number_within(-largest_factor, largest_factor, "a finite number other than 0, of at most 1e150"));
+        ->add_option("--width", study.width,
+                     "width of the specimen, by which the y of the data is divided, where a plane scene has forces per "
+                     "width; with its own unit if the scene names units, e.g. 25mm")
+        ->type_name("WIDTH");
+    const auto factor =
+        number_within(-largest_factor, largest_factor, "a finite number other than 0, of at most 1e150");
+    of.fit->add_option("--scale", study.scale, "factor on the y of the data")->type_name("NUMBER")->check(factor);
+    of.fit->add_option("--x-scale", study.x_scale, "factor on the x of the data")->type_name("NUMBER")->check(factor);
+    of.fit
+        ->add_option("--loops", study.loops,
+                     "unloadings of the data: cut (default), or follow, as the load history of the scene")
+        ->type_name("HOW")
+        ->check(CLI::IsMember(of.choices["loops"] = {"cut", "follow"}));
     of.fit
         ->add_option(
             "--weights", study.weights,
@@ -211,6 +222,52 @@ void add_fit(CLI::App& app, Arguments& into, Commands& of) {
     of.fit->footer(footer);
 }
 
+void add_evaluate(CLI::App& app, Arguments& into, Commands& of) {
+    Study& study = into.study;
+    of.evaluate = app.add_subcommand(
+        "evaluate", "toughness by the standards (ISO 15024, ASTM D5528, D7905, D6671) from the file of a test machine");
+    of.evaluate->add_option("test", study.test, "dcb, enf or mmb")
+        ->type_name("TEST")
+        ->required()
+        ->check(CLI::IsMember(of.choices["test"] = {"dcb", "enf", "mmb"}));
+    of.evaluate->add_option("file", study.data, "a file with displacement, load and, if there is one, crack length")
+        ->type_name(file_value)
+        ->required()
+        ->expected(1);
+    struct Entry {
+        const char *key, *meaning;
+    };
+    for (const Entry& entry :
+         {Entry{"width", "width of the specimen with its unit, e.g. 25mm"}, Entry{"arm", "thickness of one arm"},
+          Entry{"notch", "length of the starter crack from the line of load"},
+          Entry{"span", "distance of the outer supports, of enf and mmb"},
+          Entry{"lever", "from the middle to the load on the lever, of mmb"},
+          Entry{"E1", "modulus along the fibres, e.g. 140GPa"}, Entry{"E2", "modulus across them, of mmb"},
+          Entry{"G13", "shear modulus, of mmb"}})
+        of.evaluate->add_option("--" + std::string(entry.key), study.sheet[entry.key], entry.meaning)
+            ->type_name("QUANTITY");
+    of.evaluate
+        ->add_option("--columns", study.columns,
+                     "columns of the file (default: those whose titles say displacement and load)")
+        ->type_name("X Y")
+        ->expected(2);
+    of.evaluate->add_option("--units", study.units, "their units, where the file has none, e.g. mm N")
+        ->type_name("LENGTH FORCE")
+        ->expected(2);
+    of.evaluate->add_option("--crack", study.crack, "column with crack lengths (default: that whose title says so)")
+        ->type_name("COLUMN");
+    add_several(
+        *of.evaluate, "--calibration", study.calibration,
+        "of enf: a file that was measured at another length of the crack, e.g. 20mm=a20.csv; given twice or more")
+        ->type_name("LENGTH=FILE");
+    of.evaluate->add_option("--beside", study.beside, "folder of a fit, whose toughness stands beside")
+        ->type_name(folder_value);
+    of.evaluate->add_option("--out,-o", into.folder, "folder for evaluate.json, r-curve.csv and a picture")
+        ->type_name(folder_value)
+        ->required();
+    of.evaluate->footer(footer);
+}
+
 // Hidden from people: the studies call it.
 void add_own(CLI::App& app, Arguments& into, Commands& of) {
     of.own = app.add_subcommand("own", "which files are the program's own (study/MANUAL.md)")->group("");
@@ -222,6 +279,7 @@ void add_own(CLI::App& app, Arguments& into, Commands& of) {
 void add_studies(CLI::App& app, Arguments& into, Commands& of) {
     add_sweep(app, into, of);
     add_fit(app, into, of);
+    add_evaluate(app, into, of);
     for (CLI::App* command : {of.sweep, of.fit}) {
         add_settings(*command, into);
         command->add_option("--jobs,-j", into.study.jobs, "runs at once (default 1)")
@@ -296,8 +354,8 @@ int guarded(int argc, char** argv, const Caller& caller) {
     if (of.options->parsed()) return options(given.json);
     if (of.import->parsed()) return import(given.deck, given.folder, given.replace);
     if (of.view->parsed()) return view(given.folder, given.view);
-    if (of.sweep->parsed() || of.fit->parsed()) {
-        given.study.name = of.fit->parsed() ? "fit" : "sweep";
+    if (of.sweep->parsed() || of.fit->parsed() || of.evaluate->parsed()) {
+        given.study.name = of.fit->parsed() ? "fit" : of.sweep->parsed() ? "sweep" : "evaluate";
         given.study.settings = given.settings;
         given.study.folder = given.folder;
         given.study.replace = given.replace;

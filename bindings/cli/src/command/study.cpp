@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `delam sweep` and `delam fit`: SciPy's methods and Matplotlib's pictures, so the rest is in Python.
+// `delam sweep`, `delam fit` and `delam evaluate`: SciPy's methods and Matplotlib's pictures, so the rest is in Python.
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
@@ -34,6 +34,15 @@ int study(const Study& of) {
                                {"y", of.y},
                                {"weights", of.weights},
                                {"scale", of.scale},
+                               {"x_scale", of.x_scale},
+                               {"width", of.width},
+                               {"loops", of.loops},
+                               {"test", of.test},
+                               {"sheet", of.sheet},
+                               {"units", of.units},
+                               {"crack", of.crack},
+                               {"calibration", of.calibration},
+                               {"beside", of.beside},
                                {"confidence", of.confidence}};
     std::string words;
     try {

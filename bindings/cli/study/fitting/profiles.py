@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Intervals from profiles of the misfit: each parameter moves to both ends of its interval, the others following, and
+what an analysis finds there says how far the interval reaches."""
+from dataclasses import dataclass
+
+import numpy as np
+
+from command import loading
+
+TRUSTED = 4.0  # by which factor the misfit at the ends of an interval may differ from that which the derivatives predict
+# Where curves have teeth, misfits are compared this far away, in logarithms: closer, those of the teeth of the DCB
+# differ by more than what 1 % of its toughness adds. 0.05 doubts two of ten of its fits, 0.2 none, nor does 0.1.
+FAR = 0.1
+FARTHEST = np.log(4.0)  # no analysis looks farther than the first step of a search goes
+AGAIN = 0.25  # and so far where this was not trusted
+
+
+@dataclass
+class Interval:
+    """In logarithms about the solution: to its lower and its upper end, and whether both were found as predicted."""
+    below: float
+    above: float
+    trusted: bool
+
+
+def student(level, freedom):
+    with loading():
+        from scipy.stats import t  # here, for it loads for a second
+    return float(t.ppf(0.5 + 0.5 * level, max(freedom, 1)))
+
+
+def correlated(residual, starts):
+    """By how much the variance of a mean of residuals is larger than that of independent ones: (1 + r) / (1 - r) for a
+    correlation r of neighbours (Bayley, Hammersley, J. R. Stat. Soc. Suppl. 8, 1946), 1 where r may be chance. starts:
+    where each curve begins."""
+    pairs = np.ones(max(len(residual) - 1, 0), dtype=bool)
+    pairs[[k - 1 for k in starts if k > 0]] = False
+    square = residual @ residual
+    if not square > 0 or not pairs.any():
+        return 1.0
+    r = min(0.95, np.sum((residual[:-1] * residual[1:])[pairs]) / square)
+    return (1 + r) / (1 - r) if r > 2 / np.sqrt(len(residual)) else 1.0
+
+
+def covariance(residual, jacobian, starts):
+    """The inverse of J'J and the covariance of the parameters. Errors may differ from point to point (noise in
+    proportion to the load): HC3 of J. MacKinnon, H. White, J. Econometrics 29 (1985) 305-325, with the leverages of the
+    points; and neighbours may err alike."""
+    left, singular, vectors = np.linalg.svd(jacobian, full_matrices=False)
+    inverse = (vectors.T / singular) @ left.T
+    leverage = np.sum(left ** 2, axis=1)
+    errors = residual / np.maximum(1 - leverage, 0.1)
+    return inverse @ inverse.T, (inverse * errors ** 2) @ inverse.T * correlated(residual, starts)
+
+
+def shifts_of_held(jacobian, kept, ranges):
+    """The standard uncertainty of each kept parameter, in logarithms, because others are held that may lie anywhere in
+    their ranges (type B of the GUM, JCGM 100:2008, 4.3.7), and the largest shift."""
+    moves = -np.linalg.lstsq(jacobian[:, kept], jacobian[:, ~kept] * ranges[~kept], rcond=None)[0]
+    return np.sqrt(np.sum(moves ** 2, axis=1) / 3), np.sum(np.abs(moves), axis=1)
+
+
+class Profile:
+    """The profiles around a solution, over the kept parameters."""
+
+    def __init__(self, misfit, outcome, kept, chord, level):
+        self.misfit, self.outcome, self.point = misfit, outcome, outcome.point
+        self.places = np.flatnonzero(kept)
+        self.jacobian = outcome.jacobian[:, kept]
+        self.chord = chord[kept]
+        starts = np.cumsum([0] + [len(data.x) for data in misfit.model.data][:-1]).tolist()
+        self.inverse, self.covariance = covariance(self.point.residual, self.jacobian, starts)
+        self.factor = student(level, len(misfit.y) - len(self.places))
+        self.better = None  # a point with less misfit than the solution
+
+    def errors(self):
+        return np.sqrt(np.diag(self.covariance))
+
+    def of_derivatives(self, trusted=True):
+        """The intervals without analyses at their ends; none where there are no more points than parameters."""
+        if len(self.misfit.y) <= len(self.places) or not np.isfinite(self.errors()).all():
+            return []
+        return [Interval(half, half, trusted) for half in self.factor * self.errors()]
+
+    def _ratio(self, k, distance):
+        """How much more misfit there is at a distance than the derivatives predict, and whether the bounds allow it."""
+        lower, upper = self.misfit.bounds()
+        step = np.zeros(len(self.point.at))
+        step[self.places] = distance * self.inverse[:, k] / self.inverse[k, k]
+        there = np.clip(self.point.at + step, lower, upper)
+        moved = (there - self.point.at)[self.places]
+        predicted = float(np.sum((self.jacobian @ moved) ** 2))
+        if abs(moved[k]) < 0.5 * abs(distance) or not predicted > 1e-9 * self.point.misfit:
+            return None
+        found = self.misfit.point(there)
+        if found is None:
+            return None
+        if found.misfit < (self.better or self.point).misfit:
+            self.better = found
+        return (self._followed(found, k) - self.point.misfit) / predicted
+
+    def _followed(self, found, k):
+        """The misfit there once the others follow: least over them by the derivatives there, or those of the solution
+        where these have teeth. Along the straight way alone it is larger, and intervals are too narrow."""
+        there = found.jacobian[:, self.places]
+        others = np.delete(np.where(np.isnan(there), self.jacobian, there), k, axis=1)
+        if not others.shape[1]:
+            return found.misfit
+        moves = np.linalg.lstsq(others, -found.residual, rcond=None)[0]
+        left = found.residual + others @ moves
+        return float(left @ left)
+
+    def _side(self, k, sign, half, distance):
+        """The interval to one side: as far as its derivatives say, corrected by what is found at the distance."""
+        ratio = self._ratio(k, sign * distance)
+        if ratio is None:
+            return half, True
+        if not 1 / TRUSTED < ratio < TRUSTED:
+            return half, False
+        return half / np.sqrt(ratio), True
+
+    def interval(self, k, analyses):
+        """Of the k-th kept parameter. analyses: how many may be spent beyond the two at its ends."""
+        half = self.factor * self.errors()[k]
+        if half > FARTHEST:
+            return Interval(half, half, False)
+        distance = max(half, FAR) if self.chord[k] else half
+        sides = [self._side(k, sign, half, distance) for sign in (-1.0, 1.0)]
+        if not all(trusted for _, trusted in sides) and analyses >= 2 and distance < AGAIN:
+            sides = [self._side(k, sign, half, AGAIN) for sign in (-1.0, 1.0)]
+        return Interval(sides[0][0], sides[1][0], all(trusted for _, trusted in sides))

@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Which column of a table is the displacement, which the load, which the length of the crack."""
+import re
+
+import numpy as np
+
+from _pictures.input_file import quoted
+from command import Trouble
+from measured.units import kind_of
+
+# What test machines and people call them, in the order in which the columns are taken; whole words of a title.
+WORDS = {
+    "displacement": ("displacement", "opening", "cod", "extension", "deflection", "deformation", "stroke", "crosshead",
+                     "position", "travel", "disp", "weg", "traverse", "traversenweg", "standardweg", "verformung",
+                     "durchbiegung", "deplacement", "déplacement", "course", "allongement", "desplazamiento",
+                     "spostamento", "delta", "δ", "x", "u", "d", "v", "w"),
+    "force": ("force", "load", "reaction", "kraft", "standardkraft", "prüfkraft", "charge", "effort", "fuerza",
+              "carga", "forza", "carico", "f", "p", "y"),
+    "crack": ("crack", "delamination", "risslänge", "riss", "fissure", "grieta", "cricca", "a"),
+    "time": ("time", "zeit", "temps", "tiempo", "tempo", "t"),
+}
+
+
+def _words(title):
+    return re.findall(r"[^\W\d_]+", title.lower())
+
+
+def found(table, kind):
+    """The columns whose titles have a word of the kind, the best first."""
+    filled = [k for k, column in enumerate(table.columns) if np.isfinite(column).any()]
+    said = {k: _words(table.titles[k]) for k in filled}
+    ranks = {k: min((WORDS[kind].index(word) for word in words if word in WORDS[kind]), default=None)
+             for k, words in said.items()}
+    if kind == "crack":  # "Crack opening displacement" is none
+        ranks = {k: rank for k, rank in ranks.items() if not set(said[k]) & {"opening", "displacement", "mouth"}}
+    return sorted((k for k, rank in ranks.items() if rank is not None), key=lambda k: (ranks[k], k))
+
+
+def _by_units(table, kind):
+    wanted = {"displacement": "length", "force": "force", "time": "time"}[kind]
+    return [k for k, unit in enumerate(table.units) if unit and kind_of(unit)[0] == wanted]
+
+
+def named(table, name):
+    """The column of this title, with or without its unit and capitals, or of this number from 0 where there are no
+    titles."""
+    titled = any(table.titles)
+    known = table.titles if titled else [str(k) for k in range(len(table.columns))]
+    for same in (lambda a, b: a == b, lambda a, b: a.lower() == b.lower()):
+        for k, title in enumerate(known):
+            full = f"{title} ({table.units[k]})"
+            if title and (same(title, name) or same(full, name) or same(f"{title} [{table.units[k]}]", name)):
+                return k
+    raise Trouble(f"{table.path}: there is no column {quoted(name)}; it has: {', '.join(known)}")
+
+
+def choose(table, names=None, x_kind="displacement"):
+    """The columns of x and y: those with these names, or those whose titles say what they are, or the first two. A
+    "load" beside a "force" is a displacement, as in our own tables."""
+    if names:
+        if len(names) != 2:
+            raise Trouble(f"{table.path}: two columns are expected, x and y")
+        return [named(table, name) for name in names]
+    x, y = found(table, x_kind), found(table, "force")
+    if x_kind == "displacement" and not x and len(y) > 1:
+        loads = [k for k in y if "load" in _words(table.titles[k])]
+        x, y = loads, [k for k in y if k not in loads]
+    x = x or _by_units(table, x_kind)
+    y = [k for k in y or _by_units(table, "force") if k not in x[:1]]
+    if x and y:
+        return [x[0], y[0]]
+    filled = [k for k, column in enumerate(table.columns) if np.isfinite(column).any()]
+    return filled[:2]
+
+
+def label(table, k):
+    """A column as a message names it."""
+    name = quoted(table.titles[k]) if table.titles[k] else f"column {k + 1}"
+    return name + (f" in {table.units[k]}" if table.units[k] else "")

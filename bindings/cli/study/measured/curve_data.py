@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Measured curves: two columns of a file of a test machine, in the units of a scene, along the way of the test."""
+import numpy as np
+
+from marches import LEAST, MOST
+from command import Trouble
+from measured.columns import choose, label
+from measured.loops import Way
+from measured.table_file import read_table
+from measured.units import kind_of, quantity
+
+
+def in_units(table, column, unit, wanted, kind, said):
+    """The values of a column in a unit that is wanted; as they are if one of both is not known."""
+    values = table.columns[column]
+    if not unit or not wanted or kind_of(unit)[0] != kind or kind_of(wanted)[0] != kind:
+        return values
+    factor = kind_of(unit)[1] / kind_of(wanted)[1]
+    if abs(factor - 1) > 1e-12:
+        said.append(f"{label(table, column)} times {factor:.6g} is in {wanted}")
+    return values * factor
+
+
+def scale_of(given, length):
+    """The factor on the y of the data that options give: --scale, and 1 over --width, which is in the unit of the scene or
+    in its own."""
+    if not given.width:
+        return given.scale
+    found = quantity(given.width, "length")
+    if found is None or not LEAST <= found[0] <= MOST:
+        raise Trouble(f"--width {given.width[:60]}: a length > 0 is expected, such as 25mm")
+    value, unit = found
+    if unit and not length:
+        raise Trouble(f"--width {given.width}: the scene names no units: give a number in its unit of length")
+    return given.scale / (value * (kind_of(unit)[1] / kind_of(length)[1] if unit else 1.0))
+
+
+class CurveData:
+    """x is what the scene calls load, y what the model shall meet there, times `scale`; `at` is where along the way."""
+
+    def __init__(self, path, given, units=None, scale=1.0):
+        """given: columns, x_scale, loops ("cut" or "follow") and x, the column of the history. units: of length and
+        force of the scene, "" where it names none."""
+        self.path = path
+        length, force = units or ("", "")
+        table = read_table(path)
+        x, y = choose(table, given.columns, "time" if given.x == "time" else "displacement")
+        self.names = [label(table, x), label(table, y)]
+        said = [f"x is {self.names[0]}, y is {self.names[1]}", *table.said]
+        self.force_unit = table.units[y]
+        self.named_units = [unit for unit in (table.units[x], table.units[y]) if kind_of(unit)[0]]
+        kind = "time" if given.x == "time" else "length"
+        there = np.isfinite(table.columns[x]) & np.isfinite(table.columns[y]) | np.isinf(table.columns[x] + table.columns[y])
+        points = [in_units(table, x, table.units[x], "" if kind == "time" else length, kind, said)[there],
+                  in_units(table, y, table.units[y], force, "force", said)[there]]
+        if not there.all():
+            said.append(f"{int((~there).sum())} rows without both are left out")
+        if len(points[0]) < 2:
+            raise Trouble(f"{path}: at least 2 points are expected")
+        for which, name, factor in ((0, "--x-scale", given.x_scale), (1, "--scale", scale)):
+            self._require_numbers(self.names[which], points[which], "")
+            points[which] = points[which] * factor
+            self._require_numbers(self.names[which], points[which], f" times {name} {factor:g}")
+        points = self._upright(points, said)
+        self.rows = len(points[0])
+        self._follow(points, given.loops == "follow", said)
+        self.said = f"{path}: {'; '.join(said)}"
+
+    @staticmethod
+    def _upright(points, said):
+        """A test in compression is often written with negative signs."""
+        for which, name in enumerate("xy"):
+            if np.max(-points[which]) > 2 * max(np.max(points[which]), 0.0) and np.max(-points[0]) >= 0:
+                points[which] = -points[which]
+                said.append(f"{name} is negative, its sign is turned")
+        return points
+
+    def _follow(self, points, follow, said):
+        way = Way(*points, follow)
+        self.x, self.y, self.at, self.turns = way.x, way.y, way.at, way.turns
+        span = np.ptp(points[0])
+        if way.averaged:
+            said.append(f"x jitters: {way.averaged + len(self.x)} points are averaged to {len(self.x)}"
+                        if not way.loops else f"x jitters: {way.averaged} points are merged with their neighbours")
+        if way.loops:
+            sizes = ", ".join(f"{100 * fall / span:.0f} %" for fall in way.loops[:4])
+            said.append(f"{len(way.loops)} unloading{'s' if len(way.loops) > 1 else ''} by {sizes} of the range of x "
+                        + ("followed" if follow else f"cut, {len(self.x)} points remain; --loops follow follows them"))
+        if len(self.x) < 2:
+            raise Trouble(f"{self.path}: {self.names[0]} must increase: of {self.rows} points 1 lies beyond all before it")
+
+    def _require_numbers(self, name, column, times):
+        """Finite, and with squares that are numbers too: the fit adds them up."""
+        size = np.abs(column)
+        wrong = np.flatnonzero(~((size == 0) | (size >= LEAST) & (size <= MOST)))
+        if wrong.size:
+            k = int(wrong[0])
+            raise Trouble(f"{self.path}: row {k + 1} of the numbers: {name}{times} is {column[k]:g}: 0, or a finite "
+                          f"number from {LEAST:g} to {MOST:g}, is expected")
+
+    def drop_outside(self, low, high, slack):
+        """Leaves out points before the scene begins and behind its end, if they lie no farther away than the slack: how
+        many they are."""
+        outside = (self.x < low) | (self.x > high)
+        if np.min(self.x) < low - slack or np.max(self.x) > high + slack or outside.sum() > len(self.x) - 2:
+            return 0
+        self.x, self.y, self.at = self.x[~outside], self.y[~outside], self.at[~outside]
+        return int(outside.sum())
+
+    def _rising(self, y, most):
+        """The points until y first reaches a part of its largest value."""
+        top = most * np.max(np.abs(y))
+        beyond = np.flatnonzero(np.abs(y) >= top)
+        return int(beyond[0]) + 1 if beyond.size else len(y)
+
+    def slope_over(self, curve):
+        """How much more steeply the data begin to rise than a curve at their x: the ratio of the slopes of straight
+        lines through the points before both reach half of their largest value. None: these are too few."""
+        count = min(self._rising(self.y, 0.5), self._rising(curve, 0.5))
+        if count < 2 or not np.ptp(self.x[:count]) > 0:
+            return None
+        lines = [np.polyfit(self.x[:count], y[:count], 1)[0] for y in (self.y, curve)]
+        return lines[0] / lines[1] if lines[0] * lines[1] > 0 else None

@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Files of test machines: what is read from them, in which units, and what becomes of jitter and unloading."""
+import os
+import sys
+from types import SimpleNamespace
+
+import numpy as np
+from support import expect, finish, folder
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "study"))
+from command import Trouble  # noqa: E402
+from measured.columns import found  # noqa: E402
+from measured.curve_data import CurveData, scale_of  # noqa: E402
+from measured.loops import monotone, turning_points  # noqa: E402
+from measured.table_file import read_table  # noqa: E402
+from measured.units import kind_of, quantity, title_and_unit  # noqa: E402
+
+GIVEN = SimpleNamespace(columns=None, scale=1.0, x_scale=1.0, width="", loops="cut", x="load")
+X = np.round(np.linspace(0.0, 3.0, 31), 4)  # in mm
+Y = np.where(X < 1.5, 40 * X, 70 - 6.5 * X)  # in N
+
+
+def file_of(text, encoding="utf-8"):
+    path = os.path.join(folder(), "raw.csv")
+    with open(path, "wb") as file:
+        file.write(text.encode(encoding))
+    return path
+
+
+def rows(between, comma=False, x=X, y=Y, before="", behind="", factor=1.0):
+    lines = [f"{a:.8f}{between}{factor * b:.6f}" for a, b in zip(x, y)]
+    lines = [line.replace(".", ",") for line in lines] if comma else lines
+    return "\n".join(before.format(k) + line + behind for k, line in enumerate(lines)) + "\n"
+
+
+# A file, words that must be said of it, and whether it names units.
+FILES = {
+    "a German machine": (file_of("Prüfer;Müller\nBreite;25,0;mm\n\nZeit;Weg;Kraft\ns;mm;kN\n"
+                                 + rows(";", True, before="{},5;", factor=1e-3), "latin-1"),
+                         ("Latin-1", "2 lines before", "decimal commas", '"Weg" in mm', '"Kraft" in kN', "times 1000 is in N"), True),
+    "an American one": (file_of("\ufeffTime (s)\tCrosshead (mm)\tLoad (N)\r\n" + rows("\t", before="{}\t").replace("\n", "\r\n")),
+                        ("tabs", '"Crosshead" in mm', '"Load" in N'), True),
+    "quotes": (file_of('"Displacement","Load"\n"(mm)","(N)"\n' + rows('","', True, before='"', behind='"')),
+               ("commas between numbers with decimal commas", '"Displacement" in mm'), True),
+    "a column of cracks with gaps": (file_of("Time,Extension,Load,Crack length\n(sec),(mm),(N),(mm)\n" + rows(",", before="{},", behind=",")),
+                                     ('"Extension" in mm', "31 rows from line 3"), True),
+    "dates": (file_of("Datum;Weg in mm;Kraft in N\n" + rows(";", True, before="12.05.2024 10:11:{:02d};")), ('"Weg" in mm',), True),
+    "UTF-16": (file_of("Weg [mm]\tKraft [N]\n" + rows("\t"), "utf-16"), ("UTF-16", '"Weg" in mm'), True),
+    "inches and pounds": (file_of("Stroke (in)  Force (lbf)\n".replace("  ", "\t") + rows("\t", x=np.round(X / 25.4, 9), y=Y / 4.4482216152605)),
+                          ("times 0.0254", "times 4.44822"), True),
+    "text behind": (file_of("displacement_mm,force_N\n" + rows(",") + "Test ended by operator\n"), ("1 line of text behind",), True),
+    "the load first": (file_of("Load [N],Displacement [mm]\n" + rows(",", x=Y, y=X)), ('x is "Displacement" in mm',), True),
+    "our own": (file_of("load,reaction\n" + rows(",", x=X / 1e3)), ('x is "load", y is "reaction"',), False),
+    "blanks": (file_of("# measured\n" + rows("   ", x=X / 1e3)), ("blanks", "column 1"), False),
+    "compression": (file_of("Weg [mm];Kraft [N]\n" + rows(";", x=-X, y=-Y)), ("x is negative, its sign is turned", "y is negative"), True),
+}
+
+
+def variants():
+    for name, (path, words, _) in FILES.items():
+        data = CurveData(path, GIVEN, ("m", "N"))
+        expect(all(word in data.said for word in words), f"{name}: {data.said}")
+        expect(len(data.x) == 31 and np.allclose(data.x, X / 1e3, atol=1e-8) and np.allclose(data.y, Y, rtol=1e-3, atol=1e-3),
+               f"{name}: its numbers {data.x[:3]} {data.y[:3]}")
+    plain = CurveData(FILES["a German machine"][0], GIVEN, ("", ""))
+    expect(np.allclose(plain.x, X) and np.allclose(plain.y, Y * 1e-3) and plain.named_units == ["mm", "kN"],
+           "without units of the scene the numbers stay")
+    table = read_table(FILES["a column of cracks with gaps"][0])
+    expect(found(table, "crack") == [], "an empty column is none")
+
+
+def refusals():
+    def refused(text, pattern, **more):
+        try:
+            CurveData(file_of(text), SimpleNamespace(**{**vars(GIVEN), **more}), ("m", "N"))
+            said = "nothing"
+        except Trouble as trouble:
+            said = str(trouble)
+        expect(pattern in said, f"{text[:30]!r}: {said}")
+
+    refused("only text\nand more\n", "there are no numbers")
+    refused("a;b\n1;2\n2;x\n3;4\n", 'row 2 of the numbers (line 3) has "x"')
+    refused("a;b\n1;2\n2;3;4\n3;4\n", "row 2 of the numbers (line 3) has 3 columns, 2 are expected")
+    refused("a;b\n1;2\n2;3\n", 'there is no column "weg"; it has: a, b', columns=["weg", "b"])
+    refused("a;b\n2;2\n1;3\n", "must increase")
+    refused("a;b\0\n2;2\n", "zero byte")
+    for width, pattern in (("25kg", "a length > 0"), ("-1mm", "a length > 0"), ("x", "a length > 0")):
+        try:
+            scale_of(SimpleNamespace(width=width, scale=1.0), "mm")
+            expect(False, f"--width {width}")
+        except Trouble as trouble:
+            expect(pattern in str(trouble), f"--width {width}: {trouble}")
+    for width, unit, scale in (("25mm", "m", 40.0), ("2.5 cm", "mm", 0.04), ("0.5", "", 2.0), ("0.5", "mm", 2.0)):
+        expect(abs(scale_of(SimpleNamespace(width=width, scale=1.0), unit) / scale - 1) < 1e-12, f"--width {width} in {unit}")
+
+
+def units():
+    known = {"kN": ("force", 1e3), "KN": ("force", 1e3), "mN": ("force", 1e-3), "MN": ("force", 1e6), "MM": ("length", 1e-3),
+             "N/mm": ("force/length", 1e3), "GPa": ("stress", 1e9), "": (None, 1.0), "mPa": (None, 1.0), "%": (None, 1.0)}
+    for text, answer in known.items():
+        kind, size = kind_of(text)
+        expect(kind == answer[0] and abs(size / answer[1] - 1) < 1e-12, f"unit {text!r}: {kind} {size}")
+    for title, parts in {"Load (kN)": ("Load", "kN"), "Kraft [N]": ("Kraft", "N"), "Weg in mm": ("Weg", "mm"),
+                         "load_N": ("load", "N"), "Channel (1)": ("Channel (1)", ""), "mm": ("mm", ""),
+                         "Extension, mm": ("Extension", "mm")}.items():
+        expect(title_and_unit(title) == parts, f"title {title}: {title_and_unit(title)}")
+    expect(quantity("1.5e-3 m", "length") == (1.5e-3, "m") and quantity("7 N", "length") is None, "quantities")
+
+
+def ways():
+    """Jitter is averaged; loops are found however deep, cut or followed."""
+    rng = np.random.default_rng(1)
+    x = np.linspace(0, 1, 2001) + 2e-3 * rng.standard_normal(2001)
+    y = 3 * x + 0.01 * rng.standard_normal(2001)
+    expect(turning_points(x) == [0, 2000], f"jitter is no loop: {turning_points(x)[:5]}")
+    a, b = monotone(x, y)
+    expect((np.diff(a) > 0).all() and 200 < len(a) < 1200, f"of 2001 points {len(a)} remain")
+    expect(abs(np.mean(b - 3 * a)) < 5e-4, "and averages are on the line")
+    parts = [np.linspace(0, 1, 101), np.linspace(1, 0.9, 11)[1:], np.linspace(0.9, 2, 111)[1:], np.linspace(2, 0.2, 181)[1:],
+             np.linspace(0.2, 3, 281)[1:], np.linspace(3, 2.5, 51)[1:]]
+    x = np.concatenate(parts)
+    loose = x + 1e-4 * rng.standard_normal(len(x))
+    path = file_of("x,y\n" + "\n".join(f"{p!r},{2 * p!r}" for p in loose.tolist()))
+    cut = CurveData(path, GIVEN)
+    expect(abs(len(cut.x) - 301) < 12 and (np.diff(cut.x) > 0).all() and "3 unloadings by 3 %, 60 %, 17 %" in cut.said and
+           "--loops follow" in cut.said, f"loops are cut: {len(cut.x)} {cut.said}")
+    way = CurveData(path, SimpleNamespace(**{**vars(GIVEN), "loops": "follow"}))
+    expect(np.allclose(way.turns, [0, 1, 0.9, 2, 0.2, 3, 2.5], atol=2e-3) and abs(np.max(way.at) - 7.3) < 0.01,
+           f"loops are followed: {way.turns} {np.max(way.at)}")
+    expect((np.diff(way.at) >= 0).all() and np.allclose(way.y, 2 * way.x), "along the way")
+
+
+variants()
+refusals()
+units()
+ways()
+finish()
