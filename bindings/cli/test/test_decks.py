@@ -79,7 +79,7 @@ def check_two_commands():
     expect(code == 0 and "changed   NLGEOM" in said and "taken     10 cohesive elements" in said, "what import says")
     same("the scene that import wrote, in another folder", scene, history(deck), 0.0)
     before = read(scene)
-    expect("\n[units]" not in before.decode(), "a deck has no units to label pictures with")
+    expect('[units]\nlength = ""\nforce = ""\n' in before.decode(), "a deck has no units to label pictures with")
     expect_error(delam("import", deck, "--out", scene), 2, "is there already", "--replace")
     pipe = scene + ".pipe"
     os.mkfifo(pipe)

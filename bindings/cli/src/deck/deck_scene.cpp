@@ -76,7 +76,7 @@ public:
         References references(deck_, model_, mesh_);
         const std::string loads = loads_text(deck_, model_, mesh_, references);
         out += references.text() + loads;
-        out += "# The deck does not say which units it has: `delam check` proposes [units], which label numbers.\n";
+        out += "# For labels: the deck does not say which units it has.\n[units]\nlength = \"\"\nforce = \"\"\n";
         return out;
     }
 

@@ -175,7 +175,8 @@ UnitsFound units_found(const Scene& scene) {
     const std::vector<Magnitude> all = magnitudes_of(scene);
     const bool named = !scene.units.names.length.empty() && !scene.units.names.force.empty();
     UnitsFound out;
-    if (all.empty() || (scene.units.given && !named)) return out;  // names that are left empty on purpose
+    if (all.empty() || (scene.units.given && !named && !scene.imported))
+        return out;  // names that are left empty on purpose
     const UnitNames* near = nearest(all);
     if (!named) {
         if (near == nullptr) {
