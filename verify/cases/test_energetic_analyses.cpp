@@ -236,7 +236,7 @@ LOOP_TEST(other_cells, 0, 4) {
     cases::expect(solver.value("dissipated") > 0.0, "it breaks");
 }
 
-// The first jump of a march in so many steps.
+// The first jump of an analysis in so many steps.
 cases::Jump first_jump(int steps) {
     Beam b;
     b.right = 0.0;

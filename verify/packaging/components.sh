@@ -43,11 +43,12 @@ for name in "${named[@]}"; do
     [[ -f $work/development/share/doc/delam/$name ]] || fail "component development has no $name, which delam.h names"
 done
 if has cli; then
-    belongs='bin/delam|lib/delam/delam-gmsh\.so|share/delam/((_pictures|study)/)?[a-z_]+\.py|share/delam/view\.html'
+    belongs='bin/delam|lib/delam/delam-gmsh\.so|share/delam/((_pictures|specimen|study)/)?[a-z_]+\.py|share/delam/view\.html'
     belongs+='|share/doc/delam/(bindings/cli/([a-z]+/)?([A-Z]+\.md|scene\.schema\.json)|examples/enf/enf\.toml)'
     belongs+='|share/man/man[15]/delam(-scene)?\.[15]|share/bash-completion/completions/delam|share/zsh/site-functions/_delam'
     belongs+='|share/fish/vendor_completions\.d/delam\.fish'
     only cli "$belongs" bin/delam lib/delam/delam-gmsh.so share/delam/plot.py share/delam/_pictures/result.py share/delam/study/fit.py \
+        share/delam/specimen/new.py \
         share/doc/delam/bindings/cli/MANUAL.md share/doc/delam/bindings/cli/SCENE.md share/doc/delam/bindings/cli/scene.schema.json \
         share/man/man1/delam.1 share/man/man5/delam-scene.5 share/bash-completion/completions/delam
     # Their links lead to files that are installed with them.

@@ -26,7 +26,7 @@ require("numpy", "matplotlib")
 
 import numpy as np  # noqa: E402
 
-from _pictures.result import GREY, Result, axis, early_end, for_files, plt, save, zoom  # noqa: E402
+from _pictures.result import GREY, Result, axis, early_end, for_files, name_axis, plt, save, zoom  # noqa: E402
 from command import complain  # noqa: E402
 
 for_files()
@@ -145,7 +145,7 @@ def plot_energies(curves, out):
             zoom(axes[1, column], max(result.history["time"][step] for result, step in closer), drawn[column])
             axes[1, column].set_title("the beginning", fontsize=10, loc="left")
     for row in axes:
-        row[0].set_ylabel(axis("energy", first.energy))
+        name_axis(row[0].yaxis, "energy", first.scales("energy"))
     figure.suptitle(curves.title("energetics"), fontsize=11)
     curves.finish(figure, axes[0, 0], os.path.join(out, "energies.png"))
 

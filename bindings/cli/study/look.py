@@ -3,10 +3,10 @@
 import numpy as np
 
 import command  # noqa: F401, finds _pictures
-from _pictures.result import BLUE, GREY, ORANGE, RED, axis, for_files, plt, save
+from _pictures.result import BLUE, GREY, ORANGE, RED, axis, for_files, name_axis, plt, save
 
 for_files()
-__all__ = ["BLUE", "GREY", "ORANGE", "RED", "axis", "colours_of", "plt", "save", "units_of"]
+__all__ = ["BLUE", "GREY", "ORANGE", "RED", "axis", "colours_of", "name_axis", "plt", "save", "scales_of", "units_of"]
 
 
 def units_of(about):
@@ -16,6 +16,13 @@ def units_of(about):
     if not (length and force):
         return "", "", ""
     return length, f"{force}/{length}" if flat else force, f"{force} {length}"
+
+
+def scales_of(about, quantity):
+    """The units of "length", "force" or "energy" in which a result of this scene is shown (result.json)."""
+    flat = about["scene"]["dimension"] == 2 and quantity != "length"
+    scales = about["units"].get("scales", {}).get(f"line_{quantity}" if flat else quantity, [])
+    return [(float(one["factor"]), one["name"]) for one in scales]
 
 
 def colours_of(values, log=False):

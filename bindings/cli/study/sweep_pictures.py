@@ -4,7 +4,7 @@ import os
 
 import numpy as np
 
-from look import axis, colours_of, plt, save, units_of
+from look import colours_of, name_axis, plt, save, scales_of
 
 
 def numbers(sweep, which):
@@ -18,7 +18,6 @@ def numbers(sweep, which):
 
 def draw_curves(sweep, histories, about):
     """The colour is that of the first key."""
-    length, force, _ = units_of(about)
     values, words = numbers(sweep, 0)
     name = sweep.variations[0].path
     figure, ax = plt.subplots(figsize=(7.2, 4.6), constrained_layout=True)
@@ -26,8 +25,8 @@ def draw_curves(sweep, histories, about):
     for number, history in histories.items():
         load = next(key for key in history if key == "load" or key.startswith("load_"))
         ax.plot(history[load], history[load.replace("load", "reaction", 1)], color=colours[number], linewidth=1.2)
-    ax.set_xlabel(axis("load", length))
-    ax.set_ylabel(axis("reaction", force))
+    name_axis(ax.xaxis, "load", scales_of(about, "length"))
+    name_axis(ax.yaxis, "reaction", scales_of(about, "force"))
     bar = figure.colorbar(scale, ax=ax, label=name)
     if words:
         bar.set_ticks(range(len(words)), labels=words)
@@ -39,7 +38,6 @@ def draw_curves(sweep, histories, about):
 
 def draw_response(sweep, about):
     """One panel for each key; with two keys or more, the points of the others are beside each other."""
-    _, force, _ = units_of(about)
     count = len(sweep.variations)
     figure, axes = plt.subplots(1, count, figsize=(max(4.6, 3.6 * count), 3.8), sharey=True, squeeze=False,
                                 constrained_layout=True)
@@ -55,5 +53,5 @@ def draw_response(sweep, about):
             ax.set_xscale("log")
         if words:
             ax.set_xticks(range(len(words)), words)
-    axes[0][0].set_ylabel(axis("largest reaction", force))
+    name_axis(axes[0][0].yaxis, "largest reaction", scales_of(about, "force"))
     save(figure, os.path.join(sweep.out, "response.png"))

@@ -28,7 +28,7 @@ void expect_line(const std::string& line, const std::string& wanted) {
 cli::Scene scene_of(int dimension, const std::vector<std::string>& patterns) {
     cli::Scene scene;
     scene.geometry.dimension = dimension;
-    scene.units = {"m", "N", ""};
+    scene.units = {{"m", "N"}, "", true};
     for (const std::string& name : patterns) {
         cli::PatternData pattern;
         pattern.name = name;
@@ -61,11 +61,11 @@ void balance() {
                 "open is 67 % of the dissipated energy at most (2 J/m in step 2, time 1)");
     const cli::Balance nearly = cli::balance_of(cli::rows_of(head + start + "2,1,2,1,3,8,2.996,2,3,0\n"), false);
     expect_line(cli::balance_line(nearly, space),
-                "energy balance: off by 0.05 % of the work (stored + dissipated + released - work is -0.004 J in step "
+                "energy balance: off by 0.05 % of the work (stored + dissipated + released - work is -4 mJ in step "
                 "2, time 1; the work is up to 8 J)");
     expect_line(cli::energies_line(nearly, 2, space),
-                "energy balance: work 8 J = stored 2 J + dissipated 3 J + released in 2 jumps 3 J + open 0.004 J; open "
-                "is 0.13 % of the dissipated energy at most (0.004 J in step 2, time 1)");
+                "energy balance: work 8 J = stored 2 J + dissipated 3 J + released in 2 jumps 3 J + open 4 mJ; open "
+                "is 0.13 % of the dissipated energy at most (4 mJ in step 2, time 1)");
     expect_line(
         cli::balance_line(cli::balance_of(cli::rows_of(head + std::string("0,0,0,0,0,0,0,0,0,0\n")), false), flat),
         "energy balance: no work was done");
@@ -168,10 +168,10 @@ void jumps() {
     const std::vector<std::string> lines = cli::jump_lines(all, space);
     expect(lines.size() == 11, fmt::format("ten largest and the rest: {} lines", lines.size()));
     expect_line(lines.front(),
-                "jump at time 0.1 (load_a 0, load_b 0): interface \"a \"b\", c\" debonded by 0.5 m2, 20 J "
+                "jump at time 0.1 (load_a 0, load_b 0): interface \"a \"b\", c\" debonded by 0.5 m², 20 J "
                 "released, reaction_a 3 to 2.5");
     expect(lines[1].starts_with("jump at time 0.3 "), "in the order of time, but for the smallest");
-    expect_line(lines.back(), "2 smaller jumps debonded by 1 m2 and released 6 J in all (jumps.csv)");
+    expect_line(lines.back(), "2 smaller jumps debonded by 1 m² and released 6 J in all (jumps.csv)");
     all.resize(10);
     expect(cli::jump_lines(all, space).size() == 10, "ten jumps are all told");
     const std::string table = cli::jumps_text({all[1]}, space);

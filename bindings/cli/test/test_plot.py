@@ -69,7 +69,7 @@ solid = changed("point = [0.060, 0.006]\ndirection = [0.0, -1.0]",
 out = draws(changed("steps = 20", "steps = 4", solid), "3D")
 expect("fronts.png" in os.listdir(out) and read(os.path.join(out, "fronts.png")).startswith(b"\x89PNG"), "3D: fronts in plan")
 expect("cut.png" in os.listdir(out) and read(os.path.join(out, "cut.png")).startswith(b"\x89PNG"), "3D: a cut view")
-for words, said in (((out, "--cut", "y=7"), "the cut at y = 7 m meets no cell"), ((out, "--cut", "y=inf"), "takes x, y or z"),
+for words, said in (((out, "--cut", "y=7"), "the cut at y = 7 meets no cell"), ((out, "--cut", "y=inf"), "takes x, y or z"),
                     ((out, "--cut", "u=1"), "takes x, y or z"), ((out, "--cut"), "usage")):
     code, error = draw("plot", *words)
     expect(said in error and (code == 2 or "meets no cell" in said), f"plot.py {' '.join(words[1:])}: {error.strip()[-100:]}")
@@ -150,11 +150,11 @@ expect(code == 2 and "holds no result" in error, "so is a folder without a resul
 from plot_family import Curves  # noqa: E402
 from _pictures.result import Result  # noqa: E402
 curves = Curves([Result(path) for path in results])
-expect(curves.labels == ["h = 3 mm", "h = 1.5 mm"], f"the legend: {curves.labels}")
+expect(curves.labels == ["h = 0.003", "h = 0.0015"], f"the legend: {curves.labels}")
 expect("20 steps" in curves.title("x") and "local solution, converged mixity" in curves.title("x") and
        "h =" not in curves.title("x"), f"the title: {curves.title('x')!r}")
 curves = Curves([Result(path) for path in (*results, other)])
-expect(len(set(curves.labels)) == 3 and "other, 10 steps, h = 1.5 mm" in curves.labels, f"the legend: {curves.labels}")
+expect(len(set(curves.labels)) == 3 and "other, 10 steps, h = 0.0015" in curves.labels, f"the legend: {curves.labels}")
 code, error = as_script("plot", folder())
 expect(code == 2 and "holds no result" in error, "an empty folder is refused")
 finish()

@@ -79,7 +79,9 @@ def members(about):
         yield key, key in SHOWN_MEMBERS
         if isinstance(value, dict) and key in ("scene", "output", "units", "concept"):
             for inner in value:
-                yield f"{key}.{inner}", f"{key}.{inner}" in SHOWN_MEMBERS
+                # Results of earlier versions have names of units, and no scales.
+                if f"{key}.{inner}" != "units.scales":
+                    yield f"{key}.{inner}", f"{key}.{inner}" in SHOWN_MEMBERS
 
 
 def with_member(name, change):

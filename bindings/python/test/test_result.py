@@ -6,6 +6,7 @@ import importlib.util
 import json
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -68,7 +69,7 @@ class OfTheCommandLine(unittest.TestCase):
             columns = {name: table[name] for name in table.dtype.names if name not in ("solution", "mixity_rule")}
             columns["load_potential"] = np.zeros(len(table))
             ours = lines(columns, [], result.about["options"])
-            theirs = [line.replace(" J/m", "") for line in result.closing]
+            theirs = [re.sub(r" [nµmk]?J/m", "", line) for line in result.closing]
             self.assertEqual(ours, [line for line in theirs if "balance" in line or "two-sided" in line])
             said += "\n".join(ours)
         for words in ("warning: energy balance", "less than 0.001 %", "violated in steps: 3, 4", "nothing in 1 step"):
@@ -150,9 +151,11 @@ class OfTheCommandLine(unittest.TestCase):
     @unittest.skipUnless(HAVE["matplotlib"], "matplotlib is not installed")
     def test_what_is_drawn(self):
         figure = self.result.plot()
-        drawn = figure.axes[0].lines[0].get_xydata()
-        np.testing.assert_array_equal(drawn, np.column_stack([self.result.history["load"],
-                                                              self.result.history["reaction"]]))
+        line, dots = (one.get_xydata() for one in figure.axes[0].lines)
+        rows = np.column_stack([self.result.history["load"], self.result.history["reaction"]])
+        np.testing.assert_array_equal(dots, rows)
+        # The line goes through the points between which it jumps as well.
+        self.assertEqual(len(line), len(rows) + 2 * len(self.result.jumps))
         plt.close(figure)
         for kind, options, error, words in (
                 ("loads", {}, delam.ArgumentError, "kind = 'loads' is no picture; known are load, energies"),

@@ -17,7 +17,9 @@
 #include "result/history/history.hpp"
 #include "result/result.hpp"
 #include "scene/read_scene.hpp"
+#include "scene/units/magnitudes.hpp"
 #include "text/say.hpp"
+#include "text/wording.hpp"
 
 namespace cli {
 
@@ -118,9 +120,15 @@ Found find(const std::string& scene_file, const Scene& scene, const Model& model
         found["proposals"].push_back(
             {{"law", one.law}, {"interfaces", one.interfaces}, {"keys", keys}, {"reason", one.reason}});
     }
+    found["units"] = {{"length", scene.units.names.length}, {"force", scene.units.names.force}};
+    if (const UnitsFound units = units_found(scene); units.proposed)
+        found["units"]["proposed"] = {
+            {"length", units.proposed->length}, {"force", units.proposed->force}, {"reason", units.reason}};
     found["notes"] = notes_of(scene);
     return found;
 }
+
+constexpr std::size_t plan_width = 120;  // columns: a window beside an editor has as many
 
 // "body" or "layer", with everything that is known of it.
 void say_bodies(const Found& found) {
@@ -171,8 +179,14 @@ void say_lines_of(const Found& found) {
             keys.push_back(fmt::format("{} = {:.3e}", key, value.get<double>()));
         say("propose     law \"{}\", {}: {}\n", text(proposal, "law"), fmt::join(keys, ", "), text(proposal, "reason"));
     }
+    if (found["units"].contains("proposed")) {
+        const Found& units = found["units"]["proposed"];
+        say("propose     [units] length = \"{}\", force = \"{}\": the scene names none, and its numbers suggest them "
+            "({})\n",
+            text(units, "length"), text(units, "force"), text(units, "reason"));
+    }
     say("\n");
-    for (const Found& line : found["plan"]) say("{}\n", line.get<std::string>());
+    for (const Found& line : found["plan"]) say("{}\n", wrapped(line.get<std::string>(), plan_width));
     for (const Found& note : found["notes"]) say("note: {}\n", note.get<std::string>());
     // Not on standard output, where they are lost when that goes to a file.
     for (const Found& warning : found["warnings"]) complain("warning: {}\n", warning.get<std::string>());

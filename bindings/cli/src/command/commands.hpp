@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "text/unit.hpp"
+
 namespace cli {
 
 class Bulk;
@@ -47,6 +49,28 @@ struct Study {
     std::vector<std::string> units, calibration;
 };
 int study(const Study& study);
+// Becomes a Python script of share/delam, which gets these words.
+[[noreturn]] void start_script(const std::string& name, const std::string& words);
+
+// A row of a specimen's sheet: an option of `delam new`.
+struct SheetRow {
+    const char* name;
+    const Unit* unit;  // in which the script gets it
+    const char* example;
+    const char* meaning;
+};
+std::vector<SheetRow> sheet_rows();
+// "1.5mm" as a number of the row's unit.
+double sheet_number(const SheetRow& row, const std::string& text);
+// Kinds of specimens, and the scene that is made of one.
+inline const std::vector<std::string> specimen_kinds{"dcb", "enf", "4enf", "mmb", "adcb", "slb", "fibre", "laminate"};
+struct SpecimenWishes {
+    std::string kind, out, layup, command;
+    std::map<std::string, std::string> values;  // by the name of the row, as typed
+    std::int64_t steps = 100;
+    bool replace = false;
+};
+int new_scene(const SpecimenWishes& wishes);
 // Marks a folder as one of the studies (file/own_files.hpp); refuses if one of the names is there, but no marker.
 // known: a folder of an older study, which wrote no marker, is recognised.
 int claim(const std::string& folder, const std::vector<std::string>& names, bool known);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
@@ -20,6 +21,7 @@
 #include "delam/delam.h"
 #include "text/error.hpp"
 #include "text/say.hpp"
+#include "text/wording.hpp"
 #include "view/view.hpp"
 
 namespace cli {
@@ -53,10 +55,12 @@ struct Arguments {
     bool resume = false, replace = false, json = false, known = false;
     ViewWishes view;
     Study study;
+    SpecimenWishes specimen;
 };
 
 struct Commands {
-    CLI::App *run, *check, *import, *view, *sweep, *fit, *evaluate, *own, *options, *schema, *man, *completion;
+    CLI::App *run, *check, *import, *specimen, *view, *sweep, *fit, *evaluate, *own, *options, *schema, *man,
+        *completion;
     std::map<std::string, std::vector<std::string>> choices;  // by option
 };
 
@@ -106,6 +110,28 @@ Commands add_work(CLI::App& app, Arguments& into) {
     of.import->add_flag("--replace", into.replace, "overwrite the scene file if it is there");
     of.import->footer(footer);
     return of;
+}
+
+void add_new(CLI::App& app, Arguments& into, Commands& of) {
+    SpecimenWishes& wishes = into.specimen;
+    of.specimen = app.add_subcommand("new", "write the scene of a test from the sheet of its specimen");
+    of.specimen->add_option("kind", wishes.kind, "the kind of test")
+        ->type_name("KIND")
+        ->required()
+        ->check(CLI::IsMember(of.choices["kind"] = specimen_kinds));
+    for (const SheetRow& row : sheet_rows())
+        of.specimen
+            ->add_option(std::string("--") + row.name, wishes.values[row.name],
+                         fmt::format("{}, e.g. {}", row.meaning, row.example))
+            ->type_name("VALUE");
+    of.specimen->add_option("--layup", wishes.layup, "laminate: angles of the plies from the bottom up, e.g. 0/90/90/0")
+        ->type_name("ANGLES");
+    of.specimen->add_option("--steps", wishes.steps, "load steps (default 100)")
+        ->type_name("NUMBER")
+        ->check(CLI::Range(1, 100000));
+    of.specimen->add_option("--out,-o", wishes.out, "the scene file (default: standard output)")->type_name(file_value);
+    of.specimen->add_flag("--replace", wishes.replace, "overwrite the scene file if it is there");
+    of.specimen->footer(footer);
 }
 
 void add_view(CLI::App& app, Arguments& into, Commands& of) {
@@ -315,6 +341,7 @@ std::vector<OptionText> options_of(const CLI::App& app, const Commands& commands
         if (const std::size_t end = text.value.find(':'); end != std::string::npos) text.value.resize(end);
         text.meaning = option->get_description();
         text.needed = option->get_required();
+        text.several = option->get_items_expected_max() > 1 && option->get_type_size_max() == 1;
         const auto known = commands.choices.find(option->get_single_name());
         if (known != commands.choices.end()) text.choices = known->second;
         out.push_back(std::move(text));
@@ -330,6 +357,32 @@ ProgramText text_of(const CLI::App& app, const Commands& commands, const std::st
     return out;
 }
 
+std::vector<std::string> names_of_commands(const CLI::App& app) {
+    std::vector<std::string> out;
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App* one) { return !one->get_group().empty(); }))
+        out.push_back(command->get_name());
+    return out;
+}
+
+// `delam help` and `delam help run` say what `--help` says; a first word that is no command is named with those nearby.
+std::vector<std::string> words_of(int argc, char** argv, const CLI::App& app) {
+    std::vector<std::string> words(argv + 1, argv + argc);
+    if (words.empty() || words[0].empty() || words[0][0] == '-') return words;
+    const std::vector<std::string> known = names_of_commands(app);
+    const auto is_known = [&](const std::string& word) {
+        return std::find(known.begin(), known.end(), word) != known.end() || word == "own";
+    };
+    const bool help = words[0] == "help";
+    if (help) words.erase(words.begin());
+    if (help && words.empty()) return {"--help"};
+    if (!is_known(words[0]))
+        throw Failure(exit_scene,
+                      fmt::format("\"{}\" is no command{}; the commands are {}; `delam help COMMAND` tells more",
+                                  shortened(words[0]), suggestion(words[0], known), listing(known)));
+    if (help) return {words[0], "--help"};
+    return words;
+}
+
 int guarded(int argc, char** argv, const Caller& caller) {
     CLI::App app("delam: delamination of layered structures by energy minimisation");
     app.footer(footer);
@@ -338,12 +391,16 @@ int guarded(int argc, char** argv, const Caller& caller) {
     app.require_subcommand(1);
     Arguments given;
     Commands of = add_work(app, given);
+    add_new(app, given, of);
     add_view(app, given, of);
     add_studies(app, given, of);
     add_own(app, given, of);
     add_help(app, given, of);
     try {
-        app.parse(argc, argv);
+        app.name(argv[0]);
+        std::vector<std::string> words = words_of(argc, argv, app);
+        std::reverse(words.begin(), words.end());  // as CLI11 takes them
+        app.parse(std::move(words));
     } catch (const CLI::ParseError& e) {
         std::ostringstream shown, wrong;
         const int code = app.exit(e, shown, wrong);
@@ -353,6 +410,10 @@ int guarded(int argc, char** argv, const Caller& caller) {
     }
     if (of.options->parsed()) return options(given.json);
     if (of.import->parsed()) return import(given.deck, given.folder, given.replace);
+    if (of.specimen->parsed()) {
+        given.specimen.command = joined(argc, argv);
+        return new_scene(given.specimen);
+    }
     if (of.view->parsed()) return view(given.folder, given.view);
     if (of.sweep->parsed() || of.fit->parsed() || of.evaluate->parsed()) {
         given.study.name = of.fit->parsed() ? "fit" : of.sweep->parsed() ? "sweep" : "evaluate";

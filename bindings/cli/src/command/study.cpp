@@ -15,10 +15,24 @@
 
 namespace cli {
 
-int study(const Study& of) {
-    const DataFile script = data_file("study/" + of.name + ".py");
+void start_script(const std::string& name, const std::string& words) {
+    const DataFile script = data_file(name);
     if (!script.found)
         throw Failure(exit_scene, fmt::format("{}: is not there; it is installed with the program", script.path));
+    // The interpreter would answer an interrupt with a traceback while it starts: the script lets it through as soon as
+    // it has an answer (command.py).
+    sigset_t held;
+    sigemptyset(&held);
+    for (const int signal : {SIGINT, SIGTERM}) sigaddset(&held, signal);
+    (void)sigprocmask(SIG_BLOCK, &held, nullptr);
+    (void)setenv("DELAM", program_path().c_str(), 1);
+    // Debian's modules belong to this interpreter; elsewhere the first one counts.
+    for (const char* python : {"/usr/bin/python3", "python3"})
+        execlp(python, python, script.path.c_str(), words.c_str(), static_cast<char*>(nullptr));
+    throw Failure(exit_scene, fmt::format("python3 cannot be started: {}", std::strerror(errno)));
+}
+
+int study(const Study& of) {
     const nlohmann::json given{{"scenes", of.scenes},
                                {"set", of.settings},
                                {"out", of.folder},
@@ -50,17 +64,7 @@ int study(const Study& of) {
     } catch (const nlohmann::json::exception&) {
         throw Failure(exit_scene, "a name on the command line is not UTF-8, which studies need");
     }
-    // The interpreter would answer an interrupt with a traceback while it starts: the script lets it through as soon as
-    // it has an answer (command.py).
-    sigset_t held;
-    sigemptyset(&held);
-    for (const int signal : {SIGINT, SIGTERM}) sigaddset(&held, signal);
-    (void)sigprocmask(SIG_BLOCK, &held, nullptr);
-    (void)setenv("DELAM", program_path().c_str(), 1);
-    // Debian's modules belong to this interpreter; elsewhere the first one counts.
-    for (const char* python : {"/usr/bin/python3", "python3"})
-        execlp(python, python, script.path.c_str(), words.c_str(), static_cast<char*>(nullptr));
-    throw Failure(exit_scene, fmt::format("python3 cannot be started: {}", std::strerror(errno)));
+    start_script("study/" + of.name + ".py", words);
 }
 
 }  // namespace cli

@@ -9,6 +9,7 @@
 
 #include "mesh/cell_shape.hpp"
 #include "model/call.hpp"
+#include "scene/units/magnitudes.hpp"
 #include "text/say.hpp"
 
 namespace cli {
@@ -76,6 +77,7 @@ void patch_warnings(const Scene& scene, const Selection& where, std::vector<std:
 std::vector<std::string> warnings_of(const Model& model, const Scene& scene) {
     std::vector<std::string> out = model.said;
     interface_warnings(model, scene, out);
+    if (std::string units = units_found(scene).warning; !units.empty()) out.push_back(std::move(units));
     for (const Prescription& data : scene.prescriptions) patch_warnings(scene, data.where, out);
     for (const DeadForce& data : scene.forces) patch_warnings(scene, data.where, out);
     std::vector<double> factors(pattern_count(model));

@@ -112,6 +112,17 @@ Json search_json(const SearchLimits& limits) {
             {"largest_margin", margin}};
 }
 
+// The names of the scene, and the units in which pictures may show its numbers (text/unit.hpp).
+Json units_json(const Units& units) {
+    Json scales = Json::object();
+    for (const Quantity quantity : all_quantities) {
+        Json& list = scales[quantity_name(quantity)] = Json::array();
+        for (const Scale& scale : scales_of(quantity, units.names))
+            list.push_back({{"factor", scale.factor}, {"name", scale.name}});
+    }
+    return {{"length", units.names.length}, {"force", units.names.force}, {"time", units.time}, {"scales", scales}};
+}
+
 // Returns, for a periodic cell, its volume, and d2 E / d factor2 divided by it at the last state, at fixed adhesion and
 // contact. If each pattern drives one strain with coefficient 1, these are the moduli.
 Json cell_of(const Model& model, delam_solver* solver, const Scene& scene, bool complete) {
@@ -215,7 +226,7 @@ std::string result_text(const Model& model, delam_solver* solver, const Scene& s
          {{"snapshots", scene.output.snapshots},
           {"displacement_scale", scene.output.displacement_scale},
           {"fields", scene.output.fields}}},
-        {"units", {{"length", scene.units.length}, {"force", scene.units.force}, {"time", scene.units.time}}},
+        {"units", units_json(scene.units)},
         {"command", outcome.command},
         {"started", outcome.started},
         {"ended", now_text()},

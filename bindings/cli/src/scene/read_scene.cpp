@@ -212,7 +212,7 @@ void read_output(const Table& root, Scene& scene) {
 
 void read_units(const Table& root, Scene& scene) {
     const Table table = root.table_or_empty("units");
-    scene.units = {table.text("length"), table.text("force"), table.text("time")};
+    scene.units = {{table.text("length"), table.text("force")}, table.text("time"), root.has("units")};
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "scene/scene.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace cli {
 
@@ -12,6 +13,18 @@ std::vector<bool> force_patterns(const Scene& scene) {
         for (const CellComponent& component : scene.cell->components)
             for (const Term& term : component.terms) out[term.pattern] = out[term.pattern] || component.stress;
     return out;
+}
+
+double law_number(const LawData& law, std::string_view key) {
+    for (const auto& [name, value] : law.parameters)
+        if (name == key) return value;
+    return 0;
+}
+
+double law_peak(const LawData& law, const std::string& mode) {
+    const double strength = law_number(law, mode + "_strength");
+    if (strength > 0) return strength;
+    return std::sqrt(2 * law_number(law, mode + "_stiffness") * law_number(law, mode + "_onset"));
 }
 
 }  // namespace cli

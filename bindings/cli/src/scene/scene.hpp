@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -16,6 +17,7 @@
 #include "deck/deck_scene.hpp"
 #include "mesh/mesh_data.hpp"
 #include "text/error.hpp"
+#include "text/unit.hpp"
 
 namespace cli {
 
@@ -65,6 +67,11 @@ struct LawData {
     std::map<std::string, Place> places;    // of each given key
     Place place;
 };
+
+// Returns a number of a law by its key; 0: the law does not give it.
+double law_number(const LawData& law, std::string_view key);
+// Returns the peak of the traction in a mode, "normal" or "tangential"; 0: the law has none, or does not give it.
+double law_peak(const LawData& law, const std::string& mode);
 
 // Adhesion of the pairs of an interface inside a box (in-plane between layers, in space in a mesh) or of a set of nodes
 // of the mesh. Ends inside the interface are open: the pair there stays bonded.
@@ -243,9 +250,9 @@ struct Output {
 
 // Labels only: the program does not convert units.
 struct Units {
-    std::string length;
-    std::string force;
+    UnitNames names;
     std::string time;
+    bool given = false;  // the scene has the table, which may leave names empty on purpose
 };
 
 struct Scene {

@@ -36,6 +36,7 @@ void say(fmt::format_string<T...> format, T&&... values) {
 template <class... T>
 void complain(fmt::format_string<T...> format, T&&... values) {
     const std::string text = printable(fmt::format(format, std::forward<T>(values)...));
+    std::fflush(stdout);  // where both streams go to one file, what was said before stands before, in whole lines
     std::fwrite(text.data(), 1, text.size(), stderr);
 }
 

@@ -33,6 +33,19 @@ std::string shortened(const std::string& text) {
     return text.substr(0, end) + "..";
 }
 
+std::string wrapped(const std::string& line, std::size_t width) {
+    const std::string indent = "    ";
+    std::string out, rest = line;
+    while (rest.size() > width) {
+        std::size_t at = rest.rfind(' ', width);
+        if (at == std::string::npos || at < indent.size()) at = rest.find(' ', width);
+        if (at == std::string::npos) break;
+        out += rest.substr(0, at) + "\n";
+        rest = indent + rest.substr(at + 1);
+    }
+    return out + rest;
+}
+
 std::string listing(const std::vector<std::string>& names) { return fmt::format("{}", fmt::join(names, ", ")); }
 
 std::string suggestion(std::string_view word, const std::vector<std::string>& known) {

@@ -17,6 +17,9 @@ constexpr int most_levels = 32;
 std::string shortened(const std::string& text);
 // Returns " (did you mean 'young'?)", or "" if no known word is near.
 std::string suggestion(std::string_view word, const std::vector<std::string>& known);
+// Breaks a line at blanks so that no part is longer than `width` unless a word is; further parts begin with four
+// blanks.
+std::string wrapped(const std::string& line, std::size_t width);
 // Returns "a, b, c".
 std::string listing(const std::vector<std::string>& names);
 

@@ -94,6 +94,20 @@ public:
         return value_->get<std::vector<std::string>>();
     }
 
+    // Lists of {factor, name} by quantity (result.cpp).
+    [[nodiscard]] json scales() const {
+        const auto good = [](const json& one) {
+            return one.is_object() && one.contains("factor") && one.contains("name") && one["factor"].is_number() &&
+                   one["factor"].get<double>() > 0 && one["factor"].get<double>() <= largest_shown &&
+                   one["name"].is_string();
+        };
+        if (!value_->is_object()) fail("an object");
+        for (const json& list : *value_)
+            if (!list.is_array() || list.empty() || !std::all_of(list.begin(), list.end(), good))
+                fail("lists of objects with a factor > 0 and a name");
+        return *value_;
+    }
+
 private:
     std::string path_, key_;
     const json* value_ = nullptr;
@@ -271,6 +285,7 @@ ViewAbout view_about(const std::string& folder) {
              {"ended", member("ended").text(1)}};
     for (const char* key : {"length", "force", "time"})
         shown["units"][key] = member((std::string("units.") + key).c_str()).text();
+    if (member("units").value().contains("scales")) shown["units"]["scales"] = member("units.scales").scales();
     shown["scene"] = {{"title", member("scene.title").text()},
                       {"file", fs::path(member("scene.file").text()).filename().string()},
                       {"dimension", out.dimension},

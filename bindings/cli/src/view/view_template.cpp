@@ -22,8 +22,9 @@ std::string template_path() {
     const DataFile file = data_file("view.html");
     if (file.found) return file.path;
     throw Failure(exit_scene,
-                  fmt::format("{}: there is no template of the page. A build and an installation put it there, from "
-                              "bindings/cli/view/view.html of the sources; --template FILE names another",
+                  fmt::format("{}: there is no template of the page. It comes with the program: `cmake --preset "
+                              "release` puts it into the folder of the build, and `cmake --install` installs it. The "
+                              "sources have it in bindings/cli/view/view.html, which --template FILE takes as well",
                               file.path));
 }
 

@@ -7,7 +7,7 @@ import { line } from 'd3-shape';
 
 import { number } from './units.js';
 
-const margin = { right: 12, top: 8, bottom: 40 };
+const margin = { right: 12, top: 8, bottom: 44 };
 
 // From the least to the largest number of several lists.
 function extent(lists) {
@@ -27,7 +27,7 @@ function extent(lists) {
 }
 
 export class Chart {
-  // curves: {name, x, y, colour, dash}; jumps: {x0, y0, x1, y1}, or {x} across the chart; failed: rows that are marked.
+  // curves: {name, x, y, colour, dash, path: points that are drawn instead, [x, y]}; jumps: {x0, y0, x1, y1}, or {x} across the chart; failed: rows that are marked.
   // near: 'x', or 'both' where a curve may turn back. onRow: called with the row that was chosen.
   constructor(parent, { title, xLabel, yLabel, curves, jumps = [], failed = [], near = 'x', onRow }) {
     Object.assign(this, { title, xLabel, yLabel, curves, jumps, failed, near, onRow, row: 0 });
@@ -76,20 +76,21 @@ export class Chart {
     const height = Math.max(170, Math.min(240, 0.55 * width));
     svg.attr('height', height).attr('viewBox', `0 0 ${width} ${height}`);
     svg.selectAll('*').remove();
-    const jumpX = this.jumps.flatMap(({ x, x0, x1 }) => (x === undefined ? [x0, x1] : [x]));
-    const jumpY = this.jumps.flatMap(({ y0, y1 }) => (y0 === undefined ? [] : [y0, y1]));
+    const drawn = this.curves.flatMap(({ path = [] }) => path);
+    const jumpX = this.jumps.flatMap(({ x, x0, x1 }) => (x === undefined ? [x0, x1] : [x])).concat(drawn.map(([x]) => x));
+    const jumpY = this.jumps.flatMap(({ y0, y1 }) => (y0 === undefined ? [] : [y0, y1])).concat(drawn.map(([, y]) => y));
     const format = (value) => number(value, 3);
     this.y = scaleLinear(extent([...this.curves.map(({ y }) => y), jumpY]), [height - margin.bottom, margin.top]);
     // Room for the longest number, beside the name of the axis.
     const ticks = 5;
-    const left = 36 + 6 * Math.max(...this.y.ticks(ticks).map((value) => format(value).length));
+    const left = 38 + 7.5 * Math.max(...this.y.ticks(ticks).map((value) => format(value).length));
     this.x = scaleLinear(extent([...this.curves.map(({ x }) => x), jumpX]), [left, width - margin.right]);
     svg
       .append('g')
       .attr('transform', `translate(0,${height - margin.bottom})`)
       .call(
         axisBottom(this.x)
-          .ticks(Math.max(3, width / 90))
+          .ticks(Math.max(3, width / 100))
           .tickFormat(format),
       );
     svg.append('g').attr('transform', `translate(${left},0)`).call(axisLeft(this.y).ticks(ticks).tickFormat(format));
@@ -107,7 +108,7 @@ export class Chart {
       .attr('transform', `translate(12,${(height - margin.bottom + margin.top) / 2}) rotate(-90)`)
       .text(this.yLabel);
     this.drawJumps(svg, height);
-    for (const { x, y, colour, dash } of this.curves) {
+    for (const { x, y, colour, dash, path = y.map((value, i) => [x[i], value]) } of this.curves) {
       svg
         .append('path')
         .attr('class', 'curve')
@@ -116,9 +117,9 @@ export class Chart {
         .attr(
           'd',
           line(
-            (_, i) => this.x(x[i]),
-            (_, i) => this.y(y[i]),
-          )(y),
+            (point) => this.x(point[0]),
+            (point) => this.y(point[1]),
+          )(path),
         );
     }
     const arm = 4;

@@ -1,22 +1,41 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The charts of a result: load curves, stress and strain where the history has them, energies.
 import { Chart } from './chart.js';
-import { averageCurves, axis, energyCurves, largerJumps, loadCurves } from './units.js';
+import { averageCurves, axis, energyCurves, largerJumps, loadCurves, scaled } from './units.js';
 
 const mostPatterns = 6;
 const colours = ['blue', 'red', 'green', 'orange', 'violet', 'grey'];
 
-// A jump along a load curve. Rows without these columns are of an older file.
+// A jump along a load curve, in its step. Rows without these columns are of an older file.
 function jumpAlong(curve, jump) {
   const {
+    step,
     [`load${curve.suffix}`]: load,
     [`reaction_before${curve.suffix}`]: before,
     [`reaction_after${curve.suffix}`]: after,
   } = jump;
   if ([load, before, after].some((value) => value === undefined)) return [];
-  return [
-    curve.force ? { x0: -before, y0: load, x1: -after, y1: load } : { x0: load, y0: before, x1: load, y1: after },
-  ];
+  const { xFactor, yFactor } = curve;
+  return curve.force
+    ? [{ step, x0: -before * xFactor, y0: load * yFactor, x1: -after * xFactor, y1: load * yFactor }]
+    : [{ step, x0: load * xFactor, y0: before * yFactor, x1: load * xFactor, y1: after * yFactor }];
+}
+
+// The points of a load curve and, within their steps, those between which it jumps: the peaks are on the curve.
+function path(curve, steps, jumps) {
+  const points = [];
+  steps.forEach((step, row) => {
+    for (const jump of jumps.filter((one) => one.step === step))
+      points.push([jump.x0, jump.y0], [jump.x1, jump.y1]);
+    points.push([curve.x[row], curve.y[row]]);
+  });
+  return points;
+}
+
+// Curves over one pair of axes, in the unit that suits them all.
+function withAxis(curves, label, scales) {
+  const { lists, label: named } = scaled(label, scales, ...curves.map(({ y }) => y));
+  return { yLabel: named, curves: curves.map((curve, i) => ({ ...curve, y: lists[i] })) };
 }
 
 export function makeCharts(parent, result, units, onRow) {
@@ -26,6 +45,7 @@ export function makeCharts(parent, result, units, onRow) {
   const failed = steps.flatMap((step, row) => (bad.has(step) ? [row] : []));
   const jumps = largerJumps(result);
   for (const curve of loadCurves(result, units).slice(0, mostPatterns)) {
+    const along = result.jumps.flatMap((jump) => jumpAlong(curve, jump));
     out.push(
       new Chart(parent, {
         title: curve.name ? `Load and displacement, ${curve.name}` : 'Load and displacement',
@@ -34,21 +54,24 @@ export function makeCharts(parent, result, units, onRow) {
         near: 'both',
         failed,
         onRow,
-        curves: [{ name: '', x: curve.x, y: curve.y, colour: 'blue' }],
+        curves: [{ name: '', x: curve.x, y: curve.y, path: path(curve, steps, along), colour: 'blue' }],
         jumps: jumps.flatMap((jump) => jumpAlong(curve, jump)),
       }),
     );
   }
-  const averages = averageCurves(result, units);
+  const averages = averageCurves(result);
   if (averages.length > 0) {
     out.push(
       new Chart(parent, {
         title: 'Average stress and strain',
         xLabel: 'average strain [%]',
-        yLabel: axis('average stress', units.stress),
+        ...withAxis(
+          averages.map((one, i) => ({ ...one, colour: colours[i % colours.length] })),
+          'average stress',
+          units.stress,
+        ),
         near: 'both',
         onRow,
-        curves: averages.map((one, i) => ({ ...one, colour: colours[i % colours.length] })),
       }),
     );
   }
@@ -56,9 +79,8 @@ export function makeCharts(parent, result, units, onRow) {
     new Chart(parent, {
       title: 'Energies',
       xLabel: axis('time', units.time),
-      yLabel: axis('energy', units.energy),
+      ...withAxis(energyCurves(result), 'energy', units.energy),
       onRow,
-      curves: energyCurves(result),
       jumps: jumps.map(({ time }) => ({ x: time })),
     }),
   );

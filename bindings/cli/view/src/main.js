@@ -6,7 +6,7 @@ import { nothing, Result, summary, widen } from './data.js';
 import { box } from './geometry.js';
 import { frameOf, Scene, views } from './scene.js';
 import { element, sayColours, sayResult, sayStep } from './texts.js';
-import { Units } from './units.js';
+import { Units, suiting } from './units.js';
 
 const byId = (id) => document.getElementById(id);
 const darkness = window.matchMedia('(prefers-color-scheme: dark)');
@@ -239,20 +239,20 @@ class Page {
     const range = scene.paint(step, chosen.colour, this.colours, this.ranges?.get(chosen.colour));
     scene.look({ opacity: chosen.opacity, mesh: chosen.mesh, background: styled('--scene'), edge: styled('--edge') });
     const stress = !chosen.colour.startsWith('u');
-    const factor = stress ? this.units.stressFactor : 1;
+    const unit = range && suiting(stress ? this.units.stress : this.units.length, Math.max(Math.abs(range.low), Math.abs(range.high)));
     sayColours({
       result: this.result,
       colours: this.colours,
       adhesion: byId('interfaces').value !== 'none' && step.adhesion.some((zeta) => zeta),
       field: range && {
         title: `${byId('colour').selectedOptions[0].textContent}, ${this.ranges ? 'all steps' : 'this step'}`,
-        unit: stress ? this.units.stress : this.units.length,
-        range: { low: range.low / factor, high: range.high / factor },
+        unit: unit.name,
+        range: { low: range.low * unit.factor, high: range.high * unit.factor },
       },
     });
     if (!scene.drawn) return;
     // A longer legend would lie on the body, a shorter one leaves room.
-    if (scene.isFitted() && scene.legendHeight() !== scene.fittedBelow) scene.fit();
+    if (scene.isFitted() && (scene.legendHeight() !== scene.fittedBelow || scene.isOutgrown())) scene.fit();
     scene.draw();
   }
 }

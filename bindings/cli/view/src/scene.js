@@ -287,6 +287,13 @@ export class Scene {
     return this.renderer.getActiveCamera().getParallelScale() === this.fittedScale;
   }
 
+  // A later step, or a larger scale, reaches beyond what was fitted.
+  isOutgrown() {
+    const camera = this.renderer.getActiveCamera();
+    const { low, high } = box(this.points.getData());
+    return this.scaleThatFits(camera, low, high, camera.getFocalPoint()) > 1.001 * this.fittedScale;
+  }
+
   legendHeight() {
     return this.container.querySelector('#legend')?.offsetHeight ?? 0;
   }
@@ -331,7 +338,9 @@ export class Scene {
     const { clientWidth, clientHeight } = this.container;
     const ratio = Math.min(2, window.devicePixelRatio || 1);
     this.view.setSize(Math.max(1, Math.floor(clientWidth * ratio)), Math.max(1, Math.floor(clientHeight * ratio)));
-    if (this.drawn) this.draw();
+    if (!this.drawn) return;
+    if (this.isFitted()) this.fit(); // the scale is one of the height: a narrower picture would cut the sides off
+    this.draw();
   }
 
   draw() {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the page says in words: title, solution, warnings, the numbers of a step, where the result comes from.
 import { gradient, toneOf } from './colours.js';
-import { loadCurves, number, withUnit } from './units.js';
+import { loadCurves, number, withScale, withUnit } from './units.js';
 
 const byId = (id) => document.getElementById(id);
 
@@ -22,7 +22,7 @@ function solution({ about, every }, units) {
   if (Number(concept.jump_tolerance ?? 0) > 0) out.push(`jumps located to ${concept.jump_tolerance} of a step`);
   out.push(concept.step_control === 'adaptive' ? `adaptive steps in ${about.steps} steps` : `${about.steps} steps`);
   const edge = about.scene.shortest_edge;
-  if (edge) out.push(units.length === 'm' ? `h = ${number(1e3 * edge)} mm` : `h = ${withUnit(edge, units.length)}`);
+  if (edge) out.push(`h = ${withScale(edge, units.length)}`);
   if (every > 1) out.push(`fields of every ${every}th written step`);
   return out.join(', ');
 }
@@ -67,12 +67,12 @@ function readings(result, units, row, sums) {
   const at = (name) => result.column(name)[row];
   const out = [];
   const add = (key, title, value, unit) => {
-    if (value !== undefined && value !== null) out.push([key, title, withUnit(value, unit)]);
+    if (value !== undefined && value !== null) out.push([key, title, withScale(value, unit)]);
   };
   for (const curve of loadCurves(result, units)) {
     const of = curve.name && curve.suffix ? `, ${curve.name}` : '';
-    add(`x${curve.suffix}`, curve.xLabel.replace(/ \[.*/, '') + of, curve.x[row], curve.xUnit);
-    add(`y${curve.suffix}`, curve.yLabel.replace(/ \[.*/, '') + of, curve.y[row], curve.yUnit);
+    add(`x${curve.suffix}`, curve.xName + of, curve.own.x[row], curve.own.xScales);
+    add(`y${curve.suffix}`, curve.yName + of, curve.own.y[row], curve.own.yScales);
   }
   add('stored', 'stored, bodies', at('stored_bulk'), units.energy);
   add('stored_interface', 'stored, interfaces', at('stored_interface'), units.energy);

@@ -13,22 +13,53 @@ export const number = (value, digits = 4) => {
 export const withUnit = (value, unit) => (unit ? `${number(value)} ${unit}` : number(value));
 export const axis = (label, unit) => (unit ? `${label} [${unit}]` : label);
 
+// Shown in the unit that the scene names, as text/unit.cpp has it; else with another prefix.
+const [leastShown, mostShown] = [0.2, 2000];
+
+// {factor, name} of the unit for numbers up to `largest`; scales: from the smallest unit to the largest (result.json).
+export function suiting(scales, largest) {
+  const own = scales.find(({ factor }) => factor === 1) ?? { factor: 1, name: '' };
+  const size = Math.abs(largest);
+  if (!(size > 0) || !Number.isFinite(size) || (size >= leastShown && size < mostShown)) return own;
+  if (size * scales[0].factor < leastShown) return own; // rounding
+  return scales.findLast(({ factor }) => size * factor >= 1 - 1e-9) ?? scales[0] ?? own;
+}
+
+const largestOf = (values) =>
+  values.reduce((most, value) => (Number.isFinite(value) ? Math.max(most, Math.abs(value)) : most), 0);
+
 export class Units {
   constructor(about) {
-    const { length = '', force = '', time = '' } = about.units ?? {};
+    const { length = '', force = '', time = '', scales = {} } = about.units ?? {};
     const flat = about.scene.dimension === 2;
     const known = Boolean(force && length);
-    this.length = length;
+    const of = (key, plain) => scales[key] ?? [{ factor: 1, name: plain }];
+    const over = known && flat ? `/${length}` : '';
     this.time = time;
-    const work = force === 'N' && length === 'm' ? 'J' : known ? `${force} ${length}` : '';
-    this.force = flat ? (known ? `${force}/${length}` : '') : force;
-    this.energy = flat && known ? `${work}/${length}` : work;
-    this.debonded = !length || flat ? length : `${length}²`;
-    // Energy of an area: in the plane both are per unit of thickness.
-    this.energyRate = known ? `${force}/${length}` : '';
-    [this.stressFactor, this.stress] =
-      force === 'N' && length === 'm' ? [1e6, 'MPa'] : [1, known ? `${force}/${length}²` : ''];
+    this.length = of('length', length);
+    this.force = of(flat ? 'line_force' : 'force', known ? `${force}${over}` : '');
+    this.energy = of(flat ? 'line_energy' : 'energy', known ? `${force} ${length}${over}` : '');
+    this.debonded = of(flat ? 'length' : 'area', length && !flat ? `${length}²` : length);
+    this.energyRate = of('release_rate', known ? `${force}/${length}` : '');
+    this.stress = of('stress', known ? `${force}/${length}²` : '');
+    this.none = [{ factor: 1, name: '' }];
   }
+}
+
+// "5.08 mm" for 0.00508 in a scene in m.
+export function withScale(value, scales) {
+  const { factor, name } = suiting(scales, value);
+  return withUnit(value === null || value === undefined ? value : value * factor, name);
+}
+
+// The numbers of an axis, in the unit that suits all of them, and its label.
+export function scaled(label, scales, ...lists) {
+  const { factor, name } = suiting(scales, Math.max(0, ...lists.map(largestOf)));
+  return {
+    factor,
+    label: axis(label, name),
+    lists: lists.map((list) => (factor === 1 ? list : list.map((value) => value * factor))),
+  };
 }
 
 // The patterns whose curves are drawn, with their axes; of prescribed strains only if all are.
@@ -42,42 +73,33 @@ export function loadCurves(result, units) {
     const factor = result.column(`load${suffix}`);
     const reaction = result.column(`reaction${suffix}`);
     const curve = { name, suffix, force: drives === 'force' };
-    if (about.cell || drives === 'strain') {
+    const axes = (x, xName, xScales, y, yName, yScales) => {
+      const [across, up] = [scaled(xName, xScales, x), scaled(yName, yScales, y)];
       return {
         ...curve,
-        x: factor,
-        y: reaction,
-        xLabel: 'load factor',
-        yLabel: axis('conjugate of the factor', units.energy),
-        xUnit: '',
-        yUnit: units.energy,
+        x: across.lists[0],
+        y: up.lists[0],
+        xFactor: across.factor,
+        yFactor: up.factor,
+        xLabel: across.label,
+        yLabel: up.label,
+        xName,
+        yName,
+        own: { x, y, xScales, yScales },
       };
-    }
-    if (curve.force) {
-      return {
-        ...curve,
-        x: reaction.map((value) => -value),
-        y: factor,
-        xLabel: axis('conjugate displacement', units.length),
-        yLabel: 'load factor',
-        xUnit: units.length,
-        yUnit: '',
-      };
-    }
-    return {
-      ...curve,
-      x: factor,
-      y: reaction,
-      xLabel: axis('prescribed displacement', units.length),
-      yLabel: axis('reaction', units.force),
-      xUnit: units.length,
-      yUnit: units.force,
     };
+    if (about.cell || drives === 'strain')
+      return axes(factor, 'load factor', units.none, reaction, 'conjugate of the factor', units.energy);
+    if (curve.force) {
+      const moved = reaction.map((value) => -value);
+      return axes(moved, 'conjugate displacement', units.length, factor, 'load factor', units.none);
+    }
+    return axes(factor, 'prescribed displacement', units.length, reaction, 'reaction', units.force);
   });
 }
 
 // Average stress over average strain, of the periodic cell or else of all bodies.
-export function averageCurves(result, units) {
+export function averageCurves(result) {
   for (const prefix of ['cell_', '']) {
     const found = ['xx', 'yy', 'zz', 'xy', 'yz', 'zx'].filter(
       (c) => result.columns.has(`${prefix}strain_${c}`) && result.columns.has(`${prefix}stress_${c}`),
@@ -86,7 +108,7 @@ export function averageCurves(result, units) {
       return found.map((c) => ({
         name: c,
         x: result.column(`${prefix}strain_${c}`).map((value) => 100 * value),
-        y: result.column(`${prefix}stress_${c}`).map((value) => value / units.stressFactor),
+        y: result.column(`${prefix}stress_${c}`),
       }));
     }
   }

@@ -14,6 +14,7 @@ struct OptionText {
     std::vector<std::string> choices;
     bool needed = false;
     bool argument = false;
+    bool several = false;  // takes more than one value, or may be given again
 };
 
 struct CommandText {

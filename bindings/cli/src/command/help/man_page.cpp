@@ -43,7 +43,9 @@ std::string heading(const std::string& name, int section) {
 
 std::string option_line(const OptionText& option) {
     std::string out = ".TP\n";
-    if (option.argument) return out + "\\fI" + roff(option.value) + "\\fR\n" + roff(option.meaning) + "\n";
+    if (option.argument)
+        return out + "\\fI" + roff(option.value) + "\\fR" + (option.several ? " ..." : "") + "\n" +
+               roff(option.meaning) + "\n";
     for (std::size_t i = 0; i < option.names.size(); ++i)
         out += (i > 0 ? ", " : "") + std::string("\\fB") + roff(option.names[i]) + "\\fR";
     if (!option.value.empty()) out += " \\fI" + roff(option.value) + "\\fR";
@@ -117,10 +119,11 @@ std::string man_page_of_program(const ProgramText& program) {
         if (&command != &program.commands.front()) out += ".br\n";
         out += fmt::format(".B {} {}\n", program.name, command.name);
         for (const OptionText& option : command.options) {
-            const std::string shown = option.argument
-                                          ? "\\fI" + roff(option.value) + "\\fR"
-                                          : "\\fB" + roff(option.names.front()) + "\\fR" +
-                                                (option.value.empty() ? "" : " \\fI" + roff(option.value) + "\\fR");
+            std::string shown = option.argument
+                                    ? "\\fI" + roff(option.value) + "\\fR"
+                                    : "\\fB" + roff(option.names.front()) + "\\fR" +
+                                          (option.value.empty() ? "" : " \\fI" + roff(option.value) + "\\fR");
+            if (option.several) shown += " ...";
             if (option.names.front() == "--help" || option.names.front() == "-h") continue;
             out += option.needed ? shown + "\n" : "[" + shown + "]\n";
         }

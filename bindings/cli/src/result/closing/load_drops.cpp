@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "result/history/history.hpp"
-#include "scene/labels.hpp"
+#include "scene/units/labels.hpp"
 #include "text/say.hpp"
 
 namespace cli {

@@ -9,7 +9,7 @@
 
 #include "mesh/cell_shape.hpp"
 #include "model/call.hpp"
-#include "scene/labels.hpp"
+#include "scene/units/labels.hpp"
 
 namespace cli {
 

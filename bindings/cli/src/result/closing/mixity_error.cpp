@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "scene/labels.hpp"
+#include "scene/units/labels.hpp"
 
 namespace cli {
 

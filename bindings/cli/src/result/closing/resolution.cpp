@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "model/call.hpp"
-#include "scene/labels.hpp"
+#include "scene/units/labels.hpp"
 #include "text/say.hpp"
 
 namespace cli {
@@ -56,20 +56,6 @@ double rounded_down(double value) {
 }
 double rounded_up(double value) {
     return rounded(value, [](double x) { return std::ceil(x); });
-}
-
-// 0: the law has no such number.
-double number_of_law(const LawData& law, std::string_view key) {
-    for (const auto& [name, value] : law.parameters)
-        if (name == key) return value;
-    return 0;
-}
-
-// The peak of the traction in a mode, "normal" or "tangential"; 0: none.
-double peak_of(const LawData& law, const std::string& mode) {
-    const double strength = number_of_law(law, mode + "_strength");
-    if (strength > 0) return strength;
-    return std::sqrt(2 * number_of_law(law, mode + "_stiffness") * number_of_law(law, mode + "_onset"));
 }
 
 bool energetic(const Model& model) {
@@ -127,7 +113,7 @@ Needs needs_of(const Model& model, std::size_t law) {
 
 Advice advice_for(const Model& model, const LawData& law, const Needs& needs) {
     Advice out{law.name, needs.interfaces, {}, ""};
-    const double own = number_of_law(law, "normal_stiffness");
+    const double own = law_number(law, "normal_stiffness");
     const bool unresolved = !energetic(model) && needs.pairs > 0 && needs.pairs < resolving_pairs;
     const bool apart = needs.stiffness > 0 && (own < needs.stiffness || own > stiffest * needs.stiffness);
     if (apart) {
@@ -139,11 +125,11 @@ Advice advice_for(const Model& model, const LawData& law, const Needs& needs) {
             100 * needs.share, stiffest * needs.stiffness);
     }
     // Another stiffness would change the peaks of a law with given onsets.
-    const bool onsets = number_of_law(law, "normal_onset") + number_of_law(law, "tangential_onset") > 0;
+    const bool onsets = law_number(law, "normal_onset") + law_number(law, "tangential_onset") > 0;
     if (!unresolved && !(apart && onsets)) return out;
     for (const std::size_t mode : {std::size_t{0}, std::size_t{1}}) {
         const std::string name = mode == 0 ? "normal" : "tangential";
-        const double peak = peak_of(law, name);
+        const double peak = law_peak(law, name);
         if (!(peak > 0)) continue;
         const bool lower = unresolved && needs.strength[mode] < peak;
         out.keys.emplace_back(name + "_strength", lower ? rounded_down(needs.strength[mode]) : peak);

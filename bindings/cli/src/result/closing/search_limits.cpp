@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "scene/labels.hpp"
+#include "scene/units/labels.hpp"
 #include "text/say.hpp"
 
 namespace cli {

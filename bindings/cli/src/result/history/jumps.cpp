@@ -10,7 +10,7 @@
 #include "model/call.hpp"
 #include "result/history/concept.hpp"
 #include "result/history/history.hpp"
-#include "scene/labels.hpp"
+#include "scene/units/labels.hpp"
 #include "text/say.hpp"
 
 namespace cli {

@@ -159,8 +159,8 @@ KeyTable output_table() {
 KeyTable units_table() {
     KeyTable table{"units", "names of units, for labels only", {}, {}};
     table.rows = {
-        text_key("length").otherwise("\"m\"").says("unit of length"),
-        text_key("force").otherwise("\"N\"").says("unit of force"),
+        text_key("length").otherwise("\"\"").says("unit of length, e.g. \"mm\""),
+        text_key("force").otherwise("\"\"").says("unit of force, e.g. \"N\""),
         text_key("time").otherwise("\"\"").says("unit of time"),
     };
     return table;

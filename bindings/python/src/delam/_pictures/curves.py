@@ -2,7 +2,7 @@
 """Pictures of the history alone: load and displacement, average stress and strain, energies."""
 import numpy as np
 
-from .result import BLUE, GREEN, GREY, ORANGE, RED, Nothing, axis, early_end, plt, zoom
+from .result import BLUE, GREEN, GREY, ORANGE, RED, Nothing, axis, early_end, name_axis, plt, zoom
 
 
 def load_figure(result):
@@ -20,7 +20,9 @@ def load_figure(result):
         drawn = axes[0] if number == 1 else axes[0][p:p + 1]
         for ax in drawn:
             # Markers show the steps, where there is room between them.
-            ax.plot(x, y, color=BLUE, marker="o" if len(x) <= 100 else None, markersize=3)
+            ax.plot(*result.load_path(p), color=BLUE)
+            if len(x) <= 100:
+                ax.plot(x, y, "o", color=BLUE, markersize=3)
             if bad:
                 ax.plot(x[bad], y[bad], "x", color=RED, label="not converged")
                 ax.legend()
@@ -40,7 +42,7 @@ def averages_figure(result):
     averages = result.averages()
     if not averages:
         raise Nothing("the history has no component of both average strain and average stress")
-    factor, unit = result.stress_unit()
+    factor, unit = result.stress_unit(max(np.abs(stress).max() for _, _, stress in averages))
     figure, ax = plt.subplots(figsize=(6.8, 4.4), layout="constrained")
     for component, strain, stress in averages:
         colour = BLUE if len(averages) == 1 else None
@@ -95,7 +97,9 @@ def energies_figure(result):
         beginning.set_xlabel(axis("time", result.time))
         top.set_xlabel(axis("time", result.time))
     draw_energies(top, result)
-    top.set_ylabel(axis("energy", result.energy))
+    name_axis(top.yaxis, "energy", result.scales("energy"))
+    if closer is not None:
+        name_axis(beginning.yaxis, "", result.scales("energy"), np.max(np.abs(top.yaxis.get_data_interval())))
     # Above the axes: nowhere inside is free of curves in every result.
     top.legend(ncols=3, loc="lower left", bbox_to_anchor=(0, 1.0), fontsize=8)
 
@@ -106,7 +110,7 @@ def energies_figure(result):
                         label="lower .. upper bound")
     bottom.plot(t, increment - middle, color="black", label="stored + dissipated")
     bottom.axhline(0, color=ORANGE, linestyle="--", linewidth=1.2, label="work, (lower + upper)/2")
-    bottom.set_ylabel(axis("cumulated, minus work", result.energy))
+    name_axis(bottom.yaxis, "cumulated, minus work", result.scales("energy"))
     bottom.set_xlabel(axis("time", result.time))
     bottom.legend(loc="upper left", bbox_to_anchor=(0, -0.2), ncols=3, fontsize=8)
     # As the run judged it: the picture and its closing line must not disagree.

@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.collections import LineCollection
 
 from .cells import ZETA, text_of
-from .result import Nothing, axis, fields_of, plt
+from .result import Nothing, fields_of, name_axis, plt
 from .section import PIECES
 
 LARGEST = 8  # interfaces in one picture
@@ -131,8 +131,8 @@ def draw_fronts(result, file):
         ax.grid(False)
         ax.set_title(text_of(interface.attrs["name"]) + title, fontsize=9, loc="left")
         above = seen_from_above(interface["points"][()])
-        ax.set_xlabel(axis("x" if above else "along the first direction", result.length))
-        ax.set_ylabel(axis("y" if above else "across", result.length))
+        name_axis(ax.xaxis, "x" if above else "along the first direction", result.scales("length"))
+        name_axis(ax.yaxis, "y" if above else "across", result.scales("length"), np.abs(ax.get_xlim()).max())
     for ax in axes.flat[len(panels):]:
         ax.axis("off")
     bar = figure.colorbar(drawn, ax=axes, shrink=0.7, aspect=25 * rows, pad=0.01)

@@ -7,14 +7,16 @@ import stat
 
 import matplotlib
 import matplotlib.pyplot as plt
+import matplotlib.ticker
 import numpy as np
 
 from .input_file import MOST_RESULT, Unreadable, fields_file, read_columns, read_json
 
+LEAST_SHOWN, MOST_SHOWN = 0.2, 2000  # of the unit that a scene names: text/unit.cpp has the same for lines
 WITHIN = ("strain", "gap")  # these patterns act inside the bodies and between them: their factors are no loads
 BLUE, RED, GREEN, ORANGE, GREY = "#1f5a99", "#b3312c", "#2f7d4f", "#d18b1f", "#7a7f87"
 STYLE = {
-    "font.size": 10, "axes.titlesize": 11, "axes.spines.top": False, "axes.spines.right": False,
+    "font.size": 11.5, "axes.titlesize": 12, "axes.spines.top": False, "axes.spines.right": False,
     "axes.grid": True, "grid.color": "#e4e6ea", "grid.linewidth": 0.8, "axes.axisbelow": True,
     "text.parse_math": False,  # names of scenes are no formulas
     "axes.edgecolor": "#50555c", "lines.linewidth": 1.6, "legend.frameon": False, "figure.dpi": 110, "savefig.dpi": 150,
@@ -56,6 +58,37 @@ def styled():
 
 def axis(label, unit):
     return f"{label} [{unit}]" if unit else label
+
+
+def suiting(scales, largest):
+    """(factor, name) of the unit in which numbers up to `largest` are shown: that of the scene (factor 1) where they
+    are neither tiny nor huge, else one with another prefix. scales: a list of result.json, from the smallest unit to
+    the largest, which the program makes of its table of units (bindings/cli/src/text/unit.hpp)."""
+    own = next((scale for scale in scales if scale[0] == 1), (1.0, ""))
+    usual = LEAST_SHOWN <= largest < MOST_SHOWN
+    if not scales or usual or not np.isfinite(largest) or largest * scales[0][0] < LEAST_SHOWN:
+        return own
+    return next((scale for scale in reversed(scales) if largest * scale[0] >= 1 - 1e-9), scales[0] if scales else own)
+
+
+def name_axis(of, label, scales, largest=None):
+    """Labels an axis (ax.xaxis, ax.yaxis) that shows numbers of the scene, in the unit that suits those drawn on it."""
+    low, high = of.get_data_interval()
+    factor, unit = suiting(scales, max(abs(low), abs(high)) if largest is None else largest)
+    of.set_label_text(axis(label, unit))
+    if factor != 1:
+        of.set_major_formatter(_Scaled(factor))
+
+
+class _Scaled(matplotlib.ticker.ScalarFormatter):
+    """Numbers times a factor, which is a power of ten: ticks stay round."""
+
+    def __init__(self, factor):
+        super().__init__()
+        self._factor = factor
+
+    def __call__(self, x, pos=None):
+        return f"{x * self._factor:.10g}".replace("-", "\N{MINUS SIGN}")
 
 
 def save(figure, path):
@@ -107,6 +140,21 @@ def zoom(ax, x, curves):
         ax.set_ylim(seen.min() - room, seen.max() + room)
 
 
+def four_digits(value, digits=4):
+    return f"{value:.0f}" if 1e3 <= abs(value) < 1e7 else f"{value:.{digits}g}"
+
+
+def _plain_scales(length, force):
+    """Of results of earlier versions and of other programs, which have names of units alone: no prefixes."""
+    known = bool(length and force)
+    work = "J" if (force, length) == ("N", "m") else f"{force} {length}"
+    names = {"length": length, "area": f"{length}²" if length else "", "force": force,
+             "line_force": f"{force}/{length}", "energy": work, "line_energy": f"{work}/{length}",
+             "release_rate": f"{force}/{length}", "stress": f"{force}/{length}²"}
+    return {key: [{"factor": 1, "name": name if known or key in ("length", "area") else ""}]
+            for key, name in names.items()}
+
+
 class Result:
     """What a folder holds."""
 
@@ -123,15 +171,26 @@ class Result:
         self.name_units()
 
     def name_units(self):
-        """Names of the units of lengths, times, forces and energies, "" where they are not known."""
+        """Units of lengths, times, forces and energies, "" where they are not known, and the scales of quantities."""
         units = self.about["units"]
-        flat = self.about["scene"]["dimension"] == 2
-        self.length, self.time = units["length"], units["time"]
-        force, length = units["force"], units["length"]
-        known = bool(force and length)  # else numbers go without units
-        self.force = force if not flat else f"{force}/{length}" if known else ""
-        work = "J" if (force, length) == ("N", "m") else f"{force} {length}" if known else ""
-        self.energy = f"{work}/{length}" if flat and known else work
+        self.flat = self.about["scene"]["dimension"] == 2
+        scales = units.get("scales") or _plain_scales(units["length"], units["force"])
+        self._scales = {key: [(float(one["factor"]), one["name"]) for one in list_] for key, list_ in scales.items()}
+        self.time = units["time"]
+        self.length, self.force, self.energy = (self.unit(key) for key in ("length", "force", "energy"))
+
+    def scales(self, quantity):
+        """Of "length", "area", "force", "energy", "release_rate", "stress"; forces and energies of plane scenes are per
+        unit of thickness."""
+        return self._scales[f"line_{quantity}" if self.flat and quantity in ("force", "energy") else quantity]
+
+    def unit(self, quantity, largest=1.0):
+        return suiting(self.scales(quantity), largest)[1]
+
+    def text(self, value, quantity, digits=4):
+        """"5.08 mm" for 0.00508 in a scene in m."""
+        factor, unit = suiting(self.scales(quantity), abs(value))
+        return f"{four_digits(value * factor, digits)} {unit}".rstrip()
 
     def jump_times(self):
         """Instants of the larger jumps."""
@@ -167,12 +226,10 @@ class Result:
                 return found
         return []
 
-    def stress_unit(self):
-        """What to divide stresses by, and the unit they have then."""
-        units = self.about["units"]
-        if (units["force"], units["length"]) == ("N", "m"):
-            return 1e6, "MPa"
-        return 1.0, f"{units['force']}/{units['length']}²" if units["force"] and units["length"] else ""
+    def stress_unit(self, largest):
+        """What to divide stresses up to `largest` by, and the unit they have then."""
+        factor, unit = suiting(self.scales("stress"), largest)
+        return 1 / factor, unit
 
     def load_curve(self, pattern=0):
         """Displacement and load. Of a dead force the factor is the load and minus the reaction the displacement of its
@@ -182,16 +239,33 @@ class Result:
             return -self.history[reaction], self.history[load]
         return self.history[load], self.history[reaction]
 
+    def load_path(self, pattern=0):
+        """The load curve with, in the steps of jumps, the points between which it jumps: the peaks that rows miss."""
+        x, y = self.load_curve(pattern)
+        name, drives, _, _ = self.patterns()[pattern]
+        suffix = f"_{name}" if len(self.about["patterns"]) > 1 else ""
+        path = os.path.join(self.folder, "jumps.csv") if self.folder else ""
+        columns = read_columns(path) if os.path.exists(path) else {}
+        wanted = [f"load{suffix}", f"reaction_before{suffix}", f"reaction_after{suffix}"]
+        if drives != "displacement" or not set(wanted) <= columns.keys():
+            return x, y
+        at = np.searchsorted(self.history["step"], np.repeat(columns["step"], 2))
+        loads, before, after = (np.asarray(columns[key], float) for key in wanted)
+        return np.insert(x, at, np.repeat(loads, 2)), np.insert(y, at, np.column_stack([before, after]).ravel())
+
     def label_load(self, axes, pattern=0):
         if self.cell or self.patterns()[pattern][1] in WITHIN:
             for ax in axes:
                 ax.set_xlabel("load factor")
-            axes[0].set_ylabel(axis("conjugate of the factor", self.energy))
+            name_axis(axes[0].yaxis, "conjugate of the factor", self.scales("energy"))
             return
         force = self.patterns()[pattern][1] == "force"
         for ax in axes:
-            ax.set_xlabel(axis("conjugate displacement" if force else "prescribed displacement", self.length))
-        axes[0].set_ylabel("load factor" if force else axis("reaction", self.force))
+            name_axis(ax.xaxis, "conjugate displacement" if force else "prescribed displacement", self.scales("length"))
+        if force:
+            axes[0].set_ylabel("load factor")
+        else:
+            name_axis(axes[0].yaxis, "reaction", self.scales("force"))
 
     def name(self):
         scene = self.about["scene"]
@@ -214,7 +288,7 @@ class Result:
         steps = f"{self.about['steps']} steps"
         out["steps"] = "adaptive steps in " + steps if named.get("step_control") == "adaptive" else steps
         edge = self.about["scene"]["shortest_edge"]
-        out["h"] = f"h = {1e3 * edge:.4g} mm" if self.length == "m" else f"h = {edge:.4g} {self.length}"
+        out["h"] = f"h = {self.text(edge, 'length')}"
         return out
 
     def title(self, what):

@@ -8,7 +8,7 @@ from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 from .cells import (BODIES, ZETA, body_of_nodes, body_tones, boundary_edges, boundary_faces, cell_blocks, cell_outlines,
                    hidden_bodies, text_of, without)
 from .fronts import chosen_interfaces, plan_of, triangles_of
-from .result import Nothing, fields_of, plt
+from .result import Nothing, fields_of, four_digits, plt
 
 
 def snapshot_steps(file, instants):
@@ -23,26 +23,18 @@ def snapshot_steps(file, instants):
     return [(times[k], file["steps"][names[k]]) for k in (chosen or [len(names) - 1])]
 
 
-def four_digits(value):
-    """Four digits, without an exponent as long as that is short."""
-    return f"{value:.0f}" if 1e3 <= abs(value) < 1e7 else f"{value:.4g}"
-
-
 def load_text(result, time):
     """Load and reaction at the row of this time; of a cell the average strain and stress that it prints."""
     row = int(np.argmin(np.abs(result.history["time"] - time)))
     averages = result.averages()
     if result.cell and averages:
         component, strain, stress = averages[0]
-        factor, unit = result.stress_unit()
-        return (f"strain {component} {100 * strain[row]:.3g} %, stress {four_digits(stress[row] / factor)} {unit}")
+        return f"strain {component} {100 * strain[row]:.3g} %, stress {result.text(stress[row], 'stress')}"
     _, drives, load, reaction = result.patterns()[0]
-    text = f"load {four_digits(result.history[load][row])}"
     if drives == "force":
-        return text
-    # Without a name of a unit no blank is left before the comma.
-    force = f"{four_digits(result.history[reaction][row])} {result.force}"
-    return f"{text} {result.length}".rstrip() + f", reaction {force}"
+        return f"load {four_digits(result.history[load][row])}"
+    return (f"load {result.text(result.history[load][row], 'length')}, "
+            f"reaction {result.text(result.history[reaction][row], 'force')}")
 
 
 def draw_plane(ax, file, step, scale, light_mesh):

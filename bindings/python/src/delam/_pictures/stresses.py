@@ -27,12 +27,12 @@ def stresses_figure(result):
     output = result.about["output"]
     if not result.prescribed_strains() or result.about["scene"]["dimension"] != 2 or "stress" not in output["fields"]:
         raise Nothing("stresses are drawn of plane scenes with prescribed strains that store the field stress")
-    factor, unit = result.stress_unit()
     with fields_of(result) as file:
         shots = snapshot_steps(file, output["snapshots"])
         points = file["mesh/points"][:, :2]
         if "displacement" not in shots[0][1]:
             raise Nothing("no displacement in fields.h5")
+        factor, unit = result.stress_unit(max(np.abs(step["stress"][:, 0]).max() for _, step in shots))
         height = min(4.0, 0.75 + 10 * np.ptp(points[:, 1]) / np.ptp(points[:, 0]))
         figure, axes = plt.subplots(len(shots), 1, squeeze=False, layout="constrained",
                                     figsize=(11.0, 1.0 + len(shots) * height))

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/units/labels.hpp"
+
+#include <fmt/format.h>
+
+namespace cli {
+
+std::string energy_text(double energy, const Scene& scene) {
+    return with_unit(energy, scene.geometry.dimension == 2 ? Quantity::line_energy : Quantity::energy,
+                     scene.units.names);
+}
+
+std::string extent_text(double extent, const Scene& scene) {
+    return with_unit(extent, scene.geometry.dimension == 2 ? Quantity::length : Quantity::area, scene.units.names);
+}
+
+std::string length_text(double length, const Scene& scene) {
+    return with_unit(length, Quantity::length, scene.units.names);
+}
+
+std::string percent_text(double fraction) {
+    const double percent = 100.0 * fraction;
+    if (percent >= 99.5) return fmt::format("{:.0f} %", percent);
+    return percent > 0.0 && percent < 1e-3 ? "less than 0.001 %" : fmt::format("{:.2g} %", percent);
+}
+
+std::string instant_text(std::int64_t step, double time) { return fmt::format("step {}, time {:.6g}", step, time); }
+
+}  // namespace cli

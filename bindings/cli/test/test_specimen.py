@@ -1,0 +1,150 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`delam new`: the scene of each kind of test runs as it is, and its peak agrees with corrected beam theory, whose
+formulas are here once more, in SI units and for one specimen. `test_specimen.py pairs` prints peaks for other meshes."""
+import csv
+import io
+import math
+import os
+import re
+import sys
+
+from support import delam, expect, expect_error, finish, folder, read
+
+E1, E2, G12 = 140e9, 10e9, 5e9
+PLY = "--E1 140GPa --E2 10GPa --G12 5e3MPa --nu12 0.3 --nu23 0.45 --width 25mm ".split()
+GAMMA = 1.18 * math.sqrt(E1 * E2) / G12
+CHI = math.sqrt(E1 / (11 * G12) * (3 - 2 * (GAMMA / (1 + GAMMA)) ** 2))
+HALF, C = 0.05, 0.0413
+
+
+def mode_one(load, a, h):
+    return 12 * load ** 2 * (a + CHI * h) ** 2 / (h ** 3 * E1)
+
+
+def mode_two(load, a, h):
+    return 9 * load ** 2 * (a + 0.42 * CHI * h) ** 2 / (16 * h ** 3 * E1)
+
+
+def mixed(one, two):
+    """The load per width at which a mixed front grows, of the energy release rates at the load 1."""
+    b = two / (one + two)
+    return math.sqrt((250 + 500 * b ** 2) / (one + two))
+
+
+PRESS = (3 * C - HALF) / (4 * HALF), (C + HALF) / HALF
+UPPER, LOWER = 1.5e-3, 2e-3
+# kind: its sheet, the peak per width (N/m), and how far the peak of the scene may be from it: the zone in which the
+# interface softens shortens the load arm, most in mode II.
+KINDS = {
+    "dcb": ("--arm 1.5mm --notch 50mm --GIc 250J/m2", math.sqrt(250 / mode_one(1, 0.05, 1.5e-3)), 0.02),
+    "adcb": ("--arm 1.5mm --lower-arm 2mm --notch 5cm --GIc 0.25N/mm --GIIc 0.25kJ/m^2", math.sqrt(
+        250 / sum(6 * (0.05 + CHI * h) ** 2 / (h ** 3 * E1) for h in (UPPER, LOWER))), 0.02),
+    "enf": ("--arm 2mm --notch 30mm --half-span 50mm --GIIc 750J/m2", math.sqrt(750 / mode_two(1, 0.03, 2e-3)), 0.04),
+    "4enf": ("--arm 2mm --notch 35mm --span 100mm --inner-span 60mm --GIIc 750J/m2",
+             math.sqrt(750 * 16 * E1 * 8e-9 / 9) / 0.02, 0.01),
+    "mmb": ("--arm 2mm --notch 25mm --half-span 50mm --lever 41.3mm --GIc 250J/m2 --GIIc 750J/m2",
+            mixed(mode_one(PRESS[0], 0.025, 2e-3), mode_two(PRESS[1], 0.025, 2e-3)), 0.04),
+    "slb": ("--arm 2mm --notch 25mm --half-span 50mm --GIc 250J/m2 --GIIc 750J/m2",
+            mixed(mode_one(0.25, 0.025, 2e-3), mode_two(1, 0.025, 2e-3)), 0.04),
+}
+# What a cell of a fibre and a strip of a laminate need.
+OTHERS = {
+    "fibre": "--radius 5um --fraction 0.22 --young 3.35GPa --poisson 0.35 --fibre-young 74GPa --fibre-poisson 0.2 "
+             "--GIc 2J/m2 --GIIc 8J/m2 --normal-strength 40MPa --shear-strength 60MPa --strain 2% --steps 50",
+    "laminate": "--layup 0/90/90/0 --ply 0.5mm --width 10mm --length 20mm --E1 126GPa --E2 11GPa --G12 6.6GPa "
+                "--GIc 220J/m2 --GIIc 600J/m2 --strain 1% --steps 4",
+}
+
+
+def rows_of(scene, *settings):
+    out = os.path.join(folder(), "out")
+    code, text, error = delam("run", scene, "--out", out, *settings)
+    expect(code == 0, f"{os.path.basename(scene)} runs as it is {error if code else ''}")
+    return list(csv.DictReader(io.StringIO(read(os.path.join(out, "history.csv")).decode()))), text + error
+
+
+def made(kind, sheet, *more):
+    scene = os.path.join(folder(), f"{kind}.toml")
+    code, text, error = delam("new", kind, *sheet, "--out", scene, *more)
+    expect(code == 0 and os.path.exists(scene), f"delam new {kind} {error if code else ''}")
+    return scene, text, error
+
+
+def peaks():
+    for kind, (sheet, theory, tolerance) in KINDS.items():
+        scene, text, _ = made(kind, [*PLY, *sheet.split()])
+        rows, said = rows_of(scene)
+        peak = 1e3 * max(float(row["reaction"]) for row in rows)
+        expect(abs(peak / theory - 1) < tolerance, f"{kind}: peak {peak:.5g} N/m, beam theory {theory:.5g}")
+        told = 1e3 * float(re.search(r"grows from [\d.]+ mm at ([\d.e+]+) N/mm", text)[1])
+        expect(abs(told / theory - 1) < 1e-3, f"{kind}: the theory that is told, {told:.5g} N/m")
+        expect(float(rows[-1]["crack_length"]) > 1.1 * float(rows[0]["crack_length"]), f"{kind}: the crack grows")
+        expect("fewer than 3 pairs" not in said and "at least 3 are needed" not in said, f"{kind}: resolved")
+        expect('length = "mm"' in read(scene).decode(), f"{kind}: units are named")
+    for kind, sheet in OTHERS.items():
+        scene, _, _ = made(kind, sheet.split())
+        rows, said = rows_of(scene)
+        if kind == "fibre":
+            expect(float(rows[-1]["debonded_length"]) > 0, "fibre: the interface comes off")
+        else:  # half of the plies along, half across: the mean of both moduli, but for what Poisson's ratios do
+            force = float(rows[-1]["reaction"]) / (0.01 * 20 * 0.5 * (126e3 + 11e3))
+            expect(abs(force - 1) < 0.01, f"laminate: force over that of its plies {force:.4f}")
+        expect("at least 3 are needed" not in said, f"{kind}: resolved")
+
+
+def units():
+    """The same sheet in other units is the same scene but for the line of the command."""
+    texts = []
+    for width, arm, e1, gc in (("25mm", "1.5mm", "140GPa", "250J/m2"), ("2.5cm", "1.5e-3m", "140000N/mm2", "0.25 kJ/m^2")):
+        _, out, _ = delam("new", "dcb", "--width", width, "--arm", arm, "--notch", "50mm", "--E1", e1, "--E2", "10GPa",
+                          "--G12", "5GPa", "--GIc", gc)
+        texts.append(out.split("\n", 1)[1])
+    expect(texts[0] == texts[1] and "[units]" in texts[0], "units of the sheet do not matter")
+    good = [*PLY, *KINDS["dcb"][0].split()]
+    for words, wanted in ((["--arm", "1.5"], "--arm 1.5: a number with its unit is expected, like 1.5mm"),
+                          (["--arm", "1.5GPa"], "--arm 1.5GPa: a unit of another kind is expected, like 1.5mm"),
+                          (["--arm", "-1mm"], "--arm -1mm: a finite number > 0"),
+                          (["--arm", "x"], "--arm x: a number with its unit is expected"),
+                          (["--length", "40mm"], "--length 40 mm is too short")):
+        sheet = [*good] if words[0] == "--length" else [w for w in good if w not in ("--arm", "1.5mm")]
+        expect_error(delam("new", "dcb", *sheet, *words), 2, re.escape(wanted))
+    expect_error(delam("new", "enf", *good), 2, "enf needs --half-span, --GIIc as well")
+    code, _, error = delam("new", "dbc", *good)
+    expect(code == 2 and "dbc" in error and "dcb" in error, "an unknown kind")
+    scene, _, _ = made("dcb", good)
+    expect_error(delam("new", "dcb", *good, "--out", scene), 2, "is there already; --replace")
+
+
+def standards():
+    """Each sheet breaks one rule, and the good one none."""
+    for kind, changes, wanted in (
+            ("dcb", {}, None), ("dcb", {"--arm": "1mm"}, "a thickness of 3 to 5 mm"), ("dcb", {"--notch": "30mm"}, "a notch of about"),
+            ("dcb", {"--GIc": "5kJ/m2"}, "a thickness of at least"), ("enf", {"--half-span": "60mm"}, "a half span of 50 mm"),
+            ("mmb", {}, None), ("mmb", {"--lever": "20mm"}, "a share of mode II"), ("4enf", {"--notch": "22mm"}, "a notch that ends between the noses"),
+            ("slb", {"--growth": "30mm"}, "a crack shorter than the half span")):
+        words = [*PLY, *KINDS[kind][0].split()]
+        for key, value in changes.items():
+            words = words + [key, value] if key not in words else [
+                value if i and words[i - 1] == key else word for i, word in enumerate(words)]
+        _, _, error = made(kind, words)
+        asks = [line for line in error.splitlines() if "asks for" in line]
+        expect(not asks if wanted is None else any(wanted in line for line in asks), f"{kind} {changes}: {asks}")
+
+
+def print_pairs():
+    """Peaks over corrected beam theory with half and twice of the pairs in the process zone."""
+    for kind, (sheet, theory, _) in KINDS.items():
+        scene, _, _ = made(kind, [*PLY, *sheet.split()])
+        cells = int(re.search(r"^divisions = (\d+)", read(scene).decode(), re.M)[1])
+        for factor in (0.5, 1, 2):
+            rows, _ = rows_of(scene, "--set", f"geometry.divisions={int(factor * cells)}")
+            print(f"{kind}: {factor} of the cells, peak {1e3 * max(float(row['reaction']) for row in rows) / theory:.4f}")
+
+
+if sys.argv[1:] == ["pairs"]:
+    print_pairs()
+else:
+    units()
+    standards()
+    peaks()
+finish()
