@@ -107,7 +107,7 @@ void search() {
     expect(lines(quiet).size() == 1, "a gap within search_tolerance is stated as a bound");
     expect_line(lines("1,0.5,10,0,9,0.08,0\n" + quiet + "2,1,10,0,20,0.1,0\n").front(),
                 "search: no position of a front, with the other fronts in their places, has less energy than the state "
-                "kept by more than 0.09 J/m (0.9 % of the energy; step 1, time 0.5)");
+                "kept by more than 90 mJ/m (0.9 % of the energy; step 1, time 0.5)");
     const std::vector<std::string> told = lines(quiet + "2,1,10,0,20,0.5,-0.2\n3,2,10,0,20,0.3,-0.3\n");
     expect(told.size() == 2, "a gap and a lower state: a line each");
     expect_line(told.front(),

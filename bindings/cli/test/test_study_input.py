@@ -204,9 +204,9 @@ def texts():
 def interrupts():
     """At any time: while the interpreter starts, while modules load, while marches run."""
     scene = write(changed("h = 0.0015", "h = 0.0005", changed("steps = 20", "steps = 2000")))
-    curve = file_of(GOOD)
+    curve = file_of(GOOD)  # times the scale, it rises like the scene
     seen, wrong = set(), []
-    for which, words in enumerate((["fit", scene, "--data", curve, "--parameters", "laws.0.normal_toughness"],
+    for which, words in enumerate((["fit", scene, "--data", curve, "--scale", "2376", "--parameters", "laws.0.normal_toughness"],
                                    ["sweep", scene, "--vary", "laws.0.normal_toughness=250:260:2"])):
         for k in range(24):
             sent = (signal.SIGINT, signal.SIGTERM)[k % 2]
@@ -218,7 +218,9 @@ def interrupts():
             seen.add(child.returncode)
             # Before the program is loaded, the signal ends it without a word.
             mute = child.returncode == -sent and not error
-            if not mute and not (child.returncode == 130 and error.count("\n") == 1 and "interrupted" in error):
+            # On a fast machine the fit ends before the last signals: these data tell nothing of the toughness.
+            ended = which == 0 and child.returncode == 4 and "the data tell none" in error
+            if not mute and not ended and not (child.returncode == 130 and error.count("\n") == 1 and "interrupted" in error):
                 wrong.append((which, k, child.returncode, error[-300:]))
     expect(not wrong and 130 in seen, f"each of 48 interrupts is one line: {wrong}")
 
