@@ -349,10 +349,11 @@ public:
             const Vector3 n = triangle.along(direction(near));
             const double front = dot(triangle.fall(spent_), n);
             const Vector3 work = triangle.work(n);
+            const auto pairs = triangle.pairs();
             give(near, [&](Collected& to, std::size_t k, double share) {
                 to.front[k] += share * front;
                 to.work[k] = to.work[k] + share * work;
-                for (const std::int64_t p : triangle.pairs()) to.behind[k] = std::max(to.behind[k], spent_[index(p)]);
+                for (const std::int64_t p : pairs) to.behind[k] = std::max(to.behind[k], spent_[index(p)]);
             });
         }
         for (std::size_t p = 0; p < interface_.adhesion.size(); ++p)
