@@ -21,6 +21,7 @@ struct Specimen {
     bool beam;  // double cantilever beam, else mixed-mode flexure
     bool incompatible;
     const char* rule;  // of the mixity
+    const char* control = "fixed";
 };
 
 Scene make(const Specimen& specimen, int dimension) {
@@ -62,13 +63,15 @@ Scene make(const Specimen& specimen, int dimension) {
         drive(line(1, 0.5 * length, 2.0 * arm), -1.0);
     }
     scene.text("mixity_rule", specimen.rule);
+    scene.text("step_control", specimen.control);
     scene.number("damage_tolerance", 1e-10);
     return scene;
 }
 
-LOOP_TEST(a_slab_is_plane_strain, 0, 8) {
+LOOP_TEST(a_slab_is_plane_strain, 0, 12) {
     const bool frozen = loop < 4;
-    const Specimen specimen{loop % 2 == 1, loop / 2 % 2 == 1, frozen ? "frozen" : "converged"};
+    const Specimen specimen{loop % 2 == 1, loop / 2 % 2 == 1, frozen ? "frozen" : "converged",
+                            loop < 8 ? "fixed" : "load"};
     const Scene plane = make(specimen, 2), solid = make(specimen, 3);
     Solver flat(plane, 0.0), slab(solid, 0.0);
     double in_plane = 0.0, in_space = 0.0;

@@ -23,6 +23,7 @@ struct Setting {
     const char* rule;
     double gradient;
     double asymmetry;  // smallest relative asymmetry that must appear; 0: symmetric
+    const char* control = "fixed";
 };
 
 constexpr Setting settings[] = {
@@ -37,6 +38,8 @@ constexpr Setting settings[] = {
     {"frozen, FETI, space", 3, "feti", "frozen", 0.0, 0.0},
     {"variational, space", 3, "condensed", "variational", 0.0, 0.0},
     {"gradient, space", 3, "condensed", "frozen", 2e-3, 0.0},
+    {"along the load", 2, "condensed", "converged", 0.0, 1e-6, "load"},
+    {"along the load, space", 3, "condensed", "converged", 0.0, 1e-6, "load"},
 };
 constexpr int setting_count = static_cast<int>(std::size(settings));
 
@@ -89,6 +92,7 @@ Scene strip(const Setting& s) {
                   "forces");
     scene.text("reduction", s.reduction);
     scene.text("mixity_rule", s.rule);
+    scene.text("step_control", s.control);
     scene.number("damage_tolerance", 1e-11);
     return scene;
 }
@@ -107,7 +111,7 @@ LOOP_TEST(tangent_is_the_derivative, 0, setting_count) {
     if (std::string(s.name) == "frozen, FETI, space" && !cases::whole()) return;
     const Scene scene = strip(s);
     Solver solver(scene, 0.0);
-    bool damaged = false, softened = false;
+    bool damaged = false, softened = false, divided = false;
     double asymmetry = 0.0;
     std::vector<double> factors(3);
     for (int k = 1; k <= steps; ++k) {
@@ -120,6 +124,7 @@ LOOP_TEST(tangent_is_the_derivative, 0, setting_count) {
         const std::vector<double> tangent = step_tangent(solver);
         std::vector<double> secant(9);
         REQUIRE(scene, delam_solver_tangent, solver.get(), 9, secant.data());
+        divided = divided || solver.value("substeps") > 1.0;
         damaged = damaged || (k > 2 && solver.value("dissipated") > 0.0);
         const auto at = [&](int q, double change) {
             for (int p = 0; p < 3; ++p) {
@@ -162,6 +167,7 @@ LOOP_TEST(tangent_is_the_derivative, 0, setting_count) {
         solver.commit();
     }
     cases::expect(damaged && softened, std::string(s.name) + ": the steps did not soften, nothing was tested");
+    cases::expect(divided == (std::string(s.control) == "load"), std::string(s.name) + ": steps in substeps");
     if (s.asymmetry > 0.0)
         cases::expect(asymmetry > s.asymmetry, std::string(s.name) + ": should not be symmetric");
     else
