@@ -10,14 +10,13 @@ from command import loading
 RADIUS = np.log(4.0)  # of the first step, by which factor a parameter may change
 GOOD, POOR = 0.75, 0.25  # of the predicted gain (Dennis, Schnabel, Numerical Methods for Unconstrained Optimization, 6.4)
 # A step that would lower the sum of squares by less than this part of its variance moves nothing by more than a tenth
-# of its standard error. Half and twice of it are one analysis more or less in ten fits.
+# of its standard error. Half and twice of it were not measured.
 ENOUGH = 0.01
 SHORT = 1e-6  # of a logarithm: shorter steps are rounding
-# With chords: shorter steps find other teeth and nothing else. It is about a standard error of the toughness of the DCB
-# with 1 % of noise; 0.004 ends one analysis earlier, 0.001 one later, with the same coverage (test_studies.py whole).
+# With chords, shorter steps find other teeth and nothing else. It is about a standard error of the toughness of the DCB
+# with 1 % of noise. Half and twice of it were not measured.
 CHORD_SHORT = 0.002
-# With coarse load steps: shorter ones are left to fine steps. 0.01 takes two analyses more on the DCB with teeth, 0.06
-# one of its own load steps more.
+# With coarse load steps, shorter ones are left to fine steps. Half and twice of it were not measured.
 COARSE_SHORT = 0.03
 
 

@@ -7,8 +7,8 @@ import numpy as np
 ACCURACY = 0.01
 # A parameter that such an error moves by more than this part of its value is not told. 0.3 leaves out the strength of a
 # DCB (0.5 to 1.2) and the onset of an ENF (1.1), and keeps their toughnesses (0.01 to 0.03; 0.21 where an ENF ends
-# before it has lost a fifth of its load) and the strength of a strip that peels over 6 mm (0.07). Half of it drops that
-# ENF's toughness, twice of it keeps strengths of a DCB that are off by 40 % (study/MANUAL.md, test_told.py).
+# before it has lost a fifth of its load) and the strength of a strip that peels over 6 mm (0.07). By these numbers
+# half of it drops that ENF's toughness, and twice of it keeps some of the DCB's strengths.
 TOLD = 0.3
 ALIKE = 0.8  # from this correlation on a sentence names the other parameter; it decides nothing
 MOST_FACTOR = np.log(10.0)  # a larger factor is not said

@@ -9,7 +9,7 @@ from command import loading
 
 TRUSTED = 4.0  # by which factor the misfit at the ends of an interval may differ from that which the derivatives predict
 # Where curves have teeth, misfits are compared this far away, in logarithms: closer, those of the teeth of the DCB
-# differ by more than what 1 % of its toughness adds. 0.05 doubts two of ten of its fits, 0.2 none, nor does 0.1.
+# differ by more than what 1 % of its toughness adds. Half and twice of it were not measured.
 FAR = 0.1
 FARTHEST = np.log(4.0)  # no analysis looks farther than the first step of a search goes
 AGAIN = 0.25  # and so far where this was not trusted

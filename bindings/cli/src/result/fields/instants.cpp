@@ -10,13 +10,13 @@ namespace {
 
 // Instants that are written at most, unless the scene asks for more snapshots. Reason: eighths of an analysis, its
 // first damage and five jumps, each with the state before it. Measured as `valgrind --tool=callgrind delam run`: the
-// ENF with cells of 0.5 mm takes 26 M instructions an instant, 560 M besides. Half of it leaves one event beside the
-// eighths; twice of it makes the fields dearer than the analysis.
+// ENF with cells of 0.5 mm took 26 M instructions an instant, 560 M besides. Half of it leaves one event beside the
+// eighths; by these numbers twice of it makes the fields dearer than the analysis.
 constexpr std::size_t most_instants = 20;
 constexpr std::size_t parts = 8;
 // Rise of a reaction since its last peak, over the largest one so far, from which on its fall makes a peak. Reason:
 // what the closing lines tell of a drop (load_drops.cpp), so that small waves of a load are no events. Measured by
-// bindings/cli/test/test_instants.py, whose loads rise by 10 to 100 %: half and twice of it choose the same.
+// bindings/cli/test/test_instants.py, whose loads rise by 10 to 100 %: half and twice of it are below all of them.
 constexpr double noticeable_rise = 0.02;
 
 }  // namespace
