@@ -2,13 +2,13 @@
 // Calls of the BLAS have one thread, and the host's number is restored, whatever overlaps.
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <thread>
 #include <vector>
 
 #include <dlfcn.h>
 #include <sys/stat.h>
-#include <time.h>
 
 #include "base/machine/blas_memory.hpp"
 #include "base/machine/blas_threads.hpp"
@@ -40,15 +40,16 @@ bool host_wants(int threads) {
     return openblas_get_num_threads() == threads;
 }
 
-double seconds(clockid_t clock) {
-    timespec time{};
-    clock_gettime(clock, &time);
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
 std::int64_t threads_of_the_process() {
     struct stat tasks {};
     return stat("/proc/self/task", &tasks) == 0 ? static_cast<std::int64_t>(tasks.st_nlink) - 2 : 0;
+}
+
+// True once the process has that many threads: Linux lists a thread that has been joined for a moment longer.
+bool has_threads(std::int64_t number) {
+    for (int k = 0; k < 1000 && threads_of_the_process() != number; ++k)
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    return threads_of_the_process() == number;
 }
 
 // Large enough for OpenBLAS to share it.
@@ -142,14 +143,14 @@ TEST(an_analysis_leaves_the_number) {
     ck_assert(analyse() == two);
 }
 
-// Its threads would take a tenth of a second of another processor.
-TEST(a_small_analysis_has_the_processor_time_of_its_thread) {
+// Its threads would take a tenth of a second of another processor; once started they stay, so the count at the end
+// tells that none was.
+TEST(a_small_analysis_starts_no_thread) {
     if (!host_wants(2) || openblas_get_parallel == nullptr || openblas_get_parallel() != 1) return;
     work_of_the_host();
     prepare_blas();
-    ck_assert_int_eq(threads_of_the_process(), 1);
+    ck_assert(has_threads(1));
     ck_assert_int_eq(openblas_get_num_threads(), 2);
-    const double process = seconds(CLOCK_PROCESS_CPUTIME_ID), thread = seconds(CLOCK_THREAD_CPUTIME_ID);
     const Problem problem = unit::make_flexure({});
     Monitor monitor;
     Solver solver(problem, monitor, 0.0);
@@ -157,13 +158,11 @@ TEST(a_small_analysis_has_the_processor_time_of_its_thread) {
         ck_assert_int_ge(solver.advance(k / 8.0).status, 0);
         solver.commit();
     }
-    const double own = seconds(CLOCK_THREAD_CPUTIME_ID) - thread;
-    ck_assert_double_le(seconds(CLOCK_PROCESS_CPUTIME_ID) - process, 1.1 * own);
-    ck_assert_int_eq(threads_of_the_process(), 1);
+    ck_assert(has_threads(1));
     // A host whose work is shared has its threads again.
     work_of_the_host();
     ck_assert_int_eq(openblas_get_num_threads(), 2);
-    ck_assert_int_eq(threads_of_the_process(), 2);
+    ck_assert(has_threads(2));
 }
 
 // They may be at work for another thread of the host: then nothing ends them.
