@@ -17,6 +17,7 @@ DELAM_TEST_PACKAGES=(
     "${DELAM_GMSH_PACKAGES[@]}" gcc gfortran make git ca-certificates
     libgsl-dev check abigail-tools binutils locales clang clang-format doxygen patchelf groff-base
     python3-venv python3-pip python3-meshio python3-tqdm python3-jinja2 python3-jsonschema python3-pandas python3-cvxopt mypy
+    python3-pyflakes
     libpetsc-real-dev libopenmpi-dev openmpi-bin python3-mpi4py
 )
 # VTK for Python, which ParaView's Python brings along and conflicts with.

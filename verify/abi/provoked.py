@@ -17,8 +17,8 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path[:0] = [HERE]
 import contract_lint as lint  # noqa: E402
 import test_contract as contract  # noqa: E402
-from ctypes import c_double, c_int32, c_int64, c_uint8, c_void_p  # noqa: E402
-from test_contract import CODES, Scene, bare, call, fine, full, loose, made, real, room, short, whole, words  # noqa: E402
+from ctypes import c_double, c_int32, c_uint8, c_void_p  # noqa: E402
+from test_contract import CODES, bare, call, fine, full, loose, made, real, room, short, whole, words  # noqa: E402
 
 VERIFY = os.path.dirname(HERE)
 CELLS = os.path.join(VERIFY, "cases", "test_cancelled_calls.cpp")

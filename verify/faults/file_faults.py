@@ -24,7 +24,7 @@ from concurrent.futures import ThreadPoolExecutor
 HERE = os.path.dirname(os.path.realpath(__file__))
 sys.path.insert(0, os.path.join(HERE, "..", "..", "bindings", "cli", "test"))
 
-from support import DELAM, SCENE, changed  # noqa: E402
+from support import DELAM, changed  # noqa: E402
 
 SHIM = os.environ["DELAM_FILE_FAULTS"]
 CODES = [errno.EIO, errno.ENOSPC, errno.EACCES, errno.EMFILE]  # in turn

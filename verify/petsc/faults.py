@@ -19,7 +19,7 @@ import time
 from concurrent.futures import ThreadPoolExecutor
 
 from comparison import FIELDS, Result
-from launch import DELAM_MPI, ENVIRONMENT, EXAMPLES, Ranks, alone, expect, finish, folder, last_lines, on_ranks
+from launch import EXAMPLES, Ranks, alone, expect, finish, folder, last_lines, on_ranks
 
 PROMPT = 10.0  # s, in which all has ended
 START = 60.0  # s, where the ranks start first, perhaps beside other programs

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tests the scanners of functions and of classes on code whose numbers are known, and plants what sizes.py, words.py,
-readmes.py, arrows.py, sentences.py and english.py must refuse."""
+readmes.py, arrows.py, sentences.py, english.py and names.py must refuse."""
 
 import pathlib
 import sys
@@ -9,6 +9,7 @@ import tempfile
 import arrows
 import classes
 import english
+import names
 import readmes
 import scanner
 import sentences
@@ -393,8 +394,10 @@ def main():
         (src / "law" / "names.hpp").write_text("// See src/law/mixity.cpp, src/lost.cpp and examples/NAME/NAME.toml.\n",
                                                encoding="utf-8")
         assert list(readmes.lost(src.parent, ["src/law/names.hpp"])) == ["src/law/names.hpp: src/lost.cpp is not there"]
+    assert len(names.findings("import os\n\n\ndef f():\n    return lost\n", "a.py")) == 2
+    assert not names.findings("import os  # noqa: F401\n", "a.py")
     houses = planted_steps() + planted_arrows() + planted_imports() + planted_sentences() + planted_english() + planted_classes()
-    print(f"{len(EXPECTED)} functions, {len(refused) + 4 + len(planted) + 2 + houses} planted")
+    print(f"{len(EXPECTED)} functions, {len(refused) + 4 + len(planted) + 4 + houses} planted")
     return 0
 
 

@@ -9,7 +9,7 @@ import re
 import signal
 import subprocess
 
-from support import DELAM, SCENE, brittle, changed, delam, expect, finish, folder, read, write
+from support import DELAM, brittle, changed, delam, expect, finish, folder, read, write
 
 COLUMNS = "step,before,time,stored,dissipated,released,debonded,interface,first_pair,last_pair"
 LOADS = ",load,reaction_before,reaction_after"

@@ -5,7 +5,6 @@ import json
 import os
 import re
 import subprocess
-import sys
 
 from support import delam, draw, expect, expect_error, finish, folder
 

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What sweep, fit and the plot scripts are given: files that are none or too large, numbers out of range, texts that
 would move the cursor, interrupts at any time. Each ends with one printable line and the exit code of its kind."""
-import json
 import os
 import re
 import resource

@@ -8,7 +8,6 @@ import json
 import os
 import resource
 import shutil
-import sys
 
 import h5py
 import numpy as np

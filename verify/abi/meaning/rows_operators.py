@@ -3,7 +3,6 @@
 import ctypes
 import os
 
-import forms
 import scenes
 from host import Out, Refused
 from rows_options import observe

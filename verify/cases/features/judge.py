@@ -7,7 +7,7 @@ import numpy as np
 import delam
 import probes
 from check import ENERGIES, LINEAR, SAME, Wrong, expect, expect_near, read, same
-from scene import ALIKE, BRITTLE, CONDENSED, ENGINE, ITERATED, QUERIES, SENSITIVITY, SPACE, TIMES, Scene
+from scene import ALIKE, BRITTLE, CONDENSED, ENGINE, ITERATED, QUERIES, SPACE, TIMES, Scene
 
 LEDGER = 0.05  # of the work: what the trapezoidal rule leaves in long steps
 FINER = 4  # where it leaves more, in so many times as many steps

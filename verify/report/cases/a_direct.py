@@ -32,7 +32,6 @@ def enf_analysis(context):
         raise Failed(f"the library refused {len(refused)} of {len(rows.rows)} choices: {refused[0]}")
     worst = {name: largest(rows.column(name)) for name, _ in QUANTITIES}
     stalled = sum(s for p, s in zip(rows.column("preconditioner"), rows.column("stalled")) if p == "series")
-    counts = rows.values("subdomains")
     iterations = []
     for p, role in zip(("series", "dirichlet", "lumped", "none"), ("first", "second", "third", "fourth")):
         of = rows.where(preconditioner=p, gluing="orthonormal")

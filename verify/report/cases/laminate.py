@@ -2,7 +2,6 @@
 """A double cantilever of 24 plies of HTA913 with five interfaces that may break; the plies between them are bonded,
 i.e. one body. Four inner cracks lie staggered before the one at mid-plane. After Robinson, Besant and Hitchings (ESIS
 27, 2000), who had one of them."""
-import numpy as np
 
 import bending
 
