@@ -111,6 +111,11 @@ struct Growth {
     double rate = 0.0;       // da/dlnM of the last part that is not flat, L or L2; 0: not known
     double part_time = 0.0;  // length of the part that would have come next; 0: not known
     double pop_time = 0.0;   // time from one pair that pops to the next; 0: none does
+    // These tell what the last single pairs of one mode, so many, dissipated and released, F L: longer parts release
+    // the same share.
+    double told_pairs = 0.0;
+    double told_dissipated = 0.0;
+    double told_released = 0.0;
 };
 
 // A part of a load step.

@@ -118,7 +118,11 @@ inline constexpr auto saved_fields<State> = std::tuple_cat(
         member_of(&State::growth, &Growth::part_time),
         member_of(&State::growth, &Growth::pop_time),
         member_of(&State::outcome, &StepOutcome::pops),
-        member_of(&State::outcome, &StepOutcome::popped)));
+        member_of(&State::outcome, &StepOutcome::popped)),
+    saved_since(14,
+        member_of(&State::growth, &Growth::told_pairs),
+        member_of(&State::growth, &Growth::told_dissipated),
+        member_of(&State::growth, &Growth::told_released)));
 // clang-format on
 
 static_assert(complete<Response>(saved_fields<Response>) && complete<Ledger>(saved_fields<Ledger>) &&

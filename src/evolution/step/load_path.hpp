@@ -5,8 +5,10 @@
 //   - Where all loads grow in proportion, the load at which the first pair meets its threshold is known, since jumps at
 //     fixed damage grow with it.
 //   - What a part of one mode dissipates does not depend on its path. Such a part may advance at the rate da/dlnM of
-//     the part before, or by single pairs. Its work does: longer parts than single pairs leave at most `accuracy` of
-//     what they dissipate open.
+//     the part before, or by single pairs. Its work does: longer parts than single pairs leave at most `accuracy` open,
+//     of what they dissipate themselves or, since their errors have either sign, of all that has been dissipated. If
+//     single pairs pop, no part is short enough for that. Short parts then measure what pairs release, and
+//     longer ones release the same share of what they dissipate.
 //   - A part of mixed mode dissipates `path_step` of its process zone, or half of the pairs on its front.
 //   - A part that is flat (growth_events.hpp) advances as far as it does: shorter ones would not tell more. The load
 //     moves first, and then the state jumps; what the jump dissipates is integrated along its own parts at that load
