@@ -82,7 +82,7 @@ double largest_difference(std::span<const double> a, std::span<const double> b) 
 }  // namespace
 
 LOOP_TEST(force_is_the_derivative_of_the_energy, 0, std::size(all_types)) {
-    OneCell one(all_types[loop]);
+    OneCell one(all_types[size(loop)]);
     const std::vector<double> u = one.displaced(0.05);
     TurnedCell& cell = one.cell[0];
     std::vector<double> force(u.size(), 0.0), slope;
@@ -99,7 +99,7 @@ LOOP_TEST(force_is_the_derivative_of_the_energy, 0, std::size(all_types)) {
 }
 
 LOOP_TEST(tangent_is_the_derivative_of_the_force, 0, std::size(all_types)) {
-    OneCell one(all_types[loop]);
+    OneCell one(all_types[size(loop)]);
     const std::vector<double> u = one.displaced(0.05);
     TurnedCell& cell = one.cell[0];
     std::vector<double> tangent(u.size() * u.size());
@@ -119,7 +119,7 @@ LOOP_TEST(tangent_is_the_derivative_of_the_force, 0, std::size(all_types)) {
 }
 
 LOOP_TEST(rigid_motion_has_no_energy_and_its_rotation_is_the_frame, 0, std::size(all_types)) {
-    OneCell one(all_types[loop]);
+    OneCell one(all_types[size(loop)]);
     TurnedCell& cell = one.cell[0];
     ck_assert(cell.move(one.displaced(0.0)));
     ck_assert_double_lt(cell.energy(), 1e-28);
@@ -129,7 +129,7 @@ LOOP_TEST(rigid_motion_has_no_energy_and_its_rotation_is_the_frame, 0, std::size
 }
 
 LOOP_TEST(couple_does_the_work_of_the_turning_frame, 0, std::size(all_types)) {
-    OneCell one(all_types[loop]);
+    OneCell one(all_types[size(loop)]);
     const std::vector<double> u = one.displaced(0.05);
     TurnedCell& cell = one.cell[0];
     const Vector3 couple = one.dim == 2 ? Vector3{0, 0, 1.7} : Vector3{0.3, -1.1, 0.7};
