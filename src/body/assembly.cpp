@@ -223,13 +223,8 @@ SparseMatrix assemble(const Mesh& mesh, std::span<const std::int64_t> cells, std
                     model = &next;
                     elasticity.emplace(next, mesh.dimension());
                 }
-                const std::span<const double> own = elasticity->matrix(cells[c]);
-                const auto matrix = std::span<double>(matrices).subspan(place[c - first], size_of(c));
-                if (model->formulation == Formulation::mean_dilatation)
-                    mean_dilatation_stiffness(mesh.cell_type(cells[c]), x.view(), own, elasticity->dilatation(cells[c]),
-                                              matrix);
-                else
-                    element_stiffness(mesh.cell_type(cells[c]), x.view(), own, model->formulation, matrix);
+                cell_stiffness(mesh.cell_type(cells[c]), x.view(), cells[c], model->formulation, *elasticity,
+                               std::span<double>(matrices).subspan(place[c - first], size_of(c)));
             }
         };
         team.run(static_cast<std::int64_t>((last - first + cells_at_a_time - 1) / cells_at_a_time), compute,
@@ -244,6 +239,15 @@ SparseMatrix assemble(const Mesh& mesh, std::span<const std::int64_t> cells, std
 }
 
 }  // namespace
+
+void cell_stiffness(CellType type, std::span<const double> coordinates, std::int64_t cell, Formulation formulation,
+                    CellElasticity& elasticity, std::span<double> matrix) {
+    const std::span<const double> own = elasticity.matrix(cell);
+    if (formulation == Formulation::mean_dilatation)
+        mean_dilatation_stiffness(type, coordinates, own, elasticity.dilatation(cell), matrix);
+    else
+        element_stiffness(type, coordinates, own, formulation, matrix);
+}
 
 SparseMatrix assemble_stiffness(const Mesh& mesh, std::span<const std::int64_t> cells,
                                 std::span<const std::int64_t> nodes, std::span<const BodyModel> models,
@@ -270,19 +274,29 @@ std::int64_t stiffness_entries(const Mesh& mesh, std::span<const std::int64_t> c
 std::vector<double> centre_stress(const Mesh& mesh, std::span<const BodyModel> models,
                                   std::span<const double> displacement, std::span<const Strain> eigenstrain) {
     const std::size_t dim = index(mesh.dimension());
+    const auto of_cell = [&](std::int64_t cell) {
+        std::vector<double> own;
+        own.reserve(mesh.cell(cell).size() * dim);
+        for (const std::int64_t n : mesh.cell(cell))
+            own.insert(own.end(), displacement.begin() + n * mesh.dimension(),
+                       displacement.begin() + (n + 1) * mesh.dimension());
+        return own;
+    };
+    return centre_stress(mesh, models, of_cell, eigenstrain);
+}
+
+std::vector<double> centre_stress(const Mesh& mesh, std::span<const BodyModel> models,
+                                  const DisplacementOfCell& displacement, std::span<const Strain> eigenstrain) {
+    const std::size_t dim = index(mesh.dimension());
     std::vector<CellElasticity> elasticity;
     for (const BodyModel& model : models) elasticity.emplace_back(model, mesh.dimension());
 
     std::vector<double> stress;
     stress.reserve(index(mesh.cell_count()) * (dim == 2 ? 4 : 6));
     const std::size_t count = dim == 2 ? 3 : 6;  // of strains
-    std::array<double, 3 * most_cell_nodes> nodal;
     for (std::int64_t c = 0; c < mesh.cell_count(); ++c) {
         poll_cancel("recover");
-        auto end = nodal.begin();
-        for (const std::int64_t n : mesh.cell(c))
-            end = std::copy_n(displacement.begin() + n * mesh.dimension(), dim, end);
-        const std::span<const double> u(nodal.begin(), end);
+        const std::vector<double> u = displacement(c);
         const Coordinates x = cell_coordinates(mesh, c);
         std::array<double, 6> strain = centre_strain(mesh.cell_type(c), x.view(), u);
         const std::size_t body = index(mesh.cell_body(c));

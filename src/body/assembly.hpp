@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -13,6 +14,8 @@
 #include "mesh/mesh.hpp"
 
 namespace delam {
+
+class CellElasticity;
 
 // Full symmetric stiffness (both triangles) of some cells over the DOFs of `nodes` (ascending mesh nodes that include
 // all nodes of the cells): DOF dimension*i + component of nodes[i]. models: by body index. No digit depends on the
@@ -25,6 +28,10 @@ SparseMatrix assemble_stiffness(const Mesh& mesh, std::span<const std::int64_t> 
                                 std::span<const std::int64_t> nodes, const BodyModel& model, std::int64_t threads = 1,
                                 const Poll& poll = {});
 
+// The stiffness of a cell, row-major, [size][size]; coordinates: [nodes][dimension]; elasticity: of its body.
+void cell_stiffness(CellType type, std::span<const double> coordinates, std::int64_t cell, Formulation formulation,
+                    CellElasticity& elasticity, std::span<double> matrix);
+
 // Entries of this matrix, without its values.
 std::int64_t stiffness_entries(const Mesh& mesh, std::span<const std::int64_t> cells,
                                std::span<const std::int64_t> nodes);
@@ -34,5 +41,9 @@ std::int64_t stiffness_entries(const Mesh& mesh, std::span<const std::int64_t> c
 // material axes (none if the list is empty).
 std::vector<double> centre_stress(const Mesh& mesh, std::span<const BodyModel> models,
                                   std::span<const double> displacement, std::span<const Strain> eigenstrain = {});
+// Returns the same of displacements that each cell has for itself: [nodes of the cell][dimension], by its index.
+using DisplacementOfCell = std::function<std::vector<double>(std::int64_t cell)>;
+std::vector<double> centre_stress(const Mesh& mesh, std::span<const BodyModel> models,
+                                  const DisplacementOfCell& displacement, std::span<const Strain> eigenstrain = {});
 
 }  // namespace delam

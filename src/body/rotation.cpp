@@ -36,9 +36,7 @@ std::vector<double> centre_rotation(const Mesh& mesh, std::span<const double> di
     return rotation;
 }
 
-double largest_rotation(const Mesh& mesh, std::span<const double> displacement) {
-    const std::vector<double> rotation = centre_rotation(mesh, displacement);
-    const std::size_t columns = mesh.dimension() == 2 ? 1 : 3;
+double largest_length(std::span<const double> rotation, std::size_t columns) {
     double largest = 0.0;
     for (std::size_t i = 0; i < rotation.size(); i += columns) {
         double square = 0.0;
@@ -46,6 +44,10 @@ double largest_rotation(const Mesh& mesh, std::span<const double> displacement) 
         largest = std::max(largest, std::sqrt(square));
     }
     return largest;
+}
+
+double largest_rotation(const Mesh& mesh, std::span<const double> displacement) {
+    return largest_length(centre_rotation(mesh, displacement), mesh.dimension() == 2 ? 1 : 3);
 }
 
 }  // namespace delam

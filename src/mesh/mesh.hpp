@@ -79,6 +79,10 @@ public:
     double size() const;
 
 private:
+    // Replaces the frames of the pairs of an interface, [pairs][dimension][dimension].
+    friend void turn_frames(Mesh& mesh, std::size_t interface, std::vector<double> frames) {
+        mesh.interfaces_[interface].frame = std::move(frames);
+    }
     // Labels of the bodies that have an interface, ascending.
     std::vector<std::int32_t> joined_labels() const;
     // Check cell `number`: check_label refuses a label that takes no more cells; take_node refuses a node that the

@@ -54,6 +54,7 @@ struct Scene {
     double stiffness = 125e9;  // N/m3
     const char* solution = "local";
     int steps = 8;  // each to time 1/8 more
+    const char* kinematics = "linear";
 };
 // Condensed and iterated, in the plane and in space, one interface and more, softening slowly and at once, soft and so
 // stiff that digits are lost.
@@ -71,6 +72,7 @@ constexpr Scene scenes[] = {
     {"rigid, stack", 2, 4, "iterated", 1e-2, 5e-3, 1e16, "local", 3},
     {"energetic", 2, 2, "iterated", 200.0, 3e-3, 125e9, "energetic"},
     {"rigid, space", 3, 2, "iterated", 1e-2, 10e-3, 1e16, "local", 2},
+    {"rotations", 2, 2, "condensed", 100.0, 1.5e-3, 125e9, "local", 8, "corotational"},
 };
 
 // Results of an analysis, and its cost.
@@ -92,6 +94,7 @@ Found analyse(const Scene& scene, const Limits& limits) {
     Problem problem = unit::make_flexure(f);
     problem.options.reduction = scene.reduction;
     problem.options.solution = scene.solution;
+    problem.options.kinematics = scene.kinematics;
     problem.options.limits = limits;
     Monitor monitor;
     Solver solver(problem, monitor, 0.0);

@@ -13,6 +13,9 @@ namespace {
 
 const Bulk& bulk_of(const Solver& solver) {
     const Bulk* bulk = solver.stepper().design().condensed;
+    if (solver.problem().options.kinematics != "linear")
+        fail(DELAM_ERROR_STATE, "with kinematics = ", solver.problem().options.kinematics,
+             " there is no condensed operator that would hold in all steps");
     if (bulk == nullptr)
         fail(DELAM_ERROR_STATE,
              "the solver has no condensed operator, because the bodies are reduced by iteration or by FETI: set the "

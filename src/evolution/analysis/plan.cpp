@@ -240,6 +240,12 @@ std::vector<PlanItem> items_of(const Basis& basis) {
     items.push_back({"displacements and stresses inside the bodies", left_out,
                      "recovered on request only: the fields displacement and stress and the kkt_ values ask for them",
                      0.0, recovery, "flop/step"});
+    if (options.kinematics != "linear")
+        items.push_back(
+            {"large rotations", used,
+             text("option kinematics = ", options.kinematics,
+                  ": frames turn with cells and interfaces; each step condenses the bodies anew, 4 to 5 times"),
+             0.0, 0.0, "-"});
     const bool energetic = options.solution == "energetic";
     items.push_back({"energetic search", energetic ? used : left_out,
                      energetic

@@ -17,6 +17,7 @@
 #include "evolution/step/backtrack.hpp"
 #include "evolution/step/load_path.hpp"
 #include "evolution/step/step_control.hpp"
+#include "evolution/step/turned_steps.hpp"
 #include "scene/advice/scene_warnings.hpp"
 #include "scene/check/step_control.hpp"
 
@@ -33,6 +34,12 @@ Problem with_used_control(Problem problem) {
     return problem;
 }
 
+// Returns the operator that reads the states, after bodies that rotate have got steps of their own.
+const JumpOperator& reading_operator(Stepper& stepper, const Problem& problem, Monitor& monitor) {
+    if (problem.options.kinematics != "linear") delegate_to_turned_steps(stepper, problem, monitor);
+    return stepper.op();
+}
+
 // The part of the minimisation that did not come to its end, with its measure and limit.
 std::string what_did_not_converge(const State& state, const Options& options) {
     const Effort& effort = state.effort;
@@ -41,6 +48,10 @@ std::string what_did_not_converge(const State& state, const Options& options) {
                                    effort.am_iterations == 1 ? "iteration" : "iterations");
     const std::string change =
         text("last change of adhesion ", outcome.damage_change, ", tolerance ", options.damage_tolerance);
+    if (outcome.turned_off > 0.0)
+        return text("nodal forces are out of balance by ", outcome.turned_off, " of the load after ",
+                    effort.linearisations, " linearisations of bodies that rotate, tolerance ",
+                    options.limits.turned_balance, ": smaller load steps may help");
     if (outcome.damage_change > options.damage_tolerance)
         return text("the adhesion still changes", after, " (", change,
                     "; minimisation_limit = ", options.minimisation_limit, ")");
@@ -72,8 +83,8 @@ Solver::Solver(const Problem& problem, Monitor& monitor, double time)
       stepper_(problem_, monitor),
       graph_(problem_.mesh->interfaces()),
       states_(keeps_past(problem_.options) ? problem_.options.backtracking_depth : 0),
-      observer_(problem_, stepper_.op(), stepper_.pairs(), stepper_.contact(), stepper_.initial_adhesion(),
-                stepper_.design().in_engine),
+      observer_(problem_, reading_operator(stepper_, problem_, monitor), stepper_.pairs(), stepper_.contact(),
+                stepper_.initial_adhesion(), stepper_.design().in_engine),
       warnings_(problem_, monitor) {
     Stepper::Result first = stepper_.initial(time);
     states_.restore(std::move(first.state), {}, {});
@@ -266,6 +277,8 @@ std::vector<double> Solver::step_tangent() {
 }
 
 std::int64_t Solver::follow(std::span<const std::int64_t> interfaces, const std::string& key) {
+    if (problem_.options.kinematics != "linear")
+        fail(DELAM_ERROR_STATE, "sensitivities are not followed with kinematics = ", problem_.options.kinematics);
     const State& committed = states_.committed();
     if (states_.pending() != nullptr || committed.step != 0)
         fail(DELAM_ERROR_STATE, "sensitivities are followed from the initial state on: there are steps already");

@@ -64,6 +64,7 @@ struct Effort {
     std::int64_t debond_moves = 0;       // unstable pairs taken to their debonded branch
     std::int64_t search_candidates = 0;  // states whose energy a search has compared
     double linear_residual = 0.0;        // worst
+    std::int64_t linearisations = 0;     // of bodies that rotate
 
     void add(const Effort& more) {
         am_iterations += more.am_iterations;
@@ -76,6 +77,7 @@ struct Effort {
         newton_solves += more.newton_solves;
         debond_moves += more.debond_moves;
         search_candidates += more.search_candidates;
+        linearisations += more.linearisations;
         linear_residual = std::max(linear_residual, more.linear_residual);
     }
 };
@@ -100,10 +102,11 @@ struct StepOutcome {
     double search_margin = 0.0;
     // State kept minus what bounds the candidates left out, F L; 0: nothing left out can be lower.
     double search_gap = 0.0;
-    std::int64_t jumps = 0;  // instants of this step at which the state jumps
-    double released = 0.0;   // energy that the step sets free and nothing stores or dissipates, F L
-    std::int64_t pops = 0;   // pairs that came apart one by one at one load, because the mesh resolves no zone
-    double popped = 0.0;     // part of `released` that they set free, F L
+    std::int64_t jumps = 0;   // instants of this step at which the state jumps
+    double released = 0.0;    // energy that the step sets free and nothing stores or dissipates, F L
+    std::int64_t pops = 0;    // pairs that came apart one by one at one load, because the mesh resolves no zone
+    double popped = 0.0;      // part of `released` that they set free, F L
+    double turned_off = 0.0;  // unbalanced force over the load that linearisations of rotating bodies leave
 };
 
 // Tells the parts of the next step how the growth of this one went on (step/load_path.hpp).

@@ -106,7 +106,9 @@ inline constexpr auto saved_fields<State> = std::tuple_cat(
         member_of(&State::outcome, &StepOutcome::damage_change),
         member_of(&State::effort, &Effort::linear_residual)),
     saved_since(unsaved,  // told when the step ends
-        &State::jump_within),
+        &State::jump_within,
+        member_of(&State::effort, &Effort::linearisations),
+        member_of(&State::outcome, &StepOutcome::turned_off)),
     saved_since(11,
         any_size(&State::search_energies)),
     saved_since(unsaved,  // followed from the initial state on

@@ -36,5 +36,8 @@ public:
 
 // Energies of a state at its own mixity; the columns that accumulate are not touched.
 void record_energies(const PairLaws& pairs, State& state);
+// True if a pair loses so much of its toughness in a step that the work which is neither stored nor dissipated counts
+// as released.
+bool damages_abruptly(const Increment& step, std::span<const double> adhesion);
 
 }  // namespace delam

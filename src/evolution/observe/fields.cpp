@@ -34,11 +34,7 @@ std::vector<double> free_since(Observer& observer) {
 constexpr FieldRow field_table[] = {
     {"displacement", Of::nodes, {2, 3}, [](Observer& o) { return o.displacement(); }, nullptr},
     {"stress", Of::cells, {4, 6}, [](Observer& o) { return o.stress(); }, nullptr},
-    {"rotation",
-     Of::cells,
-     {1, 3},
-     [](Observer& o) { return centre_rotation(*o.problem().mesh, o.displacement()); },
-     nullptr},
+    {"rotation", Of::cells, {1, 3}, [](Observer& o) { return o.rotation(); }, nullptr},
     {"jump", Of::pairs, {2, 3}, nullptr, [](const Observer& o, std::size_t i) { return o.state().response.jump[i]; }},
     {"traction",
      Of::pairs,

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <limits>
 
+#include "base/error.hpp"
 #include "base/numbers.hpp"
 #include "body/assembly.hpp"
 #include "body/rotation.hpp"
+#include "body/turned/turned_bodies.hpp"
 #include "evolution/observe/balance.hpp"
 #include "reduction/sparse/engine/engine_operator.hpp"
 #include "scene/strain_loads.hpp"
@@ -44,7 +46,15 @@ std::optional<CrackedInterface> Observer::cracked(const State& state, std::int64
 }
 
 double Observer::largest_rotation(const State& state) {
-    return problem_.mesh->cell_count() == 0 ? unknown : delam::largest_rotation(*problem_.mesh, displacement(state));
+    if (problem_.mesh->cell_count() == 0) return unknown;
+    if (const TurnedBodies* turned = op_.turned(state.response))
+        return largest_length(turned->rotation_vectors(), problem_.mesh->dimension() == 2 ? 1 : 3);
+    return delam::largest_rotation(*problem_.mesh, displacement(state));
+}
+
+std::vector<double> Observer::rotation() {
+    const TurnedBodies* turned = op_.turned(state().response);
+    return turned != nullptr ? turned->rotation_vectors() : centre_rotation(*problem_.mesh, displacement());
 }
 
 std::vector<BodyModel> Observer::models() const {
@@ -69,9 +79,14 @@ MeshError Observer::estimate(const State& state) {
     return delam::mesh_error(*problem_.mesh, models(), with_material, displacement(state), eigenstrains(state));
 }
 
-std::vector<double> Observer::mesh_error_of_cells() { return estimate(state()).of_cell; }
+std::vector<double> Observer::mesh_error_of_cells() {
+    if (op_.turned(state().response) != nullptr)
+        return std::vector<double>(index(problem_.mesh->cell_count()), unknown);
+    return estimate(state()).of_cell;
+}
 
 MeshErrorShares Observer::mesh_error(const State& state) {
+    if (op_.turned(state.response) != nullptr) return {unknown, unknown, unknown};
     if (&state == shown_ && mesh_error_) return *mesh_error_;
     const MeshError error = estimate(state);
     std::vector<std::uint8_t> at_front(error.of_cell.size(), 0);
@@ -102,7 +117,9 @@ std::vector<double> Observer::free_motions() const {
 
 std::vector<double> Observer::stress() {
     const Mesh& mesh = *problem_.mesh;
-    std::vector<double> stress = centre_stress(mesh, models(), displacement(), eigenstrains());
+    const TurnedBodies* turned = op_.turned(state().response);
+    std::vector<double> stress = turned != nullptr ? turned->centre_stress(models())
+                                                   : centre_stress(mesh, models(), displacement(), eigenstrains());
     const std::int64_t columns = mesh.dimension() == 2 ? 4 : 6;
     for (std::int64_t c = 0; c < mesh.cell_count(); ++c)
         if (!known(mesh.cell_body(c))) std::fill_n(stress.begin() + c * columns, columns, unknown);
@@ -110,6 +127,8 @@ std::vector<double> Observer::stress() {
 }
 
 VolumeAverage Observer::average(std::int32_t body) {
+    if (op_.turned(state().response) != nullptr)
+        fail(DELAM_ERROR_STATE, "averages of strain and stress are not known with kinematics = corotational");
     VolumeAverage average = volume_average(*problem_.mesh, models(), displacement(), eigenstrains(), body);
     for (std::int32_t b = 0; b < problem_.mesh->body_count(); ++b) {
         if ((body >= 0 && b != body) || known(b) || problem_.mesh->host_body(b)) continue;

@@ -72,6 +72,8 @@ public:
     std::vector<Strain> eigenstrains() const { return eigenstrains(state()); }
     // Returns the average over a body (index), -1: over all; recovers the displacements.
     VolumeAverage average(std::int32_t body);
+    // Returns the rotations of the cells (centre_rotation); vectors of rotation where they may be large.
+    std::vector<double> rotation();
     // Returns the largest rotation of a cell, rad; NaN without cells. Recovers the displacements.
     double largest_rotation(const State& state);
 

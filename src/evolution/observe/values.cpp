@@ -69,6 +69,14 @@ double over_interfaces(const Reading& r, std::int64_t which, F f) {
 
 // Normal jumps of all pairs from the displacements at their nodes: what a host would measure.
 std::vector<double> gaps(const Reading& r) {
+    const std::size_t rows = r.dimension();  // of a pair
+    if (r.observer().jump_operator().turned(r.state().response) != nullptr) {
+        // Frames that turn have no other jumps than those of the response, which are made from displacements.
+        std::vector<double> normal;
+        for (std::size_t row = 0; row < r.state().response.jump.size(); row += rows)
+            normal.push_back(r.state().response.jump[row]);
+        return normal;
+    }
     const std::vector<double> u = r.observer().displacement(r.state());
     const Mesh& mesh = *r.observer().problem().mesh;
     const std::size_t dim = index(mesh.dimension());

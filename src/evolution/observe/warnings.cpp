@@ -110,11 +110,12 @@ void Warnings::judge_front(const Observer& observer, const State& before, const 
 }
 
 void Warnings::judge_rotation(const State& state, double largest) {
-    if (!(largest > small_rotation) || told_of_rotation_) return;
+    if (!(largest > small_rotation) || told_of_rotation_ || problem_.options.kinematics != "linear") return;
     monitor_.log(1, text("step ", state.step, " at time ", state.time, ": cells rotate by up to ", largest,
                          " rad; strains are linear in the displacements, with an error of about half the square "
                          "of the rotation, ",
-                         0.5 * largest * largest, " (later steps are not reported)"));
+                         0.5 * largest * largest, "; kinematics = corotational does without (later steps are not ",
+                         "reported)"));
     told_of_rotation_ = true;
 }
 

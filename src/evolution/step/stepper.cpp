@@ -9,10 +9,10 @@
 #include "base/numbers.hpp"
 #include "delam/delam.h"
 #include "evolution/derivative/step_tangent.hpp"
+#include "evolution/increment/unstrained.hpp"
 #include "evolution/step/contact_work.hpp"
 #include "evolution/step/energetic_jump.hpp"
 #include "evolution/step/pairs_of_scene.hpp"
-#include "evolution/step/unstrained.hpp"
 #include "scene/check/validate.hpp"
 
 namespace delam {
@@ -23,8 +23,6 @@ constexpr std::size_t most_starts = 2;  // candidates of a search from which a s
 // Limit for following the path to a candidate, as `promising` is for minimising from it; the candidate only estimates
 // the energy that the path dissipates.
 constexpr double promising_way = 0.05;
-// Share of its toughness that a pair may lose in a step that damages gradually.
-constexpr double gradual = 0.1;
 // Squares of the load ratios at which fronts are continued (continue_fronts).
 constexpr double least_overload = 1.02, overload_growth = 1.04, most_overload = 4.0;
 // Extent to which fronts are continued, relative to the energy dissipated down to a candidate.
@@ -57,9 +55,9 @@ bool within_zone(std::span<const double> candidate, std::span<const double> from
 
 }  // namespace
 
-Stepper::Stepper(const Problem& problem, Monitor& monitor) : problem_(problem), monitor_(monitor) {
+Stepper::Stepper(const Problem& problem, Monitor& monitor, Checks checks) : problem_(problem), monitor_(monitor) {
     const Poll checking = [this] { monitor_.progress("check", 0, 0); };
-    validate(problem_, checking);
+    if (checks == Checks::made_here) validate(problem_, checking);
     const Mesh& mesh = *problem_.mesh;
     parts_ = std::make_unique<const FreeParts>(problem_);
     pairs_ = pair_laws(problem_);
@@ -70,6 +68,13 @@ Stepper::Stepper(const Problem& problem, Monitor& monitor) : problem_(problem), 
     rule_.emplace(pairs_, problem_.options.mixity_rule);
     call_if_set(checking);
     design_ = design_operator(problem_, monitor_);
+    if (problem_.options.kinematics != "linear") {
+        // Bodies that rotate have no operator that would hold in all steps (turned_steps.hpp).
+        ReductionChoice choice = std::move(design_.choice);
+        (design_ = Design()).choice = std::move(choice);
+        contact_.parts = nullptr;
+        return;
+    }
     operator_ = build_operator(design_, problem_, monitor_);
     std::vector<std::uint8_t> bonded_rows;
     for (const std::uint8_t b : contact_.bonded) bonded_rows.insert(bonded_rows.end(), index(mesh.dimension()), b);
@@ -96,6 +101,7 @@ std::unique_ptr<StepRule> Stepper::increment(const State& before, std::span<cons
 }
 
 Stepper::Result Stepper::initial(double time) {
+    if (other_) return other_->initial(time);
     Result result;
     State& state = result.state;
     state.time = time;
@@ -129,15 +135,6 @@ void Stepper::begin(State& next, const State& before, double time) {
     next.history = {};
     next.history.revised_from = before.step;
     operator_->recall(before.memory);
-}
-
-double Stepper::largest_loss(const StepRule& step, const State& next) const {
-    const std::vector<double>& before = step.before().adhesion;
-    double largest = 0.0;
-    for (std::size_t p = 0; p < before.size(); ++p)
-        if (pairs_.law[p] != nullptr && next.adhesion[p] < before[p])
-            largest = std::max(largest, step.left(p, before[p]) - step.left(p, next.adhesion[p]));
-    return largest;
 }
 
 // The work of the reactions by the trapezoidal rule, which is exact where nothing is damaged. In a step that damages a
@@ -176,8 +173,7 @@ void Stepper::record_step(State& next, const StepRule& step, const InnerPath* pa
         ledger.released = before.ledger.released + within.released;
         return;
     }
-    const double loss = largest_loss(step, next);
-    next.outcome.released = loss > gradual ? std::max(0.0, work - ledger.increment) : 0.0;
+    next.outcome.released = damages_abruptly(step, next.adhesion) ? std::max(0.0, work - ledger.increment) : 0.0;
     ledger.work = before.ledger.work + work;
     ledger.released = before.ledger.released + next.outcome.released;
 }
@@ -272,6 +268,7 @@ bool Stepper::start(State& next, const State& before, double time) {
 }
 
 Stepper::Result Stepper::step(const State& before, double time, std::span<const Start> also, double stride) {
+    if (other_) return other_->step(before, time, stride);
     stride_ = stride > 0.0 ? stride : problem_.options.path_step;
     places_.emplace(*operator_, before.theta, before.response);
     State first;
@@ -459,6 +456,7 @@ void Stepper::search(Result& best, const StepRule& step) {
 }
 
 Stepper::Result Stepper::equilibrate(const State& before, double time, std::span<const double> adhesion) {
+    if (other_) return other_->equilibrate(before, time, adhesion);
     Result result{before, true};
     State& next = result.state;
     begin(next, before, time);
@@ -482,10 +480,12 @@ Stepper::Result Stepper::equilibrate(const State& before, double time, std::span
 }
 
 std::vector<double> Stepper::tangent(const State& state) {
+    if (other_) return other_->tangent(state);
     return Linearised(*operator_, pairs_, contact_, state).tangent(problem_.patterns, *increment(state, state.mixity));
 }
 
 std::vector<double> Stepper::step_tangent(const State& before, const State& state) {
+    if (other_) return other_->step_tangent(before, state);
     return Linearised(*operator_, pairs_, contact_, state)
         .step_tangent(problem_.patterns, *increment(before, state.mixity));
 }

@@ -26,8 +26,9 @@ namespace delam {
 
 class Stepper {
 public:
+    enum class Checks { made_here, made_before };
     // problem and monitor must outlive it. Checks the problem, and cuts and factors the bodies.
-    Stepper(const Problem& problem, Monitor& monitor);
+    Stepper(const Problem& problem, Monitor& monitor, Checks checks = Checks::made_here);
     Stepper(const Stepper&) = delete;
     Stepper& operator=(const Stepper&) = delete;
 
@@ -56,6 +57,20 @@ public:
     Result step(const State& before, double time, std::span<const Start> also = {}, double stride = 0.0);
     // Displacements alone, at the state's adhesion and a time.
     Result equilibrate(const State& before, double time, std::span<const double> adhesion);
+    // Steps that are made of those of other scenes, answering as those here do.
+    struct OtherSteps {
+        virtual ~OtherSteps() = default;
+        virtual Result initial(double time) const = 0;
+        virtual Result step(const State& before, double time, double stride) const = 0;
+        virtual Result equilibrate(const State& before, double time, std::span<const double> adhesion) const = 0;
+        virtual std::vector<double> tangent(const State& state) const = 0;
+        virtual std::vector<double> step_tangent(const State& before, const State& state) const = 0;
+    };
+    // From now on others take the steps, and this operator reads the states.
+    void delegate(std::unique_ptr<JumpOperator> op, std::unique_ptr<const OtherSteps> steps) {
+        operator_ = std::move(op);
+        other_ = std::move(steps);
+    }
     // d2E / dtheta2 at the state's adhesion and contact set, [patterns][patterns].
     std::vector<double> tangent(const State& state);
     // d conjugate / d theta of a step from `before` to `state` (step_tangent.hpp).
@@ -98,8 +113,6 @@ private:
     // displacements of `next` are those of its adhesion.
     bool minimise(State& next, const StepRule& step, const Dissipation* begun = nullptr, bool displaced = false);
     void refuse_runaway(const State& state, const StepRule& step);
-    // The largest part of its toughness that a pair loses in a step.
-    double largest_loss(const StepRule& step, const State& next) const;
     void record_step(State& next, const StepRule& step, const InnerPath* path = nullptr) const;
     void keep_lower(Result& best, State other, const StepRule& step, const Dissipation* begun = nullptr);
     // Result of continue_fronts(), which is needed where the dissipated energy depends on the path: how far fronts run
@@ -132,6 +145,7 @@ private:
     double stride_ = 1.0;
     std::unique_ptr<JumpOperator> twin_;  // for the search, so that its zone does not disturb that of the analysis
     std::optional<Search> search_;
+    std::unique_ptr<const OtherSteps> other_;  // null: its own
 };
 
 }  // namespace delam

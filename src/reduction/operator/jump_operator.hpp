@@ -20,6 +20,8 @@
 
 namespace delam {
 
+class TurnedBodies;
+
 struct OperatorTraits {
     // True if an a-fold load has the a-fold response, to rounding, whatever was solved before.
     bool proportional = false;
@@ -49,6 +51,8 @@ public:
     // The bodies' stiffness against the jump of each row alone, F/L; 0: not known. Forces are differences of jumps and
     // displacements times as much, and have the rounding of these.
     virtual std::vector<double> row_stiffness() const = 0;
+    // The bodies at a response, where their cells turn by any angle; null: rotations are small.
+    virtual const TurnedBodies* turned(const Response& /*response*/) const { return nullptr; }
     // Largest out-of-balance force, F, at a node for the displacements above, with the response's interface forces and
     // reactions.
     virtual double equilibrium_defect(std::span<const double> theta, const Response& response) const = 0;

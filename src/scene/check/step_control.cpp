@@ -18,6 +18,7 @@ constexpr double largest_part = 0.5;
 // Returns what following the load needs and these options lack: local minimisers from part to part, whose damage may be
 // eliminated. Null: nothing.
 const char* lacking(const Options& options) {
+    if (options.kinematics != "linear") return "kinematics = linear";
     if (options.solution != "local") return "solution = local";
     if (options.mixity_rule != "converged") return "mixity_rule = converged";
     if (options.minimisation == "alternate") return "an accelerated minimisation (minimisation = auto)";

@@ -16,6 +16,7 @@
 #include "linalg/sparse/sparse_elimination.hpp"
 #include "mesh/face_gaps.hpp"
 #include "mesh/points.hpp"
+#include "scene/check/kinematics.hpp"
 #include "scene/check/step_control.hpp"
 #include "scene/check/supports.hpp"
 #include "scene/check/validate.hpp"
@@ -108,6 +109,9 @@ constexpr double weak_dependence = 2.0;  // difference of the toughnesses over t
 
 void check_mixity_rule(const Problem& problem) {
     if (problem.options.mixity_rule != "variational") return;
+    if (problem.options.kinematics != "linear")
+        fail(DELAM_ERROR_PROBLEM, "kinematics = ", problem.options.kinematics,
+             " does not know mixity_rule = variational: use frozen or converged");
     for (std::size_t i = 0; i < problem.interfaces.size(); ++i) {
         const InterfaceProperties& interface = problem.interfaces[i];
         if (!interface.law || !interface.law->depends_on_mixity()) continue;
@@ -202,8 +206,8 @@ void check_supports(const Problem& problem) {
 }  // namespace
 
 void validate(const Problem& problem, const Poll& poll) {
-    for (const auto& check : {check_bodies, check_interfaces, check_mixity_rule, check_step_control, check_loads,
-                              check_constraints, check_supports}) {
+    for (const auto& check : {check_bodies, check_interfaces, check_kinematics, check_mixity_rule, check_step_control,
+                              check_loads, check_constraints, check_supports}) {
         call_if_set(poll);
         check(problem);
     }

@@ -407,7 +407,7 @@ OPTIONS = {
     "mixity_step_tolerance": 0.01, "smallest_step": 1e-3, "jump_tolerance": 1e-2, "jump_size": 0.25,
     "damage_tolerance": 1e-4, "minimisation_limit": 4000, "backtracking_tolerance": 1e-2, "minimisation": "alternate",
     "reduction": "feti", "contact": "always", "mixity": "always", "mixity_rule": "frozen", "path_step": 0.2,
-    "accuracy": 6e-3,
+    "accuracy": 6e-3, "kinematics": "corotational",
     "contact_limit": 100, "subdomains": 4, "gluing": "redundant", "preconditioner": "dirichlet",
     "scaling": "multiplicity", "linear_tolerance": 1e-12, "linear_limit": 1000, "threads": 2, "memory_limit": 1e-7,
 }

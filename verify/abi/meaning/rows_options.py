@@ -18,7 +18,7 @@ DEFAULTS = {
     "mixity_step_tolerance": 0, "smallest_step": 1e-4, "jump_tolerance": 0, "jump_size": 0.5, "damage_tolerance": 1e-5,
     "minimisation_limit": 5000, "backtracking_tolerance": 1e-3, "minimisation": "auto", "reduction": "auto",
     "contact": "auto", "mixity": "auto", "mixity_rule": "converged", "path_step": 0.15, "accuracy": 3e-3,
-    "contact_limit": 200,
+    "contact_limit": 200, "kinematics": "linear",
     "subdomains": 0, "gluing": "orthonormal", "preconditioner": "series", "scaling": "stiffness",
     "linear_tolerance": 1e-13, "linear_limit": 2000, "threads": 1, "memory_limit": 0,
 }
@@ -58,7 +58,7 @@ def hash_of_defaults(host, see):
             continue
         see.that(f"{key} = {default} is another scene than {key} left alone", hashed([(key, default)]) == fresh)
         other = {"local": "energetic", "fixed": "adaptive", "converged": "frozen", "orthonormal": "redundant",
-                 "series": "none", "stiffness": "multiplicity"}.get(default, "always")
+                 "series": "none", "stiffness": "multiplicity", "linear": "corotational"}.get(default, "always")
         if default == "auto" and key in ("backtracking", "minimisation", "reduction"):
             other = {"backtracking": "on", "minimisation": "alternate", "reduction": "feti"}[key]
         near = other if isinstance(default, str) else default + 1 if isinstance(default, int) and key not in (
@@ -130,6 +130,34 @@ def minimisation(host, see):
 
     observe(see, "minimisation", run, ["alternate"], [0, 1, 1])
     see.equal("minimisation = accelerated", run([("minimisation", "accelerated")]), [0, 1, 1])
+
+
+@row("kinematics", options=["kinematics"])
+def kinematics(host, see):
+    """A square whose lower edge turns by 0.5 rad. With linear strains the edge shortens by s = 1 - cos(0.5), by an axial
+    strain a and a bending b of the square, a + b = s, with the least energy 1/2 a^2 + 1/6 b^2 = s^2/8. A square that may
+    turn stores nothing."""
+    shortening = 1.0 - math.cos(0.5)
+
+    def run(options):
+        nodes, cells = scenes.unit_cells(1)
+        mesh = host("mesh_create", host.context, 2, len(nodes), [x for node in nodes for x in node], Out())
+        host("mesh_add_cells", mesh, TYPES["quad4"], 1, cells[0], [0], 0)
+        problem = host("problem_create", host.context, mesh, Out())
+        host("problem_set_elastic", problem, -1, 1.0, 0.0)
+        for key, setting in options:
+            scenes.give(host, problem, key, setting)
+        scenes.hold(host, problem, [0], [[1.0, 0.0], [0.0, 1.0]])
+        scenes.drive(host, problem, [1], [1.0, 0.0], scenes.ramp(host, problem, "back", (0.0, 1.0), (0.0, -shortening)),
+                     [1.0])
+        scenes.drive(host, problem, [1], [0.0, 1.0],
+                     scenes.ramp(host, problem, "up", (0.0, 1.0), (0.0, math.sin(0.5))), [1.0])
+        solver = host("solver_create", problem, 0.0, Out())
+        host("solver_advance", solver, 1.0)
+        return [value(host, solver, "stored_bulk")]
+
+    observe(see, "kinematics", run, ["corotational"], [shortening ** 2 / 8.0], "J/m", 1e-9)
+    see.that("a square that may turn stores nothing", run([("kinematics", "corotational")])[0] < 1e-20)
 
 
 # ---- steps that are divided ----

@@ -12,6 +12,8 @@ namespace {
 
 // SolveError is ten times what a further step of an iteration would change (body_solver.hpp).
 constexpr double further_step = 0.1;
+// Share of its toughness that a pair may lose in a step that damages gradually.
+constexpr double gradual = 0.1;
 
 }  // namespace
 
@@ -151,6 +153,15 @@ void record_energies(const PairLaws& pairs, State& state) {
     ledger.load_potential = state.response.load_potential;
     ledger.stored_interface = stored_energy(pairs, state.adhesion, state.response.jump);
     ledger.stored_interface_linear = ledger.stored_interface + stored_linear(pairs, state.mixity, state.adhesion);
+}
+
+bool damages_abruptly(const Increment& step, std::span<const double> adhesion) {
+    const std::vector<double>& before = step.adhesion_before();
+    for (std::size_t p = 0; p < before.size(); ++p)
+        if (step.pairs().law[p] != nullptr && adhesion[p] < before[p] &&
+            step.left(p, before[p]) - step.left(p, adhesion[p]) > gradual)
+            return true;
+    return false;
 }
 
 void StepRule::record_ledger(State& next, const Dissipation* along) const {

@@ -23,7 +23,8 @@ namespace cli {
 struct Closing {
     std::vector<Jump> jumps;
     Balance balance;
-    bool follows_load = false;  // step_control = load
+    bool follows_load = false;    // step_control = load
+    bool small_rotations = true;  // kinematics = linear
     MixityError mixity_error;
     SearchLimits search;
     LoadDrops load_drops;

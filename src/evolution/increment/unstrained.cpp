@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "evolution/step/unstrained.hpp"
+#include "evolution/increment/unstrained.hpp"
 
 #include <algorithm>
 

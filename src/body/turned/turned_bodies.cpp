@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "body/turned/turned_bodies.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "base/cancel_scope.hpp"
+#include "base/error.hpp"
+#include "base/numbers.hpp"
+#include "body/assembly.hpp"
+#include "body/cell_elasticity.hpp"
+#include "delam/delam.h"
+
+namespace delam {
+
+std::vector<TurnedCell> turned_cells(const Mesh& mesh, std::span<const BodyModel> models) {
+    std::vector<TurnedCell> cells;
+    const BodyModel* model = nullptr;
+    std::optional<CellElasticity> elasticity;
+    std::vector<double> matrix, x;
+    for (std::int64_t c = 0; c < mesh.cell_count(); ++c) {
+        poll_cancel("assemble");
+        x.clear();
+        for (const std::int64_t n : mesh.cell(c)) x.insert(x.end(), mesh.node(n).begin(), mesh.node(n).end());
+        if (const BodyModel& next = models[index(mesh.cell_body(c))]; &next != model) {
+            model = &next;
+            elasticity.emplace(next, mesh.dimension());
+        }
+        matrix.assign(x.size() * x.size(), 0.0);
+        cell_stiffness(mesh.cell_type(c), x, c, model->formulation, *elasticity, matrix);
+        cells.emplace_back(index(mesh.dimension()), x, matrix);
+    }
+    return cells;
+}
+
+TurnedBodies::TurnedBodies(const Mesh& mesh, std::span<const BodyModel> models)
+    : mesh_(mesh), cells_(turned_cells(mesh, models)), place_(index(mesh.node_count()), -1) {
+    for (const TurnedCell& cell : cells_) largest_stiffness_ = std::max(largest_stiffness_, max_abs(cell.stiffness()));
+    for (std::int32_t body = 0; body < mesh.body_count(); ++body) {
+        const std::vector<std::int64_t> nodes = mesh.body_nodes(body);
+        for (std::size_t i = 0; i < nodes.size(); ++i) place_[index(nodes[i])] = static_cast<std::int64_t>(i);
+        own_.push_back(mesh.body_cells(body));
+        pattern_.push_back(assemble_stiffness(mesh, own_.back(), nodes, models[index(body)]));
+        std::fill(pattern_.back().value.begin(), pattern_.back().value.end(), 0.0);
+    }
+}
+
+void TurnedBodies::gather(std::int64_t cell, std::span<const double> of_mesh, std::vector<double>& of_cell) const {
+    const auto dim = index(mesh_.dimension());
+    of_cell.clear();
+    for (const std::int64_t node : mesh_.cell(cell))
+        for (std::size_t k = 0; k < dim; ++k) of_cell.push_back(of_mesh[index(node) * dim + k]);
+}
+
+void TurnedBodies::scatter(std::int64_t cell, std::span<const double> of_cell, std::span<double> of_mesh) const {
+    const auto dim = index(mesh_.dimension());
+    const auto nodes = mesh_.cell(cell);
+    for (std::size_t i = 0; i < of_cell.size(); ++i) of_mesh[index(nodes[i / dim]) * dim + i % dim] += of_cell[i];
+}
+
+void TurnedBodies::move(std::span<const double> displacement) {
+    std::vector<double> u;
+    for (std::int64_t c = 0; c < mesh_.cell_count(); ++c) {
+        poll_cancel("assemble");
+        gather(c, displacement, u);
+        if (!cells_[index(c)].move(u))
+            fail(DELAM_LIMIT, "cell ", c, " of body ", mesh_.body_label(mesh_.cell_body(c)),
+                 " is turned inside out by its displacements: smaller load steps may help");
+    }
+}
+
+double TurnedBodies::energy() const {
+    double sum = 0.0;
+    for (const TurnedCell& cell : cells_) sum += cell.energy();
+    return sum;
+}
+
+std::vector<double> TurnedBodies::force() const {
+    std::vector<double> force(index(mesh_.node_count() * mesh_.dimension()), 0.0), own;
+    for (std::int64_t c = 0; c < mesh_.cell_count(); ++c) {
+        own.assign(mesh_.cell(c).size() * index(mesh_.dimension()), 0.0);
+        cells_[index(c)].add_force(own);
+        scatter(c, own, force);
+    }
+    return force;
+}
+
+SparseMatrix TurnedBodies::tangent(std::int32_t body, TurnedCell::Stresses stresses) const {
+    SparseMatrix k = pattern_[index(body)];
+    const auto dim = index(mesh_.dimension());
+    std::vector<double> own;
+    for (const std::int64_t c : own_[index(body)]) {
+        poll_cancel("assemble");
+        const auto nodes = mesh_.cell(c);
+        const std::size_t size = nodes.size() * dim;
+        own.resize(size * size);
+        cells_[index(c)].tangent(own, stresses);
+        for (std::size_t r = 0; r < size; ++r) {
+            const auto row = index(place_[index(nodes[r / dim])]) * dim + r % dim;
+            const auto begin = k.column.begin() + k.start[row], end = k.column.begin() + k.start[row + 1];
+            for (std::size_t b = 0; b < nodes.size(); ++b) {
+                const std::int64_t column = place_[index(nodes[b])] * static_cast<std::int64_t>(dim);
+                const auto at = std::lower_bound(begin, end, column) - k.column.begin();
+                for (std::size_t j = 0; j < dim; ++j) k.value[index(at) + j] += own[r * size + b * dim + j];
+            }
+        }
+    }
+    return k;
+}
+
+void TurnedBodies::add_couple(std::int64_t cell, const Vector3& couple, std::span<double> force) const {
+    std::vector<double> own(mesh_.cell(cell).size() * index(mesh_.dimension()), 0.0);
+    cells_[index(cell)].add_couple(couple, own);
+    scatter(cell, own, force);
+}
+
+// The skew part of R has the sine of the angle, its trace the cosine.
+std::vector<double> TurnedBodies::rotation_vectors() const {
+    std::vector<double> rotation;
+    for (const TurnedCell& cell : cells_) {
+        const Matrix3& r = cell.rotation();
+        if (mesh_.dimension() == 2) {
+            rotation.push_back(std::atan2(r[3], r[0]));
+            continue;
+        }
+        const Vector3 axis{0.5 * (r[7] - r[5]), 0.5 * (r[2] - r[6]), 0.5 * (r[3] - r[1])};
+        const double sine = length(axis), angle = std::atan2(sine, 0.5 * (r[0] + r[4] + r[8] - 1.0));
+        for (const double a : axis) rotation.push_back(sine > 0.0 ? a * angle / sine : 0.0);
+    }
+    return rotation;
+}
+
+std::vector<double> TurnedBodies::centre_stress(std::span<const BodyModel> models) const {
+    std::vector<double> stress =
+        delam::centre_stress(mesh_, models, [this](std::int64_t c) { return local_displacement(c); });
+    const bool plane = mesh_.dimension() == 2;
+    const std::size_t columns = plane ? 4 : 6;
+    for (std::size_t c = 0; c < cells_.size(); ++c) {
+        double* s = &stress[c * columns];
+        const Matrix3& r = cells_[c].rotation();
+        const double yz = plane ? 0.0 : s[4], zx = plane ? 0.0 : s[5];
+        const Matrix3 local{s[0], s[3], zx, s[3], s[1], yz, zx, yz, s[2]};
+        Matrix3 half{}, turned{};  // R s, R s R^T
+        for (std::size_t i = 0; i < 3; ++i)
+            for (std::size_t j = 0; j < 3; ++j)
+                for (std::size_t k = 0; k < 3; ++k) half[i * 3 + j] += r[i * 3 + k] * local[k * 3 + j];
+        for (std::size_t i = 0; i < 3; ++i)
+            for (std::size_t j = 0; j < 3; ++j)
+                for (std::size_t k = 0; k < 3; ++k) turned[i * 3 + j] += half[i * 3 + k] * r[j * 3 + k];
+        s[0] = turned[0], s[1] = turned[4], s[2] = turned[8], s[3] = turned[1];
+        if (!plane) s[4] = turned[5], s[5] = turned[2];
+    }
+    return stress;
+}
+
+}  // namespace delam

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// All bodies of a mesh with small strains and any rotation, each cell in a frame of its own (turned_cell.hpp): energy,
+// forces and tangent at present displacements.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "body/model.hpp"
+#include "body/turned/turned_cell.hpp"
+#include "linalg/sparse/sparse.hpp"
+#include "mesh/mesh.hpp"
+
+namespace delam {
+
+// Returns all cells as ones whose frames turn with their nodes, [cells]. models: by body index.
+std::vector<TurnedCell> turned_cells(const Mesh& mesh, std::span<const BodyModel> models);
+
+class TurnedBodies {
+public:
+    // models: by body index. `mesh` must outlive it.
+    TurnedBodies(const Mesh& mesh, std::span<const BodyModel> models);
+
+    // Moves all nodes, [mesh DOFs]. Error(DELAM_LIMIT) names a cell that is inside out.
+    void move(std::span<const double> displacement);
+    double energy() const;
+    // Returns the forces of the cells on their nodes, [mesh DOFs].
+    std::vector<double> force() const;
+    // Returns the tangent of a body over its nodes in ascending order, both triangles.
+    SparseMatrix tangent(std::int32_t body, TurnedCell::Stresses stresses) const;
+    // Returns the frame of a cell.
+    const Matrix3& rotation(std::int64_t cell) const { return cells_[index(cell)].rotation(); }
+    // Returns the largest entry of the cells' stiffnesses, F/L.
+    double largest_stiffness() const { return largest_stiffness_; }
+    // Adds to the forces [mesh DOFs] those of a couple that turns the frame of a cell.
+    void add_couple(std::int64_t cell, const Vector3& couple, std::span<double> force) const;
+    // Returns the displacements of a cell's nodes in its frame, [nodes][dimension].
+    std::vector<double> local_displacement(std::int64_t cell) const { return cells_[index(cell)].local_displacement(); }
+    // Returns the rotations of the cells, rad: angles [cells], in space vectors [cells][3] along their axes.
+    std::vector<double> rotation_vectors() const;
+    // Returns the stresses at the centres of the cells, in global axes (body/assembly.hpp). models: by body index.
+    std::vector<double> centre_stress(std::span<const BodyModel> models) const;
+
+private:
+    void gather(std::int64_t cell, std::span<const double> of_mesh, std::vector<double>& of_cell) const;
+    void scatter(std::int64_t cell, std::span<const double> of_cell, std::span<double> of_mesh) const;
+
+    const Mesh& mesh_;
+    std::vector<TurnedCell> cells_;
+    double largest_stiffness_ = 0.0;
+    std::vector<SparseMatrix> pattern_;           // [bodies] of the tangent
+    std::vector<std::vector<std::int64_t>> own_;  // [bodies] cells
+    std::vector<std::int64_t> place_;             // [mesh nodes] among the nodes of their body
+};
+
+}  // namespace delam

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Load steps with small strains and large rotations. The bodies and the frames of the interfaces are linearised about
+// displacements x_k, and a step of the linear scene that results, with its search for contact, damage and mixity, leads
+// to x_k+1 and an adhesion, until the true forces balance:
+//
+//     E(x) ~ E_k + f_k . (x - x_k) + 1/2 (x - x_k) . K_k (x - x_k),   jumps  j = Q_k (u_b - u_a).
+//
+// Every such step begins at the adhesion before the load step, so that nothing of an iterate is irreversible; only
+// where the iterates do not come to rest (pairs of an unresolved process zone, which break in one and hold in the
+// next), later ones begin at the damage of the lowest. Where the true energy rises, half of the way is taken.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "base/monitor.hpp"
+#include "evolution/step/stepper.hpp"
+#include "reduction/turned/turned_operator.hpp"
+#include "scene/problem.hpp"
+
+namespace delam {
+
+class TurnedSteps final : public Stepper::OtherSteps {
+public:
+    // The arguments must outlive it.
+    TurnedSteps(const Problem& problem, Monitor& monitor, const TurnedOperator& op, const PairLaws& pairs);
+    ~TurnedSteps() override;
+
+    Stepper::Result initial(double time) const override;
+    Stepper::Result step(const State& before, double time, double stride) const override;
+    Stepper::Result equilibrate(const State& before, double time, std::span<const double> adhesion) const override;
+    std::vector<double> tangent(const State& state) const override;
+    std::vector<double> step_tangent(const State& before, const State& state) const override;
+
+private:
+    // A linearised scene and the steps in it.
+    struct Linear;
+    // A step in a linear scene from a state of such a scene.
+    using Solve = std::function<Stepper::Result(Linear& linear, const State& from)>;
+    using Stresses = TurnedCell::Stresses;
+    struct About {
+        std::unique_ptr<Linear> linear;
+        bool definite = false;  // its stiffness has all stresses
+    };
+    // A state with the scene about it and the change of its reactions with the loads, [patterns][patterns]; empty: the
+    // stiffness under the stresses is not positive definite.
+    struct Known {
+        std::vector<double> displacement, row_force, adhesion;
+        std::vector<std::uint8_t> closed;
+        About about;
+        std::vector<double> tangent;
+        bool of(const State& state) const {
+            return about.linear && displacement == state.response.multipliers && row_force == state.response.force &&
+                   adhesion == state.adhesion && closed == state.closed;
+        }
+    };
+    Known know(const State& state) const;
+    // Sets the scene about a state and returns its tangent at another contact set; empty: there is none.
+    std::vector<double> tangent_about(const State& state, const State& at, Stresses stresses, About& about) const;
+    // about: the scene about the state before; null: not known.
+    Stepper::Result iterate(const State& before, const Solve& solve, About about) const;
+    std::unique_ptr<Linear> linearise(std::span<const double> displacement, std::span<const double> row_force,
+                                      Stresses stresses) const;
+    std::unique_ptr<Linear> linearise(const State& state, Stresses stresses) const;
+    // about: in, the linearisation, or null; out, the one that has given the result.
+    Stepper::Result solve_about(std::span<const double> displacement, std::span<const double> row_force,
+                                const State& from, const Solve& solve, About& about) const;
+    [[noreturn]] static void refuse_buckling(double time);
+    // Replaces what a linear scene says of a state by what is true at its displacements.
+    void make_true(Linear& linear, State& state) const;
+    // Leaves out the row and the column of the additional pattern.
+    std::vector<double> without_last(std::span<const double> matrix) const;
+
+    const Problem& problem_;
+    Monitor& monitor_;
+    const TurnedOperator& op_;
+    const PairLaws& pairs_;
+    mutable std::optional<Known> known_;  // the last state that a step has led to
+};
+
+// Lets a stepper of this problem take its steps so. All must outlive it.
+void delegate_to_turned_steps(Stepper& stepper, const Problem& problem, Monitor& monitor);
+
+}  // namespace delam

@@ -1,0 +1,404 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Large rotations: arms, peeled films and flexure specimens against elastica, rigid motions of the whole scene, books
+// and saved states, and what the option refuses.
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "condensed_scenes.hpp"
+#include "elastica.hpp"
+#include "small_analysis.hpp"
+#include "support.hpp"
+
+namespace {
+
+using cases::Arm;
+using reference::LawData;
+using reference::Scene;
+using reference::Solver;
+
+// N and mm, per mm of width; Poisson's ratio is 0, so that plane strain is plane stress.
+constexpr double young = 135.3e3;
+double bending_stiffness(double e, double height) { return e * height * height * height / 12.0; }
+
+// Equal strengths and toughnesses in both modes; with the exponent 1 the mode does not matter.
+LawData equal_modes(double strength, double toughness) {
+    constexpr double stiffness = 1e5;
+    const double onset = 0.5 * strength * strength / stiffness;
+    return {stiffness, stiffness, onset, onset, toughness, toughness, 1.0};
+}
+
+using Place = std::array<double, 3>;
+
+// Two layers on each other from x = 0 to the length, notched from the left; every place and direction is turned.
+struct Beam {
+    double length, height, notch;
+    int cells, across;
+    double angle = 0.0;
+    int dimension = 2;
+    double width = 0.0;
+
+    Place turned(const Place& x) const {
+        const double c = std::cos(angle), s = std::sin(angle);
+        return {c * x[0] - s * x[1], s * x[0] + c * x[1], x[2]};
+    }
+    std::vector<double> along(std::size_t axis, double sign = 1.0) const {
+        Place e{};
+        e[axis] = sign;
+        const Place t = turned(e);
+        return {t.begin(), t.begin() + dimension};
+    }
+    Scene mesh(int layers = 2) const {
+        std::vector<cases::Block> blocks;
+        for (int i = 0; i < layers; ++i)
+            blocks.push_back({{0.0, i * height, 0.0}, {length, (i + 1) * height, width}, {cells, across, 1}});
+        return cases::make_blocks(dimension, blocks, [this](const Place& x) { return turned(x); });
+    }
+    // Nodes of a body at a place before the turn, over the whole width.
+    std::vector<std::int64_t> nodes(const Scene& scene, std::int32_t body, double x, double y) const {
+        const Place at = turned({x, y, 0.0});
+        return cases::nodes_where(scene, body, [&](const double* p) {
+            return std::abs(p[0] - at[0]) < 1e-6 && std::abs(p[1] - at[1]) < 1e-6;
+        });
+    }
+    void cut(Scene& scene) const {
+        std::vector<std::int64_t> cut;
+        const auto pairs = scene.pairs(0);
+        const std::vector<double> first = along(0);
+        for (std::size_t p = 0; p < pairs.count(); ++p)
+            if (first[0] * scene.coordinate(pairs.node_b[p], 0) + first[1] * scene.coordinate(pairs.node_b[p], 1) <
+                notch - 1e-6)
+                cut.push_back(static_cast<std::int64_t>(p));
+        scene.adhesion(0, cut, std::vector<double>(cut.size(), 0.0));
+    }
+};
+
+void drive(Scene& scene, const std::vector<std::int64_t>& nodes, const std::vector<double>& direction,
+           std::int64_t pattern) {
+    scene.drive(nodes, direction, pattern, std::vector<double>(nodes.size(), 1.0));
+}
+
+// A double cantilever beam of arms of 0.5 mm, its ends moved apart by w each.
+Scene double_cantilever(const Beam& beam, double w, double strength = 12.0) {
+    Scene scene = beam.mesh();
+    scene.interface(0, 1);
+    scene.begin();
+    scene.elastic(-1, young, 0.0);
+    scene.law(0, equal_modes(strength, 0.5));
+    beam.cut(scene);
+    scene.text("kinematics", "corotational");
+    const auto load = scene.pattern("load", {0.0, 1.0}, {0.0, w});
+    const double h = beam.height;
+    scene.hold(beam.nodes(scene, 0, beam.length, h), beam.along(0));
+    scene.hold(beam.nodes(scene, 0, beam.length, h), beam.along(1));
+    scene.hold(beam.nodes(scene, 1, beam.length, h), beam.along(0));
+    drive(scene, beam.nodes(scene, 0, 0.0, 0.5 * h), beam.along(1, -1.0), load);
+    drive(scene, beam.nodes(scene, 1, 0.0, 1.5 * h), beam.along(1), load);
+    if (beam.dimension == 3)
+        for (const std::int32_t body : {0, 1})  // no piece of it moves across the plane
+            scene.hold(cases::nodes_where(scene, body, [](const double* p) { return p[2] < 1e-9; }), beam.along(2));
+    return scene;
+}
+
+// Counts the linearisations of a step: the calls of the stage `rotate`.
+struct Linearisations {
+    std::int64_t all = 0;
+    static std::int32_t count(const char* stage, std::int64_t done, std::int64_t, void* user) {
+        auto& own = *static_cast<Linearisations*>(user);
+        own.all += std::string(stage) == "rotate" && done > 0 ? 1 : 0;
+        return 0;
+    }
+};
+
+// Open by less than a part of the work, and no step outside of its two-sided estimate by more than a part of the
+// energy.
+void expect_closed_books(const Solver& solver, double open, double outside) {
+    const double energy =
+        solver.value("stored_bulk") + solver.value("stored_interface") + solver.value("load_potential");
+    const double work = solver.value("work");
+    cases::expect_near(energy + solver.value("dissipated") + solver.value("released"), work, open, work, "balance");
+    cases::expect_below(solver.value("lower") - solver.value("increment"), outside * energy, "lower bound");
+    cases::expect_below(solver.value("increment") - solver.value("upper"), outside * energy, "upper bound");
+}
+
+}  // namespace
+
+LOOP_TEST(clamped_arm_is_an_elastica, 2, 4) {
+    const int d = loop;
+    const Beam beam{72.0969, 0.5, 0.0, d == 2 ? 144 : 72, 2, 0.0, d, 0.5};
+    Scene scene = beam.mesh(1);
+    scene.begin();
+    scene.elastic(-1, young, 0.0);
+    scene.text("kinematics", "corotational");
+    const auto load = scene.pattern("load", {0.0, 1.0}, {0.0, 30.0});
+    for (const double y : {0.0, 0.25, 0.5})
+        for (int k = 0; k < d; ++k) scene.hold(beam.nodes(scene, 0, 72.0969, y), cases::unit(d, k));
+    drive(scene, beam.nodes(scene, 0, 0.0, 0.25), cases::unit(d, 1), load);
+    Solver solver(scene, 0.0);
+    for (int k = 1; k <= 6; ++k) {
+        solver.step(k / 6.0);
+        solver.commit();
+        const Arm arm = cases::arm_of_length(bending_stiffness(young, 0.5), 72.0969, 5.0 * k);
+        const double width = d == 2 ? 1.0 : 0.5;
+        cases::expect_near(solver.value("reaction:load") / width, arm.force, d == 2 ? 2e-4 : 1e-3, arm.force, "force");
+        cases::expect_near(solver.value("rotation_max"), arm.slope, 2e-3, arm.slope, "slope at the tip");
+        cases::expect_near(solver.value("lower"), solver.value("upper"), 1e-12, solver.value("upper"), "estimate");
+    }
+}
+
+TEST(double_cantilever_grows_like_an_elastica) {
+    const Beam beam{80.0, 0.5, 40.0, 320, 2};
+    const Scene scene = double_cantilever(beam, 20.0);
+    Linearisations counted;
+    scene.require(delam_context_set_progress(scene.context(), Linearisations::count, &counted), "progress");
+    Solver solver(scene, 0.0);
+    for (int k = 1; k <= 40; ++k) {
+        solver.step(k / 40.0);
+        solver.commit();
+        expect_closed_books(solver, 1.5e-3, 1e-4);
+        if (k < 30 || k % 10 != 0) continue;
+        const Arm arm = cases::growing_arm(bending_stiffness(young, 0.5), 0.25, 0.5 * k);
+        cases::expect_near(0.5 * solver.value("reaction:load"), arm.force, 5e-3, arm.force, "force");
+        cases::expect_near(solver.value("rotation_max"), arm.slope, 1e-2, arm.slope, "slope at the tip");
+    }
+    cases::expect_below(static_cast<double>(counted.all) / 41, 4.5, "linearisations a step");
+}
+
+// A film on a rigid base: the force across tends to the toughness.
+TEST(film_is_peeled_like_an_elastica) {
+    constexpr double height = 0.1;
+    const Beam beam{16.0, height, 2.0, 160, 1};
+    Scene scene = beam.mesh();
+    scene.interface(0, 1);
+    scene.begin();
+    scene.elastic(0, 1e3 * young, 0.0);
+    scene.elastic(1, young, 0.0);
+    scene.law(0, equal_modes(20.0, 0.5));
+    beam.cut(scene);
+    scene.text("kinematics", "corotational");
+    const auto load = scene.pattern("load", {0.0, 1.0}, {0.0, 10.0});
+    const auto base = cases::nodes_where(scene, 0, [](const double* x) { return x[1] < 1e-9; });
+    scene.hold(base, {1.0, 0.0});
+    scene.hold(base, {0.0, 1.0});
+    drive(scene, beam.nodes(scene, 1, 0.0, 2.0 * height), {0.0, 1.0}, load);
+    Solver solver(scene, 0.0);
+    for (int k = 1; k <= 40; ++k) {
+        solver.step(k / 40.0);
+        solver.commit();
+        if (k % 20 != 0) continue;
+        const Arm arm = cases::growing_arm(bending_stiffness(young, height), 0.5, 0.25 * k);
+        cases::expect_near(solver.value("reaction:load"), arm.force, 1e-2, arm.force, "force");
+    }
+    cases::expect_below(1.2, solver.value("rotation_max"), "rotation");
+}
+
+// A cantilever under a dead force across its tip, P L^2 / (E I) = 4 (K. Bisshopp, D. Drucker, Quart. Appl. Math. 3,
+// 1945).
+TEST(dead_force_keeps_its_direction) {
+    const Beam beam{100.0, 1.0, 0.0, 100, 2};
+    Scene scene = beam.mesh(1);
+    scene.begin();
+    scene.elastic(-1, 1e4, 0.0);
+    scene.text("kinematics", "corotational");
+    const auto load = scene.pattern("load", {0.0, 1.0}, {0.0, 4.0 * bending_stiffness(1e4, 1.0) / (100.0 * 100.0)});
+    for (const double y : {0.0, 0.5, 1.0})
+        for (int k = 0; k < 2; ++k) scene.hold(beam.nodes(scene, 0, 0.0, y), cases::unit(2, k));
+    const std::int64_t tip = beam.nodes(scene, 0, 100.0, 0.5)[0];
+    const double up[] = {0.0, 1.0};
+    scene.require(delam_problem_add_forces(scene.problem(), load, 1, &tip, up, 0), "delam_problem_add_forces");
+    Solver solver(scene, 0.0);
+    for (int k = 1; k <= 20; ++k) {
+        solver.step(0.05 * k);
+        solver.commit();
+    }
+    const std::vector<double> u = solver.field("displacement");
+    const auto at = static_cast<std::size_t>(2 * tip);
+    cases::expect_near(u[at + 1], 66.996, 5e-4, 66.996, "deflection");
+    cases::expect_near(u[at], -32.894, 1e-3, 32.894, "shortening");
+    const double work = solver.value("work");
+    cases::expect_near(solver.value("stored_bulk") + solver.value("load_potential"), work, 1e-3, std::abs(work),
+                       "work");
+}
+
+// A strut between clamps buckles at the strain pi^2 h^2 / (3 L^2); the step that would pass it is refused by name.
+TEST(buckling_is_refused_by_name) {
+    const Beam beam{20.0, 0.5, 0.0, 40, 2};
+    Scene scene = beam.mesh(1);
+    scene.begin();
+    scene.elastic(-1, 1000.0, 0.0);
+    scene.text("kinematics", "corotational");
+    constexpr double critical = 9.869604401089358 / 3.0 * 0.5 * 0.5 / 20.0;
+    const auto load = scene.pattern("load", {0.0, 2.0}, {0.0, 2.0 * critical});
+    for (const double y : {0.0, 0.25, 0.5}) {
+        for (int k = 0; k < 2; ++k) scene.hold(beam.nodes(scene, 0, 0.0, y), cases::unit(2, k));
+        scene.hold(beam.nodes(scene, 0, 20.0, y), cases::unit(2, 1));
+        drive(scene, beam.nodes(scene, 0, 20.0, y), {-1.0, 0.0}, load);
+    }
+    Solver solver(scene, 0.0);
+    for (const double part : {0.5, 0.9, 0.97}) {
+        solver.step(part);
+        solver.commit();
+    }
+    cases::expect(solver.advance(1.03) == DELAM_LIMIT, "beyond the critical load");
+    cases::expect(std::string(delam_context_message(scene.context())).find("buckle") != std::string::npos, "message");
+}
+
+// Two beams on each other, bonded beyond 30 mm, slide along the rest and press on each other where they turn. Numbers
+// of a shooting method for beams.
+TEST(flexure_specimen_stiffens) {
+    const Beam beam{100.0, 1.0, 30.0, 100, 2};
+    Scene scene = beam.mesh();
+    scene.interface(0, 1);
+    scene.begin();
+    scene.elastic(-1, 70e3, 0.0);
+    scene.law(0, {1e5, 1e5, 1e5, 1e5, 1e6, 1e6, 1.0});
+    beam.cut(scene);
+    scene.text("kinematics", "corotational");
+    const auto load = scene.pattern("load", {0.0, 1.0}, {0.0, 15.0});
+    scene.hold(beam.nodes(scene, 0, 0.0, 1.0), {0.0, 1.0});
+    scene.hold(beam.nodes(scene, 0, 100.0, 1.0), {1.0, 0.0});
+    scene.hold(beam.nodes(scene, 0, 100.0, 1.0), {0.0, 1.0});
+    drive(scene, beam.nodes(scene, 0, 50.0, 1.0), {0.0, -1.0}, load);
+    Solver solver(scene, 0.0);
+    const double expected[][2] = {{2.0, 3.3914}, {5.0, 8.5812}, {10.0, 17.939}, {15.0, 29.104}};
+    for (int k = 1; k <= 15; ++k) {
+        solver.step(k / 15.0);
+        solver.commit();
+        cases::expect_below(0.5, solver.value("contact_pairs"), "pairs in contact");
+        cases::expect_below(solver.value("kkt_gap"), 1e-5, "penetration over the largest jump");
+        for (const auto& [w, force] : expected)
+            if (w == k) cases::expect_near(solver.value("reaction:load"), force, 1.5e-2, force, "force");
+    }
+}
+
+// The same numbers whatever direction the scene has, up to what linearisations leave: 1e-6 of the load.
+LOOP_TEST(turned_scene_has_the_same_numbers, 2, 4) {
+    const auto numbers = [&](double angle) {
+        const Beam beam{30.0, 0.5, 10.0, loop == 2 ? 60 : 30, 2, angle, loop, 0.5};
+        const Scene scene = double_cantilever(beam, 3.0);
+        Solver solver(scene, 0.0);
+        std::vector<double> all;
+        for (int k = 1; k <= 8; ++k) {
+            solver.step(k / 8.0);
+            solver.commit();
+            for (const char* key : {"reaction:load", "stored_bulk", "stored_interface", "dissipated", "rotation_max"})
+                all.push_back(solver.value(key));
+        }
+        cases::expect(all[all.size() - 2] > 0.0, "something is damaged, or nothing was tested");
+        return all;
+    };
+    const std::vector<double> straight = numbers(0.0);
+    for (const double angle : {0.7, 2.5}) {
+        const std::vector<double> turned = numbers(angle);
+        for (std::size_t i = 0; i < straight.size(); ++i)
+            cases::expect_near(turned[i], straight[i], 1e-7, std::abs(straight[i]), "number " + std::to_string(i));
+    }
+}
+
+// Half a turn of the whole scene within the analysis strains nothing and opens nothing.
+TEST(turning_the_whole_scene_costs_nothing) {
+    const Beam beam{10.0, 0.5, 3.0, 20, 2};
+    Scene scene = beam.mesh();
+    scene.interface(0, 1);
+    scene.begin();
+    scene.elastic(-1, young, 0.3);
+    scene.law(0, equal_modes(12.0, 0.5));
+    scene.text("kinematics", "corotational");
+    std::vector<double> times, x, y;
+    for (int k = 0; k <= 12; ++k) {
+        const double angle = 3.141592653589793 * k / 12.0;
+        times.push_back(k);
+        x.push_back(10.0 * (std::cos(angle) - 1.0));
+        y.push_back(10.0 * std::sin(angle));
+    }
+    const auto along = scene.pattern("along", times, x), across = scene.pattern("across", times, y);
+    for (int k = 0; k < 2; ++k) scene.hold(beam.nodes(scene, 0, 0.0, 0.0), cases::unit(2, k));
+    drive(scene, beam.nodes(scene, 0, 10.0, 0.0), {1.0, 0.0}, along);
+    drive(scene, beam.nodes(scene, 0, 10.0, 0.0), {0.0, 1.0}, across);
+    Solver solver(scene, 0.0);
+    const double whole = 0.5 * young * 10.0;  // of the scene at a strain of 1
+    for (int k = 1; k <= 12; ++k) {
+        solver.step(k);
+        solver.commit();
+        cases::expect_below(solver.value("stored_bulk"), 1e-20 * whole, "energy of the bodies");
+        cases::expect(solver.value("dissipated") == 0.0, "dissipated");
+        for (const double j : solver.field("jump")) cases::expect_below(std::abs(j), 1e-11, "jump");
+    }
+    cases::expect_near(solver.value("rotation_max"), 3.141592653589793, 1e-9, 3.14, "rotation");
+}
+
+// The stiffness of the load at fixed damage, against differences of the reaction.
+TEST(tangent_is_that_of_the_turned_scene) {
+    const Scene scene = double_cantilever({30.0, 0.5, 10.0, 60, 2}, 3.0);
+    Solver solver(scene, 0.0);
+    for (int k = 1; k <= 4; ++k) {
+        solver.step(k / 4.0);
+        solver.commit();
+    }
+    double tangent = 0.0;
+    scene.require(delam_solver_tangent(solver.get(), 1, &tangent), "delam_solver_tangent");
+    const std::vector<double> adhesion = solver.field("adhesion");
+    const auto reaction = [&](double time) {
+        solver.equilibrate(time, adhesion);
+        const double r = solver.value("reaction:load");
+        solver.rollback();
+        return r;
+    };
+    constexpr double h = 1e-3;
+    // Times beyond the end have the factor of the end.
+    const double below = (3.0 * reaction(1.0) - 4.0 * reaction(1.0 - h) + reaction(1.0 - 2.0 * h)) / (2.0 * h * 3.0);
+    cases::expect_near(tangent, below, 1e-4, below, "tangent");
+}
+
+TEST(saved_analysis_goes_on_bit_by_bit) {
+    const Beam beam{30.0, 0.5, 10.0, 60, 2};
+    const Scene scene = double_cantilever(beam, 3.0);
+    Solver whole(scene, 0.0);
+    const auto walk = [](Solver& solver, int first, int last) {
+        for (int k = first; k <= last; ++k) {
+            solver.step(k / 8.0);
+            solver.commit();
+        }
+    };
+    walk(whole, 1, 4);
+    const auto bytes = whole.save();
+    const auto at_half = cases::read_bits(whole);
+    walk(whole, 5, 8);
+    const Scene again = double_cantilever(beam, 3.0);
+    Solver resumed(again, 0.0);
+    again.require(resumed.load(bytes), "delam_solver_load");
+    cases::expect_same(resumed, cases::read_bits(resumed), at_half, "after loading");
+    walk(resumed, 5, 8);
+    cases::expect_same(resumed, cases::read_bits(resumed), cases::read_bits(whole), "in the end");
+    cases::expect(whole.value("dissipated") > 0.0, "the interface is damaged, or nothing was tested");
+}
+
+TEST(what_rotations_do_not_know_is_refused_by_name) {
+    const auto refused = [](const char* word, const std::function<void(Scene&)>& change) {
+        Scene scene = double_cantilever({10.0, 0.5, 5.0, 10, 2}, 1.0);
+        change(scene);
+        try {
+            const Solver solver(scene, 0.0);
+        } catch (const reference::Failure& failure) {
+            const std::string what = failure.what();
+            cases::expect(
+                what.find("kinematics = corotational") != std::string::npos && what.find(word) != std::string::npos,
+                "message: " + what);
+            return;
+        }
+        cases::expect(false, std::string("not refused: ") + word);
+    };
+    refused("solution = energetic", [](Scene& s) { s.text("solution", "energetic"); });
+    refused("backtracking = on", [](Scene& s) { s.text("backtracking", "on"); });
+    refused("step_control = load", [](Scene& s) { s.text("step_control", "load"); });
+    refused("mixity_rule = variational", [](Scene& s) { s.text("mixity_rule", "variational"); });
+    refused("reduction = feti", [](Scene& s) { s.text("reduction", "feti"); });
+    refused("eigenstrains", [](Scene& s) {
+        const double strain[] = {1e-3, 0.0, 0.0, 0.0, 0.0, 0.0};
+        s.require(delam_problem_add_eigenstrain(s.problem(), s.pattern("heat", {0.0, 1.0}, {0.0, 1.0}), 0, strain),
+                  "delam_problem_add_eigenstrain");
+    });
+}
