@@ -38,6 +38,8 @@ for text in ("small ENF", "lower (arm)", "upper (arm)", "lower-upper: law ductil
              "supports[0]: uy = 0", "supports[1]: ux = uy = 0", "loads[0]: uy = -1 press"):
     told(f"the drawing says {text}", f"<!-- {text} -->".encode() in picture)
 told("a scene without units has none on its axes", b"[m]" not in picture)
+_, _, named = drawn(changed('point = [0.0, 0.0]\n', 'point = [0.0, 0.0]\nname = "left roller"\n'))
+told("a support has the name of the scene", b"<!-- left roller: uy = 0 -->" in named and b"supports[0]" not in named)
 _, _, without = drawn(changed("notch = [{ from = 0.0, to = 0.030 }]\n", ""))
 told("an interface without a notch has none", b"notch of" not in without and b"law ductile" in without)
 _, _, in_mm = drawn(SCENE + '[units]\nlength = "m"\nforce = "N"\n')

@@ -192,7 +192,11 @@ private:
         return fmt::format("u along ({:.3g})", fmt::join(direction, ", "));
     }
 
-    // Returns what a place is called where it has a name.
+    // Returns the name that the scene gives, or which entry of the scene this is and the name of its place.
+    [[nodiscard]] std::string called(const Place& place, const Selection& where) const {
+        return where.name.empty() ? place.path + place_text(where) : where.name;
+    }
+
     [[nodiscard]] std::string place_text(const Selection& where) const {
         if (const auto* set = std::get_if<NamedSet>(&where.shape); set != nullptr && !set->name.empty())
             return " \"" + set->name + "\"";
@@ -228,7 +232,7 @@ private:
                 for (auto& direction : pointed)
                     for (double& x : direction) x = -x;
             add_mark(out, one.terms.empty() ? "support" : "load", one.where, false,
-                     fmt::format("{}{}: {}{} = {}", one.place.path, place_text(one.where), one.mean ? "mean " : "",
+                     fmt::format("{}: {}{} = {}", called(one.place, one.where), one.mean ? "mean " : "",
                                  fmt::join(moved, " = "), terms_text(one.terms, turned ? -1 : 1)),
                      pointed);
         }
@@ -241,18 +245,18 @@ private:
                                                                  : "pressure";
             const bool arrow = one.kind != ForceKind::pressure;
             add_mark(out, arrow ? "force" : "pressure", one.where, one.kind != ForceKind::total,
-                     fmt::format("{}{}: {} ({:g}) {}", one.place.path, place_text(one.where), kind,
-                                 fmt::join(one.force, ", "), scene_.patterns[one.pattern].name),
+                     fmt::format("{}: {} ({:g}) {}", called(one.place, one.where), kind, fmt::join(one.force, ", "),
+                                 scene_.patterns[one.pattern].name),
                      arrow ? std::vector<std::vector<double>>{one.force} : std::vector<std::vector<double>>{});
         }
     }
 
     void add_ties(json& out) {
         for (const CouplingData& one : scene_.couplings)
-            add_mark(out, "tie", one.where, false,
-                     fmt::format("{}{}: moves with \"{}\"", one.place.path, place_text(one.where),
-                                 scene_.controls[one.control].name),
-                     {});
+            add_mark(
+                out, "tie", one.where, false,
+                fmt::format("{}: moves with \"{}\"", called(one.place, one.where), scene_.controls[one.control].name),
+                {});
         for (const EquationData& one : scene_.equations)
             for (const EquationTerm& term : one.left)
                 add_mark(out, "tie", term.where, true,

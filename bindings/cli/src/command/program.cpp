@@ -369,10 +369,12 @@ std::vector<std::string> names_of_commands(const CLI::App& app) {
     return out;
 }
 
-// `delam help` and `delam help run` say what `--help` says; a first word that is no command is named with those nearby.
+// `delam` alone, `delam help` and `delam help run` say what `--help` says; a first word that is no command is named
+// with those nearby.
 std::vector<std::string> words_of(int argc, char** argv, const CLI::App& app) {
     std::vector<std::string> words(argv + 1, argv + argc);
-    if (words.empty() || words[0].empty() || words[0][0] == '-') return words;
+    if (words.empty()) return {"--help"};
+    if (words[0].empty() || words[0][0] == '-') return words;
     const std::vector<std::string> known = names_of_commands(app);
     const auto is_known = [&](const std::string& word) {
         return std::find(known.begin(), known.end(), word) != known.end() || word == "own";

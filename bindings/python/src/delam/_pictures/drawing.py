@@ -85,7 +85,10 @@ def rim_of(offsets, nodes, chosen):
 def draw_bodies(ax, scene, points, paper):
     body = np.asarray(scene["body"])
     shown, colours, depths = [], [], []
-    tones = matplotlib.colors.to_rgba_array(BODIES)[tones_of([of["name"] for of in scene["bodies"]])]
+    names = [of["name"] for of in scene["bodies"]]
+    # Plies differ from their neighbours; of many fibres each has the tone of the others.
+    tone = tones_of(names) if len(names) > MOST_NAMED else np.arange(len(names)) % len(BODIES)
+    tones = matplotlib.colors.to_rgba_array(BODIES)[tone]
     for which, faces in polygons_of(scene["offsets"], scene["faces"]):
         at = points[faces]
         colour = tones[body[which]]
