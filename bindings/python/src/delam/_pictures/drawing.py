@@ -10,7 +10,7 @@ from matplotlib.collections import LineCollection, PolyCollection
 from . import labels
 from .cells import BODIES, tones_of
 from .result import BLUE, GREEN, GREY, ORANGE, RED, axis, plt, suiting
-from .snapshots import lit
+from .snapshots import Eye, lit
 
 WIDTH, MARGIN, TALLEST = 10.0, 0.75, 5.5  # inches: of the page, beside the drawing, of the drawing
 ROW, FONT = 0.19, 10.5  # inches of a line of a label; points of its letters, 14 pixels in a page of 1000
@@ -20,7 +20,7 @@ THINNEST = 0.12
 MOST_NAMED = 24  # labels: with half of it eight layers are not all named, with twice it names fill a page
 MOST_MARKS = 12  # symbols of a support or a load along what it holds
 MESH_SHOWN = 4000  # faces: of more the lines would cover the tones
-AZIMUTH, ELEVATION = np.radians(-62), np.radians(24)
+AZIMUTH, ELEVATION = -62, 24  # degrees
 WHITE = {"facecolor": "white", "edgecolor": "none", "pad": 0.6}
 COLOURS = {"support": GREEN, "load": RED, "force": RED, "pressure": RED, "tie": GREY}
 
@@ -44,16 +44,14 @@ class Paper:
         self.factors = np.ones(3)
         self.factors[:dimension] = thickening(self.size)
         self.flat = dimension == 2
-        right = np.array([-np.sin(AZIMUTH), np.cos(AZIMUTH), 0.0])
-        flat = np.cos(ELEVATION)
-        self.eye = np.array([flat * np.cos(AZIMUTH), flat * np.sin(AZIMUTH), np.sin(ELEVATION)])
-        self.turn = np.eye(3)[:2] if self.flat else np.array([right, np.cross(self.eye, right)])
+        self.eye = Eye(AZIMUTH, ELEVATION)
+        self.turn = np.eye(3)[:2] if self.flat else self.eye.turn
 
     def __call__(self, points):
         return (np.asarray(points, float) * self.factors) @ self.turn.T
 
     def depth(self, points):
-        return (np.asarray(points, float) * self.factors) @ self.eye
+        return self.eye.depth(np.asarray(points, float) * self.factors)
 
     def remark(self):
         thick = int(np.argmax(self.factors))
@@ -98,7 +96,7 @@ def draw_bodies(ax, scene, points, paper):
             half = at.shape[1] // 2
             around = np.stack([thick[:, 0], thick[:, half // 2], thick[:, half], thick[:, half + half // 2]], 1)
             normal = np.cross(around[:, 2] - around[:, 0], around[:, 3] - around[:, 1])
-            keep = normal @ paper.eye > 0
+            keep = paper.eye.depth(normal) > 0
             colour = lit(around, colour)
         shown += list(paper(at[keep]))
         colours.append(colour[keep])
