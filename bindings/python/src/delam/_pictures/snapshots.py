@@ -163,7 +163,9 @@ def draw_solid(ax, file, step, scale, hidden):
         # The faces' normals point from a to b; here they are to point out of the body that is seen.
         skin = np.concatenate([skin[others], side[faces[:, [0, 2, 1, 1] if on_b else [0, 1, 2, 2]]]])
         colours = np.concatenate([colours[others], ZETA(zeta[faces].mean(1))])
-    colours = lit(moved[skin], colours)
+    at = moved[skin]
+    front = eye.depth(np.cross(at[:, 2] - at[:, 0], at[:, 3] - at[:, 1])) > 0  # bodies are closed
+    skin, colours = skin[front], lit(at, colours)[front]
     order = np.argsort(eye.depth(moved[skin]).mean(1), kind="stable")  # what is near covers what is behind
     edges = colours[order] if len(hidden) else "#50555c"
     ax.add_collection(PolyCollection(eye(moved[skin])[order], facecolors=colours[order], edgecolors=edges,
@@ -185,7 +187,8 @@ def plot_solid(result, file, shots, scale):
     width = 5.0 if len(hidden) else 4.0
     shapes = [solid_shape(file, step, scale, hidden) for _, step in shots]
     height = max(width * shape[1] / shape[0] for shape in shapes) + 0.5
-    figure = plt.figure(figsize=(width * columns, rows * (height + 1.3 * len(names)) + 1.0), layout="constrained")
+    size = max(width * columns, 8.0), rows * (height + 1.3 * len(names)) + 1.0  # the title takes 8 inches
+    figure = plt.figure(figsize=size, layout="constrained")
     grid = figure.add_gridspec(rows * (1 + len(names)), columns, height_ratios=([height] + [1.3] * len(names)) * rows)
     drawn = matplotlib.cm.ScalarMappable(plt.Normalize(0, 1), ZETA) if len(hidden) else None
     axes = []
