@@ -257,7 +257,7 @@ def name_axes(ax, scene, paper, box, figure):
 
 
 def scene_figure(scene):
-    """The figure of what src/command/drawing.cpp finds: points, faces of bodies and interfaces, marks."""
+    """The figure of what `delam check` finds: points, faces of bodies and interfaces, marks."""
     points = np.asarray(scene["points"], float)
     paper = Paper(points, scene["dimension"])
     drawn = paper(points)
