@@ -45,6 +45,24 @@ class Documents(unittest.TestCase):
                          {name: languages for name, (languages, _) in KNOWN.items() if name in found})
         self.assertTrue({"README.md", "bindings/cli/SCENE.md"} <= set(found))
 
+    def test_links(self):
+        """Relative links of all documents lead to files, also where the site does not show them."""
+        listed = subprocess.run(["git", "ls-files", "*.md"], cwd=ROOT, capture_output=True, text=True, check=False)
+        if listed.returncode != 0:
+            self.skipTest("no clone of the repository")
+        pages = SITE / "pages"
+        number = 0
+        for name in listed.stdout.split():
+            if pages in (ROOT / name).parents:  # stage.py checks them, with the pages that are generated
+                continue
+            text = re.sub(r"(?ms)^```.*?^```", "", (ROOT / name).read_text(encoding="utf-8"))
+            for link in re.findall(r"\]\(([^)#\s]+)(?:#[^)]*)?\)", text):
+                if re.match(r"[a-z]+:", link):
+                    continue
+                number += 1
+                self.assertTrue(((ROOT / name).parent / link).exists(), f"{name}: {link}")
+        self.assertGreater(number, 50)
+
     def test_readme(self):
         text = (ROOT / "README.md").read_text(encoding="utf-8")
         commands = re.search(r"(?m)^ +(gcc .* peel && ./peel)$", text)[1]

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command/commands.hpp"
+#include "command/drawing.hpp"
 #include "command/interrupt.hpp"
 #include "model/build.hpp"
 #include "model/call.hpp"
@@ -216,7 +217,9 @@ extern "C" void on_check_log(std::int32_t level, const char* text, void* user) {
         said.warnings.push_back(std::move(warning));
 }
 
-Found examined(const std::string& scene_file, const std::vector<std::string>& settings, const Caller& caller) {
+// drawing: is filled if it is there.
+Found examined(const std::string& scene_file, const std::vector<std::string>& settings, const Caller& caller,
+               nlohmann::json* drawing) {
     const Scene scene = read_scene(scene_file, settings);
     std::vector<std::string> imported;
     if (scene.imported) imported = import_lines(*scene.imported);
@@ -240,22 +243,27 @@ Found examined(const std::string& scene_file, const std::vector<std::string>& se
     warnings.insert(warnings.end(), more.begin(), more.end());
     if (!planned.converged) warnings.emplace_back("the displacement of the initial state did not converge");
     found["warnings"] = warnings;
+    if (drawing != nullptr) *drawing = drawing_of(model, scene);
     return found;
 }
 
 }  // namespace
 
-int check(const std::string& scene_file, const std::vector<std::string>& settings, bool json, const Caller& caller) {
+int check(const std::string& scene_file, const std::vector<std::string>& settings, bool json,
+          const std::string& drawing, const Caller& caller) {
     constexpr auto replace = Found::error_handler_t::replace;
+    if (!drawing.empty()) require_drawable(drawing, caller);
+    nlohmann::json drawn;
+    nlohmann::json* wanted = drawing.empty() ? nullptr : &drawn;
     if (!json) {
-        const Found found = examined(scene_file, settings, caller);
+        const Found found = examined(scene_file, settings, caller, wanted);
         for (const Found& line : found["imported"]) say("{}\n", line.get<std::string>());
         say_lines_of(found);
+        if (wanted != nullptr) draw(drawn, drawing);
         return exit_done;
     }
     try {
-        say("{}\n", examined(scene_file, settings, caller).dump(2, ' ', false, replace));
-        return exit_done;
+        say("{}\n", examined(scene_file, settings, caller, wanted).dump(2, ' ', false, replace));
     } catch (const Failure& failure) {
         if (failure.code() != exit_scene) throw;  // the scene may be right
         const Place& place = failure.place();
@@ -265,6 +273,8 @@ int check(const std::string& scene_file, const std::vector<std::string>& setting
         say("{}\n", found.dump(2, ' ', false, replace));
         return failure.code();
     }
+    if (wanted != nullptr) draw(drawn, drawing);
+    return exit_done;
 }
 
 }  // namespace cli

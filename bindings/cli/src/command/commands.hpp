@@ -78,7 +78,8 @@ int claim(const std::string& folder, const std::vector<std::string>& names, bool
 int discard(const std::vector<std::string>& folders);
 // Lists the options of [solver] and the parameters of the laws.
 int options(bool json);
-// json: one object instead of lines, also for a wrong scene.
-int check(const std::string& scene_file, const std::vector<std::string>& settings, bool json, const Caller& caller);
+// json: one object instead of lines, also for a wrong scene. drawing: a file for a drawing of the scene; "": none.
+int check(const std::string& scene_file, const std::vector<std::string>& settings, bool json,
+          const std::string& drawing, const Caller& caller);
 
 }  // namespace cli

@@ -100,6 +100,11 @@ Commands add_work(CLI::App& app, Arguments& into) {
     of.check = app.add_subcommand("check", "validate a scene and print what would be computed, and how");
     add_scene(*of.check, into);
     of.check->add_flag("--json", into.json, "for programs: one object, with the error of a wrong scene");
+    of.check
+        ->add_option("--draw", into.page,
+                     "also draw the scene into a file (.svg or .png): bodies, interfaces, notches, supports and loads "
+                     "with their names; a drawing that is there is replaced")
+        ->type_name(file_value);
     add_settings(*of.check, into);
     of.import = app.add_subcommand(
         "import", "write the scene of an Abaqus input file; run and check take such files as they are");
@@ -364,10 +369,12 @@ std::vector<std::string> names_of_commands(const CLI::App& app) {
     return out;
 }
 
-// `delam help` and `delam help run` say what `--help` says; a first word that is no command is named with those nearby.
+// `delam` alone, `delam help` and `delam help run` say what `--help` says; a first word that is no command is named
+// with those nearby.
 std::vector<std::string> words_of(int argc, char** argv, const CLI::App& app) {
     std::vector<std::string> words(argv + 1, argv + argc);
-    if (words.empty() || words[0].empty() || words[0][0] == '-') return words;
+    if (words.empty()) return {"--help"};
+    if (words[0].empty() || words[0][0] == '-') return words;
     const std::vector<std::string> known = names_of_commands(app);
     const auto is_known = [&](const std::string& word) {
         return std::find(known.begin(), known.end(), word) != known.end() || word == "own";
@@ -427,7 +434,7 @@ int guarded(int argc, char** argv, const Caller& caller) {
         return given.page == "discard" ? discard(names)
                                        : claim(names.front(), {names.begin() + 1, names.end()}, given.known);
     }
-    if (of.check->parsed()) return check(given.scene, given.settings, given.json, caller);
+    if (of.check->parsed()) return check(given.scene, given.settings, given.json, given.page, caller);
     if (of.run->parsed()) {
         say_json_lines(given.progress == "json");
         return run(given.scene, given.settings, given.folder, given.resume, joined(argc, argv), caller);

@@ -134,6 +134,7 @@ struct Selection {
     std::int32_t body = -1;
     double tolerance = 0;
     Place place;
+    std::string name{};  // free text, for people
 };
 
 struct Term {

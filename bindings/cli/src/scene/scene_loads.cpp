@@ -60,6 +60,7 @@ Selection read_selection(const Table& table, const Scene& scene, const Places& a
     const auto dimension = static_cast<std::size_t>(scene.geometry.dimension);
     Selection out;
     out.place = table.place();
+    if (table.has("name")) out.name = table.text("name");
     out.tolerance = table.number("tolerance", 1e-3 * scene.geometry.smallest_edge);
     const std::string body = scene.mesh ? "body" : "layer";
     if (table.has(body))

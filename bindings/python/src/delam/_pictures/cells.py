@@ -31,12 +31,16 @@ def ring_edges(cells):
     return np.concatenate([cells[:, pair] for pair in ring])
 
 
-def body_tones(file):
+def tones_of(names):
     """The tone of each body, by its name without numbers; names that are numbers differ."""
-    number = file["mesh/body"][()].max() + 1
-    names = [text_of(file["mesh"].attrs[f"body_{b}"]) for b in range(number)]
     stems = [name.rstrip("-0123456789") or name for name in names]
     return [list(dict.fromkeys(stems)).index(stem) % len(BODIES) for stem in stems]
+
+
+def body_tones(file):
+    """The tone of each body of fields.h5."""
+    number = file["mesh/body"][()].max() + 1
+    return tones_of([text_of(file["mesh"].attrs[f"body_{b}"]) for b in range(number)])
 
 
 def cell_outlines(file):

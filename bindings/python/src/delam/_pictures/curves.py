@@ -48,7 +48,7 @@ def averages_figure(result):
         colour = BLUE if len(averages) == 1 else None
         line, = ax.plot(100 * strain, stress / factor, label=component, color=colour)
         # The stiffness of the beginning, as far as the picture is high.
-        if strain[1] != strain[0]:
+        if len(strain) > 1 and strain[1] != strain[0]:
             slope = (stress[1] - stress[0]) / (strain[1] - strain[0])
             end = min(np.abs(strain).max(), 1.05 * np.abs(stress).max() / abs(slope)) if slope else 0
             ax.plot([0, 100 * end], [0, slope * end / factor], color=line.get_color(), linewidth=0.8, linestyle=":")

@@ -100,7 +100,7 @@ def save(figure, path):
     new = os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW | os.O_CLOEXEC
     with os.fdopen(os.open(beside, new, 0o666), "wb") as file:
         try:
-            figure.savefig(file, format="png")
+            figure.savefig(file, format=os.path.splitext(path)[1][1:] or "png")
             file.flush()
             os.replace(beside, path)
         except BaseException:
@@ -110,13 +110,15 @@ def save(figure, path):
 
 
 def _is_drawn(path):
-    """True for a regular file, with one name, that Matplotlib has written: it says so near the beginning of a PNG."""
+    """True for a regular file, with one name, that Matplotlib has written: it says so near the beginning of a PNG or
+    an SVG."""
     about = os.lstat(path)
     if not stat.S_ISREG(about.st_mode) or about.st_nlink > 1:
         return False
     with open(path, "rb") as file:
         head = file.read(1024)
-    return head.startswith(b"\x89PNG\r\n") and b"Software\0Matplotlib" in head
+    return (head.startswith(b"\x89PNG\r\n") and b"Software\0Matplotlib" in head
+            or head.startswith(b"<?xml") and b"<dc:title>Matplotlib" in head)
 
 
 def early_end(result):

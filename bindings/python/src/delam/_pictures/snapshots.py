@@ -3,11 +3,10 @@
 import matplotlib
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
-from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 from .cells import (BODIES, ZETA, body_of_nodes, body_tones, boundary_edges, boundary_faces, cell_blocks, cell_outlines,
                    hidden_bodies, text_of, without)
-from .fronts import chosen_interfaces, plan_of, triangles_of
+from .fronts import chosen_interfaces, plan_of, seen_from_above, triangles_of
 from .result import Nothing, fields_of, four_digits, plt
 
 
@@ -117,8 +116,36 @@ def lit(faces, colours):
     return np.column_stack([shade[:, None] * colours[:, :3], colours[:, 3]])
 
 
+class Eye:
+    """Looks at bodies in space from far away, by the angles around and above their plane, in degrees."""
+
+    def __init__(self, azimuth, elevation):
+        a, e = np.radians([azimuth, elevation])
+        self.towards = np.array([np.cos(e) * np.cos(a), np.cos(e) * np.sin(a), np.sin(e)])
+        right = np.array([-np.sin(a), np.cos(a), 0.0])
+        self.turn = np.array([right, np.cross(self.towards, right)])
+
+    def __call__(self, points):
+        """Points [..][3] on the paper [..][2]."""
+        return points @ self.turn.T
+
+    def depth(self, points):
+        return points @ self.towards
+
+
+def eye_on(hidden):
+    return Eye(-62, 35 if len(hidden) else 18)
+
+
+def solid_shape(file, step, scale, hidden):
+    """Width and height of the bodies on the paper."""
+    of = body_of_nodes(file)
+    return np.ptp(eye_on(hidden)((file["mesh/points"][()] + scale * step["displacement"][()])[of >= 0]), axis=0)
+
+
 def draw_solid(ax, file, step, scale, hidden):
     """The skins of the bodies in their tones; with hidden bodies these alone, the adhesion in colour on them."""
+    eye = eye_on(hidden)
     moved = file["mesh/points"][()] + scale * step["displacement"][()]
     of = body_of_nodes(file)
     skin = boundary_faces(cell_blocks(file))
@@ -136,16 +163,18 @@ def draw_solid(ax, file, step, scale, hidden):
         # The faces' normals point from a to b; here they are to point out of the body that is seen.
         skin = np.concatenate([skin[others], side[faces[:, [0, 2, 1, 1] if on_b else [0, 1, 2, 2]]]])
         colours = np.concatenate([colours[others], ZETA(zeta[faces].mean(1))])
-    colours = lit(moved[skin], colours)
-    edges = colours if len(hidden) else "#50555c"
-    ax.add_collection3d(Poly3DCollection(moved[skin], facecolors=colours, edgecolors=edges,
-                                            linewidths=min(0.3, 400 / len(skin)), clip_on=False))
-    low, high = moved[of >= 0].min(0), moved[of >= 0].max(0)
-    for setter, a in ((ax.set_xlim, 0), (ax.set_ylim, 1), (ax.set_zlim, 2)):
-        setter(low[a], high[a])
-    ax.set_box_aspect(np.maximum(high - low, 0.05 * (high - low).max()), zoom=1.6 if len(hidden) else 1.15)
-    ax.view_init(elev=35 if len(hidden) else 18, azim=-62)
-    ax.set_axis_off()
+    at = moved[skin]
+    front = eye.depth(np.cross(at[:, 2] - at[:, 0], at[:, 3] - at[:, 1])) > 0  # bodies are closed
+    skin, colours = skin[front], lit(at, colours)[front]
+    order = np.argsort(eye.depth(moved[skin]).mean(1), kind="stable")  # what is near covers what is behind
+    edges = colours[order] if len(hidden) else "#50555c"
+    ax.add_collection(PolyCollection(eye(moved[skin])[order], facecolors=colours[order], edgecolors=edges,
+                                     linewidths=min(0.3, 400 / len(skin)), clip_on=False))
+    low, high = eye(moved[of >= 0]).min(0), eye(moved[of >= 0]).max(0)
+    ax.set_xlim(low[0], high[0])
+    ax.set_ylim(low[1], high[1])
+    ax.set_aspect("equal")
+    ax.axis("off")
 
 
 def plot_solid(result, file, shots, scale):
@@ -155,14 +184,17 @@ def plot_solid(result, file, shots, scale):
     names = [] if len(hidden) else chosen_interfaces(file)
     columns = min(len(shots), 2 if len(hidden) else 5)
     rows = -(-len(shots) // columns)
-    width, height = (5.0, 3.6) if len(hidden) else (4.0, 2.9)
-    figure = plt.figure(figsize=(width * columns, rows * (height + 1.3 * len(names)) + 1.0), layout="constrained")
-    grid = figure.add_gridspec(rows * (1 + len(names)), columns, height_ratios=([2.4] + [1.0] * len(names)) * rows)
+    width = 5.0 if len(hidden) else 4.0
+    shapes = [solid_shape(file, step, scale, hidden) for _, step in shots]
+    height = max(width * shape[1] / shape[0] for shape in shapes) + 0.5
+    size = max(width * columns, 8.0), rows * (height + 1.3 * len(names)) + 1.0  # the title takes 8 inches
+    figure = plt.figure(figsize=size, layout="constrained")
+    grid = figure.add_gridspec(rows * (1 + len(names)), columns, height_ratios=([height] + [1.3] * len(names)) * rows)
     drawn = matplotlib.cm.ScalarMappable(plt.Normalize(0, 1), ZETA) if len(hidden) else None
     axes = []
     for i, (time, step) in enumerate(shots):
         row, column = divmod(i, columns)
-        ax = figure.add_subplot(grid[row * (1 + len(names)), column], projection="3d")
+        ax = figure.add_subplot(grid[row * (1 + len(names)), column])
         draw_solid(ax, file, step, scale, hidden)
         ax.set_title(f"t = {time:.6g}\n{load_text(result, time)}", fontsize=8)
         if len(hidden):
@@ -171,6 +203,7 @@ def plot_solid(result, file, shots, scale):
             flat = figure.add_subplot(grid[row * (1 + len(names)) + 1 + n, column])
             axes.append(flat)
             at = file["interfaces"][name]["points"][()]
+            seen = "from above" if seen_from_above(at) else "in its plane"
             at = plan_of(at)(at)
             zeta = step[name]["zeta"][()]
             triangles = triangles_of(file["interfaces"][name]["faces"][()])
@@ -179,8 +212,7 @@ def plot_solid(result, file, shots, scale):
                 flat.tricontour(at[:, 0], at[:, 1], triangles, zeta, levels=[0.5], colors="black", linewidths=0.9)
             flat.set_aspect("equal")
             flat.axis("off")
-            if len(names) > 1:
-                flat.set_title(text_of(file["interfaces"][name].attrs["name"]), fontsize=7)
+            flat.set_title(f"interface {text_of(file['interfaces'][name].attrs['name'])}, {seen}", fontsize=8)
     return figure, axes, drawn
 
 
