@@ -77,6 +77,7 @@ private:
         if (word == "PART") part_ = card.required("NAME");
         if (word == "END PART") part_.clear();
         if (of_mesh.contains(word)) return;
+        if (word == "PARAMETER") return card.only({});
         if (not_needed.contains(word)) {
             left_.insert(word);
             return;

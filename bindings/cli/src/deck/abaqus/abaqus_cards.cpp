@@ -108,7 +108,7 @@ private:
         if (word == "STEP") {
             in_step_ = true;
             passed_.insert("*STEP");
-        } else if (word == "HEADING") {
+        } else if (word == "HEADING" || word == "PARAMETER") {
             return;
         } else if (word == "NODE") {
             take_nodes(card);
