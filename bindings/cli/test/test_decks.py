@@ -166,7 +166,7 @@ def check_steps():
     scene, _ = imported(driven)
     expect("times = [0.0, 0.4, 0.7, 1.0]\nvalues = [0.0, 0.001, 0.0002, 0.001]" in scene, "amplitude")
     # A second step of half the length and another increment, back to the start, with a force on top.
-    second = ("*Step\n*Static\n0.1, 0.5\n*Boundary\nTop, 2, 2, 0.\nBottom, 2, 2, 0.\n*Cload\nTop, 1, 3.5\n*End Step\n")
+    second = ("*Step\n*Static, direct\n0.1, 0.5\n*Boundary\nTop, 2, 2, 0.\nBottom, 2, 2, 0.\n*Cload\nTop, 1, 3.5\n*End Step\n")
     scene, _ = imported(text + second)
     expect("times = [0.0, 1.0, 1.5]\nvalues = [0.0, 0.001, 0.0]" in scene, "two steps")
     expect("times = [0.0, 1.0, 1.5]\nvalues = [0.0, 0.0, 1.0]" in scene and "force = [3.5, 0.0]" in scene, "a force")
@@ -407,7 +407,7 @@ REFUSED = [
     ("*Damage Evolution", "*Damage Initiation, criterion=QUADS\n1., 1., 1.\n*Damage Evolution", "given twice"),
     ("*Solid Section, elset=Arms, material=Ply\n,\n", "*Solid Section, elset=Arms, material=Ply\n0.02,\n",
      "a thickness of 1 and one of 0.02"),
-    ("*Static\n0.05, 1.", "*Static\n1e-300, 1.", "increments of 1e-300"),
+    ("1e-9, 0.05\n", "0., 1e-300\n", "increments of 1e-300"),
     ("1e-9, 0.05\n", "1e-9, 0.05\n1., 2.\n", "one line is expected"),
     ("Top, 2, 2,", "Top, 4294967299, 4294967299,", "degree of freedom 4294967299"),
     ("type=ENERGY, mixed mode behavior=BK, power=2.3\n280.0", "type=DISPLACEMENT, softening=TABULAR\n0.0\n280.0",

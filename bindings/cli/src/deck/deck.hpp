@@ -141,7 +141,8 @@ struct LoadLine {
 
 struct Step {
     std::string name;
-    double first_increment = 1;
+    double increment = 1;        // that its load steps have here at most, and over which what jumps at its begin moves
+    double least_increment = 0;  // 0: not said
     double period = 1;
     bool ramp = true;  // loads without an amplitude grow over the step
     bool new_boundaries = false, new_forces = false, new_distributed = false;  // those before end

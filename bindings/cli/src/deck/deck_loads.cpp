@@ -23,6 +23,9 @@ using Points = std::vector<std::pair<double, double>>;  // instants and values
 
 constexpr std::int64_t most_single_nodes = 200;
 constexpr double most_increments = 100000;
+// Shortest substep, as a part of a load step, that a deck may ask for: 20 halvings. Decks give 1e-5 to 1e-36 without a
+// thought; half or twice of it is one halving more or less (ctest -R cli_decks).
+constexpr double shortest_substep = 1e-6;
 constexpr std::size_t most_points = 10000000;  // of all histories: each line may follow a long amplitude
 
 // The first point at x or behind.
@@ -241,15 +244,17 @@ private:
                 history->hold_until(time_);
                 extend(*history, step, *history->follows, end);
             }
-        const double wanted = std::ceil(step.period / step.first_increment * (1 - 1e-9));
+        const double wanted = std::ceil(step.period / step.increment * (1 - 1e-9));
         if (!(wanted + static_cast<double>(instants_.size()) <= most_increments))
             throw SceneFailure(step.place, fmt::format("{:.6g} increments of {}: at most {} in all steps", wanted,
-                                                       step.first_increment, most_increments));
+                                                       step.increment, most_increments));
         const auto increments = static_cast<std::int64_t>(wanted);
         for (std::int64_t i = 1; i <= increments; ++i)
             instants_.push_back(
                 i == increments ? end : time_ + step.period * static_cast<double>(i) / static_cast<double>(increments));
         sizes_.push_back(step.period / static_cast<double>(increments));
+        if (step.least_increment > 0)
+            substep_ = std::min(substep_, std::max(step.least_increment / sizes_.back(), shortest_substep));
         time_ = end;
     }
 
@@ -283,7 +288,7 @@ private:
             next.emplace_back(end, factor * between(lines, end - origin));
         }
         if (next.front().second != last) {
-            const double first = time_ + std::min(step.first_increment, step.period);
+            const double first = time_ + std::min(step.increment, step.period);
             const double value = between(next, first);
             std::erase_if(next, [&](const auto& point) { return point.first <= first; });
             next.insert(next.begin(), {first, value});
@@ -311,6 +316,12 @@ private:
     }
 
     std::string time_text() {
+        const std::string solver =
+            substep_ < 1 ? fmt::format("[solver]\nsmallest_step = {}\n\n", toml_number(substep_)) : "";
+        return instants_text() + solver;
+    }
+
+    std::string instants_text() const {
         const auto [least, most] = std::minmax_element(sizes_.begin(), sizes_.end());
         if (*most - *least <= 1e-9 * *most)
             return fmt::format("[time]\nstart = 0.0\nend = {}\nsteps = {}\n\n", toml_number(time_), instants_.size());
@@ -479,6 +490,7 @@ private:
     std::string patterns_;
     std::vector<double> instants_, sizes_;
     double time_ = 0;
+    double substep_ = 1;  // the least increment of all steps, as a part of the load step
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "deck/deck_step_cards.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
@@ -17,6 +18,13 @@ const std::pair<const char*, std::vector<int>> named_supports[] = {{"ENCASTRE", 
                                                                    {"XASYMM", {2, 3, 4}},
                                                                    {"YASYMM", {1, 3, 5}},
                                                                    {"ZASYMM", {1, 2, 6}}};
+
+// Load steps of a step whose increments have no upper limit below the whole step: enough points for a curve, at a
+// fiftieth of its load; 25 halves the time and the points, 100 doubles both (ctest -R cli_decks).
+constexpr double free_steps = 50;
+// Least number of load steps where the deck limits its increments to a larger part of the step; half as many draw
+// corners into a curve, twice as many take more time than the deck asks for (ctest -R cli_decks).
+constexpr double fewest_steps = 10;
 
 }  // namespace
 
@@ -90,11 +98,27 @@ void StepReader::take_procedure(const InpCard& card) {
     }
     if (card.has("STABILIZE"))
         say_once(deck_.changed, "STABILIZE: no viscosity; jumps of the crack are found by energy");
-    if (card.lines.empty()) return;
     if (card.lines.size() > 1) throw SceneFailure(card.lines[1].place, "one line is expected");
-    const Numbers values = card.lines[0].numbers();
-    if (values.size() > 1 && values[1] > 0) s.period = values[1];
-    s.first_increment = !values.empty() && values[0] > 0 ? std::min(values[0], s.period) : s.period;
+    Numbers values = card.lines.empty() ? Numbers{} : card.lines[0].numbers();
+    values.resize(std::max<std::size_t>(values.size(), 4), 0.0);
+    for (std::size_t i = 0; i < 4; ++i)
+        if (values[i] < 0)
+            throw SceneFailure(card.lines[0].place, fmt::format("{} in a line of increments: must be >= 0", values[i]));
+    const auto [first, period, least, largest] = std::array{values[0], values[1], values[2], values[3]};
+    if (period > 0) s.period = period;
+    if (card.has("DIRECT")) {
+        s.increment = first > 0 ? std::min(first, s.period) : s.period;
+        return;
+    }
+    if (least > 0 && largest > 0 && least > largest)
+        throw SceneFailure(card.lines[0].place,
+                           fmt::format("the least increment, {}, is larger than the largest, {}", least, largest));
+    // Abaqus begins with the first increment and chooses those behind it up to the largest; here the library takes
+    // shorter substeps where it needs them.
+    const bool limited = largest > 0 && largest < s.period;
+    s.increment = std::max(limited ? std::min(largest, s.period / fewest_steps) : s.period / free_steps, least);
+    s.increment = std::min(s.increment, s.period);
+    s.least_increment = std::min(least, s.increment);
 }
 
 std::vector<LoadLine>& StepReader::boundaries() { return in_step_ ? deck_.steps.back().boundaries : deck_.held; }

@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Keywords of decks one by one, each in a deck of two blocks whose answer is known in closed form."""
+import csv
+import math
+import os
+
+from support import delam, expect, expect_error, finish, folder, write
+
+YOUNG, POISSON, STRENGTH, STIFFNESS = 1000.0, 0.3, 1.0, 1000.0
+
+# Two rows of four square cells; the upper one has nodes of its own where they meet.
+NODES = [(1 + i + 5 * j + (91 if j > 1 else 0), float(i), float(j - (j > 1))) for j in range(4) for i in range(5)]
+COHESIVE = ("*Element, type=COH2D4, elset=Coh\n" +
+            "".join(f"{201 + i}, {6 + i}, {7 + i}, {103 + i}, {102 + i}\n" for i in range(4)))
+SECTION = "*Cohesive section, elset=Coh, material=C, response=TRACTION SEPARATION\n1.\n"
+LAW = (f"*Material, name=C\n*Elastic, type=TRACTION\n{STIFFNESS}, {STIFFNESS}, {STIFFNESS}\n"
+       f"*Damage initiation, criterion=QUADS\n{STRENGTH}, {STRENGTH}, {STRENGTH}\n"
+       "*Damage evolution, type=ENERGY\n0.01,\n")
+SURFACES = "*Surface, name=Lower\nLow, S3\n*Surface, name=Upper\nUp, S1\n"
+
+
+def cells(name, first, below):
+    return (f"*Element, type=CPS4, elset={name}\n" +
+            "".join(f"{first + i}, {below + i}, {below + i + 1}, {below + i + 6}, {below + i + 5}\n" for i in range(4)))
+
+
+def deck(cohesive=True, extra="", elastic=f"*Elastic\n{YOUNG}, {POISSON}\n", static="*Static\n0.1, 1., 1e-5, 0.1\n",
+         loads="Top, 2, 2, 0.03\n", before="", after="", held="Bottom, 2\n1, 1\nTop, 1\n", nodes=None):
+    text = before + "*Heading\na block upon another\n*Node\n"
+    text += "".join(f"{n}, {x}, {y}\n" for n, x, y in nodes or NODES)
+    text += cells("Low", 1, 1) + cells("Up", 101, 102) + (COHESIVE if cohesive else "")
+    text += "*Nset, nset=Bottom, generate\n1, 5\n*Nset, nset=Top, generate\n107, 111\n*Nset, nset=All\nBottom, Top\n"
+    text += "*Solid section, elset=Low, material=M\n1.\n*Solid section, elset=Up, material=M\n1.\n"
+    text += (SECTION if cohesive else "") + "*Material, name=M\n" + elastic + (LAW if cohesive else "") + extra
+    return text + f"*Step\n{static}*Boundary\n{held}{loads}{after}*End step\n"
+
+
+def history(text):
+    place = folder()
+    out = os.path.join(place, "out")
+    code, said, error = delam("run", write(text, "deck.inp", place), "--out", out)
+    expect(code == 0, f"exit {code}: {error.strip()[:300]}")
+    if code != 0:
+        return [], said + error
+    with open(os.path.join(out, "history.csv"), newline="", encoding="utf-8") as file:
+        return [{k: float(v) for k, v in row.items() if k not in ("solution", "mixity_rule")}
+                for row in csv.DictReader(file)], said + error
+
+
+def imported(text):
+    code, scene, said = delam("import", write(text, "deck.inp"))
+    expect(code == 0, f"import: exit {code} {said.strip()[:300]}")
+    return scene, said
+
+
+def refused(text, *patterns):
+    expect_error(delam("import", write(text, "deck.inp")), 2, *patterns)
+
+
+def close(what, found, wanted, allowed=1e-9):
+    expect(math.isclose(found, wanted, rel_tol=allowed, abs_tol=1e-14), f"{what}: {found}, {wanted} is expected")
+
+
+def check_increments():
+    """Automatic increments give a curve whatever the first is; DIRECT takes it."""
+    limited, _ = history(deck())
+    expect(len(limited) == 11, f"ten increments: {len(limited)}")
+    for line in ("", "1., 1., 1e-5, 1.\n", "1., 1.\n", "1e-6, 1., 1e-12\n", "1., 1., 1e-36, 1e30\n"):
+        rows, said = history(deck(static="*Static\n" + line))
+        expect(len(rows) == 51, f"{line!r}: {len(rows)} instants")
+        # The fourth is that of a tenth of the increments: 0.08 against 0.1 of the largest force.
+        peak = max(row["reaction"] for row in rows)
+        expect(peak > 3.5, f"{line!r}: a peak of {peak}")
+        expect("no work was done" not in said, "and work is done")
+    tiny, _ = history(deck(static="*Static\n1e-6, 1., 1e-12, 0.1\n"))
+    expect([row["reaction"] for row in tiny] == [row["reaction"] for row in limited], "a tiny first increment")
+    scene, _ = imported(deck(static="*Static, direct\n0.25, 1.\n"))
+    expect("steps = 4\n" in scene, "DIRECT")
+    scene, _ = imported(deck(static="*Static\n0.5, 1., 0.1, 0.5\n"))
+    expect("steps = 10\n" in scene and "smallest_step = 1.0" not in scene, "a least increment")
+    refused(deck(static="*Static\n0.1, 1., 0.2, 0.1\n"), r"deck\.inp:\d+: \*STATIC", "0.2, is larger than the largest")
+    refused(deck(static="*Static\n0.1, -1.\n"), "-1 in a line of increments")
+    # One step in which everything breaks, done as the deck says, compares no energy with no work.
+    _, said = history(deck(static="*Static, direct\n1., 1.\n"))
+    expect("off by" not in said and "no work was done, and stored" in said, f"no work: {said[-600:]}")
+
+
+def check_parameters():
+    wanted, _ = history(deck())
+    before = ("*Parameter\n# the plies\nE = 10.**3\nnu=0.3 # of the matrix\nroot = sqrt(9.)\n"
+              "opening = 1.e-2*root\nfirst = 2*(50 + 3) + 1\nlast = first + 4\nname = 'Top'\n"
+              "also = -2**2 + pow(2., 2) + abs(-3) - int(3.7) + log10(1.) + sin(0.) + 2**-1 - 0.5\n")
+    text = deck(before=before).replace("1000.0, 0.3", "<E>, <nu>", 1).replace("Top, 2, 2, 0.03", "<name>, 2, 2, <opening>")
+    text = text.replace("107, 111", "<first>, <last>").replace("*Nset, nset=Top", "*Nset, nset=<name>")
+    text = text.replace("1, 0.0, 0.0\n", "1, <also>, <also>\n", 1).replace("a block", "a <block>")
+    found, _ = history(text)
+    worst = max(abs(a["reaction"] - b["reaction"]) for a, b in zip(found, wanted, strict=True))
+    expect(worst < 1e-9, f"the deck of the values: {worst}")
+    for line, pattern in (("a = 1/2", "whole numbers is cut off by some releases"), ("a = 1./0", "division by 0"),
+                          ("a = b + 1", 'no parameter "b"'), ("a = open('x')", "no function that is evaluated"),
+                          ("a = __import__('os')", "no function that is evaluated"), ("a = 3 +", "missing at the end"),
+                          ("a = (1.", "is missing"), ("a = 1 2", "not understood"), ("a = 'x", "second quote"),
+                          ("a = 'x'*3", "a text where a number"), ("a = sqrt(-1.)", "no finite number"),
+                          ("a = 2**200", "beyond 9e15"), ("a = 9999999999*9999999999", "beyond 64 bits"),
+                          ("a = x.y", "no parameter"), ("1a = 3", "NAME = EXPRESSION"), ("a = " + 200 * "(", "100"),
+                          ("a = [1]", "a number or name is expected"), ("a == 3", "a number or name is expected"),
+                          ("a = " + 200 * "-" + "1", "100"), ("a = 'x" + 300 * "y" + "'", "256")):
+        refused(deck(before=f"*Parameter\n{line}\n"), r"deck\.inp:2: \*PARAMETER", pattern)
+    refused(deck(elastic="*Elastic\n<young>, 0.3\n", before="*Parameter\nYoung = 3.\n"), r"<young>", "Young")
+    refused(deck(elastic="*Elastic\n<young, 0.3\n"), "is not ended")
+
+
+check_increments()
+check_parameters()
+finish()
