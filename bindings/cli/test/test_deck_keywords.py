@@ -110,6 +110,101 @@ def check_parameters():
     refused(deck(elastic="*Elastic\n<young, 0.3\n"), "is not ended")
 
 
+def block(first, cells, at, height, plane=True):
+    """Nodes and cells of a block of 4 by `height` (by 2 in space) in one row, from the number `first` on."""
+    rows = 1 if plane else 2
+    width = [""] if plane else [f", {2.0 * j / rows}" for j in range(rows + 1)]
+    layer = (cells + 1) * len(width)
+    text = "*Node\n" + "".join(f"{first + i + (cells + 1) * j + layer * k}, {4.0 * i / cells}{y}, {at + height * k}\n"
+                               for k in (0, 1) for j, y in enumerate(width) for i in range(cells + 1))
+    corners = ((0, 0), (1, 0), (1, 1), (0, 1)) if plane else tuple(
+        (a, b, c) for c in (0, 1) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1)))
+
+    def node(i, j, corner):
+        a, b, c = (corner[0], 0, corner[1]) if plane else corner
+        return first + i + a + (cells + 1) * (j + b) + layer * c
+    lists = [[node(i, j, corner) for corner in corners] for j in range(rows) for i in range(cells)]
+    return text, lists, list(range(first, first + layer)), list(range(first + layer, first + 2 * layer))
+
+
+def tower(plane, lower, upper, middle=0, thick=0.0, loads="0.002", extra="", shared=False):
+    """A block on another, tied: with cells of their own, and with `middle` cohesive elements between them."""
+    text, low, bottom, seat = block(1, lower, 0.0, 1.0, plane)
+    more, up, sole, top = block(1001, upper, 1.0 + thick, 1.0, plane)
+    text += more
+    number = 0
+    for name, lists in (("Low", low), ("Up", up)):
+        text += f"*Element, type={'CPS4' if plane else 'C3D8'}, elset={name}\n"
+        for nodes in lists:
+            number += 1
+            text += f"{number}, {', '.join(map(str, nodes))}\n"
+        text += f"*Solid section, elset={name}, material=M\n,\n"
+    faces = ("S1", "S3") if plane else ("S1", "S2")
+    text += f"*Surface, name=Seat\nLow, {faces[1]}\n*Surface, name=Sole\nUp, {faces[0]}\n"
+    ties = "*Tie, name=T, adjust=yes\nSole, Seat\n"
+    if middle:
+        more, glue, under, above = block(2001, middle, 1.0, thick, plane)
+        if shared:  # with the nodes of the lower block
+            own = dict(zip(under, seat, strict=True))
+            glue = [[own.get(n, n) for n in nodes] for nodes in glue]
+            more = "\n".join(line for line in more.split("\n") if not line or int(line.split(",")[0] if line[0] != "*"
+                                                                                   else 0) not in own)
+        text += more + f"*Element, type={'COH2D4' if plane else 'COH3D8'}, elset=Coh\n"
+        for nodes in glue:
+            number += 1
+            text += f"{number}, {', '.join(map(str, nodes))}\n"
+        text += SECTION + LAW
+        text += f"*Surface, name=Glue-below\nCoh, {faces[0]}\n*Surface, name=Glue-above\nCoh, {faces[1]}\n"
+        ties = ("" if shared else "*Tie, name=A\nGlue-below, Seat\n") + "*Tie, name=B\nGlue-above, Sole\n"
+    text += "".join(f"*Nset, nset={n}\n" + "".join(f"{x}\n" for x in s) for n, s in (("Bottom", bottom), ("Top", top)))
+    up = 2 if plane else 3
+    held = f"Bottom, {up}\n1, 1\n" + ("" if plane else f"1, 2\n{lower + 1}, 2\n")
+    return (text + ties + f"*Material, name=M\n*Elastic\n{YOUNG}, {POISSON if not middle else 0.0}\n" + extra +
+            f"*Step\n*Static\n0.5, 1., 1e-5, 0.5\n*Boundary\n{held}Top, {up}, {up}, {loads}\n*End step\n")
+
+
+def check_ties():
+    """A bar of two parts that are tied stretches like a whole one, whatever cells they have."""
+    for plane in (True, False):
+        area = 4.0 if plane else 8.0
+        for lower, upper in ((4, 4), (4, 6), (5, 3)):
+            rows, _ = history(tower(plane, lower, upper))
+            close(f"{plane=}: {lower} cells tied to {upper}", rows[-1]["reaction"], YOUNG * area * 0.002 / 2)
+        # A layer of cohesive elements between them is a spring in series, wherever its own mesh comes from.
+        wanted = area * 0.002 / (2 / YOUNG + 1 / STIFFNESS)
+        for shared, thick, middle in ((False, 0.0, 4), (False, 0.0, 8), (False, 0.01, 4), (True, 0.0, 4)):
+            rows, said = history(tower(plane, 4, 6, middle, thick, shared=shared))
+            close(f"{plane=} {shared=}: {middle} tied elements, {thick} thick", rows[-1]["reaction"], wanted)
+            expect("is tied: the bodies to which it is tied have its law" in said, "that they are tied is said")
+        # And it breaks.
+        rows, _ = history(tower(plane, 4, 6, 4, loads="0.1"))
+        close("what it takes to break", rows[-1]["dissipated"], 0.01 * area, 1e-6)
+    text = tower(True, 4, 6, 4)
+    refused(text.replace("*Tie, name=B\nGlue-above, Sole\n", ""), r"deck\.inp:\d+", "upper face is in no surface of a")
+    refused(text.replace("Glue-above, Sole", "Glue-above, Soul"), '\\*TIE: surface "Soul" is not there')
+    refused(text.replace("Coh, S3", "Coh, S2"), "faces of the cohesive element .* are S1 and S3")
+    refused(tower(True, 4, 4).replace("Seat\nLow, S3", "Seat\n1, S3"), "touch at 4 sides, of which 1 are tied")
+
+
+def check_pins():
+    """Nodes that an MPC of type TIE or PIN makes one, with sets or one by one."""
+    for plane in (True, False):
+        text = tower(plane, 3, 3)
+        seat = range(5, 9) if plane else range(13, 25)
+        sole = range(1001, 1005) if plane else range(1001, 1013)
+        area = 4.0 if plane else 8.0
+        single = "*Mpc\n" + "".join(f"TIE, {a}, {b}\n" for a, b in zip(sole, seat, strict=True))
+        sets = (f"*Nset, nset=A, generate\n{sole[0]}, {sole[-1]}\n*Nset, nset=B, generate\n{seat[0]}, {seat[-1]}\n"
+                "*Mpc\nPIN, A, B\n")
+        for card in (single, sets):
+            rows, _ = history(text.replace("*Tie, name=T, adjust=yes\nSole, Seat\n", card))
+            close(f"{plane=}: pinned nodes", rows[-1]["reaction"], YOUNG * area * 0.002 / 2)
+    refused(text.replace("*Tie, name=T, adjust=yes\nSole, Seat\n", "*Mpc\nBEAM, 1001, 13\n"), "BEAM is not imported",
+            "KINEMATIC")
+
+
 check_increments()
 check_parameters()
+check_ties()
+check_pins()
 finish()

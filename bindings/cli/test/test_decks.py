@@ -431,7 +431,7 @@ REFUSED = [
     ("*Material, name=Ply\n", "*Plastic\n1e6, 0.\n*Material, name=Ply\n", r"PLASTIC.*would change the result"),
     ("type=ENGINEERING CONSTANTS", "type=ANISOTROPIC", r"ANISOTROPIC is not imported"),
     ("*Cohesive Section, elset=Cohesive,", "*Cohesive Section, elset=Arms,", r"is no cohesive element"),
-    ("*Step,", "*Tie, name=T\nA, B\n*Step,", r"TIE"),
+    ("*Step,", "*Tie, name=T\nA, B\n*Step,", r"\*TIE: surface .A. is not there"),
     ("*End Step\n", "", r"\*STEP is not ended"),
     ("Top, 2, 2, 0.001", "Top, 2, 2, abc", r"\"abc\".*number"),
 ]

@@ -128,6 +128,11 @@ struct Coupling {
     Place place;
 };
 
+// Nodes that *MPC, of type TIE or PIN, lets move alike: one, or two sets node by node.
+struct Pin {
+    Entry first, second;
+};
+
 // A line of *BOUNDARY, *CLOAD or *DSLOAD.
 struct LoadLine {
     Entry where;
@@ -159,6 +164,7 @@ struct Deck {
     std::vector<ContactPair> pairs;
     Catalogue<Amplitude> amplitudes;
     std::vector<std::vector<EquationEntry>> equations;
+    std::vector<Pin> pins;
     std::vector<Coupling> couplings;
     std::vector<LoadLine> held;  // *BOUNDARY before the first step
     std::vector<Step> steps;

@@ -48,8 +48,8 @@ const std::set<std::string> not_needed{"CONDUCTIVITY",
                                        "TIME POINTS",
                                        "TRANSVERSE SHEAR STIFFNESS"};
 // Keywords of the mesh, which abaqus_cards.cpp reads.
-const std::set<std::string> of_mesh{"NODE",     "ELEMENT",  "NSET",         "ELSET",    "SURFACE",     "PART",
-                                    "END PART", "ASSEMBLY", "END ASSEMBLY", "INSTANCE", "END INSTANCE"};
+const std::set<std::string> of_mesh{"NODE",     "ELEMENT",  "NSET",         "ELSET",    "SURFACE",      "PART",
+                                    "END PART", "ASSEMBLY", "END ASSEMBLY", "INSTANCE", "END INSTANCE", "TIE"};
 // Keywords whose effect the scene has in another way; each is reported once.
 const std::pair<const char*, const char*> otherwise[] = {
     {"DAMAGE STABILIZATION", "*DAMAGE STABILIZATION: no viscosity; jumps of the crack are found by energy"},

@@ -13,6 +13,7 @@ bool ConstraintReader::take(const InpCard& card) {
     static const std::pair<const char*, Take> known[] = {{"COUPLING", &ConstraintReader::take_coupling},
                                                          {"EQUATION", &ConstraintReader::take_equation},
                                                          {"KINEMATIC", &ConstraintReader::take_kinematic},
+                                                         {"MPC", &ConstraintReader::take_pins},
                                                          {"RIGID BODY", &ConstraintReader::take_rigid_body}};
     if (card.keyword != "KINEMATIC") finish();
     for (const auto& [keyword, function] : known)
@@ -106,6 +107,20 @@ void ConstraintReader::take_equation(const InpCard& card) {
     }
     if (wanted != 0) throw SceneFailure(card.place, fmt::format("{} terms: {} are expected", terms.size(), wanted));
     if (card.lines.empty()) throw SceneFailure(card.place, "the number of terms is expected");
+}
+
+void ConstraintReader::take_pins(const InpCard& card) {
+    card.only({});
+    (void)card.first_line();
+    for (const InpLine& line : card.lines) {
+        const std::string type = line.fields.empty() ? "" : upper(line.fields[0]);
+        if (type != "TIE" && type != "PIN")
+            throw SceneFailure(line.place, "type " + type +
+                                               " is not imported: TIE and PIN are; give *COUPLING with *KINEMATIC for "
+                                               "BEAM, *EQUATION for others, *TIE for meshes that do not match");
+        if (line.fields.size() != 3) throw SceneFailure(line.place, "a type and two nodes or sets are expected");
+        deck_.pins.push_back({{&root_, line.fields[1], line.place}, {&root_, line.fields[2], line.place}});
+    }
 }
 
 }  // namespace cli::abaqus

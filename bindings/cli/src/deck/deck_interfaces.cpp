@@ -32,6 +32,7 @@ struct Held {
     Place place;
     bool open = false;  // surfaces, whose distance counts
     double adjust = 0;
+    bool bonded = false;  // tied
 };
 
 // Returns the largest distance of a node of one surface from the nearest node of another.
@@ -74,6 +75,7 @@ public:
           model_(model),
           mesh_(mesh),
           faces_(mesh),
+          nodes_(mesh),
           edge_(shortest_edge(mesh)),
           places_(mesh, edge_),
           cohesive_sections_(deck, model, &Part::cohesive_sections),
@@ -89,6 +91,7 @@ public:
     std::string text() {
         for (const CohesiveSet& set : mesh_.cohesive) add_cohesive(set);
         for (const ContactPair& pair : deck_.pairs) add_pair(pair);
+        for (const Tie& tie : model_.ties) add_tie(tie);
         for (const auto& [key, pair] : touching_) require_one_way(pair);
         std::string out = laws_;
         for (const Held& held : held_) out += entry(held);
@@ -134,6 +137,14 @@ private:
     void add(const Held& held) {
         // Contact acts in every interface: a pair that asks for it alone adds nothing to a law.
         Held* other = find(held.a, held.b);
+        if (other != nullptr && held.bonded) {
+            if (!other->law.empty())
+                throw SceneFailure(held.place, fmt::format("{} and {} are held together by {} already", body(held.a),
+                                                           body(held.b), other->place.text()));
+            *other = held;
+            return;
+        }
+        if (other != nullptr && other->bonded) return;
         if (other == nullptr) {
             held_by_.emplace(std::minmax(held.a, held.b), held_.size());
             held_.push_back(held);
@@ -188,6 +199,7 @@ private:
         const Section& section = *found;
         std::map<std::pair<std::int32_t, std::int32_t>, double> gaps;  // by lower and upper body
         double sum = 0, least = std::numeric_limits<double>::infinity(), most = 0;
+        bool loose = false;
         for (std::size_t i = 0; i < set.lower.size(); ++i) {
             const std::int32_t a = one_body(set.lower[i], set, section.place);
             const std::int32_t b = one_body(set.upper[i], set, section.place);
@@ -196,7 +208,9 @@ private:
                                    fmt::format("an element of \"{}\" lies within {}: nodes connect its two sides "
                                                "elsewhere, and a body has no interface with itself",
                                                set.name, body(a)));
-            const double gap = gap_of(set.lower[i], set.upper[i]);
+            const bool tied = !set.apart.empty() && set.apart[i] >= 0;
+            const double gap = tied ? set.apart[i] : gap_of(set.lower[i], set.upper[i]);
+            loose = loose || tied;
             sum += gap;
             least = std::min(least, gap);
             most = std::max(most, gap);
@@ -221,8 +235,14 @@ private:
                     fmt::format("\"{}\" is {:.6g} thick: the faces beside it are projected upon each "
                                 "other, and it has no volume",
                                 set.name, gap));
-            add({bodies.first, bodies.second, law, set.faces, apart ? gap * allowance : 0.0, !apart, section.place});
+            add({bodies.first, bodies.second, law, set.faces, apart ? gap * allowance : 0.0, !apart && !loose,
+                 section.place});
         }
+        if (loose)
+            deck_.changed.push_back(
+                fmt::format("\"{}\" is tied: the bodies to which it is tied have its law between them, on their own "
+                            "faces where its elements lie",
+                            set.name));
     }
 
     std::string cohesive_law(const MaterialCards& material, double thickness) {
@@ -301,6 +321,70 @@ private:
                 pair.place, fmt::format("no body of \"{}\" touches one of \"{}\"", pair.slave.text, pair.master.text));
     }
 
+    // What a tie joins: bodies by the faces of a surface, or by its nodes; nothing where it belongs to cohesive
+    // elements.
+    std::set<std::int32_t> tied_bodies(const Entry& raw) {
+        const std::string name = surface_name(model_, raw);
+        if (mesh_.face_sets.contains(name)) return bodies_of(name);
+        if (!mesh_.node_sets.contains(name)) throw SceneFailure(raw.place, "surface \"" + raw.text + "\" is not there");
+        std::set<std::int32_t> out;
+        for (const std::int64_t node : mesh_.node_sets.at(name))
+            out.insert(nodes_.of(node).begin(), nodes_.of(node).end());
+        return out;
+    }
+
+    // Bodies that are tied are bonded wherever they touch.
+    void add_tie(const Tie& tie) {
+        const std::set<std::int32_t> slaves = tied_bodies(tie.slave), masters = tied_bodies(tie.master);
+        if (slaves.empty() || masters.empty()) return;  // of cohesive elements, whose faces are those of bodies
+        std::size_t added = 0;
+        for (const std::int32_t b : slaves)
+            for (const std::int32_t a : masters) {
+                if (a == b || (slaves.size() + masters.size() > 2 && !touching_.contains(std::minmax(a, b)))) continue;
+                Held held{a, b, "", "", 0.0, touching_.contains(std::minmax(a, b)), tie.place};
+                held.bonded = true;
+                if (!held.matching) held.gap = tied_gap(tie);
+                require_whole(tie, held);
+                add(held);
+                ++added;
+            }
+        if (added == 0)
+            throw SceneFailure(
+                tie.place, fmt::format("no body of \"{}\" touches another one of \"{}\": ties of several bodies are "
+                                       "imported where their nodes coincide; give each two bodies a tie of their own",
+                                       tie.slave.text, tie.master.text));
+    }
+
+    [[nodiscard]] double tied_gap(const Tie& tie) const {
+        if (tie.tolerance > 0) return tie.tolerance;
+        const std::string slave = surface_name(model_, tie.slave), master = surface_name(model_, tie.master);
+        if (!mesh_.face_sets.contains(slave) || !mesh_.face_sets.contains(master))
+            throw SceneFailure(tie.place,
+                               "surfaces of nodes that do not coincide need POSITION TOLERANCE=, or give "
+                               "sides of elements");
+        return allowance * farthest(mesh_, slave, master);
+    }
+
+    // A bonded interface is bonded everywhere.
+    void require_whole(const Tie& tie, const Held& held) {
+        const std::string slave = surface_name(model_, tie.slave), master = surface_name(model_, tie.master);
+        if (!mesh_.face_sets.contains(slave) || !mesh_.face_sets.contains(master)) return;
+        if (!held.matching) {
+            deck_.changed.push_back(
+                fmt::format("*TIE of \"{}\" and \"{}\": the meshes do not match; {} and {} are bonded "
+                            "wherever they meet",
+                            tie.slave.text, tie.master.text, body(held.a), body(held.b)));
+            return;
+        }
+        const std::int64_t touching = touching_.at(std::minmax(held.a, held.b)).doubled;
+        const std::int64_t tied = places_.coinciding(slave, master);
+        if (tied < touching)
+            throw SceneFailure(tie.place,
+                               fmt::format("{} and {} touch at {} sides, of which {} are tied: bodies are bonded "
+                                           "everywhere or not at all; split the body of \"{}\" there",
+                                           body(held.a), body(held.b), touching, tied, tie.slave.text));
+    }
+
     // The slave surface, or its bonded nodes, determine what adheres; the master must not say less.
     void require_extent(const ContactPair& pair, const InteractionCards& interaction, const std::string& slave,
                         const std::string& master) {
@@ -334,7 +418,9 @@ private:
 
     [[nodiscard]] std::string entry(const Held& held) const {
         std::string out = fmt::format("[[interfaces]]\na = {}\nb = {}\n", body(held.a), body(held.b));
-        out += held.law.empty() ? "contact = true\n" : fmt::format("law = {}\n", toml_text(held.law));
+        out += held.bonded        ? "bonded = true\n"
+               : held.law.empty() ? "contact = true\n"
+                                  : fmt::format("law = {}\n", toml_text(held.law));
         if (!held.matching) out += "projected = true\n";
         if (held.gap > 0) out += fmt::format("gap = {}\n", toml_number(held.gap));
         if (held.open && !held.law.empty()) out += "initial_gap = \"open\"\n";
@@ -347,6 +433,7 @@ private:
     const Model& model_;
     const MeshData& mesh_;
     FaceBodies faces_;
+    NodeBodies nodes_;
     double edge_;
     FacePlaces places_;
     SectionIndex cohesive_sections_;

@@ -52,6 +52,7 @@ const std::set<std::string> passed_over{"AMPLITUDE",
                                         "HOURGLASS STIFFNESS",
                                         "INITIAL CONDITIONS",
                                         "KINEMATIC",
+                                        "MPC",
                                         "MATERIAL",
                                         "NODE OUTPUT",
                                         "ORIENTATION",
@@ -124,6 +125,8 @@ private:
             open_->sections.push_back({open_, card.required("ELSET"), card.place});
         } else if (word == "COHESIVE SECTION") {
             open_->cohesive_sections.push_back({open_, card.required("ELSET"), card.place});
+        } else if (word == "TIE") {
+            take_tie(card);
         } else if (word == "PART") {
             begin_part(card);
         } else if (word == "INSTANCE") {
@@ -338,6 +341,22 @@ private:
             if (side.size() != 2 || side[0] != 'S' || side[1] < '1' || side[1] > '6')
                 throw SceneFailure(line.place, "\"" + line.fields[1] + "\": a side, S1 .. S6, is expected");
             surface.sides.push_back({{open_, line.fields[0], line.place}, static_cast<std::size_t>(side[1] - '1')});
+        }
+    }
+
+    void take_tie(const InpCard& card) {
+        card.only({"NAME", "ADJUST", "POSITION TOLERANCE", "TYPE", "NO ROTATION", "NO THICKNESS", "CONSTRAINT RATIO"});
+        Tie tie;
+        if (card.has("POSITION TOLERANCE")) tie.tolerance = inp_number(card.required("POSITION TOLERANCE"), card.place);
+        if (!(tie.tolerance >= 0))
+            throw SceneFailure(card.place, fmt::format("POSITION TOLERANCE={}: must be >= 0", tie.tolerance));
+        (void)card.first_line();
+        for (const InpLine& line : card.lines) {
+            if (line.fields.size() < 2) throw SceneFailure(line.place, "a slave and a master surface are expected");
+            tie.slave = {open_, line.fields[0], line.place};
+            tie.master = {open_, line.fields[1], line.place};
+            tie.place = line.place;
+            model_.ties.push_back(tie);
         }
     }
 

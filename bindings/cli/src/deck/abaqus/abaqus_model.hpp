@@ -65,6 +65,13 @@ struct Surface {
     Place place;
 };
 
+// *TIE: the nodes of one surface move with the other, onto which they are projected.
+struct Tie {
+    Entry slave, master;
+    double tolerance = 0;  // the largest distance of nodes that are tied; 0: not said
+    Place place;
+};
+
 // A part, an instance of one, or the objects outside of both.
 struct Part {
     std::string name;
@@ -111,6 +118,7 @@ struct Model {
     std::map<std::string, std::unique_ptr<Part>> parts;  // by upper case
     std::vector<std::unique_ptr<Part>> instances;
     std::unordered_map<std::string, const Part*> instance_of;  // by upper case
+    std::vector<Tie> ties;
     std::vector<std::string> notes;
 
     // The parts and instances that make up the mesh.
