@@ -203,8 +203,90 @@ def check_pins():
             "KINEMATIC")
 
 
+def same(what, text, other):
+    rows, reference = history(text)[0], history(other)[0]
+    worst = max(abs(a["reaction"] - b["reaction"]) for a, b in zip(rows, reference, strict=True))
+    expect(worst < 1e-9 and max(row["reaction"] for row in reference) > 1, f"{what}: {worst}")
+
+
+def number(scene, key):
+    return float(next(line for line in scene.splitlines() if line.startswith(key + " = ")).split(" = ")[1])
+
+
+def check_constants():
+    same("TYPE=ISO", deck(elastic="*Elastic, type=ISO\n1000., 0.3\n"), deck())
+    rows = [[100.0, 20.0, 10.0], [20.0, 50.0, 5.0], [10.0, 5.0, 30.0]]
+    scene, _ = imported(deck(elastic="*Elastic, type=ORTHOTROPIC\n100., 20., 50., 10., 5., 30., 7., 8.,\n9.\n"))
+    modulus = [number(scene, f"E{i}") for i in (1, 2, 3)]
+    ratio = {(0, 1): number(scene, "nu12"), (0, 2): number(scene, "nu13"), (1, 2): number(scene, "nu23")}
+    soft = [[1 / modulus[i] if i == j else -ratio[min(i, j), max(i, j)] / modulus[min(i, j)] for j in range(3)]
+            for i in range(3)]
+    worst = max(abs(sum(soft[i][k] * rows[k][j] for k in range(3)) - (i == j)) for i in range(3) for j in range(3))
+    expect(worst < 1e-12, f"compliance times stiffness is 1: {worst}")
+    expect([number(scene, g) for g in ("G12", "G13", "G23")] == [7.0, 8.0, 9.0], "shear moduli")
+    refused(deck(elastic="*Elastic, type=ORTHOTROPIC\n1., 20., 50., 10., 5., 30., 7., 8.,\n9.\n"), "positive definite")
+    refused(deck(elastic="*Elastic, type=ANISO\n1., 2.\n"), "TYPE=ANISO is not imported")
+
+
+def check_contacts():
+    """The same adhesion from pairs and from general contact, and where its stiffness comes from."""
+    law = LAW[LAW.index("*Damage init"):]
+
+    def glued(behavior="*Cohesive behavior\n1e3, 1e3, 1e3\n", pair="*Contact pair, interaction=I\nUpper, Lower\n", of=law):
+        return deck(cohesive=False, extra=SURFACES + "*Surface interaction, name=I\n1.,\n" + behavior + of + pair)
+    wanted = glued()
+    same("cohesive elements", deck(), wanted)
+    same("ORIGINAL CONTACTS", glued(behavior="*Cohesive behavior, eligibility=ORIGINAL CONTACTS\n1e3, 1e3, 1e3\n"), wanted)
+    general = "*Surface interaction, name=Default\n*Contact\n*Contact inclusions, all exterior\n*Contact property assignment\n"
+    same("two surfaces", glued(pair=general + " , , Default\nUpper, Lower, I\n"), wanted)
+    same("everything that touches", glued(pair=general + " , , I\n"), wanted)
+    same("no stiffness", glued(behavior="*Cohesive behavior\n"), glued(behavior="*Cohesive behavior\n1e4, 1e4, 1e4\n"))
+    expect("about 10 times" in imported(glued(behavior="*Cohesive behavior\n"))[1], "which stiffness is said")
+    refused(glued(pair=general + "Upper, , I\n"), r"\*CONTACT PROPERTY ASSIGNMENT", "or none of both")
+    # A surface and a set of nodes of one name.
+    named = wanted.replace("name=Upper", "name=Top").replace("Upper, Lower", "Top, Lower")
+    same("one name", named, wanted)
+    expect('is a node set and a surface: the surface is "Top-surface" here' in imported(named)[1], "and the new name")
+
+
+def check_meshes():
+    """Nodes in other systems, and those that are generated."""
+    polar = [(n, math.hypot(x, y), math.degrees(math.atan2(y, x))) for n, x, y in NODES]
+    same("SYSTEM=C", deck(nodes=polar).replace("*Node\n", "*Node, system=C\n"), deck())
+    scene, _ = imported(deck(nodes=[(n, x, 0.0) if y == 0 else (n, x, y) for n, x, y in NODES]))
+    expect("4 cells" not in scene, "and rectangular ones stay")
+    text = ("*Node, nset=Ends\n1, 0., 0.\n5, 4., 0.\n6, 0., 2.\n10, 4., 2.\n*Ngen, nset=Bottom\n1, 5\n*Ngen, nset=Top\n"
+            "6, 10, 1\n*Element, type=CPS4\n11, 1, 2, 7, 6\n*Elgen, elset=Bar\n11, 4, 1, 10\n"
+            "*Solid section, elset=Bar, material=M\n,\n*Material, name=M\n*Elastic\n1e3, 0.3\n"
+            "*Step\n*Static, direct\n1., 1.\n*Boundary\nBottom, 2\n1, 1\nTop, 2, 2, 0.002\n*End step\n")
+    close("a generated bar", history(text)[0][-1]["reaction"], YOUNG * 4 * 0.002 / 2)
+    refused(text.replace("11, 4, 1, 10", "11, 40000, 40000, 1, 40000, 9"), r"\*ELGEN", "at least|more than")
+    refused(text.replace("6, 10, 1\n", "6, 10, 3\n"), r"\*NGEN", "whole increments")
+    refused(text.replace("11, 4, 1, 10", "12, 4"), r"\*ELGEN: element 12 is not there")
+
+
+def check_loads():
+    bar = tower(True, 4, 4)
+    pressed = bar.replace("Top, 2, 2, 0.002\n", "*Dload\nUp, P3, 5.\n")
+    close("the energy under a pressure", history(pressed)[0][-1]["stored_bulk"], 5.0 ** 2 / (2 * YOUNG) * 8)
+    refused(pressed.replace("P3", "GRAV"), r"\*DLOAD", "GRAV.* is not imported: pressures")
+    moving = deck(static="*Static\n0.1, 2., 1e-5, 0.2\n", loads="").replace(
+        "*End step", "*Boundary, type=VELOCITY\nTop, 2, 2, 0.03\n*End step")
+    later = "*Step\n*Static\n0.1, 1., 1e-5, 0.1\n*End step\n"
+    rows, said = history(moving + later)
+    close("a velocity of 0.03 over 2", rows[10]["load"], 0.06)
+    close("that goes on", rows[-1]["load"], 0.09)
+    expect("VELOCITY: displacements that grow evenly" in said, "is said")
+    same("RIKS", deck(static="*Static, riks\n0.01, 1., 1e-9, 0.1, , 107, 2, 0.03\n"), deck(static="*Static\n"))
+    refused(deck(static="*Static, riks\n", after="*Cload\nTop, 2, 1.\n"), "forces in a step with RIKS")
+
+
 check_increments()
 check_parameters()
 check_ties()
 check_pins()
+check_constants()
+check_contacts()
+check_meshes()
+check_loads()
 finish()

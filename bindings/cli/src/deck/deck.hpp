@@ -141,6 +141,7 @@ struct LoadLine {
     double magnitude = 0;
     Numbers direction{};  // of TRVEC
     std::string amplitude{};
+    bool rate = false;   // of TYPE=VELOCITY: what it adds in a unit of time
     bool named = false;  // ENCASTRE, ..: of its degrees of freedom, those that the node has
 };
 
@@ -151,6 +152,7 @@ struct Step {
     double period = 1;
     bool ramp = true;  // loads without an amplitude grow over the step
     bool new_boundaries = false, new_forces = false, new_distributed = false;  // those before end
+    bool riks = false;
     std::vector<LoadLine> boundaries, forces;
     Place place;
 };
@@ -169,6 +171,8 @@ struct Deck {
     std::vector<LoadLine> held;  // *BOUNDARY before the first step
     std::vector<Step> steps;
     bool general_contact = false;
+    std::string adhering{};  // the interaction of all bodies that touch and have no other; empty: contact
+    Place adhering_place{};
     double width = 0;                  // of a plane mesh; 0: not known yet
     std::vector<std::string> changed;  // for people: what the scene does otherwise
     std::vector<std::string> left_out;

@@ -48,8 +48,9 @@ const std::set<std::string> not_needed{"CONDUCTIVITY",
                                        "TIME POINTS",
                                        "TRANSVERSE SHEAR STIFFNESS"};
 // Keywords of the mesh, which abaqus_cards.cpp reads.
-const std::set<std::string> of_mesh{"NODE",     "ELEMENT",  "NSET",         "ELSET",    "SURFACE",      "PART",
-                                    "END PART", "ASSEMBLY", "END ASSEMBLY", "INSTANCE", "END INSTANCE", "TIE"};
+const std::set<std::string> of_mesh{"NODE",         "ELEMENT",  "NSET",     "ELSET",        "SURFACE",
+                                    "PART",         "END PART", "ASSEMBLY", "END ASSEMBLY", "INSTANCE",
+                                    "END INSTANCE", "TIE",      "NGEN",     "ELGEN"};
 // Keywords whose effect the scene has in another way; each is reported once.
 const std::pair<const char*, const char*> otherwise[] = {
     {"DAMAGE STABILIZATION", "*DAMAGE STABILIZATION: no viscosity; jumps of the crack are found by energy"},
@@ -159,13 +160,17 @@ private:
         card.only({"TYPE", "MODULI", "DEPENDENCIES"});
         require_constant(card);
         MaterialCards& m = material(card);
-        m.elastic = card.has("TYPE") ? upper(card.required("TYPE")) : "ISOTROPIC";
-        const std::size_t count = m.elastic == "ISOTROPIC"               ? 2
-                                  : m.elastic == "TRACTION"              ? 3
-                                  : m.elastic == "LAMINA"                ? 6
-                                  : m.elastic == "ENGINEERING CONSTANTS" ? 9
-                                                                         : 0;
-        if (count == 0) card.refuse("TYPE", m.elastic, "ISOTROPIC, ENGINEERING CONSTANTS, LAMINA or TRACTION");
+        static const std::pair<const char*, std::size_t> types[] = {
+            {"ISOTROPIC", 2}, {"TRACTION", 3}, {"LAMINA", 6}, {"ENGINEERING CONSTANTS", 9}, {"ORTHOTROPIC", 9}};
+        const std::string type = card.has("TYPE") ? upper(card.required("TYPE")) : "ISOTROPIC";
+        std::size_t count = 0;
+        // Three letters of a word are enough.
+        for (const auto& [name, constants] : types)
+            if (type.size() >= 3 && std::string_view(name).starts_with(type)) {
+                m.elastic = name;
+                count = constants;
+            }
+        if (count == 0) card.refuse("TYPE", type, "ISOTROPIC, ORTHOTROPIC, ENGINEERING CONSTANTS, LAMINA or TRACTION");
         m.constants = card.row();
         // A temperature may follow, and another row would be for another temperature.
         if (m.constants.size() < count || m.constants.size() > count + 1)
@@ -231,10 +236,8 @@ private:
         interaction.cohesive = true;
         interaction.eligibility = upper(card.parameter("ELIGIBILITY"));
         interaction.stiffness = card.row();
-        if (interaction.stiffness.size() < 2)
-            throw SceneFailure(card.place,
-                               "no stiffness: Abaqus would take that of its contact; give Knn, Kss, Ktt, about "
-                               "50 E3/t with the thickness t of a layer");
+        if (interaction.stiffness.empty()) return;  // that of contact
+        if (interaction.stiffness.size() < 2) throw SceneFailure(card.place, "Knn, Kss, Ktt are expected, or no line");
         interaction.stiffness.resize(3, interaction.stiffness[1]);
     }
 
@@ -286,10 +289,11 @@ private:
         section.thickness = card.has("THICKNESS") ? upper(card.required("THICKNESS")) : "SPECIFIED";
         if (section.thickness != "SPECIFIED" && section.thickness != "GEOMETRY")
             card.refuse("THICKNESS", section.thickness, "SPECIFIED or GEOMETRY");
-        if (card.has("STACK DIRECTION"))
-            throw SceneFailure(card.place,
-                               "STACK DIRECTION is not imported: the first half of the nodes of a cohesive "
-                               "element is one face, the second half the other");
+        if (card.has("STACK DIRECTION") && card.required("STACK DIRECTION") != "3")
+            throw SceneFailure(
+                card.place, "STACK DIRECTION=" + card.required("STACK DIRECTION") +
+                                " is not imported: 3 is, with which the first half of the nodes of a cohesive element "
+                                "is one face, the second half the other; number the nodes so");
         if (!card.lines.empty()) {
             const InpLine& line = card.lines[0];
             if (!line.fields.empty() && !line.fields[0].empty())
@@ -362,12 +366,22 @@ private:
 
     // The properties of contact that is no pair have no meaning here unless surfaces adhere.
     void take_assignment(const InpCard& card) {
+        card.only({});
         for (const InpLine& line : card.lines) {
-            const std::string& name = line.fields.back();
-            if (named(deck_.interactions, name, "surface interaction", line.place).cohesive)
+            if (line.fields.size() != 3)
+                throw SceneFailure(line.place, "two surfaces, or none, and an interaction are expected");
+            const std::string &first = line.fields[0], &second = line.fields[1], &name = line.fields[2];
+            if (!named(deck_.interactions, name, "surface interaction", line.place).cohesive) continue;
+            if (first.empty() && second.empty()) {
+                deck_.adhering = name;
+                deck_.adhering_place = line.place;
+                continue;
+            }
+            if (first.empty() || second.empty() || upper(first) == upper(second))
                 throw SceneFailure(line.place,
-                                   "general contact with *COHESIVE BEHAVIOR is not imported: give the "
-                                   "surfaces that adhere as *CONTACT PAIR");
+                                   "two surfaces of different bodies are expected where they adhere, or none of both");
+            deck_.pairs.push_back(
+                {name, {&root_, first, line.place}, {&root_, second, line.place}, "", 0.0, line.place});
         }
     }
 

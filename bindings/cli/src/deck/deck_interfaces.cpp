@@ -22,6 +22,10 @@ namespace {
 
 // A small part more than the distance of the faces, so that rounding of coordinates does not part them.
 constexpr double allowance = 1.001;
+// Stiffness of an interface whose deck gives none, in stiffnesses of a cell: that of Abaqus' penalty contact, as its
+// manual says; half and twice of it change the compliance of an interface by a tenth of a cell's (ctest -R
+// cli_deck_keywords).
+constexpr double penalty_factor = 10;
 
 struct Held {
     std::int32_t a = 0, b = 0;
@@ -92,6 +96,7 @@ public:
         for (const CohesiveSet& set : mesh_.cohesive) add_cohesive(set);
         for (const ContactPair& pair : deck_.pairs) add_pair(pair);
         for (const Tie& tie : model_.ties) add_tie(tie);
+        if (!deck_.adhering.empty()) add_everywhere();
         for (const auto& [key, pair] : touching_) require_one_way(pair);
         std::string out = laws_;
         for (const Held& held : held_) out += entry(held);
@@ -289,8 +294,7 @@ private:
         const std::string master = faces_named(pair.master);
         std::string law;
         if (interaction.cohesive) {
-            law = new_law("interaction", interaction.name, interaction.stiffness, 1.0, interaction.damage,
-                          interaction.place);
+            law = interaction_law(interaction);
             require_extent(pair, interaction, slave, master);
         }
         const std::set<std::int32_t>&slaves = bodies_of(slave), &masters = bodies_of(master);
@@ -321,8 +325,7 @@ private:
                 pair.place, fmt::format("no body of \"{}\" touches one of \"{}\"", pair.slave.text, pair.master.text));
     }
 
-    // What a tie joins: bodies by the faces of a surface, or by its nodes; nothing where it belongs to cohesive
-    // elements.
+    // Returns the bodies that a tie joins; none where its surface is of cohesive elements.
     std::set<std::int32_t> tied_bodies(const Entry& raw) {
         const std::string name = surface_name(model_, raw);
         if (mesh_.face_sets.contains(name)) return bodies_of(name);
@@ -385,6 +388,45 @@ private:
                                            body(held.a), body(held.b), touching, tied, tie.slave.text));
     }
 
+    // General contact whose property adheres: all bodies that touch with nodes of their own.
+    void add_everywhere() {
+        const InteractionCards& interaction =
+            named(deck_.interactions, deck_.adhering, "surface interaction", deck_.adhering_place);
+        if (!interaction.eligibility.empty() && interaction.eligibility != "CURRENT CONTACTS" &&
+            interaction.eligibility != "ORIGINAL CONTACTS")
+            throw SceneFailure(interaction.place, "ELIGIBILITY=" + interaction.eligibility +
+                                                      " needs surfaces in *CONTACT PROPERTY ASSIGNMENT");
+        for (const auto& [key, pair] : touching_)
+            if (pair.shared == 0 && find(pair.a, pair.b) == nullptr)
+                add({pair.a, pair.b, interaction_law(interaction), "", 0.0, true, deck_.adhering_place});
+    }
+
+    std::string interaction_law(const InteractionCards& interaction) {
+        Numbers stiffness = interaction.stiffness;
+        if (stiffness.empty()) {
+            stiffness.assign(3, penalty_factor * softest() / edge_);
+            say_once(deck_.changed,
+                     fmt::format("interaction \"{}\": no stiffness; here that of Abaqus' contact, about {} "
+                                 "times that of a cell: {:.6g}",
+                                 interaction.name, penalty_factor, stiffness[0]));
+        }
+        return new_law("interaction", interaction.name, stiffness, 1.0, interaction.damage, interaction.place);
+    }
+
+    // The least Young's modulus of the materials of bodies.
+    [[nodiscard]] double softest() const {
+        double out = std::numeric_limits<double>::infinity();
+        for (const MaterialCards& m : deck_.materials) {
+            if (m.constants.empty() || m.elastic == "TRACTION") continue;
+            const std::size_t moduli = m.elastic == "ISOTROPIC" ? 1 : m.elastic == "LAMINA" ? 2 : 3;
+            // D1111, D2222 and D3333 stand at 0, 2 and 5.
+            const bool stiffnesses = m.elastic == "ORTHOTROPIC";
+            for (std::size_t i = 0; i < moduli; ++i)
+                out = std::min(out, m.constants.at(stiffnesses ? (i + 1) * (i + 2) / 2 - 1 : i));
+        }
+        return std::isfinite(out) ? out : 1.0;
+    }
+
     // The slave surface, or its bonded nodes, determine what adheres; the master must not say less.
     void require_extent(const ContactPair& pair, const InteractionCards& interaction, const std::string& slave,
                         const std::string& master) {
@@ -393,9 +435,10 @@ private:
             throw SceneFailure(pair.place,
                                "ELIGIBILITY=SPECIFIED CONTACTS and *INITIAL CONDITIONS, TYPE=CONTACT are "
                                "imported together: one of them is missing");
-        if (!interaction.eligibility.empty() && !specified && interaction.eligibility != "CURRENT CONTACTS")
+        if (!interaction.eligibility.empty() && !specified && interaction.eligibility != "CURRENT CONTACTS" &&
+            interaction.eligibility != "ORIGINAL CONTACTS")
             throw SceneFailure(interaction.place, "ELIGIBILITY=" + interaction.eligibility +
-                                                      " is not imported: CURRENT and SPECIFIED CONTACTS are");
+                                                      " is not imported: CURRENT, ORIGINAL and SPECIFIED CONTACTS are");
         const auto& faces = mesh_.face_sets.at(slave);
         const auto opposite = places_.coinciding(slave, master);
         if (opposite == 0)

@@ -13,13 +13,12 @@
 #include <fmt/format.h>
 
 #include "deck/deck_bodies.hpp"
+#include "deck/deck_points.hpp"
 #include "text/toml_text.hpp"
 
 namespace cli::abaqus {
 
 namespace {
-
-using Points = std::vector<std::pair<double, double>>;  // instants and values
 
 constexpr std::int64_t most_single_nodes = 200;
 constexpr double most_increments = 100000;
@@ -27,34 +26,6 @@ constexpr double most_increments = 100000;
 // thought; half or twice of it is one halving more or less (ctest -R cli_decks).
 constexpr double shortest_substep = 1e-6;
 constexpr std::size_t most_points = 10000000;  // of all histories: each line may follow a long amplitude
-
-// The first point at x or behind.
-Points::const_iterator first_from(const Points& points, double x) {
-    return std::partition_point(points.begin(), points.end(), [&](const auto& point) { return point.first < x; });
-}
-
-double between(const Points& points, double x) {
-    const auto at = first_from(points, x);
-    if (at == points.begin()) return points.front().second;
-    if (at == points.end()) return points.back().second;
-    const auto& [a, fa] = *std::prev(at);
-    const auto& [b, fb] = *at;
-    return fa + (fb - fa) * (x - a) / (b - a);
-}
-
-// The values of an amplitude as straight lines; a SMOOTH STEP, whose parts are polynomials of fifth order, in 16 each.
-Points lines_of(const Amplitude& amplitude) {
-    if (!amplitude.smooth) return amplitude.points;
-    Points out{amplitude.points.front()};
-    for (std::size_t i = 1; i < amplitude.points.size(); ++i)
-        for (int k = 1; k <= 16; ++k) {
-            const double x = k / 16.0;
-            const auto& [a, fa] = amplitude.points[i - 1];
-            const auto& [b, fb] = amplitude.points[i];
-            out.emplace_back(a + (b - a) * x, fa + (fb - fa) * x * x * x * (10 - 15 * x + 6 * x * x));
-        }
-    return out;
-}
 
 // Holds what one line of the deck prescribes, over all steps. Behind its last point it is constant.
 struct History {
@@ -264,7 +235,7 @@ private:
     }
     [[nodiscard]] bool in_total_time(const LoadLine& line) const {
         const Amplitude* amplitude = amplitude_of(line);
-        return amplitude != nullptr && amplitude->total_time;
+        return line.rate || (amplitude != nullptr && amplitude->total_time);
     }
 
     // Continues from the last point to the end of the step.
@@ -272,7 +243,9 @@ private:
         const double last = history.points.back().second;
         const Amplitude* amplitude = amplitude_of(line);
         Points next;
-        if (amplitude == nullptr) {
+        if (line.rate) {
+            next = {{time_, last}, {end, last + line.magnitude * step.period}};
+        } else if (amplitude == nullptr) {
             next = {{time_, step.ramp ? last : line.magnitude}, {end, line.magnitude}};
         } else {
             const double origin = amplitude->total_time ? 0.0 : time_;

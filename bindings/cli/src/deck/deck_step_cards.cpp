@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "deck/abaqus/abaqus_cards.hpp"
+
 namespace cli::abaqus {
 
 namespace {
@@ -33,8 +35,9 @@ bool StepReader::take(const InpCard& card) {
     static const std::pair<const char*, Take> known[] = {
         {"AMPLITUDE", &StepReader::take_amplitude}, {"BOUNDARY", &StepReader::take_boundary},
         {"CLOAD", &StepReader::take_forces},        {"DSLOAD", &StepReader::take_distributed},
-        {"DYNAMIC", &StepReader::take_procedure},   {"END STEP", &StepReader::end_step},
-        {"STATIC", &StepReader::take_procedure},    {"STEP", &StepReader::take_step},
+        {"DLOAD", &StepReader::take_pressures},     {"DYNAMIC", &StepReader::take_procedure},
+        {"END STEP", &StepReader::end_step},        {"STATIC", &StepReader::take_procedure},
+        {"STEP", &StepReader::take_step},
     };
     for (const auto& [keyword, function] : known)
         if (card.keyword == keyword) {
@@ -89,8 +92,14 @@ void StepReader::end_step(const InpCard&) { in_step_ = false; }
 
 void StepReader::take_procedure(const InpCard& card) {
     Step& s = step(card);
-    if (card.has("RIKS"))
-        throw SceneFailure(card.place, "RIKS is not imported: prescribe displacements; jumps are found by energy");
+    if (card.has("RIKS")) {
+        s.riks = true;
+        s.increment = s.period / free_steps;
+        say_once(deck_.changed,
+                 "RIKS: load steps to the displacements of the step (load proportionality factor 1), over a time of 1; "
+                 "jumps are found by energy");
+        return;
+    }
     if (card.keyword == "DYNAMIC") {
         if (upper(card.parameter("APPLICATION")) != "QUASI-STATIC")
             throw SceneFailure(card.place, "dynamic steps are not imported, but for APPLICATION=QUASI-STATIC");
@@ -133,8 +142,13 @@ bool StepReader::renews(const InpCard& card) {
 void StepReader::take_boundary(const InpCard& card) {
     card.only({"AMPLITUDE", "OP", "TYPE", "FIXED"});
     if (renews(card)) step(card).new_boundaries = true;
-    if (card.has("TYPE") && upper(card.required("TYPE")) != "DISPLACEMENT")
-        card.refuse("TYPE", card.required("TYPE"), "DISPLACEMENT");
+    const std::string type = card.has("TYPE") ? upper(card.required("TYPE")) : "DISPLACEMENT";
+    if (type != "DISPLACEMENT" && type != "VELOCITY") card.refuse("TYPE", type, "DISPLACEMENT or VELOCITY");
+    const bool rate = type == "VELOCITY";
+    if (rate && card.has("AMPLITUDE"))
+        throw SceneFailure(card.place, "VELOCITY with AMPLITUDE is not imported: give displacements, its integral");
+    if (rate)
+        say_once(deck_.changed, "VELOCITY: displacements that grow evenly, by the velocity times the time of the step");
     if (card.has("FIXED")) throw SceneFailure(card.place, "FIXED is not imported: give the displacement");
     for (const InpLine& line : card.lines) {
         if (line.fields.size() < 2)
@@ -142,6 +156,7 @@ void StepReader::take_boundary(const InpCard& card) {
         LoadLine load;
         load.where = {&root_, line.fields[0], line.place};
         load.amplitude = card.parameter("AMPLITUDE");
+        load.rate = rate;
         for (const auto& [name, dofs] : named_supports)
             if (upper(line.fields[1]) == name) {
                 load.named = true;
@@ -164,9 +179,18 @@ void StepReader::take_boundary(const InpCard& card) {
     }
 }
 
+// With forces alone the factor to which RIKS goes is not known.
+void StepReader::require_displacements(const InpCard& card) {
+    if (step(card).riks && !card.lines.empty())
+        throw SceneFailure(card.place,
+                           "forces in a step with RIKS are not imported: prescribe displacements, with which jumps are "
+                           "found by energy");
+}
+
 void StepReader::take_forces(const InpCard& card) {
     card.only({"AMPLITUDE", "OP"});
     if (renews(card)) step(card).new_forces = true;
+    require_displacements(card);
     for (const InpLine& line : card.lines) {
         if (line.fields.size() < 3)
             throw SceneFailure(line.place, "a node or set, a degree of freedom and a force are expected");
@@ -185,6 +209,7 @@ void StepReader::take_distributed(const InpCard& card) {
     card.only({"AMPLITUDE", "OP", "FOLLOWER", "ORIENTATION", "CONSTANT RESULTANT"});
     if (renews(card)) step(card).new_distributed = true;
     if (card.has("ORIENTATION")) throw SceneFailure(card.place, "ORIENTATION is not imported");
+    require_displacements(card);
     for (const InpLine& line : card.lines) {
         if (line.fields.size() < 3)
             throw SceneFailure(line.place, "a surface, P or TRVEC, and a magnitude are expected");
@@ -196,6 +221,27 @@ void StepReader::take_distributed(const InpCard& card) {
             throw SceneFailure(line.place, "\"" + line.fields[1] + "\" is not imported: P and TRVEC are");
         load.magnitude = inp_number(line.fields[2], line.place);
         if (load.distributed == "TRVEC") load.direction = line.numbers(3);
+        step(card).forces.push_back(std::move(load));
+    }
+}
+
+void StepReader::take_pressures(const InpCard& card) {
+    card.only({"AMPLITUDE", "OP"});
+    if (renews(card)) step(card).new_distributed = true;
+    require_displacements(card);
+    for (const InpLine& line : card.lines) {
+        if (line.fields.size() != 3)
+            throw SceneFailure(line.place,
+                               "an element or a set of them, a side (P1 .. P6) and a pressure are expected");
+        LoadLine load;
+        const std::string surface = pressed_surface(line.fields[0], line.fields[1]);
+        if (surface.empty())
+            throw SceneFailure(line.place,
+                               "\"" + line.fields[1] + "\" is not imported: pressures on sides, P1 .. P6, are");
+        load.where = {&root_, surface, line.place};
+        load.amplitude = card.parameter("AMPLITUDE");
+        load.distributed = "P";
+        load.magnitude = inp_number(line.fields[2], line.place);
         step(card).forces.push_back(std::move(load));
     }
 }

@@ -27,6 +27,8 @@ private:
     void take_boundary(const InpCard& card);
     void take_forces(const InpCard& card);
     void take_distributed(const InpCard& card);
+    void take_pressures(const InpCard& card);
+    void require_displacements(const InpCard& card);
     Step& step(const InpCard& card);
     std::vector<LoadLine>& boundaries();
     // OP=NEW: what earlier steps have prescribed ends, unless this step gives it again.

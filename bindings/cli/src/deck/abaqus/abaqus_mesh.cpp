@@ -152,9 +152,10 @@ private:
                 if (!nodes.empty()) mesh_.node_sets[full_name(*scope, set.name)].assign(nodes.begin(), nodes.end());
             }
             for (const auto& [key, surface] : scope->surfaces) {
-                const std::string name = full_name(*scope, surface.name);
-                if (mesh_.node_sets.contains(name))
-                    throw SceneFailure(surface.place, "\"" + name + "\" is a node set too: give it a name of its own");
+                const std::string name = surface_set_name(*scope, surface), own = full_name(*scope, surface.name);
+                if (name != own)
+                    mesh_.notes.push_back(
+                        fmt::format("\"{}\" is a node set and a surface: the surface is \"{}\" here", own, name));
                 std::set<std::int64_t> nodes;
                 for (const Entry& entry : surface.nodes) model_.collect_nodes(entry, nodes);
                 std::vector<std::array<std::int64_t, 9>> faces;
@@ -221,7 +222,7 @@ private:
         const auto surface = entry.scope->surfaces.find(upper(entry.text));
         if (surface == entry.scope->surfaces.end())
             throw SceneFailure(raw.place, "surface \"" + raw.text + "\" is not there");
-        return full_name(*entry.scope, surface->second.name);
+        return surface_set_name(*entry.scope, surface->second);
     }
 
     // The ties between a surface of nodes, as that of cohesive elements is, and one of sides of cells.

@@ -84,7 +84,7 @@ struct Part {
     std::map<std::string, Surface> surfaces;
     std::vector<Entry> sections;  // their element sets
     std::vector<Entry> cohesive_sections;
-    bool rotated = false;         // an instance: by its second data line
+    std::array<std::array<double, 3>, 3> turned{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  // where an instance has x, y, z
     std::size_t order = 0;        // position among the parts of the mesh
     std::int64_t first_node = 0;  // number in the mesh
 };
@@ -152,5 +152,9 @@ constexpr std::int64_t most_copies = 20000000;
 std::int64_t node_number(const Part& scope, std::int64_t id, const Place& place);
 // The name in the scene of an object of a part or an instance.
 std::string full_name(const Part& scope, const std::string& name);
+// The name of the set of a surface: with an ending where a node set has its name.
+std::string surface_set_name(const Part& scope, const Surface& surface);
+// A direction of a part as its instance has it.
+std::array<double, 3> turned_by(const Part& instance, const std::array<double, 3>& direction);
 
 }  // namespace cli::abaqus
