@@ -281,8 +281,51 @@ def check_loads():
     refused(deck(static="*Static, riks\n", after="*Cload\nTop, 2, 1.\n"), "forces in a step with RIKS")
 
 
+def check_temperatures():
+    """Free expansion, and the stress of what is held."""
+    heat = "*Initial conditions, type=TEMPERATURE\nEvery, 180.\n"
+    change = "*Temperature\nEvery, 20.\n"
+    sets = "*Elset, elset=Cells\nLow, Up\n*Nset, nset=Every, elset=Cells\n"
+    strain = 1e-5 * 160
+    for plane in (True, False):
+        def bar(between, at=change, alpha="*Expansion\n1e-5,\n", before=heat):
+            text = tower(plane, 4, 4, extra=alpha + sets + before)
+            top = "Top, 2, 2, 0.002\n" if plane else "Top, 3, 3, 0.002\n"
+            return text.replace(top, between + at)
+        held = bar("Top, 2\n" if plane else "Top, 3\n")
+        rows, _ = history(held)
+        stored = rows[-1]["stored_bulk"]
+        close(f"{plane=}: a held bar that cools", stored, YOUNG * strain ** 2 / 2 * (8 if plane else 16))
+        close(f"{plane=}: a free one", history(bar(""))[0][-1]["stored_bulk"], 0.0)
+        for same_as, text in (("an amplitude", bar("Top, 2\n" if plane else "Top, 3\n", at="*Temperature, amplitude=A\n"
+                                                   "Every, 1.\n").replace("*Step", "*Amplitude, name=A\n0., 180., 1., 20.\n"
+                                                                          "*Step", 1)),
+                              ("ORTHO", held.replace("*Expansion\n1e-5,", "*Expansion, type=ORTHO\n1e-5, 1e-5, 1e-5"))):
+            close(f"{plane=}: {same_as}", history(text)[0][-1]["stored_bulk"], stored)
+        scene, _ = imported(bar("", at=""))
+        expect("[[thermal]]" not in scene, "a constant temperature does nothing")
+    expect("[[thermal]]" not in imported(bar("", at="*Temperature\nEvery, 180.\n"))[0], "nor does one that stays")
+    refused(bar("", at="*Temperature\nTop, 20.\n"), r"deck\.inp:\d+: \*TEMPERATURE", '"Top" has .* of the .* nodes of "Up"')
+    refused(bar("", at="*Temperature\nEvery, 20., 30.\n"), "through the thickness")
+    refused(bar("", alpha="*Expansion, type=ANISO\n1e-5,\n"), r"\*EXPANSION: TYPE=ANISO")
+
+
+def check_messages():
+    """What a file is told that is no deck."""
+    text = tower(True, 4, 4)
+    expect_error(delam("run", write(text[:text.index("*Step")], "mesh.inp"), "--out", os.path.join(folder(), "out")), 2,
+                 "as its mesh.file")
+    for start, program in (("/BATCH\n/PREP7\nET,1,185\n", "ANSYS"), ("SOL 101\nCEND\n", "Nastran")):
+        expect_error(delam("check", write(start, "other.inp")), 2, "no input file of Abaqus", program)
+    part = text.replace("*Node\n", "*Part, name=P\n*Node\n", 1)
+    part = part.replace("*Material, name=M", "*End part\n*Material, name=M", 1)
+    refused(part, 'part "P" is in no \\*INSTANCE: give it one')
+
+
 check_increments()
 check_parameters()
+check_temperatures()
+check_messages()
 check_ties()
 check_pins()
 check_constants()

@@ -61,7 +61,8 @@ struct MaterialCards {
     std::string name;
     std::string elastic;  // TYPE of *ELASTIC; empty: none
     Numbers constants;
-    DamageCards damage;
+    Numbers expansion{};  // one value, or one for each axis; empty: none
+    DamageCards damage{};
     Place place;
 };
 
@@ -153,7 +154,7 @@ struct Step {
     bool ramp = true;  // loads without an amplitude grow over the step
     bool new_boundaries = false, new_forces = false, new_distributed = false;  // those before end
     bool riks = false;
-    std::vector<LoadLine> boundaries, forces;
+    std::vector<LoadLine> boundaries, forces, temperatures;
     Place place;
 };
 
@@ -169,6 +170,7 @@ struct Deck {
     std::vector<Pin> pins;
     std::vector<Coupling> couplings;
     std::vector<LoadLine> held;  // *BOUNDARY before the first step
+    std::vector<LoadLine> initial_temperatures;
     std::vector<Step> steps;
     bool general_contact = false;
     std::string adhering{};  // the interaction of all bodies that touch and have no other; empty: contact

@@ -16,37 +16,21 @@ namespace cli::abaqus {
 namespace {
 
 // Requests for output, settings of a solver, and what quasi-static steps without temperatures do not need.
-const std::set<std::string> not_needed{"CONDUCTIVITY",
-                                       "CONTACT CONTROLS",
-                                       "CONTACT FILE",
-                                       "CONTACT OUTPUT",
-                                       "CONTACT PRINT",
-                                       "CONTROLS",
-                                       "DAMPING",
-                                       "DENSITY",
-                                       "EL FILE",
-                                       "EL PRINT",
-                                       "ELEMENT OUTPUT",
-                                       "ENERGY OUTPUT",
-                                       "ENERGY PRINT",
-                                       "EXPANSION",
-                                       "FILE FORMAT",
-                                       "FILE OUTPUT",
-                                       "HOURGLASS STIFFNESS",
-                                       "MONITOR",
-                                       "NODE FILE",
-                                       "NODE OUTPUT",
-                                       "NODE PRINT",
-                                       "OUTPUT",
-                                       "PHYSICAL CONSTANTS",
-                                       "PREPRINT",
-                                       "PRINT",
-                                       "RESTART",
-                                       "SECTION CONTROLS",
-                                       "SOLVER CONTROLS",
-                                       "SPECIFIC HEAT",
-                                       "TIME POINTS",
-                                       "TRANSVERSE SHEAR STIFFNESS"};
+const std::set<std::string> not_needed{"CONDUCTIVITY",    "CONTACT CONTROLS",
+                                       "CONTACT FILE",    "CONTACT OUTPUT",
+                                       "CONTACT PRINT",   "CONTROLS",
+                                       "DAMPING",         "DENSITY",
+                                       "EL FILE",         "EL PRINT",
+                                       "ELEMENT OUTPUT",  "ENERGY OUTPUT",
+                                       "ENERGY PRINT",    "FILE FORMAT",
+                                       "FILE OUTPUT",     "HOURGLASS STIFFNESS",
+                                       "MONITOR",         "NODE FILE",
+                                       "NODE OUTPUT",     "NODE PRINT",
+                                       "OUTPUT",          "PHYSICAL CONSTANTS",
+                                       "PREPRINT",        "PRINT",
+                                       "RESTART",         "SECTION CONTROLS",
+                                       "SOLVER CONTROLS", "SPECIFIC HEAT",
+                                       "TIME POINTS",     "TRANSVERSE SHEAR STIFFNESS"};
 // Keywords of the mesh, which abaqus_cards.cpp reads.
 const std::set<std::string> of_mesh{"NODE",         "ELEMENT",  "NSET",     "ELSET",        "SURFACE",
                                     "PART",         "END PART", "ASSEMBLY", "END ASSEMBLY", "INSTANCE",
@@ -67,7 +51,9 @@ public:
         for (const InpCard& card : cards) take(card);
         constraints_.finish();
         if (deck_.steps.empty())
-            throw SceneFailure({path_, "", 0}, "there is no *STEP in it: a deck with loads is expected");
+            throw SceneFailure({path_, "", 0},
+                               "there is no *STEP in it: a deck with loads is expected; a "
+                               "mesh is for a scene, as its mesh.file (SCENE.md, [mesh])");
         for (const std::string& name : left_) deck_.left_out.push_back("*" + name);
         return std::move(deck_);
     }
@@ -101,6 +87,7 @@ private:
             {"DAMAGE EVOLUTION", &DeckReader::take_evolution},
             {"DAMAGE INITIATION", &DeckReader::take_initiation},
             {"ELASTIC", &DeckReader::take_elastic},
+            {"EXPANSION", &DeckReader::take_expansion},
             {"HEADING", &DeckReader::take_heading},
             {"INITIAL CONDITIONS", &DeckReader::take_initial},
             {"MATERIAL", &DeckReader::take_material},
@@ -121,7 +108,7 @@ private:
     }
 
     void take_material(const InpCard& card) {
-        deck_.materials.push_back({card.required("NAME"), "", {}, {}, card.place});
+        deck_.materials.push_back({card.required("NAME"), "", {}, {}, {}, card.place});
         damage_of_ = &DeckReader::damage_of_material;
     }
 
@@ -177,6 +164,23 @@ private:
             throw SceneFailure(card.place, fmt::format("{} numbers: {} constants, at one temperature, are expected",
                                                        m.constants.size(), count));
         m.constants.resize(count);
+    }
+
+    // The strain from the initial temperature on does not depend on ZERO.
+    void take_expansion(const InpCard& card) {
+        card.only({"TYPE", "ZERO", "DEPENDENCIES"});
+        require_constant(card);
+        require_one_line(card);
+        const std::string type = card.has("TYPE") ? upper(card.required("TYPE")) : "ISO";
+        const std::size_t count = type == "ISO" ? 1 : type == "ORTHO" ? 3 : 0;
+        if (count == 0) card.refuse("TYPE", type, "ISO or ORTHO");
+        Numbers values = card.first_line().numbers();
+        // A temperature may follow.
+        if (values.size() != count && values.size() != count + 1)
+            throw SceneFailure(card.place,
+                               fmt::format("{} numbers: {} expected", values.size(), count == 1 ? "1 is" : "3 are"));
+        values.resize(count);
+        material(card).expansion = std::move(values);
     }
 
     void take_initiation(const InpCard& card) {
@@ -387,9 +391,12 @@ private:
 
     void take_initial(const InpCard& card) {
         const std::string type = upper(card.required("TYPE"));
+        if (type == "TEMPERATURE") return StepReader::take_temperatures(card, root_, deck_.initial_temperatures);
         if (type != "CONTACT")
             throw SceneFailure(card.place,
-                               "TYPE=" + type + " is not imported: CONTACT (the set of nodes that adhere) is");
+                               "TYPE=" + type +
+                                   " is not imported: CONTACT (the set of nodes that adhere) and TEMPERATURE "
+                                   "are");
         for (const InpLine& line : card.lines) {
             if (line.fields.size() != 3)
                 throw SceneFailure(line.place, "slave, master and a set of nodes are expected");

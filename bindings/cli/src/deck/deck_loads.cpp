@@ -14,6 +14,7 @@
 
 #include "deck/deck_bodies.hpp"
 #include "deck/deck_points.hpp"
+#include "deck/deck_temperatures.hpp"
 #include "text/toml_text.hpp"
 
 namespace cli::abaqus {
@@ -59,13 +60,14 @@ struct Pattern {
 class Loads {
 public:
     Loads(Deck& deck, const Model& model, const MeshData& mesh, References& references)
-        : deck_(deck), model_(model), mesh_(mesh), references_(references) {}
+        : deck_(deck), model_(model), mesh_(mesh), references_(references), temperatures_(deck, model, mesh) {}
 
     std::string text() {
         for (const LoadLine& line : deck_.held)
             for (int dof = line.first; dof <= line.last; ++dof) at_one(line, false, dof);
         for (const Step& step : deck_.steps) add_step(step);
         for (auto& [key, history] : histories_) history.hold_until(time_);
+        for (auto& [body, history] : heated_) history.hold_until(time_);
         say_width();
         std::string out = time_text();
         std::string loads;
@@ -105,7 +107,9 @@ public:
             for (const std::size_t axis : all) axes.emplace_back(axis_names[axis]);
             out += fmt::format("[[supports]]\n{}fix = {}\n\n", place, toml_list(axes));
         }
-        return patterns_ + out + loads;
+        std::map<std::int32_t, Points> changes;
+        for (auto& [body, history] : heated_) changes.emplace(body, std::move(history.points));
+        return patterns_ + out + loads + thermal_text(changes, mesh_);
     }
 
 private:
@@ -182,21 +186,18 @@ private:
                         throw SceneFailure(line.where.place,
                                            "TRVEC in another direction than before is not imported: "
                                            "give the surface another name");
-                    history->follows = &line;
-                    // The last of several lines of a step for the same place counts.
-                    if (history->given == step_) {
-                        history->points.resize(history->before);
-                    } else {
-                        history->given = step_;
-                        history->hold_until(time_);
-                        history->before = history->points.size();
-                    }
-                    extend(*history, step, line, end);
+                    follow(*history, step, line, end);
                     if (in_total_time(line))
                         in_total_time_.emplace(history->number, history);
                     else
                         in_total_time_.erase(history->number);
                 }
+        for (const LoadLine& line : step.temperatures)
+            for (const std::int32_t body : temperatures_.bodies(line.where)) {
+                const auto [at, inserted] = heated_.try_emplace(body);
+                if (inserted) at->second.points = {{0.0, temperatures_.initial(body)}};
+                follow(at->second, step, line, end);
+            }
         for (const auto& [number, history] : ending) {
             if (history->given == step_) continue;
             if (!history->force)
@@ -227,6 +228,19 @@ private:
         if (step.least_increment > 0)
             substep_ = std::min(substep_, std::max(step.least_increment / sizes_.back(), shortest_substep));
         time_ = end;
+    }
+
+    // The last of several lines of a step for the same place counts.
+    void follow(History& history, const Step& step, const LoadLine& line, double end) {
+        history.follows = &line;
+        if (history.given == step_) {
+            history.points.resize(history.before);
+        } else {
+            history.given = step_;
+            history.hold_until(time_);
+            history.before = history.points.size();
+        }
+        extend(history, step, line, end);
     }
 
     [[nodiscard]] const Amplitude* amplitude_of(const LoadLine& line) const {
@@ -450,6 +464,8 @@ private:
     const Model& model_;
     const MeshData& mesh_;
     References& references_;
+    Temperatures temperatures_;
+    std::map<std::int32_t, History> heated_;  // by body
     std::map<Key, History> histories_;
     std::vector<Key> keys_;                                 // in the order of the deck
     std::set<std::pair<std::string, std::size_t>> pushed_;  // components of control nodes with a force

@@ -233,6 +233,12 @@ private:
             throw SceneFailure(m.place, fmt::format("material \"{}\" of a body has {}", m.name,
                                                     m.elastic.empty() ? "no *ELASTIC" : "*ELASTIC, TYPE=" + m.elastic));
         }
+        const bool heated = std::any_of(deck_.steps.begin(), deck_.steps.end(),
+                                        [](const Step& step) { return !step.temperatures.empty(); });
+        if (m.expansion.size() == 3)
+            out += fmt::format("expansion = {}\n", toml_list(m.expansion));
+        else if (heated || !m.expansion.empty())
+            key("expansion", m.expansion.empty() ? 0.0 : m.expansion[0]);
         return out + "\n";
     }
 

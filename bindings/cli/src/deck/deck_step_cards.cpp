@@ -37,7 +37,7 @@ bool StepReader::take(const InpCard& card) {
         {"CLOAD", &StepReader::take_forces},        {"DSLOAD", &StepReader::take_distributed},
         {"DLOAD", &StepReader::take_pressures},     {"DYNAMIC", &StepReader::take_procedure},
         {"END STEP", &StepReader::end_step},        {"STATIC", &StepReader::take_procedure},
-        {"STEP", &StepReader::take_step},
+        {"STEP", &StepReader::take_step},           {"TEMPERATURE", &StepReader::take_temperature},
     };
     for (const auto& [keyword, function] : known)
         if (card.keyword == keyword) {
@@ -244,6 +244,29 @@ void StepReader::take_pressures(const InpCard& card) {
         load.magnitude = inp_number(line.fields[2], line.place);
         step(card).forces.push_back(std::move(load));
     }
+}
+
+void StepReader::take_temperatures(const InpCard& card, const Part& root, std::vector<LoadLine>& lines) {
+    card.only({"TYPE", "AMPLITUDE", "OP"});
+    for (const InpLine& line : card.lines) {
+        if (line.fields.size() != 2)
+            throw SceneFailure(line.place,
+                               "a node or set and one temperature are expected: temperatures through the "
+                               "thickness are not imported");
+        LoadLine load;
+        load.where = {&root, line.fields[0], line.place};
+        load.amplitude = card.parameter("AMPLITUDE");
+        load.magnitude = inp_number(line.fields[1], line.place);
+        lines.push_back(std::move(load));
+    }
+}
+
+void StepReader::take_temperature(const InpCard& card) {
+    const bool earlier = std::any_of(deck_.steps.begin(), deck_.steps.end(),
+                                     [](const Step& each) { return !each.temperatures.empty(); });
+    if (renews(card) && earlier)
+        throw SceneFailure(card.place, "OP=NEW of temperatures is not imported: give all temperatures of this step");
+    take_temperatures(card, root_, step(card).temperatures);
 }
 
 }  // namespace cli::abaqus

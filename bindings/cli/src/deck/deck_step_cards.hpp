@@ -16,6 +16,9 @@ public:
     // root: the scope of the sets that steps name.
     StepReader(Deck& deck, const Part& root) : deck_(deck), root_(root) {}
 
+    // The lines of a card of temperatures: a node or set, and one temperature.
+    static void take_temperatures(const InpCard& card, const Part& root, std::vector<LoadLine>& lines);
+
     // False: the card does not belong to a step.
     bool take(const InpCard& card);
 
@@ -23,6 +26,7 @@ private:
     void take_amplitude(const InpCard& card);
     void take_step(const InpCard& card);
     void end_step(const InpCard&);
+    void take_temperature(const InpCard& card);
     void take_procedure(const InpCard& card);
     void take_boundary(const InpCard& card);
     void take_forces(const InpCard& card);

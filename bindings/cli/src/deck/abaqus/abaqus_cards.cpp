@@ -67,6 +67,7 @@ const std::set<std::string> passed_over{"AMPLITUDE",
                                         "SPECIFIC HEAT",
                                         "SURFACE BEHAVIOR",
                                         "SURFACE INTERACTION",
+                                        "TEMPERATURE",
                                         "TIME POINTS",
                                         "USER DEFINED FIELD",
                                         "USER MATERIAL"};
@@ -104,7 +105,10 @@ public:
         if (in_step_) throw SceneFailure(model_.file, "*STEP is not ended");
         if (model_.instances.empty())
             for (const auto& [key, part] : model_.parts)
-                throw SceneFailure(model_.file, fmt::format("part \"{}\" is in no *INSTANCE", part->name));
+                throw SceneFailure(model_.file,
+                                   fmt::format("part \"{}\" is in no *INSTANCE: give it one, or take *PART and "
+                                               "*END PART out",
+                                               part->name));
         if (!passed_.empty()) model_.notes.push_back("ignored: " + listing({passed_.begin(), passed_.end()}));
     }
 
