@@ -319,9 +319,50 @@ def check_messages():
         expect_error(delam("check", write(start, "other.inp")), 2, "no input file of Abaqus", program)
     part = text.replace("*Node\n", "*Part, name=P\n*Node\n", 1)
     part = part.replace("*Material, name=M", "*End part\n*Material, name=M", 1)
+    for old, new, pattern in (("type=CPS4", "type=CAX4", "CAX4 is not read: axisymmetry stays out"),
+                              ("type=CPS4", "type=S4R", "S4R is not read: shells stay out"),
+                              ("type=CPS4", "type=U1", "U1 is not read: user elements stay out"),
+                              ("*Static", "*Dynamic, explicit", "DYNAMIC: explicit steps stay out"),
+                              ("*Elastic\n1000.0, 0.3", "*User material, constants=1\n3.", "user materials stay out"),
+                              ("*Material", "*Transform, nset=Top\n0., 1., 0., 1., 0., 0.\n*Material", "turn the mesh")):
+        assert old in text, old
+        refused(text.replace(old, new, 1), r"deck\.inp:\d+: \*", pattern)
     refused(part, 'part "P" is in no \\*INSTANCE: give it one')
 
 
+def check_cae():
+    """A cohesive layer meshed apart and tied between two instances, as Abaqus/CAE writes it."""
+    def part(name, kind, cells, height, section):
+        text, lists, _, _ = block(1, cells, 0.0, height, plane=False)
+        text = f"*Part, name={name}\n{text}*Element, type={kind}\n"
+        text += "".join(f"{i + 1}, {', '.join(map(str, nodes))}\n" for i, nodes in enumerate(lists))
+        return (text + f"*Nset, nset=Set-1, generate\n1, {6 * (cells + 1)}, 1\n*Elset, elset=Set-1, generate\n1, {2 * cells}, 1\n" +
+                section + "*End Part\n**\n")
+    text = "*Parameter\nE = 1.e3\npull = 0.05*2\n*Heading\n** Job name: Job-1 Model name: Model-1\n*Preprint, echo=NO\n"
+    text += part("Block", "C3D8R", 4, 1.0, "** Section: S\n*Solid Section, elset=Set-1, material=M\n,\n")
+    text += part("Layer", "COH3D8", 6, 0.01, "*Cohesive Section, elset=Set-1, material=C, response=TRACTION SEPARATION\n1.,\n")
+    text += ("*Assembly, name=Assembly\n*Instance, name=Block-1, part=Block\n*End Instance\n"
+             "*Instance, name=Layer-1, part=Layer\n0., 0., 1.\n*End Instance\n"
+             "*Instance, name=Block-2, part=Block\n0., 0., 1.01\n*End Instance\n")
+    for name, instance, count, side in (("Low", "Block-1", 8, 2), ("High", "Block-2", 8, 1), ("Under", "Layer-1", 12, 1),
+                                        ("Over", "Layer-1", 12, 2)):
+        text += (f"*Elset, elset=_{name}_S{side}, internal, instance={instance}, generate\n1, {count}, 1\n"
+                 f"*Surface, type=ELEMENT, name={name}\n_{name}_S{side}, S{side}\n")
+    text += ("*Nset, nset=Bottom, instance=Block-1, generate\n1, 15, 1\n*Nset, nset=Top, instance=Block-2, generate\n16, 30, 1\n"
+             "*Tie, name=Constraint-1, adjust=yes\nUnder, Low\n*Tie, name=Constraint-2, adjust=no, position tolerance=0.1\n"
+             "Over, High\n*End Assembly\n*Material, name=M\n*Elastic\n<E>, 0.\n" + LAW +
+             "*Step, name=Step-1, nlgeom=YES, inc=1000\n*Static\n1., 1., 1e-05, 1.\n*Boundary\nBottom, ENCASTRE\n"
+             "Top, 1, 1\nTop, 2, 2\nTop, 3, 3, <pull>\n*Restart, write, frequency=0\n"
+             "*Output, field, variable=PRESELECT\n*End Step\n")
+    rows, _ = history(text)
+    expect(len(rows) == 51, f"{len(rows)} instants")
+    # Two blocks and a layer in series, and the toughness of the whole face at the end. NLGEOM changes the third digit.
+    close("its stiffness", rows[1]["reaction"] / rows[1]["load"], 8 / (2 / YOUNG + 1 / STIFFNESS), 0.01)
+    close("its toughness", rows[-1]["dissipated"], 0.01 * 8, 1e-3)
+    refused(text.replace("Over, High\n", "Over, Low\n"), "lies within .Block-1.Set-1.")
+
+
+check_cae()
 check_increments()
 check_parameters()
 check_temperatures()

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "deck/abaqus/left_out.hpp"
 #include "deck/deck_constraint_cards.hpp"
 #include "deck/deck_step_cards.hpp"
 #include "text/wording.hpp"
@@ -98,9 +99,7 @@ private:
         };
         for (const auto& [keyword, function] : known)
             if (word == keyword) return (this->*function)(card);
-        throw SceneFailure(card.place,
-                           "this keyword would change the result and cannot be imported; take it out of a copy of the "
-                           "deck to go on without it, or write the scene by hand (SCENE.md)");
+        throw SceneFailure(card.place, instead_of_keyword(word));
     }
 
     void take_heading(const InpCard& card) {
@@ -215,7 +214,8 @@ private:
         if (!d.mixed_mode.empty() && d.mixed_mode != "BK" && d.mixed_mode != "POWER LAW")
             card.refuse("MIXED MODE BEHAVIOR", d.mixed_mode, "BK or POWER LAW");
         if (card.has("MODE MIX RATIO") && upper(card.required("MODE MIX RATIO")) != "ENERGY")
-            card.refuse("MODE MIX RATIO", card.required("MODE MIX RATIO"), "ENERGY");
+            card.refuse("MODE MIX RATIO", card.required("MODE MIX RATIO"),
+                        "ENERGY, by which the toughnesses of BK and POWER LAW are mixed,");
         if (!d.mixed_mode.empty()) {
             d.power = inp_number(card.required("POWER"), card.place);
             if (!(d.power > 0)) throw SceneFailure(card.place, fmt::format("POWER={}: must be > 0", d.power));

@@ -190,7 +190,10 @@ private:
         const std::vector<std::int32_t> bodies = faces_.of(face);
         if (bodies.size() == 1) return bodies[0];
         throw SceneFailure(
-            place, bodies.empty() ? fmt::format("an element of \"{}\" has a face that is no side of a cell", set.name)
+            place, bodies.empty() ? fmt::format("an element of \"{}\" has a face that is no side of a cell: "
+                                                "the first half of its nodes is one face, the second half the "
+                                                "other",
+                                                set.name)
                                   : fmt::format("an element of \"{}\" has a face between {} and {}: its nodes must be "
                                                 "those of one of them",
                                                 set.name, body(bodies[0]), body(bodies[1])));

@@ -201,9 +201,11 @@ private:
         for (const auto& [number, history] : ending) {
             if (history->given == step_) continue;
             if (!history->force)
-                throw SceneFailure(step.place, fmt::format("OP=NEW frees \"{}\", degree of freedom {}, in this step: "
-                                                           "supports that end are not imported",
-                                                           history->line.where.text, history->dof));
+                throw SceneFailure(
+                    step.place,
+                    fmt::format("OP=NEW frees \"{}\", degree of freedom {}, in this step: "
+                                "supports that end are not imported; keep it, or end the analysis with the step before",
+                                history->line.where.text, history->dof));
             LoadLine ended = history->line;
             ended.magnitude = 0;
             ended.amplitude.clear();

@@ -102,7 +102,9 @@ void StepReader::take_procedure(const InpCard& card) {
     }
     if (card.keyword == "DYNAMIC") {
         if (upper(card.parameter("APPLICATION")) != "QUASI-STATIC")
-            throw SceneFailure(card.place, "dynamic steps are not imported, but for APPLICATION=QUASI-STATIC");
+            throw SceneFailure(card.place, card.has("EXPLICIT")
+                                               ? "explicit steps stay out: give *STATIC, which has no inertia"
+                                               : "dynamic steps are not imported, but for APPLICATION=QUASI-STATIC");
         say_once(deck_.changed, "*DYNAMIC: without inertia");
     }
     if (card.has("STABILIZE"))

@@ -15,6 +15,7 @@
 
 #include "deck/abaqus/abaqus_elements.hpp"
 #include "deck/abaqus/generated.hpp"
+#include "deck/abaqus/left_out.hpp"
 #include "text/wording.hpp"
 
 namespace cli::abaqus {
@@ -161,7 +162,8 @@ private:
         } else {
             throw SceneFailure(card.place,
                                "this keyword is not supported; SCENE.md lists the keywords that are read and "
-                               "those that are ignored");
+                               "those that are ignored; " +
+                                   instead_of_keyword(word));
         }
     }
 
