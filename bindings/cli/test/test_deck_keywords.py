@@ -270,6 +270,13 @@ def check_loads():
     pressed = bar.replace("Top, 2, 2, 0.002\n", "*Dload\nUp, P3, 5.\n")
     close("the energy under a pressure", history(pressed)[0][-1]["stored_bulk"], 5.0 ** 2 / (2 * YOUNG) * 8)
     refused(pressed.replace("P3", "GRAV"), r"\*DLOAD", "GRAV.* is not imported: pressures")
+    # Axis 1 of the nodes above is y, axis 2 is -x.
+    turned = "*Transform, nset=Top\n0., 1., 0., -1., 0., 0.\n"
+    same("TRANSFORM", deck(extra=turned, held="Bottom, 2\n1, 1\nTop, 2\n", loads="Top, 1, 1, 0.03\n"), deck())
+    free = bar.replace("Top, 2, 2, 0.002\n", "*Cload\nTop, 2, 0.5\n")
+    aside = bar.replace("Top, 2, 2, 0.002\n", "*Cload\nTop, 1, 0.5\n").replace("*Material", turned + "*Material", 1)
+    close("a force along axis 1 of a TRANSFORM", history(aside)[0][-1]["stored_bulk"], history(free)[0][-1]["stored_bulk"])
+    refused(deck(extra="*Transform, nset=Top\n0., 1., 0., -1., 0., 0.\n", loads="All, 1\n"), "have a \\*TRANSFORM")
     moving = deck(static="*Static\n0.1, 2., 1e-5, 0.2\n", loads="").replace(
         "*End step", "*Boundary, type=VELOCITY\nTop, 2, 2, 0.03\n*End step")
     later = "*Step\n*Static\n0.1, 1., 1e-5, 0.1\n*End step\n"
@@ -324,7 +331,7 @@ def check_messages():
                               ("type=CPS4", "type=U1", "U1 is not read: user elements stay out"),
                               ("*Static", "*Dynamic, explicit", "DYNAMIC: explicit steps stay out"),
                               ("*Elastic\n1000.0, 0.3", "*User material, constants=1\n3.", "user materials stay out"),
-                              ("*Material", "*Transform, nset=Top\n0., 1., 0., 1., 0., 0.\n*Material", "turn the mesh")):
+                              ("*Material", "*Transform, nset=Top, type=C\n0., 1., 0., 1., 0., 0.\n*Material", "TYPE=C is")):
         assert old in text, old
         refused(text.replace(old, new, 1), r"deck\.inp:\d+: \*", pattern)
     refused(part, 'part "P" is in no \\*INSTANCE: give it one')

@@ -13,8 +13,10 @@
 #include <fmt/format.h>
 
 #include "deck/deck_bodies.hpp"
+#include "deck/deck_history.hpp"
 #include "deck/deck_points.hpp"
 #include "deck/deck_temperatures.hpp"
+#include "deck/deck_transforms.hpp"
 #include "text/toml_text.hpp"
 
 namespace cli::abaqus {
@@ -28,29 +30,6 @@ constexpr double most_increments = 100000;
 constexpr double shortest_substep = 1e-6;
 constexpr std::size_t most_points = 10000000;  // of all histories: each line may follow a long amplitude
 
-// Holds what one line of the deck prescribes, over all steps. Behind its last point it is constant.
-struct History {
-    LoadLine line;  // the first of its kind
-    int dof = 0;
-    bool force = false;
-    std::size_t number = 0;  // in the order of the deck
-    Points points{{0.0, 0.0}};
-    const LoadLine* follows = nullptr;  // the last line that prescribed it
-    std::size_t before = 1;             // points of the steps before this one
-    std::size_t given = 0;              // the last step that has a line for it
-
-    void hold_until(double time) {
-        if (points.back().first < time) points.emplace_back(time, points.back().second);
-    }
-
-    [[nodiscard]] double peak() const {
-        double out = 0;
-        for (const auto& [time, value] : points)
-            if (std::abs(value) > std::abs(out)) out = value;
-        return out;
-    }
-};
-
 // Made of points whose largest is 1, which the factor multiplies by `peak`.
 struct Pattern {
     std::string name;
@@ -60,7 +39,12 @@ struct Pattern {
 class Loads {
 public:
     Loads(Deck& deck, const Model& model, const MeshData& mesh, References& references)
-        : deck_(deck), model_(model), mesh_(mesh), references_(references), temperatures_(deck, model, mesh) {}
+        : deck_(deck),
+          model_(model),
+          mesh_(mesh),
+          references_(references),
+          temperatures_(deck, model, mesh),
+          transforms_(deck, model, mesh.dimension) {}
 
     std::string text() {
         for (const LoadLine& line : deck_.held)
@@ -81,11 +65,17 @@ public:
             } else if (history.peak() != 0) {
                 const auto [pattern, coefficient] = pattern_of(history);
                 ++moved[pattern];
+                const auto turned = transforms_.direction(history.line.where, key.dof);
                 for (const auto& [place, axis, control] : prescribed(history.line.where, key.dof))
                     loads += fmt::format(
-                        "[[loads]]\n{}component = [\"{}\"]\npattern = {}\n{}\n", place, axis_names[axis],
+                        "[[loads]]\n{}{}\npattern = {}\n{}\n", place,
+                        turned ? "direction = " + toml_list(*turned)
+                               : fmt::format("component = [\"{}\"]", axis_names[axis]),
                         toml_text(pattern),
                         coefficient == 1 ? "" : fmt::format("coefficient = {}\n", toml_number(coefficient)));
+            } else if (const auto turned = transforms_.direction(history.line.where, key.dof)) {
+                for (const auto& [place, axis, control] : prescribed(history.line.where, key.dof))
+                    out += fmt::format("[[supports]]\n{}direction = {}\n\n", place, toml_list(*turned));
             } else {
                 for (const auto& [place, axis, control] : prescribed(history.line.where, key.dof)) {
                     if (!held.contains(place)) order.push_back(place);
@@ -423,7 +413,9 @@ private:
         std::string out;
         for (const auto& [place, axis, control] : pushed(where, dof)) {
             std::fill(force.begin(), force.end(), 0.0);
-            force[axis] = peak / width;
+            force[axis] = 1;
+            if (const auto turned = transforms_.direction(where, dof)) force = *turned;
+            for (double& x : force) x *= peak / width;
             out += fmt::format("[[forces]]\n{}{}force = {}\n\n", place, pattern, toml_list(force));
         }
         return out;
@@ -467,6 +459,7 @@ private:
     const MeshData& mesh_;
     References& references_;
     Temperatures temperatures_;
+    Transforms transforms_;
     std::map<std::int32_t, History> heated_;  // by body
     std::map<Key, History> histories_;
     std::vector<Key> keys_;                                 // in the order of the deck

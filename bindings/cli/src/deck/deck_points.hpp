@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "deck/deck.hpp"
+#include "deck/cards/deck.hpp"
 
 namespace cli::abaqus {
 

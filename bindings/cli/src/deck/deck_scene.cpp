@@ -11,8 +11,8 @@
 
 #include "deck/abaqus/abaqus_cards.hpp"
 #include "deck/abaqus/abaqus_mesh.hpp"
+#include "deck/cards/deck_cards.hpp"
 #include "deck/deck_bodies.hpp"
-#include "deck/deck_cards.hpp"
 #include "deck/deck_interfaces.hpp"
 #include "deck/deck_loads.hpp"
 #include "mesh/body_pieces.hpp"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "deck/deck.hpp"
+#include "deck/cards/deck.hpp"
 #include "deck/deck_points.hpp"
 #include "mesh/mesh_data.hpp"
 

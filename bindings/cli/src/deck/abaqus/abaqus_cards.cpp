@@ -69,6 +69,7 @@ const std::set<std::string> passed_over{"AMPLITUDE",
                                         "SURFACE BEHAVIOR",
                                         "SURFACE INTERACTION",
                                         "TEMPERATURE",
+                                        "TRANSFORM",
                                         "TIME POINTS",
                                         "USER DEFINED FIELD",
                                         "USER MATERIAL"};

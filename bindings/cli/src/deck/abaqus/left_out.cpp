@@ -26,7 +26,6 @@ constexpr Words keywords[] = {
     {"SHELL GENERAL SECTION", "shells stay out: give solid cells or SC8R"},
     {"SURFACE BEHAVIOUR", "write *SURFACE BEHAVIOR"},
     {"SYSTEM", "give the coordinates of the nodes in one system, or *NODE, SYSTEM="},
-    {"TRANSFORM", "turned degrees of freedom stay out: turn the mesh (*INSTANCE), or give *EQUATION"},
     {"UEL PROPERTY", "user elements stay out: cohesive ones are COH2D4, COH3D6, COH3D8 here"},
     {"USER ELEMENT", "user elements stay out: cohesive ones are COH2D4, COH3D6, COH3D8 here"},
     {"USER MATERIAL",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "deck/deck_step_cards.hpp"
+#include "deck/cards/deck_step_cards.hpp"
 
 #include <algorithm>
 #include <array>

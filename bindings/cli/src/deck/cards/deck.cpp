@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "deck/deck.hpp"
+#include "deck/cards/deck.hpp"
 
 #include <cstdint>
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "deck/abaqus/inp_cards.hpp"
-#include "deck/deck.hpp"
+#include "deck/cards/deck.hpp"
 
 namespace cli::abaqus {
 
@@ -23,6 +23,7 @@ private:
     void take_rigid_body(const InpCard& card);
     void take_equation(const InpCard& card);
     void take_pins(const InpCard& card);
+    void take_transform(const InpCard& card);
 
     Deck& deck_;
     const Part& root_;

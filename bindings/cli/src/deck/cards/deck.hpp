@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -134,6 +135,13 @@ struct Pin {
     Entry first, second;
 };
 
+// *TRANSFORM: the degrees of freedom 1 to 3 of nodes are along these axes.
+struct Transform {
+    Entry where;
+    std::array<std::array<double, 3>, 3> axes{};
+    Place place;
+};
+
 // A line of *BOUNDARY, *CLOAD or *DSLOAD.
 struct LoadLine {
     Entry where;
@@ -167,6 +175,7 @@ struct Deck {
     std::vector<ContactPair> pairs;
     Catalogue<Amplitude> amplitudes;
     std::vector<std::vector<EquationEntry>> equations;
+    std::vector<Transform> transforms;
     std::vector<Pin> pins;
     std::vector<Coupling> couplings;
     std::vector<LoadLine> held;  // *BOUNDARY before the first step

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "deck/deck_cards.hpp"
+#include "deck/cards/deck_cards.hpp"
 
 #include <algorithm>
 #include <map>
@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "deck/abaqus/left_out.hpp"
-#include "deck/deck_constraint_cards.hpp"
-#include "deck/deck_step_cards.hpp"
+#include "deck/cards/deck_constraint_cards.hpp"
+#include "deck/cards/deck_step_cards.hpp"
 #include "text/wording.hpp"
 
 namespace cli::abaqus {
