@@ -25,9 +25,9 @@ namespace {
 
 constexpr std::int64_t most_single_nodes = 200;
 constexpr double most_increments = 100000;
-// Shortest substep, as a part of a load step, that a deck may ask for: 20 halvings. Decks give 1e-5 to 1e-36 without a
-// thought; half or twice of it is one halving more or less (ctest -R cli_decks).
-constexpr double shortest_substep = 1e-6;
+// The default of smallest_step (src/scene/options.inc): a shorter least increment sets no limit. Half and twice of it
+// is one halving more or less (ctest -R cli_decks).
+constexpr double default_substep = 1e-4;
 constexpr std::size_t most_points = 10000000;  // of all histories: each line may follow a long amplitude
 
 // Made of points whose largest is 1, which the factor multiplies by `peak`.
@@ -217,8 +217,8 @@ private:
             instants_.push_back(
                 i == increments ? end : time_ + step.period * static_cast<double>(i) / static_cast<double>(increments));
         sizes_.push_back(step.period / static_cast<double>(increments));
-        if (step.least_increment > 0)
-            substep_ = std::min(substep_, std::max(step.least_increment / sizes_.back(), shortest_substep));
+        if (step.least_increment > default_substep * sizes_.back())
+            substep_ = std::min(substep_, step.least_increment / sizes_.back());
         time_ = end;
     }
 
