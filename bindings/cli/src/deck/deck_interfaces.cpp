@@ -22,6 +22,10 @@ namespace {
 
 // A small part more than the distance of the faces, so that rounding of coordinates does not part them.
 constexpr double allowance = 1.001;
+// Stiffness of an interface whose deck gives none, in stiffnesses of a cell: that of Abaqus' penalty contact, as its
+// manual says; half and twice of it change the compliance of an interface by a tenth of a cell's (ctest -R
+// cli_deck_keywords).
+constexpr double penalty_factor = 10;
 
 struct Held {
     std::int32_t a = 0, b = 0;
@@ -32,6 +36,7 @@ struct Held {
     Place place;
     bool open = false;  // surfaces, whose distance counts
     double adjust = 0;
+    bool bonded = false;  // tied
 };
 
 // Returns the largest distance of a node of one surface from the nearest node of another.
@@ -74,6 +79,7 @@ public:
           model_(model),
           mesh_(mesh),
           faces_(mesh),
+          nodes_(mesh),
           edge_(shortest_edge(mesh)),
           places_(mesh, edge_),
           cohesive_sections_(deck, model, &Part::cohesive_sections),
@@ -89,6 +95,8 @@ public:
     std::string text() {
         for (const CohesiveSet& set : mesh_.cohesive) add_cohesive(set);
         for (const ContactPair& pair : deck_.pairs) add_pair(pair);
+        for (const Tie& tie : model_.ties) add_tie(tie);
+        if (!deck_.adhering.empty()) add_everywhere();
         for (const auto& [key, pair] : touching_) require_one_way(pair);
         std::string out = laws_;
         for (const Held& held : held_) out += entry(held);
@@ -134,6 +142,14 @@ private:
     void add(const Held& held) {
         // Contact acts in every interface: a pair that asks for it alone adds nothing to a law.
         Held* other = find(held.a, held.b);
+        if (other != nullptr && held.bonded) {
+            if (!other->law.empty())
+                throw SceneFailure(held.place, fmt::format("{} and {} are held together by {} already", body(held.a),
+                                                           body(held.b), other->place.text()));
+            *other = held;
+            return;
+        }
+        if (other != nullptr && other->bonded) return;
         if (other == nullptr) {
             held_by_.emplace(std::minmax(held.a, held.b), held_.size());
             held_.push_back(held);
@@ -174,7 +190,10 @@ private:
         const std::vector<std::int32_t> bodies = faces_.of(face);
         if (bodies.size() == 1) return bodies[0];
         throw SceneFailure(
-            place, bodies.empty() ? fmt::format("an element of \"{}\" has a face that is no side of a cell", set.name)
+            place, bodies.empty() ? fmt::format("an element of \"{}\" has a face that is no side of a cell: "
+                                                "the first half of its nodes is one face, the second half the "
+                                                "other",
+                                                set.name)
                                   : fmt::format("an element of \"{}\" has a face between {} and {}: its nodes must be "
                                                 "those of one of them",
                                                 set.name, body(bodies[0]), body(bodies[1])));
@@ -188,6 +207,7 @@ private:
         const Section& section = *found;
         std::map<std::pair<std::int32_t, std::int32_t>, double> gaps;  // by lower and upper body
         double sum = 0, least = std::numeric_limits<double>::infinity(), most = 0;
+        bool loose = false;
         for (std::size_t i = 0; i < set.lower.size(); ++i) {
             const std::int32_t a = one_body(set.lower[i], set, section.place);
             const std::int32_t b = one_body(set.upper[i], set, section.place);
@@ -196,7 +216,9 @@ private:
                                    fmt::format("an element of \"{}\" lies within {}: nodes connect its two sides "
                                                "elsewhere, and a body has no interface with itself",
                                                set.name, body(a)));
-            const double gap = gap_of(set.lower[i], set.upper[i]);
+            const bool tied = !set.apart.empty() && set.apart[i] >= 0;
+            const double gap = tied ? set.apart[i] : gap_of(set.lower[i], set.upper[i]);
+            loose = loose || tied;
             sum += gap;
             least = std::min(least, gap);
             most = std::max(most, gap);
@@ -221,8 +243,14 @@ private:
                     fmt::format("\"{}\" is {:.6g} thick: the faces beside it are projected upon each "
                                 "other, and it has no volume",
                                 set.name, gap));
-            add({bodies.first, bodies.second, law, set.faces, apart ? gap * allowance : 0.0, !apart, section.place});
+            add({bodies.first, bodies.second, law, set.faces, apart ? gap * allowance : 0.0, !apart && !loose,
+                 section.place});
         }
+        if (loose)
+            deck_.changed.push_back(
+                fmt::format("\"{}\" is tied: the bodies to which it is tied have its law between them, on their own "
+                            "faces where its elements lie",
+                            set.name));
     }
 
     std::string cohesive_law(const MaterialCards& material, double thickness) {
@@ -269,8 +297,7 @@ private:
         const std::string master = faces_named(pair.master);
         std::string law;
         if (interaction.cohesive) {
-            law = new_law("interaction", interaction.name, interaction.stiffness, 1.0, interaction.damage,
-                          interaction.place);
+            law = interaction_law(interaction);
             require_extent(pair, interaction, slave, master);
         }
         const std::set<std::int32_t>&slaves = bodies_of(slave), &masters = bodies_of(master);
@@ -301,6 +328,108 @@ private:
                 pair.place, fmt::format("no body of \"{}\" touches one of \"{}\"", pair.slave.text, pair.master.text));
     }
 
+    // Returns the bodies that a tie joins; none where its surface is of cohesive elements.
+    std::set<std::int32_t> tied_bodies(const Entry& raw) {
+        const std::string name = surface_name(model_, raw);
+        if (mesh_.face_sets.contains(name)) return bodies_of(name);
+        if (!mesh_.node_sets.contains(name)) throw SceneFailure(raw.place, "surface \"" + raw.text + "\" is not there");
+        std::set<std::int32_t> out;
+        for (const std::int64_t node : mesh_.node_sets.at(name))
+            out.insert(nodes_.of(node).begin(), nodes_.of(node).end());
+        return out;
+    }
+
+    // Bodies that are tied are bonded wherever they touch.
+    void add_tie(const Tie& tie) {
+        const std::set<std::int32_t> slaves = tied_bodies(tie.slave), masters = tied_bodies(tie.master);
+        if (slaves.empty() || masters.empty()) return;  // of cohesive elements, whose faces are those of bodies
+        std::size_t added = 0;
+        for (const std::int32_t b : slaves)
+            for (const std::int32_t a : masters) {
+                if (a == b || (slaves.size() + masters.size() > 2 && !touching_.contains(std::minmax(a, b)))) continue;
+                Held held{a, b, "", "", 0.0, touching_.contains(std::minmax(a, b)), tie.place};
+                held.bonded = true;
+                if (!held.matching) held.gap = tied_gap(tie);
+                require_whole(tie, held);
+                add(held);
+                ++added;
+            }
+        if (added == 0)
+            throw SceneFailure(
+                tie.place, fmt::format("no body of \"{}\" touches another one of \"{}\": ties of several bodies are "
+                                       "imported where their nodes coincide; give each two bodies a tie of their own",
+                                       tie.slave.text, tie.master.text));
+    }
+
+    [[nodiscard]] double tied_gap(const Tie& tie) const {
+        if (tie.tolerance > 0) return tie.tolerance;
+        const std::string slave = surface_name(model_, tie.slave), master = surface_name(model_, tie.master);
+        if (!mesh_.face_sets.contains(slave) || !mesh_.face_sets.contains(master))
+            throw SceneFailure(tie.place,
+                               "surfaces of nodes that do not coincide need POSITION TOLERANCE=, or give "
+                               "sides of elements");
+        return allowance * farthest(mesh_, slave, master);
+    }
+
+    // A bonded interface is bonded everywhere.
+    void require_whole(const Tie& tie, const Held& held) {
+        const std::string slave = surface_name(model_, tie.slave), master = surface_name(model_, tie.master);
+        if (!mesh_.face_sets.contains(slave) || !mesh_.face_sets.contains(master)) return;
+        if (!held.matching) {
+            deck_.changed.push_back(
+                fmt::format("*TIE of \"{}\" and \"{}\": the meshes do not match; {} and {} are bonded "
+                            "wherever they meet",
+                            tie.slave.text, tie.master.text, body(held.a), body(held.b)));
+            return;
+        }
+        const std::int64_t touching = touching_.at(std::minmax(held.a, held.b)).doubled;
+        const std::int64_t tied = places_.coinciding(slave, master);
+        if (tied < touching)
+            throw SceneFailure(tie.place,
+                               fmt::format("{} and {} touch at {} sides, of which {} are tied: bodies are bonded "
+                                           "everywhere or not at all; split the body of \"{}\" there",
+                                           body(held.a), body(held.b), touching, tied, tie.slave.text));
+    }
+
+    // General contact whose property adheres: all bodies that touch with nodes of their own.
+    void add_everywhere() {
+        const InteractionCards& interaction =
+            named(deck_.interactions, deck_.adhering, "surface interaction", deck_.adhering_place);
+        if (!interaction.eligibility.empty() && interaction.eligibility != "CURRENT CONTACTS" &&
+            interaction.eligibility != "ORIGINAL CONTACTS")
+            throw SceneFailure(interaction.place, "ELIGIBILITY=" + interaction.eligibility +
+                                                      " needs surfaces in *CONTACT PROPERTY ASSIGNMENT");
+        for (const auto& [key, pair] : touching_)
+            if (pair.shared == 0 && find(pair.a, pair.b) == nullptr)
+                add({pair.a, pair.b, interaction_law(interaction), "", 0.0, true, deck_.adhering_place});
+    }
+
+    std::string interaction_law(const InteractionCards& interaction) {
+        Numbers stiffness = interaction.stiffness;
+        if (stiffness.empty()) {
+            stiffness.assign(3, penalty_factor * softest() / edge_);
+            say_once(deck_.changed,
+                     fmt::format("interaction \"{}\": no stiffness; here that of Abaqus' contact, about {} "
+                                 "times that of a cell: {:.6g}",
+                                 interaction.name, penalty_factor, stiffness[0]));
+        }
+        return new_law("interaction", interaction.name, stiffness, 1.0, interaction.damage, interaction.place);
+    }
+
+    // The least Young's modulus of the materials of bodies.
+    [[nodiscard]] double softest() const {
+        double out = std::numeric_limits<double>::infinity();
+        for (const MaterialCards& m : deck_.materials) {
+            if (m.constants.empty() || m.elastic == "TRACTION") continue;
+            const std::size_t moduli = m.elastic == "ISOTROPIC" ? 1 : m.elastic == "LAMINA" ? 2 : 3;
+            // D1111, D2222 and D3333 stand at 0, 2 and 5.
+            const bool stiffnesses = m.elastic == "ORTHOTROPIC";
+            for (std::size_t i = 0; i < moduli; ++i)
+                out = std::min(out, m.constants.at(stiffnesses ? (i + 1) * (i + 2) / 2 - 1 : i));
+        }
+        return std::isfinite(out) ? out : 1.0;
+    }
+
     // The slave surface, or its bonded nodes, determine what adheres; the master must not say less.
     void require_extent(const ContactPair& pair, const InteractionCards& interaction, const std::string& slave,
                         const std::string& master) {
@@ -309,9 +438,10 @@ private:
             throw SceneFailure(pair.place,
                                "ELIGIBILITY=SPECIFIED CONTACTS and *INITIAL CONDITIONS, TYPE=CONTACT are "
                                "imported together: one of them is missing");
-        if (!interaction.eligibility.empty() && !specified && interaction.eligibility != "CURRENT CONTACTS")
+        if (!interaction.eligibility.empty() && !specified && interaction.eligibility != "CURRENT CONTACTS" &&
+            interaction.eligibility != "ORIGINAL CONTACTS")
             throw SceneFailure(interaction.place, "ELIGIBILITY=" + interaction.eligibility +
-                                                      " is not imported: CURRENT and SPECIFIED CONTACTS are");
+                                                      " is not imported: CURRENT, ORIGINAL and SPECIFIED CONTACTS are");
         const auto& faces = mesh_.face_sets.at(slave);
         const auto opposite = places_.coinciding(slave, master);
         if (opposite == 0)
@@ -334,7 +464,9 @@ private:
 
     [[nodiscard]] std::string entry(const Held& held) const {
         std::string out = fmt::format("[[interfaces]]\na = {}\nb = {}\n", body(held.a), body(held.b));
-        out += held.law.empty() ? "contact = true\n" : fmt::format("law = {}\n", toml_text(held.law));
+        out += held.bonded        ? "bonded = true\n"
+               : held.law.empty() ? "contact = true\n"
+                                  : fmt::format("law = {}\n", toml_text(held.law));
         if (!held.matching) out += "projected = true\n";
         if (held.gap > 0) out += fmt::format("gap = {}\n", toml_number(held.gap));
         if (held.open && !held.law.empty()) out += "initial_gap = \"open\"\n";
@@ -347,6 +479,7 @@ private:
     const Model& model_;
     const MeshData& mesh_;
     FaceBodies faces_;
+    NodeBodies nodes_;
     double edge_;
     FacePlaces places_;
     SectionIndex cohesive_sections_;

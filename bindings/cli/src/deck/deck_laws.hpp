@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "deck/deck.hpp"
+#include "deck/cards/deck.hpp"
 
 namespace cli::abaqus {
 

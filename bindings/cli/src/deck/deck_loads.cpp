@@ -13,68 +13,22 @@
 #include <fmt/format.h>
 
 #include "deck/deck_bodies.hpp"
+#include "deck/deck_history.hpp"
+#include "deck/deck_points.hpp"
+#include "deck/deck_temperatures.hpp"
+#include "deck/deck_transforms.hpp"
 #include "text/toml_text.hpp"
 
 namespace cli::abaqus {
 
 namespace {
 
-using Points = std::vector<std::pair<double, double>>;  // instants and values
-
 constexpr std::int64_t most_single_nodes = 200;
 constexpr double most_increments = 100000;
+// The default of smallest_step (src/scene/options.inc): a shorter least increment sets no limit. Half and twice of it
+// is one halving more or less (ctest -R cli_decks).
+constexpr double default_substep = 1e-4;
 constexpr std::size_t most_points = 10000000;  // of all histories: each line may follow a long amplitude
-
-// The first point at x or behind.
-Points::const_iterator first_from(const Points& points, double x) {
-    return std::partition_point(points.begin(), points.end(), [&](const auto& point) { return point.first < x; });
-}
-
-double between(const Points& points, double x) {
-    const auto at = first_from(points, x);
-    if (at == points.begin()) return points.front().second;
-    if (at == points.end()) return points.back().second;
-    const auto& [a, fa] = *std::prev(at);
-    const auto& [b, fb] = *at;
-    return fa + (fb - fa) * (x - a) / (b - a);
-}
-
-// The values of an amplitude as straight lines; a SMOOTH STEP, whose parts are polynomials of fifth order, in 16 each.
-Points lines_of(const Amplitude& amplitude) {
-    if (!amplitude.smooth) return amplitude.points;
-    Points out{amplitude.points.front()};
-    for (std::size_t i = 1; i < amplitude.points.size(); ++i)
-        for (int k = 1; k <= 16; ++k) {
-            const double x = k / 16.0;
-            const auto& [a, fa] = amplitude.points[i - 1];
-            const auto& [b, fb] = amplitude.points[i];
-            out.emplace_back(a + (b - a) * x, fa + (fb - fa) * x * x * x * (10 - 15 * x + 6 * x * x));
-        }
-    return out;
-}
-
-// Holds what one line of the deck prescribes, over all steps. Behind its last point it is constant.
-struct History {
-    LoadLine line;  // the first of its kind
-    int dof = 0;
-    bool force = false;
-    std::size_t number = 0;  // in the order of the deck
-    Points points{{0.0, 0.0}};
-    const LoadLine* follows = nullptr;  // the last line that prescribed it
-    std::size_t before = 1;             // points of the steps before this one
-    std::size_t given = 0;              // the last step that has a line for it
-
-    void hold_until(double time) {
-        if (points.back().first < time) points.emplace_back(time, points.back().second);
-    }
-
-    [[nodiscard]] double peak() const {
-        double out = 0;
-        for (const auto& [time, value] : points)
-            if (std::abs(value) > std::abs(out)) out = value;
-        return out;
-    }
-};
 
 // Made of points whose largest is 1, which the factor multiplies by `peak`.
 struct Pattern {
@@ -85,13 +39,19 @@ struct Pattern {
 class Loads {
 public:
     Loads(Deck& deck, const Model& model, const MeshData& mesh, References& references)
-        : deck_(deck), model_(model), mesh_(mesh), references_(references) {}
+        : deck_(deck),
+          model_(model),
+          mesh_(mesh),
+          references_(references),
+          temperatures_(deck, model, mesh),
+          transforms_(deck, model, mesh.dimension) {}
 
     std::string text() {
         for (const LoadLine& line : deck_.held)
             for (int dof = line.first; dof <= line.last; ++dof) at_one(line, false, dof);
         for (const Step& step : deck_.steps) add_step(step);
         for (auto& [key, history] : histories_) history.hold_until(time_);
+        for (auto& [body, history] : heated_) history.hold_until(time_);
         say_width();
         std::string out = time_text();
         std::string loads;
@@ -105,11 +65,17 @@ public:
             } else if (history.peak() != 0) {
                 const auto [pattern, coefficient] = pattern_of(history);
                 ++moved[pattern];
+                const auto turned = transforms_.direction(history.line.where, key.dof);
                 for (const auto& [place, axis, control] : prescribed(history.line.where, key.dof))
                     loads += fmt::format(
-                        "[[loads]]\n{}component = [\"{}\"]\npattern = {}\n{}\n", place, axis_names[axis],
+                        "[[loads]]\n{}{}\npattern = {}\n{}\n", place,
+                        turned ? "direction = " + toml_list(*turned)
+                               : fmt::format("component = [\"{}\"]", axis_names[axis]),
                         toml_text(pattern),
                         coefficient == 1 ? "" : fmt::format("coefficient = {}\n", toml_number(coefficient)));
+            } else if (const auto turned = transforms_.direction(history.line.where, key.dof)) {
+                for (const auto& [place, axis, control] : prescribed(history.line.where, key.dof))
+                    out += fmt::format("[[supports]]\n{}direction = {}\n\n", place, toml_list(*turned));
             } else {
                 for (const auto& [place, axis, control] : prescribed(history.line.where, key.dof)) {
                     if (!held.contains(place)) order.push_back(place);
@@ -131,7 +97,9 @@ public:
             for (const std::size_t axis : all) axes.emplace_back(axis_names[axis]);
             out += fmt::format("[[supports]]\n{}fix = {}\n\n", place, toml_list(axes));
         }
-        return patterns_ + out + loads;
+        std::map<std::int32_t, Points> changes;
+        for (auto& [body, history] : heated_) changes.emplace(body, std::move(history.points));
+        return patterns_ + out + loads + thermal_text(changes, mesh_);
     }
 
 private:
@@ -208,27 +176,26 @@ private:
                         throw SceneFailure(line.where.place,
                                            "TRVEC in another direction than before is not imported: "
                                            "give the surface another name");
-                    history->follows = &line;
-                    // The last of several lines of a step for the same place counts.
-                    if (history->given == step_) {
-                        history->points.resize(history->before);
-                    } else {
-                        history->given = step_;
-                        history->hold_until(time_);
-                        history->before = history->points.size();
-                    }
-                    extend(*history, step, line, end);
+                    follow(*history, step, line, end);
                     if (in_total_time(line))
                         in_total_time_.emplace(history->number, history);
                     else
                         in_total_time_.erase(history->number);
                 }
+        for (const LoadLine& line : step.temperatures)
+            for (const std::int32_t body : temperatures_.bodies(line.where)) {
+                const auto [at, inserted] = heated_.try_emplace(body);
+                if (inserted) at->second.points = {{0.0, temperatures_.initial(body)}};
+                follow(at->second, step, line, end);
+            }
         for (const auto& [number, history] : ending) {
             if (history->given == step_) continue;
             if (!history->force)
-                throw SceneFailure(step.place, fmt::format("OP=NEW frees \"{}\", degree of freedom {}, in this step: "
-                                                           "supports that end are not imported",
-                                                           history->line.where.text, history->dof));
+                throw SceneFailure(
+                    step.place,
+                    fmt::format("OP=NEW frees \"{}\", degree of freedom {}, in this step: "
+                                "supports that end are not imported; keep it, or end the analysis with the step before",
+                                history->line.where.text, history->dof));
             LoadLine ended = history->line;
             ended.magnitude = 0;
             ended.amplitude.clear();
@@ -241,16 +208,31 @@ private:
                 history->hold_until(time_);
                 extend(*history, step, *history->follows, end);
             }
-        const double wanted = std::ceil(step.period / step.first_increment * (1 - 1e-9));
+        const double wanted = std::ceil(step.period / step.increment * (1 - 1e-9));
         if (!(wanted + static_cast<double>(instants_.size()) <= most_increments))
             throw SceneFailure(step.place, fmt::format("{:.6g} increments of {}: at most {} in all steps", wanted,
-                                                       step.first_increment, most_increments));
+                                                       step.increment, most_increments));
         const auto increments = static_cast<std::int64_t>(wanted);
         for (std::int64_t i = 1; i <= increments; ++i)
             instants_.push_back(
                 i == increments ? end : time_ + step.period * static_cast<double>(i) / static_cast<double>(increments));
         sizes_.push_back(step.period / static_cast<double>(increments));
+        if (step.least_increment > default_substep * sizes_.back())
+            substep_ = std::min(substep_, step.least_increment / sizes_.back());
         time_ = end;
+    }
+
+    // The last of several lines of a step for the same place counts.
+    void follow(History& history, const Step& step, const LoadLine& line, double end) {
+        history.follows = &line;
+        if (history.given == step_) {
+            history.points.resize(history.before);
+        } else {
+            history.given = step_;
+            history.hold_until(time_);
+            history.before = history.points.size();
+        }
+        extend(history, step, line, end);
     }
 
     [[nodiscard]] const Amplitude* amplitude_of(const LoadLine& line) const {
@@ -259,7 +241,7 @@ private:
     }
     [[nodiscard]] bool in_total_time(const LoadLine& line) const {
         const Amplitude* amplitude = amplitude_of(line);
-        return amplitude != nullptr && amplitude->total_time;
+        return line.rate || (amplitude != nullptr && amplitude->total_time);
     }
 
     // Continues from the last point to the end of the step.
@@ -267,7 +249,9 @@ private:
         const double last = history.points.back().second;
         const Amplitude* amplitude = amplitude_of(line);
         Points next;
-        if (amplitude == nullptr) {
+        if (line.rate) {
+            next = {{time_, last}, {end, last + line.magnitude * step.period}};
+        } else if (amplitude == nullptr) {
             next = {{time_, step.ramp ? last : line.magnitude}, {end, line.magnitude}};
         } else {
             const double origin = amplitude->total_time ? 0.0 : time_;
@@ -283,7 +267,7 @@ private:
             next.emplace_back(end, factor * between(lines, end - origin));
         }
         if (next.front().second != last) {
-            const double first = time_ + std::min(step.first_increment, step.period);
+            const double first = time_ + std::min(step.increment, step.period);
             const double value = between(next, first);
             std::erase_if(next, [&](const auto& point) { return point.first <= first; });
             next.insert(next.begin(), {first, value});
@@ -311,6 +295,12 @@ private:
     }
 
     std::string time_text() {
+        const std::string solver =
+            substep_ < 1 ? fmt::format("[solver]\nsmallest_step = {}\n\n", toml_number(substep_)) : "";
+        return instants_text() + solver;
+    }
+
+    std::string instants_text() const {
         const auto [least, most] = std::minmax_element(sizes_.begin(), sizes_.end());
         if (*most - *least <= 1e-9 * *most)
             return fmt::format("[time]\nstart = 0.0\nend = {}\nsteps = {}\n\n", toml_number(time_), instants_.size());
@@ -423,7 +413,9 @@ private:
         std::string out;
         for (const auto& [place, axis, control] : pushed(where, dof)) {
             std::fill(force.begin(), force.end(), 0.0);
-            force[axis] = peak / width;
+            force[axis] = 1;
+            if (const auto turned = transforms_.direction(where, dof)) force = *turned;
+            for (double& x : force) x *= peak / width;
             out += fmt::format("[[forces]]\n{}{}force = {}\n\n", place, pattern, toml_list(force));
         }
         return out;
@@ -466,6 +458,9 @@ private:
     const Model& model_;
     const MeshData& mesh_;
     References& references_;
+    Temperatures temperatures_;
+    Transforms transforms_;
+    std::map<std::int32_t, History> heated_;  // by body
     std::map<Key, History> histories_;
     std::vector<Key> keys_;                                 // in the order of the deck
     std::set<std::pair<std::string, std::size_t>> pushed_;  // components of control nodes with a force
@@ -479,6 +474,7 @@ private:
     std::string patterns_;
     std::vector<double> instants_, sizes_;
     double time_ = 0;
+    double substep_ = 1;  // the least increment of all steps, as a part of the load step
 };
 
 }  // namespace

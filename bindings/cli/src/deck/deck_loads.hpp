@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "deck/deck.hpp"
+#include "deck/cards/deck.hpp"
 #include "deck/deck_references.hpp"
 #include "mesh/mesh_data.hpp"
 

@@ -84,6 +84,8 @@ References::References(const Deck& deck, const Model& model, const MeshData& mes
         if (nodes.size() == 1) set_of_.emplace(nodes.front(), set);
     for (const Coupling& coupling : deck.couplings) couple(coupling);
     for (const auto& terms : deck.equations) equate(terms);
+    for (const Pin& pin : deck.pins)
+        for (int dof = 1; dof <= mesh.dimension; ++dof) equate({{pin.first, dof, 1.0}, {pin.second, dof, -1.0}});
 }
 
 std::vector<std::int64_t> References::nodes_of(const Entry& where) const {

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "deck/deck.hpp"
+#include "deck/cards/deck.hpp"
 #include "deck/deck_bodies.hpp"
 #include "mesh/mesh_data.hpp"
 

@@ -11,8 +11,8 @@
 
 #include "deck/abaqus/abaqus_cards.hpp"
 #include "deck/abaqus/abaqus_mesh.hpp"
+#include "deck/cards/deck_cards.hpp"
 #include "deck/deck_bodies.hpp"
-#include "deck/deck_cards.hpp"
 #include "deck/deck_interfaces.hpp"
 #include "deck/deck_loads.hpp"
 #include "mesh/body_pieces.hpp"
@@ -57,6 +57,27 @@ std::vector<double> tidy_axis(const Vector& v) {
     std::vector<double> out;
     for (const double x : v) out.push_back(std::abs(x) < 1e-15 ? 0.0 : x);
     return out;
+}
+
+// Moduli and ratios from D1111, D1122, D2222, D1133, D2233, D3333, D1212, D1313, D2323, by the inverse of the upper
+// block.
+std::vector<std::pair<const char*, double>> engineering_constants(const MaterialCards& m) {
+    const Numbers& d = m.constants;
+    const double c[3][3] = {{d[0], d[1], d[3]}, {d[1], d[2], d[4]}, {d[3], d[4], d[5]}};
+    double s[3][3];
+    double determinant = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j)
+            s[j][i] = c[(i + 1) % 3][(j + 1) % 3] * c[(i + 2) % 3][(j + 2) % 3] -
+                      c[(i + 1) % 3][(j + 2) % 3] * c[(i + 2) % 3][(j + 1) % 3];
+    for (std::size_t j = 0; j < 3; ++j) determinant += c[0][j] * s[j][0];
+    if (!(d[0] > 0 && d[0] * d[2] - d[1] * d[1] > 0 && determinant > 0))
+        throw SceneFailure(m.place,
+                           fmt::format("material \"{}\": its ORTHOTROPIC constants are not positive definite", m.name));
+    const auto young = [&](std::size_t i) { return determinant / s[i][i]; };
+    const auto ratio = [&](std::size_t i, std::size_t j) { return -s[i][j] / s[i][i]; };
+    return {{"E1", young(0)},      {"E2", young(1)}, {"E3", young(2)}, {"nu12", ratio(0, 1)}, {"nu13", ratio(0, 2)},
+            {"nu23", ratio(1, 2)}, {"G12", d[6]},    {"G13", d[7]},    {"G23", d[8]}};
 }
 
 class SceneWriter {
@@ -112,7 +133,7 @@ private:
             const MaterialCards& material = named(deck_.materials, section.material, "material", section.place);
             used.insert(material.name);
             const std::string rest =
-                fmt::format("material = {}\n{}\n", toml_text(material.name), axes_text(section, found.scope->rotated));
+                fmt::format("material = {}\n{}\n", toml_text(material.name), axes_text(section, *found.scope));
             for (const std::string& name : entries_for(plain, begin, begin + pieces_[i], sorted))
                 bodies += fmt::format("[[bodies]]\nname = {}\n{}", toml_text(name), rest);
             begin += pieces_[i];
@@ -153,16 +174,13 @@ private:
                                "the normal of the plies");
     }
 
-    std::string axes_text(const Section& section, bool rotated) {
+    std::string axes_text(const Section& section, const Part& scope) {
         require_third_axis(section);
         if (section.orientation.empty() && section.angle == 0) {
             if (section.shell)
                 say_once(deck_.changed, "*SHELL SECTION without ORIENTATION: material axes 1, 2, 3 are x, y, z");
             return "";
         }
-        if (rotated)
-            throw SceneFailure(section.place,
-                               "ORIENTATION in an instance that is rotated is not imported: rotate the part");
         std::array<Vector, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
         if (!section.orientation.empty()) {
             const Orientation& o = orientation_of(section);
@@ -176,6 +194,9 @@ private:
             turn(axes, o.about == 0 ? 1 : o.about, o.angle);
         }
         turn(axes, 3, section.angle);
+        // The section of a part turns with its instance.
+        if (!section.part.empty())
+            for (Vector& axis : axes) axis = turned_by(scope, axis);
         return fmt::format("axes = [{}, {}]\n", toml_list(tidy_axis(axes[0])), toml_list(tidy_axis(axes[1])));
     }
 
@@ -191,6 +212,8 @@ private:
         } else if (m.elastic == "ENGINEERING CONSTANTS") {
             const char* const names[] = {"E1", "E2", "E3", "nu12", "nu13", "nu23", "G12", "G13", "G23"};
             for (std::size_t i = 0; i < 9; ++i) key(names[i], c[i]);
+        } else if (m.elastic == "ORTHOTROPIC") {
+            for (const auto& [name, value] : engineering_constants(m)) key(name, value);
         } else if (m.elastic == "LAMINA") {
             const double nu23 = c[1] / (2 * c[5]) - 1;
             if (!(std::abs(nu23) < 1))
@@ -210,6 +233,12 @@ private:
             throw SceneFailure(m.place, fmt::format("material \"{}\" of a body has {}", m.name,
                                                     m.elastic.empty() ? "no *ELASTIC" : "*ELASTIC, TYPE=" + m.elastic));
         }
+        const bool heated = std::any_of(deck_.steps.begin(), deck_.steps.end(),
+                                        [](const Step& step) { return !step.temperatures.empty(); });
+        if (m.expansion.size() == 3)
+            out += fmt::format("expansion = {}\n", toml_list(m.expansion));
+        else if (heated || !m.expansion.empty())
+            key("expansion", m.expansion.empty() ? 0.0 : m.expansion[0]);
         return out + "\n";
     }
 

@@ -22,6 +22,7 @@ struct CohesiveSet {
     std::string name;                                       ///< of their set of elements
     std::string faces;                                      ///< of the set of these faces: `name`, unless nodes have it
     std::vector<std::array<std::int64_t, 9>> lower, upper;  ///< [elements] nodes of each face, -1 padded
+    std::vector<double> apart;  ///< [elements] distance of its faces where bodies are tied to them; < 0: they are not
 };
 
 /**

@@ -14,6 +14,8 @@
 #include <fmt/format.h>
 
 #include "deck/abaqus/abaqus_elements.hpp"
+#include "deck/abaqus/generated.hpp"
+#include "deck/abaqus/left_out.hpp"
 #include "text/wording.hpp"
 
 namespace cli::abaqus {
@@ -52,6 +54,7 @@ const std::set<std::string> passed_over{"AMPLITUDE",
                                         "HOURGLASS STIFFNESS",
                                         "INITIAL CONDITIONS",
                                         "KINEMATIC",
+                                        "MPC",
                                         "MATERIAL",
                                         "NODE OUTPUT",
                                         "ORIENTATION",
@@ -65,6 +68,8 @@ const std::set<std::string> passed_over{"AMPLITUDE",
                                         "SPECIFIC HEAT",
                                         "SURFACE BEHAVIOR",
                                         "SURFACE INTERACTION",
+                                        "TEMPERATURE",
+                                        "TRANSFORM",
                                         "TIME POINTS",
                                         "USER DEFINED FIELD",
                                         "USER MATERIAL"};
@@ -84,6 +89,14 @@ std::array<double, 3> rotated(const std::array<double, 3>& point, const std::arr
     return out;
 }
 
+// A point from its radius, its angle about z in degrees, and its height or, of spherical ones, the angle above the
+// plane.
+std::array<double, 3> rectangular(const std::array<double, 3>& at, bool spherical) {
+    const double turn = at[1] * std::numbers::pi / 180, rise = spherical ? at[2] * std::numbers::pi / 180 : 0.0;
+    const double radius = at[0] * std::cos(rise);
+    return {radius * std::cos(turn), radius * std::sin(turn), spherical ? at[0] * std::sin(rise) : at[2]};
+}
+
 class CardReader {
 public:
     explicit CardReader(Model& model) : model_(model), open_(&model.root) {}
@@ -94,7 +107,10 @@ public:
         if (in_step_) throw SceneFailure(model_.file, "*STEP is not ended");
         if (model_.instances.empty())
             for (const auto& [key, part] : model_.parts)
-                throw SceneFailure(model_.file, fmt::format("part \"{}\" is in no *INSTANCE", part->name));
+                throw SceneFailure(model_.file,
+                                   fmt::format("part \"{}\" is in no *INSTANCE: give it one, or take *PART and "
+                                               "*END PART out",
+                                               part->name));
         if (!passed_.empty()) model_.notes.push_back("ignored: " + listing({passed_.begin(), passed_.end()}));
     }
 
@@ -102,18 +118,23 @@ private:
     void take(const InpCard& card) {
         const std::string& word = card.keyword;
         if (in_step_) {
+            if (word == "DLOAD") add_pressed(card);
             in_step_ = word != "END STEP";
             return;
         }
         if (word == "STEP") {
             in_step_ = true;
             passed_.insert("*STEP");
-        } else if (word == "HEADING") {
+        } else if (word == "HEADING" || word == "PARAMETER") {
             return;
         } else if (word == "NODE") {
             take_nodes(card);
         } else if (word == "ELEMENT") {
             take_elements(card);
+        } else if (word == "NGEN") {
+            made_ += generate_nodes(card, *open_, most_copies - made_);
+        } else if (word == "ELGEN") {
+            made_ += generate_elements(card, *open_, most_copies - made_);
         } else if (word == "NSET") {
             take_set(card, open_->node_sets, "NSET");
         } else if (word == "ELSET") {
@@ -124,6 +145,8 @@ private:
             open_->sections.push_back({open_, card.required("ELSET"), card.place});
         } else if (word == "COHESIVE SECTION") {
             open_->cohesive_sections.push_back({open_, card.required("ELSET"), card.place});
+        } else if (word == "TIE") {
+            take_tie(card);
         } else if (word == "PART") {
             begin_part(card);
         } else if (word == "INSTANCE") {
@@ -140,7 +163,8 @@ private:
         } else {
             throw SceneFailure(card.place,
                                "this keyword is not supported; SCENE.md lists the keywords that are read and "
-                               "those that are ignored");
+                               "those that are ignored; " +
+                                   instead_of_keyword(word));
         }
     }
 
@@ -201,7 +225,8 @@ private:
             const std::array<double, 3> a{turn[0], turn[1], turn[2]};
             const std::array<double, 3> b{turn[3], turn[4], turn[5]};
             if (a == b) throw SceneFailure(card.lines[1].place, "the two points of the axis of rotation are the same");
-            instance.rotated = true;
+            for (std::array<double, 3>& axis : instance.turned)
+                axis = rotated(axis, {}, {b[0] - a[0], b[1] - a[1], b[2] - a[2]}, turn[6] * std::numbers::pi / 180);
             for (Node& node : instance.nodes) node.at = rotated(node.at, a, b, turn[6] * std::numbers::pi / 180);
         }
         open_ = &instance;
@@ -230,7 +255,9 @@ private:
     }
 
     void take_nodes(const InpCard& card) {
-        card.only({"NSET"});
+        card.only({"NSET", "SYSTEM"});
+        const std::string system = card.has("SYSTEM") ? upper(card.required("SYSTEM")) : "R";
+        if (system != "R" && system != "C" && system != "S") card.refuse("SYSTEM", system, "R, C or S");
         for (const InpLine& line : card.lines) {
             if (line.fields.size() < 3 || line.fields.size() > 4)
                 throw SceneFailure(line.place, fmt::format("{} entries: a number and 2 or 3 coordinates are expected",
@@ -238,6 +265,7 @@ private:
             Node node{inp_whole(line.fields[0], line.place), {}};
             for (std::size_t i = 1; i < line.fields.size(); ++i)
                 node.at[i - 1] = inp_number(line.fields[i], line.place);
+            if (system != "R") node.at = rectangular(node.at, system == "S");
             if (!open_->node_of.emplace(node.id, open_->nodes.size()).second)
                 throw SceneFailure(line.place, fmt::format("node {} occurs twice", node.id));
             open_->nodes.push_back(node);
@@ -341,6 +369,36 @@ private:
         }
     }
 
+    void take_tie(const InpCard& card) {
+        card.only({"NAME", "ADJUST", "POSITION TOLERANCE", "TYPE", "NO ROTATION", "NO THICKNESS", "CONSTRAINT RATIO"});
+        Tie tie;
+        if (card.has("POSITION TOLERANCE")) tie.tolerance = inp_number(card.required("POSITION TOLERANCE"), card.place);
+        if (!(tie.tolerance >= 0))
+            throw SceneFailure(card.place, fmt::format("POSITION TOLERANCE={}: must be >= 0", tie.tolerance));
+        (void)card.first_line();
+        for (const InpLine& line : card.lines) {
+            if (line.fields.size() < 2) throw SceneFailure(line.place, "a slave and a master surface are expected");
+            tie.slave = {open_, line.fields[0], line.place};
+            tie.master = {open_, line.fields[1], line.place};
+            tie.place = line.place;
+            model_.ties.push_back(tie);
+        }
+    }
+
+    // The sides of elements on which a pressure acts are a surface.
+    void add_pressed(const InpCard& card) {
+        for (const InpLine& line : card.lines) {
+            const std::string name = line.fields.size() < 2 ? "" : pressed_surface(line.fields[0], line.fields[1]);
+            if (name.empty()) continue;
+            Surface& surface = model_.root.surfaces[upper(name)];
+            if (!surface.name.empty()) continue;
+            surface.name = name;
+            surface.place = line.place;
+            surface.sides.push_back(
+                {{&model_.root, line.fields[0], line.place}, static_cast<std::size_t>(line.fields[1][1] - '1')});
+        }
+    }
+
     void set_note(const std::string& text) {
         auto& notes = model_.notes;
         if (std::find(notes.begin(), notes.end(), text) == notes.end()) notes.push_back(text);
@@ -350,10 +408,16 @@ private:
     Part* open_;
     bool in_step_ = false;
     std::int64_t copies_ = 0;
+    std::int64_t made_ = 0;  // nodes and elements of *NGEN and *ELGEN
     std::set<std::string> passed_;
 };
 
 }  // namespace
+
+std::string pressed_surface(const std::string& elements, const std::string& side) {
+    if (side.size() != 2 || (side[0] != 'P' && side[0] != 'p') || side[1] < '1' || side[1] > '6') return "";
+    return elements + "-P" + side[1];
+}
 
 void take_cards(const std::vector<InpCard>& cards, const std::string& path, Model& model) {
     model.file = {path, "", 0};

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "deck/abaqus/left_out.hpp"
 #include "delam/delam.h"
 #include "mesh/cell_shape.hpp"
 #include "text/wording.hpp"
@@ -68,6 +69,8 @@ const ElementType& type_named(const InpCard& card) {
         if (type.name == name) return type;
         known.emplace_back(type.name);
     }
+    if (const std::string instead = instead_of_element(name); !instead.empty())
+        throw SceneFailure(card.place, fmt::format("type {} is not read: {}", name, instead));
     throw SceneFailure(
         card.place, fmt::format("type {} is not read{}; these are: {}", name, suggestion(name, known), listing(known)));
 }

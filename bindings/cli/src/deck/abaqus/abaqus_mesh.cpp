@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "deck/abaqus/inp_cards.hpp"
+#include "deck/abaqus/tied_faces.hpp"
 #include "mesh/cell_shape.hpp"
 #include "text/wording.hpp"
 
@@ -151,12 +152,15 @@ private:
                 if (!nodes.empty()) mesh_.node_sets[full_name(*scope, set.name)].assign(nodes.begin(), nodes.end());
             }
             for (const auto& [key, surface] : scope->surfaces) {
-                const std::string name = full_name(*scope, surface.name);
-                if (mesh_.node_sets.contains(name))
-                    throw SceneFailure(surface.place, "\"" + name + "\" is a node set too: give it a name of its own");
+                const std::string name = surface_set_name(*scope, surface), own = full_name(*scope, surface.name);
+                if (name != own)
+                    mesh_.notes.push_back(
+                        fmt::format("\"{}\" is a node set and a surface: the surface is \"{}\" here", own, name));
                 std::set<std::int64_t> nodes;
                 for (const Entry& entry : surface.nodes) model_.collect_nodes(entry, nodes);
-                for (const Side& side : surface.sides) add_sides(side, mesh_.face_sets[name], nodes);
+                std::vector<std::array<std::int64_t, 9>> faces;
+                for (const Side& side : surface.sides) add_sides(side, faces, nodes);
+                if (!faces.empty()) mesh_.face_sets[name] = std::move(faces);
                 if (!nodes.empty()) mesh_.node_sets[name].assign(nodes.begin(), nodes.end());
             }
         }
@@ -196,34 +200,64 @@ private:
             set.faces = set.name;
             while (mesh_.node_sets.contains(set.faces)) set.faces += "-faces";
             auto& faces = mesh_.face_sets[set.faces];
+            if (const auto loose = loose_.find(set.name); loose != loose_.end())
+                tie_to_bodies(mesh_, ties(), loose->second, set, faces);
             std::set<std::int64_t> nodes;
             for (const auto* side : {&set.lower, &set.upper})
                 for (const auto& face : *side) {
+                    if (!set.apart.empty() && set.apart[static_cast<std::size_t>(&face - side->data())] >= 0) continue;
                     faces.push_back(face);
                     std::copy_if(face.begin(), face.end(), std::inserter(nodes, nodes.end()),
                                  [](std::int64_t node) { return node >= 0; });
                 }
+            for (const auto& face : faces)
+                std::copy_if(face.begin(), face.end(), std::inserter(nodes, nodes.end()),
+                             [](std::int64_t node) { return node >= 0; });
             mesh_.node_sets[set.faces].assign(nodes.begin(), nodes.end());
         }
+    }
+
+    [[nodiscard]] std::string surface_name(const Entry& raw) const {
+        const Entry entry = model_.resolved_scope(raw);
+        const auto surface = entry.scope->surfaces.find(upper(entry.text));
+        if (surface == entry.scope->surfaces.end())
+            throw SceneFailure(raw.place, "surface \"" + raw.text + "\" is not there");
+        return surface_set_name(*entry.scope, surface->second);
+    }
+
+    // The ties between a surface of nodes, as that of cohesive elements is, and one of sides of cells.
+    [[nodiscard]] std::vector<TiedNodes> ties() const {
+        std::vector<TiedNodes> out;
+        for (const Tie& tie : model_.ties) {
+            std::string own = surface_name(tie.slave), other = surface_name(tie.master);
+            if (mesh_.face_sets.contains(own)) std::swap(own, other);
+            const auto nodes = mesh_.node_sets.find(own);
+            if (!mesh_.face_sets.contains(other) || nodes == mesh_.node_sets.end()) continue;
+            out.push_back({{nodes->second.begin(), nodes->second.end()}, other});
+        }
+        return out;
     }
 
     void add_cohesive_element(const Part& scope, const Element& element, const std::string& name,
                               const std::vector<bool>& in_cell) {
         const auto [known, first] = cohesive_of_.emplace(name, mesh_.cohesive.size());
-        if (first) mesh_.cohesive.push_back(CohesiveSet{name, "", {}, {}});
+        if (first) mesh_.cohesive.push_back(CohesiveSet{name, "", {}, {}, {}});
         CohesiveSet& set = mesh_.cohesive[known->second];
         std::array<std::array<std::int64_t, 9>, 2> faces{};
         for (std::size_t k = 0; k < element.nodes.size(); ++k) {
             const std::size_t half = element.type->face_nodes;
             if (k % half == 0) faces[k / half].fill(-1);
             const std::int64_t node = node_number(scope, element.nodes[k], element.place);
-            if (!in_cell[static_cast<std::size_t>(node)])
-                throw SceneFailure(
-                    element.place,
-                    fmt::format("node {} of the cohesive element {} belongs to no cell: cohesive elements "
-                                "share their nodes with the bodies that they hold together (*TIE is not "
-                                "read)",
-                                full_name(scope, std::to_string(element.nodes[k])), element.id));
+            if (!in_cell[static_cast<std::size_t>(node)]) {
+                if (model_.ties.empty())
+                    throw SceneFailure(
+                        element.place,
+                        fmt::format("node {} of the cohesive element {} belongs to no cell: cohesive elements "
+                                    "share their nodes with the bodies that they hold together, or surfaces of "
+                                    "theirs are tied to them (*TIE)",
+                                    full_name(scope, std::to_string(element.nodes[k])), element.id));
+                loose_[name][set.lower.size()] = element.place;
+            }
             faces[k / half][k % half] = node;
         }
         set.lower.push_back(faces[0]);
@@ -236,11 +270,10 @@ private:
         model_.collect_elements(side.elements, elements);
         for (const ElementAt& at : elements) {
             const Element& element = at.scope->elements[at.index];
-            if (element.type->cohesive())
-                throw SceneFailure(side.elements.place,
-                                   fmt::format("element {} is a cohesive element, which has no sides here: give those "
-                                               "of the bodies beside it",
-                                               element.id));
+            if (element.type->cohesive()) {
+                add_cohesive_side(side, at, nodes);
+                continue;
+            }
             const CellShape& shape = shape_of(element.type->cell);
             if (side.side >= shape.sides.size())
                 throw SceneFailure(side.elements.place,
@@ -256,11 +289,24 @@ private:
         }
     }
 
+    // A side of a cohesive element is a place for ties: its nodes count, and it is no face of a body.
+    static void add_cohesive_side(const Side& side, const ElementAt& at, std::set<std::int64_t>& nodes) {
+        const Element& element = at.element();
+        const std::size_t half = element.type->face_nodes, upper_side = element.type->dimension() == 2 ? 2 : 1;
+        if (side.side != 0 && side.side != upper_side)
+            throw SceneFailure(side.elements.place,
+                               fmt::format("S{}: the faces of the cohesive element {} are S1 and S{}", side.side + 1,
+                                           element.id, upper_side + 1));
+        for (std::size_t k = 0; k < half; ++k)
+            nodes.insert(node_number(*at.scope, element.nodes[(side.side == 0 ? 0 : half) + k], element.place));
+    }
+
     Model& model_;
     std::map<ElementAt, std::int32_t> body_of_;
     std::map<std::string, std::int32_t> label_of_;  // of bodies, by name
     Met assigned_;
     std::map<std::string, std::size_t> cohesive_of_;  // by name
+    std::map<std::string, LooseElements> loose_;      // by name of their set
     MeshData mesh_;
 };
 

@@ -142,4 +142,18 @@ std::string full_name(const Part& scope, const std::string& name) {
     return scope.name.empty() ? name : scope.name + "." + name;
 }
 
+std::string surface_set_name(const Part& scope, const Surface& surface) {
+    std::string name = surface.name;
+    while (scope.node_sets.contains(upper(name)) || (name != surface.name && scope.surfaces.contains(upper(name))))
+        name += "-surface";
+    return full_name(scope, name);
+}
+
+std::array<double, 3> turned_by(const Part& instance, const std::array<double, 3>& direction) {
+    std::array<double, 3> out{};
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t a = 0; a < 3; ++a) out[a] += direction[i] * instance.turned[i][a];
+    return out;
+}
+
 }  // namespace cli::abaqus

@@ -65,6 +65,13 @@ struct Surface {
     Place place;
 };
 
+// *TIE: the nodes of one surface move with the other, onto which they are projected.
+struct Tie {
+    Entry slave, master;
+    double tolerance = 0;  // the largest distance of nodes that are tied; 0: not said
+    Place place;
+};
+
 // A part, an instance of one, or the objects outside of both.
 struct Part {
     std::string name;
@@ -77,7 +84,7 @@ struct Part {
     std::map<std::string, Surface> surfaces;
     std::vector<Entry> sections;  // their element sets
     std::vector<Entry> cohesive_sections;
-    bool rotated = false;         // an instance: by its second data line
+    std::array<std::array<double, 3>, 3> turned{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  // where an instance has x, y, z
     std::size_t order = 0;        // position among the parts of the mesh
     std::int64_t first_node = 0;  // number in the mesh
 };
@@ -111,6 +118,7 @@ struct Model {
     std::map<std::string, std::unique_ptr<Part>> parts;  // by upper case
     std::vector<std::unique_ptr<Part>> instances;
     std::unordered_map<std::string, const Part*> instance_of;  // by upper case
+    std::vector<Tie> ties;
     std::vector<std::string> notes;
 
     // The parts and instances that make up the mesh.
@@ -144,5 +152,9 @@ constexpr std::int64_t most_copies = 20000000;
 std::int64_t node_number(const Part& scope, std::int64_t id, const Place& place);
 // The name in the scene of an object of a part or an instance.
 std::string full_name(const Part& scope, const std::string& name);
+// The name of the set of a surface: with an ending where a node set has its name.
+std::string surface_set_name(const Part& scope, const Surface& surface);
+// A direction of a part as its instance has it.
+std::array<double, 3> turned_by(const Part& instance, const std::array<double, 3>& direction);
 
 }  // namespace cli::abaqus

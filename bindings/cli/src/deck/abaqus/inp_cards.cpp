@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "deck/abaqus/inp_parameters.hpp"
 #include "file/input_file.hpp"
 #include "mesh/mesh_file.hpp"
 #include "text/wording.hpp"
@@ -78,6 +79,18 @@ void parse_keyword_line(const std::string& line, InpCard& card) {
     }
 }
 
+// Returns a hint where a line has the words of another program.
+std::string of_another_program(const std::string& line) {
+    const std::string start = upper(line.substr(0, line.find_first_of(" ,/=")));
+    const bool ansys = line.front() == '/' || line.front() == '!' || start == "FINISH" || start == "ET" ||
+                       start == "NBLOCK" || start == "EBLOCK" || start == "MP";
+    const bool nastran =
+        start == "SOL" || start == "CEND" || start == "GRID" || start == "BEGIN" || line.front() == '$';
+    if (ansys) return "; it seems to be one of ANSYS: convert its mesh, for instance by meshio or Gmsh, to .msh";
+    if (nastran) return "; it seems to be one of Nastran: convert its mesh, for instance by meshio or Gmsh, to .msh";
+    return "";
+}
+
 class CardReader {
 public:
     std::vector<InpCard> cards;
@@ -105,7 +118,7 @@ public:
                 }
                 InpCard card;
                 card.place = place;
-                parse_keyword_line(line, card);
+                parse_keyword_line(parameters_.replaced(line, place), card);
                 card.place.path = "*" + card.keyword;
                 if (card.keyword == "INCLUDE")
                     include(card, path, depth);
@@ -113,7 +126,15 @@ public:
                     cards.push_back(std::move(card));
                 continue;
             }
-            if (cards.empty()) throw SceneFailure(place, "a keyword line (*NAME) is expected first");
+            if (cards.empty())
+                throw SceneFailure(place, "a keyword line (*NAME) is expected first: this is no input file of Abaqus" +
+                                              of_another_program(line));
+            const std::string& keyword = cards.back().keyword;
+            if (keyword == "PARAMETER") {
+                parameters_.define(line, {path, "*PARAMETER", number});
+                continue;
+            }
+            if (keyword != "HEADING") line = parameters_.replaced(line, {path, "*" + keyword, number});
             InpLine data{split(line), line.back() == ',', place};
             for (std::string& field : data.fields) field = unquoted(field);
             data.place.path = "*" + cards.back().keyword;
@@ -123,6 +144,7 @@ public:
 
 private:
     std::size_t files_ = 0;
+    InpParameters parameters_;
 
     // Included files may be included again, so that a small file could stand for more than any machine can read: the
     // number of files and their size are limited.

@@ -3,9 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <set>
 #include <sstream>
+#include <string_view>
 #include <unordered_map>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -44,6 +48,38 @@ void require_sections(const std::string& path, const std::string& bytes, const P
         if (bytes.find(std::string("$") + section) != std::string::npos &&
             bytes.find(std::string("$End") + section) == std::string::npos)
             throw SceneFailure(place, fmt::format("{}: the file ends before $End{}", path, section));
+}
+
+// The number of partitions that a file of format 4.1 says its mesh has; 0: it says none.
+std::uint64_t partitions_said(const std::string& bytes) {
+    constexpr std::string_view section = "$PartitionedEntities\n";
+    const std::size_t begin = bytes.find(section);
+    if (begin == std::string::npos) return 0;
+    std::istringstream format(bytes.substr(0, static_cast<std::size_t>(format_bytes)));
+    std::string line, version;
+    int binary = 0;
+    while (std::getline(format, line) && line.rfind("$MeshFormat", 0) != 0) continue;
+    format >> version >> binary;
+    const std::string rest = bytes.substr(begin + section.size(), 32);
+    std::uint64_t count = 0;
+    if (binary == 0)
+        std::istringstream(rest) >> count;
+    else if (rest.size() >= sizeof count)
+        std::memcpy(&count, rest.data(), sizeof count);
+    return count;
+}
+
+// A mesh in several files has the cells of one partition in each.
+void require_all_partitions(const std::string& path, const std::string& bytes, const MeshData& mesh,
+                            const Place& place) {
+    std::set<std::int32_t> here;
+    for (const CellBlock& block : mesh.blocks) here.insert(block.partitions.begin(), block.partitions.end());
+    const std::uint64_t said = partitions_said(bytes);
+    if (!here.empty() && here.size() < said)
+        throw SceneFailure(place,
+                           fmt::format("{}: has cells of {} of its {} partitions, as one file of a split mesh has: "
+                                       "give the mesh in one file (gmsh without -part_split)",
+                                       path, here.size(), said));
 }
 
 class GmshReader {
@@ -284,7 +320,9 @@ MeshFile read_gmsh(const std::string& path, const Place& place) {
     const std::string bytes = checked_bytes(path, place);
     return with_gmsh(place, path, [&] {
         gmsh::merge(path);
-        return MeshFile{read_gmsh_model(path, place), hash_text(bytes)};
+        MeshData mesh = read_gmsh_model(path, place);
+        require_all_partitions(path, bytes, mesh, place);
+        return MeshFile{std::move(mesh), hash_text(bytes)};
     });
 }
 

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "deck/deck_step_cards.hpp"
+#include "deck/cards/deck_step_cards.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
+
+#include "deck/abaqus/abaqus_cards.hpp"
 
 namespace cli::abaqus {
 
@@ -18,6 +21,13 @@ const std::pair<const char*, std::vector<int>> named_supports[] = {{"ENCASTRE", 
                                                                    {"YASYMM", {1, 3, 5}},
                                                                    {"ZASYMM", {1, 2, 6}}};
 
+// Load steps of a step whose increments have no upper limit below the whole step: enough points for a curve, at a
+// fiftieth of its load; 25 halves the time and the points, 100 doubles both (ctest -R cli_decks).
+constexpr double free_steps = 50;
+// Least number of load steps where the deck limits its increments to a larger part of the step; half as many draw
+// corners into a curve, twice as many take more time than the deck asks for (ctest -R cli_decks).
+constexpr double fewest_steps = 10;
+
 }  // namespace
 
 bool StepReader::take(const InpCard& card) {
@@ -25,8 +35,9 @@ bool StepReader::take(const InpCard& card) {
     static const std::pair<const char*, Take> known[] = {
         {"AMPLITUDE", &StepReader::take_amplitude}, {"BOUNDARY", &StepReader::take_boundary},
         {"CLOAD", &StepReader::take_forces},        {"DSLOAD", &StepReader::take_distributed},
-        {"DYNAMIC", &StepReader::take_procedure},   {"END STEP", &StepReader::end_step},
-        {"STATIC", &StepReader::take_procedure},    {"STEP", &StepReader::take_step},
+        {"DLOAD", &StepReader::take_pressures},     {"DYNAMIC", &StepReader::take_procedure},
+        {"END STEP", &StepReader::end_step},        {"STATIC", &StepReader::take_procedure},
+        {"STEP", &StepReader::take_step},           {"TEMPERATURE", &StepReader::take_temperature},
     };
     for (const auto& [keyword, function] : known)
         if (card.keyword == keyword) {
@@ -81,20 +92,44 @@ void StepReader::end_step(const InpCard&) { in_step_ = false; }
 
 void StepReader::take_procedure(const InpCard& card) {
     Step& s = step(card);
-    if (card.has("RIKS"))
-        throw SceneFailure(card.place, "RIKS is not imported: prescribe displacements; jumps are found by energy");
+    if (card.has("RIKS")) {
+        s.riks = true;
+        s.increment = s.period / free_steps;
+        say_once(deck_.changed,
+                 "RIKS: load steps to the displacements of the step (load proportionality factor 1), over a time of 1; "
+                 "jumps are found by energy");
+        return;
+    }
     if (card.keyword == "DYNAMIC") {
         if (upper(card.parameter("APPLICATION")) != "QUASI-STATIC")
-            throw SceneFailure(card.place, "dynamic steps are not imported, but for APPLICATION=QUASI-STATIC");
+            throw SceneFailure(card.place, card.has("EXPLICIT")
+                                               ? "explicit steps stay out: give *STATIC, which has no inertia"
+                                               : "dynamic steps are not imported, but for APPLICATION=QUASI-STATIC");
         say_once(deck_.changed, "*DYNAMIC: without inertia");
     }
     if (card.has("STABILIZE"))
         say_once(deck_.changed, "STABILIZE: no viscosity; jumps of the crack are found by energy");
-    if (card.lines.empty()) return;
     if (card.lines.size() > 1) throw SceneFailure(card.lines[1].place, "one line is expected");
-    const Numbers values = card.lines[0].numbers();
-    if (values.size() > 1 && values[1] > 0) s.period = values[1];
-    s.first_increment = !values.empty() && values[0] > 0 ? std::min(values[0], s.period) : s.period;
+    Numbers values = card.lines.empty() ? Numbers{} : card.lines[0].numbers();
+    values.resize(std::max<std::size_t>(values.size(), 4), 0.0);
+    for (std::size_t i = 0; i < 4; ++i)
+        if (values[i] < 0)
+            throw SceneFailure(card.lines[0].place, fmt::format("{} in a line of increments: must be >= 0", values[i]));
+    const auto [first, period, least, largest] = std::array{values[0], values[1], values[2], values[3]};
+    if (period > 0) s.period = period;
+    if (card.has("DIRECT")) {
+        s.increment = first > 0 ? std::min(first, s.period) : s.period;
+        return;
+    }
+    if (least > 0 && largest > 0 && least > largest)
+        throw SceneFailure(card.lines[0].place,
+                           fmt::format("the least increment, {}, is larger than the largest, {}", least, largest));
+    // Abaqus begins with the first increment and chooses those behind it up to the largest; here the library takes
+    // shorter substeps where it needs them.
+    const bool limited = largest > 0 && largest < s.period;
+    s.increment = std::max(limited ? std::min(largest, s.period / fewest_steps) : s.period / free_steps, least);
+    s.increment = std::min(s.increment, s.period);
+    s.least_increment = std::min(least, s.increment);
 }
 
 std::vector<LoadLine>& StepReader::boundaries() { return in_step_ ? deck_.steps.back().boundaries : deck_.held; }
@@ -109,8 +144,13 @@ bool StepReader::renews(const InpCard& card) {
 void StepReader::take_boundary(const InpCard& card) {
     card.only({"AMPLITUDE", "OP", "TYPE", "FIXED"});
     if (renews(card)) step(card).new_boundaries = true;
-    if (card.has("TYPE") && upper(card.required("TYPE")) != "DISPLACEMENT")
-        card.refuse("TYPE", card.required("TYPE"), "DISPLACEMENT");
+    const std::string type = card.has("TYPE") ? upper(card.required("TYPE")) : "DISPLACEMENT";
+    if (type != "DISPLACEMENT" && type != "VELOCITY") card.refuse("TYPE", type, "DISPLACEMENT or VELOCITY");
+    const bool rate = type == "VELOCITY";
+    if (rate && card.has("AMPLITUDE"))
+        throw SceneFailure(card.place, "VELOCITY with AMPLITUDE is not imported: give displacements, its integral");
+    if (rate)
+        say_once(deck_.changed, "VELOCITY: displacements that grow evenly, by the velocity times the time of the step");
     if (card.has("FIXED")) throw SceneFailure(card.place, "FIXED is not imported: give the displacement");
     for (const InpLine& line : card.lines) {
         if (line.fields.size() < 2)
@@ -118,6 +158,7 @@ void StepReader::take_boundary(const InpCard& card) {
         LoadLine load;
         load.where = {&root_, line.fields[0], line.place};
         load.amplitude = card.parameter("AMPLITUDE");
+        load.rate = rate;
         for (const auto& [name, dofs] : named_supports)
             if (upper(line.fields[1]) == name) {
                 load.named = true;
@@ -140,9 +181,18 @@ void StepReader::take_boundary(const InpCard& card) {
     }
 }
 
+// With forces alone the factor to which RIKS goes is not known.
+void StepReader::require_displacements(const InpCard& card) {
+    if (step(card).riks && !card.lines.empty())
+        throw SceneFailure(card.place,
+                           "forces in a step with RIKS are not imported: prescribe displacements, with which jumps are "
+                           "found by energy");
+}
+
 void StepReader::take_forces(const InpCard& card) {
     card.only({"AMPLITUDE", "OP"});
     if (renews(card)) step(card).new_forces = true;
+    require_displacements(card);
     for (const InpLine& line : card.lines) {
         if (line.fields.size() < 3)
             throw SceneFailure(line.place, "a node or set, a degree of freedom and a force are expected");
@@ -161,6 +211,7 @@ void StepReader::take_distributed(const InpCard& card) {
     card.only({"AMPLITUDE", "OP", "FOLLOWER", "ORIENTATION", "CONSTANT RESULTANT"});
     if (renews(card)) step(card).new_distributed = true;
     if (card.has("ORIENTATION")) throw SceneFailure(card.place, "ORIENTATION is not imported");
+    require_displacements(card);
     for (const InpLine& line : card.lines) {
         if (line.fields.size() < 3)
             throw SceneFailure(line.place, "a surface, P or TRVEC, and a magnitude are expected");
@@ -174,6 +225,50 @@ void StepReader::take_distributed(const InpCard& card) {
         if (load.distributed == "TRVEC") load.direction = line.numbers(3);
         step(card).forces.push_back(std::move(load));
     }
+}
+
+void StepReader::take_pressures(const InpCard& card) {
+    card.only({"AMPLITUDE", "OP"});
+    if (renews(card)) step(card).new_distributed = true;
+    require_displacements(card);
+    for (const InpLine& line : card.lines) {
+        if (line.fields.size() != 3)
+            throw SceneFailure(line.place,
+                               "an element or a set of them, a side (P1 .. P6) and a pressure are expected");
+        LoadLine load;
+        const std::string surface = pressed_surface(line.fields[0], line.fields[1]);
+        if (surface.empty())
+            throw SceneFailure(line.place,
+                               "\"" + line.fields[1] + "\" is not imported: pressures on sides, P1 .. P6, are");
+        load.where = {&root_, surface, line.place};
+        load.amplitude = card.parameter("AMPLITUDE");
+        load.distributed = "P";
+        load.magnitude = inp_number(line.fields[2], line.place);
+        step(card).forces.push_back(std::move(load));
+    }
+}
+
+void StepReader::take_temperatures(const InpCard& card, const Part& root, std::vector<LoadLine>& lines) {
+    card.only({"TYPE", "AMPLITUDE", "OP"});
+    for (const InpLine& line : card.lines) {
+        if (line.fields.size() != 2)
+            throw SceneFailure(line.place,
+                               "a node or set and one temperature are expected: temperatures through the "
+                               "thickness are not imported");
+        LoadLine load;
+        load.where = {&root, line.fields[0], line.place};
+        load.amplitude = card.parameter("AMPLITUDE");
+        load.magnitude = inp_number(line.fields[1], line.place);
+        lines.push_back(std::move(load));
+    }
+}
+
+void StepReader::take_temperature(const InpCard& card) {
+    const bool earlier = std::any_of(deck_.steps.begin(), deck_.steps.end(),
+                                     [](const Step& each) { return !each.temperatures.empty(); });
+    if (renews(card) && earlier)
+        throw SceneFailure(card.place, "OP=NEW of temperatures is not imported: give all temperatures of this step");
+    take_temperatures(card, root_, step(card).temperatures);
 }
 
 }  // namespace cli::abaqus

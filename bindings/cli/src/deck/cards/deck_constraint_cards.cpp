@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "deck/deck_constraint_cards.hpp"
+#include "deck/cards/deck_constraint_cards.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include <fmt/format.h>
@@ -10,10 +11,10 @@ namespace cli::abaqus {
 
 bool ConstraintReader::take(const InpCard& card) {
     using Take = void (ConstraintReader::*)(const InpCard&);
-    static const std::pair<const char*, Take> known[] = {{"COUPLING", &ConstraintReader::take_coupling},
-                                                         {"EQUATION", &ConstraintReader::take_equation},
-                                                         {"KINEMATIC", &ConstraintReader::take_kinematic},
-                                                         {"RIGID BODY", &ConstraintReader::take_rigid_body}};
+    static const std::pair<const char*, Take> known[] = {
+        {"COUPLING", &ConstraintReader::take_coupling},     {"EQUATION", &ConstraintReader::take_equation},
+        {"KINEMATIC", &ConstraintReader::take_kinematic},   {"MPC", &ConstraintReader::take_pins},
+        {"RIGID BODY", &ConstraintReader::take_rigid_body}, {"TRANSFORM", &ConstraintReader::take_transform}};
     if (card.keyword != "KINEMATIC") finish();
     for (const auto& [keyword, function] : known)
         if (card.keyword == keyword) {
@@ -106,6 +107,43 @@ void ConstraintReader::take_equation(const InpCard& card) {
     }
     if (wanted != 0) throw SceneFailure(card.place, fmt::format("{} terms: {} are expected", terms.size(), wanted));
     if (card.lines.empty()) throw SceneFailure(card.place, "the number of terms is expected");
+}
+
+void ConstraintReader::take_pins(const InpCard& card) {
+    card.only({});
+    (void)card.first_line();
+    for (const InpLine& line : card.lines) {
+        const std::string type = line.fields.empty() ? "" : upper(line.fields[0]);
+        if (type != "TIE" && type != "PIN")
+            throw SceneFailure(line.place, "type " + type +
+                                               " is not imported: TIE and PIN are; give *COUPLING with *KINEMATIC for "
+                                               "BEAM, *EQUATION for others, *TIE for meshes that do not match");
+        if (line.fields.size() != 3) throw SceneFailure(line.place, "a type and two nodes or sets are expected");
+        deck_.pins.push_back({{&root_, line.fields[1], line.place}, {&root_, line.fields[2], line.place}});
+    }
+}
+
+// The first point lies on axis 1, the second in the plane of axes 1 and 2.
+void ConstraintReader::take_transform(const InpCard& card) {
+    card.only({"NSET", "TYPE"});
+    if (card.has("TYPE") && upper(card.required("TYPE")) != "R")
+        card.refuse("TYPE", card.required("TYPE"), "R (degrees of freedom that turn from node to node stay out)");
+    const Numbers points = card.first_line().numbers();
+    if (points.size() != 6) throw SceneFailure(card.lines[0].place, "6 coordinates are expected");
+    Transform transform{{&root_, card.required("NSET"), card.place}, {}, card.place};
+    const auto unit = [&](std::array<double, 3> v) {
+        const double length = std::hypot(v[0], v[1], v[2]);
+        if (!(length > 0)) throw SceneFailure(card.lines[0].place, "the points lie on one line: they give no axes");
+        for (double& x : v) x /= length;
+        return v;
+    };
+    const auto cross = [](const std::array<double, 3>& a, const std::array<double, 3>& b) {
+        return std::array{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+    };
+    transform.axes[0] = unit({points[0], points[1], points[2]});
+    transform.axes[2] = unit(cross(transform.axes[0], {points[3], points[4], points[5]}));
+    transform.axes[1] = cross(transform.axes[2], transform.axes[0]);
+    deck_.transforms.push_back(std::move(transform));
 }
 
 }  // namespace cli::abaqus

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "deck/abaqus/inp_cards.hpp"
-#include "deck/deck.hpp"
+#include "deck/cards/deck.hpp"
 
 namespace cli::abaqus {
 
@@ -16,6 +16,9 @@ public:
     // root: the scope of the sets that steps name.
     StepReader(Deck& deck, const Part& root) : deck_(deck), root_(root) {}
 
+    // The lines of a card of temperatures: a node or set, and one temperature.
+    static void take_temperatures(const InpCard& card, const Part& root, std::vector<LoadLine>& lines);
+
     // False: the card does not belong to a step.
     bool take(const InpCard& card);
 
@@ -23,10 +26,13 @@ private:
     void take_amplitude(const InpCard& card);
     void take_step(const InpCard& card);
     void end_step(const InpCard&);
+    void take_temperature(const InpCard& card);
     void take_procedure(const InpCard& card);
     void take_boundary(const InpCard& card);
     void take_forces(const InpCard& card);
     void take_distributed(const InpCard& card);
+    void take_pressures(const InpCard& card);
+    void require_displacements(const InpCard& card);
     Step& step(const InpCard& card);
     std::vector<LoadLine>& boundaries();
     // OP=NEW: what earlier steps have prescribed ends, unless this step gives it again.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "deck/deck.hpp"
+#include "deck/cards/deck.hpp"
 
 #include <cstdint>
 
@@ -43,7 +43,7 @@ std::string node_set_name(const Model& model, const Entry& raw) {
 std::string surface_name(const Model& model, const Entry& raw) {
     const Entry entry = model.resolved_scope(raw);
     const auto surface = entry.scope->surfaces.find(upper(entry.text));
-    return surface == entry.scope->surfaces.end() ? "" : full_name(*entry.scope, surface->second.name);
+    return surface == entry.scope->surfaces.end() ? "" : surface_set_name(*entry.scope, surface->second);
 }
 
 }  // namespace cli::abaqus

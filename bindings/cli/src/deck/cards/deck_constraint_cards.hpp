@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The cards of constraints between displacements: *COUPLING with *KINEMATIC, *RIGID BODY of nodes, *EQUATION.
+// The cards of constraints between displacements: *COUPLING with *KINEMATIC, *RIGID BODY of nodes, *EQUATION, *MPC.
 #pragma once
 
 #include "deck/abaqus/inp_cards.hpp"
-#include "deck/deck.hpp"
+#include "deck/cards/deck.hpp"
 
 namespace cli::abaqus {
 
@@ -22,6 +22,8 @@ private:
     void take_kinematic(const InpCard& card);
     void take_rigid_body(const InpCard& card);
     void take_equation(const InpCard& card);
+    void take_pins(const InpCard& card);
+    void take_transform(const InpCard& card);
 
     Deck& deck_;
     const Part& root_;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "deck/abaqus/inp_cards.hpp"
-#include "deck/deck.hpp"
+#include "deck/cards/deck.hpp"
 
 namespace cli::abaqus {
 

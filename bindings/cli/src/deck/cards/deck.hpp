@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -61,7 +62,8 @@ struct MaterialCards {
     std::string name;
     std::string elastic;  // TYPE of *ELASTIC; empty: none
     Numbers constants;
-    DamageCards damage;
+    Numbers expansion{};  // one value, or one for each axis; empty: none
+    DamageCards damage{};
     Place place;
 };
 
@@ -128,6 +130,18 @@ struct Coupling {
     Place place;
 };
 
+// Nodes that *MPC, of type TIE or PIN, lets move alike: one, or two sets node by node.
+struct Pin {
+    Entry first, second;
+};
+
+// *TRANSFORM: the degrees of freedom 1 to 3 of nodes are along these axes.
+struct Transform {
+    Entry where;
+    std::array<std::array<double, 3>, 3> axes{};
+    Place place;
+};
+
 // A line of *BOUNDARY, *CLOAD or *DSLOAD.
 struct LoadLine {
     Entry where;
@@ -136,16 +150,19 @@ struct LoadLine {
     double magnitude = 0;
     Numbers direction{};  // of TRVEC
     std::string amplitude{};
+    bool rate = false;   // of TYPE=VELOCITY: what it adds in a unit of time
     bool named = false;  // ENCASTRE, ..: of its degrees of freedom, those that the node has
 };
 
 struct Step {
     std::string name;
-    double first_increment = 1;
+    double increment = 1;        // that its load steps have here at most, and over which what jumps at its begin moves
+    double least_increment = 0;  // 0: not said
     double period = 1;
     bool ramp = true;  // loads without an amplitude grow over the step
     bool new_boundaries = false, new_forces = false, new_distributed = false;  // those before end
-    std::vector<LoadLine> boundaries, forces;
+    bool riks = false;
+    std::vector<LoadLine> boundaries, forces, temperatures;
     Place place;
 };
 
@@ -158,10 +175,15 @@ struct Deck {
     std::vector<ContactPair> pairs;
     Catalogue<Amplitude> amplitudes;
     std::vector<std::vector<EquationEntry>> equations;
+    std::vector<Transform> transforms;
+    std::vector<Pin> pins;
     std::vector<Coupling> couplings;
     std::vector<LoadLine> held;  // *BOUNDARY before the first step
+    std::vector<LoadLine> initial_temperatures;
     std::vector<Step> steps;
     bool general_contact = false;
+    std::string adhering{};  // the interaction of all bodies that touch and have no other; empty: contact
+    Place adhering_place{};
     double width = 0;                  // of a plane mesh; 0: not known yet
     std::vector<std::string> changed;  // for people: what the scene does otherwise
     std::vector<std::string> left_out;

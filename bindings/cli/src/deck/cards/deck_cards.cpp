@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "deck/deck_cards.hpp"
+#include "deck/cards/deck_cards.hpp"
 
 #include <algorithm>
 #include <map>
@@ -7,8 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "deck/deck_constraint_cards.hpp"
-#include "deck/deck_step_cards.hpp"
+#include "deck/abaqus/left_out.hpp"
+#include "deck/cards/deck_constraint_cards.hpp"
+#include "deck/cards/deck_step_cards.hpp"
 #include "text/wording.hpp"
 
 namespace cli::abaqus {
@@ -16,40 +17,25 @@ namespace cli::abaqus {
 namespace {
 
 // Requests for output, settings of a solver, and what quasi-static steps without temperatures do not need.
-const std::set<std::string> not_needed{"CONDUCTIVITY",
-                                       "CONTACT CONTROLS",
-                                       "CONTACT FILE",
-                                       "CONTACT OUTPUT",
-                                       "CONTACT PRINT",
-                                       "CONTROLS",
-                                       "DAMPING",
-                                       "DENSITY",
-                                       "EL FILE",
-                                       "EL PRINT",
-                                       "ELEMENT OUTPUT",
-                                       "ENERGY OUTPUT",
-                                       "ENERGY PRINT",
-                                       "EXPANSION",
-                                       "FILE FORMAT",
-                                       "FILE OUTPUT",
-                                       "HOURGLASS STIFFNESS",
-                                       "MONITOR",
-                                       "NODE FILE",
-                                       "NODE OUTPUT",
-                                       "NODE PRINT",
-                                       "OUTPUT",
-                                       "PHYSICAL CONSTANTS",
-                                       "PREPRINT",
-                                       "PRINT",
-                                       "RESTART",
-                                       "SECTION CONTROLS",
-                                       "SOLVER CONTROLS",
-                                       "SPECIFIC HEAT",
-                                       "TIME POINTS",
-                                       "TRANSVERSE SHEAR STIFFNESS"};
+const std::set<std::string> not_needed{"CONDUCTIVITY",    "CONTACT CONTROLS",
+                                       "CONTACT FILE",    "CONTACT OUTPUT",
+                                       "CONTACT PRINT",   "CONTROLS",
+                                       "DAMPING",         "DENSITY",
+                                       "EL FILE",         "EL PRINT",
+                                       "ELEMENT OUTPUT",  "ENERGY OUTPUT",
+                                       "ENERGY PRINT",    "FILE FORMAT",
+                                       "FILE OUTPUT",     "HOURGLASS STIFFNESS",
+                                       "MONITOR",         "NODE FILE",
+                                       "NODE OUTPUT",     "NODE PRINT",
+                                       "OUTPUT",          "PHYSICAL CONSTANTS",
+                                       "PREPRINT",        "PRINT",
+                                       "RESTART",         "SECTION CONTROLS",
+                                       "SOLVER CONTROLS", "SPECIFIC HEAT",
+                                       "TIME POINTS",     "TRANSVERSE SHEAR STIFFNESS"};
 // Keywords of the mesh, which abaqus_cards.cpp reads.
-const std::set<std::string> of_mesh{"NODE",     "ELEMENT",  "NSET",         "ELSET",    "SURFACE",     "PART",
-                                    "END PART", "ASSEMBLY", "END ASSEMBLY", "INSTANCE", "END INSTANCE"};
+const std::set<std::string> of_mesh{"NODE",         "ELEMENT",  "NSET",     "ELSET",        "SURFACE",
+                                    "PART",         "END PART", "ASSEMBLY", "END ASSEMBLY", "INSTANCE",
+                                    "END INSTANCE", "TIE",      "NGEN",     "ELGEN"};
 // Keywords whose effect the scene has in another way; each is reported once.
 const std::pair<const char*, const char*> otherwise[] = {
     {"DAMAGE STABILIZATION", "*DAMAGE STABILIZATION: no viscosity; jumps of the crack are found by energy"},
@@ -66,7 +52,9 @@ public:
         for (const InpCard& card : cards) take(card);
         constraints_.finish();
         if (deck_.steps.empty())
-            throw SceneFailure({path_, "", 0}, "there is no *STEP in it: a deck with loads is expected");
+            throw SceneFailure({path_, "", 0},
+                               "there is no *STEP in it: a deck with loads is expected; a "
+                               "mesh is for a scene, as its mesh.file (SCENE.md, [mesh])");
         for (const std::string& name : left_) deck_.left_out.push_back("*" + name);
         return std::move(deck_);
     }
@@ -77,6 +65,7 @@ private:
         if (word == "PART") part_ = card.required("NAME");
         if (word == "END PART") part_.clear();
         if (of_mesh.contains(word)) return;
+        if (word == "PARAMETER") return card.only({});
         if (not_needed.contains(word)) {
             left_.insert(word);
             return;
@@ -99,6 +88,7 @@ private:
             {"DAMAGE EVOLUTION", &DeckReader::take_evolution},
             {"DAMAGE INITIATION", &DeckReader::take_initiation},
             {"ELASTIC", &DeckReader::take_elastic},
+            {"EXPANSION", &DeckReader::take_expansion},
             {"HEADING", &DeckReader::take_heading},
             {"INITIAL CONDITIONS", &DeckReader::take_initial},
             {"MATERIAL", &DeckReader::take_material},
@@ -109,9 +99,7 @@ private:
         };
         for (const auto& [keyword, function] : known)
             if (word == keyword) return (this->*function)(card);
-        throw SceneFailure(card.place,
-                           "this keyword would change the result and cannot be imported; take it out of a copy of the "
-                           "deck to go on without it, or write the scene by hand (SCENE.md)");
+        throw SceneFailure(card.place, instead_of_keyword(word));
     }
 
     void take_heading(const InpCard& card) {
@@ -119,7 +107,7 @@ private:
     }
 
     void take_material(const InpCard& card) {
-        deck_.materials.push_back({card.required("NAME"), "", {}, {}, card.place});
+        deck_.materials.push_back({card.required("NAME"), "", {}, {}, {}, card.place});
         damage_of_ = &DeckReader::damage_of_material;
     }
 
@@ -158,19 +146,40 @@ private:
         card.only({"TYPE", "MODULI", "DEPENDENCIES"});
         require_constant(card);
         MaterialCards& m = material(card);
-        m.elastic = card.has("TYPE") ? upper(card.required("TYPE")) : "ISOTROPIC";
-        const std::size_t count = m.elastic == "ISOTROPIC"               ? 2
-                                  : m.elastic == "TRACTION"              ? 3
-                                  : m.elastic == "LAMINA"                ? 6
-                                  : m.elastic == "ENGINEERING CONSTANTS" ? 9
-                                                                         : 0;
-        if (count == 0) card.refuse("TYPE", m.elastic, "ISOTROPIC, ENGINEERING CONSTANTS, LAMINA or TRACTION");
+        static const std::pair<const char*, std::size_t> types[] = {
+            {"ISOTROPIC", 2}, {"TRACTION", 3}, {"LAMINA", 6}, {"ENGINEERING CONSTANTS", 9}, {"ORTHOTROPIC", 9}};
+        const std::string type = card.has("TYPE") ? upper(card.required("TYPE")) : "ISOTROPIC";
+        std::size_t count = 0;
+        // Three letters of a word are enough.
+        for (const auto& [name, constants] : types)
+            if (type.size() >= 3 && std::string_view(name).starts_with(type)) {
+                m.elastic = name;
+                count = constants;
+            }
+        if (count == 0) card.refuse("TYPE", type, "ISOTROPIC, ORTHOTROPIC, ENGINEERING CONSTANTS, LAMINA or TRACTION");
         m.constants = card.row();
         // A temperature may follow, and another row would be for another temperature.
         if (m.constants.size() < count || m.constants.size() > count + 1)
             throw SceneFailure(card.place, fmt::format("{} numbers: {} constants, at one temperature, are expected",
                                                        m.constants.size(), count));
         m.constants.resize(count);
+    }
+
+    // The strain from the initial temperature on does not depend on ZERO.
+    void take_expansion(const InpCard& card) {
+        card.only({"TYPE", "ZERO", "DEPENDENCIES"});
+        require_constant(card);
+        require_one_line(card);
+        const std::string type = card.has("TYPE") ? upper(card.required("TYPE")) : "ISO";
+        const std::size_t count = type == "ISO" ? 1 : type == "ORTHO" ? 3 : 0;
+        if (count == 0) card.refuse("TYPE", type, "ISO or ORTHO");
+        Numbers values = card.first_line().numbers();
+        // A temperature may follow.
+        if (values.size() != count && values.size() != count + 1)
+            throw SceneFailure(card.place,
+                               fmt::format("{} numbers: {} expected", values.size(), count == 1 ? "1 is" : "3 are"));
+        values.resize(count);
+        material(card).expansion = std::move(values);
     }
 
     void take_initiation(const InpCard& card) {
@@ -205,7 +214,8 @@ private:
         if (!d.mixed_mode.empty() && d.mixed_mode != "BK" && d.mixed_mode != "POWER LAW")
             card.refuse("MIXED MODE BEHAVIOR", d.mixed_mode, "BK or POWER LAW");
         if (card.has("MODE MIX RATIO") && upper(card.required("MODE MIX RATIO")) != "ENERGY")
-            card.refuse("MODE MIX RATIO", card.required("MODE MIX RATIO"), "ENERGY");
+            card.refuse("MODE MIX RATIO", card.required("MODE MIX RATIO"),
+                        "ENERGY, by which the toughnesses of BK and POWER LAW are mixed,");
         if (!d.mixed_mode.empty()) {
             d.power = inp_number(card.required("POWER"), card.place);
             if (!(d.power > 0)) throw SceneFailure(card.place, fmt::format("POWER={}: must be > 0", d.power));
@@ -230,10 +240,8 @@ private:
         interaction.cohesive = true;
         interaction.eligibility = upper(card.parameter("ELIGIBILITY"));
         interaction.stiffness = card.row();
-        if (interaction.stiffness.size() < 2)
-            throw SceneFailure(card.place,
-                               "no stiffness: Abaqus would take that of its contact; give Knn, Kss, Ktt, about "
-                               "50 E3/t with the thickness t of a layer");
+        if (interaction.stiffness.empty()) return;  // that of contact
+        if (interaction.stiffness.size() < 2) throw SceneFailure(card.place, "Knn, Kss, Ktt are expected, or no line");
         interaction.stiffness.resize(3, interaction.stiffness[1]);
     }
 
@@ -285,10 +293,11 @@ private:
         section.thickness = card.has("THICKNESS") ? upper(card.required("THICKNESS")) : "SPECIFIED";
         if (section.thickness != "SPECIFIED" && section.thickness != "GEOMETRY")
             card.refuse("THICKNESS", section.thickness, "SPECIFIED or GEOMETRY");
-        if (card.has("STACK DIRECTION"))
-            throw SceneFailure(card.place,
-                               "STACK DIRECTION is not imported: the first half of the nodes of a cohesive "
-                               "element is one face, the second half the other");
+        if (card.has("STACK DIRECTION") && card.required("STACK DIRECTION") != "3")
+            throw SceneFailure(
+                card.place, "STACK DIRECTION=" + card.required("STACK DIRECTION") +
+                                " is not imported: 3 is, with which the first half of the nodes of a cohesive element "
+                                "is one face, the second half the other; number the nodes so");
         if (!card.lines.empty()) {
             const InpLine& line = card.lines[0];
             if (!line.fields.empty() && !line.fields[0].empty())
@@ -361,20 +370,33 @@ private:
 
     // The properties of contact that is no pair have no meaning here unless surfaces adhere.
     void take_assignment(const InpCard& card) {
+        card.only({});
         for (const InpLine& line : card.lines) {
-            const std::string& name = line.fields.back();
-            if (named(deck_.interactions, name, "surface interaction", line.place).cohesive)
+            if (line.fields.size() != 3)
+                throw SceneFailure(line.place, "two surfaces, or none, and an interaction are expected");
+            const std::string &first = line.fields[0], &second = line.fields[1], &name = line.fields[2];
+            if (!named(deck_.interactions, name, "surface interaction", line.place).cohesive) continue;
+            if (first.empty() && second.empty()) {
+                deck_.adhering = name;
+                deck_.adhering_place = line.place;
+                continue;
+            }
+            if (first.empty() || second.empty() || upper(first) == upper(second))
                 throw SceneFailure(line.place,
-                                   "general contact with *COHESIVE BEHAVIOR is not imported: give the "
-                                   "surfaces that adhere as *CONTACT PAIR");
+                                   "two surfaces of different bodies are expected where they adhere, or none of both");
+            deck_.pairs.push_back(
+                {name, {&root_, first, line.place}, {&root_, second, line.place}, "", 0.0, line.place});
         }
     }
 
     void take_initial(const InpCard& card) {
         const std::string type = upper(card.required("TYPE"));
+        if (type == "TEMPERATURE") return StepReader::take_temperatures(card, root_, deck_.initial_temperatures);
         if (type != "CONTACT")
             throw SceneFailure(card.place,
-                               "TYPE=" + type + " is not imported: CONTACT (the set of nodes that adhere) is");
+                               "TYPE=" + type +
+                                   " is not imported: CONTACT (the set of nodes that adhere) and TEMPERATURE "
+                                   "are");
         for (const InpLine& line : card.lines) {
             if (line.fields.size() != 3)
                 throw SceneFailure(line.place, "slave, master and a set of nodes are expected");

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The history of a place: its values over time, as the lines of a deck prescribe them.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+
+#include "deck/cards/deck.hpp"
+#include "deck/deck_points.hpp"
+
+namespace cli::abaqus {
+
+// Holds what one line of the deck prescribes, over all steps. Behind its last point it is constant.
+struct History {
+    LoadLine line;  // the first of its kind
+    int dof = 0;
+    bool force = false;
+    std::size_t number = 0;  // in the order of the deck
+    Points points{{0.0, 0.0}};
+    const LoadLine* follows = nullptr;  // the last line that prescribed it
+    std::size_t before = 1;             // points of the steps before this one
+    std::size_t given = 0;              // the last step that has a line for it
+
+    void hold_until(double time) {
+        if (points.back().first < time) points.emplace_back(time, points.back().second);
+    }
+
+    [[nodiscard]] double peak() const {
+        double out = 0;
+        for (const auto& [time, value] : points)
+            if (std::abs(value) > std::abs(out)) out = value;
+        return out;
+    }
+};
+
+}  // namespace cli::abaqus
