@@ -194,6 +194,7 @@ DELAM_API int32_t delam_context_cancel(delam_context *context);
  *   quad8   0-1 1-2 2-3 3-0      quad9 likewise, then the centre
  *   tet10   0-1 1-2 2-0 0-3 1-3 2-3                              (Gmsh exchanges the last two)
  *   hex20   0-1 1-2 2-3 3-0  4-5 5-6 6-7 7-4  0-4 1-5 2-6 3-7    (Gmsh has another order)
+ *   hex27   as hex20, then the centres of the faces 0473 1265 0154 3267 0123 4567, then the centre (in Gmsh another)
  * Cells may be curved: a mid-side node need not lie exactly midway. Neighbouring cells share all nodes of their common
  * face. In bending, tri3, tet4, and quad4 and hex8 of the standard formulation (delam_problem_set_formulation) are far
  * too stiff unless there are many of them across the thickness. Of the others a few suffice. */
@@ -206,6 +207,7 @@ DELAM_API int32_t delam_context_cancel(delam_context *context);
 #define DELAM_QUAD9 7
 #define DELAM_TET10 8
 #define DELAM_HEX20 9
+#define DELAM_HEX27 10
 
 /* Returns how many cell types there are (delam_cell_type_info).
  * [status -; thread any; since 0.1] */
@@ -240,7 +242,8 @@ DELAM_API int32_t delam_mesh_create(delam_context *context, int32_t dimension, i
  * its own; body 0 is at the bottom. The block starts at the origin.
  *   lengths, divisions          [dimension-1] extent (L) and number of cells along the other axes
  *   thickness, layer_divisions  [layer_count] thickness and number of cells of each layer
- *   cell_type                   DELAM_TRI3 / QUAD4 / TRI6 / QUAD8 / QUAD9 in 2D, TET4 / HEX8 / TET10 / HEX20 in 3D
+ *   cell_type                   DELAM_TRI3 / QUAD4 / TRI6 / QUAD8 / QUAD9 in 2D, TET4 / HEX8 / TET10 / HEX20 / HEX27
+ *                               in 3D
  * Each box of the divisions is one cell, or 2 triangular or 6 tetrahedral cells. The nodes of neighbouring layers
  * coincide; the function adds no interface. The nodes of a layer, corners and others, are numbered with x running
  * fastest and the last axis slowest.
@@ -397,9 +400,9 @@ DELAM_API int32_t delam_mesh_add_host_body(delam_mesh *mesh, int32_t body, int64
  *   weights           [count] > 0, length (2D) or area (3D) that each pair represents
  *   faces             [face_count][nodes_per_face] indices of pairs (also counted from index_base), corners before
  *                     mid-side nodes
- * A face has 2 or 3 nodes in 2D, and 3, 4, 6 or 8 in 3D, counter-clockwise seen from b. A triangle among quadrilaterals
- * repeats its last corner. face_count 0: no faces. Without faces there are no crack fronts, no gradient term, and no
- * neighbouring pairs to which an energetic search could advance a front.
+ * A face has 2 or 3 nodes in 2D, and 3, 4, 6, 8 or 9 in 3D, counter-clockwise seen from b. A triangle among
+ * quadrilaterals repeats its last corner. face_count 0: no faces. Without faces there are no crack fronts, no gradient
+ * term, and no neighbouring pairs to which an energetic search could advance a front.
  * [unit normals 1 finite (not 0), weights L or L2 > 0; null none; status cancelled, argument, mesh; since 0.1] */
 DELAM_API int32_t delam_mesh_add_pairs(delam_mesh *mesh, int32_t body_a, int32_t body_b, int64_t count,
                                        const int64_t *nodes_a, const int64_t *nodes_b, const double *normals,
@@ -452,7 +455,7 @@ DELAM_API int32_t delam_mesh_interface_size(const delam_mesh *mesh, int64_t inte
 DELAM_API int32_t delam_mesh_interface_pairs(const delam_mesh *mesh, int64_t interface_index, int64_t *nodes_a,
                                              int64_t *nodes_b, double *weights, double *frames);
 /* Returns the faces of an interface as indices of pairs, faces: [face_count][nodes_per_face], corners before mid-side
- * nodes. A face has 2, 3 or 4 nodes; 3, 6 or 8 on quadratic cells. Among quadrilaterals, a triangle repeats its last
+ * nodes. A face has 2, 3 or 4 nodes; 3, 6, 8 or 9 on quadratic cells. Among quadrilaterals, a triangle repeats its last
  * corner; the mid-side node of the resulting side of zero length is that corner too.
  * [null none; status argument; since 0.1] */
 DELAM_API int32_t delam_mesh_interface_faces(const delam_mesh *mesh, int64_t interface_index, int64_t *faces);
@@ -656,7 +659,8 @@ DELAM_API int32_t delam_problem_set_orientation(delam_problem *problem, int32_t 
  *                      condensed in each; other cells of the body are standard
  *   "standard"         without such modes; the default of other bodies
  *   "mean-dilatation"  for nearly incompressible bodies, in which the other formulations lock: projects the dilatation
- *                      of each cell onto constants (quad4, hex8, tri6, tet10) or linear functions (quad8, quad9, hex20)
+ *                      of each cell onto constants (quad4, hex8, tri6, tet10) or linear functions (quad8, quad9, hex20,
+ *                      hex27)
  * With incompatible modes, rectangular cells are exact in pure bending, in which standard cells are too stiff (square
  * ones by half). Between the nodes, displacements may be slightly discontinuous from cell to cell. For a body without
  * quad4 or hex8 "incompatible" returns DELAM_ERROR_ARGUMENT. The mean dilatation works in plane strain and in 3D, but

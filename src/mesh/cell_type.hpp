@@ -22,11 +22,12 @@ enum class CellType : std::int32_t {
     quad8 = DELAM_QUAD8,
     quad9 = DELAM_QUAD9,
     tet10 = DELAM_TET10,
-    hex20 = DELAM_HEX20
+    hex20 = DELAM_HEX20,
+    hex27 = DELAM_HEX27
 };
-inline constexpr std::size_t most_cell_nodes = 20;
+inline constexpr std::size_t most_cell_nodes = 27;
 inline constexpr std::size_t most_cell_faces = 6;
-inline constexpr std::size_t most_face_nodes = 8;
+inline constexpr std::size_t most_face_nodes = 9;
 
 // The nodes of a cell are its corners, then those midway between two corners. Its faces (edges in 2D) are lists of
 // local nodes: corners, outward when walked in order, then the mid-side nodes, the k-th between corners k and k+1, then
@@ -40,7 +41,7 @@ struct CellTopology {
     int face_nodes;
     int face_corners;
     std::array<std::array<int, most_face_nodes>, most_cell_faces> face;  // first face_nodes entries are used
-    std::array<std::array<int, 2>, 12> middle;                           // node corners+k sits between middle[k]
+    std::array<std::array<int, 2>, 19> middle;                           // node corners+k sits between middle[k]
 };
 
 // The triangle or tetrahedron with corners 0, e1, e2(, e3); the square [-1,1]^2 or the cube [-1,1]^3.
@@ -61,7 +62,8 @@ struct CellRow {
     constexpr bool simplex() const { return reference == ReferenceCell::simplex; }
 };
 
-// The rows stand in the order of their numbers, 1, 2, ... The centre of quad9 counts as midway of a diagonal.
+// The rows stand in the order of their numbers, 1, 2, ... The centres of quad9 and hex27
+// and of the faces of hex27 count as midway of a diagonal.
 // clang-format off
 inline constexpr std::array cell_rows{
     CellRow{CellType::tri3, {"tri3", 2, 3, 3, 3, 2, 2, {{{0, 1}, {1, 2}, {2, 0}}}, {}},
@@ -103,6 +105,17 @@ inline constexpr std::array cell_rows{
                {3, 0, 4, 7, 11, 16, 15, 19}}},
              {{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}}},
             ReferenceCell::box, Interpolation::serendipity, Rule::gauss3},
+    CellRow{CellType::hex27,
+            {"hex27", 3, 27, 8, 6, 9, 4,
+             {{{0, 3, 2, 1, 11, 10, 9, 8, 24},
+               {4, 5, 6, 7, 12, 13, 14, 15, 25},
+               {0, 1, 5, 4, 8, 17, 12, 16, 22},
+               {1, 2, 6, 5, 9, 18, 13, 17, 21},
+               {2, 3, 7, 6, 10, 19, 14, 18, 23},
+               {3, 0, 4, 7, 11, 16, 15, 19, 20}}},
+             {{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7},
+               {0, 7}, {1, 6}, {0, 5}, {3, 6}, {0, 2}, {4, 6}, {0, 6}}}},
+            ReferenceCell::box, Interpolation::quadratic, Rule::gauss3},
 };
 // clang-format on
 
@@ -135,6 +148,8 @@ inline constexpr std::array face_rows{
     FaceRow{3, 6, 3, CellType::tri6, 4, {{{3, {0, 3, 5}}, {3, {3, 1, 4}}, {3, {5, 4, 2}}, {3, {3, 4, 5}}}}},
     FaceRow{3, 8, 4, CellType::quad8, 5,
             {{{3, {0, 4, 7}}, {3, {4, 1, 5}}, {3, {5, 2, 6}}, {3, {6, 3, 7}}, {4, {4, 5, 6, 7}}}}},
+    FaceRow{3, 9, 4, CellType::quad9, 4,
+            {{{4, {0, 4, 8, 7}}, {4, {4, 1, 5, 8}}, {4, {8, 5, 2, 6}}, {4, {7, 8, 6, 3}}}}},
 };
 // clang-format on
 
@@ -153,7 +168,7 @@ const FaceRow& face_row(int dimension, std::size_t nodes);
 // The smallest row with these corners and at least so many other nodes.
 const FaceRow& face_row(int dimension, std::size_t corners, std::size_t others);
 std::span<const FacePiece> face_pieces(int dimension, std::size_t face_nodes);
-// The numbers of nodes that faces may have, as "3, 4, 6 or 8".
+// The numbers of nodes that faces may have, as "3, 4, 6, 8 or 9".
 std::string face_sizes(int dimension);
 
 }  // namespace delam

@@ -64,16 +64,16 @@ START_TEST(cell_types) {
     const struct {
         const char *name;
         int32_t type, dimension, nodes, corners, faces, face_nodes, face_corners;
-    } known[] = {{"tri3", DELAM_TRI3, 2, 3, 3, 3, 2, 2},   {"quad4", DELAM_QUAD4, 2, 4, 4, 4, 2, 2},
-                 {"tet4", DELAM_TET4, 3, 4, 4, 4, 3, 3},   {"hex8", DELAM_HEX8, 3, 8, 8, 6, 4, 4},
-                 {"tri6", DELAM_TRI6, 2, 6, 3, 3, 3, 2},   {"quad8", DELAM_QUAD8, 2, 8, 4, 4, 3, 2},
-                 {"quad9", DELAM_QUAD9, 2, 9, 4, 4, 3, 2}, {"tet10", DELAM_TET10, 3, 10, 4, 4, 6, 3},
-                 {"hex20", DELAM_HEX20, 3, 20, 8, 6, 8, 4}};
+    } known[] = {{"tri3", DELAM_TRI3, 2, 3, 3, 3, 2, 2},    {"quad4", DELAM_QUAD4, 2, 4, 4, 4, 2, 2},
+                 {"tet4", DELAM_TET4, 3, 4, 4, 4, 3, 3},    {"hex8", DELAM_HEX8, 3, 8, 8, 6, 4, 4},
+                 {"tri6", DELAM_TRI6, 2, 6, 3, 3, 3, 2},    {"quad8", DELAM_QUAD8, 2, 8, 4, 4, 3, 2},
+                 {"quad9", DELAM_QUAD9, 2, 9, 4, 4, 3, 2},  {"tet10", DELAM_TET10, 3, 10, 4, 4, 6, 3},
+                 {"hex20", DELAM_HEX20, 3, 20, 8, 6, 8, 4}, {"hex27", DELAM_HEX27, 3, 27, 8, 6, 9, 4}};
     const int32_t tet10[6][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
     const int64_t count = (int64_t)(sizeof known / sizeof known[0]);
     const char *name = NULL;
-    int32_t face[6 * 8];
-    int32_t middle[12 * 2];
+    int32_t face[6 * 9];
+    int32_t middle[19 * 2];
     int32_t i, k, found[7];
     ck_assert_int_eq(delam_cell_type_count(), count);
     for (i = 0; i < count; ++i) {

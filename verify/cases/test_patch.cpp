@@ -19,7 +19,8 @@ struct Shape {
 };
 constexpr Shape shapes[] = {{2, DELAM_TRI3, "tri3"},   {2, DELAM_QUAD4, "quad4"}, {3, DELAM_TET4, "tet4"},
                             {3, DELAM_HEX8, "hex8"},   {2, DELAM_TRI6, "tri6"},   {2, DELAM_QUAD8, "quad8"},
-                            {2, DELAM_QUAD9, "quad9"}, {3, DELAM_TET10, "tet10"}, {3, DELAM_HEX20, "hex20"}};
+                            {2, DELAM_QUAD9, "quad9"}, {3, DELAM_TET10, "tet10"}, {3, DELAM_HEX20, "hex20"},
+                            {3, DELAM_HEX27, "hex27"}};
 constexpr double young = 10e9;
 constexpr double poisson = 0.3;
 

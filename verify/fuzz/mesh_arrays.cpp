@@ -33,10 +33,10 @@ constexpr std::int64_t per_cell(std::int32_t type) {
 // Arrays of a block of layers as the library makes it, without its interfaces; the input corrupts them.
 Arrays block(Host& host, Input& in) {
     static constexpr std::int32_t flat[] = {DELAM_QUAD4, DELAM_TRI3, DELAM_TRI6, DELAM_QUAD8, DELAM_QUAD9};
-    static constexpr std::int32_t solid[] = {DELAM_HEX8, DELAM_TET4, DELAM_TET10, DELAM_HEX20};
+    static constexpr std::int32_t solid[] = {DELAM_HEX8, DELAM_TET4, DELAM_TET10, DELAM_HEX20, DELAM_HEX27};
     Arrays out;
     out.dimension = in.byte() % 3 == 2 ? 3 : 2;
-    out.type = out.dimension == 3 ? solid[in.below(4)] : flat[in.below(5)];
+    out.type = out.dimension == 3 ? solid[in.below(5)] : flat[in.below(5)];
     const double lengths[] = {1.0, 1.0};
     const std::int64_t divisions[] = {1 + in.below(3), 1 + in.below(2)};
     const double thickness[] = {0.5, 0.25};

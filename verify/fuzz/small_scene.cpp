@@ -96,7 +96,7 @@ SmallScene small_scene(Host& host, Input& in) {
     const bool space = in.byte() % 8 == 7;
     const std::int32_t dimension = space ? 3 : 2;
     static constexpr std::int32_t flat[] = {DELAM_QUAD4, DELAM_TRI3, DELAM_QUAD8, DELAM_QUAD9, DELAM_TRI6};
-    static constexpr std::int32_t solid[] = {DELAM_HEX8, DELAM_TET4, DELAM_TET10, DELAM_HEX20};
+    static constexpr std::int32_t solid[] = {DELAM_HEX8, DELAM_TET4, DELAM_TET10, DELAM_HEX20, DELAM_HEX27};
     const std::int32_t cell = space ? solid[in.below(2)] : flat[in.below(5)];
     const std::int64_t layers = 2 + in.below(2);
     const double lengths[] = {1.0, 0.25};

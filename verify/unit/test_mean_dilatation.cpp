@@ -19,8 +19,8 @@ using namespace delam;
 
 namespace {
 
-constexpr CellType projected_types[] = {CellType::quad4, CellType::hex8,  CellType::tri6, CellType::quad8,
-                                        CellType::quad9, CellType::tet10, CellType::hex20};
+constexpr CellType projected_types[] = {CellType::quad4, CellType::hex8,  CellType::tri6,  CellType::quad8,
+                                        CellType::quad9, CellType::tet10, CellType::hex20, CellType::hex27};
 const Elastic rubber{1.0, 0.4999};
 const Orthotropic ply{{20.0, 1.0, 1.5, 0.3, 0.2, 0.4, 0.5, 0.6, 0.35}};
 
@@ -110,8 +110,8 @@ TEST(refused) {
         const std::string said = unit::refusal(DELAM_ERROR_ARGUMENT, [&] {
             require_formulation(distorted(type, 1), 0, Formulation::mean_dilatation, -1);
         });
-        ck_assert(said.find(topology(type).name) != std::string::npos &&
-                  said.find("constant already") != std::string::npos &&
-                  said.find("allowed are quad4, hex8, tri6, quad8, quad9, tet10 and hex20") != std::string::npos);
+        ck_assert(
+            said.find(topology(type).name) != std::string::npos && said.find("constant already") != std::string::npos &&
+            said.find("allowed are quad4, hex8, tri6, quad8, quad9, tet10, hex20 and hex27") != std::string::npos);
     }
 }

@@ -80,7 +80,7 @@ def stretched(place, mesh, axis, area, height, what, text=BONDED, keys=""):
 # ---- every cell type through Gmsh's library, in every format; two blocks 4 x 1 (x 1) on each other ----
 blocks = folder()
 subprocess.run([os.environ["DELAM_MAKE_MESHES"], blocks], check=True)
-SOLID = ("tet4", "hex8", "tet10", "hex20")
+SOLID = ("tet4", "hex8", "tet10", "hex20", "hex27")
 for cell in ("tri3", "quad4", "tri6", "quad8", "quad9") + SOLID:
     for form in ("22a", "22b", "41a", "41b"):
         name = f"{cell}-{form}.msh"
@@ -94,8 +94,7 @@ for cell in ("tri3", "quad4", "tet4", "hex8"):
         stretched(blocks, f"{cell}-{form}.msh", "z" if cell in SOLID else "y", 4, 2, f"{cell}-{form}.msh")
 border = '[[supports]]\nset = "curve-1"\nfix = ["x"]\n'
 expect_error(delam("check", scene(blocks, "quad4-41p.msh", BONDED + pulled("y") + border)), 2, "curve-1", "it has: bottom,")
-for cell, words in (("hex27", r"element \d+ of volume 1 is a Hexahedron 27"), ("tri10", "is a Triangle")):
-    expect_error(delam("check", scene(blocks, cell + "-41a.msh", "")), 2, words, "are known")
+expect_error(delam("check", scene(blocks, "tri10-41a.msh", "")), 2, "is a Triangle", "are known")
 
 # What Gmsh writes for Abaqus, without the elements of its sets: node orders as a third party understands them.
 for cell in ("quad4", "quad8", "tri6", "tet10", "hex20", "hex8"):
@@ -121,7 +120,7 @@ for line in ('body        "lower", 4 cells, material "m", formulation incompatib
 # ---- forces: a total, per area, along the normal ----
 # A bar under tension t stores t^2 A h / (2 E).
 for name, axis, zeros in (("quad4-41a.msh", "y", "0.0, "), ("tet10-22a.msh", "z", "0.0, 0.0, "),
-                          ("hex20-41a.msh", "z", "0.0, 0.0, ")):
+                          ("hex20-41a.msh", "z", "0.0, 0.0, "), ("hex27-41a.msh", "z", "0.0, 0.0, ")):
     hold = f'[[supports]]\nset = "bottom"\nfix = ["x", "y"{", " + chr(34) + "z" + chr(34) if axis == "z" else ""}]\n'
     for words in (f"force = [{zeros}2.0]", f"traction = [{zeros}0.5]", "pressure = -0.5"):
         pull = f'[[forces]]\nset = "top"\n{words}\npattern = "p"\n'

@@ -14,6 +14,7 @@ from _pictures.section import Section  # noqa: E402
 KUHN = [[0, 1, 3, 7], [0, 5, 1, 7], [0, 3, 2, 7], [0, 2, 6, 7], [0, 4, 5, 7], [0, 6, 4, 7]]  # corners by bits x, y, z
 EDGES = {"tet10": [(0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)],
          "hex20": [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)]}
+EDGES["hex27"] = EDGES["hex20"] + [(0, 7), (1, 6), (0, 5), (3, 6), (0, 2), (4, 6), (0, 6)]
 
 
 def cube(kind, n):
@@ -48,7 +49,7 @@ def lengths(lines):
 
 
 errors = {}
-for kind in ("tet4", "tet10", "hex8", "hex20"):
+for kind in ("tet4", "tet10", "hex8", "hex20", "hex27"):
     points, cells, body = cube(kind, 4)
     # x + y + z = 1.5 meets the cube in a regular hexagon, and its equator in a line of the length sqrt(2).
     section = Section(cells, body, points.sum(1) - 1.5)
@@ -86,7 +87,7 @@ for kind in ("tet4", "tet10", "hex8", "hex20"):
     corners = points[cells[:, :8 if kind.startswith("hex") else 4]].mean(1)
     exact = corners @ [1.0, -2.0, 3.0] + (corners[:, 0] * corners[:, 2] + corners[:, 1] ** 2 if cells.shape[1] > 8 else 0)
     expect(np.allclose(Section.middle_of(cells, field), exact, atol=1e-12), f"{kind}: fields in the middle of cells")
-for linear, quadratic in (("tet4", "tet10"), ("hex8", "hex20")):
+for linear, quadratic in (("tet4", "tet10"), ("hex8", "hex20"), ("hex8", "hex27")):
     expect(errors[quadratic] < 0.4 * errors[linear], f"{quadratic} {errors[quadratic]:.1e} is bent, {linear} {errors[linear]:.1e} is not")
 
 points = np.concatenate([cube("hex8", 2)[0], cube("tet4", 2)[0] + [1, 0, 0]])

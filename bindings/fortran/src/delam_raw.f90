@@ -31,6 +31,7 @@ module delam_raw
   integer(c_int32_t), parameter :: DELAM_QUAD9 = 7
   integer(c_int32_t), parameter :: DELAM_TET10 = 8
   integer(c_int32_t), parameter :: DELAM_HEX20 = 9
+  integer(c_int32_t), parameter :: DELAM_HEX27 = 10
 
   ! Signatures of callbacks; pass c_funloc of a bind(c) procedure.
   abstract interface

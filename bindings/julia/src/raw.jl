@@ -34,6 +34,7 @@ const DELAM_QUAD8 = Int32(6)
 const DELAM_QUAD9 = Int32(7)
 const DELAM_TET10 = Int32(8)
 const DELAM_HEX20 = Int32(9)
+const DELAM_HEX27 = Int32(10)
 
 # Opaque.
 mutable struct delam_context end

@@ -124,9 +124,9 @@ def topology(host, see):
         quadratic = bool(scenes.middles_of(name))
         see.equal(f"{name}: numbers", [number, d, nodes, corners, faces, face_nodes, face_corners],
                   [TYPES[name], d, len(places), len(scenes.CORNERS[shape]), d + 1 if simplex else 2 * d,
-                   per_face * (1 if not quadratic else 2) if d == 3 else 2 + quadratic, per_face])
-        face, middle = host("cell_type_topology", index, Out(48), Out(24))
-        wanted = [c for pair in scenes.middles_of(name) for c in pair] + ([0, 2] if name == "quad9" else [])
+                   per_face * (1 if not quadratic else 2) + (name == "hex27") if d == 3 else 2 + quadratic, per_face])
+        face, middle = host("cell_type_topology", index, Out(54), Out(38))
+        wanted = [c for pair in scenes.middles_of(name) + scenes.CENTRES.get(name, []) for c in pair]
         see.equal(f"{name}: middle", middle[:2 * (nodes - corners)], wanted)
         seen = set()
         for f in range(faces):
@@ -139,7 +139,8 @@ def topology(host, see):
             see.that(f"{name}: face {f} has an outward normal",
                      all(forms.dot(normal, [p - c for p, c in zip(point, inside)]) > 0 for point in x))
             for k in range(face_nodes - per_face):
-                ends = x[k], x[(k + 1) % per_face]
+                # Behind the middle nodes comes the centre, on a diagonal.
+                ends = (x[k], x[(k + 1) % per_face]) if k < per_face else (x[0], x[2])
                 see.that(f"{name}: face {f}: middle node {k} lies between its corners",
                          all(abs(m - (p + q) / 2) < 1e-15 for m, p, q in zip(x[per_face + k], *ends)))
             # Corners go round: the diagonal is no edge.

@@ -3,13 +3,17 @@
 import forms
 from host import Out
 
-TYPES = {"tri3": 1, "quad4": 2, "tet4": 3, "hex8": 4, "tri6": 5, "quad8": 6, "quad9": 7, "tet10": 8, "hex20": 9}
+TYPES = {"tri3": 1, "quad4": 2, "tet4": 3, "hex8": 4, "tri6": 5, "quad8": 6, "quad9": 7, "tet10": 8, "hex20": 9,
+         "hex27": 10}
 SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]
 CORNERS = {"tri": [(0, 0), (1, 0), (0, 1)], "quad": SQUARE, "tet": [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)],
            "hex": [(*c, 0) for c in SQUARE] + [(*c, 1) for c in SQUARE]}
 MIDDLES = {"tri": [(0, 1), (1, 2), (2, 0)], "quad": [(0, 1), (1, 2), (2, 3), (3, 0)],
            "tet": [(0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)],
            "hex": [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)]}
+
+# Centres of cells and faces, by the ends of one diagonal.
+CENTRES = {"quad9": [(0, 2)], "hex27": [(0, 7), (1, 6), (0, 5), (3, 6), (0, 2), (4, 6), (0, 6)]}
 
 
 def shape_of(name):
@@ -24,10 +28,8 @@ def places_of(name):
     """The coordinates of the nodes of a cell type, in the unit square or its like; the order is that of the header."""
     corners = CORNERS[shape_of(name)]
     places = [tuple(map(float, c)) for c in corners]
-    for a, b in middles_of(name):
+    for a, b in middles_of(name) + CENTRES.get(name, []):
         places.append(tuple((x + y) / 2 for x, y in zip(corners[a], corners[b])))
-    if name == "quad9":
-        places.append((0.5, 0.5))
     return places
 
 

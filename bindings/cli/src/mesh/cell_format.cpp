@@ -17,6 +17,8 @@ namespace {
 // the library's faces. Which element types of Abaqus are which cells: abaqus_elements.cpp.
 constexpr std::uint8_t tetrahedron_10[] = {0, 1, 2, 3, 4, 5, 6, 7, 9, 8};
 constexpr std::uint8_t hexahedron_20[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15};
+constexpr std::uint8_t hexahedron_27[] = {0,  1,  2,  3,  4,  5,  6,  7,  8,  11, 13, 9,  16, 18,
+                                          19, 17, 10, 12, 14, 15, 22, 23, 21, 24, 20, 25, 26};
 constexpr CellFormat formats[] = {
     {DELAM_TRI3, "Triangle", 4, 2, {}},
     {DELAM_QUAD4, "Quadrilateral", 5, 3, {}},
@@ -27,6 +29,7 @@ constexpr CellFormat formats[] = {
     {DELAM_QUAD9, "Quadrilateral_9", 35, 10, {}},
     {DELAM_TET10, "Tetrahedron_10", 38, 11, tetrahedron_10},
     {DELAM_HEX20, "Hexahedron_20", 48, 17, hexahedron_20},
+    {DELAM_HEX27, "Hexahedron_27", 50, 12, hexahedron_27},
 };
 
 }  // namespace

@@ -28,6 +28,7 @@ DELAM_QUAD8 = 6
 DELAM_QUAD9 = 7
 DELAM_TET10 = 8
 DELAM_HEX20 = 9
+DELAM_HEX27 = 10
 
 
 class delam_context(Structure):

@@ -19,13 +19,13 @@ if TYPE_CHECKING:
 
 # meshio's names of our cells.
 NAMES = {"triangle": "tri3", "quad": "quad4", "tetra": "tet4", "hexahedron": "hex8", "triangle6": "tri6",
-         "quad8": "quad8", "quad9": "quad9", "tetra10": "tet10", "hexahedron20": "hex20"}
+         "quad8": "quad8", "quad9": "quad9", "tetra10": "tet10", "hexahedron20": "hex20", "hexahedron27": "hex27"}
 # VTK's numbers of meshio's cells, those of faces of interfaces included.
 VTK_TYPES = {"line": 3, "triangle": 5, "quad": 9, "tetra": 10, "hexahedron": 12, "line3": 21, "triangle6": 22,
-             "quad8": 23, "tetra10": 24, "hexahedron20": 25, "quad9": 28}
+             "quad8": 23, "tetra10": 24, "hexahedron20": 25, "quad9": 28, "hexahedron27": 29}
 # meshio's names of the cells of a result by dimension and number of nodes, and of the faces of its interfaces.
 _RESULT_CELLS = {2: {3: "triangle", 4: "quad", 6: "triangle6", 8: "quad8", 9: "quad9"},
-                 3: {4: "tetra", 8: "hexahedron", 10: "tetra10", 20: "hexahedron20"}}
+                 3: {4: "tetra", 8: "hexahedron", 10: "tetra10", 20: "hexahedron20", 27: "hexahedron27"}}
 _RESULT_FACES = {2: {2: "line", 3: "line3"}, 3: {3: "triangle", 4: "quad", 6: "triangle6", 8: "quad8", 9: "quad9"}}
 
 

@@ -4,7 +4,8 @@ for."""
 import numpy as np
 
 PIECES = {3: [[0, 1, 2]], 4: [[0, 1, 2], [0, 2, 3]], 6: [[0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]],
-          8: [[0, 4, 7], [4, 1, 5], [5, 2, 6], [6, 3, 7], [4, 5, 6], [4, 6, 7]]}
+          8: [[0, 4, 7], [4, 1, 5], [5, 2, 6], [6, 3, 7], [4, 5, 6], [4, 6, 7]],
+          9: [[0, 4, 8], [4, 1, 8], [1, 5, 8], [5, 2, 8], [2, 6, 8], [6, 3, 8], [3, 7, 8], [7, 0, 8]]}
 
 # The nodes of the faces, corners first, as delam.h orders those of the cells.
 FACES = {4: [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]],
@@ -12,10 +13,11 @@ FACES = {4: [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]],
          8: [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]],
          20: [[0, 3, 2, 1, 11, 10, 9, 8], [4, 5, 6, 7, 12, 13, 14, 15], [0, 1, 5, 4, 8, 17, 12, 16],
               [1, 2, 6, 5, 9, 18, 13, 17], [2, 3, 7, 6, 10, 19, 14, 18], [3, 0, 4, 7, 11, 16, 15, 19]]}
+FACES[27] = [face + [centre] for face, centre in zip(FACES[20], (24, 25, 22, 21, 23, 20))]
 
 # Shape functions in the middle of a cell: corners, mid-side nodes.
 MIDDLE = {4: (1 / 4, 0), 8: (1 / 8, 0), 10: (-1 / 8, 1 / 4), 20: (-1 / 4, 1 / 4)}
-CORNERS = {4: 4, 8: 8, 10: 4, 20: 8}
+CORNERS = {4: 4, 8: 8, 10: 4, 20: 8, 27: 8}
 
 
 def ordered(faces, key):
@@ -106,6 +108,8 @@ class Section:
     @staticmethod
     def middle_of(nodes, values):
         number = nodes.shape[1]
+        if number not in MIDDLE:  # the last node is there
+            return values[nodes[:, -1]]
         corner, side = MIDDLE[number]
         return corner * values[nodes[:, :CORNERS[number]]].sum(1) + side * values[nodes[:, CORNERS[number]:]].sum(1)
 
