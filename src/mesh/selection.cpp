@@ -165,9 +165,9 @@ public:
         });
     }
 
-    // A 6- or 8-node face as triangles between its nodes. The reference coordinates are linear in space within a
-    // triangle. The integrals of the shape functions, of degree 3 at most, are therefore exact on a flat face with
-    // straight, evenly divided sides; on a curved face they sum to the area of the triangles.
+    // A 6-, 8- or 9-node face as triangles between its nodes. The reference coordinates are linear in space within a
+    // triangle. The integrals of the shape functions, of degree 3 at most, or 4 with 9 nodes, are therefore exact on a
+    // flat face with straight, evenly divided sides; on a curved face they sum to the area of the triangles.
     void add_quadratic_face(std::span<const std::int64_t> nodes, std::span<double> weight) const {
         const CellType type = face_row(3, nodes.size()).surface;
         const auto place = reference_nodes(type);
@@ -181,15 +181,7 @@ public:
             const std::array<std::int64_t, 3> corner{nodes[index(local[0])], nodes[index(local[1])],
                                                      nodes[index(local[2])]};
             clipped_fan(corner, [&](const Vertex& a, const Vertex& b, const Vertex& c, double area) {
-                // Exact to degree 3: 3/60 of each corner, 8/60 of each middle, 27/60 of the centre.
-                const double rule[7][4] = {{1, 0, 0, 3},
-                                           {0, 1, 0, 3},
-                                           {0, 0, 1, 3},
-                                           {0.5, 0.5, 0, 8},
-                                           {0, 0.5, 0.5, 8},
-                                           {0.5, 0, 0.5, 8},
-                                           {1.0 / 3, 1.0 / 3, 1.0 / 3, 27}};
-                for (const auto& r : rule) {
+                for (const auto& r : nodes.size() == 9 ? degree_5 : degree_3) {
                     std::array<double, 3> share;
                     for (std::size_t i = 0; i < 3; ++i)
                         share[i] = r[0] * a.share[i] + r[1] * b.share[i] + r[2] * c.share[i];
@@ -211,6 +203,29 @@ public:
     }
 
 private:
+    // Rules for a triangle: shares of its corners and 60 times the weight.
+    using TriangleRule = std::array<std::array<double, 4>, 7>;
+    // Exact to degree 3: corners, middles of sides, centre.
+    static constexpr TriangleRule degree_3{{{1, 0, 0, 3},
+                                            {0, 1, 0, 3},
+                                            {0, 0, 1, 3},
+                                            {0.5, 0.5, 0, 8},
+                                            {0, 0.5, 0.5, 8},
+                                            {0.5, 0, 0.5, 8},
+                                            {1.0 / 3, 1.0 / 3, 1.0 / 3, 27}}};
+    // Exact to degree 5 (J. Radon, Monatsh. Math. Phys. 52, 1948): shares (6 +- sqrt 15)/21, weights (155 +- sqrt
+    // 15)/1200, and 9/40 at the centre.
+    static constexpr double root_15 = 3.87298334620741688518;
+    static constexpr double near_side = (6 + root_15) / 21, near_corner = (6 - root_15) / 21;
+    static constexpr double at_side = (155 + root_15) / 20, at_corner = (155 - root_15) / 20;
+    static constexpr TriangleRule degree_5{{{near_side, near_side, 1 - 2 * near_side, at_side},
+                                            {near_side, 1 - 2 * near_side, near_side, at_side},
+                                            {1 - 2 * near_side, near_side, near_side, at_side},
+                                            {near_corner, near_corner, 1 - 2 * near_corner, at_corner},
+                                            {near_corner, 1 - 2 * near_corner, near_corner, at_corner},
+                                            {1 - 2 * near_corner, near_corner, near_corner, at_corner},
+                                            {1.0 / 3, 1.0 / 3, 1.0 / 3, 13.5}}};
+
     // The part of a triangle in the box, as triangles around its first corner: visit(a, b, c, area).
     template <class Visit>
     void clipped_fan(const std::array<std::int64_t, 3>& nodes, Visit&& visit) const {

@@ -69,7 +69,7 @@ std::vector<std::size_t> turned(const std::vector<std::size_t>& side, std::size_
     std::vector<std::size_t> out = side;
     const auto middles = static_cast<std::ptrdiff_t>(corners);
     std::reverse(out.begin() + 1, out.begin() + middles);
-    if (side.size() > corners) std::reverse(out.begin() + middles, out.end());
+    if (side.size() > corners) std::reverse(out.begin() + middles, out.begin() + 2 * middles);  // a centre stays last
     return out;
 }
 
@@ -101,9 +101,9 @@ std::map<Key, std::vector<Face>> sides_in(const MeshArrays& mesh, const std::set
 
 // Shape functions and their derivatives at a point of the reference face.
 struct Shape {
-    std::array<double, 8> value{};
-    std::array<double, 8> by_xi{};
-    std::array<double, 8> by_eta{};
+    std::array<double, 9> value{};
+    std::array<double, 9> by_xi{};
+    std::array<double, 9> by_eta{};
 };
 
 Shape line_shape(std::size_t nodes, double x) {
@@ -119,7 +119,23 @@ Shape triangle_shape(std::size_t nodes, double x, double y) {
             {1 - 4 * z, 0, 4 * y - 1, -4 * x, 4 * x, 4 * (z - y)}};
 }
 
+// Products of those of 3-node lines: corners, middles of sides, centre.
+Shape biquadratic_shape(double x, double y) {
+    constexpr std::size_t on_x[] = {0, 1, 1, 0, 2, 1, 2, 0, 2};  // node of the line along x, then of that along y
+    constexpr std::size_t on_y[] = {0, 0, 1, 1, 0, 2, 1, 2, 2};
+    const Shape along_x = line_shape(3, x);
+    const Shape along_y = line_shape(3, y);
+    Shape out;
+    for (std::size_t i = 0; i < 9; ++i) {
+        out.value[i] = along_x.value[on_x[i]] * along_y.value[on_y[i]];
+        out.by_xi[i] = along_x.by_xi[on_x[i]] * along_y.value[on_y[i]];
+        out.by_eta[i] = along_x.value[on_x[i]] * along_y.by_xi[on_y[i]];
+    }
+    return out;
+}
+
 Shape quadrilateral_shape(std::size_t nodes, double x, double y) {
+    if (nodes == 9) return biquadratic_shape(x, y);
     constexpr double cx[] = {-1, 1, 1, -1};
     constexpr double cy[] = {-1, -1, 1, 1};
     Shape out;
