@@ -30,14 +30,15 @@ from fitting.descent import COARSE_SHORT, ENOUGH, SHORT, Outcome, descend  # noq
 from fitting.identify import TOLD, held_ranges, noise_of, told  # noqa: E402
 from fitting.misfit import Misfit, Slopes  # noqa: E402
 from fitting.profiles import Profile, shifts_of_held  # noqa: E402
+from fitting.regression import refine  # noqa: E402
 from marches import DONE, NUMERICAL, Trouble, given_words, hold, make_folder, read_about, refuse_set, run_study  # noqa: E402
 from measured.curve_data import CurveData, scale_of  # noqa: E402
 from own_files import claim, write_file  # noqa: E402
 
 # Analyses of a fit: so many, so many more for each parameter, 12 for two, and OF_MANY for each beyond two. Ends of
-# intervals take two each of them. Three parameters of three curves of mixed-mode bending took 22; with 16 they ended
+# intervals take two each of them. Three parameters of three curves of mixed-mode bending took 24; with 16 they ended
 # before the least misfit.
-ANALYSES, MORE, OF_MANY = 4, 4, 16
+ANALYSES, MORE, OF_MANY = 4, 4, 20
 # Residuals of this part of the largest y are the tolerance of the analyses: there is nothing to look for in them.
 # damage_tolerance has 4e-4 as its default, and peaks of a few points have errors of this size.
 EXACT = 1e-4
@@ -161,6 +162,10 @@ class Search:
             news = ENOUGH * outcome.point.misfit / (len(self.misfit.y) - kept.sum())
             better = profile.better
             if better is None or better.misfit >= outcome.point.misfit - news:
+                outcome, moved = refine(self.misfit, outcome, kept, self.left())
+                if moved:
+                    profile = Profile(self.misfit, outcome, kept, slopes.chord, self.level)
+                    intervals = profile.of_derivatives()
                 return Solution(outcome, kept, reasons, intervals, profile)
             if self.left() < ends:  # no analyses for another search and its ends
                 profile = Profile(self.misfit, Outcome(better, outcome.jacobian, False, "no analyses were left"), kept,

@@ -29,7 +29,8 @@ class Outcome:
     message: str
 
 
-def _step(jacobian, residual, low, high):
+def bounded_step(jacobian, residual, low, high):
+    """The step of least residual by the derivatives, within the bounds."""
     with loading():
         from scipy.optimize import lsq_linear  # here, for it loads for a second, and words may be wrong
     room = high - low > 1e-12
@@ -51,7 +52,7 @@ def descend(misfit, slopes, begin, kept, analyses, short=SHORT):
         low = np.where(kept, np.maximum(lower - point.at, -radius), 0.0)
         high = np.where(kept, np.minimum(upper - point.at, radius), 0.0)
         step = np.zeros(len(kept))
-        step[kept] = _step(jacobian[:, kept], point.residual, low[kept], high[kept])
+        step[kept] = bounded_step(jacobian[:, kept], point.residual, low[kept], high[kept])
         linear = point.residual + jacobian @ step
         predicted, variance = point.misfit - linear @ linear, point.misfit / freedom
         if predicted <= ENOUGH * variance or np.max(np.abs(step), initial=0.0) < short:

@@ -79,6 +79,10 @@ class Misfit:
         point = Point(np.array(at), residual, np.array(slopes).T, answer.rough, answer)
         return point, f"root mean square {np.sqrt(np.mean(residual ** 2)):.4g}"
 
+    def fine_points(self):
+        """All points that were evaluated with the scene's own load steps."""
+        return [found for (fine, _), found in self.known.items() if fine and found is not None]
+
     def point(self, at):
         """The point there; None: the scene has no answer. Each is computed once for the same load steps."""
         key = (self.model.fine, np.asarray(at).tobytes())
