@@ -12,6 +12,8 @@ GOOD, POOR = 0.75, 0.25  # of the predicted gain (Dennis, Schnabel, Numerical Me
 # A step that would lower the sum of squares by less than this part of its variance moves nothing by more than a tenth
 # of its standard error. Half and twice of it were not measured.
 ENOUGH = 0.01
+# A gain of less than so many variances of the sum of squares is within two standard errors.
+DOUBTFUL = 4
 SHORT = 1e-6  # of a logarithm: shorter steps are rounding
 # With chords, shorter steps find other teeth and nothing else. It is about a standard error of the toughness of the DCB
 # with 1 % of noise. Half and twice of it were not measured.
@@ -66,7 +68,7 @@ def descend(misfit, slopes, begin, kept, analyses, short=SHORT):
             continue
         slopes.correct(point, found, jacobian)
         gain = (point.misfit - found.misfit) / predicted
-        if gain <= 0 and predicted < 4 * variance:
+        if gain <= 0 and predicted < DOUBTFUL * variance:
             # Within two standard errors the misfit does not do what the derivatives say.
             return Outcome(point, slopes.at(point), True, "the misfit is least as far as the curve lets it be told")
         radius = 0.5 * np.max(np.abs(step)) if gain < POOR else 2 * radius if gain > GOOD else radius

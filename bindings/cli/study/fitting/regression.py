@@ -4,7 +4,7 @@ them ends beside the least misfit. A linear model through all analyses nearby ha
 in derivative-free least squares: Cartis, Fiala, Marteau, Roberts, ACM Trans. Math. Softw. 45, 2019)."""
 import numpy as np
 
-from fitting.descent import Outcome, bounded_step
+from fitting.descent import DOUBTFUL, Outcome, bounded_step
 
 # Analyses that differ by more than this in the logarithm of a parameter say nothing of the solution: the ends of intervals
 # and a step of the search to either side lie within. On three curves of mixed-mode bending .3 leaves too few analyses, and
@@ -31,8 +31,8 @@ def slopes_of_neighbours(misfit, point, kept):
 
 
 def refine(misfit, outcome, kept, analyses):
-    """Steps by the analyses nearby, as long as they promise more than the variance of the misfit. Returns the outcome, and
-    whether it is another one."""
+    """Steps by the analyses nearby, as long as they promise more than two standard errors. Returns the outcome, and whether it
+    is another one."""
     lower, upper = misfit.bounds()
     point, failed = outcome.point, 0
     variance = point.misfit / max(1, len(misfit.y) - kept.sum())
@@ -42,7 +42,7 @@ def refine(misfit, outcome, kept, analyses):
         step = np.zeros(len(kept))
         step[kept] = bounded_step(slopes, point.residual, low, high)
         linear = point.residual + slopes @ step[kept]
-        if point.misfit - linear @ linear <= variance:
+        if point.misfit - linear @ linear <= DOUBTFUL * variance:
             break
         analyses -= 1
         found = misfit.point(point.at + step)
