@@ -317,6 +317,29 @@ def check_temperatures():
     refused(bar("", alpha="*Expansion, type=ANISO\n1e-5,\n"), r"\*EXPANSION: TYPE=ANISO")
 
 
+def check_ends():
+    """Cohesive elements that end within a body: refused with what to do, and that gives what a tie of the rest gives."""
+    text = deck().replace("201, 6, 7, 103, 102\n202, 7, 8, 104, 103\n", "")
+    assert "203, 8" in text and "\n201, 6" not in text
+    parts = text.replace("*Solid section, elset=Up, material=M\n1.\n",
+                         "*Elset, elset=Beside\n103, 104\n*Elset, elset=Rest\n101, 102\n" + "".join(
+                             f"*Solid section, elset={name}, material=M\n1.\n" for name in ("Beside", "Rest")))
+    tied = parts.replace("*Step", "*Surface, name=Seat\n1, S3\n2, S3\n*Surface, name=Sole\nRest, S1\n"
+                         "*Tie, name=T\nSole, Seat\n*Step", 1)
+
+    def whole(text):
+        for upper, lower in ((102, 6), (103, 7), (104, 8)):
+            text = text.replace(f"{upper}, {upper - 96.0 - 6}, 1.0\n", "")
+            text = "\n".join(",".join(f" {lower}" if i > 0 and field.strip() == str(upper) else field
+                                      for i, field in enumerate(line.split(",")))
+                             if line.count(",") == 4 else line for line in text.split("\n"))
+        return text
+    same("a rest that shares its nodes", whole(parts), tied)
+    refused(whole(text), r"deck\.inp:\d+: \*COHESIVE SECTION", "share the nodes of 2 sides", "SOLID SECTION of their own")
+    one = whole(text).replace("*Solid section, elset=Up, material=M\n1.\n", "").replace("elset=Low, material", "elset=Both, material")
+    refused(one.replace("*Solid", "*Elset, elset=Both\nLow, Up\n*Solid", 1), "within .Both.", "SOLID SECTION of their own")
+
+
 def check_messages():
     """What a file is told that is no deck."""
     text = tower(True, 4, 4)
@@ -374,6 +397,7 @@ check_increments()
 check_parameters()
 check_temperatures()
 check_messages()
+check_ends()
 check_ties()
 check_pins()
 check_constants()

@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "deck/abaqus/left_out.hpp"
 #include "deck/deck_bodies.hpp"
 #include "deck/deck_laws.hpp"
 #include "mesh/mesh_file.hpp"
@@ -135,8 +136,8 @@ private:
         throw SceneFailure(
             held != nullptr ? held->place : model_.file,
             fmt::format("{} and {} share the nodes of {} sides, where they would be bonded, and have nodes "
-                        "of their own elsewhere: an interface has one law; double all its nodes",
-                        body(pair.a), body(pair.b), pair.shared));
+                        "of their own elsewhere, and an interface has one law: {}",
+                        body(pair.a), body(pair.b), pair.shared, sections_of_one_side));
     }
 
     void add(const Held& held) {
@@ -213,9 +214,9 @@ private:
             const std::int32_t b = one_body(set.upper[i], set, section.place);
             if (a == b)
                 throw SceneFailure(section.place,
-                                   fmt::format("an element of \"{}\" lies within {}: nodes connect its two sides "
-                                               "elsewhere, and a body has no interface with itself",
-                                               set.name, body(a)));
+                                   fmt::format("an element of \"{}\" lies within {}, and a body has no interface with "
+                                               "itself: {}",
+                                               set.name, body(a), sections_of_one_side));
             const bool tied = !set.apart.empty() && set.apart[i] >= 0;
             const double gap = tied ? set.apart[i] : gap_of(set.lower[i], set.upper[i]);
             loose = loose || tied;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <set>
 #include <utility>
 
@@ -27,37 +26,6 @@ namespace {
 
 // The first line of a scene: what stands before and behind the name of its deck.
 constexpr std::string_view begin_of_origin = "# From ", end_of_origin = " by delam import.";
-
-using Vector = std::array<double, 3>;
-
-Vector cross(const Vector& a, const Vector& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Vector unit(const Vector& v, const Place& place) {
-    const double length = std::hypot(v[0], v[1], v[2]);
-    if (!(length > 0)) throw SceneFailure(place, "the points lie on one line: they give no axes");
-    return {v[0] / length, v[1] / length, v[2] / length};
-}
-
-// Axes 1, 2, 3 turned about one of them.
-void turn(std::array<Vector, 3>& axes, int about, double degrees) {
-    const double c = std::cos(degrees * std::numbers::pi / 180);
-    const double s = std::sin(degrees * std::numbers::pi / 180);
-    const auto i = static_cast<std::size_t>(about % 3);
-    const auto j = static_cast<std::size_t>((about + 1) % 3);
-    const Vector a = axes[i], b = axes[j];
-    for (std::size_t k = 0; k < 3; ++k) {
-        axes[i][k] = c * a[k] + s * b[k];
-        axes[j][k] = c * b[k] - s * a[k];
-    }
-}
-
-// Near-zeros of rotations by right angles would hide the axes from a reader.
-std::vector<double> tidy_axis(const Vector& v) {
-    std::vector<double> out;
-    for (const double x : v) out.push_back(std::abs(x) < 1e-15 ? 0.0 : x);
-    return out;
-}
 
 // Moduli and ratios from D1111, D1122, D2222, D1133, D2233, D3333, D1212, D1313, D2323, by the inverse of the upper
 // block.
@@ -181,23 +149,21 @@ private:
                 say_once(deck_.changed, "*SHELL SECTION without ORIENTATION: material axes 1, 2, 3 are x, y, z");
             return "";
         }
-        std::array<Vector, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+        Axes axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
         if (!section.orientation.empty()) {
             const Orientation& o = orientation_of(section);
-            const auto from_origin = [&](std::size_t at) {
-                return Vector{o.points[at] - o.points[6], o.points[at + 1] - o.points[7],
-                              o.points[at + 2] - o.points[8]};
-            };
-            axes[0] = unit(from_origin(0), o.place);
-            axes[2] = unit(cross(axes[0], from_origin(3)), o.place);
-            axes[1] = cross(axes[2], axes[0]);
-            turn(axes, o.about == 0 ? 1 : o.about, o.angle);
+            if (o.of_each_element())
+                return fmt::format("# Its axes differ from cell to cell: those of *ORIENTATION {} of the mesh.\n",
+                                   one_line(o.name));
+            axes = o.axes(o.points, {}, o.place);
         }
         turn(axes, 3, section.angle);
         // The section of a part turns with its instance.
         if (!section.part.empty())
             for (Vector& axis : axes) axis = turned_by(scope, axis);
-        return fmt::format("axes = [{}, {}]\n", toml_list(tidy_axis(axes[0])), toml_list(tidy_axis(axes[1])));
+        const std::array<double, 6> two = first_two(axes);
+        return fmt::format("axes = [{}, {}]\n", toml_list(std::vector<double>(two.begin(), two.begin() + 3)),
+                           toml_list(std::vector<double>(two.begin() + 3, two.end())));
     }
 
     std::string material_text(const MaterialCards& m) {

@@ -136,7 +136,9 @@ void fill(Model& model, const Scene& scene) {
         const Material& material = scene.materials[scene.layers[i].material];
         set_material(owner, problem, static_cast<std::int32_t>(i), material, scene.layers[i]);
         set_plies(model, scene, i);
-        const bool directed = !std::holds_alternative<Isotropic>(material.elastic);
+        const auto& along = material.expansion;
+        const bool directed = !std::holds_alternative<Isotropic>(material.elastic) ||
+                              (along && ((*along)[0] != (*along)[1] || (*along)[0] != (*along)[2]));
         if (scene.mesh && directed && !scene.layers[i].axes && !scene.mesh->orientation.empty())
             set_cell_axes(owner, problem, static_cast<std::int32_t>(i), *scene.mesh, scene.layers[i].place);
     }

@@ -41,8 +41,6 @@ const std::set<std::string> passed_over{"AMPLITUDE",
                                         "DENSITY",
                                         "DEPVAR",
                                         "DISTRIBUTING",
-                                        "DISTRIBUTION",
-                                        "DISTRIBUTION TABLE",
                                         "DLOAD",
                                         "DSLOAD",
                                         "ELASTIC",
@@ -57,7 +55,6 @@ const std::set<std::string> passed_over{"AMPLITUDE",
                                         "MPC",
                                         "MATERIAL",
                                         "NODE OUTPUT",
-                                        "ORIENTATION",
                                         "OUTPUT",
                                         "PHYSICAL CONSTANTS",
                                         "PLASTIC",
@@ -143,6 +140,9 @@ private:
             take_surface(card);
         } else if (word == "SOLID SECTION" || word == "SHELL SECTION") {
             open_->sections.push_back({open_, card.required("ELSET"), card.place});
+            open_->section_cards.push_back(&card);
+        } else if (take_axes(card)) {
+            return;
         } else if (word == "COHESIVE SECTION") {
             open_->cohesive_sections.push_back({open_, card.required("ELSET"), card.place});
         } else if (word == "TIE") {
@@ -166,6 +166,23 @@ private:
                                "those that are ignored; " +
                                    instead_of_keyword(word));
         }
+    }
+
+    // The cards are read later, when all of them are known, and only those that a section uses.
+    bool take_axes(const InpCard& card) {
+        static const std::pair<const char*, CardsByName Part::*> known[] = {
+            {"ORIENTATION", &Part::orientations},
+            {"DISTRIBUTION", &Part::distributions},
+            {"DISTRIBUTION TABLE", &Part::distribution_tables},
+        };
+        for (const auto& [word, cards] : known) {
+            if (card.keyword != word) continue;
+            const std::string name = card.required("NAME");
+            if (!(open_->*cards).emplace(upper(name), &card).second)
+                throw SceneFailure(card.place, "there is another one named \"" + name + "\"");
+            return true;
+        }
+        return false;
     }
 
     void require_outside(const InpCard& card) const {
@@ -219,6 +236,7 @@ private:
             const std::vector<double> by = numbers(card.lines[0], 3);
             for (Node& node : instance.nodes)
                 for (std::size_t a = 0; a < 3; ++a) node.at[a] += by[a];
+            instance.origin = {by[0], by[1], by[2]};
         }
         if (card.lines.size() == 2) {
             const std::vector<double> turn = numbers(card.lines[1], 7);
@@ -227,6 +245,7 @@ private:
             if (a == b) throw SceneFailure(card.lines[1].place, "the two points of the axis of rotation are the same");
             for (std::array<double, 3>& axis : instance.turned)
                 axis = rotated(axis, {}, {b[0] - a[0], b[1] - a[1], b[2] - a[2]}, turn[6] * std::numbers::pi / 180);
+            instance.origin = rotated(instance.origin, a, b, turn[6] * std::numbers::pi / 180);
             for (Node& node : instance.nodes) node.at = rotated(node.at, a, b, turn[6] * std::numbers::pi / 180);
         }
         open_ = &instance;

@@ -13,6 +13,7 @@
 
 #include <fmt/format.h>
 
+#include "deck/abaqus/cell_axes.hpp"
 #include "deck/abaqus/inp_cards.hpp"
 #include "deck/abaqus/tied_faces.hpp"
 #include "mesh/cell_shape.hpp"
@@ -130,18 +131,23 @@ private:
     }
 
     void add_cells() {
+        std::vector<std::vector<ElementAt>> elements;  // by block
         for (const Part* scope : model_.scopes())
             for (std::size_t i = 0; i < scope->elements.size(); ++i) {
                 const Element& element = scope->elements[i];
                 if (element.type->cohesive()) continue;
                 auto block = std::find_if(mesh_.blocks.begin(), mesh_.blocks.end(),
                                           [&](const CellBlock& b) { return b.type == element.type->cell; });
-                if (block == mesh_.blocks.end())
+                if (block == mesh_.blocks.end()) {
                     block = mesh_.blocks.insert(block, CellBlock{element.type->cell, {}, {}});
+                    elements.emplace_back();
+                }
+                elements[static_cast<std::size_t>(block - mesh_.blocks.begin())].push_back({scope, i});
                 for (const std::int64_t id : element.nodes)
                     block->connectivity.push_back(node_number(*scope, id, element.place));
                 block->bodies.push_back(body_of_.at({scope, i}));
             }
+        set_cell_axes(model_, elements, mesh_);
     }
 
     void add_sets() {

@@ -16,6 +16,10 @@
 #include "deck/abaqus/abaqus_elements.hpp"
 #include "text/error.hpp"
 
+namespace cli {
+struct InpCard;
+}
+
 namespace cli::abaqus {
 
 struct Node {
@@ -72,6 +76,8 @@ struct Tie {
     Place place;
 };
 
+using CardsByName = std::map<std::string, const InpCard*>;  // by upper case
+
 // A part, an instance of one, or the objects outside of both.
 struct Part {
     std::string name;
@@ -83,8 +89,11 @@ struct Part {
     std::map<std::string, Set> element_sets;
     std::map<std::string, Surface> surfaces;
     std::vector<Entry> sections;  // their element sets
+    std::vector<const InpCard*> section_cards;
     std::vector<Entry> cohesive_sections;
+    CardsByName orientations, distributions, distribution_tables;
     std::array<std::array<double, 3>, 3> turned{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  // where an instance has x, y, z
+    std::array<double, 3> origin{};                                                  // and their origin
     std::size_t order = 0;        // position among the parts of the mesh
     std::int64_t first_node = 0;  // number in the mesh
 };

@@ -12,8 +12,6 @@ struct Words {
 
 constexpr Words keywords[] = {
     {"BEAM SECTION", "beams stay out: give solid cells, or a rigid *COUPLING"},
-    {"DISTRIBUTION", "axes for each element stay out: give sets of elements with an *ORIENTATION each"},
-    {"DISTRIBUTION TABLE", "axes for each element stay out: give sets of elements with an *ORIENTATION each"},
     {"ELCOPY", "write the elements (*ELEMENT, *ELGEN)"},
     {"EMBEDDED ELEMENT", "embedded elements stay out: mesh the body around them"},
     {"FREQUENCY", "vibrations would change the result's meaning: steps are *STATIC"},

@@ -14,6 +14,7 @@
 
 #include "deck/abaqus/abaqus_model.hpp"
 #include "deck/abaqus/inp_cards.hpp"
+#include "deck/abaqus/orientations.hpp"
 #include "text/error.hpp"
 #include "text/wording.hpp"
 
@@ -77,15 +78,6 @@ struct Section {
     bool shell = false;
     std::string part{};  // in which it and its orientation stand
     Place place;         // of the card, by which the mesh knows it
-};
-
-struct Orientation {
-    std::string name;
-    std::string part;  // in which it stands; "": outside
-    Numbers points;    // a and b, then the origin
-    int about = 0;     // 0: not said
-    double angle = 0;  // degrees
-    Place place;
 };
 
 struct InteractionCards {

@@ -33,9 +33,9 @@ const std::set<std::string> not_needed{"CONDUCTIVITY",    "CONTACT CONTROLS",
                                        "SOLVER CONTROLS", "SPECIFIC HEAT",
                                        "TIME POINTS",     "TRANSVERSE SHEAR STIFFNESS"};
 // Keywords of the mesh, which abaqus_cards.cpp reads.
-const std::set<std::string> of_mesh{"NODE",         "ELEMENT",  "NSET",     "ELSET",        "SURFACE",
-                                    "PART",         "END PART", "ASSEMBLY", "END ASSEMBLY", "INSTANCE",
-                                    "END INSTANCE", "TIE",      "NGEN",     "ELGEN"};
+const std::set<std::string> of_mesh{
+    "NODE",         "ELEMENT",  "NSET",         "ELSET", "SURFACE", "PART",  "END PART",     "ASSEMBLY",
+    "END ASSEMBLY", "INSTANCE", "END INSTANCE", "TIE",   "NGEN",    "ELGEN", "DISTRIBUTION", "DISTRIBUTION TABLE"};
 // Keywords whose effect the scene has in another way; each is reported once.
 const std::pair<const char*, const char*> otherwise[] = {
     {"DAMAGE STABILIZATION", "*DAMAGE STABILIZATION: no viscosity; jumps of the crack are found by energy"},
@@ -310,29 +310,9 @@ private:
     }
 
     void take_orientation(const InpCard& card) {
-        card.only({"NAME", "DEFINITION", "SYSTEM"});
-        if (card.has("DEFINITION") && upper(card.required("DEFINITION")) != "COORDINATES")
-            card.refuse("DEFINITION", card.required("DEFINITION"), "COORDINATES");
-        if (card.has("SYSTEM") && upper(card.required("SYSTEM")) != "RECTANGULAR")
-            card.refuse("SYSTEM", card.required("SYSTEM"), "RECTANGULAR");
-        Orientation orientation;
-        orientation.name = card.required("NAME");
+        Orientation orientation = orientation_of(card);
         orientation.part = part_;
-        orientation.place = card.place;
         const std::pair key(part_, upper(orientation.name));
-        if (const auto other = deck_.orientations.find(key); other != deck_.orientations.end())
-            throw SceneFailure(card.place, "there is another orientation \"" + other->second.name + "\"");
-        orientation.points = card.first_line().numbers();
-        if (orientation.points.size() != 6 && orientation.points.size() != 9)
-            throw SceneFailure(card.lines[0].place, "6 or 9 coordinates are expected");
-        orientation.points.resize(9, 0.0);
-        if (card.lines.size() > 1) {
-            const Numbers turn = card.lines[1].numbers();
-            if (turn.empty() || turn.size() > 2 || (turn[0] != 1 && turn[0] != 2 && turn[0] != 3))
-                throw SceneFailure(card.lines[1].place, "an axis, 1 to 3, and an angle are expected");
-            orientation.about = static_cast<int>(turn[0]);
-            if (turn.size() == 2) orientation.angle = turn[1];
-        }
         deck_.orientations.emplace(key, std::move(orientation));
     }
 

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "deck/abaqus/orientations.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <numbers>
+
+namespace cli::abaqus {
+
+namespace {
+
+Vector normal_to(const Vector& a, const Vector& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+double inner(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+Vector unit(const Vector& v, const Place& place) {
+    const double length = std::hypot(v[0], v[1], v[2]);
+    if (!(length > 0)) throw SceneFailure(place, "the points lie on one line: they give no axes");
+    return {v[0] / length, v[1] / length, v[2] / length};
+}
+
+Vector difference(const std::vector<double>& points, std::size_t to, std::size_t from) {
+    return {points[to] - points[from], points[to + 1] - points[from + 1], points[to + 2] - points[from + 2]};
+}
+
+// Axis 1 points away from the axis of the cylinder, axis 3 along it.
+Axes cylindrical_axes(const std::vector<double>& points, const Vector& centre, const Place& place) {
+    const Vector along = difference(points, 3, 0);
+    if (along == Vector{}) throw SceneFailure(place, "the two points of the axis are the same");
+    Axes axes;
+    axes[2] = unit(along, place);
+    const Vector to{centre[0] - points[0], centre[1] - points[1], centre[2] - points[2]};
+    const double height = inner(to, axes[2]);
+    Vector out{};
+    for (std::size_t k = 0; k < 3; ++k) out[k] = to[k] - height * axes[2][k];
+    if (!(std::hypot(out[0], out[1], out[2]) > 1e-9 * std::hypot(along[0], along[1], along[2])))
+        throw SceneFailure(place, "the centre of the element lies on the axis: it has no radial direction");
+    axes[0] = unit(out, place);
+    axes[1] = normal_to(axes[2], axes[0]);
+    return axes;
+}
+
+bool is_name(const std::string& field) {
+    return !field.empty() && (std::isalpha(static_cast<unsigned char>(field[0])) != 0 || field[0] == '_');
+}
+
+}  // namespace
+
+void turn(Axes& axes, int about, double degrees) {
+    const double c = std::cos(degrees * std::numbers::pi / 180);
+    const double s = std::sin(degrees * std::numbers::pi / 180);
+    const auto i = static_cast<std::size_t>(about % 3);
+    const auto j = static_cast<std::size_t>((about + 1) % 3);
+    const Vector a = axes[i], b = axes[j];
+    for (std::size_t k = 0; k < 3; ++k) {
+        axes[i][k] = c * a[k] + s * b[k];
+        axes[j][k] = c * b[k] - s * a[k];
+    }
+}
+
+std::array<double, 6> first_two(const Axes& axes) {
+    std::array<double, 6> out{};
+    for (std::size_t i = 0; i < 6; ++i) {
+        const double x = axes[i / 3][i % 3];
+        out[i] = std::abs(x) < 1e-15 ? 0.0 : x;
+    }
+    return out;
+}
+
+Axes Orientation::axes(const std::vector<double>& of_element, const Vector& centre, const Place& at) const {
+    Axes out;
+    if (cylindrical) {
+        out = cylindrical_axes(of_element, centre, at);
+    } else {
+        out[0] = unit(difference(of_element, 0, 6), at);
+        out[2] = unit(normal_to(out[0], difference(of_element, 3, 6)), at);
+        out[1] = normal_to(out[2], out[0]);
+    }
+    turn(out, about == 0 ? 1 : about, angle);
+    return out;
+}
+
+Orientation orientation_of(const InpCard& card) {
+    card.only({"NAME", "DEFINITION", "SYSTEM"});
+    if (card.has("DEFINITION") && upper(card.required("DEFINITION")) != "COORDINATES")
+        card.refuse("DEFINITION", card.required("DEFINITION"), "COORDINATES");
+    const std::string system = card.has("SYSTEM") ? upper(card.required("SYSTEM")) : "RECTANGULAR";
+    if (system != "RECTANGULAR" && system != "CYLINDRICAL") card.refuse("SYSTEM", system, "RECTANGULAR or CYLINDRICAL");
+    Orientation out;
+    out.name = card.required("NAME");
+    out.place = card.place;
+    out.cylindrical = system == "CYLINDRICAL";
+    const InpLine& first = card.first_line();
+    if (!first.fields.empty() && is_name(first.fields[0])) {
+        out.distribution = first.fields[0];
+        if (std::any_of(first.fields.begin() + 1, first.fields.end(), [](const auto& field) { return !field.empty(); }))
+            throw SceneFailure(first.place, "the name of a *DISTRIBUTION is expected alone");
+    } else {
+        out.points = first.numbers();
+        if (out.points.size() != 6 && (out.cylindrical || out.points.size() != 9))
+            throw SceneFailure(first.place, out.cylindrical
+                                                ? "6 coordinates, two points of the axis, or the name of a "
+                                                  "*DISTRIBUTION are expected"
+                                                : "6 or 9 coordinates or the name of a *DISTRIBUTION are expected");
+        out.points.resize(9, 0.0);
+    }
+    if (card.lines.size() > 1) {
+        const InpLine& second = card.lines[1];
+        if (second.fields.size() > 1 && is_name(second.fields[1]))
+            throw SceneFailure(second.place, "\"" + second.fields[1] +
+                                                 "\": an angle is expected; that of each element is imported within "
+                                                 "the axes of the *DISTRIBUTION of the first line");
+        const std::vector<double> by = second.numbers();
+        if (by.empty() || by.size() > 2 || (by[0] != 1 && by[0] != 2 && by[0] != 3))
+            throw SceneFailure(second.place, "an axis, 1 to 3, and an angle are expected");
+        out.about = static_cast<int>(by[0]);
+        if (by.size() == 2) out.angle = by[1];
+    }
+    return out;
+}
+
+}  // namespace cli::abaqus

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The material axes of *ORIENTATION: of whole sections, or of each element by its place or by a *DISTRIBUTION.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "deck/abaqus/inp_cards.hpp"
+
+namespace cli::abaqus {
+
+using Vector = std::array<double, 3>;
+using Axes = std::array<Vector, 3>;
+
+struct Orientation {
+    std::string name;
+    std::string part;  // in which it stands; "": outside
+    bool cylindrical = false;
+    std::string distribution;    // of the points of each element; "": they are `points`
+    std::vector<double> points;  // a and b, then the origin
+    int about = 0;               // 0: not said
+    double angle = 0;            // degrees
+    Place place;
+
+    // True if elements of one section may have different axes.
+    [[nodiscard]] bool of_each_element() const { return cylindrical || !distribution.empty(); }
+    // Returns axes 1, 2, 3 of an element by its points and its centre. Throws SceneFailure at `at` if they give none.
+    [[nodiscard]] Axes axes(const std::vector<double>& of_element, const Vector& centre, const Place& at) const;
+};
+
+Orientation orientation_of(const InpCard& card);
+
+// Turns axes about one of them, 1 to 3.
+void turn(Axes& axes, int about, double degrees);
+// Returns axes 1 and 2. Near-zeros of rotations by right angles, which would hide the axes from a reader, are zeros.
+std::array<double, 6> first_two(const Axes& axes);
+
+}  // namespace cli::abaqus
