@@ -15,6 +15,7 @@
 
 #include "command/commands.hpp"
 #include "model/call.hpp"
+#include "model/model.hpp"
 #include "model/selection.hpp"
 #include "text/error.hpp"
 #include "text/unit.hpp"
