@@ -340,6 +340,24 @@ def check_ends():
     refused(one.replace("*Solid", "*Elset, elset=Both\nLow, Up\n*Solid", 1), "within .Both.", "SOLID SECTION of their own")
 
 
+def check_left_out():
+    """A scene by hand is told of the cohesive elements of its mesh, and whether a law takes them."""
+    place = folder()
+    text = deck()
+    write(text[:text.index("*Step")].replace("elset=Up\n", "elset=Renamed\n", 1).replace("elset=Up,", "elset=Renamed,"),
+          "mesh.inp", place)
+    scene = ('schema = 1\n[mesh]\nfile = "mesh.inp"\n[[materials]]\nname = "M"\nyoung = 1000\npoisson = 0.3\n'
+             '[[bodies]]\nname = "*"\nmaterial = "M"\n[[laws]]\nname = "C"\nnormal_stiffness = 1000\n'
+             'tangential_stiffness = 1000\nnormal_strength = 1\ntangential_strength = 1\nnormal_toughness = 0.01\n'
+             'tangential_toughness = 0.01\n[time]\nend = 1\nsteps = 1\n[[supports]]\nset = "All"\nfix = ["x", "y"]\n')
+    for held, left in (("contact = true", True), ('law = "C"', False)):
+        said = delam("check", write(scene + f'[[interfaces]]\na = "Low"\nb = "Renamed"\n{held}\n', "s.toml", place))
+        expect(said[0] == 0, f"check: {said[1:]}")
+        said = said[1] + said[2]
+        expect('cohesive: 4 elements of "Coh"' in said, f"what there is: {said[-900:]}")
+        expect(("4 cohesive elements of the mesh left out" in said) == left, f"{held}: {said[-900:]}")
+
+
 def check_messages():
     """What a file is told that is no deck."""
     text = tower(True, 4, 4)
@@ -397,6 +415,7 @@ check_increments()
 check_parameters()
 check_temperatures()
 check_messages()
+check_left_out()
 check_ends()
 check_ties()
 check_pins()

@@ -261,7 +261,7 @@ ImportedScene import_deck(const std::string& deck_path, const std::string& mesh_
     ImportedScene out;
     const std::string text = abaqus::SceneWriter(deck, model, mesh, plain_names, parts).text(mesh_name, pieces);
     for (const std::string& note : mesh.notes)
-        if (note.rfind("ignored: ", 0) != 0) out.changed.push_back(note);
+        if (!note.starts_with("ignored: ") && !note.starts_with("cohesive: ")) out.changed.push_back(note);
     out.changed.insert(out.changed.end(), deck.changed.begin(), deck.changed.end());
     out.left_out = deck.left_out;
     std::int64_t cells = 0, held = 0;

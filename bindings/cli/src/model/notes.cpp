@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/notes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -72,11 +73,23 @@ void patch_warnings(const Scene& scene, const Selection& where, std::vector<std:
     }
 }
 
+void cohesive_warning(const Model& model, const Scene& scene, std::vector<std::string>& out) {
+    if (!scene.mesh || std::any_of(model.interfaces.begin(), model.interfaces.end(),
+                                   [](const InterfaceData& data) { return !data.bonded && !data.contact; }))
+        return;
+    std::int64_t left = 0;
+    for (const CohesiveSet& set : scene.mesh->cohesive) left += static_cast<std::int64_t>(set.lower.size());
+    if (left > 0)
+        out.push_back(fmt::format("{} of the mesh left out: no interface of the scene has a law",
+                                  counted(left, "cohesive element")));
+}
+
 }  // namespace
 
 std::vector<std::string> warnings_of(const Model& model, const Scene& scene) {
     std::vector<std::string> out = model.said;
     interface_warnings(model, scene, out);
+    cohesive_warning(model, scene, out);
     if (std::string units = units_found(scene).warning; !units.empty()) out.push_back(std::move(units));
     for (const Prescription& data : scene.prescriptions) patch_warnings(scene, data.where, out);
     for (const DeadForce& data : scene.forces) patch_warnings(scene, data.where, out);

@@ -17,6 +17,7 @@
 #include "deck/abaqus/inp_cards.hpp"
 #include "deck/abaqus/tied_faces.hpp"
 #include "mesh/cell_shape.hpp"
+#include "text/say.hpp"
 #include "text/wording.hpp"
 
 namespace cli::abaqus {
@@ -220,6 +221,9 @@ private:
                 std::copy_if(face.begin(), face.end(), std::inserter(nodes, nodes.end()),
                              [](std::int64_t node) { return node >= 0; });
             mesh_.node_sets[set.faces].assign(nodes.begin(), nodes.end());
+            mesh_.notes.push_back(fmt::format("cohesive: {} of \"{}\", no cells here: the set \"{}\" has their faces",
+                                              counted(static_cast<std::int64_t>(set.lower.size()), "element"), set.name,
+                                              set.faces));
         }
     }
 
