@@ -79,7 +79,8 @@ void StepReader::take_step(const InpCard& card) {
     if (card.has("NLGEOM") && upper(card.parameter("NLGEOM")) != "NO")
         say_once(
             deck_.changed,
-            "NLGEOM: small displacements and rotations; the program warns where cells rotate by more than 0.1 rad");
+            "NLGEOM: small displacements and rotations; the program warns where cells rotate by more than 0.1 rad, and "
+            "solver.kinematics = corotational follows large rotations, in many times the time");
     deck_.steps.push_back(std::move(step));
     in_step_ = true;
 }
