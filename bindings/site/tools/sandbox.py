@@ -5,6 +5,7 @@ import pathlib
 import shutil
 import subprocess
 import sys
+import threading
 
 from blocks import difference
 
@@ -40,17 +41,31 @@ def write_pkgconfig(build, folder):
         f"Libs: -L{build}/lib -Wl,-rpath,{build}/lib -ldelam\n", encoding="utf-8")
 
 
+MAKING = threading.Lock()  # groups of pages share the tools
+MADE = set()
+
+
+def make_tools(build, work):
+    """Makes the programs once, before any group runs them."""
+    with MAKING:
+        if (build, work) in MADE and (work / "bin").is_dir():
+            return
+        tools = work / "bin"
+        tools.mkdir(parents=True, exist_ok=True)
+        program = tools / "delam"
+        program.write_text(f'#!/bin/sh\nexec {build}/bin/delam "$@"\n', encoding="utf-8")
+        program.chmod(0o755)
+        python = tools / "python3"
+        if not python.is_symlink():
+            python.symlink_to("/usr/bin/python3")
+        write_pkgconfig(build, work / "pkgconfig")
+        MADE.add((build, work))
+
+
 def environment(build, work):
     """Programs and libraries are those of the build folder, Python is Debian's."""
+    make_tools(build, work)
     tools = work / "bin"
-    tools.mkdir(parents=True, exist_ok=True)
-    program = tools / "delam"
-    program.write_text(f'#!/bin/sh\nexec {build}/bin/delam "$@"\n', encoding="utf-8")
-    program.chmod(0o755)
-    python = tools / "python3"
-    if not python.is_symlink():
-        python.symlink_to("/usr/bin/python3")
-    write_pkgconfig(build, work / "pkgconfig")
     return {"PATH": f"{tools}:/usr/local/bin:/usr/bin:/bin", "PKG_CONFIG_PATH": str(work / "pkgconfig"),
             "DELAM_LIBRARY": f"{build}/lib", "PYTHONPATH": str(ROOT / "bindings/python/src"),
             "PYTHONDONTWRITEBYTECODE": "1", "OPENBLAS_NUM_THREADS": "1", "MPLBACKEND": "Agg", "LC_ALL": "C.UTF-8",
