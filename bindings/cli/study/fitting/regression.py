@@ -7,8 +7,7 @@ import numpy as np
 from fitting.descent import DOUBTFUL, Outcome, bounded_step
 
 # Analyses that differ by more than this in the logarithm of a parameter say nothing of the solution: the ends of intervals
-# and a step of the search to either side lie within. On three curves of mixed-mode bending .3 leaves too few analyses, and
-# 1.2 ends where .6 does.
+# and a step of the search to either side lie within. Half and twice of it were not measured.
 NEARBY = 0.6
 # Closer analyses lie on one tooth: they count no more than those so far away. Half and twice of it were not measured.
 CLOSE = 0.02
