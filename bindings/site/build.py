@@ -20,6 +20,7 @@ SITE = pathlib.Path(__file__).resolve().parent
 ROOT = SITE.parents[1]
 sys.path.insert(0, str(SITE / "tools"))
 
+import cpp_reference  # noqa: E402
 import generate  # noqa: E402
 import notebook  # noqa: E402
 from stage import Stage, StageError  # noqa: E402
@@ -128,7 +129,14 @@ def main():
         return 1
     os.environ["DELAM_SITE_VERSION"] = version()
     os.environ["DELAM_SITE_STATIC"] = str(source / "_static")
-    os.environ["DELAM_SITE_XML"] = str(doxygen(given.out / "doxygen"))
+    c_xml = doxygen(given.out / "doxygen")
+    os.environ["DELAM_SITE_XML"] = str(c_xml)
+    try:
+        os.environ["DELAM_SITE_XML_CPP"] = str(
+            cpp_reference.made(given.out / "doxygen_cpp", c_xml, SITE / "pages/reference/cpp.md"))
+    except cpp_reference.Undocumented as error:
+        print(f"bindings/cpp/include: {error}", file=sys.stderr)
+        return 1
     code = sphinx(given, source, html)
     pages = len(list(html.rglob("*.html")))
     documents = sum(stage.pages not in path.parents for path in stage.documents)

@@ -30,9 +30,9 @@ mathjax_path = "mathjax/MathJax.js?config=TeX-AMS_SVG"
 mathjax2_config = {"messageStyle": "none", "SVG": {"font": "TeX", "scale": 95},
                    "tex2jax": {"inlineMath": [["\\(", "\\)"]], "displayMath": [["\\[", "\\]"]]}}
 
-breathe_projects = {"delam": os.environ["DELAM_SITE_XML"]}
+breathe_projects = {"delam": os.environ["DELAM_SITE_XML"], "cpp": os.environ["DELAM_SITE_XML_CPP"]}
 breathe_default_project = "delam"
-breathe_domain_by_extension = {"h": "c"}
+breathe_domain_by_extension = {"h": "c", "hpp": "cpp"}
 breathe_show_include = False
 
 autodoc_member_order = "bysource"

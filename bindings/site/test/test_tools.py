@@ -14,6 +14,7 @@ BUILD = pathlib.Path(os.environ["DELAM"]).resolve().parents[1]
 sys.path.insert(0, str(SITE / "tools"))
 
 import blocks  # noqa: E402
+import cpp_reference  # noqa: E402
 import generate  # noqa: E402
 import links  # noqa: E402
 import run_blocks  # noqa: E402
@@ -174,6 +175,62 @@ class Staging(unittest.TestCase):
                             ("```{figure} run:out/x.png\n```\n", "no block makes out/x.png")):
             with self.assertRaisesRegex(StageError, words):
                 self.staged(page)
+
+
+
+class TestOfTheCppReference(unittest.TestCase):
+    """Doxygen's XML of a header with one class, written by hand: the test needs no Doxygen."""
+
+    HEADER = """// What hosts include. @no command
+namespace delam {
+// A mesh.
+class Mesh {
+public:
+    // Returns the handle; see #get.
+    int get() const { return 1; }
+    int size() const { return delam_mesh_size(get()); }
+    int bare() const { return 2; }
+    int columns;  // of <each> row
+};
+"""
+    MEMBER = """<memberdef kind="function" prot="public"><type/><definition>int delam::Mesh::{0}</definition>
+<argsstring>() const</argsstring><name>{0}</name><briefdescription/><detaileddescription>{1}</detaileddescription>
+<location bodyfile="mesh.hpp" bodystart="{2}" bodyend="{2}"/></memberdef>"""
+    C = """<doxygen><memberdef kind="function" id="c_size"><name>delam_mesh_size</name><detaileddescription>
+<para>Returns the sizes, e.g. of nodes. More words.</para></detaileddescription></memberdef></doxygen>"""
+
+    def test_comments_become_documentation_and_lines_stay(self):
+        lines = cpp_reference.as_documentation(self.HEADER).split("\n")
+        self.assertEqual(lines[0], "// What hosts include. @no command")
+        self.assertEqual(lines[5], "    /// Returns the handle; see \\#get.")
+        self.assertEqual(lines[9], "    int columns;  ///< of \\<each\\> row")
+        self.assertEqual(len(lines), len(self.HEADER.split("\n")))
+
+    def completed(self, members):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            (folder / "c").mkdir()
+            (folder / "c/delam_8h.xml").write_text(self.C)
+            (folder / "mesh.hpp").write_text(self.HEADER)
+            (folder / "classdelam_1_1Mesh.xml").write_text(
+                '<doxygen><compounddef kind="class" id="m"><compoundname>delam::Mesh</compoundname><sectiondef>'
+                + "".join(self.MEMBER.format(*member) for member in members)
+                + "</sectiondef><detaileddescription/></compounddef></doxygen>")
+            (folder / "namespacedelam.xml").write_text('<doxygen><compounddef kind="namespace"/></doxygen>')
+            cpp_reference.complete(folder, folder / "c", folder)
+            self.assertEqual(cpp_reference.left_out(folder, "```{doxygenclass} delam::Mesh\n"), [])
+            self.assertEqual(cpp_reference.left_out(folder, "words on delam::Mesh\n"), ["delam::Mesh"])
+            return (folder / "classdelam_1_1Mesh.xml").read_text()
+
+    def test_members_name_the_functions_of_c(self):
+        text = self.completed([("get", "<para>Returns the handle.</para>", 7), ("size", "", 8)])
+        self.assertIn('C: <ref refid="c_size" kindref="member">delam_mesh_size</ref>. '
+                      "Returns the sizes, e.g. of nodes.</para>", text)
+        self.assertEqual(text.count("c_size"), 1)
+
+    def test_a_member_without_a_word_is_an_error(self):
+        with self.assertRaisesRegex(cpp_reference.Undocumented, "int delam::Mesh::bare"):
+            self.completed([("bare", "", 9)])
 
 
 if __name__ == "__main__":

@@ -15,6 +15,7 @@
 
 namespace delam {
 
+// Messages, log, progress and cancelling of the objects that are made with it; one thread at a time uses them.
 class Context {
 public:
     Context() : shared_(std::make_shared<detail::Shared>()) {
@@ -26,6 +27,7 @@ public:
     Context(Context&&) noexcept = default;
     Context& operator=(Context&&) noexcept = default;
 
+    // Returns the handle of C.
     delam_context* get() const noexcept { return shared_->handle.get(); }
     std::string message() const { return delam_context_message(get()); }
     // An empty function switches it off.
@@ -42,6 +44,7 @@ public:
     // From any thread.
     void cancel() const noexcept { delam_context_cancel(get()); }
 
+    // Returns what the other classes of this layer share.
     const std::shared_ptr<detail::Shared>& shared() const noexcept { return shared_; }
 
 private:

@@ -18,9 +18,11 @@
 
 namespace delam {
 
+// What a host law returns: adhesion in [0, 1], and its derivative by the driving force.
 struct AdhesionValue {
     double adhesion, slope;
 };
+// What a host law returns: dissipated energy per area, and its derivatives by adhesion and mixity.
 struct DissipationValue {
     double dissipated, slope, mixity_slope;
 };
@@ -37,13 +39,16 @@ struct HostLaw {
 
 }  // namespace detail
 
+// Energy release rates at onset and at full decohesion, one for each mixity.
 struct Toughness {
     std::vector<double> onset, toughness;
 };
+// Adhesion, and traction [count][dimension], one for each jump.
 struct Response {
     std::vector<double> adhesion, traction;
 };
 
+// The law of an interface: its kind and parameters, or two functions of the host.
 class Law {
 public:
     Law(const Context& context, Text kind) : shared_(context.shared()) {
@@ -64,6 +69,7 @@ public:
         shared_->check(status);
     }
 
+    // Returns the handle of C.
     delam_law* get() const noexcept { return handle_.get(); }
     void set(Text key, double value) { shared_->check(delam_law_set(get(), key.get(), value)); }
     void set(Text key, Text value) { shared_->check(delam_law_set_text(get(), key.get(), value.get())); }
@@ -93,6 +99,7 @@ public:
         return response;
     }
 
+    // Returns the functions of the host, which problems keep; null for other laws.
     const std::shared_ptr<detail::HostLaw>& host() const noexcept { return host_; }
 
 private:

@@ -18,27 +18,33 @@
 
 namespace delam {
 
+// Dimension 2 or 3, and the numbers of nodes, cells, bodies and interfaces.
 struct MeshSize {
     std::int32_t dimension;
     std::int64_t nodes, cells, bodies, interfaces;
 };
+// Tied nodes: nodes[i] moves by the sum of weights[k] times the motion of node of[k], starts[i] <= k < starts[i + 1].
 struct Ties {
     std::vector<std::int64_t> nodes, starts, of;
     std::vector<double> weights;
 };
+// Cells: the nodes of cell i are connectivity[k], k from offsets[i] to offsets[i + 1].
 struct Cells {
     std::vector<std::int32_t> types, bodies;
     std::vector<std::int64_t> offsets, connectivity;
 };
+// The two bodies of an interface, and how many pairs and faces it has.
 struct InterfaceSize {
     std::int32_t body_a, body_b;
     std::int64_t pairs, faces;
     std::int32_t nodes_per_face;
 };
+// The pairs of an interface; frames: [pairs][dimension][dimension], the normal first.
 struct Pairs {
     std::vector<std::int64_t> nodes_a, nodes_b;
     std::vector<double> weights, frames;
 };
+// Nodes of a patch, and the integral of the shape function of each over it.
 struct Patch {
     std::vector<std::int64_t> nodes;
     std::vector<double> weights;
@@ -59,8 +65,10 @@ inline std::size_t nodes_of(std::int32_t cell_type) {
 
 }  // namespace detail
 
+// Nodes, cells, bodies and interfaces.
 class Mesh {
 public:
+    // Makes a mesh without cells; nodes: [nodes][dimension].
     Mesh(const Context& context, std::int32_t dimension, View<double> nodes) : shared_(context.shared()) {
         detail::require(dimension > 0 && nodes.size() % detail::length(dimension) == 0,
                         "nodes: not a whole number of points");
@@ -69,6 +77,7 @@ public:
         handle_.reset(made);
         shared_->check(status);
     }
+    // Makes a stack of layers; lengths and divisions: of the plane of the layers, in the plane one of each.
     static Mesh layers(const Context& context, View<double> lengths, View<std::int64_t> divisions,
                        View<double> thickness, View<std::int64_t> layer_divisions, std::int32_t cell_type) {
         detail::require(lengths.size() == divisions.size() && thickness.size() == layer_divisions.size(),
@@ -83,6 +92,7 @@ public:
         return mesh;
     }
 
+    // Returns the handle of C.
     delam_mesh* get() const noexcept { return handle_.get(); }
 
     // bodies: a label for each cell; empty: all 0.
@@ -165,6 +175,7 @@ public:
             delam_mesh_size(get(), &size.dimension, &size.nodes, &size.cells, &size.bodies, &size.interfaces));
         return size;
     }
+    // Returns 2 or 3.
     std::int32_t dimension() const { return size().dimension; }
     std::vector<double> nodes() const {
         const MeshSize now = size();

@@ -21,14 +21,17 @@
 
 namespace delam {
 
+// A sparse matrix by rows: row i has columns[k] and values[k], k from row_starts[i] to row_starts[i + 1].
 struct Matrix {
     std::vector<std::int64_t> row_starts, columns;
     std::vector<double> values;
 };
+// Prescribed displacements and equations: matrix u = coefficients times the factors of the patterns.
 struct Constraints {
     Matrix matrix;
     std::vector<double> coefficients;  // [rows][patterns]
 };
+// Estimated length of the process zone, and mean distance between pairs.
 struct ProcessZone {
     double length, spacing;
 };
@@ -44,10 +47,12 @@ struct Forecast {
     double setup;   // s, of the factorisations before the first step
     double memory;  // bytes, at the peak
 };
+// Numbers of displacements (primal) and of components of jumps (dual).
 struct Dofs {
     std::int64_t primal, dual;
 };
 
+// Materials, laws, supports, loads and options of a mesh.
 class Problem {
 public:
     Problem(const Context& context, const Mesh& mesh) : shared_(context.shared()), dimension_(mesh.dimension()) {
@@ -59,6 +64,7 @@ public:
         for (std::int64_t i = 0; i < interfaces; ++i) pairs_.push_back(mesh.interface_size(i).pairs);
     }
 
+    // Returns the handle of C.
     delam_problem* get() const noexcept { return handle_.get(); }
 
     void set_plane(Text assumption) { shared_->check(delam_problem_set_plane(get(), assumption.get())); }
@@ -100,6 +106,7 @@ public:
             get(), nodes.count(), nodes.data(), dofs.size() == 0 ? nullptr : dofs.data(), row_starts.data(),
             columns.data(), values.data(), motions, motions > 0 ? kernel->data() : nullptr, 0));
     }
+    // The same with a matrix as one argument.
     void set_stiffness(View<std::int64_t> nodes, const Matrix& matrix, View<std::int64_t> dofs = {},
                        std::optional<View<double>> kernel = std::nullopt) {
         set_stiffness(nodes, matrix.row_starts, matrix.columns, matrix.values, dofs, kernel);
@@ -261,7 +268,9 @@ public:
         return detail::copy(delam_problem_pattern_name(get(), pattern));
     }
 
+    // Returns what the other classes of this layer share.
     const std::shared_ptr<detail::Shared>& shared() const noexcept { return shared_; }
+    // Returns the functions of the host laws, which a solver keeps.
     const std::vector<std::shared_ptr<detail::HostLaw>>& host_laws() const noexcept { return laws_; }
 
 private:

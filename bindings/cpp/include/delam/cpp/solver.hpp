@@ -20,6 +20,7 @@
 
 namespace delam {
 
+// A field: values of nodes, cells or pairs.
 struct Field {
     std::int64_t rows, columns;
     std::vector<double> values;  // [rows][columns]
@@ -30,9 +31,11 @@ struct ValueInfo {
     std::string alias, unit, cost, scope, meaning;
     bool recorded;  // record() takes it
 };
+// The first step of which values are recorded, and how many there are.
 struct RecordedSteps {
     std::int64_t first, count;
 };
+// Volume, and means of strain and stress in the order of delam_solver_average.
 struct Average {
     double volume;
     std::array<double, 6> strain, stress;
@@ -47,16 +50,19 @@ struct Condensed {
     Matrix jump;                    // N, one row for each component of each pair
     std::vector<double> offset;     // O [rows of N][patterns]
 };
+// Crack fronts: points of front i are those from starts[i] to starts[i + 1].
 struct Fronts {
     std::vector<std::int64_t> starts;
     std::vector<std::int32_t> closed;
     std::vector<double> places, directions, lengths, rates, zone_lengths, zone_pairs;
 };
+// A decision of the plan, why it was made, what it costs and saves, in `unit`.
 struct PlanItem {
     std::string subject, decision, reason;
     double cost, saving;
     std::string unit;
 };
+// An unstable advance of a crack: energies before minus after, and where it was.
 struct Jump {
     std::int64_t step;
     double before, time, stored, dissipated, released, debonded;
@@ -64,6 +70,7 @@ struct Jump {
     std::vector<double> reaction_before, reaction_after;  // [patterns]
 };
 
+// The analysis: load steps, which are committed or rolled back, and what they give.
 class Solver {
 public:
     Solver(const Problem& problem, double time)
@@ -75,6 +82,7 @@ public:
         if (!handle_) shared_->fail(status);
     }
 
+    // Returns the handle of C.
     delam_solver* get() const noexcept { return handle_.get(); }
     // Outcome of the displacement step at the initial time: done or not_converged.
     Outcome initial() const noexcept { return initial_; }

@@ -11,9 +11,12 @@
 
 namespace delam {
 
+// A call failed: what() is the message of the context.
 class Error : public std::runtime_error {
 public:
+    // Carries a status and its message.
     Error(std::int32_t status, const std::string& message) : std::runtime_error(message), status_(status) {}
+    // Returns the status, one of DELAM_ERROR_*.
     std::int32_t status() const noexcept { return status_; }
     const char* name() const noexcept { return delam_status_name(status_); }
 
@@ -24,9 +27,11 @@ private:
 // A file that cannot be opened, read or written.
 class FileError : public Error {
 public:
+    // Carries the message; the status is DELAM_ERROR_FILE.
     explicit FileError(const std::string& message) : Error(DELAM_ERROR_FILE, message) {}
 };
 
+// How a load step ended that did not fail.
 enum class Outcome : std::int32_t {
     done = DELAM_OK,
     not_converged = DELAM_NOT_CONVERGED,
