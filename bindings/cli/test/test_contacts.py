@@ -67,10 +67,12 @@ def apart(deck, distance):
 
 
 def pressed(scene):
-    """The reaction at the end."""
+    """The reaction at the end; the result can be viewed, whatever its interfaces are."""
     out = os.path.join(folder(), "out")
     code, _, error = delam("run", scene, "--out", out)
     expect(code == 0, f"it runs: exit {code} {error.strip()[:300]}")
+    code, _, error = delam("view", out)
+    expect(code == 0, f"view: exit {code} {error.strip()[:300]}")
     with open(os.path.join(out, "history.csv"), newline="", encoding="utf-8") as file:
         return float(list(csv.DictReader(file))[-1]["reaction"])
 

@@ -14,6 +14,7 @@
 
 #include "base/error.hpp"
 #include "base/numbers.hpp"
+#include "mesh/face_gaps.hpp"
 #include "mesh/pairing/seams.hpp"
 #include "mesh/points.hpp"
 #include "scene/advice/process_zone.hpp"
@@ -85,6 +86,24 @@ void judge_law(const Problem& problem, std::int64_t i, Warnings& warnings) {
     }
 }
 
+// Faces with a law, or in contact, that overlap although nothing says so (delam_problem_set_gaps): bodies that stand in
+// the wrong place, or a cohesive element with its sides exchanged.
+void judge_overlap(const Problem& problem, std::int64_t i, Warnings& warnings) {
+    const InterfaceGeometry& faces = problem.mesh->interfaces()[index(i)];
+    if (faces.body_a < 0 || !problem.interfaces[index(i)].gap.empty()) return;
+    // Distances cost little, but do not know rounding and facets of curved faces, which cost more.
+    const std::vector<double> distances = pair_distances(*problem.mesh, faces);
+    if (std::none_of(distances.begin(), distances.end(), [](double n) { return n < 0.0; })) return;
+    const std::vector<double> gaps = face_gaps(*problem.mesh, faces);
+    const auto least = std::min_element(gaps.begin(), gaps.end());
+    if (least == gaps.end() || *least >= 0.0) return;
+    add(warnings, i,
+        text("its faces overlap by up to ", about(-*least), " at ",
+             place(*problem.mesh, faces.node_b[index(least - gaps.begin())]),
+             ", and touch from the start all the same: do the bodies stand where they should? "
+             "(delam_problem_set_gaps makes distances count)"));
+}
+
 void warn_of_seams(const Mesh& mesh, const Monitor& monitor) {
     for (const Seam& seam : find_seams(mesh)) {
         const bool within = seam.body == seam.other;
@@ -104,6 +123,7 @@ void warn_of_scene(const Problem& problem, const Monitor& monitor) {
     Warnings warnings;
     for (std::int64_t i = 0; i < static_cast<std::int64_t>(problem.interfaces.size()); ++i) {
         const InterfaceProperties& properties = problem.interfaces[index(i)];
+        if (!properties.bonded) judge_overlap(problem, i, warnings);
         if (properties.bonded || !properties.law || !properties.law->softens()) continue;
         if (!adheres(properties)) {
             add(warnings, i, "no pair adheres at the start, so that contact alone acts");

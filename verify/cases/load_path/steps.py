@@ -3,7 +3,7 @@
 """The same analysis in few and in many load steps: what it dissipates, which jumps it reports, and what its books leave
 open, work less stored, dissipated and released energy.
 
-    steps.py [--all]
+    steps.py [--all | --outcomes]
 
 - single-leg bending, by two laws: mixed mode, stable growth from a notch. No jump; dissipated energies within 0.5 %.
 - two arms opened, then one of them turned back: loads that are not in proportion. No jump.
@@ -11,8 +11,12 @@ open, work less stored, dissipated and released energy.
   steps that are not followed.
 - a film that comes off by a change of temperature, at an energy release rate that does not depend on its length: one
   jump through the rest of the interface, which releases next to nothing.
-With options that leave no path to follow, step_control = load is refused."""
+With options that leave no path to follow, step_control = load is refused.
+
+--outcomes prints what the analyses give, without judging it: what each dissipates, and its jumps. verify/bench/constants.py
+compares these lines when it varies the constants."""
 import argparse
+import itertools
 import sys
 
 import delam
@@ -182,12 +186,29 @@ def refused():
         expect("step_control = load needs" in message and key in message, f"refused with {key} = {value}: {message}")
 
 
+SCENES = {"bending": lambda: bending(law(2.0, 8.0)), "bending, equal strengths": lambda: bending(law(2.0, 2.0)),
+          "turned back": turned, "opened": opened, "film": film}
+
+
+def outcomes():
+    for (name, make), steps in itertools.product(SCENES.items(), FEW):
+        solver, _ = analyse(make(), steps)
+        print(f"{name}: dissipated {solver.values['dissipated']:.6g}")
+        for jump in solver.jumps:
+            print(f"{name}: jump at {jump.time:.4g} over {jump.debonded:.4g}")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("--all", action="store_true", help="more numbers of steps")
-    counts = MANY if parser.parse_args().all else FEW
-    steady("bending", lambda: bending(law(2.0, 8.0)), counts)
-    steady("bending, equal strengths", lambda: bending(law(2.0, 2.0)), counts)
+    parser.add_argument("--outcomes", action="store_true", help="print results alone")
+    arguments = parser.parse_args()
+    if arguments.outcomes:
+        outcomes()
+        return
+    counts = MANY if arguments.all else FEW
+    steady("bending", SCENES["bending"], counts)
+    steady("bending, equal strengths", SCENES["bending, equal strengths"], counts)
     steady("turned back", turned, counts)
     steady("opened", opened, counts)
     cheap("opened", opened, 40)

@@ -257,8 +257,6 @@ std::vector<ViewInterface> FieldsFile::interfaces(const ViewMesh& mesh) const {
         if (one.name.empty()) wrong_fields(path_, item + ": name is missing");
         one.body_a = attribute_whole(group.get(), path_, item, "body_a", -1, last);
         one.body_b = attribute_whole(group.get(), path_, item, "body_b", 0, last);
-        if (one.body_a == one.body_b)
-            wrong_fields(path_, fmt::format("{}: body_a and body_b are {}", item, one.body_a));
         DataShape a, b, shape;
         std::tie(one.nodes_a, a) = read("nodes_a");
         std::tie(one.nodes_b, b) = read("nodes_b");
@@ -286,14 +284,22 @@ std::vector<ViewInterface> FieldsFile::interfaces(const ViewMesh& mesh) const {
         }
         if (const auto none = std::find(on_face.begin(), on_face.end(), false); none != on_face.end())
             wrong_fields(path_, fmt::format("{}/faces: pair {} is on no face", item, none - on_face.begin()));
-        const auto require_body = [&](const std::vector<std::int64_t>& nodes, std::int64_t body, const char* name) {
-            for (std::size_t k = 0; body >= 0 && k < nodes.size(); ++k)
-                if (!bodies_at[static_cast<std::size_t>(nodes[k])].contains(static_cast<std::int32_t>(body)))
+        // Meshes that do not match: the nodes of side a are tied to its faces and belong to no cell. A seam, or walls
+        // of one body: both sides have the same body, but no node in common.
+        const auto require_body = [&](const std::vector<std::int64_t>& nodes, std::int64_t body, bool tied,
+                                      const char* name) {
+            for (std::size_t k = 0; body >= 0 && k < nodes.size(); ++k) {
+                const auto& at = bodies_at[static_cast<std::size_t>(nodes[k])];
+                if (!at.contains(static_cast<std::int32_t>(body)) && !(tied && at.empty()))
                     wrong_fields(path_, fmt::format("{}/{}, row {}: node {} does not belong to body {}", item, name, k,
                                                     nodes[k], body));
+            }
         };
-        require_body(one.nodes_a, one.body_a, "nodes_a");
-        require_body(one.nodes_b, one.body_b, "nodes_b");
+        require_body(one.nodes_a, one.body_a, true, "nodes_a");
+        require_body(one.nodes_b, one.body_b, false, "nodes_b");
+        for (std::size_t k = 0; one.body_a == one.body_b && k < one.nodes_a.size(); ++k)
+            if (one.nodes_a[k] == one.nodes_b[k])
+                wrong_fields(path_, fmt::format("{}, pair {}: node {} is on both sides", item, k, one.nodes_a[k]));
         out.push_back(std::move(one));
     }
     return out;
