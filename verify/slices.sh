@@ -3,7 +3,7 @@
 # To be sourced by verify/run.sh: the long tier, cut into slices of at most ten minutes on two idle cores, of which each
 # run of .ci/run takes one.
 
-slices=14
+slices=15
 # Tests of ctest, as a regular expression; each test with the label `long` is in one slice (the test style/slices).
 declare -A slice_tests=(
     [1]='^(cli_long_(studies|many)|(unit|case)/test_long_.*|case/whole_.*)$'
@@ -19,6 +19,7 @@ declare -A slice_tests=(
     [12]='^valgrind/unit_test_[a-h].*$'
     [13]='^valgrind/unit_test_[i-l].*$'
     [14]='^valgrind/(unit_test_[m-z]|case_).*$'
+    [15]='^constants/.*$'
 )
 # Stages of verify/stages.sh, with their arguments, separated by semicolons.
 declare -A slice_stages=(

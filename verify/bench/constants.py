@@ -3,7 +3,7 @@
 """What half and twice of the library's constants do: the measurement behind the comments that say so.
 
     constants.py FOLDER --list                              every constant that can be varied, FILE_NAME
-    constants.py FOLDER [--factors 0.5,2] [--within 1e-5] [--targets unit_test_mortar,..] NAMES -- COMMAND
+    constants.py FOLDER [--factors 0.5,2] [--within 1e-5] [--require] [--targets unit_test_mortar,..] NAMES -- COMMAND
                                                             runs COMMAND with each constant whose FILE_NAME matches the
                                                             expression NAMES, times each factor
 
@@ -13,6 +13,9 @@ DELAM_LIBRARY (Python) or LD_LIBRARY_PATH (programs of the tests); unit tests ar
 FOLDER/build/verify. A line for each run says its exit status, and how many
 lines of its output differ from those of the library as it is by more than --within of a number, seconds aside, and by
 how much at most.
+
+With --require, the exit status is 1 if a line differs, or if no constant has such a name: a constant that decides is a
+part of the method, and is called so where it stands.
 
     constants.py /tmp/constants 'least_motion|rigid_jumps' -- \\
         /usr/bin/python3 verify/cases/contact/random_scenes.py --scenes 250 --outcomes
@@ -116,6 +119,7 @@ def main():
     parser.add_argument("--factors", default="0.5,2")
     parser.add_argument("--targets", default="")
     parser.add_argument("--within", type=float, default=1e-5)
+    parser.add_argument("--require", action="store_true")
     parser.add_argument("--list", action="store_true")
     arguments = parser.parse_args(own[:own.index("--")] if command else own)
     folder = arguments.folder.resolve()
@@ -125,6 +129,7 @@ def main():
         return 0
     status, lines = run(folder, command, {})
     print(f"as it is: exit status {status}, {len(lines)} lines", flush=True)
+    runs, wrong = 0, 0 if lines else 1
     for name, factor in itertools.product(names, arguments.factors.split(",")):
         if not re.search(arguments.names, name):
             continue
@@ -134,7 +139,9 @@ def main():
         largest = max((by for by in apart if math.isfinite(by)), default=0.0)
         print(f"{name} times {factor}: exit status {now}, {count} lines differ, {words} of them in words, numbers by "
               f"{largest:.2g} at most", flush=True)
-    return 0
+        runs, wrong = runs + 1, wrong + (now != status or count > 0)
+    print(f"{runs} runs, {wrong} of them with another result")
+    return 1 if arguments.require and (wrong > 0 or runs == 0) else 0
 
 
 if __name__ == "__main__":

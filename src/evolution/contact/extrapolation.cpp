@@ -9,7 +9,8 @@ namespace delam {
 namespace {
 
 constexpr std::size_t depth = 5;
-// Nearly parallel differences carry no new information: a ridge of this size keeps the small system solvable.
+// Nearly parallel differences carry no new information: a ridge of this size keeps the small system solvable. (Measured
+// by verify/bench/constants.py on 60 random scenes: half and twice decide alike.)
 constexpr double ridge = 1e-10;
 
 }  // namespace
