@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Meshes through meshio. Skipped without it."""
+import contextlib
 import importlib.util
+import io
 import logging
 import pathlib
 import sys
@@ -201,6 +203,75 @@ class Reading(unittest.TestCase):
                 delam.Mesh.from_meshio(source, bodies=list(sets))
         with self.assertRaisesRegex(delam.ArgumentError, "'middle' is no cell set; there are edge, lower, upper"):
             delam.Mesh.from_meshio(meshio.Mesh(POINTS, cells, cell_sets=whole), bodies=["middle"])
+
+    def test_groups_of_med(self):
+        """SALOME numbers families -1, -2 .., and a cell in two groups has a family of its own."""
+        cells = [("line", [[0, 1]]), ("quad", [[0, 1, 2, 3], [3, 2, 4, 5]])]
+
+        def med(families, groups):
+            source = meshio.Mesh(POINTS, cells, cell_data={"cell_tags": [np.array([-3]), np.array(families)]})
+            source.cell_tags = {-3: ["edge"], **groups}
+            with tempfile.TemporaryDirectory() as folder:
+                file = pathlib.Path(folder) / "two.med"
+                source.write(file)
+                return meshio.read(file)
+
+        two = med([-7, -6], {-6: ["upper"], -7: ["lower"]})
+        lines, mesh = self.told(two)
+        self.assertEqual((mesh.body_names, mesh.interface_count), ({0: "upper", 1: "lower"}, 1))
+        self.assertEqual(mesh.cells.bodies.tolist(), [1, 0])
+        self.assertIn("the bodies are the cell sets upper, lower", lines[0][1])
+        mesh = delam.Mesh.from_meshio(two, bodies=["lower", "upper"])
+        self.assertEqual(mesh.cells.bodies.tolist(), [0, 1])
+        several = med([-7, -6], {-6: ["plies", "upper"], -7: ["plies"]})
+        lines, mesh = self.told(several)
+        self.assertEqual(mesh.body_names, {0: "plies, upper", 1: "plies"})
+        self.assertIn("families of cells in the same groups", lines[0][1])
+        partly = med([0, -6], {-6: ["upper"]})
+        self.assertEqual(delam.Mesh.from_meshio(partly).body_names, {1: "upper"})
+        bare = delam.Mesh.from_meshio(meshio.Mesh(POINTS, cells, cell_data={"cell_tags": [[-3], [-7, -6]]}))
+        self.assertEqual(bare.cells.bodies.tolist(), [1, 0])
+
+    def test_files_that_meshio_cannot_read(self):
+        """It ends the program for some of them, and prints."""
+        with tempfile.TemporaryDirectory() as folder:
+            for name, text, words in (("a.vtu", "hello", "cannot read it: .*vtu"), ("a.bdf", "hello", "BEGIN BULK"),
+                                      ("a.msh", "hello\n", "cannot read it: .*ansys, gmsh"),
+                                      ("a.foo", "hello", "file format"), ("a.med", "hello", "cannot read it: OSError"),
+                                      ("none.vtu", None, "no such file")):
+                file = pathlib.Path(folder) / name
+                if text is not None:
+                    file.write_text(text, encoding="utf-8")
+                said = io.StringIO()
+                with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said), \
+                        self.assertRaisesRegex(delam.FileError, f"{name}: .*{words}"):
+                    delam.Mesh.from_meshio(file)
+                self.assertEqual(said.getvalue(), "", name)
+
+    def test_twenty_meshes(self):
+        """Two blocks of each cell type through each format that keeps labels."""
+        formats = {"vtu": "part", "vtk": "part", "xdmf": "part", "med": "cell_tags", "bdf": "nastran:ref",
+                   "mesh": "medit:ref", "avs": "avsucd:material", "dat": "material"}
+        count = 0
+        for kind in ("quad4", "tri3", "hex8", "tet4"):
+            plane = CELL_TYPES[kind].dimension == 2
+            given = delam.Mesh.layers(*((1.0, 2) if plane else ((1.0, 1.0), (2, 1))), [0.5, 0.5], [1, 1], kind)
+            for ending, name in formats.items():
+                source = given.to_meshio(cell_data={name: given.cells.bodies + 1})
+                source.cell_data = {name: source.cell_data[name]}
+                flat = np.zeros((len(source.points), 3 - source.points.shape[1]))
+                source.points = np.column_stack([source.points, flat])
+                with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stdout(io.StringIO()), \
+                        contextlib.redirect_stderr(io.StringIO()):
+                    file = pathlib.Path(folder) / f"two.{ending}"
+                    source.write(file)
+                    mesh = delam.meshes.read(file)
+                where = f"{kind} in {ending}"
+                self.assertEqual((mesh.body_count, mesh.interface_count), (2, 1), where)
+                self.assertEqual(mesh.cell_count, given.cell_count, where)
+                np.testing.assert_allclose(mesh.nodes, given.nodes, atol=1e-12, err_msg=where)
+                count += 1
+        self.assertGreaterEqual(count, 20)
 
     def test_a_solver(self):
         solver = delam.Solver(support.double_cantilever())

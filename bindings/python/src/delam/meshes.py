@@ -25,15 +25,17 @@ def read(source: meshio.Mesh | str | os.PathLike[str], bodies: str | Sequence[st
 
     bodies      name of the cell data with a label for each cell, or names of cell sets, which become the bodies 0, 1
                 ..; None: the first of delam.meshes.LABELS that exists (bodies, gmsh:physical, medit:ref, cell_tags,
-                gmsh:geometrical, body, part, region, material, CellEntityIds, MaterialIds, ElementBlockIds), else the
-                cell sets if each cell is in one of them, else one body
+                gmsh:geometrical, body, part, region, material, CellEntityIds, MaterialIds, ElementBlockIds,
+                nastran:ref, avsucd:material), else the cell sets if each cell is in one of them, else one body.
+                Groups of MED count as cell sets; where cells are in several, each combination is a body
     interfaces  pair the faces that bodies share (they may share nodes, these are doubled)
 
     Nodes keep their indices. body_names of the mesh has {label: name} if the source names its groups. Cells that are
     numbered clockwise or inside out are turned round. The logger "delam" is told what was taken for bodies, how many
-    cells were turned, and, as a warning, of labels that nobody asked for and of bodies that touch no other. MeshError:
-    cells that have no place here; ArgumentError: there are no such data or sets, a cell is in none or several of them,
-    or a label is no integer."""
+    cells were turned, and, as a warning, of labels that nobody asked for and of bodies that touch no other.
+
+    FileError: meshio cannot read the file. MeshError: cells that have no place here. ArgumentError: there are no such
+    data or sets, a cell is in none or several of them, or a label is no integer."""
     return Mesh.from_meshio(source, bodies, interfaces)
 
 

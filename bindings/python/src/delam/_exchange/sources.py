@@ -14,14 +14,15 @@ from .._base.call import logger
 from .._base.cells import CELL_TYPES
 from .._base.errors import ArgumentError, MeshError
 from .._base.words import listing, meant
-from .grids import NAMES, VTK_TYPES, meshio_module, vtk_modules
+from .files import family_labels, groups_of, read_file
+from .grids import NAMES, VTK_TYPES, vtk_modules
 
 if TYPE_CHECKING:
     import meshio
 
 # Cell data in which meshers and solvers keep the labels of bodies, the first that exists counts.
 LABELS = ("bodies", "gmsh:physical", "medit:ref", "cell_tags", "gmsh:geometrical", "body", "part", "region", "material",
-          "CellEntityIds", "MaterialIds", "ElementBlockIds")
+          "CellEntityIds", "MaterialIds", "ElementBlockIds", "nastran:ref", "avsucd:material")
 
 
 class Source(NamedTuple):
@@ -35,7 +36,7 @@ class Source(NamedTuple):
 def of_meshio(source: meshio.Mesh | str | os.PathLike[str], bodies: str | Sequence[str] | None) -> Source:
     """What meshes.read takes of a meshio.Mesh or of a file."""
     if isinstance(source, (str, os.PathLike)):
-        source = meshio_module().read(source)
+        source = read_file(source)
     blocks = [(block.type, np.asarray(block.data, np.int64)) for block in source.cells]
     chosen = _chosen([name for name, _ in blocks])
     labels, names = _labels(source, blocks, chosen, bodies)
@@ -160,15 +161,18 @@ def _of_blocks(source: Any, chosen: list[int]) -> dict[str, list[Any]]:
 def _labels(source: Any, blocks: list[tuple[str, IntArray]], chosen: list[int],
             bodies: str | Sequence[str] | None) -> tuple[list[NDArray[Any]], dict[int, str]]:
     """The label of each cell of the chosen blocks, and the names of labels that cell sets make."""
+    groups = groups_of(source)
     if bodies is None or isinstance(bodies, str):
         name = _label_name(bodies, source.cell_data)
-        if name is not None:
+        if name is not None and not (bodies is None and name == "cell_tags" and groups):
             if bodies is None:
                 _tell_bodies(name, _of_blocks(source, chosen))
+            if name == "cell_tags":
+                return family_labels(source, chosen)
             return [_integers(name, source.cell_data[name][i]) for i in chosen], {}
-    sets = {name: parts for name, parts in source.cell_sets.items() if ":" not in name}
+    sets = {name: parts for name, parts in {**source.cell_sets, **groups}.items() if ":" not in name}
     names = list(sets) if bodies is None else list(bodies)
-    lost = [name for name in names if name not in source.cell_sets]
+    lost = [name for name in names if name not in sets and name not in source.cell_sets]
     if lost:
         raise ArgumentError(f"bodies = {bodies!r}: {lost[0]!r} is no cell set; there are {', '.join(sets) or 'none'}")
     if bodies is None:  # sets of edges and faces make no bodies
@@ -177,13 +181,18 @@ def _labels(source: Any, blocks: list[tuple[str, IntArray]], chosen: list[int],
     times = [np.zeros(len(label), np.int64) for label in labels]
     for number, name in enumerate(names):
         for label, count, i in zip(labels, times, chosen):
-            rows = np.asarray(source.cell_sets[name][i] if source.cell_sets[name][i] is not None else [], np.int64)
+            of = sets[name] if name in sets else source.cell_sets[name]
+            rows = np.asarray(of[i] if of[i] is not None else [], np.int64)
             label[rows] = number
             count[rows] += 1
     if all((count == 1).all() for count in times):
         if bodies is None:
             logger.info("the bodies are the cell sets %s", listing(names))
         return labels, dict(enumerate(names))
+    if bodies is None and groups:
+        logger.info("the bodies are the families of cells in the same groups %s; bodies=[..] chooses among these",
+                    listing(names))
+        return family_labels(source, chosen)
     if bodies is None:
         _tell_bodies(None, _of_blocks(source, chosen), names)
         return [np.zeros(len(label), np.int64) for label in labels], {}
