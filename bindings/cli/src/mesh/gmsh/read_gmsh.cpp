@@ -19,12 +19,14 @@
 #include "mesh/cell_format.hpp"
 #include "mesh/cell_shape.hpp"
 #include "mesh/gmsh/gmsh_session.hpp"
+#include "text/say.hpp"
 
 namespace cli {
 
 namespace {
 
 constexpr const char* entity_names[] = {"point", "curve", "surface", "volume"};
+constexpr const char* element_names[] = {"point", "edge", "face"};
 
 constexpr std::int64_t format_bytes = 4096;  // $MeshFormat is expected within these
 
@@ -92,6 +94,7 @@ public:
         read_cells();
         keep_partitions();
         read_sets();
+        tell();
         return std::move(mesh_);
     }
 
@@ -284,6 +287,46 @@ private:
             nodes_of_set.erase(std::unique(nodes_of_set.begin(), nodes_of_set.end()), nodes_of_set.end());
             if (nodes_of_set.empty()) mesh_.node_sets.erase(name);
         }
+    }
+
+    // Notes what was taken, and what was left out: points, edges and faces that belong to no named set.
+    void tell() {
+        std::int64_t cells = 0;
+        std::vector<std::string> kinds, others;
+        for (const CellBlock& block : mesh_.blocks) {
+            const auto count = static_cast<std::int64_t>(block.bodies.size());
+            cells += count;
+            kinds.push_back(fmt::format("{} {}", count, shape_of(block.type).name));
+        }
+        for (int dimension = mesh_.dimension - 1; dimension >= 0; --dimension) {
+            const std::int64_t left = unnamed(dimension);
+            if (left > 0) others.push_back(counted(left, element_names[dimension]));
+        }
+        mesh_.notes.insert(
+            mesh_.notes.begin(),
+            fmt::format("taken: {} ({}) in {}, {}", counted(cells, "cell"), fmt::join(kinds, ", "),
+                        mesh_.body_names.size() == 1 ? "1 body" : fmt::format("{} bodies", mesh_.body_names.size()),
+                        counted(static_cast<std::int64_t>(mesh_.node_sets.size()), "named set")));
+        if (!others.empty())
+            mesh_.notes.insert(mesh_.notes.begin() + 1,
+                               fmt::format("left out: {} in no physical group", fmt::join(others, ", ")));
+    }
+
+    // Returns how many elements of a dimension are in no physical group.
+    [[nodiscard]] static std::int64_t unnamed(int dimension) {
+        gmsh::vectorpair entities;
+        gmsh::model::getEntities(entities, dimension);
+        std::int64_t count = 0;
+        for (const auto& [of, entity] : entities) {
+            std::vector<int> groups, types;
+            gmsh::model::getPhysicalGroupsForEntity(of, entity, groups);
+            if (!groups.empty()) continue;
+            std::vector<std::vector<std::size_t>> tags;
+            std::vector<std::vector<std::size_t>> nodes;
+            gmsh::model::mesh::getElements(types, tags, nodes, of, entity);
+            for (const auto& of_type : tags) count += static_cast<std::int64_t>(of_type.size());
+        }
+        return count;
     }
 
     std::string subject_;
