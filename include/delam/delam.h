@@ -218,7 +218,8 @@ DELAM_API int64_t delam_cell_type_count(void);
  *   *dimension                  2 or 3
  *   *nodes, *corners            number of nodes, the first *corners of which are corners
  *   *faces                      number of faces (2D: edges)
- *   *face_nodes, *face_corners  number of nodes of every face, the first *face_corners of which are corners
+ *   *face_nodes, *face_corners  number of nodes of a face, the first *face_corners of which are corners; where faces
+ *                               differ (triangles beside quadrilaterals), the largest numbers
  * [null name, cell_type, dimension, nodes, corners, faces, face_nodes, face_corners; owns texts static; status only
  * argument; thread any; since 0.1] */
 DELAM_API int32_t delam_cell_type_info(int64_t index, const char **name, int32_t *cell_type, int32_t *dimension,
@@ -226,7 +227,7 @@ DELAM_API int32_t delam_cell_type_info(int64_t index, const char **name, int32_t
                                        int32_t *face_corners);
 /* Describes where the nodes of a cell type lie, by the index of delam_cell_type_info. Local node numbers count from 0.
  *   face    [faces][face_nodes]  for each face its corners, in the order that gives an outward normal, then its
- *                                mid-side nodes
+ *                                mid-side nodes; -1 after the nodes of a face that has fewer than face_nodes
  *   middle  [nodes-corners][2]   for each node of the cell that is not a corner, the two corners between which it lies
  * With corners and mid-side nodes of the face counted from 0, mid-side node k lies between corners k and k+1. In 3D,
  * the last one lies between the last corner and corner 0. The centre of quad9 lies between corners 0 and 2.

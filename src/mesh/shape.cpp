@@ -99,8 +99,7 @@ const Reference& reference(CellType type) {
             Reference r{node_list(row), rule_of(row), {}, reference_gradient(row.type, centre(row.type))};
             for (const ReferencePoint& p : r.rule.points) r.rule.gradients.push_back(reference_gradient(row.type, p));
             r.checked = r.rule.gradients;
-            const bool constant = row.simplex() && row.linear();
-            for (std::size_t a = 0; !constant && a < r.nodes.size(); ++a)
+            for (std::size_t a = 0; !row.one_strain() && a < r.nodes.size(); ++a)
                 r.checked.push_back(reference_gradient(row.type, r.nodes[a]));
             made.push_back(std::move(r));
         }

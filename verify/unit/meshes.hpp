@@ -22,7 +22,7 @@ using Indices = std::vector<std::int64_t>;
 using Numbers = std::vector<double>;
 
 inline bool quadratic(CellType type) { return topology(type).nodes > topology(type).corners; }
-inline bool triangles(CellType type) { return topology(type).face_corners == 3; }
+inline bool triangles(CellType type) { return topology(type).corners_of(topology(type).face[0]).size() == 3; }
 inline std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 inline Mesh layers(CellType type, Numbers lengths, Indices divisions, Numbers thickness, Indices layer_divisions) {

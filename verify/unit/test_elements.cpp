@@ -211,14 +211,14 @@ TEST(shape_functions) {
         const double expected = shape.corners == 3 ? 0.5 : shape.corners == 4 && shape.dimension == 3 ? 1.0 / 6.0 : box;
         ck_assert(std::abs(volume - expected) < 1e-15 * 8);
         // A face's middle nodes lie between its corners.
-        for (std::size_t f = 0; f < size(shape.faces); ++f) {
-            const auto corners = size(shape.face_corners);
+        for (const CellFace& face : shape.all_faces()) {
+            const auto corners = shape.corners_of(face).size();
             const auto sides = corners == 2 ? 1 : corners;
-            for (std::size_t k = 0; k < sides && k + corners < size(shape.face_nodes); ++k)
+            for (std::size_t k = 0; k < sides && k + corners < face.nodes; ++k)
                 for (std::size_t i = 0; i < 3; ++i) {
-                    const double p = nodes[size(shape.face[f][k])][i];
-                    const double q = nodes[size(shape.face[f][(k + 1) % corners])][i];
-                    ck_assert(nodes[size(shape.face[f][corners + k])][i] == 0.5 * (p + q));
+                    const double p = nodes[size(face.node[k])][i];
+                    const double q = nodes[size(face.node[(k + 1) % corners])][i];
+                    ck_assert(nodes[size(face.node[corners + k])][i] == 0.5 * (p + q));
                 }
         }
     }

@@ -134,7 +134,7 @@ TEST(layered_blocks) {
         for (const InterfaceGeometry* i : {&up, &down}) {
             ck_assert_int_eq(i->pair_count(), level);
             ck_assert_int_eq(i->face_count(), triangles(type) ? 2 * boxes : boxes);
-            ck_assert_int_eq(i->nodes_per_face, topology(type).face_nodes);
+            ck_assert_int_eq(i->nodes_per_face, static_cast<int>(topology(type).face[0].nodes));
             ck_assert(std::abs(sum(i->weight) - (plane ? 2.0 : 3.0)) <= 1e-14);
             ck_assert(*std::min_element(i->weight.begin(), i->weight.end()) > 0.0);
             check_frames(mesh, *i);

@@ -48,8 +48,7 @@ std::vector<std::vector<std::size_t>> outlines_of(const CellShape& shape) {
         out.push_back(around(corners));
         return out;
     }
-    for (const std::vector<std::size_t>& side : shape.sides)
-        out.push_back(around(std::span(side).first(shape.side_corners)));
+    for (const std::vector<std::size_t>& side : shape.sides) out.push_back(around(shape.corners_of(side)));
     return out;
 }
 
@@ -150,8 +149,9 @@ private:
             const CellShape& of = *shape(c).shape;
             for (std::size_t s = 0; s < of.sides.size(); ++s) {
                 std::array<std::int64_t, 4> on{};
-                for (std::size_t i = 0; i < of.side_corners; ++i) on[i] = nodes[of.sides[s][i]];
-                sides.push_back({seen_key(std::span(on).first(of.side_corners)), static_cast<std::int64_t>(c),
+                const std::span<const std::size_t> corners = of.corners_of(of.sides[s]);
+                for (std::size_t i = 0; i < corners.size(); ++i) on[i] = nodes[corners[i]];
+                sides.push_back({seen_key(std::span(on).first(corners.size())), static_cast<std::int64_t>(c),
                                  static_cast<std::uint32_t>(s)});
             }
         }
