@@ -55,10 +55,12 @@ constexpr bool sound(const CellRow& row, std::size_t place) {
         }
         if (!has_row(cell, face) || !middles_fit(cell, face)) return false;
     }
-    for (int corner = 0; corner < cell.corners; ++corner) {  // as many faces meet at a corner as there are axes
+    // As many faces meet at a corner as there are axes; one more at the apex of a pyramid.
+    for (int corner = 0; corner < cell.corners; ++corner) {
         int meeting = 0;
         for (const CellFace& face : cell.all_faces()) meeting += on_face(face, corner) ? 1 : 0;
-        if (meeting != cell.dimension) return false;
+        const bool apex = row.reference == ReferenceCell::pyramid && corner + 1 == cell.corners;
+        if (meeting != cell.dimension + (apex ? 1 : 0)) return false;
     }
     return true;
 }

@@ -25,7 +25,10 @@ enum class CellType : std::int32_t {
     quad9 = DELAM_QUAD9,
     tet10 = DELAM_TET10,
     hex20 = DELAM_HEX20,
-    hex27 = DELAM_HEX27
+    hex27 = DELAM_HEX27,
+    wedge6 = DELAM_WEDGE6,
+    pyramid5 = DELAM_PYRAMID5,
+    wedge15 = DELAM_WEDGE15
 };
 inline constexpr std::size_t most_cell_nodes = 27;
 inline constexpr std::size_t most_cell_faces = 6;
@@ -65,12 +68,13 @@ struct CellTopology {
     }
 };
 
-// The triangle or tetrahedron with corners 0, e1, e2(, e3); the square [-1,1]^2 or the cube [-1,1]^3.
-enum class ReferenceCell { simplex, box };
+// The triangle or tetrahedron with corners 0, e1, e2(, e3); the square [-1,1]^2 or the cube [-1,1]^3; the product of
+// this triangle and [-1,1]; the cube whose upper face is mapped to one point, the apex of a pyramid.
+enum class ReferenceCell { simplex, box, prism, pyramid };
 // Linear (on boxes: in each coordinate); complete of second degree; serendipity, without nodes inside faces and cells.
 enum class Interpolation { linear, quadratic, serendipity };
 // Quadrature of the stiffness (shape.cpp).
-enum class Rule { centroid, triangle3, tetrahedron8, gauss2, gauss3 };
+enum class Rule { centroid, triangle3, tetrahedron8, gauss2, gauss3, prism6, prism18 };
 
 struct CellRow {
     CellType type;
@@ -146,6 +150,21 @@ inline constexpr std::array cell_rows{
              {{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7},
                {0, 7}, {1, 6}, {0, 5}, {3, 6}, {0, 2}, {4, 6}, {0, 6}}}},
             ReferenceCell::box, Interpolation::quadratic, Rule::gauss3},
+    CellRow{CellType::wedge6,
+            {"wedge6", 3, 6, 6, 5, {{{3, 5, 4}, {0, 1, 2}, {3, 4, 1, 0}, {4, 5, 2, 1}, {5, 3, 0, 2}}}, {}},
+            ReferenceCell::prism, Interpolation::linear, Rule::prism6},
+    CellRow{CellType::pyramid5,
+            {"pyramid5", 3, 5, 5, 5, {{{0, 3, 2, 1}, {0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}}}, {}},
+            ReferenceCell::pyramid, Interpolation::linear, Rule::gauss2},
+    CellRow{CellType::wedge15,
+            {"wedge15", 3, 15, 6, 5,
+             {{{3, 5, 4, 11, 10, 9},
+               {0, 1, 2, 6, 7, 8},
+               {3, 4, 1, 0, 9, 13, 6, 12},
+               {4, 5, 2, 1, 10, 14, 7, 13},
+               {5, 3, 0, 2, 11, 12, 8, 14}}},
+             {{{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}}}},
+            ReferenceCell::prism, Interpolation::serendipity, Rule::prism18},
 };
 // clang-format on
 

@@ -54,6 +54,13 @@ const CellShape& shape_of(std::int32_t type) {
     throw Failure(exit_numerical, fmt::format("{} is no cell type of the library", type));
 }
 
+// The quadratic cell with the same corners; of the pyramid there is none.
+const CellShape& instead_of(const CellShape& shape) {
+    for (const CellShape& other : all_shapes())
+        if (!other.linear() && other.dimension == shape.dimension && other.corners == shape.corners) return other;
+    return shape_of(DELAM_TET10);
+}
+
 const CellShape& shape_named(const std::string& name) {
     for (const CellShape& shape : all_shapes())
         if (shape.name == name) return shape;

@@ -27,8 +27,12 @@ struct CellShape {
     // True if the cell, a quadrilateral or a hexahedron, can have incompatible modes (delam_problem_set_formulation),
     // and has them by default.
     [[nodiscard]] bool has_modes() const { return linear() && corners == std::size_t{1} << dimension; }
+    // True if it is far too stiff in bending unless many lie across the thickness.
+    [[nodiscard]] bool locks() const { return linear() && !has_modes(); }
 };
 
+// Returns the cell to use where one that locks does not do.
+const CellShape& instead_of(const CellShape& shape);
 // Failure for a number that is no cell type, or a name.
 const CellShape& shape_of(std::int32_t type);
 const CellShape& shape_named(const std::string& name);

@@ -78,7 +78,9 @@ void add_keys(const ViewInterface& interface, const std::vector<std::int64_t>& n
     for (std::size_t f = 0; f + interface.per_face <= interface.faces.size(); f += interface.per_face) {
         std::array<std::int64_t, 4> on{};
         for (std::size_t i = 0; i < corners; ++i) on[i] = nodes[static_cast<std::size_t>(interface.faces[f + i])];
-        keys.push_back(seen_key(std::span(on).first(corners)));
+        const bool triangle =
+            corners == 3 || on[2] == on[3];  // a triangle among quadrilaterals repeats its last corner
+        keys.push_back(seen_key(std::span(on).first(triangle ? 3 : 4)));
     }
 }
 
