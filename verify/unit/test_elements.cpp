@@ -418,8 +418,8 @@ TEST(slender_bending) {
     const struct {
         CellType type;
         double low, high;
-    } locked[] = {{CellType::tri3, 4.31, 4.32}, {CellType::quad4, 1.48, 1.49}, {CellType::tet4, 4.81, 4.82},
-                  {CellType::hex8, 1.53, 1.54}, {CellType::wedge6, 1.50, 1.51},  {CellType::pyramid5, 1.90, 1.91}};
+    } locked[] = {{CellType::tri3, 4.31, 4.32}, {CellType::quad4, 1.48, 1.49},  {CellType::tet4, 4.81, 4.82},
+                  {CellType::hex8, 1.53, 1.54}, {CellType::wedge6, 1.50, 1.51}, {CellType::pyramid5, 1.90, 1.91}};
     for (const auto& l : locked) {
         const double ratio = bending_ratio(l.type, Formulation::standard);
         ck_assert_msg(ratio > l.low && ratio < l.high, "%s: %.6f", topology(l.type).name, ratio);
