@@ -195,9 +195,14 @@ DELAM_API int32_t delam_context_cancel(delam_context *context);
  *   tet10   0-1 1-2 2-0 0-3 1-3 2-3                              (Gmsh exchanges the last two)
  *   hex20   0-1 1-2 2-3 3-0  4-5 5-6 6-7 7-4  0-4 1-5 2-6 3-7    (Gmsh has another order)
  *   hex27   as hex20, then the centres of the faces 0473 1265 0154 3267 0123 4567, then the centre (in Gmsh another)
+ *   wedge15 0-1 1-2 2-0  3-4 4-5 5-3  0-3 1-4 2-5                (Gmsh has another order)
+ * The triangle 012 of a wedge is counter-clockwise seen from outside, and 345 lies opposite, as in VTK. Abaqus and Gmsh
+ * list 345 first. The base 0123 of a pyramid is counter-clockwise seen from its apex 4. A body may have cells of
+ * several types, which share whole triangles and quadrilaterals.
  * Cells may be curved: a mid-side node need not lie exactly midway. Neighbouring cells share all nodes of their common
- * face. In bending, tri3, tet4, and quad4 and hex8 of the standard formulation (delam_problem_set_formulation) are far
- * too stiff unless there are many of them across the thickness. Of the others a few suffice. */
+ * face. In bending, tri3, tet4, wedge6, pyramid5, and quad4 and hex8 of the standard formulation
+ * (delam_problem_set_formulation) are far too stiff unless there are many of them across the thickness. Of the others a
+ * few suffice. */
 #define DELAM_TRI3 1
 #define DELAM_QUAD4 2
 #define DELAM_TET4 3
@@ -208,6 +213,9 @@ DELAM_API int32_t delam_context_cancel(delam_context *context);
 #define DELAM_TET10 8
 #define DELAM_HEX20 9
 #define DELAM_HEX27 10
+#define DELAM_WEDGE6 11
+#define DELAM_PYRAMID5 12
+#define DELAM_WEDGE15 13
 
 /* Returns how many cell types there are (delam_cell_type_info).
  * [status -; thread any; since 0.1] */
@@ -218,7 +226,8 @@ DELAM_API int64_t delam_cell_type_count(void);
  *   *dimension                  2 or 3
  *   *nodes, *corners            number of nodes, the first *corners of which are corners
  *   *faces                      number of faces (2D: edges)
- *   *face_nodes, *face_corners  number of nodes of every face, the first *face_corners of which are corners
+ *   *face_nodes, *face_corners  number of nodes of a face, the first *face_corners of which are corners; where faces
+ *                               differ (triangles beside quadrilaterals), the largest numbers
  * [null name, cell_type, dimension, nodes, corners, faces, face_nodes, face_corners; owns texts static; status only
  * argument; thread any; since 0.1] */
 DELAM_API int32_t delam_cell_type_info(int64_t index, const char **name, int32_t *cell_type, int32_t *dimension,
@@ -226,7 +235,7 @@ DELAM_API int32_t delam_cell_type_info(int64_t index, const char **name, int32_t
                                        int32_t *face_corners);
 /* Describes where the nodes of a cell type lie, by the index of delam_cell_type_info. Local node numbers count from 0.
  *   face    [faces][face_nodes]  for each face its corners, in the order that gives an outward normal, then its
- *                                mid-side nodes
+ *                                mid-side nodes. Where these are fewer than face_nodes, -1 follows.
  *   middle  [nodes-corners][2]   for each node of the cell that is not a corner, the two corners between which it lies
  * With corners and mid-side nodes of the face counted from 0, mid-side node k lies between corners k and k+1. In 3D,
  * the last one lies between the last corner and corner 0. The centre of quad9 lies between corners 0 and 2.
@@ -243,10 +252,10 @@ DELAM_API int32_t delam_mesh_create(delam_context *context, int32_t dimension, i
  *   lengths, divisions          [dimension-1] extent (L) and number of cells along the other axes
  *   thickness, layer_divisions  [layer_count] thickness and number of cells of each layer
  *   cell_type                   DELAM_TRI3 / QUAD4 / TRI6 / QUAD8 / QUAD9 in 2D, TET4 / HEX8 / TET10 / HEX20 / HEX27
- *                               in 3D
- * Each box of the divisions is one cell, or 2 triangular or 6 tetrahedral cells. The nodes of neighbouring layers
- * coincide; the function adds no interface. The nodes of a layer, corners and others, are numbered with x running
- * fastest and the last axis slowest.
+ *                               / WEDGE6 / WEDGE15 / PYRAMID5 in 3D
+ * Each box of the divisions is one cell, or 2 triangles or wedges, or 6 tetrahedra or pyramids. The nodes of
+ * neighbouring layers coincide; the function adds no interface. The nodes of a layer, corners and others, are numbered
+ * with x running fastest and the last axis slowest.
  * [unit lengths L > 0, thickness L > 0; null none; owns out caller; status cancelled, argument, mesh; since 0.1] */
 DELAM_API int32_t delam_mesh_create_layers(delam_context *context, int32_t dimension, const double *lengths,
                                            const int64_t *divisions, int64_t layer_count, const double *thickness,
@@ -658,9 +667,9 @@ DELAM_API int32_t delam_problem_set_orientation(delam_problem *problem, int32_t 
  *   "incompatible"     the default of bodies with quad4 or hex8 cells: adds internal bending modes to these cells,
  *                      condensed in each; other cells of the body are standard
  *   "standard"         without such modes; the default of other bodies
- *   "mean-dilatation"  for nearly incompressible bodies, in which the other formulations lock: projects the dilatation
- *                      of each cell onto constants (quad4, hex8, tri6, tet10) or linear functions (quad8, quad9, hex20,
- *                      hex27)
+ *   "mean-dilatation"  for nearly incompressible bodies, in which the other formulations lock. Projects the dilatation
+ *                      of each cell onto constants (quad4, hex8, wedge6, pyramid5, tri6, tet10) or linear functions
+ *                      (quad8, quad9, hex20, hex27, wedge15).
  * With incompatible modes, rectangular cells are exact in pure bending, in which standard cells are too stiff (square
  * ones by half). Between the nodes, displacements may be slightly discontinuous from cell to cell. For a body without
  * quad4 or hex8 "incompatible" returns DELAM_ERROR_ARGUMENT. The mean dilatation works in plane strain and in 3D, but

@@ -103,7 +103,7 @@ void project(CellType type, std::span<const double> coordinates, CellStrains& ce
     const CellRow& row = cell_row(type);
     const auto dim = index(row.topology.dimension);
     const Quadrature& gauss = quadrature(type);
-    const std::size_t functions = row.simplex() || row.linear() ? 1 : dim + 1, points = gauss.points.size();
+    const std::size_t functions = row.dilatations(), points = gauss.points.size();
     std::array<double, most_gauss_points * 4> p{};
     double size = 0.0;
     for (std::size_t i = dim; i < coordinates.size(); ++i)
@@ -150,10 +150,9 @@ CellStrains strains_of(CellType type, std::span<const double> coordinates, std::
             for (std::size_t i = 0; i < dim; ++i)
                 add_strain<dim>(i, &at.gradient[a * dim], displacement[a * dim + i], &cell.strain[q * most_strains]);
     }
-    const bool simplex = row.simplex(), linear = row.linear();
-    if (formulation == Formulation::mean_dilatation && !(simplex && linear))
+    if (formulation == Formulation::mean_dilatation && !row.one_strain())
         project(type, coordinates, cell);
-    else if (!simplex && linear)
+    else if (row.has_modes())
         bend<dim>(type, coordinates, elasticity, formulation == Formulation::incompatible, jacobian, cell);
     return cell;
 }

@@ -344,12 +344,9 @@ struct Sizes {
     static constexpr const CellRow& row = cell_rows[place];
     static constexpr std::size_t nodes = index(row.topology.nodes);
     static constexpr std::size_t dim = index(row.topology.dimension);
-    static constexpr bool modes = !row.simplex() && row.linear();  // incompatible modes
-    // The dilatation is constant already.
-    static constexpr bool one_strain = row.simplex() && row.linear();
-    // The projected dilatation is a constant in linear cells and quadratic simplices, a linear function of x in the
-    // other quadratic cells.
-    static constexpr std::size_t functions = row.simplex() || row.linear() ? 1 : dim + 1;
+    static constexpr bool modes = row.has_modes();
+    static constexpr bool one_strain = row.one_strain();
+    static constexpr std::size_t functions = row.dilatations();
 };
 
 template <class Visit, std::size_t... places>

@@ -20,9 +20,9 @@ const char* name_of(Formulation formulation) {
 
 namespace {
 
-bool has_modes(const CellRow& row) { return !row.simplex() && row.linear(); }
+bool has_modes(const CellRow& row) { return row.has_modes(); }
 // The others have one strain in the whole cell.
-bool has_dilatations(const CellRow& row) { return !row.simplex() || !row.linear(); }
+bool has_dilatations(const CellRow& row) { return !row.one_strain(); }
 
 // Returns the first cell of the body whose row is, or is not, of a kind; -1: there is none.
 std::int64_t first_cell(const Mesh& mesh, std::int32_t body, bool (*kind)(const CellRow&), bool is) {

@@ -13,6 +13,12 @@ const delam::CellRow* row_at(std::int64_t place) {
     return place >= 0 && place < delam_cell_type_count() ? &delam::cell_rows[delam::index(place)] : nullptr;
 }
 
+std::size_t most_nodes_of_face(const delam::CellTopology& cell) {
+    std::size_t most = 0;
+    for (const delam::CellFace& face : cell.all_faces()) most = std::max(most, face.nodes);
+    return most;
+}
+
 }  // namespace
 
 int64_t delam_cell_type_count(void) { return static_cast<std::int64_t>(delam::cell_rows.size()); }
@@ -28,8 +34,12 @@ int32_t delam_cell_type_info(int64_t index, const char** name, int32_t* cell_typ
     if (nodes != nullptr) *nodes = cell.nodes;
     if (corners != nullptr) *corners = cell.corners;
     if (faces != nullptr) *faces = cell.faces;
-    if (face_nodes != nullptr) *face_nodes = cell.face_nodes;
-    if (face_corners != nullptr) *face_corners = cell.face_corners;
+    if (face_nodes != nullptr) *face_nodes = static_cast<std::int32_t>(most_nodes_of_face(cell));
+    if (face_corners != nullptr) {
+        *face_corners = 0;
+        for (const delam::CellFace& face : cell.all_faces())
+            *face_corners = std::max(*face_corners, static_cast<std::int32_t>(cell.corners_of(face).size()));
+    }
     return DELAM_OK;
 }
 
@@ -37,8 +47,11 @@ int32_t delam_cell_type_topology(int64_t index, int32_t* face, int32_t* middle) 
     const delam::CellRow* row = row_at(index);
     if (row == nullptr) return DELAM_ERROR_ARGUMENT;
     const delam::CellTopology& cell = row->topology;
-    for (int f = 0; f < cell.faces && face != nullptr; ++f)
-        face = std::copy_n(cell.face[delam::index(f)].begin(), cell.face_nodes, face);
+    const std::size_t columns = most_nodes_of_face(cell);
+    for (int f = 0; f < cell.faces && face != nullptr; ++f) {
+        const std::span<const int> own = cell.face[delam::index(f)].all();
+        face = std::fill_n(std::copy(own.begin(), own.end(), face), columns - own.size(), -1);
+    }
     for (int m = 0; m < cell.nodes - cell.corners && middle != nullptr; ++m)
         middle = std::copy_n(cell.middle[delam::index(m)].begin(), 2, middle);
     return DELAM_OK;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/cell_type.hpp"
 
+#include <algorithm>
 #include <vector>
 
 #include "base/error.hpp"
@@ -12,28 +13,28 @@ namespace {
 
 // The compiler checks that the rows agree with one another.
 
-constexpr bool on_face(const CellTopology& cell, int face, int node) {
-    for (int k = 0; k < cell.face_nodes; ++k)
-        if (cell.face[index(face)][index(k)] == node) return true;
-    return false;
+constexpr bool on_face(const CellFace& face, int node) {
+    const std::span<const int> all = face.all();
+    return std::find(all.begin(), all.end(), node) != all.end();
 }
 
 // Mid-side node k of a face is the middle node between its corners k and k+1.
-constexpr bool middles_fit(const CellTopology& cell, int face) {
-    const auto& local = cell.face[index(face)];
-    const int sides = cell.face_corners == 2 ? 1 : cell.face_corners;
-    for (int k = 0; k < sides && cell.face_corners + k < cell.face_nodes; ++k) {
-        const auto& [a, b] = cell.middle[index(local[index(cell.face_corners + k)] - cell.corners)];
-        const int p = local[index(k)];
-        const int q = local[index((k + 1) % cell.face_corners)];
+constexpr bool middles_fit(const CellTopology& cell, const CellFace& face) {
+    const std::span<const int> local = face.all();
+    const std::size_t corners = cell.corners_of(face).size(), sides = corners == 2 ? 1 : corners;
+    for (std::size_t k = 0; k < sides && corners + k < local.size(); ++k) {
+        const auto& [a, b] = cell.middle[index(local[corners + k] - cell.corners)];
+        const int p = local[k];
+        const int q = local[(k + 1) % corners];
         if (!((a == p && b == q) || (a == q && b == p))) return false;
     }
     return true;
 }
 
-constexpr bool has_row(const CellTopology& cell) {
-    for (const FaceRow& face : face_rows)
-        if (face.dimension == cell.dimension && face.nodes == cell.face_nodes && face.corners == cell.face_corners)
+constexpr bool has_row(const CellTopology& cell, const CellFace& face) {
+    for (const FaceRow& row : face_rows)
+        if (row.dimension == cell.dimension && index(row.nodes) == face.nodes &&
+            index(row.corners) == cell.corners_of(face).size())
             return true;
     return false;
 }
@@ -41,22 +42,25 @@ constexpr bool has_row(const CellTopology& cell) {
 constexpr bool sound(const CellRow& row, std::size_t place) {
     const CellTopology& cell = row.topology;
     if (static_cast<std::size_t>(row.type) != place + 1) return false;
-    if (index(cell.nodes) > most_cell_nodes || index(cell.faces) > most_cell_faces || !has_row(cell)) return false;
+    if (index(cell.nodes) > most_cell_nodes || index(cell.faces) > most_cell_faces) return false;
     if (row.linear() != (cell.nodes == cell.corners)) return false;
     for (int m = 0; m < cell.nodes - cell.corners; ++m)
         for (const int corner : cell.middle[index(m)])
             if (corner < 0 || corner >= cell.corners) return false;
-    for (int f = 0; f < cell.faces; ++f) {
-        for (int k = 0; k < cell.face_nodes; ++k) {
-            const int node = cell.face[index(f)][index(k)];
-            if (node < 0 || node >= cell.nodes || (k < cell.face_corners) != (node < cell.corners)) return false;
+    for (const CellFace& face : cell.all_faces()) {
+        for (std::size_t k = 0; k < face.nodes; ++k) {
+            const int node = face.node[k];
+            if (node < 0 || node >= cell.nodes || (k < cell.corners_of(face).size()) != (node < cell.corners))
+                return false;
         }
-        if (!middles_fit(cell, f)) return false;
+        if (!has_row(cell, face) || !middles_fit(cell, face)) return false;
     }
-    for (int corner = 0; corner < cell.corners; ++corner) {  // as many faces meet at a corner as there are axes
+    // As many faces meet at a corner as there are axes; one more at the apex of a pyramid.
+    for (int corner = 0; corner < cell.corners; ++corner) {
         int meeting = 0;
-        for (int f = 0; f < cell.faces; ++f) meeting += on_face(cell, f, corner) ? 1 : 0;
-        if (meeting != cell.dimension) return false;
+        for (const CellFace& face : cell.all_faces()) meeting += on_face(face, corner) ? 1 : 0;
+        const bool apex = row.reference == ReferenceCell::pyramid && corner + 1 == cell.corners;
+        if (meeting != cell.dimension + (apex ? 1 : 0)) return false;
     }
     return true;
 }

@@ -3,9 +3,11 @@
 // lists the types.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <span>
 #include <string>
 
@@ -23,11 +25,26 @@ enum class CellType : std::int32_t {
     quad9 = DELAM_QUAD9,
     tet10 = DELAM_TET10,
     hex20 = DELAM_HEX20,
-    hex27 = DELAM_HEX27
+    hex27 = DELAM_HEX27,
+    wedge6 = DELAM_WEDGE6,
+    pyramid5 = DELAM_PYRAMID5,
+    wedge15 = DELAM_WEDGE15
 };
 inline constexpr std::size_t most_cell_nodes = 27;
 inline constexpr std::size_t most_cell_faces = 6;
 inline constexpr std::size_t most_face_nodes = 9;
+
+// Local nodes of a face of a cell. The faces of one cell may have different numbers of them.
+struct CellFace {
+    std::size_t nodes = 0;
+    std::array<int, most_face_nodes> node{};  // first `nodes` entries are used
+
+    constexpr CellFace() = default;
+    constexpr CellFace(std::initializer_list<int> list) : nodes(list.size()) {
+        std::copy(list.begin(), list.end(), node.begin());
+    }
+    constexpr std::span<const int> all() const { return std::span(node).first(nodes); }
+};
 
 // The nodes of a cell are its corners, then those midway between two corners. Its faces (edges in 2D) are lists of
 // local nodes: corners, outward when walked in order, then the mid-side nodes, the k-th between corners k and k+1, then
@@ -38,18 +55,26 @@ struct CellTopology {
     int nodes;
     int corners;
     int faces;
-    int face_nodes;
-    int face_corners;
-    std::array<std::array<int, most_face_nodes>, most_cell_faces> face;  // first face_nodes entries are used
-    std::array<std::array<int, 2>, 19> middle;                           // node corners+k sits between middle[k]
+    std::array<CellFace, most_cell_faces> face;  // first `faces` entries are used
+    std::array<std::array<int, 2>, 19> middle;   // node corners+k sits between middle[k]
+
+    constexpr std::span<const CellFace> all_faces() const {
+        return std::span(face).first(static_cast<std::size_t>(faces));
+    }
+    // The corners of one of its faces, which stand before the other nodes.
+    constexpr std::span<const int> corners_of(const CellFace& one) const {
+        const auto own = std::ranges::count_if(one.all(), [this](int k) { return k < corners; });
+        return one.all().first(static_cast<std::size_t>(own));
+    }
 };
 
-// The triangle or tetrahedron with corners 0, e1, e2(, e3); the square [-1,1]^2 or the cube [-1,1]^3.
-enum class ReferenceCell { simplex, box };
+// The triangle or tetrahedron with corners 0, e1, e2(, e3); the square [-1,1]^2 or the cube [-1,1]^3; the product of
+// this triangle and [-1,1]; the cube whose upper face is mapped to one point, the apex of a pyramid.
+enum class ReferenceCell { simplex, box, prism, pyramid };
 // Linear (on boxes: in each coordinate); complete of second degree; serendipity, without nodes inside faces and cells.
 enum class Interpolation { linear, quadratic, serendipity };
 // Quadrature of the stiffness (shape.cpp).
-enum class Rule { centroid, triangle3, tetrahedron8, gauss2, gauss3 };
+enum class Rule { centroid, triangle3, tetrahedron8, gauss2, gauss3, prism6, prism18 };
 
 struct CellRow {
     CellType type;
@@ -60,43 +85,52 @@ struct CellRow {
 
     constexpr bool linear() const { return interpolation == Interpolation::linear; }
     constexpr bool simplex() const { return reference == ReferenceCell::simplex; }
+    // True if all strains are constant in the cell.
+    constexpr bool one_strain() const { return simplex() && linear(); }
+    // True if the cell can have the incompatible modes of body/element.cpp.
+    constexpr bool has_modes() const { return reference == ReferenceCell::box && linear(); }
+    // Number of functions that a projected dilatation consists of: a constant in linear cells and quadratic simplices,
+    // a linear function of x in the other quadratic cells.
+    constexpr std::size_t dilatations() const {
+        return simplex() || linear() ? 1 : static_cast<std::size_t>(topology.dimension) + 1;
+    }
 };
 
 // The rows stand in the order of their numbers, 1, 2, ... The centres of quad9 and hex27
 // and of the faces of hex27 count as midway of a diagonal.
 // clang-format off
 inline constexpr std::array cell_rows{
-    CellRow{CellType::tri3, {"tri3", 2, 3, 3, 3, 2, 2, {{{0, 1}, {1, 2}, {2, 0}}}, {}},
+    CellRow{CellType::tri3, {"tri3", 2, 3, 3, 3, {{{0, 1}, {1, 2}, {2, 0}}}, {}},
             ReferenceCell::simplex, Interpolation::linear, Rule::centroid},
-    CellRow{CellType::quad4, {"quad4", 2, 4, 4, 4, 2, 2, {{{0, 1}, {1, 2}, {2, 3}, {3, 0}}}, {}},
+    CellRow{CellType::quad4, {"quad4", 2, 4, 4, 4, {{{0, 1}, {1, 2}, {2, 3}, {3, 0}}}, {}},
             ReferenceCell::box, Interpolation::linear, Rule::gauss2},
-    CellRow{CellType::tet4, {"tet4", 3, 4, 4, 4, 3, 3, {{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}}, {}},
+    CellRow{CellType::tet4, {"tet4", 3, 4, 4, 4, {{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}}, {}},
             ReferenceCell::simplex, Interpolation::linear, Rule::centroid},
     CellRow{CellType::hex8,
-            {"hex8", 3, 8, 8, 6, 4, 4,
+            {"hex8", 3, 8, 8, 6,
              {{{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}},
              {}},
             ReferenceCell::box, Interpolation::linear, Rule::gauss2},
     CellRow{CellType::tri6,
-            {"tri6", 2, 6, 3, 3, 3, 2, {{{0, 1, 3}, {1, 2, 4}, {2, 0, 5}}}, {{{0, 1}, {1, 2}, {2, 0}}}},
+            {"tri6", 2, 6, 3, 3, {{{0, 1, 3}, {1, 2, 4}, {2, 0, 5}}}, {{{0, 1}, {1, 2}, {2, 0}}}},
             ReferenceCell::simplex, Interpolation::quadratic, Rule::triangle3},
     CellRow{CellType::quad8,
-            {"quad8", 2, 8, 4, 4, 3, 2,
+            {"quad8", 2, 8, 4, 4,
              {{{0, 1, 4}, {1, 2, 5}, {2, 3, 6}, {3, 0, 7}}},
              {{{0, 1}, {1, 2}, {2, 3}, {3, 0}}}},
             ReferenceCell::box, Interpolation::serendipity, Rule::gauss3},
     CellRow{CellType::quad9,
-            {"quad9", 2, 9, 4, 4, 3, 2,
+            {"quad9", 2, 9, 4, 4,
              {{{0, 1, 4}, {1, 2, 5}, {2, 3, 6}, {3, 0, 7}}},
              {{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 2}}}},
             ReferenceCell::box, Interpolation::quadratic, Rule::gauss3},
     CellRow{CellType::tet10,
-            {"tet10", 3, 10, 4, 4, 6, 3,
+            {"tet10", 3, 10, 4, 4,
              {{{0, 2, 1, 6, 5, 4}, {0, 1, 3, 4, 8, 7}, {1, 2, 3, 5, 9, 8}, {0, 3, 2, 7, 9, 6}}},
              {{{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}}},
             ReferenceCell::simplex, Interpolation::quadratic, Rule::tetrahedron8},
     CellRow{CellType::hex20,
-            {"hex20", 3, 20, 8, 6, 8, 4,
+            {"hex20", 3, 20, 8, 6,
              {{{0, 3, 2, 1, 11, 10, 9, 8},
                {4, 5, 6, 7, 12, 13, 14, 15},
                {0, 1, 5, 4, 8, 17, 12, 16},
@@ -106,7 +140,7 @@ inline constexpr std::array cell_rows{
              {{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}}},
             ReferenceCell::box, Interpolation::serendipity, Rule::gauss3},
     CellRow{CellType::hex27,
-            {"hex27", 3, 27, 8, 6, 9, 4,
+            {"hex27", 3, 27, 8, 6,
              {{{0, 3, 2, 1, 11, 10, 9, 8, 24},
                {4, 5, 6, 7, 12, 13, 14, 15, 25},
                {0, 1, 5, 4, 8, 17, 12, 16, 22},
@@ -116,6 +150,21 @@ inline constexpr std::array cell_rows{
              {{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7},
                {0, 7}, {1, 6}, {0, 5}, {3, 6}, {0, 2}, {4, 6}, {0, 6}}}},
             ReferenceCell::box, Interpolation::quadratic, Rule::gauss3},
+    CellRow{CellType::wedge6,
+            {"wedge6", 3, 6, 6, 5, {{{3, 5, 4}, {0, 1, 2}, {3, 4, 1, 0}, {4, 5, 2, 1}, {5, 3, 0, 2}}}, {}},
+            ReferenceCell::prism, Interpolation::linear, Rule::prism6},
+    CellRow{CellType::pyramid5,
+            {"pyramid5", 3, 5, 5, 5, {{{0, 3, 2, 1}, {0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}}}, {}},
+            ReferenceCell::pyramid, Interpolation::linear, Rule::gauss2},
+    CellRow{CellType::wedge15,
+            {"wedge15", 3, 15, 6, 5,
+             {{{3, 5, 4, 11, 10, 9},
+               {0, 1, 2, 6, 7, 8},
+               {3, 4, 1, 0, 9, 13, 6, 12},
+               {4, 5, 2, 1, 10, 14, 7, 13},
+               {5, 3, 0, 2, 11, 12, 8, 14}}},
+             {{{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}}}},
+            ReferenceCell::prism, Interpolation::serendipity, Rule::prism18},
 };
 // clang-format on
 

@@ -32,15 +32,15 @@ double shortest_edge(const Mesh& mesh, std::int64_t c) {
     };
     const CellTopology& shape = topology(mesh.cell_type(c));
     const auto cell = mesh.cell(c);
-    const auto corners = index(shape.face_corners);
-    for (std::size_t f = 0; f < index(shape.faces); ++f) {
+    for (const CellFace& face : shape.all_faces()) {
+        const std::size_t corners = shape.corners_of(face).size();
         for (std::size_t k = 0; k < corners; ++k) {
-            const std::int64_t here = cell[index(shape.face[f][k])];
-            const std::int64_t next = cell[index(shape.face[f][(k + 1) % corners])];
-            if (shape.face_nodes == shape.face_corners) {
+            const std::int64_t here = cell[index(face.node[k])];
+            const std::int64_t next = cell[index(face.node[(k + 1) % corners])];
+            if (face.nodes == corners) {
                 measure(here, next);
             } else {
-                const std::int64_t between = cell[index(shape.face[f][corners + (corners == 2 ? 0 : k)])];
+                const std::int64_t between = cell[index(face.node[corners + (corners == 2 ? 0 : k)])];
                 measure(here, between);
                 measure(between, next);
             }
@@ -51,12 +51,12 @@ double shortest_edge(const Mesh& mesh, std::int64_t c) {
 
 }  // namespace
 
-std::array<std::int64_t, most_face_nodes> face_nodes(const Mesh& mesh, std::int64_t cell, int face) {
+BoundaryFace face_of(const Mesh& mesh, std::int64_t cell, std::size_t face) {
     const CellTopology& shape = topology(mesh.cell_type(cell));
-    const auto& local = shape.face[index(face)];
-    std::array<std::int64_t, most_face_nodes> nodes{};
-    for (std::size_t k = 0; k < index(shape.face_nodes); ++k) nodes[k] = mesh.cell(cell)[index(local[k])];
-    return nodes;
+    const CellFace& local = shape.face[face];
+    BoundaryFace found{cell, static_cast<int>(local.nodes), static_cast<int>(shape.corners_of(local).size()), {}};
+    for (std::size_t k = 0; k < local.nodes; ++k) found.node[k] = mesh.cell(cell)[index(local.node[k])];
+    return found;
 }
 
 std::array<double, 3> area_vector(const Mesh& mesh, std::span<const std::int64_t> nodes) {
@@ -88,19 +88,16 @@ FaceTable match_faces(const Mesh& mesh, std::span<const std::int64_t> cells) {
     constexpr std::int64_t none = std::numeric_limits<std::int64_t>::max();
     FaceTable table;
     table.neighbour.assign(cells.size() * index(FaceTable::stride), -1);
-    const auto face_of = [&](std::int64_t place) {
-        const std::int64_t cell = cells[index(place / FaceTable::stride)];
-        const CellTopology& shape = topology(mesh.cell_type(cell));
-        return BoundaryFace{cell, shape.face_nodes, shape.face_corners,
-                            face_nodes(mesh, cell, static_cast<int>(place % FaceTable::stride))};
+    const auto face_at = [&](std::int64_t place) {
+        return face_of(mesh, cells[index(place / FaceTable::stride)], index(place % FaceTable::stride));
     };
     const auto join = [&](std::int64_t first, std::int64_t second) {
         std::int64_t& here = table.neighbour[index(first)];
         std::int64_t& there = table.neighbour[index(second)];
         const std::int64_t a = first / FaceTable::stride;
         const std::int64_t b = second / FaceTable::stride;
-        const BoundaryFace face = face_of(first);
-        const BoundaryFace other = face_of(second);
+        const BoundaryFace face = face_at(first);
+        const BoundaryFace other = face_at(second);
         if (here >= 0 || there >= 0 || !opposite(face.corner(), other.corner()))
             fail(DELAM_ERROR_MESH, "cells ", cells[index(a)], " and ", cells[index(b)],
                  " lie on the same side of the face they share: they overlap");
@@ -126,7 +123,8 @@ FaceTable match_faces(const Mesh& mesh, std::span<const std::int64_t> cells) {
         const std::span<const std::int64_t> cell = mesh.cell(cells[i]);
         for (std::size_t f = 0; f < index(shape.faces); ++f) {
             Known face{{none, none, none, none}, static_cast<std::int64_t>(i * index(FaceTable::stride) + f), -1};
-            for (std::size_t k = 0; k < index(shape.face_corners); ++k) face.corner[k] = cell[index(shape.face[f][k])];
+            const std::span<const int> local = shape.corners_of(shape.face[f]);
+            for (std::size_t k = 0; k < local.size(); ++k) face.corner[k] = cell[index(local[k])];
             std::sort(face.corner.begin(), face.corner.end());
             std::int64_t* end = &first[index(face.corner[0])];
             for (; *end >= 0; end = &known[index(*end)].next)
@@ -169,10 +167,9 @@ std::vector<BoundaryFace> boundary_faces(const Mesh& mesh, std::int32_t body) {
     std::vector<BoundaryFace> faces;
     for (std::size_t i = 0; i < cells.size(); ++i) {
         poll_cancel("mesh");
-        const CellTopology& shape = topology(mesh.cell_type(cells[i]));
-        for (int f = 0; f < shape.faces; ++f)
-            if (table.neighbour[i * index(FaceTable::stride) + index(f)] < 0)
-                faces.push_back({cells[i], shape.face_nodes, shape.face_corners, face_nodes(mesh, cells[i], f)});
+        const std::size_t count = index(topology(mesh.cell_type(cells[i])).faces);
+        for (std::size_t f = 0; f < count; ++f)
+            if (table.neighbour[i * index(FaceTable::stride) + f] < 0) faces.push_back(face_of(mesh, cells[i], f));
     }
     return faces;
 }

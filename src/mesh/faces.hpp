@@ -38,8 +38,8 @@ struct FaceTable {
 // it and share its mid-side nodes too; otherwise Error(DELAM_ERROR_MESH).
 FaceTable match_faces(const Mesh& mesh, std::span<const std::int64_t> cells);
 
-// Mesh nodes of a local face in the order of its topology; the first topology(type).face_nodes entries are used.
-std::array<std::int64_t, most_face_nodes> face_nodes(const Mesh& mesh, std::int64_t cell, int face);
+// A local face of a cell, whether another cell has it or not.
+BoundaryFace face_of(const Mesh& mesh, std::int64_t cell, std::size_t face);
 
 // Outward area vector of a face: its length (2D) or area (3D) times the mean unit normal; of a curved one in 3D, that
 // of its linear pieces. Third component 0 in 2D.

@@ -18,18 +18,27 @@ namespace {
 // diagonal, so that neighbouring boxes match.
 constexpr int two_triangles[] = {0, 1, 2, 0, 2, 3};
 constexpr int six_tetrahedra[] = {0, 1, 2, 6, 0, 5, 1, 6, 0, 2, 3, 6, 0, 3, 7, 6, 0, 4, 5, 6, 0, 7, 4, 6};
+// Wedges stand on the triangles. The six pyramids of a box stand on its faces, with their apex in its centre, number 8.
+constexpr int two_wedges[] = {4, 5, 6, 0, 1, 2, 4, 6, 7, 0, 2, 3};
+constexpr int six_pyramids[] = {0, 1, 2, 3, 8, 4, 7, 6, 5, 8, 0, 4, 5, 1, 8,
+                                1, 5, 6, 2, 8, 2, 6, 7, 3, 8, 3, 7, 4, 0, 8};
 constexpr int one_square[] = {0, 1, 2, 3};
 constexpr int one_cube[] = {0, 1, 2, 3, 4, 5, 6, 7};
 
 std::span<const int> split(const CellRow& row) {
     const bool plane = row.topology.dimension == 2;
+    if (row.reference == ReferenceCell::prism) return two_wedges;
+    if (row.reference == ReferenceCell::pyramid) return six_pyramids;
     if (row.simplex()) return plane ? std::span<const int>(two_triangles) : six_tetrahedra;
     return plane ? std::span<const int>(one_square) : one_cube;
 }
 
-// Quadratic cells have nodes midway between those of linear ones, on a lattice of half the spacing. Serendipity cells
-// have only the points on the edges of boxes, which lie midway in at most one direction; the others have all points.
+// Quadratic cells have nodes midway between those of linear ones, on a lattice of half the spacing, of which pyramids
+// have the centres of boxes. Serendipity cells have only the points on the edges of boxes, which lie midway in at most
+// one direction, and wedges also those on the diagonals of their triangles; the others have all points.
 bool on_lattice(const CellRow& row, std::int64_t i, std::int64_t j, std::int64_t k) {
+    if (row.reference == ReferenceCell::pyramid) return i % 2 == j % 2 && j % 2 == k % 2;
+    if (row.reference == ReferenceCell::prism && !row.linear() && k % 2 == 0) return true;
     return row.interpolation != Interpolation::serendipity || i % 2 + j % 2 + k % 2 <= 1;
 }
 
@@ -55,7 +64,7 @@ struct Block {
     std::span<const double> thickness;
     std::span<const std::int64_t> layer_divisions;
 
-    std::int64_t order() const { return row.linear() ? 1 : 2; }
+    std::int64_t order() const { return row.linear() && row.reference != ReferenceCell::pyramid ? 1 : 2; }
     // Number of lattice steps along x and y; a plane block is one sheet.
     std::int64_t nx() const { return order() * divisions[0]; }
     std::int64_t ny() const { return dimension == 3 ? order() * divisions[1] : 0; }
@@ -134,9 +143,15 @@ void add_cells(const Block& block, std::size_t layer, std::span<const std::int64
             for (std::int64_t i = 0; i < block.nx(); i += block.order()) {
                 poll_cancel("mesh", static_cast<std::int64_t>(cells.size()) / shape.corners);
                 const std::int64_t n = k * block.level() + j * block.line() + i;
-                const std::int64_t corner[] = {
-                    n,         n + right,         n + right + back,         n + back,
-                    n + above, n + right + above, n + right + back + above, n + back + above};
+                const std::int64_t corner[] = {n,
+                                               n + right,
+                                               n + right + back,
+                                               n + back,
+                                               n + above,
+                                               n + right + above,
+                                               n + right + back + above,
+                                               n + back + above,
+                                               n + (right + back + above) / 2};
                 for (std::size_t c = 0; c < cells.size(); c += index(shape.corners)) {
                     const auto place = [&](int local) { return corner[cells[c + index(local)]]; };
                     for (int a = 0; a < shape.corners; ++a) connectivity.push_back(number[index(place(a))]);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "base/error.hpp"
 #include "base/numbers.hpp"
@@ -16,14 +17,30 @@ constexpr ReferencePoint simplex_corner[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0
 constexpr ReferencePoint square_corner[] = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
 constexpr ReferencePoint cube_corner[] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
                                           {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
+constexpr ReferencePoint prism_corner[] = {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {0, 0, -1}, {1, 0, -1}, {0, 1, -1}};
+constexpr ReferencePoint pyramid_corner[] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {0, 0, 1}};
 constexpr ReferencePoint triangle_centre = {1.0 / 3.0, 1.0 / 3.0, 0};
 constexpr ReferencePoint tetrahedron_centre = {0.25, 0.25, 0.25};
 constexpr ReferencePoint cube_centre = {0, 0, 0};
+constexpr ReferencePoint prism_centre = {1.0 / 3.0, 1.0 / 3.0, 0};
+constexpr ReferencePoint pyramid_centre = {0, 0, -0.5};  // at a quarter of the height
 
 const ReferencePoint* corners_of(const CellRow& row) {
-    if (row.simplex()) return simplex_corner;
+    switch (row.reference) {
+        case ReferenceCell::simplex:
+            return simplex_corner;
+        case ReferenceCell::prism:
+            return prism_corner;
+        case ReferenceCell::pyramid:
+            return pyramid_corner;
+        case ReferenceCell::box:
+            break;
+    }
     return row.topology.dimension == 2 ? square_corner : cube_corner;
 }
+
+// True for the node that a whole face of the reference cell is mapped to.
+bool is_apex(const CellRow& row, std::size_t node) { return row.reference == ReferenceCell::pyramid && node == 4; }
 
 std::vector<ReferencePoint> node_list(const CellRow& row) {
     const CellTopology& shape = row.topology;
@@ -37,6 +54,26 @@ std::vector<ReferencePoint> node_list(const CellRow& row) {
     return nodes;
 }
 
+constexpr double sixth = 1.0 / 6.0;
+// Rules on the triangle, as points with their weights: of degree 2, and of degree 4 (G. Cowper, Int. J. Numer. Meth.
+// Eng. 7, 1973: two orbits of three points).
+using TriangleRule = std::vector<std::pair<ReferencePoint, double>>;
+TriangleRule triangle_3() {
+    return {{{sixth, sixth, 0}, sixth}, {{4 * sixth, sixth, 0}, sixth}, {{sixth, 4 * sixth, 0}, sixth}};
+}
+TriangleRule triangle_6() {
+    TriangleRule rule;
+    const double root = std::sqrt(10.0);
+    for (const double sign : {1.0, -1.0}) {
+        const double at = (8.0 - root + sign * std::sqrt(38.0 - 44.0 * std::sqrt(0.4))) / 18.0;
+        const double weight = (620.0 + sign * std::sqrt(213125.0 - 53320.0 * root)) / 7440.0;
+        for (const ReferencePoint& p :
+             {ReferencePoint{at, at, 0}, ReferencePoint{1.0 - 2.0 * at, at, 0}, ReferencePoint{at, 1.0 - 2.0 * at, 0}})
+            rule.emplace_back(p, weight);
+    }
+    return rule;
+}
+
 // Products of the rules of Gauss on [-1,1] with 2 points (exact to degree 3 in each direction) or 3 (degree 5).
 Quadrature gauss_product(int dimension, int order) {
     const double two = 1.0 / std::sqrt(3.0);
@@ -45,11 +82,22 @@ Quadrature gauss_product(int dimension, int order) {
     const std::vector<double> w = order == 2 ? std::vector{1.0, 1.0} : std::vector{5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
     Quadrature rule;
     for (std::size_t k = 0; k < (dimension == 3 ? x.size() : 1); ++k)
-        for (std::size_t j = 0; j < x.size(); ++j)
+        for (std::size_t j = 0; j < (dimension == 1 ? 1 : x.size()); ++j)
             for (std::size_t i = 0; i < x.size(); ++i) {
-                rule.points.push_back({x[i], x[j], dimension == 3 ? x[k] : 0.0});
-                rule.weights.push_back(w[i] * w[j] * (dimension == 3 ? w[k] : 1.0));
+                rule.points.push_back({x[i], dimension == 1 ? 0.0 : x[j], dimension == 3 ? x[k] : 0.0});
+                rule.weights.push_back(w[i] * (dimension == 1 ? 1.0 : w[j]) * (dimension == 3 ? w[k] : 1.0));
             }
+    return rule;
+}
+
+Quadrature prism_product(const TriangleRule& triangle, int order) {
+    const Quadrature line = gauss_product(1, order);
+    Quadrature rule;
+    for (std::size_t k = 0; k < line.points.size(); ++k)
+        for (const auto& [p, weight] : triangle) {
+            rule.points.push_back({p[0], p[1], line.points[k][0]});
+            rule.weights.push_back(weight * line.weights[k]);
+        }
     return rule;
 }
 
@@ -58,10 +106,12 @@ Quadrature gauss_product(int dimension, int order) {
 // of the volume each) and the centroids of the faces (9/40 each) are exact to degree 3 (Keast, Comput. Meth. Appl.
 // Mech. Eng. 55, 1986, lists such rules), while the familiar four points would violate equilibrium on curved cells. On
 // quad8, quad9 and hex20 the degree in one variable is up to 4 and 5: three points in each direction; two would also
-// leave motions without energy.
+// leave motions without energy. On wedges the degrees over the triangle and along the axis are 2 and 2 (linear), 4 and
+// 5. Within a pyramid, strains are the same along each ray from the apex, so that the degree along the axis is that of
+// the area, 2, and in the other two directions at most 2.
 Quadrature rule_of(const CellRow& row) {
     const int dimension = row.topology.dimension;
-    const double s = 1.0 / 6.0;
+    const double s = sixth;
     const double t = 1.0 / 3.0;
     switch (row.rule) {
         case Rule::centroid:
@@ -80,6 +130,10 @@ Quadrature rule_of(const CellRow& row) {
             return gauss_product(dimension, 2);
         case Rule::gauss3:
             return gauss_product(dimension, 3);
+        case Rule::prism6:
+            return prism_product(triangle_3(), 2);
+        case Rule::prism18:
+            return prism_product(triangle_6(), 3);
     }
     fail(DELAM_ERROR_INTERNAL, "cell type ", row.topology.name, " has no quadrature rule");
 }
@@ -99,9 +153,8 @@ const Reference& reference(CellType type) {
             Reference r{node_list(row), rule_of(row), {}, reference_gradient(row.type, centre(row.type))};
             for (const ReferencePoint& p : r.rule.points) r.rule.gradients.push_back(reference_gradient(row.type, p));
             r.checked = r.rule.gradients;
-            const bool constant = row.simplex() && row.linear();
-            for (std::size_t a = 0; !constant && a < r.nodes.size(); ++a)
-                r.checked.push_back(reference_gradient(row.type, r.nodes[a]));
+            for (std::size_t a = 0; !row.one_strain() && a < r.nodes.size(); ++a)
+                if (!is_apex(row, a)) r.checked.push_back(reference_gradient(row.type, r.nodes[a]));
             made.push_back(std::move(r));
         }
         return made;
@@ -171,9 +224,38 @@ Shape box_shape(const CellRow& row, const ReferencePoint& c, const ReferencePoin
     return n;
 }
 
+// Wedges: linear N_a = L_a (1 + z z_a)/2; of second degree L_a ((2 L_a - 1)(1 + z z_a) - (1 - z^2))/2 at corners, 2 L_a
+// L_b (1 + z z_a) midway between two corners of a triangle and L_a (1 - z^2) midway between the triangles.
+Shape prism_shape(const CellRow& row, std::size_t node, const ReferencePoint& at) {
+    const double l[] = {1.0 - at[0] - at[1], at[0], at[1]};
+    constexpr double slope[3][2] = {{-1, -1}, {1, 0}, {0, 1}};
+    const double z = at[2], arch = 1.0 - z * z;
+    const auto corners = index(row.topology.corners);
+    const std::size_t a = node < corners ? node : index(row.topology.middle[node - corners][0]);
+    const std::size_t b = node < corners ? node : index(row.topology.middle[node - corners][1]);
+    const double up = a < 3 ? 1.0 : -1.0, side = 1.0 + up * z;
+    const std::size_t p = a % 3, q = b % 3;
+    double value = 0.5 * l[p] * side, by_p = 0.5 * side, by_q = 0.0, by_z = 0.5 * l[p] * up;
+    if (node >= corners && p == q) {
+        value = l[p] * arch, by_p = arch, by_z = -2.0 * z * l[p];
+    } else if (node >= corners) {
+        value = 2.0 * l[p] * l[q] * side, by_p = 2.0 * l[q] * side, by_q = 2.0 * l[p] * side;
+        by_z = 2.0 * l[p] * l[q] * up;
+    } else if (!row.linear()) {
+        value = 0.5 * l[p] * ((2.0 * l[p] - 1.0) * side - arch);
+        by_p = 0.5 * ((4.0 * l[p] - 1.0) * side - arch);
+        by_z = 0.5 * l[p] * ((2.0 * l[p] - 1.0) * up + 2.0 * z);
+    }
+    return {value, {by_p * slope[p][0] + by_q * slope[q][0], by_p * slope[p][1] + by_q * slope[q][1], by_z}};
+}
+
+// The base of a pyramid has the functions of the lower face of a cube: these are, in the coordinates of the pyramid
+// itself, rational functions that are linear on its triangles (G. Bedrosian, Int. J. Numer. Meth. Eng. 35, 1992).
 Shape shape(const CellRow& row, std::size_t node, const ReferencePoint& at) {
     const CellTopology& cell = row.topology;
     if (row.simplex()) return simplex_shape(cell, node, at);
+    if (row.reference == ReferenceCell::prism) return prism_shape(row, node, at);
+    if (is_apex(row, node)) return {0.5 * (1.0 + at[2]), {0, 0, 0.5}};
     const auto corners = index(cell.corners);
     const ReferencePoint* corner = corners_of(row);
     if (node < corners) return box_shape(row, corner[node], at);
@@ -237,7 +319,9 @@ std::span<const ReferencePoint> reference_nodes(CellType type) { return referenc
 
 const ReferencePoint& centre(CellType type) {
     const CellRow& row = cell_row(type);
-    if (!row.simplex()) return cube_centre;
+    if (row.reference == ReferenceCell::box) return cube_centre;
+    if (row.reference == ReferenceCell::prism) return prism_centre;
+    if (row.reference == ReferenceCell::pyramid) return pyramid_centre;
     return row.topology.dimension == 2 ? triangle_centre : tetrahedron_centre;
 }
 

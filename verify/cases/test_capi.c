@@ -64,17 +64,20 @@ START_TEST(cell_types) {
     const struct {
         const char *name;
         int32_t type, dimension, nodes, corners, faces, face_nodes, face_corners;
-    } known[] = {{"tri3", DELAM_TRI3, 2, 3, 3, 3, 2, 2},    {"quad4", DELAM_QUAD4, 2, 4, 4, 4, 2, 2},
-                 {"tet4", DELAM_TET4, 3, 4, 4, 4, 3, 3},    {"hex8", DELAM_HEX8, 3, 8, 8, 6, 4, 4},
-                 {"tri6", DELAM_TRI6, 2, 6, 3, 3, 3, 2},    {"quad8", DELAM_QUAD8, 2, 8, 4, 4, 3, 2},
-                 {"quad9", DELAM_QUAD9, 2, 9, 4, 4, 3, 2},  {"tet10", DELAM_TET10, 3, 10, 4, 4, 6, 3},
-                 {"hex20", DELAM_HEX20, 3, 20, 8, 6, 8, 4}, {"hex27", DELAM_HEX27, 3, 27, 8, 6, 9, 4}};
+    } known[] = {{"tri3", DELAM_TRI3, 2, 3, 3, 3, 2, 2},       {"quad4", DELAM_QUAD4, 2, 4, 4, 4, 2, 2},
+                 {"tet4", DELAM_TET4, 3, 4, 4, 4, 3, 3},       {"hex8", DELAM_HEX8, 3, 8, 8, 6, 4, 4},
+                 {"tri6", DELAM_TRI6, 2, 6, 3, 3, 3, 2},       {"quad8", DELAM_QUAD8, 2, 8, 4, 4, 3, 2},
+                 {"quad9", DELAM_QUAD9, 2, 9, 4, 4, 3, 2},     {"tet10", DELAM_TET10, 3, 10, 4, 4, 6, 3},
+                 {"hex20", DELAM_HEX20, 3, 20, 8, 6, 8, 4},    {"hex27", DELAM_HEX27, 3, 27, 8, 6, 9, 4},
+                 {"wedge6", DELAM_WEDGE6, 3, 6, 6, 5, 4, 4},   {"pyramid5", DELAM_PYRAMID5, 3, 5, 5, 5, 4, 4},
+                 {"wedge15", DELAM_WEDGE15, 3, 15, 6, 5, 8, 4}};
+    const int32_t wedge6[5 * 4] = {3, 5, 4, -1, 0, 1, 2, -1, 3, 4, 1, 0, 4, 5, 2, 1, 5, 3, 0, 2};
     const int32_t tet10[6][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
     const int64_t count = (int64_t)(sizeof known / sizeof known[0]);
     const char *name = NULL;
     int32_t face[6 * 9];
     int32_t middle[19 * 2];
-    int32_t i, k, found[7];
+    int32_t i, k, f, found[7];
     ck_assert_int_eq(delam_cell_type_count(), count);
     for (i = 0; i < count; ++i) {
         ck_assert_int_eq(
@@ -85,9 +88,17 @@ START_TEST(cell_types) {
         ck_assert_int_eq(delam_cell_type_info(i, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL), DELAM_OK);
         ck_assert_int_eq(delam_cell_type_topology(i, NULL, NULL), DELAM_OK);
         ck_assert_int_eq(delam_cell_type_topology(i, face, middle), DELAM_OK);
-        for (k = 0; k < known[i].faces * known[i].face_nodes; ++k)
-            ck_assert(face[k] >= 0 && face[k] < known[i].nodes &&
-                      (face[k] < known[i].corners) == (k % known[i].face_nodes < known[i].face_corners));
+        for (f = 0; f < known[i].faces; ++f) { /* corners, then the others, then -1 where the face has fewer nodes */
+            int32_t corners = 0, nodes = 0;
+            const int32_t *own = face + f * known[i].face_nodes;
+            while (corners < known[i].face_nodes && own[corners] >= 0 && own[corners] < known[i].corners) ++corners;
+            for (nodes = corners; nodes < known[i].face_nodes && own[nodes] >= 0; ++nodes)
+                ck_assert(own[nodes] >= known[i].corners && own[nodes] < known[i].nodes);
+            for (k = nodes; k < known[i].face_nodes; ++k) ck_assert_int_eq(own[k], -1);
+            ck_assert(corners == known[i].face_corners || (known[i].corners < 7 && corners == 3));
+            ck_assert(nodes == corners || nodes >= 2 * corners - 1);
+        }
+        if (known[i].type == DELAM_WEDGE6) ck_assert_mem_eq(face, wedge6, sizeof wedge6);
         for (k = 0; k < 2 * (known[i].nodes - known[i].corners); ++k)
             ck_assert(middle[k] >= 0 && middle[k] < known[i].corners);
         if (known[i].type == DELAM_TET10) ck_assert_mem_eq(middle, tet10, sizeof tet10);

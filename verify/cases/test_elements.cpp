@@ -33,7 +33,10 @@ constexpr Element elements[] = {{2, DELAM_QUAD4, "standard", "quad4", false},
                                 {3, DELAM_HEX8, "incompatible", "hex8 incompatible", true},
                                 {3, DELAM_TET10, "standard", "tet10", true},
                                 {3, DELAM_HEX20, "standard", "hex20", true},
-                                {3, DELAM_HEX27, "standard", "hex27", true}};
+                                {3, DELAM_HEX27, "standard", "hex27", true},
+                                {3, DELAM_WEDGE6, "standard", "wedge6", false},
+                                {3, DELAM_PYRAMID5, "standard", "pyramid5", false},
+                                {3, DELAM_WEDGE15, "standard", "wedge15", true}};
 constexpr int element_count = static_cast<int>(std::size(elements));
 
 constexpr double length = 0.04;

@@ -26,17 +26,18 @@ struct Arrays {
 };
 
 constexpr std::int64_t per_cell(std::int32_t type) {
-    constexpr std::int64_t nodes[] = {0, 3, 4, 4, 8, 6, 8, 9, 10, 20};
-    return type >= 1 && type <= 9 ? nodes[type] : 8;
+    constexpr std::int64_t nodes[] = {0, 3, 4, 4, 8, 6, 8, 9, 10, 20, 27, 6, 5, 15};
+    return type >= 1 && type <= DELAM_WEDGE15 ? nodes[type] : 8;
 }
 
 // Arrays of a block of layers as the library makes it, without its interfaces; the input corrupts them.
 Arrays block(Host& host, Input& in) {
     static constexpr std::int32_t flat[] = {DELAM_QUAD4, DELAM_TRI3, DELAM_TRI6, DELAM_QUAD8, DELAM_QUAD9};
-    static constexpr std::int32_t solid[] = {DELAM_HEX8, DELAM_TET4, DELAM_TET10, DELAM_HEX20, DELAM_HEX27};
+    static constexpr std::int32_t solid[] = {DELAM_HEX8,  DELAM_TET4,   DELAM_TET10,    DELAM_HEX20,
+                                             DELAM_HEX27, DELAM_WEDGE6, DELAM_PYRAMID5, DELAM_WEDGE15};
     Arrays out;
     out.dimension = in.byte() % 3 == 2 ? 3 : 2;
-    out.type = out.dimension == 3 ? solid[in.below(5)] : flat[in.below(5)];
+    out.type = out.dimension == 3 ? solid[in.below(8)] : flat[in.below(5)];
     const double lengths[] = {1.0, 1.0};
     const std::int64_t divisions[] = {1 + in.below(3), 1 + in.below(2)};
     const double thickness[] = {0.5, 0.25};

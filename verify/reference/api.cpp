@@ -46,9 +46,14 @@ Scene::Scene(int dimension, const std::vector<double>& nodes, std::int32_t cell_
 
 Scene Scene::conforming(int dimension, const std::vector<double>& nodes, std::int32_t cell_type,
                         const std::vector<std::int64_t>& cells, const std::vector<std::int32_t>& bodies) {
+    return conforming(dimension, nodes, {{cell_type, cells, bodies}});
+}
+
+Scene Scene::conforming(int dimension, const std::vector<double>& nodes, const std::vector<Cells>& cells) {
     Scene scene(dimension, nodes);
-    REQUIRE(scene, delam_mesh_add_conforming_cells, scene.mesh(), cell_type, static_cast<std::int64_t>(bodies.size()),
-            cells.data(), bodies.data(), 0);
+    for (const Cells& block : cells)
+        REQUIRE(scene, delam_mesh_add_conforming_cells, scene.mesh(), block.type,
+                static_cast<std::int64_t>(block.bodies.size()), block.nodes.data(), block.bodies.data(), 0);
     scene.adopt_mesh();
     return scene;
 }

@@ -75,6 +75,14 @@ public:
     static Scene conforming(int dimension, const std::vector<double>& nodes, std::int32_t cell_type,
                             const std::vector<std::int64_t>& cells, const std::vector<std::int32_t>& bodies);
 
+    // The same of cells of several types.
+    struct Cells {
+        std::int32_t type;
+        std::vector<std::int64_t> nodes;
+        std::vector<std::int32_t> bodies;
+    };
+    static Scene conforming(int dimension, const std::vector<double>& nodes, const std::vector<Cells>& cells);
+
     // Adopts existing handles, with the stiffness of each interface; only options can be added.
     static Scene adopt(Context context, Mesh mesh, Problem problem, std::vector<InterfaceStiffness> stiffness);
 

@@ -24,7 +24,8 @@ using Point = std::array<double, 3>;
 using Map = std::function<Point(const Point&)>;
 
 constexpr CellType plane_types[] = {CellType::quad4, CellType::tri3, CellType::quad8, CellType::quad9, CellType::tri6};
-constexpr CellType solid_types[] = {CellType::hex8, CellType::tet4, CellType::hex20, CellType::tet10, CellType::hex27};
+constexpr CellType solid_types[] = {CellType::hex8,  CellType::tet4,   CellType::hex20,    CellType::tet10,
+                                    CellType::hex27, CellType::wedge6, CellType::pyramid5, CellType::wedge15};
 inline bool quadratic(CellType type) { return topology(type).nodes > topology(type).corners; }
 
 // Two layers of thickness 0.5, their nodes moved by `map`.

@@ -22,7 +22,21 @@ using Indices = std::vector<std::int64_t>;
 using Numbers = std::vector<double>;
 
 inline bool quadratic(CellType type) { return topology(type).nodes > topology(type).corners; }
-inline bool triangles(CellType type) { return topology(type).face_corners == 3; }
+// True if the faces on the levels of a block of layers are triangles.
+inline bool triangles(CellType type) { return topology(type).corners_of(topology(type).face[0]).size() == 3; }
+inline std::int64_t cells_per_box(CellType type) {
+    switch (cell_row(type).reference) {
+        case ReferenceCell::simplex:
+            return topology(type).dimension == 2 ? 2 : 6;
+        case ReferenceCell::prism:
+            return 2;
+        case ReferenceCell::pyramid:
+            return 6;
+        case ReferenceCell::box:
+            break;
+    }
+    return 1;
+}
 inline std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 inline Mesh layers(CellType type, Numbers lengths, Indices divisions, Numbers thickness, Indices layer_divisions) {

@@ -30,8 +30,7 @@ inline std::vector<Faces> cell_faces(const Mesh& mesh) {
         Faces faces;
         for (std::size_t f = 0; f < delam::index(shape.faces); ++f) {
             std::set<std::int64_t> nodes;
-            for (std::size_t k = 0; k < delam::index(shape.face_nodes); ++k)
-                nodes.insert(mesh.cell(c)[delam::index(shape.face[f][k])]);
+            for (const int k : shape.face[f].all()) nodes.insert(mesh.cell(c)[delam::index(k)]);
             faces.push_back(number.emplace(nodes, number.size()).first->second);
         }
         list.push_back(std::move(faces));

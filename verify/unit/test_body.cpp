@@ -114,7 +114,7 @@ double curved_volume(const Mesh& mesh, std::int64_t c) {
     double sum = 0.0;
     for (std::size_t f = 0; f < static_cast<std::size_t>(cell.faces); ++f) {
         const auto x = [&](int k, std::size_t i) {
-            const auto local = static_cast<std::size_t>(cell.face[f][static_cast<std::size_t>(k)]);
+            const auto local = static_cast<std::size_t>(cell.face[f].node[static_cast<std::size_t>(k)]);
             return mesh.node(mesh.cell(c)[local])[i] - mesh.node(mesh.cell(c)[0])[i];
         };
         for (std::size_t p = 0; p < 4; ++p) {
@@ -133,18 +133,18 @@ double curved_volume(const Mesh& mesh, std::int64_t c) {
                 continue;
             }
             for (std::size_t q = 0; q < 4; ++q) {
-                const bool triangle = cell.face_nodes == 6;
+                const bool triangle = cell.face[f].nodes == 6;
                 // On the triangle, a collapsed square (Duffy): u = (1+p)/2, v = (1-u)(1+q)/2.
                 const double u = triangle ? 0.5 * (1.0 + gauss[p]) : gauss[p];
                 const double v = triangle ? (1.0 - u) * 0.5 * (1.0 + gauss[q]) : gauss[q];
                 const double w = share[p] * share[q] * (triangle ? 0.25 * (1.0 - u) : 1.0);
-                const CellType type = face_row(3, static_cast<std::size_t>(cell.face_nodes)).surface;
+                const CellType type = face_row(3, cell.face[f].nodes).surface;
                 const ShapeValues n = shape_values(type, {u, v, 0.0});
                 const ShapeGradient d = reference_gradient(type, {u, v, 0.0});
                 double at[3] = {};
                 double a[3] = {};
                 double b[3] = {};
-                for (int k = 0; k < cell.face_nodes; ++k)
+                for (int k = 0; k < static_cast<int>(cell.face[f].nodes); ++k)
                     for (std::size_t i = 0; i < 3; ++i) {
                         at[i] += n[static_cast<std::size_t>(k)] * x(k, i);
                         a[i] += d[static_cast<std::size_t>(2 * k)] * x(k, i);
@@ -179,15 +179,15 @@ double volume(const Mesh& mesh) {
         const CellTopology& shape = topology(mesh.cell_type(c));
         for (std::size_t f = 0; f < static_cast<std::size_t>(shape.faces); ++f) {
             const auto cone = [&](std::size_t i, std::size_t j, std::size_t k) {
-                const auto a = static_cast<std::size_t>(shape.face[f][i]);
-                const auto b = static_cast<std::size_t>(shape.face[f][j]);
-                const auto d = static_cast<std::size_t>(shape.face[f][k]);
+                const auto a = static_cast<std::size_t>(shape.face[f].node[i]);
+                const auto b = static_cast<std::size_t>(shape.face[f].node[j]);
+                const auto d = static_cast<std::size_t>(shape.face[f].node[k]);
                 return (x(a, 0) * (x(b, 1) * x(d, 2) - x(b, 2) * x(d, 1)) -
                         x(a, 1) * (x(b, 0) * x(d, 2) - x(b, 2) * x(d, 0)) +
                         x(a, 2) * (x(b, 0) * x(d, 1) - x(b, 1) * x(d, 0))) /
                        6.0;
             };
-            if (shape.face_nodes == 3)
+            if (shape.face[f].nodes == 3)
                 sum += cone(0, 1, 2);
             else
                 sum += 0.5 * (cone(0, 1, 2) + cone(0, 2, 3) + cone(0, 1, 3) + cone(1, 2, 3));

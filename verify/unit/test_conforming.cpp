@@ -95,9 +95,8 @@ std::map<std::pair<std::int32_t, std::int32_t>, Shared> shared(const Written& w)
     for (std::size_t c = 0; c < w.labels.size(); ++c) {
         for (std::size_t f = 0; f < index(shape.faces); ++f) {
             Indices all;
-            for (std::size_t k = 0; k < index(shape.face_nodes); ++k)
-                all.push_back(w.cells[c * w.per_cell() + index(shape.face[f][k])]);
-            Indices key(all.begin(), all.begin() + shape.face_corners);
+            for (const int k : shape.face[f].all()) all.push_back(w.cells[c * w.per_cell() + index(k)]);
+            Indices key(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(shape.corners_of(shape.face[f]).size()));
             std::sort(key.begin(), key.end());
             const auto other = open.find(key);
             if (other == open.end()) {

@@ -207,18 +207,18 @@ TEST(shape_functions) {
             ck_assert(w > 0.0);
             volume += w;
         }
-        const double box = shape.dimension == 2 ? 4.0 : 8.0;
+        const double box = shape.dimension == 2 ? 4.0 : shape.corners == 6 ? 1.0 : 8.0;
         const double expected = shape.corners == 3 ? 0.5 : shape.corners == 4 && shape.dimension == 3 ? 1.0 / 6.0 : box;
         ck_assert(std::abs(volume - expected) < 1e-15 * 8);
         // A face's middle nodes lie between its corners.
-        for (std::size_t f = 0; f < size(shape.faces); ++f) {
-            const auto corners = size(shape.face_corners);
+        for (const CellFace& face : shape.all_faces()) {
+            const auto corners = shape.corners_of(face).size();
             const auto sides = corners == 2 ? 1 : corners;
-            for (std::size_t k = 0; k < sides && k + corners < size(shape.face_nodes); ++k)
+            for (std::size_t k = 0; k < sides && k + corners < face.nodes; ++k)
                 for (std::size_t i = 0; i < 3; ++i) {
-                    const double p = nodes[size(shape.face[f][k])][i];
-                    const double q = nodes[size(shape.face[f][(k + 1) % corners])][i];
-                    ck_assert(nodes[size(shape.face[f][corners + k])][i] == 0.5 * (p + q));
+                    const double p = nodes[size(face.node[k])][i];
+                    const double q = nodes[size(face.node[(k + 1) % corners])][i];
+                    ck_assert(nodes[size(face.node[corners + k])][i] == 0.5 * (p + q));
                 }
         }
     }
@@ -418,10 +418,8 @@ TEST(slender_bending) {
     const struct {
         CellType type;
         double low, high;
-    } locked[] = {{CellType::tri3, 4.31, 4.32},
-                  {CellType::quad4, 1.48, 1.49},
-                  {CellType::tet4, 4.81, 4.82},
-                  {CellType::hex8, 1.53, 1.54}};
+    } locked[] = {{CellType::tri3, 4.31, 4.32}, {CellType::quad4, 1.48, 1.49},  {CellType::tet4, 4.81, 4.82},
+                  {CellType::hex8, 1.53, 1.54}, {CellType::wedge6, 1.50, 1.51}, {CellType::pyramid5, 1.90, 1.91}};
     for (const auto& l : locked) {
         const double ratio = bending_ratio(l.type, Formulation::standard);
         ck_assert_msg(ratio > l.low && ratio < l.high, "%s: %.6f", topology(l.type).name, ratio);

@@ -19,8 +19,9 @@ using namespace delam;
 
 namespace {
 
-constexpr CellType projected_types[] = {CellType::quad4, CellType::hex8,  CellType::tri6,  CellType::quad8,
-                                        CellType::quad9, CellType::tet10, CellType::hex20, CellType::hex27};
+constexpr CellType projected_types[] = {CellType::quad4,  CellType::hex8,     CellType::tri6,   CellType::quad8,
+                                        CellType::quad9,  CellType::tet10,    CellType::hex20,  CellType::hex27,
+                                        CellType::wedge6, CellType::pyramid5, CellType::wedge15};
 const Elastic rubber{1.0, 0.4999};
 const Orthotropic ply{{20.0, 1.0, 1.5, 0.3, 0.2, 0.4, 0.5, 0.6, 0.35}};
 
@@ -112,6 +113,8 @@ TEST(refused) {
         });
         ck_assert(
             said.find(topology(type).name) != std::string::npos && said.find("constant already") != std::string::npos &&
-            said.find("allowed are quad4, hex8, tri6, quad8, quad9, tet10, hex20 and hex27") != std::string::npos);
+            said.find(
+                "allowed are quad4, hex8, tri6, quad8, quad9, tet10, hex20, hex27, wedge6, pyramid5 and wedge15") !=
+                std::string::npos);
     }
 }

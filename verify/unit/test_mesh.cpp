@@ -35,7 +35,10 @@ std::int64_t lattice_nodes(CellType type, std::vector<std::int64_t> n) {
         corners *= k + 1;
         all *= 2 * k + 1;
     }
+    if (type == CellType::pyramid5) return corners + (n.size() == 2 ? 0 : n[0] * n[1] * n[2]);
     if (!quadratic(type)) return corners;
+    if (type == CellType::wedge15 && n.size() == 3)  // the levels of the triangles, and those between
+        return (n[2] + 1) * (2 * n[0] + 1) * (2 * n[1] + 1) + n[2] * (n[0] + 1) * (n[1] + 1);
     if (type != CellType::quad8 && type != CellType::hex20) return all;
     std::int64_t edges = 0;  // each along one axis, between corners in the other directions
     for (const std::int64_t k : n) edges += corners / (k + 1) * k;
@@ -98,7 +101,6 @@ TEST(layered_blocks) {
         const Indices divisions = plane ? Indices{5} : Indices{5, 4};
         Mesh mesh = layers(type, lengths, divisions, {0.3, 0.1, 0.2}, {2, 1, 3});
         const std::int64_t boxes = plane ? 5 : 20;
-        const std::int64_t per_box = type == CellType::tri3 || type == CellType::tri6 ? 2 : triangles(type) ? 6 : 1;
         const auto nodes_of = [&](std::int64_t through) {
             return lattice_nodes(type, plane ? Indices{5, through} : Indices{5, 4, through});
         };
@@ -106,13 +108,14 @@ TEST(layered_blocks) {
         const std::int64_t level = plane ? (quadratic(type) ? 11 : 6)
                                          : lattice_nodes(type == CellType::hex20 ? CellType::quad8 : type, {5, 4});
         ck_assert_int_eq(mesh.node_count(), nodes_of(2) + nodes_of(1) + nodes_of(3));
-        ck_assert_int_eq(mesh.cell_count(), boxes * per_box * (2 + 1 + 3));
+        ck_assert_int_eq(mesh.cell_count(), boxes * cells_per_box(type) * (2 + 1 + 3));
         ck_assert_int_eq(mesh.body_count(), 3);
         ck_assert(mesh.size() == 2.0);
         // x fastest, the last axis slowest
         ck_assert(mesh.node(1)[0] == (quadratic(type) ? 0.2 : 0.4) && mesh.node(1)[1] == 0.0);
-        ck_assert(mesh.node(level)[0] == 0.0);
-        ck_assert(std::abs(mesh.node(level)[plane ? 1 : 2] - (quadratic(type) ? 0.075 : 0.15)) < 1e-15);
+        const bool centres = type == CellType::pyramid5;
+        ck_assert(mesh.node(level)[0] == (centres ? 0.2 : 0.0));
+        ck_assert(std::abs(mesh.node(level)[plane ? 1 : 2] - (quadratic(type) || centres ? 0.075 : 0.15)) < 1e-15);
         // Boundary: closed, of the right extent.
         for (std::int32_t b = 0; b < 3; ++b) {
             const Numbers box{2.0, plane ? std::array{0.3, 0.1, 0.2}[at(b)] : 1.5, std::array{0.3, 0.1, 0.2}[at(b)]};
@@ -134,7 +137,7 @@ TEST(layered_blocks) {
         for (const InterfaceGeometry* i : {&up, &down}) {
             ck_assert_int_eq(i->pair_count(), level);
             ck_assert_int_eq(i->face_count(), triangles(type) ? 2 * boxes : boxes);
-            ck_assert_int_eq(i->nodes_per_face, topology(type).face_nodes);
+            ck_assert_int_eq(i->nodes_per_face, static_cast<int>(topology(type).face[0].nodes));
             ck_assert(std::abs(sum(i->weight) - (plane ? 2.0 : 3.0)) <= 1e-14);
             ck_assert(*std::min_element(i->weight.begin(), i->weight.end()) > 0.0);
             check_frames(mesh, *i);

@@ -3,6 +3,7 @@
 // "lower" and "upper", 4 x 1 x 1 and in the plane 4 x 1, of every cell type that the program reads, in every format.
 #include <cstdio>
 #include <string>
+#include <utility>
 
 #include <gmsh.h>
 
@@ -82,6 +83,39 @@ void build(int dimension, bool recombined, int order, bool whole) {
     if (order > 1) gmsh::model::mesh::setOrder(order);
 }
 
+// The two blocks as prisms: triangles that are extruded, with rectangles on the sides; one cell in each block's height.
+void extrude(int order) {
+    gmsh::clear();
+    gmsh::model::add("blocks");
+    int number = 0;
+    for (const auto& [x, y] : {std::pair{0.0, 0.0}, {4.0, 0.0}, {4.0, 1.0}, {0.0, 1.0}})
+        gmsh::model::geo::addPoint(x, y, 0, 0, ++number);
+    for (int i = 1; i < 5; ++i) {
+        gmsh::model::geo::addLine(i, i % 4 + 1, i);
+        gmsh::model::geo::mesh::setTransfiniteCurve(i, i % 2 == 1 ? 5 : 2);
+    }
+    gmsh::model::geo::addCurveLoop({1, 2, 3, 4}, 1);
+    gmsh::model::geo::addPlaneSurface({1}, 1);
+    gmsh::model::geo::mesh::setTransfiniteSurface(1);
+    const char *bodies[] = {"lower", "upper"}, *sets[] = {"seam", "top"};
+    int from = 1, volumes[2], surfaces[2];
+    for (int layer = 0; layer < 2; ++layer) {
+        gmsh::vectorpair out;
+        gmsh::model::geo::extrude({{2, from}}, 0, 0, 1, out, {1}, {}, true);
+        surfaces[layer] = from = out[0].second;
+        volumes[layer] = out[1].second;
+    }
+    gmsh::model::geo::synchronize();
+    for (int k : {0, 1}) {
+        gmsh::model::setPhysicalName(3, gmsh::model::addPhysicalGroup(3, {volumes[k]}), bodies[k]);
+        gmsh::model::setPhysicalName(2, gmsh::model::addPhysicalGroup(2, {surfaces[k]}), sets[k]);
+    }
+    gmsh::model::setPhysicalName(2, gmsh::model::addPhysicalGroup(2, {1}), "bottom");
+    gmsh::option::setNumber("Mesh.SecondOrderIncomplete", 1);
+    gmsh::model::mesh::generate(3);
+    if (order > 1) gmsh::model::mesh::setOrder(order);
+}
+
 }  // namespace
 
 int main(int count, char** words) {
@@ -95,13 +129,17 @@ int main(int count, char** words) {
         bool recombined;
         int order;
         bool whole;
-    } const cases[] = {{"tri3", 2, false, 1, false}, {"quad4", 2, true, 1, false},  {"tri6", 2, false, 2, false},
-                       {"quad8", 2, true, 2, false}, {"quad9", 2, true, 2, true},   {"tet4", 3, false, 1, false},
-                       {"hex8", 3, true, 1, false},  {"tet10", 3, false, 2, false}, {"hex20", 3, true, 2, false},
-                       {"hex27", 3, true, 2, true},  {"tri10", 2, false, 3, false}};
+    } const cases[] = {{"tri3", 2, false, 1, false},  {"quad4", 2, true, 1, false},  {"tri6", 2, false, 2, false},
+                       {"quad8", 2, true, 2, false},  {"quad9", 2, true, 2, true},   {"tet4", 3, false, 1, false},
+                       {"hex8", 3, true, 1, false},   {"tet10", 3, false, 2, false}, {"hex20", 3, true, 2, false},
+                       {"hex27", 3, true, 2, true},   {"tri10", 2, false, 3, false}, {"wedge6", 3, true, 1, false},
+                       {"wedge15", 3, true, 2, false}};
     try {
         for (const auto& c : cases) {
-            build(c.dimension, c.recombined, c.order, c.whole);
+            if (std::string(c.name).starts_with("wedge"))
+                extrude(c.order);
+            else
+                build(c.dimension, c.recombined, c.order, c.whole);
             for (const double version : {2.2, 4.1})
                 for (const int binary : {0, 1}) {
                     gmsh::option::setNumber("Mesh.MshFileVersion", version);

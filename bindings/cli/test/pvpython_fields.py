@@ -9,7 +9,8 @@ import sys
 READERS = ("Xdmf3ReaderS", "Xdmf3ReaderT", "XDMFReader")
 # VTK's numbers of the cells and of the faces of the interface.
 CELLS = {"tri3": (5, 3), "quad4": (9, 3), "tri6": (22, 21), "quad8": (23, 21), "quad9": (28, 21),
-         "tet4": (10, 5), "hex8": (12, 9), "tet10": (24, 22), "hex20": (25, 23)}
+         "tet4": (10, 5), "hex8": (12, 9), "tet10": (24, 22), "hex20": (25, 23), "wedge6": (13, 5), "pyramid5": (14, 9),
+         "wedge15": (26, 22)}
 # Straight lines come as polylines.
 LINES = (3, 4)
 VOLUME = {2: 0.04 * 0.004, 3: 0.04 * 0.006 * 0.004}
@@ -18,7 +19,7 @@ AREA = {2: 0.04, 3: 0.04 * 0.006}
 
 def scene(cell):
     """A double cantilever beam that grows by a few cells."""
-    flat = not cell.startswith(("tet", "hex"))
+    flat = cell.startswith(("tri", "quad"))
 
     def at(x, y, z):
         return str([x, z] if flat else [x, y, z])

@@ -80,7 +80,7 @@ def stretched(place, mesh, axis, area, height, what, text=BONDED, keys=""):
 # ---- every cell type through Gmsh's library, in every format; two blocks 4 x 1 (x 1) on each other ----
 blocks = folder()
 subprocess.run([os.environ["DELAM_MAKE_MESHES"], blocks], check=True)
-SOLID = ("tet4", "hex8", "tet10", "hex20", "hex27")
+SOLID = ("tet4", "hex8", "tet10", "hex20", "hex27", "wedge6", "wedge15")
 for cell in ("tri3", "quad4", "tri6", "quad8", "quad9") + SOLID:
     for form in ("22a", "22b", "41a", "41b"):
         name = f"{cell}-{form}.msh"
@@ -89,7 +89,7 @@ for cell in ("tri3", "quad4", "tri6", "quad8", "quad9") + SOLID:
         else:
             expect(delam("check", scene(blocks, name, BONDED + pulled("z" if cell in SOLID else "y")))[0] == 0, name)
 # A partitioned mesh is the same for one process: its bodies and sets are whole, and borders of partitions are no sets.
-for cell in ("tri3", "quad4", "tet4", "hex8"):
+for cell in ("tri3", "quad4", "tet4", "hex8", "wedge6"):
     for form in ("22p", "41p"):
         stretched(blocks, f"{cell}-{form}.msh", "z" if cell in SOLID else "y", 4, 2, f"{cell}-{form}.msh")
 border = '[[supports]]\nset = "curve-1"\nfix = ["x"]\n'
@@ -97,7 +97,7 @@ expect_error(delam("check", scene(blocks, "quad4-41p.msh", BONDED + pulled("y") 
 expect_error(delam("check", scene(blocks, "tri10-41a.msh", "")), 2, "is a Triangle", "are known")
 
 # What Gmsh writes for Abaqus, without the elements of its sets: node orders as a third party understands them.
-for cell in ("quad4", "quad8", "tri6", "tet10", "hex20", "hex8"):
+for cell in ("quad4", "quad8", "tri6", "tet10", "hex20", "hex8", "wedge6", "wedge15"):
     with open(os.path.join(blocks, cell + ".inp"), encoding="utf-8") as file:
         lines = file.read().split("\n")
     kept, keep = [], True
@@ -120,7 +120,8 @@ for line in ('body        "lower", 4 cells, material "m", formulation incompatib
 # ---- forces: a total, per area, along the normal ----
 # A bar under tension t stores t^2 A h / (2 E).
 for name, axis, zeros in (("quad4-41a.msh", "y", "0.0, "), ("tet10-22a.msh", "z", "0.0, 0.0, "),
-                          ("hex20-41a.msh", "z", "0.0, 0.0, "), ("hex27-41a.msh", "z", "0.0, 0.0, ")):
+                          ("hex20-41a.msh", "z", "0.0, 0.0, "), ("hex27-41a.msh", "z", "0.0, 0.0, "),
+                          ("wedge6-41a.msh", "z", "0.0, 0.0, "), ("wedge15-22b.msh", "z", "0.0, 0.0, ")):
     hold = f'[[supports]]\nset = "bottom"\nfix = ["x", "y"{", " + chr(34) + "z" + chr(34) if axis == "z" else ""}]\n'
     for words in (f"force = [{zeros}2.0]", f"traction = [{zeros}0.5]", "pressure = -0.5"):
         pull = f'[[forces]]\nset = "top"\n{words}\npattern = "p"\n'
@@ -323,7 +324,8 @@ refused("half.msh", msh22(NODES, [*CELLS[:3], (2, 0, 2, (3, 4, 6))], NAMES),
         "element 4 of surface 2 is in no physical group")
 refused("tilted.msh", msh22({**NODES, 6: (1, 2, 0.5)}, CELLS, NAMES), r"node 6 is at z = 0\.5", "z = 0")
 refused("missing.msh", msh22(NODES, [*CELLS[:4], (2, 2, 2, (3, 6, 77))], NAMES), "missing.msh: Gmsh says: .*77")
-refused("prism.msh", msh22({i: (*at, 0) for i, at in NODES.items()}, [(6, 1, 1, (1, 2, 3, 4, 5, 6))], {}), "Prism 6")
+refused("pyramid.msh", msh22({i: (i % 3, i // 3, i % 2) for i in range(1, 14)}, [(19, 1, 1, tuple(range(1, 14)))], {}),
+        "Pyramid 13")
 refused("script.msh", 'SystemCall "touch ran";\n', r"scene\.toml:\d+: mesh\.file: .*script\.msh: no mesh of Gmsh")
 expect(not os.path.exists(os.path.join(small, "ran")) and not os.path.exists("ran"), "a script is not run")
 refused("old.msh", "$MeshFormat\n3.0 0 8\n$EndMeshFormat\n", "mesh format 3.0 is not read: 2.2 and 4.1 are")

@@ -14,6 +14,10 @@ from _pictures.section import Section  # noqa: E402
 KUHN = [[0, 1, 3, 7], [0, 5, 1, 7], [0, 3, 2, 7], [0, 2, 6, 7], [0, 4, 5, 7], [0, 6, 4, 7]]  # corners by bits x, y, z
 EDGES = {"tet10": [(0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)],
          "hex20": [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)]}
+EDGES["wedge15"] = [(0, 1), (1, 2), (2, 0), (3, 4), (4, 5), (5, 3), (0, 3), (1, 4), (2, 5)]
+WEDGES = [[0, 1, 3, 4, 5, 7], [0, 3, 2, 4, 7, 6]]
+PYRAMIDS = [[0, 1, 3, 2, 7], [0, 4, 5, 1, 7], [0, 2, 6, 4, 7]]
+SPLITS = {"hex": [[0, 1, 3, 2, 4, 5, 7, 6]], "tet": KUHN, "wed": WEDGES, "pyr": PYRAMIDS}
 EDGES["hex27"] = EDGES["hex20"] + [(0, 7), (1, 6), (0, 5), (3, 6), (0, 2), (4, 6), (0, 6)]
 
 
@@ -30,7 +34,9 @@ def cube(kind, n):
 
     for i, j, k in np.ndindex(n, n, n):
         corner = [np.array([i + (b & 1), j + (b >> 1 & 1), k + (b >> 2)]) / n for b in range(8)]
-        for one in ([[0, 1, 3, 2, 4, 5, 7, 6]] if kind.startswith("hex") else KUHN):
+        mirror = (i % 2 + 2 * (j % 2) + 4 * (k % 2)) if kind == "pyramid5" else 0  # so that the triangles match
+        for one in SPLITS[kind[:3]]:
+            one = [b ^ mirror for b in one]
             places = [corner[b] for b in one]
             places += [(places[a] + places[b]) / 2 for a, b in EDGES.get(kind, [])]
             cells.append([node(tuple(place), 2 * k >= n) for place in places])
@@ -49,7 +55,7 @@ def lengths(lines):
 
 
 errors = {}
-for kind in ("tet4", "tet10", "hex8", "hex20", "hex27"):
+for kind in ("tet4", "tet10", "hex8", "hex20", "hex27", "wedge6", "wedge15", "pyramid5"):
     points, cells, body = cube(kind, 4)
     # x + y + z = 1.5 meets the cube in a regular hexagon, and its equator in a line of the length sqrt(2).
     section = Section(cells, body, points.sum(1) - 1.5)
@@ -84,10 +90,12 @@ for kind in ("tet4", "tet10", "hex8", "hex20", "hex27"):
     errors[kind] = abs(areas(section.at(section.polygons, points)).sum() / (0.4 * np.pi) - 1)
     # What a straight cell has in its middle: its shape functions hold quadratic fields, those of linear cells linear ones.
     field = points @ [1.0, -2.0, 3.0] + (points[:, 0] * points[:, 2] + points[:, 1] ** 2 if cells.shape[1] > 8 else 0)
-    corners = points[cells[:, :8 if kind.startswith("hex") else 4]].mean(1)
+    corners = points[cells[:, :{"hex": 8, "tet": 4, "wed": 6}.get(kind[:3], 5)]].mean(1)
+    if kind == "pyramid5":  # at a quarter of the height
+        corners = 0.75 * points[cells[:, :4]].mean(1) + 0.25 * points[cells[:, 4]]
     exact = corners @ [1.0, -2.0, 3.0] + (corners[:, 0] * corners[:, 2] + corners[:, 1] ** 2 if cells.shape[1] > 8 else 0)
     expect(np.allclose(Section.middle_of(cells, field), exact, atol=1e-12), f"{kind}: fields in the middle of cells")
-for linear, quadratic in (("tet4", "tet10"), ("hex8", "hex20"), ("hex8", "hex27")):
+for linear, quadratic in (("tet4", "tet10"), ("hex8", "hex20"), ("hex8", "hex27"), ("wedge6", "wedge15")):
     expect(errors[quadratic] < 0.4 * errors[linear], f"{quadratic} {errors[quadratic]:.1e} is bent, {linear} {errors[linear]:.1e} is not")
 
 points = np.concatenate([cube("hex8", 2)[0], cube("tet4", 2)[0] + [1, 0, 0]])

@@ -32,6 +32,9 @@ module delam_raw
   integer(c_int32_t), parameter :: DELAM_TET10 = 8
   integer(c_int32_t), parameter :: DELAM_HEX20 = 9
   integer(c_int32_t), parameter :: DELAM_HEX27 = 10
+  integer(c_int32_t), parameter :: DELAM_WEDGE6 = 11
+  integer(c_int32_t), parameter :: DELAM_PYRAMID5 = 12
+  integer(c_int32_t), parameter :: DELAM_WEDGE15 = 13
 
   ! Signatures of callbacks; pass c_funloc of a bind(c) procedure.
   abstract interface

@@ -35,6 +35,9 @@ const DELAM_QUAD9 = Int32(7)
 const DELAM_TET10 = Int32(8)
 const DELAM_HEX20 = Int32(9)
 const DELAM_HEX27 = Int32(10)
+const DELAM_WEDGE6 = Int32(11)
+const DELAM_PYRAMID5 = Int32(12)
+const DELAM_WEDGE15 = Int32(13)
 
 # Opaque.
 mutable struct delam_context end

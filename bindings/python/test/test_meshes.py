@@ -21,6 +21,8 @@ HAVE = importlib.util.find_spec("meshio") is not None
 if HAVE:
     import meshio
 
+# Debian's meshio cannot hold cells of type wedge15.
+IN_MESHIO = [kind for kind in delam.CELLS if kind != "wedge15"]
 POINTS = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [1, 2, 0], [0, 2, 0]], float)
 GMSH = """$MeshFormat
 2.2 0 8
@@ -127,7 +129,7 @@ class Reading(unittest.TestCase):
         self.assertEqual(mesh.cells.bodies.tolist(), [2, 3])
 
     def test_cells_are_turned_round(self):
-        for kind in delam.CELLS:
+        for kind in IN_MESHIO:
             plane = CELL_TYPES[kind].dimension == 2
             mesh = delam.Mesh.layers(*((1.0, 2) if plane else ((1.0, 1.0), (2, 1))), [0.5, 0.5], [1, 1], kind)
             theirs = mesh.to_meshio()
@@ -137,7 +139,7 @@ class Reading(unittest.TestCase):
             mirrored = meshio.Mesh(theirs.points * [-1, 1, 1], blocks, cell_data=theirs.cell_data)
             lines, back = self.told(mirrored)
             found = [line for _, line in lines if "turned round" in line]
-            words = "clockwise" if plane else "inside out"
+            words = "clockwise" if plane else "as by Gmsh and Abaqus" if kind.startswith("wedge") else "inside out"
             count = len(right)
             self.assertEqual(found, [f"{count} of {count} cells of type {kind} were numbered {words} and were turned "
                                      f"round"])
@@ -171,7 +173,10 @@ class Reading(unittest.TestCase):
         self.assertEqual(_distance(far, near), 0.25 - 0.1)
 
     def test_every_cell_type_goes_through_a_file(self):
-        for kind in delam.CELLS:
+        with mock.patch.object(meshio, "Mesh", side_effect=KeyError("wedge15")), self.assertRaisesRegex(
+                delam.ArgumentError, "this meshio has no cells of type 'wedge15'; to_vtk.. has"):
+            delam.Mesh.layers((1.0, 1.0), (2, 1), [0.5, 0.5], [1, 1], "wedge15").to_meshio()
+        for kind in IN_MESHIO:
             plane = kind in ("tri3", "quad4", "tri6", "quad8", "quad9")
             lengths, divisions = (1.0, 2) if plane else ((1.0, 1.0), (2, 1))
             mesh = delam.Mesh.layers(lengths, divisions, [0.5, 0.5], [1, 1], kind)

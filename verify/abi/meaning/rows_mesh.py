@@ -19,9 +19,14 @@ def determinant(a):
     return forms.dot(a[0], forms.cross(a[1], a[2]))
 
 
+# The middle of the unit square or its like, and its size.
+MIDDLE = {"tri": [1 / 3] * 2, "quad": [0.5] * 2, "tet": [0.25] * 3, "hex": [0.5] * 3, "wedge": [1 / 3, 1 / 3, 0.5],
+          "pyramid": [0.5, 0.5, 0.25]}
+SIZE = {"tri": 1 / 2, "quad": 1.0, "tet": 1 / 6, "hex": 1.0, "wedge": 1 / 2, "pyramid": 1 / 3}
+
+
 def centre(name):
-    dimension = len(scenes.places_of(name)[0])
-    return [0.5 if scenes.shape_of(name) in ("quad", "hex") else 1 / (dimension + 1)] * dimension
+    return MIDDLE[scenes.shape_of(name)]
 
 
 class Polynomial:
@@ -33,8 +38,10 @@ class Polynomial:
         pairs = [(i, j) for i in range(d) for j in range(i, d)]
         if name in ("quad4", "hex8"):
             pairs = [(i, j) for i, j in pairs if i != j]
-        elif name in ("tri3", "tet4"):
+        elif name in ("tri3", "tet4", "pyramid5"):
             pairs = []
+        elif name == "wedge6":
+            pairs = [(0, 2), (1, 2)]
         self.square = [dict(zip(pairs, forms.numbers(len(pairs), 23 + c, 1e-3, 9e-3))) for c in range(d)]
 
     def at(self, xi):
@@ -62,7 +69,8 @@ def see_cell(host, see, name, adding):
     d, n = len(places[0]), len(places)
     a, b = AFFINE[d]
     polynomial = Polynomial(name)
-    order = [(5 * k + 3) % n if n % 5 else (3 * k + 2) % n for k in range(n)]  # node of the mesh -> of the cell
+    factor = next(f for f in (5, 3, 4) if math.gcd(f, n) == 1)
+    order = [(factor * k + (3 if n % 5 else 2)) % n for k in range(n)]  # node of the mesh -> of the cell
     where = {node: k for k, node in enumerate(order)}
     points = [[forms.dot(row_, places[k]) + shift for row_, shift in zip(a, b)] for k in order]
     mesh = host("mesh_create", host.context, d, n, forms_flat(points), Out())
@@ -80,8 +88,7 @@ def see_cell(host, see, name, adding):
     strain = forms.strain_of(gradient)
     stress = forms.stress(forms.isotropic(70.0, 0.3), strain)
     volume, average, tension = host("solver_average", solver, 3, Out(), Out(6), Out(6))
-    full = 1.0 if scenes.shape_of(name) in ("quad", "hex") else 1 / math.factorial(d)
-    see.near("volume", volume, full * determinant(a), f"L{d}")
+    see.near("volume", volume, SIZE[scenes.shape_of(name)] * determinant(a), f"L{d}")
     see.near("average strain", average, strain)
     see.near("average stress", tension, stress, "F/L2")
     see.near("stress at the centre", field(host, solver, "stress"), stress if d == 3 else stress[:4], "F/L2")
@@ -119,18 +126,22 @@ def topology(host, see):
                                                                                 *[Out() for _ in range(8)])
         places = [list(p) + [0.0] * (3 - d) for p in scenes.places_of(name)]
         shape = scenes.shape_of(name)
-        simplex = shape in ("tri", "tet")
-        per_face = 2 if d == 2 else 3 if simplex else 4
+        count, most = {"tri": (3, 2), "quad": (4, 2), "tet": (4, 3), "hex": (6, 4), "wedge": (5, 4),
+                       "pyramid": (5, 4)}[shape]
         quadratic = bool(scenes.middles_of(name))
         see.equal(f"{name}: numbers", [number, d, nodes, corners, faces, face_nodes, face_corners],
-                  [TYPES[name], d, len(places), len(scenes.CORNERS[shape]), d + 1 if simplex else 2 * d,
-                   per_face * (1 if not quadratic else 2) + (name == "hex27") if d == 3 else 2 + quadratic, per_face])
+                  [TYPES[name], d, len(places), len(scenes.CORNERS[shape]), count,
+                   most * (1 if not quadratic else 2) + (name == "hex27") if d == 3 else 2 + quadratic, most])
         face, middle = host("cell_type_topology", index, Out(54), Out(38))
         wanted = [c for pair in scenes.middles_of(name) + scenes.CENTRES.get(name, []) for c in pair]
         see.equal(f"{name}: middle", middle[:2 * (nodes - corners)], wanted)
         seen = set()
         for f in range(faces):
-            own = face[f * face_nodes:(f + 1) * face_nodes]
+            row_of = face[f * face_nodes:(f + 1) * face_nodes]
+            own = [k for k in row_of if k >= 0]
+            see.that(f"{name}: face {f}: -1 stands at the end alone", row_of[len(own):] == [-1] * (face_nodes - len(own)))
+            per_face = sum(k < corners for k in own)
+            see.that(f"{name}: face {f}: corners stand first", all(k < corners for k in own[:per_face]))
             seen.add(tuple(sorted(own[:per_face])))
             x = [places[k] for k in own]
             edges = [[q - p for p, q in zip(x[k], x[(k + 1) % per_face])] for k in range(per_face)]
@@ -138,7 +149,7 @@ def topology(host, see):
             inside = centre(name) + [0.0] * (3 - d)
             see.that(f"{name}: face {f} has an outward normal",
                      all(forms.dot(normal, [p - c for p, c in zip(point, inside)]) > 0 for point in x))
-            for k in range(face_nodes - per_face):
+            for k in range(len(own) - per_face):
                 # Behind the middle nodes comes the centre, on a diagonal.
                 ends = (x[k], x[(k + 1) % per_face]) if k < per_face else (x[0], x[2])
                 see.that(f"{name}: face {f}: middle node {k} lies between its corners",

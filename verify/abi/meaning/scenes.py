@@ -4,12 +4,15 @@ import forms
 from host import Out
 
 TYPES = {"tri3": 1, "quad4": 2, "tet4": 3, "hex8": 4, "tri6": 5, "quad8": 6, "quad9": 7, "tet10": 8, "hex20": 9,
-         "hex27": 10}
+         "hex27": 10, "wedge6": 11, "pyramid5": 12, "wedge15": 13}
 SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]
 CORNERS = {"tri": [(0, 0), (1, 0), (0, 1)], "quad": SQUARE, "tet": [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)],
-           "hex": [(*c, 0) for c in SQUARE] + [(*c, 1) for c in SQUARE]}
+           "hex": [(*c, 0) for c in SQUARE] + [(*c, 1) for c in SQUARE],
+           "wedge": [(0, 0, 1), (1, 0, 1), (0, 1, 1), (0, 0, 0), (1, 0, 0), (0, 1, 0)],
+           "pyramid": [(*c, 0) for c in SQUARE] + [(0.5, 0.5, 1)]}
 MIDDLES = {"tri": [(0, 1), (1, 2), (2, 0)], "quad": [(0, 1), (1, 2), (2, 3), (3, 0)],
            "tet": [(0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)],
+           "wedge": [(0, 1), (1, 2), (2, 0), (3, 4), (4, 5), (5, 3), (0, 3), (1, 4), (2, 5)],
            "hex": [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)]}
 
 # Centres of cells and faces, by the ends of one diagonal.
@@ -21,7 +24,7 @@ def shape_of(name):
 
 
 def middles_of(name):
-    return [] if name in ("tri3", "quad4", "tet4", "hex8") else MIDDLES[shape_of(name)]
+    return [] if name in ("tri3", "quad4", "tet4", "hex8", "wedge6", "pyramid5") else MIDDLES[shape_of(name)]
 
 
 def places_of(name):

@@ -27,7 +27,7 @@ LENGTH = 20.0
 KINDS = {2: (("tri3", "standard"), ("quad4", "standard"), ("quad4", "incompatible"), ("tri6", "standard"),
              ("quad8", "standard"), ("quad9", "standard")),
          3: (("tet4", "standard"), ("hex8", "standard"), ("hex8", "incompatible"), ("tet10", "standard"),
-             ("hex20", "standard"))}
+             ("hex20", "standard"), ("wedge6", "standard"), ("pyramid5", "standard"), ("wedge15", "standard"))}
 ISOTROPIC = (1e5, 0.3)
 PLY = (130e3, 9e3, 9e3, 0.3, 0.3, 0.4, 5e3, 5e3, 9e3 / 2.8)
 

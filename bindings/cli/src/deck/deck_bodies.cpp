@@ -84,8 +84,8 @@ FaceBodies::FaceBodies(const MeshData& mesh) : dimension_(mesh.dimension) {
         for (std::size_t c = 0; c < block.bodies.size(); ++c)
             for (const auto& side : shape.sides) {
                 FaceKey key;
-                for (std::size_t i = 0; i < shape.side_corners; ++i)
-                    key.push_back(block.connectivity[c * shape.nodes + side[i]]);
+                for (const std::size_t corner : shape.corners_of(side))
+                    key.push_back(block.connectivity[c * shape.nodes + corner]);
                 std::sort(key.begin(), key.end());
                 const auto [at, inserted] = bodies_.emplace(std::move(key), std::vector{block.bodies[c]});
                 if (!inserted) at->second.push_back(block.bodies[c]);

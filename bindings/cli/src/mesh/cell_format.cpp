@@ -13,12 +13,14 @@ namespace cli {
 
 namespace {
 
-// The library's node orders are VTK's and Abaqus's; Abaqus numbers the sides S1, S2, .. of these cells in the order of
-// the library's faces. Which element types of Abaqus are which cells: abaqus_elements.cpp.
+// The library's node orders are VTK's, and Abaqus's but for wedges; Abaqus numbers the sides S1, S2, .. of these cells
+// in the order of the library's faces. Which element types of Abaqus are which cells: abaqus_elements.cpp.
 constexpr std::uint8_t tetrahedron_10[] = {0, 1, 2, 3, 4, 5, 6, 7, 9, 8};
 constexpr std::uint8_t hexahedron_20[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15};
 constexpr std::uint8_t hexahedron_27[] = {0,  1,  2,  3,  4,  5,  6,  7,  8,  11, 13, 9,  16, 18,
                                           19, 17, 10, 12, 14, 15, 22, 23, 21, 24, 20, 25, 26};
+constexpr std::uint8_t wedge_6[] = {3, 4, 5, 0, 1, 2};
+constexpr std::uint8_t wedge_15[] = {3, 4, 5, 0, 1, 2, 12, 14, 13, 6, 9, 7, 8, 10, 11};
 constexpr CellFormat formats[] = {
     {DELAM_TRI3, "Triangle", 4, 2, {}},
     {DELAM_QUAD4, "Quadrilateral", 5, 3, {}},
@@ -30,6 +32,9 @@ constexpr CellFormat formats[] = {
     {DELAM_TET10, "Tetrahedron_10", 38, 11, tetrahedron_10},
     {DELAM_HEX20, "Hexahedron_20", 48, 17, hexahedron_20},
     {DELAM_HEX27, "Hexahedron_27", 50, 12, hexahedron_27},
+    {DELAM_WEDGE6, "Wedge", 8, 6, wedge_6},
+    {DELAM_PYRAMID5, "Pyramid", 7, 7, {}},
+    {DELAM_WEDGE15, "Wedge_15", 40, 18, wedge_15},
 };
 
 }  // namespace

@@ -83,14 +83,15 @@ double shortest_edge(const MeshData& mesh) {
         const CellShape& shape = shape_of(block.type);
         for (std::size_t c = 0; c < block.bodies.size(); ++c)
             for (const auto& side : shape.sides) {
-                for (std::size_t i = 0; i < shape.side_corners; ++i) {
+                const std::size_t corners = shape.corners_of(side).size();
+                for (std::size_t i = 0; i < corners; ++i) {
                     const auto node = [&](std::size_t k) {
                         return mesh.nodes.data() +
                                dimension * static_cast<std::size_t>(block.connectivity[c * shape.nodes + side[k]]);
                     };
                     double square = 0;
                     for (std::size_t a = 0; a < dimension; ++a)
-                        square += std::pow(node(i)[a] - node((i + 1) % shape.side_corners)[a], 2);
+                        square += std::pow(node(i)[a] - node((i + 1) % corners)[a], 2);
                     least = std::min(least, std::sqrt(square));
                 }
             }

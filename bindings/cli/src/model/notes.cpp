@@ -126,12 +126,12 @@ std::vector<std::string> notes_of(const Scene& scene) {
                 fmt::format("{} \"{}\": poisson = {} locks with full integration: far too stiff (use formulation = "
                             "\"mean-dilatation\")",
                             scene.mesh ? "body" : "layer", layer.name, isotropic->poisson));
-        if (cell != nullptr && cell->simplex() && cell->linear() && layer.divisions < 4)
+        if (cell != nullptr && cell->locks() && layer.divisions < 4)
             out.push_back(
                 fmt::format("layer \"{}\": {} of {} across the thickness: far too stiff in bending (use {}, "
                             "or 4 cells and more)",
                             layer.name, counted(layer.divisions, "cell"), cell->name,
-                            geometry.dimension == 2 ? "tri6 or quad8" : "tet10 or hex20"));
+                            geometry.dimension == 2 ? "tri6 or quad8" : instead_of(*cell).name + " or hex20"));
     }
     return out;
 }

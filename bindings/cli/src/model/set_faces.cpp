@@ -81,10 +81,10 @@ std::map<Key, std::vector<Face>> sides_in(const MeshArrays& mesh, const std::set
         const std::int64_t* cell = mesh.connectivity.data() + mesh.offsets[c];
         const CellShape& shape = shape_of(mesh.types[c]);
         for (const auto& outward : shape.sides) {
-            const auto side = mesh.dimension == 2 ? outward : turned(outward, shape.side_corners);
+            const std::span<const std::size_t> corners = shape.corners_of(outward);
+            const auto side = mesh.dimension == 2 ? outward : turned(outward, corners.size());
             Key key;
-            for (std::size_t i = 0; i < shape.side_corners; ++i)
-                key.push_back(mesh.origins[static_cast<std::size_t>(cell[side[i]])]);
+            for (const std::size_t i : corners) key.push_back(mesh.origins[static_cast<std::size_t>(cell[i])]);
             std::sort(key.begin(), key.end());
             const bool chosen = wanted.empty()
                                     ? std::all_of(key.begin(), key.end(),

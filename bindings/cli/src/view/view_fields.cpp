@@ -153,13 +153,11 @@ double shortest_edge_of(const ViewMesh& mesh) {
         for (const CellShape& shape : all_shapes()) {
             if (shape.dimension != mesh.dimension || shape.nodes != count) continue;
             for (const auto& side : shape.sides)
-                for (std::size_t i = 0; i < shape.side_corners; ++i) {
+                for (std::size_t i = 0, corners = shape.corners_of(side).size(); i < corners; ++i) {
+                    const double* from = &mesh.points[3 * static_cast<std::size_t>(cell[side[i]])];
+                    const double* to = &mesh.points[3 * static_cast<std::size_t>(cell[side[(i + 1) % corners]])];
                     double square = 0;
-                    for (std::size_t a = 0; a < 3; ++a)
-                        square += std::pow(
-                            mesh.points[3 * static_cast<std::size_t>(cell[side[i]]) + a] -
-                                mesh.points[3 * static_cast<std::size_t>(cell[side[(i + 1) % shape.side_corners]]) + a],
-                            2);
+                    for (std::size_t a = 0; a < 3; ++a) square += std::pow(from[a] - to[a], 2);
                     least = std::min(least, std::sqrt(square));
                 }
         }

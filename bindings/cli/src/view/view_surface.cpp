@@ -48,8 +48,7 @@ std::vector<std::vector<std::size_t>> outlines_of(const CellShape& shape) {
         out.push_back(around(corners));
         return out;
     }
-    for (const std::vector<std::size_t>& side : shape.sides)
-        out.push_back(around(std::span(side).first(shape.side_corners)));
+    for (const std::vector<std::size_t>& side : shape.sides) out.push_back(around(shape.corners_of(side)));
     return out;
 }
 
@@ -79,7 +78,9 @@ void add_keys(const ViewInterface& interface, const std::vector<std::int64_t>& n
     for (std::size_t f = 0; f + interface.per_face <= interface.faces.size(); f += interface.per_face) {
         std::array<std::int64_t, 4> on{};
         for (std::size_t i = 0; i < corners; ++i) on[i] = nodes[static_cast<std::size_t>(interface.faces[f + i])];
-        keys.push_back(seen_key(std::span(on).first(corners)));
+        const bool triangle =
+            corners == 3 || on[2] == on[3];  // a triangle among quadrilaterals repeats its last corner
+        keys.push_back(seen_key(std::span(on).first(triangle ? 3 : 4)));
     }
 }
 
@@ -150,8 +151,9 @@ private:
             const CellShape& of = *shape(c).shape;
             for (std::size_t s = 0; s < of.sides.size(); ++s) {
                 std::array<std::int64_t, 4> on{};
-                for (std::size_t i = 0; i < of.side_corners; ++i) on[i] = nodes[of.sides[s][i]];
-                sides.push_back({seen_key(std::span(on).first(of.side_corners)), static_cast<std::int64_t>(c),
+                const std::span<const std::size_t> corners = of.corners_of(of.sides[s]);
+                for (std::size_t i = 0; i < corners.size(); ++i) on[i] = nodes[corners[i]];
+                sides.push_back({seen_key(std::span(on).first(corners.size())), static_cast<std::int64_t>(c),
                                  static_cast<std::uint32_t>(s)});
             }
         }

@@ -54,6 +54,9 @@ DELAM_API int32_t delam_context_cancel(delam_context *context);
 #define DELAM_TET10 8
 #define DELAM_HEX20 9
 #define DELAM_HEX27 10
+#define DELAM_WEDGE6 11
+#define DELAM_PYRAMID5 12
+#define DELAM_WEDGE15 13
 DELAM_API int64_t delam_cell_type_count(void);
 DELAM_API int32_t delam_cell_type_info(int64_t index, const char **name, int32_t *cell_type, int32_t *dimension,
                                        int32_t *nodes, int32_t *corners, int32_t *faces, int32_t *face_nodes,

@@ -312,6 +312,8 @@ private:
                                                       type.name, per_element));
             Element element{inp_whole(fields[0], place), &type, {}, card.parameter("ELSET"), place};
             for (std::size_t k = 1; k < fields.size(); ++k) element.nodes.push_back(inp_whole(fields[k], place));
+            for (std::size_t k = 0; k < type.order.size(); ++k)
+                element.nodes[k] = inp_whole(fields[1 + type.order[k]], place);
             if (!open_->element_of.emplace(element.id, open_->elements.size()).second)
                 throw SceneFailure(place, fmt::format("element {} occurs twice", element.id));
             open_->elements.push_back(std::move(element));

@@ -21,7 +21,14 @@ constexpr std::string_view full =
 constexpr std::string_view quadratic = "integrated fully here";
 constexpr std::string_view plain = "a plain quadratic cell here";
 
-// The node orders are the library's: corners, then the nodes midway, C3D20 the bottom's, the top's, the vertical ones.
+// Abaqus has the centre, then the centres of S1 to S6, behind the other nodes.
+constexpr std::uint8_t hexahedron_27[] = {0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  10, 11, 12, 13,
+                                          14, 15, 16, 17, 18, 19, 26, 24, 23, 25, 21, 22, 20};
+constexpr std::uint8_t wedge_6[] = {3, 4, 5, 0, 1, 2};
+constexpr std::uint8_t wedge_15[] = {3, 4, 5, 0, 1, 2, 9, 10, 11, 6, 7, 8, 12, 13, 14};
+
+// But for these, the node orders are the library's: corners, then the nodes midway, of C3D15 and C3D20 the bottom's,
+// the top's, the vertical ones.
 constexpr ElementType element_types[] = {
     {"CPE3", DELAM_TRI3, "plane-strain", ""},
     {"CPE4", DELAM_QUAD4, "plane-strain", modes},
@@ -40,13 +47,17 @@ constexpr ElementType element_types[] = {
     {"CPS8", DELAM_QUAD8, "plane-stress", ""},
     {"CPS8R", DELAM_QUAD8, "plane-stress", quadratic},
     {"C3D4", DELAM_TET4, "", ""},
+    {"C3D5", DELAM_PYRAMID5, "", ""},
+    {"C3D6", DELAM_WEDGE6, "", "", 0, wedge_6},
     {"C3D8", DELAM_HEX8, "", modes},
     {"C3D8R", DELAM_HEX8, "", full},
     {"C3D8I", DELAM_HEX8, "", ""},
     {"C3D10", DELAM_TET10, "", ""},
     {"C3D10M", DELAM_TET10, "", plain},
+    {"C3D15", DELAM_WEDGE15, "", "", 0, wedge_15},
     {"C3D20", DELAM_HEX20, "", ""},
     {"C3D20R", DELAM_HEX20, "", quadratic},
+    {"C3D27", DELAM_HEX27, "", "", 0, hexahedron_27},
     {"SC8R", DELAM_HEX8, "", "a solid cell here, of formulation \"incompatible\", unless the scene says otherwise"},
     {"COH2D4", -1, "", "", 2},
     {"COH3D6", -1, "", "", 3},

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "result/closing/mesh_error.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -25,12 +25,14 @@ constexpr double bound = 0.5;
 std::string remedy(const MeshError& error, const Scene& scene) {
     if (error.excess > 0.5 * error.away)
         return fmt::format("formulation = \"incompatible\" takes off {}", percent_text(error.excess));
-    const bool space = scene.geometry.dimension == 3;
-    const auto rigid = [](std::int32_t type) { return shape_of(type).simplex() && shape_of(type).linear(); };
-    const bool simplices = scene.mesh ? std::any_of(scene.mesh->blocks.begin(), scene.mesh->blocks.end(),
-                                                    [&](const CellBlock& block) { return rigid(block.type); })
-                                      : rigid(scene.geometry.cell_type);
-    if (simplices) return fmt::format("use {} instead of {}", space ? "tet10" : "tri6", space ? "tet4" : "tri3");
+    std::vector<std::int32_t> types{scene.geometry.cell_type};
+    if (scene.mesh) {
+        types.clear();
+        for (const CellBlock& block : scene.mesh->blocks) types.push_back(block.type);
+    }
+    for (const std::int32_t type : types)
+        if (const CellShape& shape = shape_of(type); shape.locks())
+            return fmt::format("use {} instead of {}", instead_of(shape).name, shape.name);
     return "use smaller or less distorted cells";
 }
 

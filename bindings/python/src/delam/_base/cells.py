@@ -20,8 +20,7 @@ class CellType(NamedTuple):
     nodes: int
     dimension: int
     corners: int
-    faces: NDArray[np.int32]  # [faces][nodes of a face], local nodes: corners in outward order, then mid-side nodes
-    face_corners: int
+    faces: list[NDArray[np.int32]]  # [faces][nodes of the face], local nodes: corners in outward order, then the others
     middle: NDArray[np.int32]  # [nodes - corners][2], the corners on either side of each node that is not a corner
 
 
@@ -30,13 +29,13 @@ def cell_types() -> dict[str, CellType]:
     found = {}
     for index in range(library.delam_cell_type_count()):
         name = ctypes.c_char_p()
-        type_, dimension, nodes, corners, faces, face_nodes, face_corners = (ctypes.c_int32() for _ in range(7))
-        library.delam_cell_type_info(index, name, type_, dimension, nodes, corners, faces, face_nodes, face_corners)
+        type_, dimension, nodes, corners, faces, face_nodes = (ctypes.c_int32() for _ in range(6))
+        library.delam_cell_type_info(index, name, type_, dimension, nodes, corners, faces, face_nodes, None)
         face = np.empty((faces.value, face_nodes.value), np.int32)
         middle = np.empty((nodes.value - corners.value, 2), np.int32)
         library.delam_cell_type_topology(index, pointer(face), pointer(middle))
-        found[(name.value or b"").decode()] = CellType(type_.value, nodes.value, dimension.value, corners.value, face,
-                                              face_corners.value, middle)
+        found[(name.value or b"").decode()] = CellType(type_.value, nodes.value, dimension.value, corners.value,
+                                                       [row[row >= 0] for row in face], middle)
     return found
 
 

@@ -19,13 +19,16 @@ if TYPE_CHECKING:
 
 # meshio's names of our cells.
 NAMES = {"triangle": "tri3", "quad": "quad4", "tetra": "tet4", "hexahedron": "hex8", "triangle6": "tri6",
-         "quad8": "quad8", "quad9": "quad9", "tetra10": "tet10", "hexahedron20": "hex20", "hexahedron27": "hex27"}
+         "quad8": "quad8", "quad9": "quad9", "tetra10": "tet10", "hexahedron20": "hex20", "hexahedron27": "hex27",
+         "wedge": "wedge6", "pyramid": "pyramid5", "wedge15": "wedge15"}
 # VTK's numbers of meshio's cells, those of faces of interfaces included.
 VTK_TYPES = {"line": 3, "triangle": 5, "quad": 9, "tetra": 10, "hexahedron": 12, "line3": 21, "triangle6": 22,
-             "quad8": 23, "tetra10": 24, "hexahedron20": 25, "quad9": 28, "hexahedron27": 29}
+             "quad8": 23, "tetra10": 24, "hexahedron20": 25, "quad9": 28, "hexahedron27": 29, "wedge": 13,
+             "pyramid": 14, "wedge15": 26}
 # meshio's names of the cells of a result by dimension and number of nodes, and of the faces of its interfaces.
 _RESULT_CELLS = {2: {3: "triangle", 4: "quad", 6: "triangle6", 8: "quad8", 9: "quad9"},
-                 3: {4: "tetra", 8: "hexahedron", 10: "tetra10", 20: "hexahedron20", 27: "hexahedron27"}}
+                 3: {4: "tetra", 8: "hexahedron", 10: "tetra10", 20: "hexahedron20", 27: "hexahedron27", 6: "wedge",
+                     5: "pyramid", 15: "wedge15"}}
 _RESULT_FACES = {2: {2: "line", 3: "line3"}, 3: {3: "triangle", 4: "quad", 6: "triangle6", 8: "quad8", 9: "quad9"}}
 
 
@@ -39,10 +42,13 @@ class Grid(NamedTuple):
     cell_data: dict[str, NDArray[Any]]
 
     def to_meshio(self) -> meshio.Mesh:
-        """As a meshio.Mesh. ImportError: meshio is not installed."""
+        """As a meshio.Mesh. ImportError: meshio is not installed; ArgumentError: it lacks a type of cells."""
         ends = np.cumsum([len(cells) for _, cells in self.blocks])[:-1]
-        return meshio_module().Mesh(self.points, self.blocks, point_data=self.point_data,
-                                    cell_data={name: np.split(values, ends) for name, values in self.cell_data.items()})
+        over_cells = {name: np.split(values, ends) for name, values in self.cell_data.items()}
+        try:
+            return meshio_module().Mesh(self.points, self.blocks, point_data=self.point_data, cell_data=over_cells)
+        except KeyError as kind:  # how meshio says so
+            raise ArgumentError(f"this meshio has no cells of type {kind}; to_vtk() has") from None
 
     def to_vtk(self) -> Any:
         """As a vtkUnstructuredGrid. ImportError: VTK is not installed."""

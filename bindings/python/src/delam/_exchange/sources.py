@@ -204,7 +204,7 @@ def _reversal(kind: str) -> IntArray:
     """Where each node of a cell of this kind stands in its mirror image."""
     cell = CELL_TYPES[kind]
     corners = {3: [0, 2, 1], 4: [0, 3, 2, 1]}[cell.corners] if cell.dimension == 2 else (
-        {4: [0, 2, 1, 3], 8: [0, 3, 2, 1, 4, 7, 6, 5]}[cell.corners])
+        {4: [0, 2, 1, 3], 8: [0, 3, 2, 1, 4, 7, 6, 5], 6: [3, 4, 5, 0, 1, 2], 5: [0, 3, 2, 1, 4]}[cell.corners])
     between = {frozenset(pair): cell.corners + i for i, pair in enumerate(cell.middle.tolist())}
     middle = [between[frozenset((corners[a], corners[b]))] for a, b in cell.middle.tolist()]
     return np.array([*corners, *middle], np.int64)
@@ -224,11 +224,16 @@ def _turned_cells(points: FloatArray, kind: str, cells: IntArray) -> IntArray:
         ends = ([1], [0]), ([2], [0]), ([3], [0])
         if cell.corners == 8:
             ends = ([1, 2, 5, 6], [0, 3, 4, 7]), ([2, 3, 6, 7], [0, 1, 4, 5]), ([4, 5, 6, 7], [0, 1, 2, 3])
+        elif cell.corners == 6:
+            ends = ([1, 4], [0, 3]), ([2, 5], [0, 3]), ([0, 1, 2], [3, 4, 5])
+        elif cell.corners == 5:
+            ends = ([1, 2], [0, 3]), ([2, 3], [0, 1]), ([4], [0, 1, 2, 3])
         edges = np.stack([x[:, there].mean(1) - x[:, here].mean(1) for there, here in ends], axis=1)
         size = np.linalg.det(edges)
     wrong = size < 0
     if wrong.any():
+        how = "clockwise" if cell.dimension == 2 else "as by Gmsh and Abaqus" if cell.corners == 6 else "inside out"
         logger.info("%d of %d cells of type %s were numbered %s and were turned round", wrong.sum(), len(cells), kind,
-                    "clockwise" if cell.dimension == 2 else "inside out")
+                    how)
         cells = np.where(wrong[:, None], cells[:, _reversal(kind)], cells)
     return cells

@@ -12,12 +12,17 @@ FACES = {4: [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]],
          10: [[0, 2, 1, 6, 5, 4], [0, 1, 3, 4, 8, 7], [1, 2, 3, 5, 9, 8], [2, 0, 3, 6, 7, 9]],
          8: [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]],
          20: [[0, 3, 2, 1, 11, 10, 9, 8], [4, 5, 6, 7, 12, 13, 14, 15], [0, 1, 5, 4, 8, 17, 12, 16],
-              [1, 2, 6, 5, 9, 18, 13, 17], [2, 3, 7, 6, 10, 19, 14, 18], [3, 0, 4, 7, 11, 16, 15, 19]]}
+              [1, 2, 6, 5, 9, 18, 13, 17], [2, 3, 7, 6, 10, 19, 14, 18], [3, 0, 4, 7, 11, 16, 15, 19]],
+         6: [[3, 5, 4], [0, 1, 2], [3, 4, 1, 0], [4, 5, 2, 1], [5, 3, 0, 2]],
+         15: [[3, 5, 4, 11, 10, 9], [0, 1, 2, 6, 7, 8], [3, 4, 1, 0, 9, 13, 6, 12], [4, 5, 2, 1, 10, 14, 7, 13],
+              [5, 3, 0, 2, 11, 12, 8, 14]],
+         5: [[0, 3, 2, 1], [0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]]}
 FACES[27] = [face + [centre] for face, centre in zip(FACES[20], (24, 25, 22, 21, 23, 20))]
 
-# Shape functions in the middle of a cell: corners, mid-side nodes.
-MIDDLE = {4: (1 / 4, 0), 8: (1 / 8, 0), 10: (-1 / 8, 1 / 4), 20: (-1 / 4, 1 / 4)}
-CORNERS = {4: 4, 8: 8, 10: 4, 20: 8, 27: 8}
+# Shape functions in the middle of a cell, equal ones together: how many nodes have them, and which.
+MIDDLE = {4: [(4, 1 / 4)], 8: [(8, 1 / 8)], 10: [(4, -1 / 8), (6, 1 / 4)], 20: [(8, -1 / 4), (12, 1 / 4)],
+          6: [(6, 1 / 6)], 15: [(6, -2 / 9), (6, 2 / 9), (3, 1 / 3)], 5: [(4, 3 / 16), (1, 1 / 4)]}
+CORNERS = {4: 4, 8: 8, 10: 4, 20: 8, 27: 8, 6: 6, 15: 6, 5: 5}
 
 
 def ordered(faces, key):
@@ -91,27 +96,33 @@ class Section:
                 continue
             self.middles.append(nodes)
             extended.append(self.middle_of(nodes, self.distance))
-            sides = nodes[:, FACES[number]].reshape(-1, len(FACES[number][0]))
-            faces.append(sides)
-            triangles = triangles_of(sides)
-            pieces = len(triangles) // len(block)
-            cell = np.repeat(np.arange(len(block)), pieces)
-            found, which = cut_tetrahedra(np.column_stack([triangles, count + cell]), np.concatenate(extended))
-            polygons.append(found)
-            of.append(body[block[cell[which]]])
+            for size in {len(face) for face in FACES[number]}:
+                alike = [face for face in FACES[number] if len(face) == size]
+                sides = nodes[:, alike].reshape(-1, size)
+                faces.append(sides)
+                triangles = triangles_of(sides)
+                cell = np.repeat(np.arange(len(block)), len(triangles) // len(block))
+                found, which = cut_tetrahedra(np.column_stack([triangles, count + cell]), np.concatenate(extended))
+                polygons.append(found)
+                of.append(body[block[cell[which]]])
             count += len(block)
         self.extended = np.concatenate(extended)
         self.polygons = np.concatenate(polygons) if polygons else np.empty((0, 4, 2), int)
         self.body = np.concatenate(of) if of else np.empty(0, int)
-        self.edges, self.skin = self.lines(faces)
+        # Cells of different kinds may have faces in common.
+        sizes = dict.fromkeys(side.shape[1] for side in faces)
+        self.edges, self.skin = self.lines([np.concatenate([s for s in faces if s.shape[1] == n]) for n in sizes])
 
     @staticmethod
     def middle_of(nodes, values):
         number = nodes.shape[1]
         if number not in MIDDLE:  # the last node is there
             return values[nodes[:, -1]]
-        corner, side = MIDDLE[number]
-        return corner * values[nodes[:, :CORNERS[number]]].sum(1) + side * values[nodes[:, CORNERS[number]:]].sum(1)
+        first, value = 0, 0.0
+        for many, share in MIDDLE[number]:
+            value = value + share * values[nodes[:, first:first + many]].sum(1)
+            first += many
+        return value
 
     def lines(self, blocks):
         """Lines between cells, and those of faces of one cell alone. A face that crosses the plane belongs to cells
