@@ -106,7 +106,7 @@ LOOP_TEST(what_lowers_the_energy_there_lowers_that_of_the_whole, 0, scenes) {
     const std::size_t rows = part->jump_rows().size();
     ck_assert(rows >= 15 && 4 * rows < response.jump.size());
     const double largest = max_abs(response.jump);
-    const std::vector<double> rest = part->unknowns_at(response), entered = part->jumps(scene.theta, rest);
+    const std::vector<double> rest = part->unknowns_at(scene.theta, response), entered = part->jumps(scene.theta, rest);
     for (std::size_t z = 0; z < rows; ++z)
         ck_assert_double_le(std::abs(entered[z] - response.jump[index(part->jump_rows()[z])]), 1e-12 * largest);
     ck_assert(moved(*part, response, rest) == response.multipliers);

@@ -136,7 +136,7 @@ Descent::Descent(const ZoneNewton& newton, State& state, const Increment& increm
     }
 }
 
-Descent::Point Descent::start() const { return point(zone_.unknowns_at(state_.response)); }
+Descent::Point Descent::start() const { return point(zone_.unknowns_at(state_.theta, state_.response)); }
 
 Descent::Point Descent::point(std::vector<double> unknowns) const {
     Point at;

@@ -40,7 +40,7 @@ bool ZoneEnergies::choose() {
     if (solved_.empty()) solved_.push_back({known_->adhesion, known_->closed});
     place_.assign(wanted_.size(), -1);
     for (const ZoneSystem::Pair& p : system_->pairs()) place_[p.pair] = static_cast<std::int64_t>(p.first);
-    zone->unknowns_at(known_->response);
+    zone->unknowns_at(known_->theta, known_->response);
     zone->ask_for_energies(0.0);
     const std::optional<double> energy = zone_energy(known_->adhesion);
     if (!energy) return false;

@@ -30,16 +30,70 @@ bool Condensed::covers(const Springs& springs) const { return zone_ != nullptr &
 // The zone is missing from the choice to the end of condense(), so that an interrupted one is never taken for valid.
 void Condensed::choose(const Springs& springs, std::span<const std::uint8_t> wanted, bool tight) {
     choice_.choose(springs, wanted, tight);
-    zone_.reset();
+    forget_zone();
     condense();
+}
+
+void Condensed::forget_zone() {
+    zone_ = nullptr;
+    dense_.reset();
+    by_tree_.reset();
+    energy_.reset();
+}
+
+// The rows of the zone whose unknowns are these.
+std::vector<std::int64_t> Condensed::rows_of(std::span<const std::uint8_t> inside) const {
+    std::vector<std::int64_t> zone_rows;
+    const auto dim = index(problem_.mesh->dimension());
+    const auto row_inside = [&](std::size_t r) {
+        const JumpRow& row = bulk_->rows()[r];
+        return !row.prescribed() && inside[index(row.unknowns.front().first)] != 0;
+    };
+    for (std::size_t r = 0; r < bulk_->rows().size(); ++r) {
+        // A prescribed row comes with the others of its pair, because the minimisers in the zone need whole pairs.
+        bool in = row_inside(r);
+        if (bulk_->rows()[r].prescribed())
+            for (std::size_t other = r / dim * dim; other < (r / dim + 1) * dim; ++other) in = in || row_inside(other);
+        if (in) zone_rows.push_back(static_cast<std::int64_t>(r));
+    }
+    return zone_rows;
 }
 
 // The zone at the present choice.
 void Condensed::condense() {
     monitor_.progress("zone", condensations_, 0);
     ++condensations_;
-    zone_.reset();
-    energy_.reset();
+    forget_zone();
+    std::vector<std::uint8_t> active(choice_.unknowns(), 0);
+    for (std::size_t i = 0; i < active.size(); ++i)
+        active[i] = choice_.inside()[i] == 0 && choice_.spring()[i] != 0.0 ? 1 : 0;
+    if (tree_pays(active)) {
+        by_tree_ = std::make_unique<TreeZone>(*bulk_, *tree_, choice_, rows_of(choice_.inside()), solved_, poll());
+        zone_ = by_tree_.get();
+    } else {
+        condense_dense(active);
+        zone_ = dense_.get();
+    }
+}
+
+// True if the zone is factored with the whole tree in fewer operations than as a dense matrix, by a margin. Motions
+// that only the zone holds need a dense one.
+bool Condensed::tree_pays(std::span<const std::uint8_t> active) {
+    const Limits& limits = problem_.options.limits;
+    std::vector<std::int64_t> places;
+    for (std::size_t i = 0; i < active.size(); ++i)
+        if (choice_.inside()[i] != 0) places.push_back(bulk_->equations().place(static_cast<std::int64_t>(i)));
+    const auto n = static_cast<double>(places.size());
+    if (n < limits.zone_tree_least) return false;
+    if (bulk_->rigid().columns > 0 && split_motions(bulk_->rigid(), active).free.columns > 0) return false;
+    if (tree_ == nullptr) {
+        tree_ = std::make_unique<TreeFactor>(bulk_->superelements());
+        tree_offered_ = TreeZone::offered_by(*bulk_, *tree_, problem_.mesh->dimension());
+    }
+    return tree_offered_ && n * n * n / 3.0 > limits.zone_tree * tree_->operations(places);
+}
+
+void Condensed::condense_dense(std::span<const std::uint8_t> active) {
     std::vector<double> state(choice_.spring());
     for (std::size_t i = 0; i < state.size(); ++i)
         if (choice_.inside()[i] != 0) state[i] = Elimination::in_zone;
@@ -47,41 +101,33 @@ void Condensed::condense() {
     energy_ = std::make_unique<ZoneEnergy>(bulk_->zone_energy(elimination_, poll()));
     const std::vector<std::int64_t>& zone_unknowns = energy_->unknowns();
 
-    const std::size_t unknowns = choice_.unknowns();
-    std::vector<std::int64_t> place(unknowns, -1);
-    for (std::size_t z = 0; z < zone_unknowns.size(); ++z)
+    std::vector<std::int64_t> place(choice_.unknowns(), -1);
+    std::vector<std::uint8_t> inside(place.size(), 0);
+    for (std::size_t z = 0; z < zone_unknowns.size(); ++z) {
         place[index(zone_unknowns[z])] = static_cast<std::int64_t>(z);
-    std::vector<std::int64_t> zone_rows;
+        inside[index(zone_unknowns[z])] = 1;
+    }
+    std::vector<std::int64_t> zone_rows = rows_of(inside);
     std::vector<JumpRow> rows;
-    const auto dim = index(problem_.mesh->dimension());
-    const auto pair_inside = [&](std::size_t pair) {
-        for (std::size_t r = pair * dim; r < (pair + 1) * dim; ++r)
-            if (const JumpRow& row = bulk_->rows()[r];
-                !row.prescribed() && place[index(row.unknowns.front().first)] >= 0)
-                return true;
-        return false;
-    };
-    for (std::size_t r = 0; r < bulk_->rows().size(); ++r) {
-        const JumpRow& row = bulk_->rows()[r];
-        // A prescribed row comes with the others of its pair, because the minimisers in the zone need whole pairs.
-        if (row.prescribed() ? !pair_inside(r / dim) : place[index(row.unknowns.front().first)] < 0) continue;
+    for (const std::int64_t r : zone_rows) {
+        const JumpRow& row = bulk_->rows()[index(r)];
         JumpRow local{{}, row.offset};
         for (const auto& [i, n] : row.unknowns) local.unknowns.emplace_back(place[index(i)], n);
-        zone_rows.push_back(static_cast<std::int64_t>(r));
         rows.push_back(std::move(local));
     }
-    std::vector<std::uint8_t> active(unknowns, 0);
-    for (std::size_t i = 0; i < unknowns; ++i) active[i] = place[i] < 0 && choice_.spring()[i] != 0.0 ? 1 : 0;
     ZoneMotions floating = ZoneMotions::of(bulk_->rigid(), bulk_->dead_work(), active, zone_unknowns);
-    zone_ = std::make_unique<DenseZone>(energy_->energy(), std::move(rows), std::move(zone_rows), std::move(floating),
-                                        poll());
+    dense_ = std::make_unique<DenseZone>(energy_->energy(), std::move(rows), std::move(zone_rows), std::move(floating),
+                                         poll());
 }
 
-DenseZone* Condensed::zone(const Springs& springs, std::span<const std::uint8_t> wanted, bool tight) {
+Zone* Condensed::zone(const Springs& springs, std::span<const std::uint8_t> wanted, bool tight) {
     std::vector<std::uint8_t> unknowns(choice_.unknowns(), 0);
     bool inside = covers(springs);
     const auto rows = index(std::count(wanted.begin(), wanted.end(), std::uint8_t{1}));
-    if (tight && inside && energy_->unknowns().size() > 2 * rows + index(problem_.options.limits.zone_small)) {
+    const auto members = energy_ != nullptr
+                             ? energy_->unknowns().size()
+                             : index(std::count(choice_.inside().begin(), choice_.inside().end(), std::uint8_t{1}));
+    if (tight && inside && members > 2 * rows + index(problem_.options.limits.zone_small)) {
         choice_.let_go();
         inside = false;
     }
@@ -96,7 +142,7 @@ DenseZone* Condensed::zone(const Springs& springs, std::span<const std::uint8_t>
         if (zone_ != nullptr) choice_.add_changed(springs, unknowns);
         choose(springs, unknowns, tight);
     }
-    return zone_.get();
+    return zone_;
 }
 
 void Condensed::solve(const Springs& springs, std::span<const double> theta, Response& response) {
@@ -141,10 +187,13 @@ void Condensed::solve(const Springs& springs, std::span<const double> theta, Res
     for (std::size_t z = 0; z < force.size(); ++z) force[z] = springs.force[index(zone_->jump_rows()[z])];
     const Zone::Solution solution = zone_->solve(theta, force);
     respond(springs, theta, &solution, response);
+    if (by_tree_ != nullptr && response.balanced)
+        solved_ = {{theta.begin(), theta.end()}, choice_.springs_of(springs), response.jump};
 }
 
 bool Condensed::complete(const Springs& springs, std::span<const double> theta, const Zone::Solution& solution,
                          Response& response) const {
+    if (by_tree_ != nullptr) return false;
     respond(springs, theta, &solution, response);
     return true;
 }
@@ -219,6 +268,7 @@ void Condensed::respond(const Springs& springs, std::span<const double> theta, c
 // All else at its minimum for these unknowns of the zone; without a solution all unknowns are at zero.
 std::vector<double> Condensed::skeleton_of(std::span<const double> theta, const Zone::Solution* solution) const {
     if (solution == nullptr) return bulk_->skeleton_at_rest(theta);
+    if (by_tree_ != nullptr) return by_tree_->skeleton(theta);
     std::vector<double> skeleton(bulk_->superelements().variable().size());
     elimination_.recover(theta, energy_->recover(theta, solution->unknowns), skeleton);
     return skeleton;
@@ -263,24 +313,22 @@ std::vector<double> Condensed::row_stiffness() const {
 
 std::vector<double> Condensed::memory() {
     if (zone_ == nullptr) return {};
-    zone_->forget();  // the factor that earlier solves have left is not saved
+    solved_ = {};
+    if (dense_ != nullptr) dense_->forget();  // the factor that earlier solves have left is not saved
     return choice_.memory();
 }
 
 void Condensed::recall(std::span<const double> memory) {
     choice_.expect_changes({});
+    solved_ = {};
     if (memory.empty()) {  // before the first zone was chosen
         choice_.clear();
-        zone_.reset();
-        energy_.reset();
+        forget_zone();
         return;
     }
-    if (std::ranges::equal(memory, this->memory())) {
-        zone_->forget();
-        return;
-    }
+    if (std::ranges::equal(memory, this->memory())) return;
     choice_.recall(memory);
-    zone_.reset();  // as in choose
+    forget_zone();  // as in choose
     condense();
 }
 

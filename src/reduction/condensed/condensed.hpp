@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "reduction/condensed/bulk.hpp"
+#include "reduction/condensed/tree_zone.hpp"
 #include "reduction/condensed/zone_choice.hpp"
 #include "reduction/dense/dense_zone.hpp"
 #include "reduction/operator/jump_operator.hpp"
@@ -41,7 +42,7 @@ public:
     }
 
     Zones* zones() override { return this; }
-    DenseZone* zone(const Springs& springs, std::span<const std::uint8_t> wanted, bool tight) override;
+    Zone* zone(const Springs& springs, std::span<const std::uint8_t> wanted, bool tight) override;
     // Sets all rows, forces and energies from a zone solution with these springs; null: no unknown moves.
     void respond(const Springs& springs, std::span<const double> theta, const Zone::Solution* solution,
                  Response& response) const;
@@ -54,6 +55,10 @@ private:
     bool covers(const Springs& springs) const;
     void choose(const Springs& springs, std::span<const std::uint8_t> wanted, bool tight);
     void condense();
+    void condense_dense(std::span<const std::uint8_t> active);
+    bool tree_pays(std::span<const std::uint8_t> active);
+    void forget_zone();
+    std::vector<std::int64_t> rows_of(std::span<const std::uint8_t> inside) const;
     std::vector<double> skeleton_of(std::span<const double> theta, const Zone::Solution* solution) const;
     std::vector<double> unknowns_of(const Response& response) const;
 
@@ -64,7 +69,12 @@ private:
     ZoneChoice choice_;
     Elimination elimination_;
     std::unique_ptr<ZoneEnergy> energy_;
-    std::unique_ptr<DenseZone> zone_;
+    std::unique_ptr<DenseZone> dense_;
+    std::unique_ptr<TreeFactor> tree_;  // of the zones by the tree; null: there was none yet
+    bool tree_offered_ = false;
+    std::unique_ptr<TreeZone> by_tree_;
+    Zone* zone_ = nullptr;  // one of dense_ and by_tree_; null: none is chosen
+    SolvedState solved_;    // the last solve; empty: none since the last memory() or recall()
     std::int64_t condensations_ = 0;
 };
 

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "base/monitor.hpp"
+#include "reduction/condensed/front.hpp"
 #include "reduction/condensed/superelements.hpp"
 #include "reduction/dense/dense_energy.hpp"
 
@@ -44,43 +45,31 @@ public:
     void solve_cuts(std::span<double> b) const;
 
 private:
-    struct Front {
-        std::vector<std::int64_t> out, left;  // places
-        DenseMatrix factor;                   // L
-        DenseMatrix coupling;                 // V
-        DenseMatrix load;                     // L^-1 f_e
-        DenseEnergy energy;                   // lower triangle
-        std::int64_t made = -1;               // number of the update
-    };
     std::int64_t lowest_with_the_zone() const;
-    bool older(const Front& front, std::span<const std::int64_t> own, std::initializer_list<std::int64_t> bordered,
-               std::initializer_list<const Front*> inputs) const;
+    bool older(const TreeFront& front, std::span<const std::int64_t> own, std::initializer_list<std::int64_t> bordered,
+               std::initializer_list<const TreeFront*> inputs) const;
     void refresh_below(std::int64_t node, const Poll& poll);
     void refresh_outside(std::int64_t node, const Poll& poll);
-    void divide_node(Front& front, const Superelements::Node& node, const Front* outside) const;
-    void divide_outside(Front& front, std::int64_t node) const;
-    void open(Front& front, std::int64_t leaf);
-    void add_leaf(Front& front, std::int64_t leaf);
-    void add_own(Front& front, const Superelements::Node& node);
-    void add(Front& front, const Front& other);
-    void eliminate(Front& front, const Poll& poll);
-    static void recover(const Front& front, std::span<const double> theta, std::span<double> skeleton);
+    void divide_node(TreeFront& front, const Superelements::Node& node, const TreeFront* outside) const;
+    void divide_outside(TreeFront& front, std::int64_t node) const;
+    void add_own(TreeFront& front, const Superelements::Node& node);
+    void eliminate(TreeFront& front, const Poll& poll);
     void recover_below(std::int64_t node, std::span<const double> theta, std::span<double> skeleton) const;
 
     // [places], the update at which the state changed, and at which it began or ceased to be held or in the zone: a
     // subtree needs to know no more of its border.
     std::vector<std::int64_t> changed_, changed_kind_;
     std::int64_t updates_ = 0;
-    std::vector<std::int64_t> parent_;    // [nodes]
-    std::vector<Front> below_, outside_;  // [nodes] what the subtree leaves, and what all else leaves to it
-    Front last_;                          // at the lowest node with all of the zone
+    std::vector<std::int64_t> parent_;        // [nodes]
+    std::vector<TreeFront> below_, outside_;  // [nodes] what the subtree leaves, and what all else leaves to it
+    TreeFront last_;                          // at the lowest node with all of the zone
     std::int64_t last_node_ = -1;
     Last ends_at_;
     const Superelements& bodies_;
     DenseMatrix load_;
     std::vector<double> state_;
-    std::vector<std::int64_t> at_;  // scratch: place in a front
-    bool interrupted_ = false;      // an update was, by an exception
+    FrontBuilder builder_;
+    bool interrupted_ = false;  // an update was, by an exception
 };
 
 }  // namespace delam

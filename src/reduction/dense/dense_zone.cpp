@@ -476,7 +476,7 @@ double DenseZone::energy_of_moving(std::span<const std::size_t> rows, std::span<
     return sum;
 }
 
-std::vector<double> DenseZone::unknowns_at(const Response& response) {
+std::vector<double> DenseZone::unknowns_at(std::span<const double>, const Response& response) {
     std::vector<double> x(index(energy_->rows()), 0.0);
     for (std::size_t r = 0; r < rows_.size(); ++r)
         if (plain_[r] >= 0) x[index(plain_[r])] = response.jump[index(jump_rows_[r])];

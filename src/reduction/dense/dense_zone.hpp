@@ -47,7 +47,7 @@ public:
     std::optional<DenseMatrix> flexibility(std::span<const std::vector<RowForce>> forces) override;
     const std::vector<std::int64_t>& jump_rows() const override { return jump_rows_; }
     // The unknowns that are a jump row of their own start there, the others at zero.
-    std::vector<double> unknowns_at(const Response& response) override;
+    std::vector<double> unknowns_at(std::span<const double> theta, const Response& response) override;
     void keep(std::span<const double>, Response&) const override {}
     std::vector<double> jumps(std::span<const double> theta, std::span<const double> unknowns) const override;
     void complete_forces(std::span<const double> theta, const Solution& solution,

@@ -76,7 +76,7 @@ public:
     virtual const std::vector<std::int64_t>& jump_rows() const = 0;
     // Unknowns at the jumps of a response of the operator, from which an iteration then starts; and the other way
     // round: jumps apart, what such a response keeps of them for the next solve.
-    virtual std::vector<double> unknowns_at(const Response& response) = 0;
+    virtual std::vector<double> unknowns_at(std::span<const double> theta, const Response& response) = 0;
     virtual void keep(std::span<const double> unknowns, Response& response) const = 0;
     // j of all rows.
     virtual std::vector<double> jumps(std::span<const double> theta, std::span<const double> unknowns) const = 0;

@@ -89,7 +89,7 @@ void IteratedZone::start_anew() {
     solver_.compare_energies(false);
 }
 
-std::vector<double> IteratedZone::unknowns_at(const Response& response) {
+std::vector<double> IteratedZone::unknowns_at(std::span<const double>, const Response& response) {
     rounding_ = -1.0;
     start_ = response.multipliers;
     start_.resize(index(solver_.state_size()), 0.0);

@@ -18,7 +18,7 @@ public:
     bool factor(std::span<const Coupling> couplings, std::span<const std::uint8_t> held) override;
     Solution solve(std::span<const double> theta, std::span<const double> row_force) override;
     const std::vector<std::int64_t>& jump_rows() const override { return jump_rows_; }
-    std::vector<double> unknowns_at(const Response& response) override;
+    std::vector<double> unknowns_at(std::span<const double> theta, const Response& response) override;
     void keep(std::span<const double> unknowns, Response& response) const override;
     std::vector<double> jumps(std::span<const double> theta, std::span<const double> unknowns) const override;
     void complete_forces(std::span<const double> theta, const Solution& solution,

@@ -150,7 +150,9 @@ Zone::Solution LocalZone::solve(std::span<const double>, std::span<const double>
     return solution;
 }
 
-std::vector<double> LocalZone::unknowns_at(const Response&) { return std::vector<double>(variables_.size(), 0.0); }
+std::vector<double> LocalZone::unknowns_at(std::span<const double>, const Response&) {
+    return std::vector<double>(variables_.size(), 0.0);
+}
 
 void LocalZone::keep(std::span<const double> unknowns, Response& response) const {
     for (std::size_t k = 0; k < variables_.size(); ++k)

@@ -35,7 +35,7 @@ public:
     Solution solve(std::span<const double> theta, std::span<const double> row_force) override;
     const std::vector<std::int64_t>& jump_rows() const override { return jump_rows_; }
     // That of the state with which the zone was entered.
-    std::vector<double> unknowns_at(const Response& response) override;
+    std::vector<double> unknowns_at(std::span<const double> theta, const Response& response) override;
     void keep(std::span<const double> unknowns, Response& response) const override;
     std::vector<double> jumps(std::span<const double> theta, std::span<const double> unknowns) const override;
     void complete_forces(std::span<const double> theta, const Solution& solution,
