@@ -48,7 +48,11 @@ void check_jacobian(CellType type, int dimension, std::span<const double> coordi
     const double jacobian = smallest_jacobian(type, coordinates);
     if (!(jacobian > 1e-14 * std::pow(extent, dimension)))
         fail(DELAM_ERROR_MESH, "cell ", number, " (body ", label, "): smallest Jacobian ", jacobian,
-             jacobian > 0.0 ? " is negligible beside its size: degenerate" : " <= 0: inverted or degenerate");
+             jacobian > 0.0 ? " is negligible beside its size: degenerate" : " <= 0: inverted or degenerate",
+             jacobian < 0.0 && cell_row(type).reference == ReferenceCell::prism
+                 ? " (the triangle 012 of a wedge is counter-clockwise seen from outside; Abaqus and Gmsh list 345 "
+                   "first)"
+                 : "");
 }
 
 void insert_label(std::vector<std::int32_t>& labels, std::int32_t label) {

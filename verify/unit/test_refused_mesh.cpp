@@ -136,3 +136,24 @@ TEST(late_bodies) {
     ck_assert_int_eq(mesh.body_label(mesh.interfaces()[0].body_b), 2);
     ck_assert_int_eq(mesh.interfaces()[0].body_a, 2);
 }
+
+// Wedges in the order of Abaqus and Gmsh, and a pyramid whose apex is below its base or in it.
+TEST(inverted_wedges_and_pyramids) {
+    Mesh wedge(3, Numbers{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1});
+    ck_assert_refused(DELAM_ERROR_MESH, "Abaqus and Gmsh list 345 first",
+                      wedge.add_cells(CellType::wedge6, Indices{0, 1, 2, 3, 4, 5}, {}));
+    wedge.add_cells(CellType::wedge6, Indices{3, 4, 5, 0, 1, 2}, {});
+    for (const double apex : {-1.0, 0.0, 1.0}) {
+        Mesh pyramid(3, Numbers{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0.3, 0.4, apex});
+        const Indices nodes{0, 1, 2, 3, 4};
+        if (apex > 0.0)
+            pyramid.add_cells(CellType::pyramid5, nodes, {});
+        else
+            ck_assert_refused(DELAM_ERROR_MESH, "inverted or degenerate",
+                              pyramid.add_cells(CellType::pyramid5, nodes, {}));
+    }
+    // A base that is no convex quadrilateral, though the pyramid has a volume.
+    Mesh reflex(3, Numbers{0, 0, 0, 1, 0, 0, 0.2, 0.2, 0, 0, 1, 0, 0.3, 0.3, 1});
+    ck_assert_refused(DELAM_ERROR_MESH, "inverted or degenerate",
+                      reflex.add_cells(CellType::pyramid5, Indices{0, 1, 2, 3, 4}, {}));
+}

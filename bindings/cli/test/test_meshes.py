@@ -306,6 +306,16 @@ expect(len(hashes) == 2, "the hash of the content holds the mesh")
 expect_error(delam("run", scene(small, put("mixed.msh", msh22(NODES, CELLS, NAMES)), BONDED + pulled("y")), "--out",
                    os.path.join(small, "out"), "--resume"), 2, "is not the one")
 
+# A hexahedron below pyramids and two tetrahedra, whose triangles are the top.
+SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]
+tower = {4 * z + i: (*at, z) for z in range(3) for i, at in enumerate(SQUARE, 1)}
+tower[13] = (0.5, 0.5, 1.5)
+pyramids = [(5, 6, 7, 8), (5, 9, 10, 6), (6, 10, 11, 7), (7, 11, 12, 8), (8, 12, 9, 5)]
+kinds = [(3, 3, 1, (1, 2, 3, 4)), (2, 4, 2, (9, 10, 11)), (2, 4, 2, (9, 11, 12)), (5, 1, 1, tuple(range(1, 9))),
+         *((7, 2, 2, (*base, 13)) for base in pyramids), (4, 2, 2, (9, 11, 10, 13)), (4, 2, 2, (9, 12, 11, 13))]
+towers = {(3, 1): "lower", (3, 2): "upper", (2, 3): "bottom", (2, 4): "top"}
+stretched(small, put("tower.msh", msh22(tower, kinds, towers)), "z", 1, 2, "pyramids between a hexahedron and tetrahedra")
+
 bare = [(t, 0, e, of) for t, _, e, of in CELLS if t > 1]
 code, out, error = delam("check", scene(small, put("bare.msh", msh22({**NODES, 9: (7, 7)}, bare, {})),
                                         '[[interfaces]]\nall = true\nlaw = "law"\n[[supports]]\nbody = "surface-1"\n'
