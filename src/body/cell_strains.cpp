@@ -25,35 +25,38 @@ void add_strain(std::size_t i, const double* gradient, double size, double* stra
     for (std::size_t j = 0; j < dim; ++j) strain[i == j ? i : shear(dim, i, j)] += size * gradient[j];
 }
 
-// The internal modes of element.cpp: mode m in direction i has the gradient (det J_0 / det J) J_0^-T (-2 xi_m e_m).
+// The internal modes of element.cpp: mode m in direction i has the gradient (det J_0 / det J) J_0^-T (-2 xi_m e_m). Its
+// strains are a number that depends on the point and on m, times strains that do not depend on the point.
 template <std::size_t dim>
 class Modes {
 public:
     static constexpr std::size_t count = dim * dim, strains = strains_in(dim);
-    using Strains = std::array<double, count * strains>;  // [modes][strains]
+    using Strains = std::array<double, strains>;
 
-    Modes(CellType type, std::span<const double> coordinates)
-        : at_centre_(physical_gradient(type, coordinates, centre_gradient(type))) {
+    Modes(CellType type, std::span<const double> coordinates) {
+        const PhysicalGradient centre = physical_gradient(type, coordinates, centre_gradient(type));
+        jacobian_ = centre.jacobian;
         // Row m of J_0^-1 = dxi_m / dx = sum_a xi_m(node a) dN_a/dx, since shape functions reproduce xi.
+        std::array<double, dim * dim> inverse{};
         const std::span<const ReferencePoint> nodes = reference_nodes(type);
         for (std::size_t a = 0; a < nodes.size(); ++a)
             for (std::size_t m = 0; m < dim; ++m)
                 for (std::size_t j = 0; j < dim; ++j)
-                    inverse_[m * 3 + j] += nodes[a][m] * at_centre_.gradient[a * dim + j];
-    }
-    // Strains of the modes at a point with this Jacobian.
-    Strains at(const ReferencePoint& point, double jacobian) const {
-        Strains strain{};
+                    inverse[m * dim + j] += nodes[a][m] * centre.gradient[a * dim + j];
         for (std::size_t m = 0; m < dim; ++m)
             for (std::size_t i = 0; i < dim; ++i)
-                add_strain<dim>(i, &inverse_[m * 3], -2.0 * point[m] * at_centre_.jacobian / jacobian,
-                                &strain[(m * dim + i) * strains]);
-        return strain;
+                add_strain<dim>(i, &inverse[m * dim], 1.0, strain_[m * dim + i].data());
+    }
+    // Mode a = (m, i) is m dim + i.
+    const Strains& strain(std::size_t a) const { return strain_[a]; }
+    // The number of m at a point with this Jacobian.
+    double size(const ReferencePoint& point, double jacobian, std::size_t m) const {
+        return -2.0 * point[m] * jacobian_ / jacobian;
     }
 
 private:
-    PhysicalGradient at_centre_;
-    std::array<double, 9> inverse_{};
+    double jacobian_ = 0.0;  // at the centre
+    std::array<Strains, count> strain_{};
 };
 
 // Sizes a of the modes that minimise the energy,  K_aa a = -K_au u. Adds their strains, or only counts the energy
@@ -66,25 +69,30 @@ void bend(CellType type, std::span<const double> coordinates, std::span<const do
     const Own modes(type, coordinates);
     const Quadrature& gauss = quadrature(type);
     const std::size_t points = gauss.points.size();
-    std::array<double, most_modes * most_modes> stiffness{};
-    std::array<double, most_modes> right{}, size{};
-    std::array<typename Own::Strains, most_gauss_points> own;
-    for (std::size_t q = 0; q < points; ++q) {
-        own[q] = modes.at(gauss.points[q], jacobian[q]);
-        for (std::size_t a = 0; a < n; ++a) {
-            // Stress of the mode.
-            std::array<double, strains> stress{};
-            for (std::size_t r = 0; r < strains; ++r)
-                for (std::size_t c = 0; c < strains; ++c)
-                    stress[c] += own[q][a * strains + r] * elasticity[r * strains + c];
-            const auto energy = [&](const double* strain) {
-                double sum = 0.0;
-                for (std::size_t c = 0; c < strains; ++c) sum += stress[c] * strain[c];
-                return cell.volume[q] * sum;
-            };
-            right[a] -= energy(&cell.strain[q * most_strains]);
-            for (std::size_t b = 0; b <= a; ++b) stiffness[a * most_modes + b] += energy(&own[q][b * strains]);
+    std::array<std::array<double, dim>, most_gauss_points> at;
+    std::array<double, dim * dim> squares{};                   // sum over the points of the products of two numbers
+    std::array<std::array<double, strains>, dim> displaced{};  // and of each with the strains of the displacements
+    for (std::size_t q = 0; q < points; ++q)
+        for (std::size_t m = 0; m < dim; ++m) {
+            at[q][m] = modes.size(gauss.points[q], jacobian[q], m);
+            const double weighted = cell.volume[q] * at[q][m];
+            for (std::size_t k = 0; k <= m; ++k) squares[m * dim + k] += weighted * at[q][k];
+            for (std::size_t s = 0; s < strains; ++s) displaced[m][s] += weighted * cell.strain[q * most_strains + s];
         }
+    std::array<double, most_modes * most_modes> stiffness;
+    std::array<double, most_modes> right{}, size;
+    for (std::size_t a = 0; a < n; ++a) {
+        std::array<double, strains> stress{};
+        for (std::size_t r = 0; r < strains; ++r)
+            for (std::size_t c = 0; c < strains; ++c) stress[c] += modes.strain(a)[r] * elasticity[r * strains + c];
+        const auto energy = [&](const std::array<double, strains>& strain) {
+            double sum = 0.0;
+            for (std::size_t c = 0; c < strains; ++c) sum += stress[c] * strain[c];
+            return sum;
+        };
+        right[a] = -energy(displaced[a / dim]);
+        for (std::size_t b = 0; b <= a; ++b)
+            stiffness[a * most_modes + b] = squares[a / dim * dim + b / dim] * energy(modes.strain(b));
     }
     size = right;
     small_solve(n, most_modes, stiffness.data(), size.data());
@@ -95,7 +103,7 @@ void bend(CellType type, std::span<const double> coordinates, std::span<const do
     for (std::size_t q = 0; q < points; ++q)
         for (std::size_t a = 0; a < n; ++a)
             for (std::size_t s = 0; s < strains; ++s)
-                cell.strain[q * most_strains + s] += size[a] * own[q][a * strains + s];
+                cell.strain[q * most_strains + s] += size[a] * at[q][a / dim] * modes.strain(a)[s];
 }
 
 // (P div u - div u) / 3, P projecting onto 1, or onto 1 and x - x_0, as in element.cpp.

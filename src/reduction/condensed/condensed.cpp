@@ -77,14 +77,15 @@ void Condensed::condense() {
 }
 
 // True if the zone is factored with the whole tree in fewer operations than as a dense matrix, by a margin. Motions
-// that only the zone holds need a dense one.
+// that only the zone holds need a dense one. That of a single interface is a stretch through few cuts, whose dense
+// factor follows a front by updates.
 bool Condensed::tree_pays(std::span<const std::uint8_t> active) {
     const Limits& limits = problem_.options.limits;
     std::vector<std::int64_t> places;
     for (std::size_t i = 0; i < active.size(); ++i)
         if (choice_.inside()[i] != 0) places.push_back(bulk_->equations().place(static_cast<std::int64_t>(i)));
     const auto n = static_cast<double>(places.size());
-    if (n < limits.zone_tree_least) return false;
+    if (n < limits.zone_tree_least || problem_.mesh->interfaces().size() < 2) return false;
     if (bulk_->rigid().columns > 0 && split_motions(bulk_->rigid(), active).free.columns > 0) return false;
     if (tree_ == nullptr) {
         tree_ = std::make_unique<TreeFactor>(bulk_->superelements());

@@ -54,7 +54,7 @@ void TreeFactor::find_stale(std::span<const std::uint8_t> held, std::span<const 
     }
 }
 
-// What is held stays on the borders below, so that holding and releasing it renews no front there.
+// Leaves held jumps on the borders below, so that holding and releasing them renews no front there.
 void TreeFactor::divide(Node& node, std::int64_t number) const {
     const Superelements::Node& own = bodies_.nodes()[index(number)];
     TreeFront& front = node.front;
