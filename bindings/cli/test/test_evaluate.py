@@ -198,6 +198,26 @@ def noise():
     expect(np.all(np.abs(exact) < 0.01), f"and without noise: {exact}")
 
 
+def drawing():
+    """What is drawn: units as text, methods with few values as points, and values below zero in sight."""
+    sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "study"))
+    import types
+    from specimens import pictures
+    from specimens.answer import Answer
+    from specimens.points import Point
+    kept = []
+    pictures.save = lambda figure, path: kept.append(figure)
+    answer = Answer("method", np.array([1e-3, 2e-3, 3e-3]), np.full(3, 0.03), np.array([-5.0, 300.0, 400.0]), None, {})
+    points = types.SimpleNamespace(points=[Point("NL", 1, 1e-3, 10.0), Point("5 %", 1, 1e-3, 10.0), Point("max", 1, 1e-3, 10.0)])
+    pictures.draw("nowhere", types.SimpleNamespace(displacement=np.arange(3.0), load=np.arange(3.0)), [answer], points, [])
+    right = kept[0].axes[1]
+    expect("$" not in right.get_ylabel() and "J/m²" in right.get_ylabel(), f"the unit is text: {right.get_ylabel()}")
+    expect(all(line.get_linestyle() == "None" for line in right.lines), "three values at one crack are points, no line")
+    expect(right.get_ylim()[0] < -5 and right.get_ylim()[1] > 400, f"all values are in sight: {right.get_ylim()}")
+    sizes = [line.get_markersize() for line in kept[0].axes[0].lines[1:]]
+    expect(len(set(sizes)) == 3, f"points that coincide are told apart: {sizes}")
+
+
 def blocks():
     """Load blocks: N and F of ISO 15024, here from their formulae at the first mark."""
     here = folder()
@@ -282,6 +302,7 @@ else:
     mixed()
     wrong()
     noise()
+    drawing()
     blocks()
     effective()
     implausible()
