@@ -48,6 +48,9 @@ HIGHEST_STRENGTH = 60.0  # MPa: a resin has no more; with half of it the peak of
 SHEAR_RATIO = 5 / 3  # of the strengths where the sheet has the toughness of one mode alone, which then decides
 STIFFNESS_FACTOR = 50.0  # E3 over the thickness of the layer next to the interface (A. Turon et al. 2007)
 OVERHANG = 5.0  # mm beyond a roller: half and twice of it change no load, since nothing acts there
+# Of the way from the notch to the load in the middle: the most that grows without --growth, for notches of more than 0.82 of
+# the half span. Half of it shows less of the curve; at 1 the process zone would lie below the load.
+NEAR = 0.9
 PAST = 1.15  # of the displacement at the end of the growth: the march ends after it
 
 
@@ -55,7 +58,24 @@ def option(key):
     return "--" + key
 
 
+# Names of standards for a number that a kind has by another name: kinds, name, what it is taken for, and the factor.
+OTHER_NAMES = ((("enf", "mmb", "slb"), "span", "half-span", 0.5), (tuple(KINDS), "G13", "G12", 1.0))
+
+
+def one_name(given):
+    """Replaces the other names of numbers in the sheet."""
+    sheet = given["sheet"]
+    for kinds, name, known, factor in OTHER_NAMES:
+        if given["kind"] in kinds and name in sheet:
+            value = factor * sheet.pop(name)
+            if abs(sheet.get(known, value) / value - 1) > 1e-6:
+                raise command.Trouble(f"{option(name)} {given['texts'][name]} and {option(known)} {given['texts'][known]} "
+                                      f"contradict each other: {option(name)} is {1 / factor:g} times {option(known)}; give one")
+            sheet[known] = value
+
+
 def required(given):
+    one_name(given)
     sheet, kind = given["sheet"], given["kind"]
     needed = list(KINDS[kind][1])
     if kind not in ("fibre",) and "young" not in sheet:
@@ -95,7 +115,14 @@ def printable_command(text):
 def size_beam(of):
     """Lengths of the specimen that the sheet leaves out, and the displacement in the end."""
     of.thickness = 2 * of.arm if of.kind != "adcb" else of.arm + of.lower_arm
-    of.growth = of.notch / 5 if of.growth is None else of.growth
+    # Beam theory of the tests with a load in the middle, and their specimens, end there.
+    middle = of.half_span if of.kind in ("enf", "mmb", "slb") else math.inf
+    if not of.notch < middle:
+        raise command.Trouble(f"--notch {of.notch:g} mm is not allowed: less than the half span of {middle:g} mm, at which the load is")
+    of.growth = min(of.notch / 5, NEAR * (middle - of.notch)) if of.growth is None else of.growth
+    if of.kind != "slb" and not of.notch + of.growth < middle:
+        raise command.Trouble(f"--growth {of.growth:g} mm is not allowed: less than {middle - of.notch:g} mm, so that the crack of "
+                              "the notch and its growth ends before the load in the middle")
     of.outside = (of.span - of.inner_span) / 2 if of.kind == "4enf" else 0.0
     of.inside = of.span - of.outside if of.kind == "4enf" else 0.0
     of.overhang = OVERHANG if of.kind in ("enf", "4enf") else 0.0
@@ -224,7 +251,8 @@ def main():
     found = checked(of)
     write(scenes.scene(of), given["out"], given["replace"])
     said = standards.warnings(of) if of.kind in beams.THEORY else []
-    for line in said + found["warnings"]:
+    # The program has chosen mm and N itself: other units are no hint.
+    for line in said + [re.sub(r"; the numbers suggest .*", "", one) for one in found["warnings"]]:
         print(command.printable(f"warning: {line}"), file=sys.stderr)
     if given["out"]:
         print(f"zone      {'; '.join(found['process_zones'])}")

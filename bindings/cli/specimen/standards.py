@@ -26,7 +26,7 @@ ROWS = (
      lambda of: between(of.thickness, 3.4, 4.7)),
     ("enf", "ASTM D7905", "a half span of 50 mm; it is {half_span:g} mm", lambda of: between(of.half_span, 50, 50)),
     ("enf", "ASTM D7905", "a notch of 30 mm from the support; it is {notch:g} mm", lambda of: between(of.notch, 29, 31)),
-    ("enf", "beam theory", "a crack that grows at once: below 0.7 of the half span it jumps, and the notch is {share:.2f}",
+    ("enf", "beam theory", "a notch of 0.7 of the half span or more, from which the crack grows stably; from {share:.2f} it jumps",
      lambda of: of.notch >= 0.7 * of.half_span),
     ("mmb", "ASTM D6671", "a width of 20 to 25 mm; it is {width:g} mm", lambda of: between(of.width, 20, 25)),
     ("mmb", "ASTM D6671", "a thickness of 3 to 5 mm, both arms together; it is {thickness:g} mm",

@@ -100,11 +100,21 @@ def units():
                           "--G12", "5GPa", "--GIc", gc)
         texts.append(out.split("\n", 1)[1])
     expect(texts[0] == texts[1] and "[units]" in texts[0], "units of the sheet do not matter")
+    _, out, _ = delam("new", "dcb", "--width", "25mm", "--arm", "1,5mm", "--notch", "50mm", "--E1", "140GPa", "--E2", "10GPa",
+                      "--G13", "5GPa", "--GIc", "250J/m2")
+    expect(out.split("\n", 1)[1] == texts[0], "nor do a decimal comma, and another name of the shear modulus")
+    _, out, _ = delam("new", "enf", *PLY, "--arm", "2mm", "--notch", "30mm", "--half-span", "50mm", "--GIIc", "750J/m2")
+    _, whole, _ = delam("new", "enf", *PLY, "--arm", "2mm", "--notch", "30mm", "--span", "100mm", "--GIIc", "750J/m2")
+    expect(out and out.split("\n", 1)[1] == whole.split("\n", 1)[1], "nor does the span for its half")
     good = [*PLY, *KINDS["dcb"][0].split()]
     for words, wanted in ((["--arm", "1.5"], "--arm 1.5: a number with its unit is expected, like 1.5mm"),
                           (["--arm", "1.5GPa"], "--arm 1.5GPa: a unit of another kind is expected, like 1.5mm"),
                           (["--arm", "-1mm"], "--arm -1mm: a finite number > 0"),
                           (["--arm", "x"], "--arm x: a number with its unit is expected"),
+                          (["--arm", "1,5"], "--arm 1,5: a number with its unit is expected"),
+                          (["--arm", "1.5mm", "--G23", "5GPa"],
+                           "--G23: `delam new` has no such option (did you mean '--G13'"),
+                          (["--arm", "1.5mm", "--G13", "4GPa"], "--G13 4GPa and --G12 5e3MPa contradict each other"),
                           (["--length", "40mm"], "--length 40 mm is too short")):
         sheet = [*good] if words[0] == "--length" else [w for w in good if w not in ("--arm", "1.5mm")]
         expect_error(delam("new", "dcb", *sheet, *words), 2, re.escape(wanted))
@@ -113,6 +123,23 @@ def units():
     expect(code == 2 and "dbc" in error and "dcb" in error, "an unknown kind")
     scene, _, _ = made("dcb", good)
     expect_error(delam("new", "dcb", *good, "--out", scene), 2, "is there already; --replace")
+
+
+def places():
+    """The crack stays before the load in the middle; the notch ends at a pair; units are not told that nobody chose."""
+    sheet = [*PLY, "--arm", "2mm", "--half-span", "50mm", "--GIIc", "750J/m2"]
+    expect_error(delam("new", "enf", *sheet, "--notch", "55mm"), 2, "--notch 55 mm is not allowed: less than the half span of 50 mm")
+    expect_error(delam("new", "enf", *sheet, "--notch", "40mm", "--growth", "30mm"), 2,
+                 "--growth 30 mm is not allowed: less than 10 mm")
+    _, text, _ = made("enf", [*sheet, "--notch", "45mm"])
+    expect("and from 49.5 mm" in text, f"the growth ends before the middle: {text}")
+    good = [*PLY, *KINDS["dcb"][0].split()]
+    _, _, error = made("dcb", [*good, "--normal-strength", "57MPa", "--growth", "30mm"])
+    expect("between two pairs" not in error, f"the notch ends at a pair: {error}")
+    _, _, error = made("dcb", [*good[:-1], "250kJ/m2"])
+    expect("250 kJ/m" in error and "suggest" not in error, f"a toughness of another unit: {error}")
+    _, text, _ = made("mmb", [*PLY, *KINDS["mmb"][0].split()])
+    expect("toughness 372.2 J/m2" in text, f"the toughness of a mixed test: {text}")
 
 
 def standards():
@@ -145,6 +172,7 @@ if sys.argv[1:] == ["pairs"]:
     print_pairs()
 else:
     units()
+    places()
     standards()
     peaks()
 finish()

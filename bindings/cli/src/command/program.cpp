@@ -270,11 +270,14 @@ void add_evaluate(CLI::App& app, Arguments& into, Commands& of) {
     };
     for (const Entry& entry :
          {Entry{"width", "width of the specimen with its unit, e.g. 25mm"}, Entry{"arm", "thickness of one arm"},
-          Entry{"notch", "length of the starter crack from the line of load"},
+          Entry{"notch", "length of the starter crack, from the line of load (dcb, mmb) or the support (enf)"},
           Entry{"span", "distance of the outer supports, of enf and mmb"},
+          Entry{"half-span", "half of it, instead of --span"},
           Entry{"lever", "from the middle to the load on the lever, of mmb"},
-          Entry{"E1", "modulus along the fibres, e.g. 140GPa"}, Entry{"E2", "modulus across them, of mmb"},
-          Entry{"G13", "shear modulus, of mmb"}})
+          Entry{"block-pin", "dcb with load blocks: from the middle of the arm to the pin, l1 of ISO 15024"},
+          Entry{"block-length", "dcb with load blocks: length of a block, 2 l2 of ISO 15024"},
+          Entry{"E1", "modulus along the fibres, e.g. 140GPa"}, Entry{"E2", "modulus across them"},
+          Entry{"G13", "shear modulus across the thickness"}, Entry{"G12", "the same of a ply, instead of --G13"}})
         of.evaluate->add_option("--" + std::string(entry.key), study.sheet[entry.key], entry.meaning)
             ->type_name("QUANTITY");
     of.evaluate
@@ -369,6 +372,21 @@ std::vector<std::string> names_of_commands(const CLI::App& app) {
     return out;
 }
 
+// Words that begin with -- are options: one that the command does not have is named, with those nearby, before its
+// value is taken for something else.
+void require_known(const std::vector<std::string>& words, const CLI::App& app) {
+    const CLI::App* command = app.get_subcommand(words[0]);
+    std::vector<std::string> known;
+    for (const CLI::Option* option : command->get_options())
+        for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+    for (std::size_t i = 1; i < words.size() && words[i] != "--"; ++i) {
+        const std::string name = words[i].substr(0, words[i].find('='));
+        if (name.compare(0, 2, "--") != 0 || std::find(known.begin(), known.end(), name) != known.end()) continue;
+        throw Failure(exit_scene, fmt::format("{}: `delam {}` has no such option{}; `delam help {}` lists its options",
+                                              shortened(name), words[0], suggestion(name, known), words[0]));
+    }
+}
+
 // `delam` alone, `delam help` and `delam help run` say what `--help` says; a first word that is no command is named
 // with those nearby.
 std::vector<std::string> words_of(int argc, char** argv, const CLI::App& app) {
@@ -387,6 +405,7 @@ std::vector<std::string> words_of(int argc, char** argv, const CLI::App& app) {
                       fmt::format("\"{}\" is no command{}; the commands are {}; `delam help COMMAND` tells more",
                                   shortened(words[0]), suggestion(words[0], known), listing(known)));
     if (help) return {words[0], "--help"};
+    require_known(words, app);
     return words;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `delam new`: the values of a specimen's sheet, in any units, become numbers in mm and N. A script makes the scene of
 // them (specimen/README.md), because it asks the program itself for the process zone and the stiffness.
+#include <cctype>
 #include <cmath>
 #include <memory>
 
@@ -25,13 +26,14 @@ const SheetRow rows[] = {
     {"lower-arm", &mm, "2mm", "adcb: thickness of the lower arm"},
     {"notch", &mm, "50mm", "length of the notch, from the load (dcb, adcb, mmb) or the support (enf, 4enf, slb)"},
     {"half-span", &mm, "50mm", "enf, mmb, slb: half of the distance of the supports, L in the standards"},
-    {"span", &mm, "100mm", "4enf: distance of the supports"},
+    {"span", &mm, "100mm", "4enf: distance of the supports; enf, mmb, slb: instead of --half-span"},
     {"inner-span", &mm, "60mm", "4enf: distance of the loading noses"},
     {"lever", &mm, "41.3mm", "mmb: length of the lever, c in the standard"},
     {"growth", &mm, "20mm", "how far the crack shall grow (default: a fifth of the notch)"},
     {"E1", &mpa, "140GPa", "modulus along the fibres, as bending tests give it"},
     {"E2", &mpa, "10GPa", "modulus across"},
     {"G12", &mpa, "5GPa", "shear modulus; G13 is the same"},
+    {"G13", &mpa, "5GPa", "the same, instead of --G12"},
     {"nu12", &none, "0.3", "Poisson's ratio along and across"},
     {"nu23", &none, "0.45", "Poisson's ratio across the fibres"},
     {"young", &mpa, "70GPa", "modulus of isotropic arms, instead of E1 to nu23; fibre: of the matrix"},
@@ -57,8 +59,13 @@ double sheet_number(const SheetRow& row, const std::string& text) {
     const std::string place = std::string("--") + row.name + " " + text;
     std::size_t end = 0;
     double value = 0;
+    std::string points = text;  // "1,5mm" is 1.5 mm, as in the files of machines
+    const std::size_t comma = text.find(',');
+    if (comma != std::string::npos && comma > 0 && text.find_first_of(".,", comma + 1) == std::string::npos &&
+        text.find('.') > comma && comma + 1 < text.size() && std::isdigit(static_cast<unsigned char>(text[comma + 1])))
+        points[comma] = '.';
     try {
-        value = std::stod(text, &end);
+        value = std::stod(points, &end);
     } catch (const std::exception&) {
         throw Failure(exit_scene, fmt::format("{}: a number with its unit is expected, like {}", place, row.example));
     }

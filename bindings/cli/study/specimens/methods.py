@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Energy release rates of the standards, from load, displacement and crack length. All in SI; h is one arm, b the
-width, L half of the span, c the lever."""
+width, L half of the span, c the lever.
+
+A method that is calibrated returns the rate as a function of displacement, load and crack length, and its numbers."""
 import numpy as np
 
 
@@ -17,7 +19,7 @@ def large_displacement(displacement, crack):
 
 
 def block_factor(displacement, crack, height, length):
-    """The factor N of ISO 15024 for blocks: from the arm's middle to the pin, and half of the block's length."""
+    """The factor N of ISO 15024 for blocks: from the arm's middle to the pin, l1, and half of the block's length, l2."""
     share = length / crack
     return (1 - share ** 3 - 9 / 8 * (1 - share ** 2) * displacement * height / crack ** 2
             - 9 / 35 * (displacement / crack) ** 2)
@@ -25,56 +27,107 @@ def block_factor(displacement, crack, height, length):
 
 def corrected_beam_theory(displacement, load, crack, sheet):
     """CBT of ISO 15024: (3 P d / 2 b (a + offset)) F / N."""
-    blocks = sheet.get("block")
-    n = block_factor(displacement, crack, *blocks) if blocks else np.ones_like(crack)
-    f = large_displacement(displacement, crack)
-    if blocks:
-        f = f - 1.5 * displacement * blocks[0] / crack ** 2
-    offset = beam_offset(crack, displacement / load / n)
-    return 1.5 * load * displacement / (sheet["width"] * (crack + offset)) * f / n, {"offset": offset}
+    pin, half_block = sheet.get("block-pin", 0.0), 0.5 * sheet.get("block-length", 0.0)
+    blocks = pin > 0 or half_block > 0
+
+    def stiffer(d, a):
+        return block_factor(d, a, pin, half_block) if blocks else np.ones_like(a)
+
+    offset = beam_offset(crack, displacement / load / stiffer(displacement, crack))
+
+    def rate(d, p, a):
+        f = large_displacement(d, a) - 1.5 * d * pin / a ** 2
+        return 1.5 * p * d / (sheet["width"] * (a + offset)) * f / stiffer(d, a)
+    return rate, {"offset": offset}
 
 
 def modified_beam_theory(displacement, load, crack, sheet):
     """MBT of ASTM D5528: 3 P d / 2 b (a + offset)."""
     offset = beam_offset(crack, displacement / load)
-    return 1.5 * load * displacement / (sheet["width"] * (crack + offset)), {"offset": offset}
+    return lambda d, p, a: 1.5 * p * d / (sheet["width"] * (a + offset)), {"offset": offset}
 
 
 def compliance_calibration(displacement, load, crack, sheet):
     """CC of ASTM D5528 (Berry): n P d / 2 b a, n the slope of log C over log a."""
     n = float(np.polyfit(np.log(crack), np.log(displacement / load), 1)[0])
-    return 0.5 * n * load * displacement / (sheet["width"] * crack), {"n": n}
+    return lambda d, p, a: 0.5 * n * p * d / (sheet["width"] * a), {"n": n}
 
 
 def modified_compliance_calibration(displacement, load, crack, sheet):
     """MCC of ASTM D5528: 3 P^2 C^(2/3) / 2 A1 b (2 h), A1 the slope of a / 2h over the cube root of C."""
-    root = np.cbrt(displacement / load)
-    a1 = float(np.polyfit(root, crack / (2 * sheet["arm"]), 1)[0])
-    return 1.5 * load ** 2 * root ** 2 / (a1 * sheet["width"] * 2 * sheet["arm"]), {"A1": a1}
+    a1 = float(np.polyfit(np.cbrt(displacement / load), crack / (2 * sheet["arm"]), 1)[0])
+    return lambda d, p, a: 1.5 * p ** 2 * np.cbrt(d / p) ** 2 / (a1 * sheet["width"] * 2 * sheet["arm"]), {"A1": a1}
 
 
-def dcb_effective_crack(compliance, first, sheet):
-    """Lengths of the crack from the compliance, and the bending stiffness per arm: of E1 if it is given, else of the
-    initial compliance at the notch (de Moura, Morais, Dourado, Eng. Fract. Mech. 75, 2008)."""
-    if "E1" in sheet:
-        bending = sheet["E1"] * sheet["width"] * sheet["arm"] ** 3 / 12
-        return np.cbrt(1.5 * bending * compliance), bending
-    return sheet["notch"] * np.cbrt(compliance / first), 2 * sheet["notch"] ** 3 / (3 * first)
+def chi(e1, e2, g13):
+    """By how many arms the crack is longer because the arms rotate at its tip (ASTM D6671, eqs. 4 and 5)."""
+    gamma = 1.18 * np.sqrt(e1 * e2) / g13
+    return float(np.sqrt(e1 / (11 * g13) * (3 - 2 * (gamma / (1 + gamma)) ** 2)))
 
 
-def dcb_effective(displacement, load, first, sheet):
-    """Beam theory at the crack that the compliance has: P^2 a^2 / (b E I). Lengths of the crack, and rates."""
-    crack, bending = dcb_effective_crack(displacement / load, first, sheet)
-    return crack, load ** 2 * crack ** 2 / (sheet["width"] * bending)
+def _bending_modulus(sheet, of_offset):
+    """The modulus that the initial compliance has, of_offset(x) with a crack that is x arms longer, and this x. It follows
+    from E1 where that is given, else from the modulus itself; without E2 and G13 it is 0."""
+    if not {"E2", "G13"} <= sheet.keys():
+        return of_offset(0.0), 0.0
+    modulus = sheet.get("E1") or of_offset(0.0)
+    # The offset depends on the root of the modulus and moves it by a tenth: each turn leaves a twentieth of the error.
+    for _ in range(20):
+        longer = chi(sheet.get("E1") or modulus, sheet["E2"], sheet["G13"])
+        modulus = of_offset(longer)
+    return modulus, longer
 
 
-def enf_effective(displacement, load, first, sheet):
-    """The same for end-notched flexure: C = (3 a^3 + 2 L^3) / (8 b h^3 E), G = 9 a^2 P^2 / (16 b^2 h^3 E)."""
-    half, notch = 0.5 * sheet["span"], sheet["notch"]
-    modulus = sheet.get("E1") or (3 * notch ** 3 + 2 * half ** 3) / (8 * sheet["width"] * sheet["arm"] ** 3 * first)
-    cube = (8 * sheet["width"] * sheet["arm"] ** 3 * modulus * displacement / load - 2 * half ** 3) / 3
-    crack = np.cbrt(np.maximum(cube, 0.0))
-    return crack, 9 * crack ** 2 * load ** 2 / (16 * sheet["width"] ** 2 * sheet["arm"] ** 3 * modulus)
+def dcb_modulus(first, sheet):
+    """Of C = 8 (a + chi h)^3 / (b h^3 E) at the notch: E, and chi."""
+    h = sheet["arm"]
+    return _bending_modulus(sheet, lambda x: 8 * (sheet["notch"] + x * h) ** 3 / (sheet["width"] * h ** 3 * first))
+
+
+def dcb_effective(first, sheet, offset=0.0):
+    """Beam theory at the crack that the compliance has, the rotation at the tip included: G = P^2 a^2 / (b E I), with the
+    bending stiffness of E1 if that is given, else of the initial compliance at the notch (de Moura, Morais, Dourado, Eng.
+    Fract. Mech. 75, 2008). offset: by how much marks of the crack say that it is longer. Returns functions of
+    displacement and load: the length of the crack, and the rate."""
+    h, b = sheet["arm"], sheet["width"]
+    modulus, longer = dcb_modulus(first, sheet)
+    longer *= h
+    if longer == 0 and offset > 0:
+        longer, modulus = offset, 8 * (sheet["notch"] + offset) ** 3 / (b * h ** 3 * first)
+    bending = sheet.get("E1", modulus) * b * h ** 3 / 12
+
+    def effective(d, p):
+        return np.cbrt(1.5 * bending * d / p)
+    return lambda d, p: effective(d, p) - longer, lambda d, p: p ** 2 * effective(d, p) ** 2 / (b * bending)
+
+
+def _sheared(sheet):
+    """The compliance of the shear of a beam on two supports; 0 without G13."""
+    return 0.15 * sheet["span"] / (sheet["G13"] * sheet["width"] * sheet["arm"]) if "G13" in sheet else 0.0
+
+
+def enf_modulus(first, sheet):
+    """Of C = (3 (a + 0.42 chi h)^3 + 2 L^3) / (8 b h^3 E) + 3 L / (10 b h G13) at the notch: E, and 0.42 chi."""
+    half, h = 0.5 * sheet["span"], sheet["arm"]
+    modulus, longer = _bending_modulus(sheet, lambda x: (3 * (sheet["notch"] + 0.42 * x * h) ** 3 + 2 * half ** 3) / (
+        8 * sheet["width"] * h ** 3 * (first - _sheared(sheet))))
+    return modulus, 0.42 * longer
+
+
+def enf_effective(first, sheet):
+    """The same for end-notched flexure, G = 9 a^2 P^2 / (16 b^2 h^3 E). E is that of the initial compliance:
+    a^3 is a small difference of large numbers, which an error of E1 would upset. Without G13 it is E1, if that is given."""
+    half, h, b = 0.5 * sheet["span"], sheet["arm"], sheet["width"]
+    modulus, longer = enf_modulus(first, sheet)
+    longer *= h
+    if "G13" not in sheet:
+        modulus = sheet.get("E1", modulus)
+
+    def effective(d, p):
+        cube = (8 * b * h ** 3 * modulus * (d / p - _sheared(sheet)) - 2 * half ** 3) / 3
+        return np.cbrt(np.maximum(cube, 0.0))
+    return (lambda d, p: effective(d, p) - longer,
+            lambda d, p: 9 * effective(d, p) ** 2 * p ** 2 / (16 * b ** 2 * h ** 3 * modulus))
 
 
 def enf_calibration(cracks, compliances):
@@ -94,12 +147,6 @@ def mmb_modulus(compliance, chi, sheet):
     return ((8 * (notch + chi * h) ** 3 * (3 * lever - half) ** 2
              + (6 * (notch + 0.42 * chi * h) ** 3 + 4 * half ** 3) * (lever + half) ** 2)
             / (16 * half ** 2 * sheet["width"] * h ** 3 * compliance))
-
-
-def crack_correction(sheet):
-    """chi of ASTM D6671, eqs. 4 and 5; of E1, E2 and G13."""
-    gamma = 1.18 * np.sqrt(sheet["E1"] * sheet["E2"]) / sheet["G13"]
-    return float(np.sqrt(sheet["E1"] / (11 * sheet["G13"]) * (3 - 2 * (gamma / (1 + gamma)) ** 2)))
 
 
 def mixed_mode_bending(load, crack, chi, modulus, sheet):

@@ -2,26 +2,37 @@
 """The picture of an evaluation: the load curve with its points, and the toughness over the length of the crack."""
 import os
 
+import numpy as np
+
 from look import BLUE, GREY, ORANGE, RED, plt, save
 
+# Below this number of places a method has points, not a curve; marks are drawn as they are.
+CURVE = 40
 
-def draw(out, curve, answers, points, fitted):
-    """Lengths in mm, loads in N, toughnesses in J/m2. fitted: toughnesses of a fit as bands."""
+
+def draw(out, curve, answers, points, bands):
+    """Lengths in mm, loads in N, toughnesses in J/m2. bands: those of a fit with their intervals."""
     figure, (left, right) = plt.subplots(1, 2, figsize=(10, 4.2), constrained_layout=True)
-    left.plot(1e3 * curve.displacement, curve.load, color=GREY)
-    for point, marker in zip(points, "os^"):
-        left.plot(1e3 * point.displacement, point.load, marker, color=RED, label=point.name.partition(" (")[0])
+    left.plot(1e3 * curve.displacement, curve.load, color=GREY, linewidth=0.8)
+    # Points may coincide: the later ones are smaller.
+    for point, (marker, size) in zip(points.points, (("o", 11), ("s", 8), ("D", 6), ("^", 4))):
+        left.plot(1e3 * point.displacement, point.load, marker, color=RED, markersize=size, fillstyle="none",
+                  label=point.name.partition(" (")[0])
     left.set_xlabel("displacement (mm)")
     left.set_ylabel("load (N)")
     left.legend()
-    styles = [("-", GREY), ("o", BLUE), ("s", ORANGE), ("^", RED), ("v", GREY)]
-    for (name, (crack, rate, _, _)), (style, colour) in zip(answers.items(), styles):
-        right.plot(1e3 * crack, rate, style, color=colour, label=name, fillstyle="none")
-    for key, value, low, high in fitted:
-        right.axhspan(low, high, color=BLUE, alpha=0.15, label=f"fit: {key}")
-        right.axhline(value, color=BLUE, linewidth=0.8)
+    marks = iter((("o", BLUE), ("s", ORANGE), ("^", RED), ("v", GREY)))
+    for answer in answers:
+        style, colour = ("-", GREY) if len(answer.where) >= CURVE else next(marks)
+        style = style if np.ptp(answer.crack) > 0 or len(answer.where) < CURVE else "."
+        right.plot(1e3 * answer.crack, answer.rate, style, color=colour, label=answer.name, fillstyle="none")
+    for key, value, low, high in bands:
+        if low == low and high == high:
+            right.axhspan(low, high, color=BLUE, alpha=0.15, label=f"fit: {key}")
+        right.axhline(value, color=BLUE, linewidth=0.8, label=None if low == low and high == high else f"fit: {key}")
     right.set_xlabel("crack length (mm)")
-    right.set_ylabel("toughness (J/m$^2$)")
-    right.set_ylim(bottom=0)
+    right.set_ylabel("toughness (J/m²)")
+    rates = np.concatenate([answer.rate for answer in answers] + [[end] for band in bands for end in band[1:] if end == end])
+    right.set_ylim(min(0.0, 1.05 * np.min(rates)), 1.15 * max(np.max(rates), 0.0))
     right.legend(fontsize="small")
     save(figure, os.path.join(out, "evaluate.png"))
