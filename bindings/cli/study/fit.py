@@ -35,10 +35,10 @@ from marches import DONE, NUMERICAL, Trouble, given_words, hold, make_folder, re
 from measured.curve_data import CurveData, scale_of  # noqa: E402
 from own_files import claim, write_file  # noqa: E402
 
-# Analyses of a fit: so many, so many more for each parameter, 12 for two, and OF_MANY for each beyond two. Ends of
-# intervals take two each of them. Three parameters of three curves of mixed-mode bending took 24; with 16 they ended
-# before the least misfit.
-ANALYSES, MORE, OF_MANY = 4, 4, 20
+# Analyses of a fit: so many, so many more for each parameter, 12 for one, 16 for two, and OF_MANY for each beyond two. Ends
+# of intervals take two each of them; those of parameters that are held come on top. A DCB, an ENF and an MMB of one
+# parameter on meshes of `delam new` took 7; with half of ANALYSES, a start 12 % off ended before the least misfit.
+ANALYSES, MORE, OF_MANY = 8, 4, 20
 # Residuals of this part of the largest y are the tolerance of the analyses: there is nothing to look for in them.
 # damage_tolerance has 4e-4 as its default, and peaks of a few points have errors of this size.
 EXACT = 1e-4
@@ -49,12 +49,13 @@ FARTHER = (0.25, 4.0)  # where a start without any damage is left to, by these f
 @dataclass
 class Solution:
     """outcome of the search, mask of the parameters that the data tell, a sentence for each other one, intervals of the
-    kept ones, and the profile that they are of."""
+    kept ones, the profile that they are of, and how what is held shifts them."""
     outcome: Outcome
     kept: np.ndarray
     reasons: dict
     intervals: list
     profile: Profile
+    shifts: list
 
 
 class Search:
@@ -85,8 +86,7 @@ class Search:
                     point = found
                     break
         slopes = Slopes(self.misfit, point)
-        tried = [slopes.probe(point, k) for k in np.flatnonzero(slopes.chord)]
-        return point, slopes, [found for found in tried if found is not None]
+        return point, slopes, slopes.begin(point)
 
     def _told(self, jacobian, before=None, residual=None):
         """Which parameters are told. before: those that were; a search must not go to and fro for the last digit."""
@@ -126,6 +126,17 @@ class Search:
             raise Trouble("the scene does not run with its own load steps where it does with fewer", NUMERICAL)
         return descend(self.misfit, slopes, fine, kept, self.left() - reserve)
 
+    def _put_back(self, outcome, dropped, kept):
+        """The point from which to go on where some parameters are dropped: they have their starts again, and the others
+        follow by the derivatives."""
+        if not dropped.any():
+            return outcome.point
+        lower, upper = self.misfit.bounds()
+        there = np.where(dropped, 0.0, outcome.point.at)
+        change = outcome.jacobian[:, dropped] @ (there - outcome.point.at)[dropped]
+        there[kept] -= np.linalg.lstsq(outcome.jacobian[:, kept], change, rcond=None)[0]
+        return self.misfit.point(np.clip(there, lower, upper)) or outcome.point
+
     def run(self):
         begin, slopes, tried = self._begin()
         kept, reasons = self._told(slopes.at(begin))
@@ -142,19 +153,22 @@ class Search:
         if (again != kept).any() and again.any() and self.left() > 2 * int(again.sum()):
             for k in np.flatnonzero(again & ~kept):
                 say(f"{self.names[k]} is told by the data after all: from here on it is fitted")
-            self.say_left_out({k: reasons_again[k] for k in np.flatnonzero(kept & ~again)}, outcome.point.at)
+            begin = self._put_back(outcome, kept & ~again, again)
+            self.say_left_out({k: reasons_again[k] for k in np.flatnonzero(kept & ~again)}, begin.at)
             reasons = {k: reasons_again.get(k) or reasons[k] for k in np.flatnonzero(~again)}
             kept = again
-            outcome = self._descend(slopes, outcome.point, kept)
+            outcome = self._descend(slopes, begin, kept)
         elif (kept & ~again).any():
             outcome.converged, outcome.message = False, "the data do not tell what is fitted where the search has ended"
-        return self._intervals(slopes, outcome, kept, reasons)
+        outcome, intervals, profile = self._intervals(slopes, outcome, kept)
+        shifts = shifts_of_held(self.misfit, outcome, kept, held_ranges(self.misfit, outcome.point.at))
+        return Solution(outcome, kept, reasons, intervals, profile, shifts)
 
-    def _intervals(self, slopes, outcome, kept, reasons):
+    def _intervals(self, slopes, outcome, kept):
         while True:
             profile = Profile(self.misfit, outcome, kept, slopes.chord, self.level)
             if not self._worth_ends(outcome, profile, kept):
-                return Solution(outcome, kept, reasons, profile.of_derivatives(), profile)
+                return outcome, profile.of_derivatives(), profile
             ends = 2 * int(kept.sum())
             intervals = []
             for k in range(int(kept.sum())):
@@ -166,11 +180,11 @@ class Search:
                 if moved:
                     profile = Profile(self.misfit, outcome, kept, slopes.chord, self.level)
                     intervals = profile.of_derivatives()
-                return Solution(outcome, kept, reasons, intervals, profile)
+                return outcome, intervals, profile
             if self.left() < ends:  # no analyses for another search and its ends
                 profile = Profile(self.misfit, Outcome(better, outcome.jacobian, False, "no analyses were left"), kept,
                                   slopes.chord, self.level)
-                return Solution(profile.outcome, kept, reasons, profile.of_derivatives(trusted=False), profile)
+                return profile.outcome, profile.of_derivatives(trusted=False), profile
             outcome = descend(self.misfit, slopes, better, kept, self.left() - ends)
 
     def _worth_ends(self, outcome, profile, kept):
@@ -185,9 +199,6 @@ def rows_of(search, found):
     values, misfit_start = search.misfit.values(found.outcome.point.at), search.misfit.start
     lower, upper = search.misfit.bounds()
     places = np.flatnonzero(found.kept).tolist()
-    held, most = np.zeros(len(places)), np.zeros(len(places))
-    if len(places) < len(values):
-        held, most = shifts_of_held(found.outcome.jacobian, found.kept, held_ranges(search.misfit, ~found.kept))
     errors = found.profile.errors()
     factor = found.profile.factor
     rows = []
@@ -202,14 +213,14 @@ def rows_of(search, found):
         row["at_bound"] = bool(min(at - lower[k], upper[k] - at) < 1e-9)
         if found.intervals:
             # Of what lies anywhere in a range, the confidence lies in the same part of it.
-            of_held = min(factor * held[which], search.level * most[which])
-            one = found.intervals[which]
-            row["standard_error"] = values[k] * float(np.hypot(errors[which], held[which]))
-            ends = np.array([-np.hypot(one.below, of_held), np.hypot(one.above, of_held)])
+            one, shift = found.intervals[which], found.shifts[which]
+            held = [min(factor * shift.standard, search.level * most) for most in (shift.below, shift.above)]
+            row["standard_error"] = values[k] * float(np.hypot(errors[which], shift.standard))
+            ends = np.array([-np.hypot(one.below, held[0]), np.hypot(one.above, held[1])])
             ends = np.clip(at + ends, lower[k], upper[k])
             # Beyond this a logarithm has no number, and the data no say.
             row["interval"] = [float(misfit_start[k] * np.exp(end)) if abs(end) < 300 else None for end in ends]
-            row["of_held"] = values[k] * of_held
+            row["of_held"] = [float(values[k] * abs(np.expm1(end))) for end in (-held[0], held[1])]
     return rows
 
 
@@ -256,7 +267,8 @@ def say_rows(rows, level):
             continue
         low, high = (float("nan") if end is None else end for end in row["interval"])
         say(f"{row['key']} = {row['value']:.6g}, {100 * level:g} % interval {low:.6g} to {high:.6g}"
-            + (f", of this {row['of_held']:.2g} to each side for what is held" if row.get("of_held") else "")
+            + (", of this {:.2g} below and {:.2g} above for what is held".format(*row["of_held"])
+               if any(row.get("of_held", [])) else "")
             + (" (at its bound)" if row["at_bound"] else ""))
 
 

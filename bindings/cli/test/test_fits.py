@@ -139,6 +139,40 @@ class Made:
         """Nothing has units here."""
 
 
+class Toothed(Made):
+    """Two parameters that move the curve alike, the second by half as much, but analyses whose derivatives are those of
+    teeth: 0.3 of what the curve does, for the first one as rough as given."""
+
+    def __init__(self, count, rough):
+        super().__init__(0.0)
+        self.rough = [rough, 0.1][:count]
+        self.parameters = [SimpleNamespace(path=name, start=1.0, lower=1 / most, upper=most, of_law=True)
+                           for name, most in (("p", 5.0), ("q", 2.0))[:count]]
+
+    def evaluate(self, values):
+        self.marches += 1
+        moved = np.log(values[0]) + (0.5 * np.log(values[1]) if len(values) > 1 else 0.0)
+        slopes = [0.3 * part * self.slopes / value for part, value in zip((1.0, 0.5), values)]
+        return Answer([4 + moved * self.slopes], slopes, self.rough, [None])
+
+
+def teeth():
+    """Derivatives that look smooth and are not of the curve: the search takes chords, for all numbers of laws, and ends
+    within its analyses; what is held shifts the others by as much as fits with it at its ends do."""
+    model = Toothed(1, 0.1)
+    found = quietly(study.Search(model, "curve", 0.95).run)
+    expect(found.outcome.converged and found.intervals[0].trusted and abs(np.exp(found.outcome.point.at[0]) - 1.6) < 0.05
+           and model.marches <= 8, f"one parameter is found in {model.marches} analyses: {found.outcome.message}")
+    search = study.Search(Toothed(2, 0.9), "curve", 0.95)
+    found = quietly(search.run)
+    first, second = study.rows_of(search, found)
+    expect(first["told"] and not second["told"] and second["value"] == 1.0, f"of two that do the same: {first} {second}")
+    # With q at 0.5 and 2, p is 2 ** 0.5 of itself; 95 % of what lies anywhere between reach 0.95 of it in logarithms.
+    wide = 2 ** (0.5 * 0.95)
+    low, high = (end / first["value"] for end in first["interval"])
+    expect(1 / wide * 0.9 < low < 1 / wide * 1.01 and wide * 0.99 < high < wide * 1.1, f"what is held widens it: {first}")
+
+
 def quietly(work):
     """What a function returns that talks."""
     with open(os.devnull, "w", encoding="utf-8") as silent:
@@ -383,6 +417,6 @@ def coverage(trials=100):
 if sys.argv[1:] == ["whole"]:
     long_fits()
 else:
-    for part in (fits, rugged, alike, untold):
+    for part in (fits, rugged, teeth, alike, untold):
         part()
 finish()
