@@ -381,7 +381,7 @@ def long_fits():
 
 def given_in(here, **more):
     words = {"set": [], "out": here, "jobs": 1, "x": "load", "y": "reaction", "columns": None, "x_scale": 1.0, "loops": "cut",
-             "scale": 1.0, "width": ""}
+             "scale": 1.0, "width": "", "slack": "find", "compliance": ""}
     os.makedirs(os.path.join(here, "work"), exist_ok=True)
     return SimpleNamespace(**{**words, **more})
 

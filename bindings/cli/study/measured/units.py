@@ -27,10 +27,10 @@ def kind_of(symbol):
         for known, size in sizes.items():
             if known.lower() == text.lower() and not {known, text} & DISTINCT:
                 return kind, size
-    if "/" in text:  # a force per width
+    if "/" in text:  # a force per width, or a compliance
         above, below = (kind_of(part) for part in text.split("/", 1))
-        if above[0] == "force" and below[0] == "length":
-            return "force/length", above[1] / below[1]
+        if (above[0], below[0]) in (("force", "length"), ("length", "force")):
+            return f"{above[0]}/{below[0]}", above[1] / below[1]
     return None, 1.0
 
 
