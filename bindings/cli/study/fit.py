@@ -25,14 +25,15 @@ import numpy as np  # noqa: E402
 
 from _pictures.input_file import MOST_RESULT, Unreadable, read_json  # noqa: E402
 from command import complain, loading, say  # noqa: E402
-from fit_model import Infeasible, Model, Parameter, read_scene, units_of_scene  # noqa: E402
+from fit_model import Infeasible, Model, Parameter, read_scene, units_of_scene, word_of  # noqa: E402
 from fitting.descent import COARSE_SHORT, ENOUGH, SHORT, Outcome, descend  # noqa: E402
 from fitting.identify import TOLD, held_ranges, noise_of, told  # noqa: E402
 from fitting.misfit import Misfit, Slopes  # noqa: E402
 from fitting.profiles import Profile, shifts_of_held  # noqa: E402
 from fitting.regression import refine  # noqa: E402
-from marches import DONE, NUMERICAL, Trouble, given_words, hold, make_folder, read_about, refuse_set, run_study  # noqa: E402
+from marches import DONE, NUMERICAL, Trouble, given_words, hold, make_folder, read_about, refuse_set, run_study, value_at  # noqa: E402
 from measured.curve_data import CurveData, scale_of  # noqa: E402
+from measured.units import unit_of_key  # noqa: E402
 from own_files import claim, write_file  # noqa: E402
 
 # Analyses of a fit: so many, so many more for each parameter, 12 for one, 16 for two, and OF_MANY for each beyond two. Ends
@@ -65,6 +66,7 @@ class Search:
         self.model, self.level = model, level
         self.misfit = Misfit(model, weights)
         self.names = [p.path for p in model.parameters]
+        self.units = [unit_of_key(name, model.units) for name in self.names]
         count = len(self.names)
         self.most = ANALYSES + MORE * count + OF_MANY * max(0, count - 2)
         self.noise = max(noise_of(data, np.max(np.abs(data.y))) for data in model.data)
@@ -104,15 +106,17 @@ class Search:
         data = self.model.data
         idle = [self.names[k] for k, reason in reasons.items() if "does not depend" in reason]
         if len(idle) == len(self.names):
-            where = f" for {self.model.x_name} from {data[0].x[0]:g} to {data[0].x[-1]:g}" if len(data) == 1 else ""
+            name, unit = self.model.named_x(0)
+            where = f" for a {name} from {data[0].x[0]:g} to {data[0].x[-1]:g}{unit}" if len(data) == 1 else ""
             return (f"{'the curve does' if len(data) == 1 else 'the curves do'} not depend on {', '.join(idle)}{where}: "
-                    "numbers of laws act where the interface damages or the crack grows; are the data in the units of the "
+                    "numbers of laws act where the interface damages, or the crack grows, in their mode; are the data in the units of the "
                     "scene, and do they reach so far?")
         return "the data tell none of the parameters: " + "; ".join(f"{self.names[k]}: {reasons[k]}" for k in sorted(reasons))
 
     def say_left_out(self, reasons, at):
         for k in sorted(reasons):
-            say(f"{self.names[k]} is not told by the data and stays at {self.misfit.values(at)[k]:.6g}: {reasons[k]}")
+            say(f"{self.names[k]} is not told by the data and stays at {self.misfit.values(at)[k]:.6g}{self.units[k]}: "
+                f"{reasons[k]}")
 
     def _descend(self, slopes, begin, kept):
         reserve, coarse = 2 * int(kept.sum()), self.model.begins_coarse
@@ -247,7 +251,7 @@ def report(search, found, given):
     about = {"parameters": rows, "confidence": given.confidence, "correlation": correlations(search, found), "rms": rms,
              "points": len(misfit.y), "marches": model.marches, "converged": found.outcome.converged,
              "message": found.outcome.message, "scenes": model.files, "data": [d.path for d in model.data],
-             "read": [d.said for d in model.data], "units": list(units_of_scene(model.scenes[0], model.common)), "jumps": jumps, "unknown_pairs": model.unknown, "doubted": doubted}
+             "read": [d.said for d in model.data], "units": list(model.units), "jumps": jumps, "unknown_pairs": model.unknown, "doubted": doubted}
     write_file(os.path.join(out, "fit.json"), json.dumps(about, indent=1, allow_nan=False))
     lines = ["scene,x,y,model,residual"]
     for which, (data, curve) in enumerate(zip(model.data, answer.curves)):
@@ -255,39 +259,52 @@ def report(search, found, given):
         draw_fit(out, which, model, curve, answer.histories[which], jumps[which],
                  read_about(os.path.join(model.work, f"{which + 1}-at")))
     write_file(os.path.join(out, "fit.csv"), "\n".join(lines) + "\n")
-    say_rows(rows, given.confidence)
-    say(f"root mean square of the residuals {rms:.4g}, {len(misfit.y)} points, {model.marches} analyses")
+    say_rows(rows, given.confidence, about["units"])
+    say(f"root mean square of the residuals {misfit.in_words(rms)}, {len(misfit.y)} points, {model.marches} analyses")
     warn(search, found, doubted, jumps)
 
 
-def say_rows(rows, level):
+def say_rows(rows, level, units):
     for row in rows:
+        unit = unit_of_key(row["key"], units)
         if not row["told"]:
-            say(f"{row['key']} is not told by the data: {row['value']:.6g} is its start")
+            say(f"{row['key']} is not told by the data: {row['value']:.6g}{unit} is its start")
             continue
         low, high = (float("nan") if end is None else end for end in row["interval"])
-        say(f"{row['key']} = {row['value']:.6g}, {100 * level:g} % interval {low:.6g} to {high:.6g}"
+        say(f"{row['key']} = {row['value']:.6g}{unit}, {100 * level:g} % interval {low:.6g} to {high:.6g}{unit}"
             + (", of this {:.2g} below and {:.2g} above for what is held".format(*row["of_held"])
                if any(row.get("of_held", [])) else "")
             + (" (at its bound)" if row["at_bound"] else ""))
 
 
+def finer(scene):
+    """Settings that halve the cells and the load steps, as far as the scene says them by one number."""
+    found = [f"--set {key}={2 * int(value)}" for key in ("geometry.divisions", "time.steps")
+             if (value := value_at(scene, key)) is not None]
+    return f" ({' '.join(found)})" if found else ""
+
+
 def warn(search, found, doubted, jumps):
     model = search.model
+    there = dict(zip(search.names, search.misfit.values(found.outcome.point.at)))
     if not found.outcome.converged:
-        say(f"warning: {model.marches} analyses have not found the least misfit ({found.outcome.message}): begin from "
-            "these values")
+        words = " ".join(f"{word_of(name)}@{there[name]:.6g}" for name in there)
+        say(f"warning: {model.marches} analyses have not found the least misfit ({found.outcome.message}): begin from there, "
+            f"--parameters {words}")
     if doubted:
-        say(f"warning: the interval{'s' if len(doubted) > 1 else ''} of {', '.join(doubted)} cannot be trusted: at "
-            "their ends the misfit is not what the derivatives say; the curve may depend on them in steps, from pair to "
-            "pair: refine the mesh, and begin from other values")
+        one = len(doubted) == 1
+        elsewhere = " ".join(f"{word_of(name)}@{1.2 * there[name]:.4g}" for name in doubted)
+        say(f"warning: the interval{'' if one else 's'} of {', '.join(doubted)} cannot be trusted: at {'its' if one else 'their'} "
+            f"ends the misfit is not what the derivatives say; the curve may depend on {'it' if one else 'them'} in steps, from "
+            f"pair to pair: refine the mesh{finer(model.scenes[0])}, and begin elsewhere (--parameters {elsewhere})")
     for path, count in zip(model.files, model.unknown):
         if count:
             say(f"warning: {path}: the adhesion of {count:.0f} pairs came to rest within a step and is taken as constant; "
                 "the derivatives, and with them the intervals, are not exact")
-    for path, at in zip(model.files, jumps):
+    for which, (path, at) in enumerate(zip(model.files, jumps)):
         if at:
-            say(f"warning: {path} jumps at {model.x_name} {', '.join(f'{x:.6g}' for x in at[:5])}: the analysis has no "
+            name, unit = model.named_x(which)
+            say(f"warning: {path} jumps at a {name} of {', '.join(f'{x:.6g}' for x in at[:5])}{unit}: the analysis has no "
                 "derivative there, and the intervals do not know of it")
 
 

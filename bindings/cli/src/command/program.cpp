@@ -238,9 +238,10 @@ void add_fit(CLI::App& app, Arguments& into, Commands& of) {
         ->type_name("HOW")
         ->check(CLI::IsMember(of.choices["loops"] = {"cut", "follow"}));
     of.fit
-        ->add_option("--slack", study.slack,
-                     "displacement at which the load begins, which is taken off: find (default), none, or a length, e.g. "
-                     "0.3mm")
+        ->add_option(
+            "--slack", study.slack,
+            "displacement at which the load begins, which is taken off: find (default), none, or a length, e.g. "
+            "0.3mm")
         ->type_name("LENGTH");
     of.fit
         ->add_option("--compliance", study.compliance,

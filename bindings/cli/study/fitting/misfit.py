@@ -43,7 +43,7 @@ class Misfit:
     """Evaluates points. start: the values at 0; y: the data of all curves; size: by what residuals are divided."""
 
     def __init__(self, model, weights):
-        self.model = model
+        self.model, self.weights = model, weights
         self.start = np.array([p.start for p in model.parameters])
         self.y = np.concatenate([data.y for data in model.data])
         self.size = np.concatenate([self._sizes(np.abs(data.y), weights) for data in model.data])
@@ -58,6 +58,13 @@ class Misfit:
         if weights == "relative":
             return np.maximum(y, 0.05 * np.max(y))
         return np.full(len(y), np.max(y) if weights == "curve" else 1.0)
+
+    def in_words(self, size):
+        """A root mean square of residuals, with what it is a part of."""
+        if self.weights == "equal":
+            return f"{size:.4g}{self.model.y_unit}"
+        y = "load" if self.model.y_name.startswith("reaction") else self.model.y_name
+        return f"{100 * size:.4g} % of " + (f"the largest {y}" if self.weights == "curve" else f"the {y}")
 
     def bounds(self):
         with np.errstate(divide="ignore"):
@@ -83,7 +90,7 @@ class Misfit:
         slopes = [np.full(len(self.y), np.nan) if slope is None or rough > TEETH else slope * value / self.size
                   for slope, rough, value in zip(answer.slopes, answer.rough, values)]
         point = Point(np.array(at), residual, np.array(slopes).T, answer.rough, answer)
-        return point, f"root mean square {np.sqrt(np.mean(residual ** 2)):.4g}"
+        return point, f"root mean square {self.in_words(np.sqrt(np.mean(residual ** 2)))}"
 
     def fine_points(self):
         """All points that were evaluated with the scene's own load steps."""

@@ -34,6 +34,20 @@ def kind_of(symbol):
     return None, 1.0
 
 
+# What the number of a key of a scene is measured in, by how the key ends.
+OF_KEYS = (("toughness", "{force}/{length}"), ("stiffness", "{force}/{length}^3"), ("strength", "{force}/{length}^2"),
+           ("young", "{force}/{length}^2"), (r"\b[EG][123]+", "{force}/{length}^2"), ("thickness", "{length}"),
+           (r"geometry\.(length|width|h)", "{length}"))
+
+
+def unit_of_key(path, units):
+    """" N/mm": the unit of the number at a path of a scene, after a blank. units: of length and force; "" where the scene
+    names none, or the key is not of the table."""
+    length, force = units
+    form = next((form for ending, form in OF_KEYS if re.search(f"(?:{ending})$", path)), None)
+    return " " + form.format(length=length, force=force) if form and length and force else ""
+
+
 ENDING = re.compile(r"\s*(?:\[([^\[\]]*)\]|\(([^()]*)\)|(?:\bin|/|,)\s*([^\s,/]+)|_([A-Za-zµμ]+))\s*$")
 
 
