@@ -25,20 +25,21 @@ import numpy as np  # noqa: E402
 
 from _pictures.input_file import MOST_RESULT, Unreadable, read_json  # noqa: E402
 from command import complain, loading, say  # noqa: E402
-from fit_model import Infeasible, Model, Parameter, read_scene, units_of_scene  # noqa: E402
+from fit_model import Infeasible, Model, Parameter, read_scene, units_of_scene, word_of  # noqa: E402
 from fitting.descent import COARSE_SHORT, ENOUGH, SHORT, Outcome, descend  # noqa: E402
 from fitting.identify import TOLD, held_ranges, noise_of, told  # noqa: E402
 from fitting.misfit import Misfit, Slopes  # noqa: E402
 from fitting.profiles import Profile, shifts_of_held  # noqa: E402
 from fitting.regression import refine  # noqa: E402
-from marches import DONE, NUMERICAL, Trouble, given_words, hold, make_folder, read_about, refuse_set, run_study  # noqa: E402
+from marches import DONE, NUMERICAL, Trouble, given_words, hold, make_folder, read_about, refuse_set, run_study, value_at  # noqa: E402
 from measured.curve_data import CurveData, scale_of  # noqa: E402
+from measured.units import unit_of_key  # noqa: E402
 from own_files import claim, write_file  # noqa: E402
 
-# Analyses of a fit: so many, so many more for each parameter, 12 for two, and OF_MANY for each beyond two. Ends of
-# intervals take two each of them. Three parameters of three curves of mixed-mode bending took 24; with 16 they ended
-# before the least misfit.
-ANALYSES, MORE, OF_MANY = 4, 4, 20
+# Analyses of a fit: so many, so many more for each parameter, 12 for one, 16 for two, and OF_MANY for each beyond two. Ends
+# of intervals take two each of them; those of parameters that are held come on top. A DCB, an ENF and an MMB of one
+# parameter on meshes of `delam new` took 7; with half of ANALYSES, a start 12 % off ended before the least misfit.
+ANALYSES, MORE, OF_MANY = 8, 4, 20
 # Residuals of this part of the largest y are the tolerance of the analyses: there is nothing to look for in them.
 # damage_tolerance has 4e-4 as its default, and peaks of a few points have errors of this size.
 EXACT = 1e-4
@@ -49,12 +50,13 @@ FARTHER = (0.25, 4.0)  # where a start without any damage is left to, by these f
 @dataclass
 class Solution:
     """outcome of the search, mask of the parameters that the data tell, a sentence for each other one, intervals of the
-    kept ones, and the profile that they are of."""
+    kept ones, the profile that they are of, and how what is held shifts them."""
     outcome: Outcome
     kept: np.ndarray
     reasons: dict
     intervals: list
     profile: Profile
+    shifts: list
 
 
 class Search:
@@ -64,6 +66,7 @@ class Search:
         self.model, self.level = model, level
         self.misfit = Misfit(model, weights)
         self.names = [p.path for p in model.parameters]
+        self.units = [unit_of_key(name, model.units) for name in self.names]
         count = len(self.names)
         self.most = ANALYSES + MORE * count + OF_MANY * max(0, count - 2)
         self.noise = max(noise_of(data, np.max(np.abs(data.y))) for data in model.data)
@@ -85,8 +88,7 @@ class Search:
                     point = found
                     break
         slopes = Slopes(self.misfit, point)
-        tried = [slopes.probe(point, k) for k in np.flatnonzero(slopes.chord)]
-        return point, slopes, [found for found in tried if found is not None]
+        return point, slopes, slopes.begin(point)
 
     def _told(self, jacobian, before=None, residual=None):
         """Which parameters are told. before: those that were; a search must not go to and fro for the last digit."""
@@ -104,15 +106,17 @@ class Search:
         data = self.model.data
         idle = [self.names[k] for k, reason in reasons.items() if "does not depend" in reason]
         if len(idle) == len(self.names):
-            where = f" for {self.model.x_name} from {data[0].x[0]:g} to {data[0].x[-1]:g}" if len(data) == 1 else ""
+            name, unit = self.model.named_x(0)
+            where = f" for a {name} from {data[0].x[0]:g} to {data[0].x[-1]:g}{unit}" if len(data) == 1 else ""
             return (f"{'the curve does' if len(data) == 1 else 'the curves do'} not depend on {', '.join(idle)}{where}: "
-                    "numbers of laws act where the interface damages or the crack grows; are the data in the units of the "
+                    "numbers of laws act where the interface damages, or the crack grows, in their mode; are the data in the units of the "
                     "scene, and do they reach so far?")
         return "the data tell none of the parameters: " + "; ".join(f"{self.names[k]}: {reasons[k]}" for k in sorted(reasons))
 
     def say_left_out(self, reasons, at):
         for k in sorted(reasons):
-            say(f"{self.names[k]} is not told by the data and stays at {self.misfit.values(at)[k]:.6g}: {reasons[k]}")
+            say(f"{self.names[k]} is not told by the data and stays at {self.misfit.values(at)[k]:.6g}{self.units[k]}: "
+                f"{reasons[k]}")
 
     def _descend(self, slopes, begin, kept):
         reserve, coarse = 2 * int(kept.sum()), self.model.begins_coarse
@@ -125,6 +129,17 @@ class Search:
         if fine is None:
             raise Trouble("the scene does not run with its own load steps where it does with fewer", NUMERICAL)
         return descend(self.misfit, slopes, fine, kept, self.left() - reserve)
+
+    def _put_back(self, outcome, dropped, kept):
+        """The point from which to go on where some parameters are dropped: they have their starts again, and the others
+        follow by the derivatives."""
+        if not dropped.any():
+            return outcome.point
+        lower, upper = self.misfit.bounds()
+        there = np.where(dropped, 0.0, outcome.point.at)
+        change = outcome.jacobian[:, dropped] @ (there - outcome.point.at)[dropped]
+        there[kept] -= np.linalg.lstsq(outcome.jacobian[:, kept], change, rcond=None)[0]
+        return self.misfit.point(np.clip(there, lower, upper)) or outcome.point
 
     def run(self):
         begin, slopes, tried = self._begin()
@@ -142,19 +157,22 @@ class Search:
         if (again != kept).any() and again.any() and self.left() > 2 * int(again.sum()):
             for k in np.flatnonzero(again & ~kept):
                 say(f"{self.names[k]} is told by the data after all: from here on it is fitted")
-            self.say_left_out({k: reasons_again[k] for k in np.flatnonzero(kept & ~again)}, outcome.point.at)
+            begin = self._put_back(outcome, kept & ~again, again)
+            self.say_left_out({k: reasons_again[k] for k in np.flatnonzero(kept & ~again)}, begin.at)
             reasons = {k: reasons_again.get(k) or reasons[k] for k in np.flatnonzero(~again)}
             kept = again
-            outcome = self._descend(slopes, outcome.point, kept)
+            outcome = self._descend(slopes, begin, kept)
         elif (kept & ~again).any():
             outcome.converged, outcome.message = False, "the data do not tell what is fitted where the search has ended"
-        return self._intervals(slopes, outcome, kept, reasons)
+        outcome, intervals, profile = self._intervals(slopes, outcome, kept)
+        shifts = shifts_of_held(self.misfit, outcome, kept, held_ranges(self.misfit, outcome.point.at))
+        return Solution(outcome, kept, reasons, intervals, profile, shifts)
 
-    def _intervals(self, slopes, outcome, kept, reasons):
+    def _intervals(self, slopes, outcome, kept):
         while True:
             profile = Profile(self.misfit, outcome, kept, slopes.chord, self.level)
             if not self._worth_ends(outcome, profile, kept):
-                return Solution(outcome, kept, reasons, profile.of_derivatives(), profile)
+                return outcome, profile.of_derivatives(), profile
             ends = 2 * int(kept.sum())
             intervals = []
             for k in range(int(kept.sum())):
@@ -166,11 +184,11 @@ class Search:
                 if moved:
                     profile = Profile(self.misfit, outcome, kept, slopes.chord, self.level)
                     intervals = profile.of_derivatives()
-                return Solution(outcome, kept, reasons, intervals, profile)
+                return outcome, intervals, profile
             if self.left() < ends:  # no analyses for another search and its ends
                 profile = Profile(self.misfit, Outcome(better, outcome.jacobian, False, "no analyses were left"), kept,
                                   slopes.chord, self.level)
-                return Solution(profile.outcome, kept, reasons, profile.of_derivatives(trusted=False), profile)
+                return profile.outcome, profile.of_derivatives(trusted=False), profile
             outcome = descend(self.misfit, slopes, better, kept, self.left() - ends)
 
     def _worth_ends(self, outcome, profile, kept):
@@ -185,9 +203,6 @@ def rows_of(search, found):
     values, misfit_start = search.misfit.values(found.outcome.point.at), search.misfit.start
     lower, upper = search.misfit.bounds()
     places = np.flatnonzero(found.kept).tolist()
-    held, most = np.zeros(len(places)), np.zeros(len(places))
-    if len(places) < len(values):
-        held, most = shifts_of_held(found.outcome.jacobian, found.kept, held_ranges(search.misfit, ~found.kept))
     errors = found.profile.errors()
     factor = found.profile.factor
     rows = []
@@ -202,14 +217,14 @@ def rows_of(search, found):
         row["at_bound"] = bool(min(at - lower[k], upper[k] - at) < 1e-9)
         if found.intervals:
             # Of what lies anywhere in a range, the confidence lies in the same part of it.
-            of_held = min(factor * held[which], search.level * most[which])
-            one = found.intervals[which]
-            row["standard_error"] = values[k] * float(np.hypot(errors[which], held[which]))
-            ends = np.array([-np.hypot(one.below, of_held), np.hypot(one.above, of_held)])
+            one, shift = found.intervals[which], found.shifts[which]
+            held = [min(factor * shift.standard, search.level * most) for most in (shift.below, shift.above)]
+            row["standard_error"] = values[k] * float(np.hypot(errors[which], shift.standard))
+            ends = np.array([-np.hypot(one.below, held[0]), np.hypot(one.above, held[1])])
             ends = np.clip(at + ends, lower[k], upper[k])
             # Beyond this a logarithm has no number, and the data no say.
             row["interval"] = [float(misfit_start[k] * np.exp(end)) if abs(end) < 300 else None for end in ends]
-            row["of_held"] = values[k] * of_held
+            row["of_held"] = [float(values[k] * abs(np.expm1(end))) for end in (-held[0], held[1])]
     return rows
 
 
@@ -236,7 +251,7 @@ def report(search, found, given):
     about = {"parameters": rows, "confidence": given.confidence, "correlation": correlations(search, found), "rms": rms,
              "points": len(misfit.y), "marches": model.marches, "converged": found.outcome.converged,
              "message": found.outcome.message, "scenes": model.files, "data": [d.path for d in model.data],
-             "read": [d.said for d in model.data], "units": list(units_of_scene(model.scenes[0], model.common)), "jumps": jumps, "unknown_pairs": model.unknown, "doubted": doubted}
+             "read": [d.said for d in model.data], "units": list(model.units), "jumps": jumps, "unknown_pairs": model.unknown, "doubted": doubted}
     write_file(os.path.join(out, "fit.json"), json.dumps(about, indent=1, allow_nan=False))
     lines = ["scene,x,y,model,residual"]
     for which, (data, curve) in enumerate(zip(model.data, answer.curves)):
@@ -244,38 +259,52 @@ def report(search, found, given):
         draw_fit(out, which, model, curve, answer.histories[which], jumps[which],
                  read_about(os.path.join(model.work, f"{which + 1}-at")))
     write_file(os.path.join(out, "fit.csv"), "\n".join(lines) + "\n")
-    say_rows(rows, given.confidence)
-    say(f"root mean square of the residuals {rms:.4g}, {len(misfit.y)} points, {model.marches} analyses")
+    say_rows(rows, given.confidence, about["units"])
+    say(f"root mean square of the residuals {misfit.in_words(rms)}, {len(misfit.y)} points, {model.marches} analyses")
     warn(search, found, doubted, jumps)
 
 
-def say_rows(rows, level):
+def say_rows(rows, level, units):
     for row in rows:
+        unit = unit_of_key(row["key"], units)
         if not row["told"]:
-            say(f"{row['key']} is not told by the data: {row['value']:.6g} is its start")
+            say(f"{row['key']} is not told by the data: {row['value']:.6g}{unit} is its start")
             continue
         low, high = (float("nan") if end is None else end for end in row["interval"])
-        say(f"{row['key']} = {row['value']:.6g}, {100 * level:g} % interval {low:.6g} to {high:.6g}"
-            + (f", of this {row['of_held']:.2g} to each side for what is held" if row.get("of_held") else "")
+        say(f"{row['key']} = {row['value']:.6g}{unit}, {100 * level:g} % interval {low:.6g} to {high:.6g}{unit}"
+            + (", of this {:.2g} below and {:.2g} above for what is held".format(*row["of_held"])
+               if any(row.get("of_held", [])) else "")
             + (" (at its bound)" if row["at_bound"] else ""))
+
+
+def finer(scene):
+    """Settings that halve the cells and the load steps, as far as the scene says them by one number."""
+    found = [f"--set {key}={2 * int(value)}" for key in ("geometry.divisions", "time.steps")
+             if (value := value_at(scene, key)) is not None]
+    return f" ({' '.join(found)})" if found else ""
 
 
 def warn(search, found, doubted, jumps):
     model = search.model
+    there = dict(zip(search.names, search.misfit.values(found.outcome.point.at)))
     if not found.outcome.converged:
-        say(f"warning: {model.marches} analyses have not found the least misfit ({found.outcome.message}): begin from "
-            "these values")
+        words = " ".join(f"{word_of(name)}@{there[name]:.6g}" for name in there)
+        say(f"warning: {model.marches} analyses have not found the least misfit ({found.outcome.message}): begin from there, "
+            f"--parameters {words}")
     if doubted:
-        say(f"warning: the interval{'s' if len(doubted) > 1 else ''} of {', '.join(doubted)} cannot be trusted: at "
-            "their ends the misfit is not what the derivatives say; the curve may depend on them in steps, from pair to "
-            "pair: refine the mesh, and begin from other values")
+        one = len(doubted) == 1
+        elsewhere = " ".join(f"{word_of(name)}@{1.2 * there[name]:.4g}" for name in doubted)
+        say(f"warning: the interval{'' if one else 's'} of {', '.join(doubted)} cannot be trusted: at {'its' if one else 'their'} "
+            f"ends the misfit is not what the derivatives say; the curve may depend on {'it' if one else 'them'} in steps, from "
+            f"pair to pair: refine the mesh{finer(model.scenes[0])}, and begin elsewhere (--parameters {elsewhere})")
     for path, count in zip(model.files, model.unknown):
         if count:
             say(f"warning: {path}: the adhesion of {count:.0f} pairs came to rest within a step and is taken as constant; "
                 "the derivatives, and with them the intervals, are not exact")
-    for path, at in zip(model.files, jumps):
+    for which, (path, at) in enumerate(zip(model.files, jumps)):
         if at:
-            say(f"warning: {path} jumps at {model.x_name} {', '.join(f'{x:.6g}' for x in at[:5])}: the analysis has no "
+            name, unit = model.named_x(which)
+            say(f"warning: {path} jumps at a {name} of {', '.join(f'{x:.6g}' for x in at[:5])}{unit}: the analysis has no "
                 "derivative there, and the intervals do not know of it")
 
 

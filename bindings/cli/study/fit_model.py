@@ -26,6 +26,7 @@ DIFFERS = 1.25  # from here on it is said
 # Load steps with which a fit begins, and into how many one of the scene goes then: with fewer than 40 the curve has
 # corners where the data have none (test_studies.py, fits: 20 give a start 9 % off, 80 the same one as 40).
 BEGIN_STEPS, COARSER = 40, 4
+OF_NEW = "# delam new "  # a scene that begins so can be written again
 
 
 class Parameter:
@@ -67,7 +68,24 @@ class Parameter:
         said = {answer.words for answer in (Check(file, common + [f"{self.path}={value}"]) for value in (1.0, 2.0))
                 if answer.errors and answer.errors[0]["key"] == self.path}
         if len(said) == 1:
-            raise Trouble(f"--parameters {said.pop().removeprefix('--set: ')}")
+            text = said.pop().removeprefix("--set: ")
+            numbers = numbers_of_laws(read_scene(file))
+            if numbers and "." not in self.path:
+                raise Trouble(f"--parameters {text.partition(';')[0]}; numbers of the laws of {file}: {', '.join(numbers)}")
+            raise Trouble(f"--parameters {text}")
+
+
+def numbers_of_laws(scene):
+    """The keys of the numbers of the laws, those of toughness first."""
+    laws = scene.get("laws", [])
+    keys = [f"laws.{k}.{key}" for k, law in enumerate(laws if isinstance(laws, list) else []) if isinstance(law, dict)
+            for key in law if value_at(law, key) is not None]
+    return sorted(keys, key=lambda key: not key.endswith("toughness"))
+
+
+def word_of(path):
+    """A key as the shell takes it without quotes: laws.0.normal_toughness."""
+    return path.replace("[", ".").replace("]", "")
 
 
 def read_scene(path):
@@ -137,7 +155,7 @@ def roughness(slope):
     (Gasser, Sroka, Jennen-Steinmetz, Biometrika 73, 1986). That of a smooth curve with one corner is about 0.1."""
     active = np.flatnonzero(slope)
     part = slope[active[0]:] if active.size else slope
-    if len(part) < 5:
+    if len(part) < 5 or not active.size:
         return 0.0
     jumps = part[1:-1] - 0.5 * (part[:-2] + part[2:])
     return float(min(1.0, np.sqrt(np.mean(jumps ** 2) / 1.5 / np.mean(part ** 2))))
@@ -155,6 +173,7 @@ class Model:
         self.jumps = [np.zeros(0)] * len(files)
         self.unknown = [0.0] * len(files)  # pairs that the derivatives leave out
         self.ways = [[] for _ in files]  # settings that follow the way of a test
+        self.units = units_of_scene(scenes[0], self.common)
         for parameter in parameters:
             parameter.begin(files, scenes, self.common)
         starts = self._settings([p.start for p in parameters])
@@ -191,6 +210,13 @@ class Model:
         return [f"time.steps={max(BEGIN_STEPS, steps // COARSER)}"]
 
     @property
+    def y_unit(self):
+        """The unit of the reaction after a blank, where the scene names its units."""
+        length, force = self.units
+        flat = self.scenes[0].get("geometry", {}).get("dimension", 2) == 2
+        return f" {force}{f'/{length}' * flat}" if length and force and self.y_name.startswith("reaction") else ""
+
+    @property
     def begins_coarse(self):
         return any(word.startswith("time.steps") for which in range(len(self.files)) for word in self._coarser(which))
 
@@ -216,28 +242,46 @@ class Model:
 
     # ---- units
 
+    def named_x(self, which):
+        """The x of the data as people say it, and its unit after a blank."""
+        if pattern_of(self.x_name, self.scenes[which]) is None:
+            return self.x_name, ""
+        length = units_of_scene(self.scenes[which], self.common)[0]
+        return "displacement" if length else self.x_name, f" {length}" if length else ""
+
     def _compare_ranges(self, which, known):
         """Before an analysis: data in other units are noticed by their x."""
         if known is None:
             return
         data = self.data[which]
+        name, unit = self.named_x(which)
         outside = data.drop_outside(*known, SLACK * (known[1] - known[0]))
         if outside:
-            complain(f"warning: {data.path}: {outside} points before {self.x_name} {known[0]:g} or behind {known[1]:g} are "
-                     "left out")
+            complain(f"warning: {data.path}: {outside} point{'s' * (outside > 1)} before a {name} of {known[0]:g}{unit} or behind "
+                     f"{known[1]:g}{unit} {'are' if outside > 1 else 'is'} left out")
         self._require_within(which, *known)
         end = np.max(data.x)
         if end - known[0] < SMALL_PART * (known[1] - known[0]):
-            complain(f"warning: {data.path}: {self.x_name} ends at {end:g}, that of {self.files[which]} at "
-                     f"{known[1]:g}: other units?")
+            complain(f"warning: {data.path}: the {name} ends at {end:g}{unit}, that of {self.files[which]} at "
+                     f"{known[1]:g}{unit}: other units?")
 
     def _require_within(self, which, low, high):
-        data = self.data[which].x
+        data = self.data[which]
         slack = 1e-9 * (high - low)
-        if np.min(data) < low - slack or np.max(data) > high + slack:
-            raise Trouble(f"{self.data[which].path}: {self.x_name} goes from {np.min(data):g} to {np.max(data):g}, that of "
-                          f"{self.files[which]} from {low:g} to {high:g}: other units? Else give the scene a longer time, or "
-                          "less data")
+        if np.min(data.x) >= low - slack and np.max(data.x) <= high + slack:
+            return
+        name, unit = self.named_x(which)
+        said = (f"{data.path}: the {name} ({data.names[0]}) goes from {np.min(data.x):g} to {np.max(data.x):g}{unit}, that of "
+                f"{self.files[which]} from {low:g} to {high:g}{unit}: ")
+        if np.max(data.x) <= high + slack:
+            raise Trouble(said + "leave out the points before it, or --slack and --x-scale move and scale it")
+        farther = ("give it a later end ([time] end)" if self.x_name == "time" else
+                   "let the values of its [[patterns]] go on to there")
+        with open(self.files[which], encoding="utf-8", errors="replace") as file:
+            if file.read(len(OF_NEW)) == OF_NEW:
+                farther = "write the scene with a larger growth of the crack (`delam new .. --growth`)"
+        raise Trouble(said + farther + ", or leave out the points behind it; are the units the same? Else --x-scale is a "
+                      "factor on it")
 
     def compare_slopes(self, curves):
         """After the first analysis: data in other units are noticed by how they begin to rise."""
@@ -245,12 +289,15 @@ class Model:
             ratio = data.slope_over(curve)
             if ratio is None or 1 / DIFFERS < ratio < DIFFERS:
                 continue
+            length, force = units_of_scene(scene, self.common)
             flat = scene.get("geometry", {}).get("dimension", 2) == 2
-            force = data.force_unit if kind_of(data.force_unit)[0] == "force" else ""
-            said = (f"{data.path}: the data begin to rise {ratio:.4g} times as steeply as {self.y_name} of {path}: is the "
-                    f"load{' in ' + force if force else ''} that of the scene"
-                    + (", per width of the specimen (--width), " if flat else " ")
-                    + "and of the whole specimen? Else --scale and --x-scale are factors on the data")
+            unit = data.force_unit if kind_of(data.force_unit)[0] == "force" else ""
+            said = (f"{data.path}: its loads begin to rise {ratio:.4g} times as steeply as the {self.y_name} of {path}, which is "
+                    + (f"in {force}{f' per {length} of width' if flat else ''}: " if length and force else
+                       f"a force{' per width' if flat else ''}: ")
+                    + ("is the width of the specimen right (--width 25mm), " if flat else "is it a part of the specimen, ")
+                    + (f"are the loads in {unit}" if unit else "are the loads in the unit of the scene (the file names none)")
+                    + ", and the displacements in its unit? Else --scale and --x-scale are factors on the data")
             if not 1 / STIFFER < ratio < STIFFER:
                 raise Trouble(said + "; or the parameters start too far away")
             if all(p.of_law for p in self.parameters):

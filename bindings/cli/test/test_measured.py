@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Files of test machines: what is read from them, in which units, and what becomes of jitter and unloading."""
 import os
+import re
 import sys
 from types import SimpleNamespace
 
@@ -15,7 +16,8 @@ from measured.loops import monotone, turning_points  # noqa: E402
 from measured.table_file import read_table  # noqa: E402
 from measured.units import kind_of, quantity, title_and_unit  # noqa: E402
 
-GIVEN = SimpleNamespace(columns=None, scale=1.0, x_scale=1.0, width="", loops="cut", x="load")
+GIVEN = SimpleNamespace(columns=None, scale=1.0, x_scale=1.0, width="", loops="cut", x="load", y="reaction", slack="find",
+                        compliance="")
 X = np.round(np.linspace(0.0, 3.0, 31), 4)  # in mm
 Y = np.where(X < 1.5, 40 * X, 70 - 6.5 * X)  # in N
 
@@ -84,6 +86,9 @@ def refusals():
     refused("a;b\n1;2\n2;3\n", 'there is no column "weg"; it has: a, b', columns=["weg", "b"])
     refused("a;b\n2;2\n1;3\n", "must increase")
     refused("a;b\0\n2;2\n", "zero byte")
+    refused("a;b\n1;2\n2;3\n", "--slack 3kg: a length is expected, such as 0.3mm", slack="3kg")
+    refused("a;b\n1;2\n2;3\n", "--slack 3m leaves no points: x ends at 2", slack="3m")
+    refused("a;b\n1;2\n2;3\n", "--compliance 3N: a length per force is expected, such as 2e-5mm/N", compliance="3N")
     for width, pattern in (("25kg", "a length > 0"), ("-1mm", "a length > 0"), ("x", "a length > 0")):
         try:
             scale_of(SimpleNamespace(width=width, scale=1.0), "mm")
@@ -130,8 +135,40 @@ def ways():
     expect((np.diff(way.at) >= 0).all() and np.allclose(way.y, 2 * way.x), "along the way")
 
 
+def slacks():
+    """What comes before the load is taken off, and what is of the specimen stays: bends, noise, and what options say."""
+    errors = np.random.default_rng(4)
+
+    def made(before, noise=0.005, bend=0.0):
+        x = np.linspace(0, 3, 301)
+        free = np.maximum(x - before, 0.0)
+        y = np.where(free < 1.5, 40 * free - bend * free ** 2, 70 - 6.5 * free) + noise * 60 * errors.standard_normal(301)
+        return file_of("Weg [mm];Kraft [N]\n" + rows(";", x=x, y=y))
+
+    def read(path, **more):
+        return CurveData(path, SimpleNamespace(**{**vars(GIVEN), **more}), ("m", "N"), 40.0)
+
+    for before in (0.2, -0.2):
+        data = read(made(before))
+        expect(re.search("slack: the load begins at 0.000[12]" if before > 0 else "preload: the line of the load begins 0.000[12]",
+                         data.said), f"slack of {before} mm: {data.said}")
+        middle = (data.x > 3e-4) & (data.x < 1.2e-3)
+        expect(abs(np.mean(data.x[middle] - data.y[middle] / 1.6e6)) < 2e-5, "the line goes through 0 then")
+    for path in (made(0.0), made(0.0, 0.02), made(0.0, 0.001, 10.0)):
+        expect("slack" not in read(path).said and "preload" not in read(path).said, f"there is none: {read(path).said}")
+    path = made(0.2, 0.0)
+    expect(np.isclose(read(path, slack="none").x[-1], 3e-3) and np.isclose(read(path, slack="0.5mm").x[-1], 2.5e-3)
+           and np.isclose(read(path, slack="2e-4").x[-1], 2.8e-3), "--slack is as it is given")
+    # 1e-5 mm/N times the 60.25 N of the specimen, whose loads are divided by a width of 25 mm.
+    stiff = read(made(0.0, 0.0), slack="none", compliance="1e-3 mm/N")
+    top = int(np.argmax(stiff.y))
+    expect(np.isclose(stiff.x[top], 1.5e-3 - 1e-6 * stiff.y[top] / 40) and "takes 6.025e-05 m off" in stiff.said,
+           f"the compliance of the machine: {stiff.x[top]} {stiff.said}")
+
+
 variants()
 refusals()
 units()
 ways()
+slacks()
 finish()

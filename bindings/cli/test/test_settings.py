@@ -28,6 +28,7 @@ def like(edited, *settings):
 
 like(changed("h = 0.0015", "h = 0.003"), "geometry.h=3e-3")
 like(changed("normal_onset = 100.0", "normal_onset = 90.0"), "laws[0].normal_onset=90")
+like(changed("normal_onset = 100.0", "normal_onset = 90.0"), "laws.0.normal_onset=90")
 like(changed("to = 0.030", "to = 0.045"), "interfaces[0].notch[0].to=0.045")
 like(changed("values = [0.0, 0.006]", "values = [0.0, 0.003]"), "patterns[0].values[1]=0.003")
 like(changed('title = "small ENF"', 'title = "ENF, coarse"'), "title=ENF, coarse")
@@ -48,6 +49,8 @@ refuse("materials[0].young=stiff", r"materials\[0\]\.young", '"stiff"', "number"
 refuse("time.steps=2.5", r"time\.steps", "2.5 has a decimal point")
 refuse('output.snapshots=[0.5, "a"]', r"output\.snapshots\[1\]", "number")
 refuse("laws[1].normal_onset=1", r"laws\[1\]\.normal_onset", "laws has 1 entry")
+refuse("laws.1.normal_onset=1", r"laws has 1 entry")
+refuse("laws.0.normal_onset=-1", r"laws\[0\]\.normal_onset", "-1")
 refuse("layers.thickness=1", r"layers is a list: layers\[0\] is its first entry")
 refuse("laws[0].criterion=bk", r"laws\[0\]\.criterion", '"bk"', "benzeggagh-kenane")
 refuse("laws[0].gradient=-1", r"laws\[0\]\.gradient", "-1", ">= 0")

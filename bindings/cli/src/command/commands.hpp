@@ -42,7 +42,7 @@ struct Study {
     std::vector<std::string> vary;  // of a sweep
     std::int64_t latin = 0, seed = 1;
     std::vector<std::string> data, parameters, columns;  // of a fit
-    std::string x = "load", y = "reaction", weights = "curve", width, loops = "cut";
+    std::string x = "load", y = "reaction", weights = "curve", width, loops = "cut", slack = "find", compliance;
     double scale = 1.0, x_scale = 1.0, confidence = 0.95;
     std::string test, crack, beside;  // of an evaluation
     std::map<std::string, std::string> sheet;

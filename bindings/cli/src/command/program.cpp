@@ -239,6 +239,16 @@ void add_fit(CLI::App& app, Arguments& into, Commands& of) {
         ->check(CLI::IsMember(of.choices["loops"] = {"cut", "follow"}));
     of.fit
         ->add_option(
+            "--slack", study.slack,
+            "displacement at which the load begins, which is taken off: find (default), none, or a length, e.g. "
+            "0.3mm")
+        ->type_name("LENGTH");
+    of.fit
+        ->add_option("--compliance", study.compliance,
+                     "of machine and fixture: displacement per load of the specimen, which is taken off, e.g. 2e-5mm/N")
+        ->type_name("COMPLIANCE");
+    of.fit
+        ->add_option(
             "--weights", study.weights,
             "curve (default): residuals over the largest y of their curve; relative: over their own y; equal: as "
             "they are")

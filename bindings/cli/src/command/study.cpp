@@ -51,6 +51,8 @@ int study(const Study& of) {
                                {"x_scale", of.x_scale},
                                {"width", of.width},
                                {"loops", of.loops},
+                               {"slack", of.slack},
+                               {"compliance", of.compliance},
                                {"test", of.test},
                                {"sheet", of.sheet},
                                {"units", of.units},

@@ -82,8 +82,9 @@ def _sentence(k, off, alone, jacobian, others, names):
                     f"{np.exp(off):.2g}" if off < MOST_FACTOR else "")
 
 
-def held_ranges(misfit, held):
-    """Half of the range, in logarithms, in which each parameter that is held may be: its bounds if it has both."""
+def held_ranges(misfit, at):
+    """How far below and above its place, in logarithms, each parameter may be that is held: to its bounds if it has both."""
     lower, upper = misfit.bounds()
-    widths = np.where(np.isfinite(lower) & np.isfinite(upper), 0.5 * (upper - lower), HELD_RANGE)
-    return np.where(held, widths, 0.0)
+    bounded = np.isfinite(lower) & np.isfinite(upper)
+    below, above = (np.where(bounded, room, np.minimum(room, HELD_RANGE)) for room in (at - lower, upper - at))
+    return np.stack([below, above], axis=1)

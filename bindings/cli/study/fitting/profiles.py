@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from command import loading
+from fitting.misfit import NOTHING
 
 TRUSTED = 4.0  # by which factor the misfit at the ends of an interval may differ from that which the derivatives predict
 # Where curves have teeth, misfits are compared this far away, in logarithms: closer, those of the teeth of the DCB
@@ -53,11 +54,44 @@ def covariance(residual, jacobian, starts):
     return inverse @ inverse.T, (inverse * errors ** 2) @ inverse.T * correlated(residual, starts)
 
 
-def shifts_of_held(jacobian, kept, ranges):
-    """The standard uncertainty of each kept parameter, in logarithms, because others are held that may lie anywhere in
-    their ranges (type B of the GUM, JCGM 100:2008, 4.3.7), and the largest shift."""
-    moves = -np.linalg.lstsq(jacobian[:, kept], jacobian[:, ~kept] * ranges[~kept], rcond=None)[0]
-    return np.sqrt(np.sum(moves ** 2, axis=1) / 3), np.sum(np.abs(moves), axis=1)
+@dataclass
+class Shift:
+    """By how much a kept parameter moves, in logarithms, because others are held: its standard uncertainty, and the farthest
+    it goes down and up."""
+    standard: float
+    below: float
+    above: float
+
+
+def shifts_of_held(misfit, outcome, kept, ranges):
+    """A Shift for each kept parameter, as held ones may lie anywhere in their ranges (type B of the GUM, JCGM 100:2008,
+    4.3.7). An analysis at both ends of each range, to which the kept ones follow by the derivatives, corrects how far they
+    go. Shifts in one direction at both ends may go in the other one between them."""
+    count = int(kept.sum())
+    variance, below, above = np.zeros(count), np.zeros(count), np.zeros(count)
+    least = NOTHING * np.linalg.norm(misfit.y / misfit.size)
+    for k in np.flatnonzero(~kept):
+        if np.linalg.norm(outcome.jacobian[:, k]) <= least:
+            continue
+        moves = np.array([_followed_to(misfit, outcome, kept, k, side) for side in (-ranges[k][0], ranges[k][1])])
+        variance += np.average(np.square(moves), axis=0, weights=ranges[k]) / 3
+        same = moves[0] * moves[1] > 0
+        most = np.max(np.abs(moves), axis=0)
+        below += np.where(same, most, np.maximum(0.0, -np.min(moves, axis=0)))
+        above += np.where(same, most, np.maximum(0.0, np.max(moves, axis=0)))
+    return [Shift(*one) for one in zip(np.sqrt(variance), below, above)]
+
+
+def _followed_to(misfit, outcome, kept, k, distance):
+    """How far the kept parameters go if the k-th one, which is held, goes that far."""
+    point, jacobian = outcome.point, outcome.jacobian[:, kept]
+    there = np.array(point.at)
+    there[k] += distance
+    there[kept] -= np.linalg.lstsq(jacobian, outcome.jacobian[:, k] * distance, rcond=None)[0]
+    there = np.clip(there, *misfit.bounds())
+    found = misfit.point(there)
+    moved = (there - point.at)[kept]
+    return moved if found is None else moved - np.linalg.lstsq(jacobian, found.residual - point.residual, rcond=None)[0]
 
 
 class Profile:

@@ -6,6 +6,7 @@ from marches import LEAST, MOST
 from command import Trouble
 from measured.columns import choose, label
 from measured.loops import Way
+from measured.slack import find_slack
 from measured.table_file import read_table
 from measured.units import kind_of, quantity
 
@@ -35,6 +36,19 @@ def scale_of(given, length):
     return given.scale / (value * (kind_of(unit)[1] / kind_of(length)[1] if unit else 1.0))
 
 
+def in_scene(text, option, example, kind, units):
+    """What an option gives, in the units of the scene. units: of the scene, for the parts of the kind ("length/force")."""
+    found = quantity(text, kind)
+    if found is None or found[0] != 0 and not LEAST <= abs(found[0]) <= MOST:
+        raise Trouble(f"{option} {text[:60]}: a {kind.replace('/', ' per ')} is expected, such as {example}")
+    value, unit = found
+    if not unit:
+        return value
+    if not all(units):
+        raise Trouble(f"{option} {text}: the scene names no units: give a number in its own")
+    return value * kind_of(unit)[1] / kind_of("/".join(units))[1]
+
+
 class CurveData:
     """x is what the scene calls load, y what the model shall meet there, times `scale`; `at` is where along the way."""
 
@@ -62,6 +76,8 @@ class CurveData:
             points[which] = points[which] * factor
             self._require_numbers(self.names[which], points[which], f" times {name} {factor:g}")
         points = self._upright(points, said)
+        # What the machine lengthens and the specimen does not, before the load is one per width.
+        points = self._of_specimen(points, given, (length, force), given.scale / scale, said)
         self.rows = len(points[0])
         self._follow(points, given.loops == "follow", said)
         self.said = f"{path}: {'; '.join(said)}"
@@ -74,6 +90,31 @@ class CurveData:
                 points[which] = -points[which]
                 said.append(f"{name} is negative, its sign is turned")
         return points
+
+    def _of_specimen(self, points, given, units, per, said):
+        """The points without what machine and fixture add to the displacement: their compliance, and the slack before the
+        load begins. per: by which factor the load of the machine is larger than y."""
+        x, y = points
+        if given.compliance:
+            x = x - in_scene(given.compliance, "--compliance", "2e-5mm/N", "length/force", units) * per * y
+            said.append(f"--compliance {given.compliance} takes {np.max(points[0] - x):.4g}{' ' * bool(units[0])}{units[0]} off "
+                        "at the largest load")
+        measured = given.x.startswith("load") and given.y.startswith("reaction")
+        if given.slack == "none" or given.slack == "find" and not measured:
+            return [x, y]
+        slack = (find_slack(x, y) if given.slack == "find"
+                 else in_scene(given.slack, "--slack", "0.3mm, find or none", "length", units[:1]))
+        if not slack:
+            return [x, y]
+        kept = x >= slack
+        if kept.sum() < 2:
+            raise Trouble(f"{self.path}: --slack {given.slack} leaves no points: x ends at {np.max(x):g}")
+        text = f"{abs(slack):.4g}{' ' * bool(units[0])}{units[0]}"
+        said.append((f"slack: the load begins at {text}, which is taken off" if slack > 0 else
+                     f"preload: the line of the load begins {text} before 0, which is added") +
+                    (f", and {int((~kept).sum())} points before it are left out" if not kept.all() else "") +
+                    ("; --slack none keeps it, --slack LENGTH gives another one" if given.slack == "find" else ""))
+        return [x[kept] - slack, y[kept]]
 
     def _follow(self, points, follow, said):
         way = Way(*points, follow)

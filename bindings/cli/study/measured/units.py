@@ -27,11 +27,25 @@ def kind_of(symbol):
         for known, size in sizes.items():
             if known.lower() == text.lower() and not {known, text} & DISTINCT:
                 return kind, size
-    if "/" in text:  # a force per width
+    if "/" in text:  # a force per width, or a compliance
         above, below = (kind_of(part) for part in text.split("/", 1))
-        if above[0] == "force" and below[0] == "length":
-            return "force/length", above[1] / below[1]
+        if (above[0], below[0]) in (("force", "length"), ("length", "force")):
+            return f"{above[0]}/{below[0]}", above[1] / below[1]
     return None, 1.0
+
+
+# What the number of a key of a scene is measured in, by how the key ends.
+OF_KEYS = (("toughness", "{force}/{length}"), ("stiffness", "{force}/{length}^3"), ("strength", "{force}/{length}^2"),
+           ("young", "{force}/{length}^2"), (r"\b[EG][123]+", "{force}/{length}^2"), ("thickness", "{length}"),
+           (r"geometry\.(length|width|h)", "{length}"))
+
+
+def unit_of_key(path, units):
+    """" N/mm": the unit of the number at a path of a scene, after a blank. units: of length and force; "" where the scene
+    names none, or the key is not of the table."""
+    length, force = units
+    form = next((form for ending, form in OF_KEYS if re.search(f"(?:{ending})$", path)), None)
+    return " " + form.format(length=length, force=force) if form and length and force else ""
 
 
 ENDING = re.compile(r"\s*(?:\[([^\[\]]*)\]|\(([^()]*)\)|(?:\bin|/|,)\s*([^\s,/]+)|_([A-Za-zµμ]+))\s*$")

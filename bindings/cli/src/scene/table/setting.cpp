@@ -98,8 +98,15 @@ std::string checked_value(const std::string& path, const std::string& value) {
                            value.empty() ? "there is no value" : quoted(value) + " is no value"));
 }
 
-// The target of a step of the path from `parent`: nullptr if a table lacks the key.
-toml::node* entry(toml::node& parent, std::span<const PathStep> steps, std::size_t depth, const std::string& path) {
+// The target of a step of the path from `parent`: nullptr if a table lacks the key. A key of digits is a place in a
+// list.
+toml::node* entry(toml::node& parent, std::span<PathStep> steps, std::size_t depth, const std::string& path) {
+    if (const auto* key = std::get_if<std::string>(&steps[depth]); key != nullptr && parent.is_array()) {
+        std::size_t index = 0;
+        const char* const end = key->data() + key->size();
+        if (const auto [rest, code] = std::from_chars(key->data(), end, index); code == std::errc() && rest == end)
+            steps[depth] = index;
+    }
     const auto fail_here = [&](const std::string& text) { fail(path, shown(steps.first(depth)) + text); };
     if (const auto* key = std::get_if<std::string>(&steps[depth])) {
         if (parent.is_array())
@@ -121,7 +128,7 @@ void apply_setting(toml::table& root, const std::string& setting) {
     const std::size_t equals = setting.find('=');
     if (equals == std::string::npos) fail("", quoted(setting) + ": KEY=VALUE is expected");
     const std::string path = setting.substr(0, equals);
-    const std::vector<PathStep> steps = parsed_path(path);
+    std::vector<PathStep> steps = parsed_path(path);
     std::string value = checked_value(path, setting.substr(equals + 1));
 
     // Follows the path as far as the scene goes; the last step, or the first missing one, receives the value.
