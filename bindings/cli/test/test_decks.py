@@ -111,6 +111,23 @@ def check_laws():
     scene, _ = law(evolution="*Damage Evolution, type=ENERGY, mixed mode behavior=POWER LAW, power=1.5\n"
                              "280., 790., 790.\n")
     expect('criterion = "power"\ntoughness_exponent = 1.5' in scene, "power law")
+    # Toughnesses over the share of shear in the energy: straight lines between two rows are BK with exponent 1, and the
+    # rows of a curve of BK give back its exponent.
+    table = "*Damage Evolution, type=ENERGY, mixed mode behavior=TABULAR, mode mix ratio=ENERGY\n"
+    scene, said = law(evolution=table + "280., 0., 0.\n790., 1., 0.\n")
+    expect('criterion = "benzeggagh-kenane"\ntoughness_exponent = 1.0' in scene and "table of toughnesses" not in said and
+           numbers(scene, "normal_toughness") == [280.0] and numbers(scene, "tangential_toughness") == [790.0], "two rows")
+    rows = "".join(f"{280 + 510 * (k / 10) ** 2.284!r}, {k / 10}, {where}\n" for k in range(11) for where in (0.0, 1.0))
+    scene, said = law(evolution=table + rows)
+    found = numbers(scene, "toughness_exponent")
+    expect(math.isclose(found[0], 2.284, rel_tol=1e-9) and re.search(r"off by up to 0\.\d+ %", said), f"rows of BK: {found}, {said}")
+    scene, _ = law(evolution=table + "280., 0.\n280., 1.\n")
+    expect(numbers(scene, "toughness_exponent") == [1.0], "a table of one toughness")
+    for rows, pattern in (("280., 0.\n700., 0.1\n300., 0.9\n790., 1.\n", r"off by \d+ % from the table"),
+                          ("280., 0.\n790., 0.9\n", "mode mix ratios 0 and 1"), ("280., 0.\n790., 2.\n", r"in \[0, 1\]"),
+                          ("280., 0., 0.\n790., 1., 0.\n800., 1., 1.\n", "both directions of sliding"),
+                          ("280., 0.\n-1., 1.\n", "a toughness > 0")):
+        expect_error(delam("import", saved(decks.abaqus(beam, evolution=table + rows))), 2, pattern)
     scene, said = law(evolution="*Damage Evolution, type=ENERGY, softening=EXPONENTIAL\n280.,\n")
     expect('kind = "exponential"' in scene and "exponential softening" in said, "exponential")
     expect(numbers(scene, "normal_toughness") == numbers(scene, "tangential_toughness") == [280.0], "one toughness")

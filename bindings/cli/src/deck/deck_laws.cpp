@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -101,6 +103,57 @@ double area_with_straight_damage(const DamageCards& damage, const Mode& mode) {
     return area / damage.values.back()[1];
 }
 
+// Makes Benzeggagh and Kenane's criterion of a table of toughnesses over the share of shear in the energy, between
+// whose rows Abaqus interpolates: with two rows it is the same, with exponent 1.
+DamageCards with_criterion(const std::string& name, const DamageCards& table, std::vector<std::string>& changed) {
+    constexpr double allowed = 0.03;  // of a toughness: measured ones scatter by more
+    const Place& place = table.evolution_place;
+    std::map<double, double> row;  // toughness by the share of shear
+    for (const Numbers& line : table.values) {
+        if (line.size() < 2 || !(line[0] > 0 && line[1] >= 0 && line[1] <= 1))
+            throw SceneFailure(place, "rows of a toughness > 0 and a mode mix ratio in [0, 1] are expected");
+        const auto [at, inserted] = row.emplace(line[1], line[0]);
+        if (!inserted && std::abs(at->second - line[0]) > 1e-9 * line[0])
+            throw SceneFailure(place,
+                               fmt::format("toughnesses {} and {} at the mode mix ratio {}: the law of an interface "
+                                           "has one value for both directions of sliding",
+                                           at->second, line[0], line[1]));
+    }
+    if (!row.contains(0) || !row.contains(1))
+        throw SceneFailure(place, "rows of the mode mix ratios 0 and 1, the pure modes, are expected");
+    const double normal = row.at(0), shear = row.at(1);
+    double least = HUGE_VAL, most = 0;
+    for (const auto& [share, toughness] : row) {
+        const double part = (toughness - normal) / (shear - normal);
+        if (share <= 0 || share >= 1 || !(part > 0 && part < 1)) continue;
+        least = std::min(least, std::log(part) / std::log(share));
+        most = std::max(most, std::log(part) / std::log(share));
+    }
+    const double exponent = most > 0 ? std::sqrt(least * most) : 1;
+    double off = 0;
+    for (auto a = row.begin(), b = std::next(a); b != row.end(); ++a, ++b)
+        for (const double x : {0.25, 0.5, 0.75, 1.0}) {
+            const double share = a->first + x * (b->first - a->first), wanted = a->second + x * (b->second - a->second);
+            const double found = normal + (shear - normal) * std::pow(share, exponent);
+            off = std::max(off, std::abs(found / wanted - 1));
+        }
+    const std::string curve = fmt::format("Benzeggagh and Kenane's curve with exponent {:.4g}", exponent);
+    if (off > allowed)
+        throw SceneFailure(place, fmt::format("{} is off by {:.3g} % from the table of toughnesses (MIXED MODE "
+                                              "BEHAVIOR=TABULAR): at most {:.2g} % are imported; give BK or POWER LAW",
+                                              curve, 100 * off, 100 * allowed));
+    if (off > 1e-9)
+        changed.push_back(
+            fmt::format("law \"{}\": the table of toughnesses over the mode mix is {} here, which is off "
+                        "by up to {:.2g} %",
+                        name, curve, 100 * off));
+    DamageCards out = table;
+    out.mixed_mode = "BK";
+    out.power = exponent;
+    out.values = {{normal, shear}};
+    return out;
+}
+
 // The toughness of both modes, from energies or displacements.
 Numbers toughness_of(const std::string& name, const DamageCards& damage, const Mode (&modes)[2], std::int32_t dimension,
                      std::vector<std::string>& changed) {
@@ -165,8 +218,9 @@ std::string kind_of(const std::string& name, const DamageCards& damage, std::vec
 
 }  // namespace
 
-std::string law_text(const std::string& name, const Numbers& stiffness, double thickness, const DamageCards& damage,
+std::string law_text(const std::string& name, const Numbers& stiffness, double thickness, const DamageCards& cards,
                      std::int32_t dimension, const Place& place, std::vector<std::string>& changed) {
+    const DamageCards damage = cards.mixed_mode == "TABULAR" ? with_criterion(name, cards, changed) : cards;
     if (damage.initiation.empty() || damage.evolution.empty())
         throw SceneFailure(place,
                            fmt::format("\"{}\" has no {}: an interface that stays whole is no law; bodies that "

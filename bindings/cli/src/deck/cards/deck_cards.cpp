@@ -211,12 +211,16 @@ private:
             card.refuse("SOFTENING", d.softening, "LINEAR, EXPONENTIAL or TABULAR");
         if (card.has("MIXED MODE BEHAVIOR")) d.mixed_mode = upper(card.required("MIXED MODE BEHAVIOR"));
         if (d.mixed_mode == "MODE INDEPENDENT") d.mixed_mode.clear();
-        if (!d.mixed_mode.empty() && d.mixed_mode != "BK" && d.mixed_mode != "POWER LAW")
-            card.refuse("MIXED MODE BEHAVIOR", d.mixed_mode, "BK or POWER LAW");
+        const bool table = d.mixed_mode == "TABULAR";
+        if (!d.mixed_mode.empty() && d.mixed_mode != "BK" && d.mixed_mode != "POWER LAW" && !table)
+            card.refuse("MIXED MODE BEHAVIOR", d.mixed_mode, "BK, POWER LAW or TABULAR");
         if (card.has("MODE MIX RATIO") && upper(card.required("MODE MIX RATIO")) != "ENERGY")
             card.refuse("MODE MIX RATIO", card.required("MODE MIX RATIO"),
-                        "ENERGY, by which the toughnesses of BK and POWER LAW are mixed,");
-        if (!d.mixed_mode.empty()) {
+                        "ENERGY, by which the toughnesses of the modes are mixed,");
+        if (table && d.softening == "TABULAR")
+            throw SceneFailure(card.place,
+                               "MIXED MODE BEHAVIOR=TABULAR is imported with SOFTENING=LINEAR or EXPONENTIAL");
+        if (!d.mixed_mode.empty() && !table) {
             d.power = inp_number(card.required("POWER"), card.place);
             if (!(d.power > 0)) throw SceneFailure(card.place, fmt::format("POWER={}: must be > 0", d.power));
         }
@@ -224,7 +228,7 @@ private:
             card.refuse("DEGRADATION", card.required("DEGRADATION"), "MAXIMUM");
         if (d.evolution == "DISPLACEMENT" && !d.mixed_mode.empty())
             throw SceneFailure(card.place, "MIXED MODE BEHAVIOR=" + d.mixed_mode + " needs TYPE=ENERGY");
-        if (d.softening != "TABULAR") require_one_line(card);
+        if (d.softening != "TABULAR" && !table) require_one_line(card);
         (void)card.first_line();
         for (const InpLine& line : card.lines) d.values.push_back(line.numbers());
         d.evolution_place = card.place;
