@@ -158,7 +158,7 @@ void Condensed::solve(const Springs& springs, std::span<const double> theta, Res
         loaded = loaded || (springs.force[r] != 0.0 && springs.held[r] == 0);
     for (const JumpRow& row : bulk_->rows()) loaded = loaded || (!row.offset.empty() && dot(row.offset, theta) != 0.0);
     if (all_held || !loaded) {
-        respond(springs, theta, nullptr, response);
+        respond(springs, theta, bulk_->skeleton_at_rest(theta), {}, response);
         return;
     }
     const std::vector<std::uint8_t> wanted = choice_.changed_since_last(now);
@@ -186,29 +186,34 @@ void Condensed::solve(const Springs& springs, std::span<const double> theta, Res
              " rows) is not positive definite");
     std::vector<double> force(springs.force.empty() ? 0 : zone_->jump_rows().size());
     for (std::size_t z = 0; z < force.size(); ++z) force[z] = springs.force[index(zone_->jump_rows()[z])];
-    const Zone::Solution solution = zone_->solve(theta, force);
-    respond(springs, theta, &solution, response);
-    if (by_tree_ != nullptr && response.balanced)
+    if (by_tree_ == nullptr) {
+        complete(springs, theta, zone_->solve(theta, force), response);
+    } else {
+        respond(springs, theta, by_tree_->skeleton(theta, force), {}, response);
         solved_ = {{theta.begin(), theta.end()}, choice_.springs_of(springs), response.jump};
+    }
 }
 
 bool Condensed::complete(const Springs& springs, std::span<const double> theta, const Zone::Solution& solution,
                          Response& response) const {
     if (by_tree_ != nullptr) return false;
-    respond(springs, theta, &solution, response);
+    response.balanced = solution.balanced;
+    if (!solution.balanced) return true;
+    std::vector<double> skeleton(bulk_->superelements().variable().size());
+    elimination_.recover(theta, energy_->recover(theta, solution.unknowns), skeleton);
+    respond(springs, theta, skeleton, solution.multiplier, response);
     return true;
 }
 
 // Along the minimiser S x = L theta - sum_r N_r^T lambda_r, which gives the energies without another product with S:
 //   stored + potential = 1/2 (x.L theta - sum lambda_r (N x)_r) - x.L theta + 1/2 theta.A theta,   dE/dtheta = A theta
 //   - L^T x + O^T lambda
-void Condensed::respond(const Springs& springs, std::span<const double> theta, const Zone::Solution* solution,
-                        Response& response) const {
-    response.balanced = solution == nullptr || solution->balanced;
-    if (!response.balanced) return;
+void Condensed::respond(const Springs& springs, std::span<const double> theta, std::span<const double> skeleton,
+                        std::span<const double> multiplier, Response& response) const {
+    response.balanced = true;
     const std::size_t unknowns = choice_.unknowns(), rows = bulk_->rows().size();
     std::vector<double> load(unknowns, 0.0);
-    const std::vector<double> skeleton = skeleton_of(theta, solution), x = bulk_->equations().unknowns_at(skeleton);
+    const std::vector<double> x = bulk_->equations().unknowns_at(skeleton);
     multiply(bulk_->load(), theta, load);
 
     response.jump.assign(rows, 0.0);
@@ -217,8 +222,7 @@ void Condensed::respond(const Springs& springs, std::span<const double> theta, c
     std::vector<std::uint8_t> held(unknowns);
     for (std::size_t i = 0; i < unknowns; ++i) held[i] = springs.held[index(bulk_->row_of_unknown()[i])];
     std::vector<double> left = bulk_->residual(theta, skeleton, held);
-    for (std::size_t z = 0; solution != nullptr && z < solution->multiplier.size(); ++z)
-        response.force[index(zone_->jump_rows()[z])] = solution->multiplier[z];
+    for (std::size_t z = 0; z < multiplier.size(); ++z) response.force[index(zone_->jump_rows()[z])] = multiplier[z];
     for (std::size_t r = 0; r < rows; ++r) {
         const JumpRow& row = bulk_->rows()[r];
         if (!row.offset.empty()) offset[r] = dot(row.offset, theta);
@@ -264,15 +268,6 @@ void Condensed::respond(const Springs& springs, std::span<const double> theta, c
     response.residual = 0.0;
     response.iterations = 0;
     response.converged = true;
-}
-
-// All else at its minimum for these unknowns of the zone; without a solution all unknowns are at zero.
-std::vector<double> Condensed::skeleton_of(std::span<const double> theta, const Zone::Solution* solution) const {
-    if (solution == nullptr) return bulk_->skeleton_at_rest(theta);
-    if (by_tree_ != nullptr) return by_tree_->skeleton(theta);
-    std::vector<double> skeleton(bulk_->superelements().variable().size());
-    elimination_.recover(theta, energy_->recover(theta, solution->unknowns), skeleton);
-    return skeleton;
 }
 
 std::vector<double> Condensed::unknowns_of(const Response& response) const {

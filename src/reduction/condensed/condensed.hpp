@@ -43,9 +43,6 @@ public:
 
     Zones* zones() override { return this; }
     Zone* zone(const Springs& springs, std::span<const std::uint8_t> wanted, bool tight) override;
-    // Sets all rows, forces and energies from a zone solution with these springs; null: no unknown moves.
-    void respond(const Springs& springs, std::span<const double> theta, const Zone::Solution* solution,
-                 Response& response) const;
 
 private:
     ZoneTraits zone_traits() const override { return {}; }
@@ -59,7 +56,9 @@ private:
     bool tree_pays(std::span<const std::uint8_t> active);
     void forget_zone();
     std::vector<std::int64_t> rows_of(std::span<const std::uint8_t> inside) const;
-    std::vector<double> skeleton_of(std::span<const double> theta, const Zone::Solution* solution) const;
+    // Sets all rows, forces and energies. multiplier: forces of rows of the zone that are no unknown of their own.
+    void respond(const Springs& springs, std::span<const double> theta, std::span<const double> skeleton,
+                 std::span<const double> multiplier, Response& response) const;
     std::vector<double> unknowns_of(const Response& response) const;
 
     std::shared_ptr<Bulk> bulk_;

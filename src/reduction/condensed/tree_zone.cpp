@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/error.hpp"
 #include "base/numbers.hpp"
+#include "delam/delam.h"
 
 namespace delam {
 
@@ -46,8 +48,7 @@ TreeZone::TreeZone(const Bulk& bulk, TreeFactor& factor, const ZoneChoice& choic
       choice_(choice),
       jump_rows_(std::move(jump_rows)),
       solved_(solved),
-      poll_(std::move(poll)),
-      all_nodes_(bulk.superelements().nodes().size(), 1) {
+      poll_(std::move(poll)) {
     const Superelements& skeleton = bulk.superelements();
     outside_held_.assign(skeleton.variable().size(), 0);
     outside_spring_.assign(outside_held_.size(), 0.0);
@@ -118,15 +119,22 @@ void TreeZone::resist(std::span<const double> theta, std::span<const std::size_t
     for (std::size_t i = 0; i < rows.size(); ++i) force[rows[i]] = image[index(places[i])] - load[index(places[i])];
 }
 
-Zone::Solution TreeZone::solve(std::span<const double> theta, std::span<const double> row_force) {
+// Sets load_ to L theta with the forces h - C o of free rows, which are returned.
+std::vector<double> TreeZone::apply(std::span<const double> theta, std::span<const double> row_force) {
     const std::size_t rows = place_.size();
     load_ = right_side(theta);
-    std::vector<double> own(rows, 0.0);  // h - C o
+    std::vector<double> own(rows, 0.0);
     for (std::size_t r = 0; r < row_force.size(); ++r) own[r] = row_force[r];
     for (const Coupling& c : couplings_)
         if (place_[index(c.column)] < 0) own[index(c.row)] -= c.value * offset(index(c.column), theta);
     for (std::size_t r = 0; r < rows; ++r)
         if (place_[r] >= 0 && held_[r] == 0) load_[index(place_[r])] += own[r];
+    return own;
+}
+
+Zone::Solution TreeZone::solve(std::span<const double> theta, std::span<const double> row_force) {
+    const std::size_t rows = place_.size();
+    const std::vector<double> own = apply(theta, row_force);
     const double work = tree_.solve(load_, nodes_, x_);
 
     Solution solution;
@@ -196,7 +204,7 @@ std::vector<double> TreeZone::unknowns_at(std::span<const double> theta, const R
     load_ = load;
     const std::vector<std::uint8_t> everywhere(x_.size(), 1);
     bulk_.superelements().subtract_image(at, everywhere, load_);
-    tree_.solve(load_, all_nodes_, x_);
+    tree_.solve(load_, std::vector<std::uint8_t>(bulk_.superelements().nodes().size(), 1), x_);
     add_scaled(1.0, at, x_);
     resist(theta, inside, std::span<double>(unknowns).subspan(rows, rows));
     w = dot(x_, load);
@@ -220,10 +228,11 @@ double TreeZone::energy_of(std::span<const double>, std::span<const double> unkn
     return 0.5 * (dot(unknowns.subspan(0, rows), unknowns.subspan(rows, rows)) - unknowns[2 * rows]);
 }
 
-std::vector<double> TreeZone::skeleton(std::span<const double> theta) {
-    std::vector<double> x(x_.size());
-    tree_.solve(load_, all_nodes_, x);
-    add_scaled(1.0, bulk_.skeleton_at_rest(theta), x);
+std::vector<double> TreeZone::skeleton(std::span<const double> theta, std::span<const double> row_force) {
+    apply(theta, row_force);
+    tree_.solve(load_, std::vector<std::uint8_t>(bulk_.superelements().nodes().size(), 1), x_);
+    std::vector<double> x = bulk_.skeleton_at_rest(theta);
+    add_scaled(1.0, x_, x);
     return x;
 }
 

@@ -50,12 +50,13 @@ public:
     double energy_of(std::span<const double> theta, std::span<const double> unknowns) override;
     double energy_rounding() const override { return 1e-14; }
 
-    // Returns the skeleton at the last solve, with everything outside the zone.
-    std::vector<double> skeleton(std::span<const double> theta);
+    // Solves for the whole skeleton, with everything outside the zone.
+    std::vector<double> skeleton(std::span<const double> theta, std::span<const double> row_force);
 
 private:
     double offset(std::size_t row, std::span<const double> theta) const;
     std::vector<double> right_side(std::span<const double> theta) const;
+    std::vector<double> apply(std::span<const double> theta, std::span<const double> row_force);
     void resist(std::span<const double> theta, std::span<const std::size_t> rows, std::span<double> force) const;
 
     const Bulk& bulk_;
@@ -64,9 +65,9 @@ private:
     std::vector<std::int64_t> jump_rows_;
     const SolvedState& solved_;
     Poll poll_;
-    std::vector<std::int64_t> place_;              // [rows] of the skeleton; -1: prescribed
-    std::vector<std::uint8_t> nodes_, all_nodes_;  // with rows of the zone
-    std::vector<std::uint8_t> outside_held_;       // [places] of all but the zone
+    std::vector<std::int64_t> place_;         // [rows] of the skeleton; -1: prescribed
+    std::vector<std::uint8_t> nodes_;         // with rows of the zone
+    std::vector<std::uint8_t> outside_held_;  // [places] of all but the zone
     std::vector<double> outside_spring_;
     // State of the last factor() and solve():
     std::vector<std::uint8_t> held_;  // [rows]
