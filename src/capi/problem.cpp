@@ -43,10 +43,11 @@ void set_material(Problem& problem, std::int32_t body, const Material& material)
 void say_moved(const Context& context, std::int64_t interface, double adhesion, const PairsInBox& found) {
     for (const MovedEnd& moved : found.moved)
         context.monitor.log(
-            1,
-            text("interface ", interface, ": the box ", moved.upper ? "ends" : "begins", " at ", "xyz"[moved.axis],
-                 " = ", moved.end, ", between two pairs: ",
-                 adhesion == 0.0 ? "the tip of the crack is the next pair, at " : "the next pair is at ", moved.next));
+            1, text("interface ", interface, ": the box ", moved.upper ? "ends" : "begins", " at ", "xyz"[moved.axis],
+                    " = ", moved.end, ", between two pairs: ",
+                    adhesion == 0.0 ? "the tip of the crack is the next pair, at " : "the next pair is at ", moved.next,
+                    // Six digits may show both places as one.
+                    text(moved.end) == text(moved.next) ? text(", ", std::abs(moved.next - moved.end), " away") : ""));
 }
 
 }  // namespace

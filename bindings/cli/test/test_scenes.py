@@ -173,6 +173,8 @@ warned(changed("from = 0.0, to", "from = -1, to"),
 warned(changed("to = 0.030", "to = 0.12"), "warning: interfaces[0]: nothing adheres")
 warned(changed("to = 0.030", "to = 0.0304"),
        "warning: interfaces[0].notch[0] ends at x = 0.0304, between two pairs: the tip of the crack is the next pair, at 0.0315\n")
+warned(changed("to = 0.030", "to = 0.03149999"),
+       "ends at x = 0.0315, between two pairs: the tip of the crack is the next pair, at 0.0315, 1e-08 away\n")
 warned(changed("from = 0.0, to", "from = 0.0106, to"),
        "warning: interfaces[0].notch[0] begins at x = 0.0106, between two pairs: the tip of the crack is the next pair, at 0.0105\n")
 warned(changed("point = [0.060, 0.006]", "point = [0.0604, 0.006]\ntolerance = 5e-4"),

@@ -237,8 +237,8 @@ void choose(ReductionChoice& choice) {
     if (c.bytes > memory_floor && ratio > memory_ratio && i.bytes < c.bytes)
         return decide(Realisation::iterated, text(memory, ", more than ", memory_ratio));
     const std::string times =
-        text("an analysis of ", nominal_steps, " steps is predicted to take ", seconds(c.analysis()), " condensed and ",
-             seconds(i.analysis()), " iterated, at ", nominal_rate * 1e-9, " GF/s");
+        text(nominal_steps, " load steps, the measure of this choice, are predicted to take ", seconds(c.analysis()),
+             " condensed and ", seconds(i.analysis()), " iterated, at ", nominal_rate * 1e-9, " GF/s");
     if (i.analysis() < c.analysis()) return decide(Realisation::iterated, times);
     decide(Realisation::condensed, text(memory, "; ", times));
 }
@@ -347,8 +347,9 @@ bool feti_fits(const ReductionChoice& choice) {
 
 void take_feti(ReductionChoice& choice, const std::string& instead) {
     choice.reason = text(instead, ", FETI is predicted to take ", mebibytes(choice.feti.bytes), "; there are ",
-                         mebibytes(choice.memory.bytes), " (", choice.memory.what, "); an analysis of ", nominal_steps,
-                         " steps is predicted to take ", seconds(choice.feti.analysis()), " with it");
+                         mebibytes(choice.memory.bytes), " (", choice.memory.what, "); ", nominal_steps,
+                         " load steps, the measure of this choice, are predicted to take ",
+                         seconds(choice.feti.analysis()), " with it");
     choice.realisation = Realisation::feti;
 }
 
