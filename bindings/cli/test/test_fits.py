@@ -194,7 +194,8 @@ def rugged():
         sure = found.intervals[0].trusted and found.outcome.converged
         expect(sure != doubted and (doubted or abs(value - 1.6) < 0.05),
                f"ripples of {ripple}: p = {value}, {found.intervals}")
-        expect(model.marches <= 8, f"{model.marches} analyses for one parameter")
+        # The most of one parameter, and fewer where the curve is as its derivatives say.
+        expect(model.marches <= (12 if doubted else 8), f"{model.marches} analyses for one parameter")
 
 
 def alike():
