@@ -38,7 +38,7 @@ from own_files import claim, write_file  # noqa: E402
 
 # Analyses of a fit: so many, so many more for each parameter, 12 for one, 16 for two, and OF_MANY for each beyond two. Ends
 # of intervals take two each of them; those of parameters that are held come on top. A DCB, an ENF and an MMB of one
-# parameter on meshes of `delam new` took 7; with half of ANALYSES, a start 12 % off ended before the least misfit.
+# parameter on meshes of `delam new` took 7 to 9; with half of ANALYSES, a start 12 % off ended before the least misfit.
 ANALYSES, MORE, OF_MANY = 8, 4, 20
 # Residuals of this part of the largest y are the tolerance of the analyses: there is nothing to look for in them.
 # damage_tolerance has 4e-4 as its default, and peaks of a few points have errors of this size.

@@ -66,24 +66,28 @@ class Shift:
 def shifts_of_held(misfit, outcome, kept, ranges):
     """A Shift for each kept parameter, as held ones may lie anywhere in their ranges (type B of the GUM, JCGM 100:2008,
     4.3.7). An analysis at both ends of each range, to which the kept ones follow by the derivatives, corrects how far they
-    go. Shifts in one direction at both ends may go in the other one between them."""
+    go. What of the curve does not follow them, as its teeth do not, may hide a shift of its own size to either side."""
     count = int(kept.sum())
     variance, below, above = np.zeros(count), np.zeros(count), np.zeros(count)
     least = NOTHING * np.linalg.norm(misfit.y / misfit.size)
+    spread = np.linalg.norm(np.linalg.pinv(outcome.jacobian[:, kept]), axis=1)
     for k in np.flatnonzero(~kept):
         if np.linalg.norm(outcome.jacobian[:, k]) <= least:
             continue
-        moves = np.array([_followed_to(misfit, outcome, kept, k, side) for side in (-ranges[k][0], ranges[k][1])])
-        variance += np.average(np.square(moves), axis=0, weights=ranges[k]) / 3
-        same = moves[0] * moves[1] > 0
+        ends = [_followed_to(misfit, outcome, kept, k, side) for side in (-ranges[k][0], ranges[k][1])]
+        moves = np.array([moved for moved, _ in ends])
+        hidden = spread * max(left for _, left in ends)
+        variance += (np.average(np.square(moves), axis=0, weights=ranges[k]) + hidden ** 2) / 3
+        same = moves[0] * moves[1] > 0  # it may go in the other direction between the ends
         most = np.max(np.abs(moves), axis=0)
-        below += np.where(same, most, np.maximum(0.0, -np.min(moves, axis=0)))
-        above += np.where(same, most, np.maximum(0.0, np.max(moves, axis=0)))
+        below += np.hypot(np.where(same, most, np.maximum(0.0, -np.min(moves, axis=0))), hidden)
+        above += np.hypot(np.where(same, most, np.maximum(0.0, np.max(moves, axis=0))), hidden)
     return [Shift(*one) for one in zip(np.sqrt(variance), below, above)]
 
 
 def _followed_to(misfit, outcome, kept, k, distance):
-    """How far the kept parameters go if the k-th one, which is held, goes that far."""
+    """How far the kept parameters go if the k-th one, which is held, goes that far; and the size of the residuals that they
+    do not follow."""
     point, jacobian = outcome.point, outcome.jacobian[:, kept]
     there = np.array(point.at)
     there[k] += distance
@@ -91,7 +95,11 @@ def _followed_to(misfit, outcome, kept, k, distance):
     there = np.clip(there, *misfit.bounds())
     found = misfit.point(there)
     moved = (there - point.at)[kept]
-    return moved if found is None else moved - np.linalg.lstsq(jacobian, found.residual - point.residual, rcond=None)[0]
+    if found is None:
+        return moved, 0.0
+    change = found.residual - point.residual
+    more = -np.linalg.lstsq(jacobian, change, rcond=None)[0]
+    return moved + more, float(np.linalg.norm(change + jacobian @ more))
 
 
 class Profile:
