@@ -21,6 +21,16 @@ Condensed::Condensed(std::shared_ptr<Bulk> bulk, const Problem& problem, Monitor
     for (const JumpRow& row : bulk_->rows()) prescribed_.push_back(row.prescribed() ? 1 : 0);
 }
 
+bool Condensed::renew(Renewed what) {
+    zone_.reset();
+    energy_.reset();
+    choice_.clear();
+    choice_.expect_changes({});
+    if (!bulk_->renew(what, monitor_)) return false;
+    elimination_.emplace(bulk_->elimination());
+    return true;
+}
+
 Poll Condensed::poll() {
     return [this] { monitor_.progress("zone", condensations_, 0); };
 }
@@ -43,8 +53,8 @@ void Condensed::condense() {
     std::vector<double> state(choice_.spring());
     for (std::size_t i = 0; i < state.size(); ++i)
         if (choice_.inside()[i] != 0) state[i] = Elimination::in_zone;
-    elimination_.update(bulk_->equations().states(state), poll());
-    energy_ = std::make_unique<ZoneEnergy>(bulk_->zone_energy(elimination_, poll()));
+    elimination_->update(bulk_->equations().states(state), poll());
+    energy_ = std::make_unique<ZoneEnergy>(bulk_->zone_energy(*elimination_, poll()));
     const std::vector<std::int64_t>& zone_unknowns = energy_->unknowns();
 
     const std::size_t unknowns = choice_.unknowns();
@@ -220,7 +230,7 @@ void Condensed::respond(const Springs& springs, std::span<const double> theta, c
 std::vector<double> Condensed::skeleton_of(std::span<const double> theta, const Zone::Solution* solution) const {
     if (solution == nullptr) return bulk_->skeleton_at_rest(theta);
     std::vector<double> skeleton(bulk_->superelements().variable().size());
-    elimination_.recover(theta, energy_->recover(theta, solution->unknowns), skeleton);
+    elimination_->recover(theta, energy_->recover(theta, solution->unknowns), skeleton);
     return skeleton;
 }
 
