@@ -89,6 +89,10 @@ struct Problem {
     std::vector<Eigenstrain> eigenstrains;
     Options options;
     std::shared_ptr<Engine> engine;  // that solves the bodies; null: the library does
+    // True for a scene that is linearised again and again (reduction/turned): the numbers of its stiffness, frames and
+    // forces change, but not the places where they stand.
+    bool renewed = false;
+    std::vector<double> jump_offset;  // [rows] parts of the jumps per unit of the last pattern's factor; empty: none
 
     // DOFs of all pairs: rows of the jump, interface after interface, pair after pair, normal first.
     std::int64_t pair_count() const;

@@ -251,6 +251,17 @@ def as_krueger(name, run):
     expect(off < 0.5, f"{name}: fronts {np.round(fronts, 2)} mm, published 31, 32, 33, 34, 35, 40 mm")
 
 
+def elastica(points):
+    """Forces at displacements, from a shooting method for inextensible beams: (displacement, force, relative tolerance)."""
+    def check(name, run):
+        h = run.history
+        for at, reference, tolerance in points:
+            found = float(np.interp(at, h["load"], h["reaction"]))
+            expect(abs(found / reference - 1) <= tolerance,
+                   f"{name}: {found:.2f} at {at}, elastica {reference}, {100 * (found / reference - 1):+.2f} %")
+    return check
+
+
 def shortened(length, divisions):
     """A cantilever clamped closer to the crack, which never comes near the clamp: cells as small as those of the whole one."""
     return [f"geometry.length={length}", f"geometry.divisions={divisions}", f"supports[0].box.lower=[{length}, 0.0]",
@@ -267,6 +278,9 @@ def scene_file(examples, name):
 COARSE = {
     "dcb-alfano": ([*shortened(0.075, 750), "time.steps=50"], [grows, softens, mirrored, resolved, as_alfano_and_crisfield]),
     "dcb-krueger": ([*shortened(0.050, 1000), "time.steps=35"], [grows, softens, mirrored, resolved, as_krueger]),
+    "dcb-elastica": ([], [grows, softens, mirrored,
+                         elastica([(0.02, 988.58, 5e-3), (0.025, 895.58, 5e-3), (0.03, 828.20, 5e-3)])]),
+    "peel": (["time.end=0.667", "time.steps=40"], [grows, elastica([(0.005, 582.69, 1e-2), (0.01, 511.68, 1e-2)])]),
     "dcb-abaqus": ([], [grows, softens, mirrored, pays_its_toughness]),
     "dcb-double": (["geometry.divisions=120"], [grows, softens, both_open]),
     "dcb-3d": (["geometry.divisions=[40, 6]", "time.steps=28"], [grows, softens, mirrored, ahead_in_the_middle]),

@@ -86,8 +86,28 @@ std::vector<double> TurnedBodies::force() const {
     return force;
 }
 
-SparseMatrix TurnedBodies::tangent(std::int32_t body, TurnedCell::Stresses stresses) const {
-    SparseMatrix k = pattern_[index(body)];
+TurnedBodies::Pulls TurnedBodies::pulls() const {
+    Pulls pulls;
+    pulls.reserve(cells_.size());
+    for (const TurnedCell& cell : cells_) pulls.push_back(cell.pull());
+    return pulls;
+}
+
+void TurnedBodies::add_pulls_along(std::span<const double> displacement, Pulls& pulls) const {
+    std::vector<double> u;
+    for (std::int64_t c = 0; c < mesh_.cell_count(); ++c) {
+        gather(c, displacement, u);
+        const std::vector<Vector3> change = cells_[index(c)].pull_along(u);
+        std::vector<Vector3>& own = pulls[index(c)];
+        for (std::size_t n = 0; n < own.size(); ++n)
+            for (std::size_t k = 0; k < 3; ++k) own[n][k] += change[n][k];
+    }
+}
+
+void TurnedBodies::set_tangent(std::int32_t body, TurnedCell::Stresses stresses, const Pulls& pulls,
+                               SparseMatrix& k) const {
+    if (k.rows == 0) k = pattern_[index(body)];
+    std::fill(k.value.begin(), k.value.end(), 0.0);
     const auto dim = index(mesh_.dimension());
     std::vector<double> own;
     for (const std::int64_t c : own_[index(body)]) {
@@ -95,7 +115,7 @@ SparseMatrix TurnedBodies::tangent(std::int32_t body, TurnedCell::Stresses stres
         const auto nodes = mesh_.cell(c);
         const std::size_t size = nodes.size() * dim;
         own.resize(size * size);
-        cells_[index(c)].tangent(own, stresses);
+        cells_[index(c)].tangent(own, stresses, pulls[index(c)]);
         for (std::size_t r = 0; r < size; ++r) {
             const auto row = index(place_[index(nodes[r / dim])]) * dim + r % dim;
             const auto begin = k.column.begin() + k.start[row], end = k.column.begin() + k.start[row + 1];
@@ -106,7 +126,6 @@ SparseMatrix TurnedBodies::tangent(std::int32_t body, TurnedCell::Stresses stres
             }
         }
     }
-    return k;
 }
 
 void TurnedBodies::add_couple(std::int64_t cell, const Vector3& couple, std::span<double> force) const {

@@ -27,8 +27,14 @@ public:
     double energy() const;
     // Returns the forces of the cells on their nodes, [mesh DOFs].
     std::vector<double> force() const;
-    // Returns the tangent of a body over its nodes in ascending order, both triangles.
-    SparseMatrix tangent(std::int32_t body, TurnedCell::Stresses stresses) const;
+    // The forces S d of the cells in their frames, which are their stresses; and adds to them their change with
+    // displacements of the nodes from here, to first order.
+    using Pulls = std::vector<std::vector<Vector3>>;
+    Pulls pulls() const;
+    void add_pulls_along(std::span<const double> displacement, Pulls& pulls) const;
+    // Sets the tangent of a body over its nodes in ascending order, both triangles, under other stresses. k: empty, or
+    // set by this before.
+    void set_tangent(std::int32_t body, TurnedCell::Stresses stresses, const Pulls& pulls, SparseMatrix& k) const;
     // Returns the frame of a cell.
     const Matrix3& rotation(std::int64_t cell) const { return cells_[index(cell)].rotation(); }
     // Returns the largest entry of the cells' stiffnesses, F/L.

@@ -68,6 +68,13 @@ bool polar_decomposition(const Matrix3& a, Matrix3& rotation, Matrix3& stretch) 
     constexpr double at_rest = 4e-16;
     const double scale = max_abs(a);
     if (!(determinant(a) > 0.0) || !std::isfinite(scale)) return false;
+    if (a[2] == 0.0 && a[5] == 0.0 && a[6] == 0.0 && a[7] == 0.0 && a[8] > 0.0) {  // in the plane
+        const double c = a[0] + a[4], s = a[3] - a[1], size = std::hypot(c, s);
+        rotation = {c / size, -s / size, 0.0, s / size, c / size, 0.0, 0.0, 0.0, 1.0};
+        stretch = transposed_times(rotation, a);
+        stretch[1] = stretch[3] = 0.5 * (stretch[1] + stretch[3]);
+        return true;
+    }
     rotation = a;
     for (double& v : rotation) v /= scale;
     for (int step = 0; step < most_polar_steps; ++step) {
@@ -103,12 +110,18 @@ TurnedCell::TurnedCell(std::size_t dimension, std::span<const double> coordinate
 
 std::vector<Vector3> TurnedCell::stiffness_times(const std::vector<Vector3>& d) const {
     std::vector<Vector3> q(nodes(), Vector3{});
+    constexpr std::size_t most = 81;  // displacements of a cell
+    std::array<double, most> flat;
     const std::size_t size = nodes() * dimension_;
-    for (std::size_t r = 0; r < size; ++r) {
-        double sum = 0.0;
-        for (std::size_t c = 0; c < size; ++c) sum += stiffness_[r * size + c] * d[c / dimension_][c % dimension_];
-        q[r / dimension_][r % dimension_] = sum;
-    }
+    for (std::size_t n = 0, i = 0; n < nodes(); ++n)
+        for (std::size_t k = 0; k < dimension_; ++k) flat[i++] = d[n][k];
+    const double* row = stiffness_.data();
+    for (std::size_t n = 0; n < nodes(); ++n)
+        for (std::size_t k = 0; k < dimension_; ++k, row += size) {
+            double sum = 0.0;
+            for (std::size_t c = 0; c < size; ++c) sum += row[c] * flat[c];
+            q[n][k] = sum;
+        }
     return q;
 }
 
@@ -125,17 +138,35 @@ bool TurnedCell::move(std::span<const double> displacement) {
     if (!polar_decomposition(a, rotation_, stretch_)) return false;
     inverse_ = spin_inverse(stretch_);
     strain_ = place_;
-    Vector3 moment{};
     for (std::size_t n = 0; n < nodes(); ++n) {
         place_[n] = transposed_times(rotation_, place_[n]);
         strain_[n] = plus(place_[n], -1.0, reference_[n]);
     }
     pull_ = stiffness_times(strain_);
-    for (std::size_t n = 0; n < nodes(); ++n) moment = plus(moment, 1.0, cross(place_[n], pull_[n]));
-    couple_ = times(inverse_, moment);
-    force_ = pull_;
-    for (std::size_t n = 0; n < nodes(); ++n) force_[n] = plus(force_[n], -share, cross(couple_, reference_[n]));
+    balance(pull_, couple_, force_);
     return true;
+}
+
+void TurnedCell::balance(const std::vector<Vector3>& pull, Vector3& couple, std::vector<Vector3>& force) const {
+    Vector3 moment{};
+    for (std::size_t n = 0; n < nodes(); ++n) moment = plus(moment, 1.0, cross(place_[n], pull[n]));
+    couple = times(inverse_, moment);
+    force = pull;
+    const double share = 1.0 / static_cast<double>(nodes());
+    for (std::size_t n = 0; n < nodes(); ++n) force[n] = plus(force[n], -share, cross(couple, reference_[n]));
+}
+
+std::vector<Vector3> TurnedCell::pull_along(std::span<const double> displacement) const {
+    std::vector<Vector3> v(nodes(), Vector3{});
+    Vector3 turn{};
+    for (std::size_t n = 0; n < nodes(); ++n) {
+        std::copy_n(&displacement[n * dimension_], dimension_, v[n].begin());
+        v[n] = transposed_times(rotation_, v[n]);
+        turn = plus(turn, 1.0 / static_cast<double>(nodes()), cross(reference_[n], v[n]));
+    }
+    turn = times(inverse_, turn);
+    for (std::size_t n = 0; n < nodes(); ++n) v[n] = plus(v[n], -1.0, cross(turn, place_[n]));
+    return stiffness_times(v);
 }
 
 double TurnedCell::energy() const {
@@ -153,7 +184,10 @@ void TurnedCell::add_force(std::span<double> force) const {
 
 // Column by column: the change of the force in the frame as one node moves along one of its axes. A motion of all nodes
 // together has no force, so that S dd is a column of S and what the turning of the frame adds.
-void TurnedCell::tangent(std::span<double> matrix, Stresses stresses) const {
+void TurnedCell::tangent(std::span<double> matrix, Stresses stresses, const std::vector<Vector3>& pull) const {
+    Vector3 own_couple{};
+    std::vector<Vector3> own_force;
+    balance(pull, own_couple, own_force);
     const std::size_t size = nodes() * dimension_;
     const double share = 1.0 / static_cast<double>(nodes());
     std::vector<double> local(size * size);
@@ -188,12 +222,12 @@ void TurnedCell::tangent(std::span<double> matrix, Stresses stresses) const {
         const double stressed = stresses == Stresses::count ? 1.0 : 0.0;
         Vector3 moment{};
         for (std::size_t n = 0; n < nodes(); ++n)
-            moment = plus(plus(moment, stressed, cross(moved[n], pull_[n])), 1.0, cross(place_[n], pulled[n]));
-        moment = plus(plus(moment, -stressed * trace(du), couple_), stressed, times(du, couple_));
+            moment = plus(plus(moment, stressed, cross(moved[n], pull[n])), 1.0, cross(place_[n], pulled[n]));
+        moment = plus(plus(moment, -stressed * trace(du), own_couple), stressed, times(du, own_couple));
         const Vector3 couple = times(inverse_, moment);
         for (std::size_t n = 0; n < nodes(); ++n) {
             const Vector3 f =
-                plus(plus(pulled[n], -share, cross(couple, reference_[n])), stressed, cross(w, force_[n]));
+                plus(plus(pulled[n], -share, cross(couple, reference_[n])), stressed, cross(w, own_force[n]));
             for (std::size_t k = 0; k < dimension_; ++k) local[(n * dimension_ + k) * size + column] = f[k];
         }
     }

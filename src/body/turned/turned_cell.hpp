@@ -49,7 +49,14 @@ public:
     enum class Stresses { count, left_out };
     // Sets the tangent, [size][size] row-major, exactly symmetric. Without the stresses, whose forces turn, it is
     // semi-definite.
-    void tangent(std::span<double> matrix, Stresses stresses = Stresses::count) const;
+    void tangent(std::span<double> matrix, Stresses stresses = Stresses::count) const {
+        tangent(matrix, stresses, pull_);
+    }
+    // The same with other stresses: the forces S d in the frame.
+    void tangent(std::span<double> matrix, Stresses stresses, const std::vector<Vector3>& pull) const;
+    // S d, and its change with displacements from here [nodes][dimension], to first order.
+    const std::vector<Vector3>& pull() const { return pull_; }
+    std::vector<Vector3> pull_along(std::span<const double> displacement) const;
     // Adds to the forces on the nodes those of a couple (global axes) that turns the frame.
     void add_couple(const Vector3& couple, std::span<double> force) const;
     // d, [nodes][dimension]: displacements in the frame.
@@ -57,6 +64,8 @@ public:
 
 private:
     std::size_t nodes() const { return reference_.size(); }
+    // a and f of these forces.
+    void balance(const std::vector<Vector3>& pull, Vector3& couple, std::vector<Vector3>& force) const;
     std::vector<Vector3> stiffness_times(const std::vector<Vector3>& d) const;
 
     std::size_t dimension_;

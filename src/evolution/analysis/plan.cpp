@@ -244,7 +244,7 @@ std::vector<PlanItem> items_of(const Basis& basis) {
         items.push_back(
             {"large rotations", used,
              text("option kinematics = ", options.kinematics,
-                  ": frames turn with cells and interfaces; each step condenses the bodies anew, 4 to 5 times"),
+                  ": frames turn with cells and interfaces; each step condenses the bodies anew, once or twice"),
              0.0, 0.0, "-"});
     const bool energetic = options.solution == "energetic";
     items.push_back({"energetic search", energetic ? used : left_out,

@@ -58,13 +58,12 @@ bool within_zone(std::span<const double> candidate, std::span<const double> from
 Stepper::Stepper(const Problem& problem, Monitor& monitor, Checks checks) : problem_(problem), monitor_(monitor) {
     const Poll checking = [this] { monitor_.progress("check", 0, 0); };
     if (checks == Checks::made_here) validate(problem_, checking);
-    const Mesh& mesh = *problem_.mesh;
     parts_ = std::make_unique<const FreeParts>(problem_);
     pairs_ = pair_laws(problem_);
     contact_ = contact_scene(problem_, *parts_);
     for (const InterfaceProperties& own : problem_.interfaces)
         initial_adhesion_.insert(initial_adhesion_.end(), own.adhesion.begin(), own.adhesion.end());
-    graph_ = PairGraph(mesh.interfaces());
+    graph_ = PairGraph(problem_.mesh->interfaces());
     rule_.emplace(pairs_, problem_.options.mixity_rule);
     call_if_set(checking);
     design_ = design_operator(problem_, monitor_);
@@ -76,8 +75,15 @@ Stepper::Stepper(const Problem& problem, Monitor& monitor, Checks checks) : prob
         return;
     }
     operator_ = build_operator(design_, problem_, monitor_);
+    lift();
+}
+
+void Stepper::lift() {
+    const std::size_t dim = index(problem_.mesh->dimension());
     std::vector<std::uint8_t> bonded_rows;
-    for (const std::uint8_t b : contact_.bonded) bonded_rows.insert(bonded_rows.end(), index(mesh.dimension()), b);
+    for (const std::uint8_t b : contact_.bonded) bonded_rows.insert(bonded_rows.end(), dim, b);
+    contact_.row_stiffness.clear();
+    contact_.carried_force.clear();
     lift_ = Lift(*operator_, bonded_rows, design_.bound, problem_.patterns.size(),
                  [this](std::span<const double> theta, const Response& response) {
                      if (contact_.row_stiffness.empty()) contact_.row_stiffness = operator_->row_stiffness();

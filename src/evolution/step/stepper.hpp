@@ -92,6 +92,12 @@ public:
     JumpOperator& op() { return *operator_; }
     // The minimisation of a step that starts from these mixities.
     std::unique_ptr<StepRule> increment(const State& before, std::span<const double> mixity) const;
+    // Takes what has changed in the problem (Problem::renewed). False: it cannot, and must be made anew.
+    bool renew(Renewed what) {
+        if (!operator_->renew(what)) return false;
+        lift();
+        return true;
+    }
     // Gives the operator the memory that it had at a state.
     void recall(const State& state) { operator_->recall(state.memory); }
     const ReductionChoice& reduction() const { return design_.choice; }
@@ -102,6 +108,7 @@ public:
     bool warn(const State& state) const { return rule_->warn_of_mixity_error(monitor_, state); }
 
 private:
+    void lift();
     Minimiser minimiser();
     void begin(State& next, const State& before, double time);
     // The state from which the minimisations of a step begin; false: its elastic displacements reached a limit.

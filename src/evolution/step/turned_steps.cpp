@@ -43,6 +43,9 @@ std::vector<double> difference(std::span<const double> a, std::span<const double
     return d;
 }
 
+// True if a stiffness that is not definite may be the reason.
+bool unstable(const Error& error) { return error.status() == DELAM_ERROR_NUMERICAL || error.status() == DELAM_LIMIT; }
+
 // Tells whether the forces balance: within the tolerance, or within rounding once linearisations come no nearer.
 class Balanced {
 public:
@@ -63,10 +66,11 @@ private:
 }  // namespace
 
 struct TurnedSteps::Linear {
-    Linear(Problem about, Monitor& monitor)
-        : problem(std::move(about)), stepper(problem, monitor, Stepper::Checks::made_before) {}
-    Problem problem;
-    Stepper stepper;
+    explicit Linear(LinearScene scene_) : scene(std::move(scene_)) {}
+    LinearScene scene;
+    std::unique_ptr<Stepper> stepper;
+    TurnedPoint about;                  // its stiffness and frames
+    std::vector<double> at, row_force;  // its loads; empty: not set
 };
 
 TurnedSteps::TurnedSteps(const Problem& problem, Monitor& monitor, const TurnedOperator& op, const PairLaws& pairs)
@@ -74,36 +78,44 @@ TurnedSteps::TurnedSteps(const Problem& problem, Monitor& monitor, const TurnedO
 
 TurnedSteps::~TurnedSteps() = default;
 
-std::unique_ptr<TurnedSteps::Linear> TurnedSteps::linearise(std::span<const double> displacement,
-                                                            std::span<const double> row_force,
-                                                            Stresses stresses) const {
-    return std::make_unique<Linear>(op_.linearised(displacement, row_force, stresses), monitor_);
-}
-
-std::unique_ptr<TurnedSteps::Linear> TurnedSteps::linearise(const State& state, Stresses stresses) const {
-    return linearise(state.response.multipliers, state.response.force, stresses);
+Stepper& TurnedSteps::linearise(const TurnedPoint& about, std::span<const double> at,
+                                std::span<const double> row_force) const {
+    if (!linear_) linear_ = std::make_unique<Linear>(op_.scene());
+    Linear& linear = *linear_;
+    const bool turned = linear.about == about;
+    if (turned && std::ranges::equal(linear.at, at) && std::ranges::equal(linear.row_force, row_force))
+        return *linear.stepper;
+    linear.about = {};
+    if (!turned) op_.turn(linear.scene, about);
+    op_.load(linear.scene, at, row_force);
+    if (!linear.stepper || !linear.stepper->renew(turned ? Renewed::loads : Renewed::all)) {
+        linear.stepper.reset();
+        linear.stepper = std::make_unique<Stepper>(linear.scene.problem, monitor_, Stepper::Checks::made_before);
+    }
+    linear.about = about;
+    linear.at.assign(at.begin(), at.end());
+    linear.row_force.assign(row_force.begin(), row_force.end());
+    return *linear.stepper;
 }
 
 // Where stresses make a linear scene unstable, as on the way of a large step, they are left out of its stiffness.
-Stepper::Result TurnedSteps::solve_about(std::span<const double> displacement, std::span<const double> row_force,
-                                         const State& from, const Solve& solve, About& about) const {
+Stepper::Result TurnedSteps::solve_about(TurnedPoint& about, std::span<const double> at,
+                                         std::span<const double> row_force, const State& from,
+                                         const Solve& solve) const {
     try {
-        if (!about.linear) about = {linearise(displacement, row_force, Stresses::count), true};
-        return solve(*about.linear, from);
+        return solve(linearise(about, at, row_force), from);
     } catch (const Error& error) {
-        if (!about.definite || (error.status() != DELAM_ERROR_NUMERICAL && error.status() != DELAM_LIMIT)) throw;
+        if (about.stresses == Stresses::left_out || !unstable(error)) throw;
     }
-    about = {linearise(displacement, row_force, Stresses::left_out), false};
-    return solve(*about.linear, from);
+    about = {{at.begin(), at.end()}, {}, {}, Stresses::left_out};
+    return solve(linearise(about, at, row_force), from);
 }
 
-std::vector<double> TurnedSteps::tangent_about(const State& state, const State& at, Stresses stresses,
-                                               About& about) const {
+std::vector<double> TurnedSteps::tangent_about(const TurnedPoint& about, const State& state, const State& at) const {
     try {
-        about = {linearise(state, stresses), stresses == Stresses::count};
-        return without_last(about.linear->stepper.tangent(at));
+        return without_last(linearise(about, state.response.multipliers, state.response.force).tangent(at));
     } catch (const Error& error) {
-        if (error.status() != DELAM_ERROR_NUMERICAL && error.status() != DELAM_LIMIT) throw;
+        if (!unstable(error)) throw;
         return {};
     }
 }
@@ -112,7 +124,7 @@ std::vector<double> TurnedSteps::tangent_about(const State& state, const State& 
 // definite. Faces that touch without a force hold nothing: a flat strip would stay flat. Where nothing but they holds a
 // part, whatever the stresses, they do.
 TurnedSteps::Known TurnedSteps::know(const State& state) const {
-    Known known{state.response.multipliers, state.response.force, state.adhesion, state.closed, {}, {}};
+    Known known{state.response.multipliers, state.response.force, state.adhesion, state.closed, point_of(state), {}};
     State at = extended(state, problem_.patterns.size());
     at.theta.back() = 1.0;
     State open = at;
@@ -120,22 +132,26 @@ TurnedSteps::Known TurnedSteps::know(const State& state) const {
     const auto dim = index(problem_.mesh->dimension());
     for (std::size_t p = 0; p < open.closed.size(); ++p)
         if (!(-state.response.force[p * dim] > problem_.options.limits.turned_balance * load)) open.closed[p] = 0;
-    known.tangent = tangent_about(state, open, Stresses::count, known.about);
+    if (known.about.stresses == Stresses::count) known.tangent = tangent_about(known.about, state, open);
     if (!known.tangent.empty()) return known;
-    if (open.closed != at.closed && tangent_about(state, open, Stresses::left_out, known.about).empty())
-        known.tangent = tangent_about(state, at, Stresses::count, known.about);
-    if (known.tangent.empty()) known.about = {linearise(state, Stresses::left_out), false};
+    known.about = {state.response.multipliers, {}, {}};
+    known.tangent = tangent_about(known.about, state, open);
+    if (!known.tangent.empty()) return known;
+    const TurnedPoint unstressed{state.response.multipliers, {}, {}, Stresses::left_out};
+    if (open.closed != at.closed && tangent_about(unstressed, state, open).empty())
+        known.tangent = tangent_about(known.about, state, at);
+    if (known.tangent.empty()) known.about = unstressed;
     return known;
 }
 
-void TurnedSteps::refuse_buckling(double time) {
+[[noreturn]] void TurnedSteps::refuse_buckling(double time) {
     fail(DELAM_LIMIT, "time ", time,
          ": the bodies are in balance, but buckle: their stiffness under their stresses is ",
          "not positive definite, and kinematics = corotational does not follow them there");
 }
 
-void TurnedSteps::make_true(Linear& linear, State& state) const {
-    std::vector<double> displacement = linear.stepper.op().displacement(state.theta, state.response);
+void TurnedSteps::make_true(State& state) const {
+    std::vector<double> displacement = linear_->stepper->op().displacement(state.theta, state.response);
     const std::size_t patterns = problem_.patterns.size();
     state.theta.resize(patterns);
     state.response.conjugate.resize(patterns);
@@ -151,52 +167,67 @@ void TurnedSteps::make_true(Linear& linear, State& state) const {
     state.ledger.initial_linear += state.ledger.energy_linear() - linear_energy;
 }
 
-Stepper::Result TurnedSteps::iterate(const State& before, const Solve& solve, About about) const {
+// The first linear step is one about where the step before was linearised. The result is where this step is linearised,
+// once, and again wherever the stiffness of there brings the forces no nearer to their balance.
+Stepper::Result TurnedSteps::iterate(const State& before, const Solve& solve) const {
     const Limits& limits = problem_.options.limits;
     std::vector<double> at = before.response.multipliers, row_force = before.response.force;
     at.resize(op_.dofs(), 0.0);
     row_force.resize(index(problem_.jump_count()), 0.0);
+    TurnedPoint about = before.memory.empty() ? TurnedPoint{at, {}, {}} : point_of(before);
+    bool own = before.memory.empty();  // linearised in this step
     Effort effort;
-    State from = extended(before, problem_.patterns.size()), lowest;
+    State start = extended(before, problem_.patterns.size()), lowest;
     Balanced at_rest(limits.turned_balance, limits.minimise_most_idle);
     bool rested = false;
     double level = std::numeric_limits<double>::infinity(), off_before = level, least = level;
     for (std::int64_t n = 1;; ++n) {
         monitor_.progress("rotate", n, 0);
-        if (n > limits.turned_free && std::isfinite(least)) from = extended(lowest, problem_.patterns.size());
-        Stepper::Result next = solve_about(at, row_force, from, solve, about);
+        if (n > limits.turned_free && std::isfinite(least)) start = extended(lowest, problem_.patterns.size());
+        Stepper::Result next = solve_about(about, at, row_force, start, solve);
+        const bool definite = about.stresses == Stresses::count;
         effort.add(next.state.effort);
         effort.linearisations = n;
-        make_true(*about.linear, next.state);
+        make_true(next.state);
         next.state.effort = effort;
         const auto [off, rounding] = op_.unbalanced(next.state.theta, next.state.response);
-        const bool still = at_rest(off, rounding), balanced = still && about.definite;
-        if (still && !about.definite && std::exchange(rested, true)) refuse_buckling(next.state.time);
-        about = {};
+        const bool still = at_rest(off, rounding), balanced = still && definite;
+        if (still && !definite && std::exchange(rested, true)) refuse_buckling(next.state.time);
         next.state.outcome.turned_off = balanced ? 0.0 : off;
+        // The next step begins with this stiffness, unless that of the result differs.
+        const bool near = own && definite && off < limits.turned_kept * off_before;
+        next.state.memory = (near ? about : TurnedPoint{next.state.response.multipliers, {}, {}}).numbers();
         if (balanced || n == limits.turned_most) {
             next.converged = next.converged && balanced;
             return next;
         }
-        row_force = next.state.response.force;
         const double energy = next.state.ledger.energy() + next.state.ledger.dissipated;
         if (n > 1 && energy < least) {
             least = energy;
             lowest = next.state;
         }
         const bool rises = energy > level + limits.minimise_energy_rounding * std::abs(level) && off > off_before;
+        const bool kept = own && !rises && definite && off < limits.turned_kept * off_before && keeps_stiffness();
+        const std::vector<double> from = at;
+        std::vector<double>& image = next.state.response.multipliers;
+        row_force = next.state.response.force;
         if (rises) {
-            for (std::size_t i = 0; i < at.size(); ++i) at[i] = 0.5 * (at[i] + next.state.response.multipliers[i]);
-            continue;
+            for (std::size_t i = 0; i < at.size(); ++i) at[i] = 0.5 * (at[i] + image[i]);
+        } else {
+            at = std::move(image);
+            level = energy;
+            off_before = off;
         }
-        at = std::move(next.state.response.multipliers);
-        level = energy;
-        off_before = off;
+        if (kept) continue;
+        about = {at, from, std::move(about.displacement)};
+        own = true;
     }
 }
 
+bool TurnedSteps::keeps_stiffness() const { return linear_->stepper->op().traits().renewable; }
+
 Stepper::Result TurnedSteps::initial(double time) const {
-    return iterate({}, [&](Linear& linear, const State&) { return linear.stepper.initial(time); }, {});
+    return iterate({}, [&](Stepper& stepper, const State&) { return stepper.initial(time); });
 }
 
 // The work of the reactions by the trapezoidal rule. The estimate follows from the true energy: with R = dE/dtheta and
@@ -207,15 +238,15 @@ Stepper::Result TurnedSteps::step(const State& before, double time, double strid
     Known known = known_ && known_->of(before) ? std::move(*known_) : know(before);
     known_.reset();
     const double upper_change = half_square(known.tangent, d);
-    Stepper::Result result = iterate(
-        before, [&](Linear& linear, const State& from) { return linear.stepper.step(from, time, {}, stride); },
-        std::move(known.about));
+    Stepper::Result result =
+        iterate(before, [&](Stepper& stepper, const State& from) { return stepper.step(from, time, {}, stride); });
     State& next = result.state;
     known = know(next);
-    if (!known.about.definite && result.converged) refuse_buckling(time);
+    if (known.about.stresses == Stresses::left_out && result.converged) refuse_buckling(time);
+    next.memory = known.about.numbers();
     const double lower_change = half_square(known.tangent, d);
     const double work = 0.5 * (dot(d, before.response.conjugate) + dot(d, next.response.conjugate));
-    const std::unique_ptr<StepRule> rule = known.about.linear->stepper.increment(before, before.mixity);
+    const std::unique_ptr<StepRule> rule = linear_->stepper->increment(before, before.mixity);
     next.step = before.step + 1;
     next.history.revised_from = next.step;
     next.mixity_before = before.mixity;
@@ -235,8 +266,8 @@ Stepper::Result TurnedSteps::step(const State& before, double time, double strid
 
 Stepper::Result TurnedSteps::equilibrate(const State& before, double time, std::span<const double> adhesion) const {
     const State own = extended(before, problem_.patterns.size());
-    Stepper::Result result = iterate(
-        before, [&](Linear& linear, const State&) { return linear.stepper.equilibrate(own, time, adhesion); }, {});
+    Stepper::Result result =
+        iterate(before, [&](Stepper& stepper, const State&) { return stepper.equilibrate(own, time, adhesion); });
     // The cumulative columns count from the state that is set.
     Ledger& ledger = result.state.ledger;
     ledger.initial = before.ledger.initial + ledger.energy() - before.ledger.energy();
@@ -253,17 +284,17 @@ std::vector<double> TurnedSteps::without_last(std::span<const double> matrix) co
 }
 
 std::vector<double> TurnedSteps::tangent(const State& state) const {
-    const std::unique_ptr<Linear> about = linearise(state, Stresses::count);
+    Stepper& about = linearise({state.response.multipliers, {}, {}}, state.response.multipliers, state.response.force);
     State own = extended(state, problem_.patterns.size());
     own.theta.back() = 1.0;
-    return without_last(about->stepper.tangent(own));
+    return without_last(about.tangent(own));
 }
 
 std::vector<double> TurnedSteps::step_tangent(const State& before, const State& state) const {
-    const std::unique_ptr<Linear> about = linearise(state, Stresses::count);
+    Stepper& about = linearise({state.response.multipliers, {}, {}}, state.response.multipliers, state.response.force);
     State own = extended(state, problem_.patterns.size());
     own.theta.back() = 1.0;
-    return without_last(about->stepper.step_tangent(extended(before, problem_.patterns.size()), own));
+    return without_last(about.step_tangent(extended(before, problem_.patterns.size()), own));
 }
 
 void delegate_to_turned_steps(Stepper& stepper, const Problem& problem, Monitor& monitor) {

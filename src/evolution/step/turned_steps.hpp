@@ -36,41 +36,41 @@ public:
     std::vector<double> step_tangent(const State& before, const State& state) const override;
 
 private:
-    // A linearised scene and the steps in it.
+    using Stresses = TurnedCell::Stresses;
+    // The linearised scene and the steps in it.
     struct Linear;
     // A step in a linear scene from a state of such a scene.
-    using Solve = std::function<Stepper::Result(Linear& linear, const State& from)>;
-    using Stresses = TurnedCell::Stresses;
-    struct About {
-        std::unique_ptr<Linear> linear;
-        bool definite = false;  // its stiffness has all stresses
-    };
-    // A state with the scene about it and the change of its reactions with the loads, [patterns][patterns]; empty: the
-    // stiffness under the stresses is not positive definite.
+    using Solve = std::function<Stepper::Result(Stepper& stepper, const State& from)>;
+    // A state with the change of its reactions with the loads, [patterns][patterns]; empty: the stiffness under the
+    // stresses is not positive definite.
     struct Known {
         std::vector<double> displacement, row_force, adhesion;
         std::vector<std::uint8_t> closed;
-        About about;
+        TurnedPoint about;
         std::vector<double> tangent;
         bool of(const State& state) const {
-            return about.linear && displacement == state.response.multipliers && row_force == state.response.force &&
-                   adhesion == state.adhesion && closed == state.closed;
+            return displacement == state.response.multipliers && row_force == state.response.force &&
+                   adhesion == state.adhesion && closed == state.closed && !displacement.empty();
         }
     };
     Known know(const State& state) const;
-    // Sets the scene about a state and returns its tangent at another contact set; empty: there is none.
-    std::vector<double> tangent_about(const State& state, const State& at, Stresses stresses, About& about) const;
-    // about: the scene about the state before; null: not known.
-    Stepper::Result iterate(const State& before, const Solve& solve, About about) const;
-    std::unique_ptr<Linear> linearise(std::span<const double> displacement, std::span<const double> row_force,
-                                      Stresses stresses) const;
-    std::unique_ptr<Linear> linearise(const State& state, Stresses stresses) const;
-    // about: in, the linearisation, or null; out, the one that has given the result.
-    Stepper::Result solve_about(std::span<const double> displacement, std::span<const double> row_force,
-                                const State& from, const Solve& solve, About& about) const;
+    static TurnedPoint point_of(const State& state) {
+        return TurnedPoint::of(state.memory, state.response.multipliers);
+    }
+    // Returns the tangent of a state at another contact set, in the scene about a point; empty: there is none.
+    std::vector<double> tangent_about(const TurnedPoint& about, const State& state, const State& at) const;
+    Stepper::Result iterate(const State& before, const Solve& solve) const;
+    // Returns the linear scene with the stiffness and frames of a point, and with the forces and jumps of
+    // displacements.
+    Stepper& linearise(const TurnedPoint& about, std::span<const double> at, std::span<const double> row_force) const;
+    // about: out, where the scene that has given the result was linearised.
+    Stepper::Result solve_about(TurnedPoint& about, std::span<const double> at, std::span<const double> row_force,
+                                const State& from, const Solve& solve) const;
+    // True if other loads cost less than another stiffness.
+    bool keeps_stiffness() const;
     [[noreturn]] static void refuse_buckling(double time);
-    // Replaces what a linear scene says of a state by what is true at its displacements.
-    void make_true(Linear& linear, State& state) const;
+    // Replaces what the linear scene says of a state by what is true at its displacements.
+    void make_true(State& state) const;
     // Leaves out the row and the column of the additional pattern.
     std::vector<double> without_last(std::span<const double> matrix) const;
 
@@ -78,6 +78,7 @@ private:
     Monitor& monitor_;
     const TurnedOperator& op_;
     const PairLaws& pairs_;
+    mutable std::unique_ptr<Linear> linear_;
     mutable std::optional<Known> known_;  // the last state that a step has led to
 };
 

@@ -19,6 +19,23 @@ Bulk::Bulk(const Problem& problem, Monitor& monitor) : problem_(problem) {
     transformed_ = std::move(bodies.transformed);
     call_if_set(analysing);
     superelements_ = std::make_unique<Superelements>(transformed_, variables(), problem_, analysing);
+    if (!problem_.renewed) return;
+    analysed_.start = transformed_.start;
+    analysed_.column = transformed_.column;
+}
+
+bool Bulk::renew(Renewed what, Monitor& monitor) {
+    const Poll condensing = monitor.poll_at("condense", 0, 0);
+    system_->renew(what, condensing);
+    if (what == Renewed::all) {
+        transformed_ = system_->transformed(condensing);
+        if (transformed_.start != analysed_.start || transformed_.column != analysed_.column) return false;
+        superelements_->renew(transformed_);
+    }
+    equations_ = TrailingEquations(variables(), static_cast<std::int64_t>(problem_.patterns.size()), *superelements_);
+    if (what == Renewed::all) factorise(condensing);
+    take_loads(what == Renewed::all ? 0 : problem_.patterns.size() - 1, condensing);
+    return true;
 }
 
 AssembledBodies Bulk::release() && { return {std::move(system_), std::move(transformed_)}; }
@@ -28,10 +45,17 @@ void Bulk::condense(Monitor& monitor) {
     monitor.progress("factor", 0, 0);
     equations_ = TrailingEquations(variables(), static_cast<std::int64_t>(problem_.patterns.size()), *superelements_);
     factorise(condensing);
+    take_loads(0, condensing);
+    if (problem_.renewed) return;
+    closed_.clear();
+    stressed_.clear();
+}
+
+void Bulk::take_loads(std::size_t first, const Poll& condensing) {
     const StrainLoads strained = system_->find_loads();
-    std::vector<std::vector<double>> bonded = condense_loads(condensing);
+    condense_loads(first, condensing);
     call_if_set(condensing);
-    find_pattern_stiffness(std::move(bonded), strained, condensing);
+    find_pattern_stiffness(first, strained, condensing);
     const RigidMotions known(problem_);
     const DenseMatrix& motions = known.jumps();
     dead_work_ = known.dead_work();
@@ -39,11 +63,14 @@ void Bulk::condense(Monitor& monitor) {
     for (std::int64_t c = 0; c < motions.columns; ++c)
         for (std::int64_t i = 0; i < rigid_.rows; ++i) rigid_(i, c) = motions(row_of_unknown()[index(i)], c);
     if (equations_.kept() == 0) balance_strains();
-    if (variables().kept > 0 || equations_.any()) {
-        resting_ = std::make_unique<Elimination>(*superelements_, trailing_load_);
-        resting_->update(equations_.states(std::vector<double>(index(unknowns()), Elimination::held)), condensing);
-        resting_energy_ = std::make_unique<ZoneEnergy>(zone_energy(*resting_, condensing));
-    }
+    rest(condensing);
+}
+
+void Bulk::rest(const Poll& condensing) {
+    if (variables().kept == 0 && !equations_.any()) return;
+    resting_ = std::make_unique<Elimination>(*superelements_, trailing_load_);
+    resting_->update(equations_.states(std::vector<double>(index(unknowns()), Elimination::held)), condensing);
+    resting_energy_ = std::make_unique<ZoneEnergy>(zone_energy(*resting_, condensing));
 }
 
 void Bulk::factorise(const Poll& poll) {
@@ -89,11 +116,12 @@ std::vector<double> Bulk::carried(std::span<const double> theta, std::span<const
 
 // With all trailing variables at zero each pattern has the displacements u_p, which are returned; the remaining forces
 // K u_p - f_p act on the trailing variables.
-std::vector<std::vector<double>> Bulk::condense_loads(const Poll& poll) {
+void Bulk::condense_loads(std::size_t first, const Poll& poll) {
     const std::int64_t leading = variables().leading;
     const std::size_t patterns = problem_.patterns.size();
-    std::vector<std::vector<double>> bonded;
-    for (std::size_t p = 0; p < patterns; ++p) {
+    left_over_.resize(patterns);
+    closed_.resize(patterns);
+    for (std::size_t p = first; p < patterns; ++p) {
         std::vector<double> unit(patterns, 0.0);
         unit[p] = 1.0;
         std::vector<double> u = variables().lift[p];
@@ -102,32 +130,30 @@ std::vector<std::vector<double>> Bulk::condense_loads(const Poll& poll) {
         const std::vector<double> left = carried(unit, u);
         double squares = 0.0;
         for (std::size_t i = 0; i < index(leading); ++i) squares += left[i] * left[i] * v[i] * v[i];
-        left_over_.push_back(std::sqrt(squares));
+        left_over_[p] = std::sqrt(squares);
         for (std::int64_t t = leading; t < variables().count(); ++t)
             trailing_load_(superelements_->place(t), static_cast<std::int64_t>(p)) = left[index(t)];
-        bonded.push_back(std::move(u));
+        closed_[p] = std::move(u);
         call_if_set(poll);
     }
-    return bonded;
 }
 
 // A_pq = u_p^T K u_q - f_p^T u_q - f_q^T u_p + W_pq, W of the eigenstrains: no difference of large numbers, whatever
 // the lift is. And L: the forces K u_p - f_p on the unknown jumps.
-void Bulk::find_pattern_stiffness(std::vector<std::vector<double>> bonded, const StrainLoads& strained,
-                                  const Poll& poll) {
+void Bulk::find_pattern_stiffness(std::size_t first, const StrainLoads& strained, const Poll& poll) {
     const std::size_t patterns = problem_.patterns.size();
     const std::vector<std::vector<double>>& force = system_->force();
     std::vector<double> nodal(index(system_->dofs()));
     const std::vector<double> closed(index(unknowns()), 0.0);
-    load_ = DenseMatrix(unknowns(), static_cast<std::int64_t>(patterns));
-    std::vector<std::vector<double>> stressed;
-    for (std::size_t p = 0; p < patterns; ++p) {
+    if (first == 0) load_ = DenseMatrix(unknowns(), static_cast<std::int64_t>(patterns));
+    stressed_.resize(patterns);
+    for (std::size_t p = first; p < patterns; ++p) {
         std::vector<double> unit(patterns, 0.0);
         unit[p] = 1.0;
-        if (variables().kept > 0 || equations_.any()) bonded[p] = displacement(unit, closed);
-        multiply(stiffness(), bonded[p], nodal);
-        stressed.push_back(nodal);
-        const std::vector<double> left = carried(unit, bonded[p]);
+        if (variables().kept > 0 || equations_.any()) closed_[p] = displacement(unit, closed);
+        multiply(stiffness(), closed_[p], nodal);
+        stressed_[p] = nodal;
+        const std::vector<double> left = carried(unit, closed_[p]);
         for (std::int64_t i = 0; i < unknowns(); ++i)
             load_(i, static_cast<std::int64_t>(p)) = equations_.on_rest(left, equations_.kept() + i);
         call_if_set(poll);
@@ -135,9 +161,9 @@ void Bulk::find_pattern_stiffness(std::vector<std::vector<double>> bonded, const
     pattern_stiffness_ = DenseMatrix(static_cast<std::int64_t>(patterns), static_cast<std::int64_t>(patterns));
     for (std::size_t p = 0; p < patterns; ++p)
         for (std::size_t q = 0; q < patterns; ++q) {
-            double a = dot(bonded[p], stressed[q]) + strained.energy[p * patterns + q];
-            if (!force[p].empty()) a -= dot(force[p], bonded[q]);
-            if (!force[q].empty()) a -= dot(force[q], bonded[p]);
+            double a = dot(closed_[p], stressed_[q]) + strained.energy[p * patterns + q];
+            if (!force[p].empty()) a -= dot(force[p], closed_[q]);
+            if (!force[q].empty()) a -= dot(force[q], closed_[p]);
             pattern_stiffness_(static_cast<std::int64_t>(p), static_cast<std::int64_t>(q)) = a;
         }
 }

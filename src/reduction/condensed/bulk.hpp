@@ -35,6 +35,9 @@ public:
     // Assembles and analyses; condense() computes the numbers.
     Bulk(const Problem& problem, Monitor& monitor);
     void condense(Monitor& monitor);
+    // Condenses what has changed in the problem (Problem::renewed). False: the matrix has other entries than the one
+    // that was analysed, and nothing is left that could be used.
+    bool renew(Renewed what, Monitor& monitor);
     // Gives the assembled bodies to another realisation of the operator, before condense().
     AssembledBodies release() &&;
 
@@ -83,10 +86,12 @@ public:
 
 private:
     void factorise(const Poll& poll);
+    void take_loads(std::size_t first, const Poll& poll);  // of the patterns from the first on
+    void rest(const Poll& poll);
     std::vector<double> solve_bonded(std::span<const double> forces) const;
     std::vector<double> carried(std::span<const double> theta, std::span<const double> displacement) const;
-    std::vector<std::vector<double>> condense_loads(const Poll& poll);
-    void find_pattern_stiffness(std::vector<std::vector<double>> bonded, const StrainLoads& strained, const Poll& poll);
+    void condense_loads(std::size_t first, const Poll& poll);
+    void find_pattern_stiffness(std::size_t first, const StrainLoads& strained, const Poll& poll);
     void balance_strains();
     const JumpVariables& variables() const { return system_->variables(); }
     const SparseMatrix& stiffness() const { return system_->stiffness(); }
@@ -94,6 +99,7 @@ private:
     const Problem& problem_;
     std::unique_ptr<BodySystem> system_;
     SparseMatrix transformed_;
+    SparseMatrix analysed_;  // of a problem that is renewed: the pattern
     std::unique_ptr<Superelements> superelements_;
     TrailingEquations equations_;
     std::unique_ptr<Elimination> bonded_;  // all jumps at rest, those in equations left
@@ -104,6 +110,8 @@ private:
     std::int64_t factorisations_ = 0;
     DenseMatrix trailing_load_;  // [skeleton][patterns], with all trailing variables at rest
     DenseMatrix load_;
+    // [patterns][mesh DOFs] displacements at factor 1 with all jumps at rest, and their forces, as long as needed.
+    std::vector<std::vector<double>> closed_, stressed_;
     DenseMatrix pattern_stiffness_;
     std::vector<double> left_over_;  // [patterns] work of the forces that solve_bonded() left, with random signs
     DenseMatrix rigid_;

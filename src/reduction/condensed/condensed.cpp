@@ -21,6 +21,18 @@ Condensed::Condensed(std::shared_ptr<Bulk> bulk, const Problem& problem, Monitor
     for (const JumpRow& row : bulk_->rows()) prescribed_.push_back(row.prescribed() ? 1 : 0);
 }
 
+bool Condensed::renew(Renewed what) {
+    forget_zone();
+    tree_.reset();
+    tree_offered_ = false;
+    solved_ = {};
+    choice_.clear();
+    choice_.expect_changes({});
+    if (!bulk_->renew(what, monitor_)) return false;
+    elimination_.emplace(bulk_->elimination());
+    return true;
+}
+
 Poll Condensed::poll() {
     return [this] { monitor_.progress("zone", condensations_, 0); };
 }
@@ -98,8 +110,8 @@ void Condensed::condense_dense(std::span<const std::uint8_t> active) {
     std::vector<double> state(choice_.spring());
     for (std::size_t i = 0; i < state.size(); ++i)
         if (choice_.inside()[i] != 0) state[i] = Elimination::in_zone;
-    elimination_.update(bulk_->equations().states(state), poll());
-    energy_ = std::make_unique<ZoneEnergy>(bulk_->zone_energy(elimination_, poll()));
+    elimination_->update(bulk_->equations().states(state), poll());
+    energy_ = std::make_unique<ZoneEnergy>(bulk_->zone_energy(*elimination_, poll()));
     const std::vector<std::int64_t>& zone_unknowns = energy_->unknowns();
 
     std::vector<std::int64_t> place(choice_.unknowns(), -1);
@@ -200,7 +212,7 @@ bool Condensed::complete(const Springs& springs, std::span<const double> theta, 
     response.balanced = solution.balanced;
     if (!solution.balanced) return true;
     std::vector<double> skeleton(bulk_->superelements().variable().size());
-    elimination_.recover(theta, energy_->recover(theta, solution.unknowns), skeleton);
+    elimination_->recover(theta, energy_->recover(theta, solution.unknowns), skeleton);
     respond(springs, theta, skeleton, solution.multiplier, response);
     return true;
 }

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "reduction/condensed/bulk.hpp"
 #include "reduction/condensed/tree_zone.hpp"
@@ -22,7 +23,7 @@ public:
     Condensed(std::shared_ptr<Bulk> bulk, const Problem& problem, Monitor& monitor);
     void solve(const Springs& springs, std::span<const double> theta, Response& response) override;
     void expect_changes(std::span<const std::size_t> rows) override { choice_.expect_changes(rows); }
-    OperatorTraits traits() const override { return {.proportional = true}; }
+    OperatorTraits traits() const override { return {.proportional = true, .renewable = true}; }
     std::vector<double> displacement(std::span<const double> theta, const Response& response) const override;
     std::vector<double> reaction(std::span<const double> theta, const Response& response) const override;
     double equilibrium_defect(std::span<const double> theta, const Response& response) const override;
@@ -33,6 +34,7 @@ public:
     std::unique_ptr<JumpOperator> twin() const override {
         return std::make_unique<Condensed>(bulk_, problem_, monitor_);
     }
+    bool renew(Renewed what) override;
     std::string description() const override { return description_of(*bulk_); }
     static std::string description_of(const Bulk& bulk);
     std::vector<double> memory() override;
@@ -66,7 +68,7 @@ private:
     Monitor& monitor_;
     std::vector<std::uint8_t> prescribed_;  // [rows]
     ZoneChoice choice_;
-    Elimination elimination_;
+    std::optional<Elimination> elimination_;
     std::unique_ptr<ZoneEnergy> energy_;
     std::unique_ptr<DenseZone> dense_;
     std::unique_ptr<TreeFactor> tree_;  // of the zones by the tree; null: there was none yet

@@ -24,7 +24,8 @@ bool same_pattern(const SparseMatrix& a, const SparseMatrix& b) {
 }  // namespace
 
 Superelements::Superelements(const SparseMatrix& stiffness, const JumpVariables& variables, const Problem& problem,
-                             const Poll& poll) {
+                             const Poll& poll)
+    : apart_(problem.renewed) {
     SuperelementTree tree = cut_into_superelements(stiffness, variables, variable_points(problem, variables), poll);
     std::vector<std::int64_t> order(index(variables.count()));
     for (std::size_t v = 0; v < order.size(); ++v) order[index(tree.position[v])] = static_cast<std::int64_t>(v);
@@ -48,18 +49,6 @@ Superelements::Superelements(const SparseMatrix& stiffness, const JumpVariables&
         for (const std::int64_t v : of) p.push_back(place(v));
         return p;
     };
-    // Entries of the cuts, each at the node that eliminates the first of its two variables.
-    diagonal_.assign(variable_.size(), 0.0);
-    const auto entries_of = [&](std::span<const std::int64_t> own, std::vector<Triplet>& entries) {
-        for (const std::int64_t p : own) {
-            const std::int64_t v = variable_[index(p)];
-            for (std::int64_t e = stiffness.start[index(v)]; e < stiffness.start[index(v) + 1]; ++e) {
-                const std::int64_t q = place(stiffness.column[index(e)]);
-                if (q >= p) entries.push_back({q, p, stiffness.value[index(e)]});
-                if (q == p) diagonal_[index(p)] = stiffness.value[index(e)];
-            }
-        }
-    };
     for (Superelement& node : tree.node) {
         Node own;
         own.children = std::move(node.children);
@@ -70,35 +59,75 @@ Superelements::Superelements(const SparseMatrix& stiffness, const JumpVariables&
             add_leaf(stiffness, node, poll);
         } else {
             own.cut = places(node.inside);
-            entries_of(own.cut, own.entries);
-            entries_of(own.jumps, own.entries);
         }
         nodes_.push_back(std::move(own));
         call_if_set(poll);
     }
     Node& root = nodes_.back();
-    entries_of(kept, root.entries);
     root.border = kept;
     root.kept = std::move(kept);
+    take_entries(stiffness);
 }
 
-// The rows and columns of a leaf, without entries within the border, which belong to the cuts. In their place the
-// border has a diagonal that is not less than they are, so that the whole is definite: the sums of their sizes.
+// Entries of the cuts, each at the node that eliminates the first of its two variables.
+void Superelements::take_entries(const SparseMatrix& stiffness) {
+    diagonal_.assign(variable_.size(), 0.0);
+    for (Node& node : nodes_) {
+        node.entries.clear();
+        const auto take = [&](std::span<const std::int64_t> own) {
+            for (const std::int64_t p : own) {
+                const std::int64_t v = variable_[index(p)];
+                for (std::int64_t e = stiffness.start[index(v)]; e < stiffness.start[index(v) + 1]; ++e) {
+                    const std::int64_t q = place(stiffness.column[index(e)]);
+                    if (q >= p) node.entries.push_back({q, p, stiffness.value[index(e)]});
+                    if (q == p) diagonal_[index(p)] = stiffness.value[index(e)];
+                }
+            }
+        };
+        if (!node.children.empty()) {
+            take(node.cut);
+            take(node.jumps);
+        }
+        take(node.kept);
+    }
+}
+
+void Superelements::renew(const SparseMatrix& stiffness) {
+    for (const Leaf& leaf : leaves_) {
+        Piece& piece = pieces_[leaf.piece];
+        piece.matrix = matrix_of(stiffness, leaf, piece);
+        piece.coupling = SparseMatrix();
+    }
+    take_entries(stiffness);
+}
+
 void Superelements::add_leaf(const SparseMatrix& stiffness, Superelement& node, const Poll& poll) {
     Leaf leaf;
     std::sort(node.border.begin(), node.border.end());  // where copies of a piece have the same order
     for (const auto* own : {&node.jumps, &node.border})
         for (const std::int64_t v : *own) leaf.rows.push_back(place(v));
-    std::vector<std::int64_t> all(node.inside);
-    for (const auto* own : {&node.jumps, &node.border}) all.insert(all.end(), own->begin(), own->end());
     leaf.inside = std::move(node.inside);
     Piece piece;
     piece.inside = static_cast<std::int64_t>(leaf.inside.size());
     piece.jumps = static_cast<std::int64_t>(node.jumps.size());
     piece.border = static_cast<std::int64_t>(node.border.size());
+    piece.matrix = matrix_of(stiffness, leaf, piece);
+    leaf.piece = apart_ ? pieces_.size() : find_alike(piece);
+    if (leaf.piece == pieces_.size()) {
+        piece.factor = std::make_unique<SparseCholesky>(piece.matrix, piece.trailing(), poll);
+        pieces_.push_back(std::move(piece));
+    }
+    leaves_.push_back(std::move(leaf));
+}
+
+// The rows and columns of a leaf, without entries within the border, which belong to the cuts. In their place the
+// border has a diagonal that is not less than they are, so that the whole is definite: the sums of their sizes.
+SparseMatrix Superelements::matrix_of(const SparseMatrix& stiffness, const Leaf& leaf, const Piece& piece) {
+    std::vector<std::int64_t> all(leaf.inside);
+    for (const std::int64_t p : leaf.rows) all.push_back(variable_[index(p)]);
     local_.resize(place_.size(), -1);
     for (std::size_t i = 0; i < all.size(); ++i) local_[index(all[i])] = static_cast<std::int64_t>(i);
-    SparseMatrix& m = piece.matrix;
+    SparseMatrix m;
     m.rows = m.columns = static_cast<std::int64_t>(all.size());
     m.start.reserve(all.size() + 1);
     std::int64_t entries = piece.border;
@@ -131,12 +160,7 @@ void Superelements::add_leaf(const SparseMatrix& stiffness, Superelement& node, 
         m.start.push_back(m.entries());
     }
     for (const std::int64_t v : all) local_[index(v)] = -1;
-    leaf.piece = find_alike(piece);
-    if (leaf.piece == pieces_.size()) {
-        piece.factor = std::make_unique<SparseCholesky>(m, piece.trailing(), poll);
-        pieces_.push_back(std::move(piece));
-    }
-    leaves_.push_back(std::move(leaf));
+    return m;
 }
 
 std::size_t Superelements::find_alike(const Piece& piece) const {

@@ -31,6 +31,8 @@ public:
     // Cuts the bodies and analyses the leaves. stiffness: T^T K T.
     Superelements(const SparseMatrix& stiffness, const JumpVariables& variables, const Problem& problem,
                   const Poll& poll);
+    // Takes other numbers of the analysed matrix, which had its leaves kept apart (Problem::renewed).
+    void renew(const SparseMatrix& stiffness);
     // Computes the numbers. False: a leaf is not positive definite with its border at rest. poll: threads of the
     // library call it, too.
     bool condense(const Poll& poll);
@@ -93,6 +95,8 @@ private:
     };
     const Piece& piece_of(const Leaf& leaf) const { return pieces_[leaf.piece]; }
     void add_leaf(const SparseMatrix& stiffness, Superelement& node, const Poll& poll);
+    SparseMatrix matrix_of(const SparseMatrix& stiffness, const Leaf& leaf, const Piece& piece);
+    void take_entries(const SparseMatrix& stiffness);
     std::size_t find_alike(const Piece& piece) const;
     static bool condense(Piece& piece, const Poll& poll);
 
@@ -102,7 +106,8 @@ private:
     std::vector<Piece> pieces_;
     std::vector<Kind> kind_;
     std::vector<double> diagonal_;
-    std::vector<std::int64_t> local_;  // scratch of add_leaf(), [variables]
+    std::vector<std::int64_t> local_;  // scratch of matrix_of(), [variables]
+    bool apart_;                       // no two leaves share a piece
 };
 
 }  // namespace delam

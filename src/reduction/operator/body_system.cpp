@@ -115,6 +115,17 @@ BodySystem::BodySystem(const Problem& problem, const Poll& poll, Stiffness stiff
     jump_rows_ = jump_matrix(problem_);
     call_if_set(poll);
     variables_ = make_jump_variables(problem_, poll);
+    if (problem_.renewed) offset_jumps(variables_, problem_.jump_offset);
+    call_if_set(poll);
+}
+
+void BodySystem::renew(Renewed what, const Poll& poll) {
+    if (what == Renewed::all) {
+        stiffness_ = assemble(problem_, poll);
+        jump_rows_ = jump_matrix(problem_);
+        variables_ = make_jump_variables(problem_, poll);
+    }
+    offset_jumps(variables_, problem_.jump_offset);
     call_if_set(poll);
 }
 

@@ -11,6 +11,7 @@
 #include "base/monitor.hpp"
 #include "linalg/sparse/sparse.hpp"
 #include "reduction/operator/jump_variables.hpp"
+#include "reduction/operator/renewed.hpp"
 #include "scene/problem.hpp"
 #include "scene/strain_loads.hpp"
 
@@ -27,6 +28,8 @@ public:
     const JumpVariables& variables() const { return variables_; }
     const SparseMatrix& stiffness() const { return stiffness_; }  // K, all mesh DOFs
     std::int64_t dofs() const { return variables_.transform.rows; }
+    // Takes what has changed in the problem (Problem::renewed). loads: not the stiffness and the frames.
+    void renew(Renewed what, const Poll& poll);
     // T^T K T; the diagonal entries of all trailing variables exist.
     SparseMatrix transformed(const Poll& poll) const;
     // Computes the forces of all patterns. The forces in the result have been taken out of it.

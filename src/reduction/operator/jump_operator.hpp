@@ -15,6 +15,7 @@
 
 #include "base/error.hpp"
 #include "delam/delam.h"
+#include "reduction/operator/renewed.hpp"
 #include "reduction/operator/response.hpp"
 #include "reduction/operator/zones.hpp"
 
@@ -25,6 +26,8 @@ class TurnedBodies;
 struct OperatorTraits {
     // True if an a-fold load has the a-fold response, to rounding, whatever was solved before.
     bool proportional = false;
+    // True if it can renew its loads alone.
+    bool renewable = false;
 };
 
 class JumpOperator {
@@ -77,6 +80,9 @@ public:
     virtual std::unique_ptr<JumpOperator> twin() const { return nullptr; }
     // Returns the zones that this operator offers; null: none. They live as long as the operator.
     virtual Zones* zones() { return nullptr; }
+    // Takes what has changed in its problem (Problem::renewed), and forgets what earlier solves have left. False: it
+    // cannot, and must be made anew.
+    virtual bool renew(Renewed /*what*/) { return false; }
     // Returns how many sparse factorisations of the bodies there were since the operator was made.
     virtual std::int64_t factorisations() const { return 0; }
     // Description for people: what was built, and its size.

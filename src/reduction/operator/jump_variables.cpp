@@ -23,7 +23,7 @@ using Row = SparseElimination::Row;
 // space E times an edge; its diagonal may contain supports of the host of any size.
 double modulus(const Problem& problem, std::int32_t body) {
     const auto b = index(body);
-    if (problem.stiffness[b] != nullptr) {
+    if (problem.stiffness[b] != nullptr && !(problem.renewed && problem.material[b])) {
         const SparseMatrix& k = problem.stiffness[b]->matrix;
         double largest = 0.0;
         for (std::int64_t row = 0; row < k.rows; ++row)
@@ -334,6 +334,28 @@ JumpVariables Builder::build() const {
 }  // namespace
 
 JumpVariables make_jump_variables(const Problem& problem, const Poll& poll) { return Builder(problem, poll).build(); }
+
+void offset_jumps(JumpVariables& variables, std::span<const double> offset) {
+    const std::size_t patterns = variables.lift.size();
+    std::vector<double> v(index(variables.count()), 0.0);
+    const std::int64_t first_jump = variables.leading + variables.kept;
+    for (std::size_t r = 0; r < offset.size(); ++r)
+        if (const SparseVector& row = variables.row[r]; row.size() == 1 && row.front().second == 1.0)
+            v[index(first_jump + row.front().first)] = offset[r];
+    for (std::size_t r = 0; r < offset.size(); ++r) {
+        double own = offset[r];
+        for (const auto& [jump, n] : variables.row[r]) own -= n * v[index(first_jump + jump)];
+        if (own != 0.0) variables.row_offset[r].resize(patterns, 0.0);
+        if (!variables.row_offset[r].empty()) variables.row_offset[r].back() = own;
+    }
+    for (JumpVariables::Equation& equation : variables.equations) {
+        double& prescribed = equation.prescribed.back();
+        prescribed = 0.0;
+        for (const auto& [t, c] : equation.entries) prescribed += c * v[index(variables.leading + t)];
+    }
+    for (double& own : v) own = -own;
+    multiply(variables.transform, v, variables.lift.back());
+}
 
 // Only variables that occur in an equation are columns: a few, however many jumps there are.
 std::vector<SolvedEquation> solve_equations(const JumpVariables& variables) {

@@ -56,6 +56,9 @@ inline constexpr double dependent_equation = 1e-10;
 
 JumpVariables make_jump_variables(const Problem& problem, const Poll& poll = {});
 
+// Gives the jumps parts that no displacement has, [rows] per unit of the last pattern, which drives nothing else.
+void offset_jumps(JumpVariables& variables, std::span<const double> offset);
+
 // An equation solved for one trailing variable, displacements before jumps: t_pivot = sum of entries t + prescribed .
 // theta, where no entry is another one's pivot.
 struct SolvedEquation {

@@ -26,26 +26,19 @@ TurnedJumps::TurnedJumps(const Problem& problem, const Carriers& carriers)
                         weight[c] += 0.5 * share / static_cast<double>(cells[index(carrier)].size());
             of_interface.emplace_back(weight.begin(), weight.end());
         }
+        turns_.emplace_back(interface.node_a.size());
+        frames_.push_back(interface.frame);
     }
 }
 
-TurnedJumps::Turn TurnedJumps::turn(const TurnedBodies& bodies, const Touching& cells, std::int64_t node) const {
+void TurnedJumps::turn(const TurnedBodies& bodies, const Touching& cells, std::int64_t node, Turn& turn) const {
     Matrix3 sum{};
     for (const auto& [c, weight] : cells)
         for (std::size_t i = 0; i < 9; ++i) sum[i] += weight * bodies.rotation(c)[i];
-    Turn turn;
     if (!polar_decomposition(sum, turn.rotation, turn.stretch))
         fail(DELAM_LIMIT, "the faces at node ", node,
              " of an interface are turned against each other by 90 degrees or "
              "more: their pair has no common frame");
-    return turn;
-}
-
-Vector3 TurnedJumps::row(const InterfaceGeometry& interface, std::size_t dimension, std::size_t p, std::size_t r,
-                         const Matrix3& rotation) {
-    Vector3 q{};
-    std::copy_n(&interface.frame[(p * dimension + r) * dimension], dimension, q.begin());
-    return times(rotation, q);
 }
 
 Vector3 TurnedJumps::apart(const InterfaceGeometry& interface, std::size_t p,
@@ -58,76 +51,94 @@ Vector3 TurnedJumps::apart(const InterfaceGeometry& interface, std::size_t p,
     return d;
 }
 
-std::vector<double> TurnedJumps::frames(const TurnedBodies& bodies, std::size_t i) const {
-    const InterfaceGeometry& interface = problem_.mesh->interfaces()[i];
-    std::vector<double> frames;
-    frames.reserve(interface.frame.size());
-    for (std::size_t p = 0; p < interface.node_a.size(); ++p) {
-        const Turn turned = turn(bodies, touching_[i][p], interface.node_a[p]);
-        for (std::size_t r = 0; r < dimension_; ++r) {
-            const Vector3 q = row(interface, dimension_, p, r, turned.rotation);
-            frames.insert(frames.end(), q.begin(), q.begin() + static_cast<std::ptrdiff_t>(dimension_));
-        }
-    }
-    return frames;
-}
-
-std::vector<double> TurnedJumps::jumps(const TurnedBodies& bodies, std::span<const double> theta,
-                                       std::span<const double> displacement) const {
-    std::vector<double> jumps;
-    jumps.reserve(index(problem_.jump_count()));
+void TurnedJumps::move(const TurnedBodies& bodies, std::span<const double> displacement) {
     for (std::size_t i = 0; i < touching_.size(); ++i) {
         const InterfaceGeometry& interface = problem_.mesh->interfaces()[i];
         for (std::size_t p = 0; p < interface.node_a.size(); ++p) {
-            const Turn turned = turn(bodies, touching_[i][p], interface.node_a[p]);
-            const Vector3 d = apart(interface, p, displacement);
-            for (std::size_t r = 0; r < dimension_; ++r)
-                jumps.push_back(dot(row(interface, dimension_, p, r, turned.rotation), d));
+            Turn& own = turns_[i][p];
+            turn(bodies, touching_[i][p], interface.node_a[p], own);
+            own.apart = apart(interface, p, displacement);
+            for (std::size_t r = 0; r < dimension_; ++r) {
+                const std::size_t at = (p * dimension_ + r) * dimension_;
+                Vector3 q{};
+                std::copy_n(&interface.frame[at], dimension_, q.begin());
+                q = times(own.rotation, q);
+                std::copy_n(q.begin(), dimension_, &frames_[i][at]);
+            }
         }
     }
+}
+
+std::vector<double> TurnedJumps::jumps(std::span<const double> theta) const {
+    std::vector<double> jumps;
+    jumps.reserve(index(problem_.jump_count()));
+    for (std::size_t i = 0; i < touching_.size(); ++i)
+        for (std::size_t e = 0; e < frames_[i].size(); e += dimension_) {
+            const Vector3& d = turns_[i][e / (dimension_ * dimension_)].apart;
+            jumps.push_back(dot(std::span(frames_[i]).subspan(e, dimension_), std::span(d).first(dimension_)));
+        }
     for (const GapRow& gap : problem_.gap_rows()) jumps[index(gap.row)] += gap.value * theta[index(gap.pattern)];
     return jumps;
 }
 
-void TurnedJumps::add_pulls(const TurnedBodies& bodies, std::span<const double> row_force,
-                            std::span<double> force) const {
-    std::size_t first = 0;  // row
+std::vector<double> TurnedJumps::beyond(const Mesh& mesh) const {
+    std::vector<double> jumps;
+    jumps.reserve(index(problem_.jump_count()));
     for (std::size_t i = 0; i < touching_.size(); ++i) {
-        const InterfaceGeometry& interface = problem_.mesh->interfaces()[i];
-        for (std::size_t p = 0; p < interface.node_a.size(); ++p, first += dimension_) {
-            const std::span<const double> own = row_force.subspan(first, dimension_);
-            if (std::all_of(own.begin(), own.end(), [](double t) { return t == 0.0; })) continue;
-            const Turn turned = turn(bodies, touching_[i][p], interface.node_a[p]);
-            Vector3 pull{};
-            for (std::size_t r = 0; r < dimension_; ++r) {
-                const Vector3 q = row(interface, dimension_, p, r, turned.rotation);
-                for (std::size_t k = 0; k < dimension_; ++k) pull[k] += own[r] * q[k];
-            }
-            for (const auto& [node, sign] : {std::pair(interface.node_b[p], 1.0), std::pair(interface.node_a[p], -1.0)})
-                for (const auto& [carrier, weight] : carriers_.of(node))
-                    for (std::size_t k = 0; k < dimension_; ++k)
-                        force[index(carrier) * dimension_ + k] += sign * weight * pull[k];
+        const std::vector<double>& before = mesh.interfaces()[i].frame;
+        for (std::size_t e = 0; e < before.size(); e += dimension_) {
+            const Vector3& d = turns_[i][e / (dimension_ * dimension_)].apart;
+            double sum = 0.0;
+            for (std::size_t k = 0; k < dimension_; ++k) sum += (frames_[i][e + k] - before[e + k]) * d[k];
+            jumps.push_back(sum);
         }
+    }
+    return jumps;
+}
+
+void TurnedJumps::pull(std::size_t interface, std::span<const double> frames, std::span<const double> row_force,
+                       double factor, std::span<double> force) const {
+    const InterfaceGeometry& geometry = problem_.mesh->interfaces()[interface];
+    for (std::size_t p = 0; p < geometry.node_a.size(); ++p) {
+        const std::span<const double> own = row_force.subspan(p * dimension_, dimension_);
+        if (std::all_of(own.begin(), own.end(), [](double t) { return t == 0.0; })) continue;
+        Vector3 pull{};
+        for (std::size_t r = 0; r < dimension_; ++r)
+            for (std::size_t k = 0; k < dimension_; ++k)
+                pull[k] += factor * own[r] * frames[(p * dimension_ + r) * dimension_ + k];
+        for (const auto& [node, sign] : {std::pair(geometry.node_b[p], 1.0), std::pair(geometry.node_a[p], -1.0)})
+            for (const auto& [carrier, weight] : carriers_.of(node))
+                for (std::size_t k = 0; k < dimension_; ++k)
+                    force[index(carrier) * dimension_ + k] += sign * weight * pull[k];
     }
 }
 
-void TurnedJumps::add_couples(const TurnedBodies& bodies, std::span<const double> displacement,
-                              std::span<const double> row_force, std::span<double> force) const {
+void TurnedJumps::add_pulls(std::span<const double> row_force, std::span<double> force) const {
+    std::size_t first = 0;  // row
+    for (std::size_t i = 0; i < touching_.size(); first += touching_[i++].size() * dimension_)
+        pull(i, frames_[i], row_force.subspan(first), 1.0, force);
+}
+
+void TurnedJumps::subtract_pulls(const Mesh& mesh, std::span<const double> row_force, std::span<double> force) const {
+    std::size_t first = 0;  // row
+    for (std::size_t i = 0; i < touching_.size(); first += touching_[i++].size() * dimension_)
+        pull(i, mesh.interfaces()[i].frame, row_force.subspan(first), -1.0, force);
+}
+
+void TurnedJumps::add_couples(const TurnedBodies& bodies, std::span<const double> row_force,
+                              std::span<double> force) const {
     std::size_t first = 0;  // row
     for (std::size_t i = 0; i < touching_.size(); ++i) {
-        const InterfaceGeometry& interface = problem_.mesh->interfaces()[i];
-        for (std::size_t p = 0; p < interface.node_a.size(); ++p, first += dimension_) {
+        for (std::size_t p = 0; p < touching_[i].size(); ++p, first += dimension_) {
             const std::span<const double> own = row_force.subspan(first, dimension_);
             if (std::all_of(own.begin(), own.end(), [](double t) { return t == 0.0; })) continue;
-            const Turn turned = turn(bodies, touching_[i][p], interface.node_a[p]);
-            const Vector3 d = apart(interface, p, displacement);
+            const Turn& turned = turns_[i][p];
             Vector3 pull{};
-            for (std::size_t r = 0; r < dimension_; ++r) {
-                const Vector3 q = row(interface, dimension_, p, r, turned.rotation);
-                for (std::size_t k = 0; k < 3; ++k) pull[k] += own[r] * q[k];
-            }
+            for (std::size_t r = 0; r < dimension_; ++r)
+                for (std::size_t k = 0; k < dimension_; ++k)
+                    pull[k] += own[r] * frames_[i][(p * dimension_ + r) * dimension_ + k];
             const Vector3 in_frame =
-                times(spin_inverse(turned.stretch), transposed_times(turned.rotation, cross(pull, d)));
+                times(spin_inverse(turned.stretch), transposed_times(turned.rotation, cross(pull, turned.apart)));
             for (const auto& [c, weight] : touching_[i][p]) {
                 const Matrix3 s = transposed_times(turned.rotation, bodies.rotation(c));
                 const Vector3 turned_back = transposed_times(s, in_frame);

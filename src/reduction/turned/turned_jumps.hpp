@@ -26,31 +26,37 @@ public:
     // The arguments must outlive it.
     TurnedJumps(const Problem& problem, const Carriers& carriers);
 
+    // Turns the frames with the bodies, which have been moved to these displacements.
+    void move(const TurnedBodies& bodies, std::span<const double> displacement);
     // Returns the frames of an interface as InterfaceGeometry has them.
-    std::vector<double> frames(const TurnedBodies& bodies, std::size_t interface) const;
+    const std::vector<double>& frames(std::size_t interface) const { return frames_[interface]; }
     // Returns the jumps, [rows].
-    std::vector<double> jumps(const TurnedBodies& bodies, std::span<const double> theta,
-                              std::span<const double> displacement) const;
+    std::vector<double> jumps(std::span<const double> theta) const;
+    // Returns what the frames of a mesh leave out of the jumps, [rows]: (q - q_mesh) . (u_b - u_a).
+    std::vector<double> beyond(const Mesh& mesh) const;
     // Adds to the forces on the nodes [mesh DOFs] what forces of the rows cause: pulls, or the couples alone.
-    void add_pulls(const TurnedBodies& bodies, std::span<const double> row_force, std::span<double> force) const;
-    void add_couples(const TurnedBodies& bodies, std::span<const double> displacement,
-                     std::span<const double> row_force, std::span<double> force) const;
+    void add_pulls(std::span<const double> row_force, std::span<double> force) const;
+    void add_couples(const TurnedBodies& bodies, std::span<const double> row_force, std::span<double> force) const;
+    // Takes from the forces the pulls that they cause in the frames of a mesh.
+    void subtract_pulls(const Mesh& mesh, std::span<const double> row_force, std::span<double> force) const;
 
 private:
     struct Turn {
         Matrix3 rotation{}, stretch{};
+        Vector3 apart{};  // u_b - u_a
     };
     using Touching = std::vector<std::pair<std::int64_t, double>>;  // cell, m_c
-    Turn turn(const TurnedBodies& bodies, const Touching& cells, std::int64_t node) const;
-    // Returns the row r of the pair p of an interface, turned.
-    static Vector3 row(const InterfaceGeometry& interface, std::size_t dimension, std::size_t p, std::size_t r,
-                       const Matrix3& rotation);
+    void turn(const TurnedBodies& bodies, const Touching& cells, std::int64_t node, Turn& turn) const;
     Vector3 apart(const InterfaceGeometry& interface, std::size_t p, std::span<const double> displacement) const;
+    void pull(std::size_t interface, std::span<const double> frames, std::span<const double> row_force, double factor,
+              std::span<double> force) const;
 
     const Problem& problem_;
     const Carriers& carriers_;
     std::size_t dimension_;
     std::vector<std::vector<Touching>> touching_;  // [interfaces][pairs]
+    std::vector<std::vector<Turn>> turns_;         // [interfaces][pairs]
+    std::vector<std::vector<double>> frames_;      // [interfaces]
 };
 
 }  // namespace delam

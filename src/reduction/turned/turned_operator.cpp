@@ -25,11 +25,32 @@ std::vector<BodyModel> models_of(const Problem& problem) {
 
 }  // namespace
 
+std::vector<double> TurnedPoint::numbers() const {
+    std::vector<double> numbers{stresses == TurnedCell::Stresses::count ? 1.0 : 0.0};
+    for (const std::vector<double>* part : {&displacement, &from, &along})
+        numbers.insert(numbers.end(), part->begin(), part->end());
+    return numbers;
+}
+
+TurnedPoint TurnedPoint::of(std::span<const double> numbers, std::span<const double> displacement) {
+    TurnedPoint point{{displacement.begin(), displacement.end()}, {}, {}};
+    if (numbers.empty()) return point;
+    point.stresses = numbers.front() != 0.0 ? TurnedCell::Stresses::count : TurnedCell::Stresses::left_out;
+    const std::size_t dofs = displacement.size();
+    numbers = numbers.subspan(1);
+    for (std::vector<double>* part : {&point.displacement, &point.from, &point.along}) {
+        if (numbers.empty()) break;
+        part->assign(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(dofs));
+        numbers = numbers.subspan(dofs);
+    }
+    return point;
+}
+
 TurnedOperator::TurnedOperator(const Problem& problem, const Poll& poll)
     : problem_(problem),
       bodies_(std::make_unique<BodySystem>(problem, poll, BodySystem::Stiffness::elsewhere)),
       carriers_(problem),
-      jumps_(problem, carriers_),
+      jumps_(std::make_unique<TurnedJumps>(problem, carriers_)),
       prescribed_(delam::prescribed_rows(bodies_->variables())),
       no_row_force_(index(problem.jump_count()), 0.0),
       turned_(std::make_unique<TurnedBodies>(*problem.mesh, models_of(problem))) {
@@ -41,46 +62,75 @@ TurnedBodies& TurnedOperator::at(std::span<const double> displacement) const {
     if (!std::equal(at_.begin(), at_.end(), displacement.begin(), displacement.end())) {
         at_.clear();
         turned_->move(displacement);
+        jumps_->move(*turned_, displacement);
         at_.assign(displacement.begin(), displacement.end());
     }
     return *turned_;
 }
 
-Problem TurnedOperator::linearised(std::span<const double> displacement, std::span<const double> row_force,
-                                   TurnedCell::Stresses stresses) const {
+LinearScene TurnedOperator::scene() const {
+    LinearScene scene{problem_, std::make_shared<Mesh>(*problem_.mesh), {}};
+    Problem& about = scene.problem;
+    about.options.kinematics = "linear";
+    about.renewed = true;
+    about.mesh = scene.mesh;
+    about.patterns.push_back({"linearisation", {0.0}, {1.0}, Pattern::Drives::force});
+    for (std::int32_t body = 0; body < scene.mesh->body_count(); ++body) {
+        auto given = std::make_shared<HostStiffness>();
+        // Stresses resist rotations, so that no rigid motion is free of energy.
+        const std::vector<std::int64_t> nodes = scene.mesh->body_nodes(body);
+        const std::int64_t rows = static_cast<std::int64_t>(nodes.size()) * scene.mesh->dimension();
+        given->pieces.push_back({nodes, DenseMatrix(rows, 0), {}});
+        about.stiffness[index(body)] = given;
+        scene.stiffness.push_back(std::move(given));
+    }
+    return scene;
+}
+
+void TurnedOperator::turn(LinearScene& scene, const TurnedPoint& point) const {
+    TurnedBodies::Pulls pulls;
+    if (!point.from.empty()) {
+        pulls = at(point.from).pulls();
+        std::vector<double> moved = point.displacement;
+        add_scaled(-1.0, point.from, moved);
+        at(point.along).add_pulls_along(moved, pulls);
+    }
+    const TurnedBodies& bodies = at(point.displacement);
+    if (point.from.empty()) pulls = bodies.pulls();
+    for (std::size_t i = 0; i < problem_.interfaces.size(); ++i) turn_frames(*scene.mesh, i, jumps_->frames(i));
+    for (std::size_t b = 0; b < scene.stiffness.size(); ++b)
+        bodies.set_tangent(static_cast<std::int32_t>(b), point.stresses, pulls, scene.stiffness[b]->matrix);
+}
+
+void TurnedOperator::load(LinearScene& scene, std::span<const double> displacement,
+                          std::span<const double> row_force) const {
     const TurnedBodies& bodies = at(displacement);
     const auto dim = index(problem_.mesh->dimension());
-    Problem about = problem_;
-    about.options.kinematics = "linear";
-    auto mesh = std::make_shared<Mesh>(*problem_.mesh);
-    for (std::size_t i = 0; i < problem_.interfaces.size(); ++i) turn_frames(*mesh, i, jumps_.frames(bodies, i));
     std::vector<double> force = bodies.force();
-    jumps_.add_couples(bodies, displacement, row_force, force);
+    jumps_->add_couples(bodies, row_force, force);
+    jumps_->add_pulls(row_force, force);
+    jumps_->subtract_pulls(*scene.mesh, row_force, force);
     for (double& f : force) f = -f;
-    for (std::int32_t body = 0; body < mesh->body_count(); ++body) {
-        HostStiffness given;
-        given.matrix = bodies.tangent(body, stresses);
-        const std::vector<std::int64_t> nodes = mesh->body_nodes(body);
+    for (std::size_t b = 0; b < scene.stiffness.size(); ++b) {
+        const HostStiffness& given = *scene.stiffness[b];
+        const std::vector<std::int64_t>& nodes = given.pieces.front().nodes;
         std::vector<double> u(index(given.matrix.rows)), f(u.size());
         for (std::size_t i = 0; i < u.size(); ++i) u[i] = displacement[index(nodes[i / dim]) * dim + i % dim];
         multiply(given.matrix, u, f);
         for (std::size_t i = 0; i < u.size(); ++i) force[index(nodes[i / dim]) * dim + i % dim] += f[i];
-        // Stresses resist rotations, so that no rigid motion is free of energy.
-        given.pieces.push_back({nodes, DenseMatrix(given.matrix.rows, 0), {}});
-        about.stiffness[index(body)] = std::make_shared<const HostStiffness>(std::move(given));
     }
-    about.mesh = std::move(mesh);
-    about.patterns.push_back({"linearisation", {0.0}, {1.0}, Pattern::Drives::force});
+    Problem& about = scene.problem;
+    about.forces = problem_.forces;
     const auto pattern = static_cast<std::int64_t>(problem_.patterns.size());
     for (std::size_t i = 0; i < force.size(); ++i)
         if (force[i] != 0.0) about.forces.push_back({pattern, static_cast<std::int64_t>(i), force[i]});
-    return about;
+    about.jump_offset = jumps_->beyond(*scene.mesh);
 }
 
 void TurnedOperator::complete(std::span<const double> theta, std::vector<double> displacement,
                               Response& response) const {
     const TurnedBodies& bodies = at(displacement);
-    response.jump = jumps_.jumps(bodies, theta, displacement);
+    response.jump = jumps_->jumps(theta);
     response.stored_bulk = bodies.energy();
     response.load_potential = 0.0;
     for (std::size_t p = 0; p < theta.size(); ++p)
@@ -94,8 +144,8 @@ void TurnedOperator::complete(std::span<const double> theta, std::vector<double>
 std::vector<double> TurnedOperator::internal_force(const Response& response) const {
     const TurnedBodies& bodies = at(response.multipliers);
     std::vector<double> force = bodies.force();
-    jumps_.add_pulls(bodies, response.force, force);
-    jumps_.add_couples(bodies, response.multipliers, response.force, force);
+    jumps_->add_pulls(response.force, force);
+    jumps_->add_couples(bodies, response.force, force);
     return force;
 }
 
@@ -126,6 +176,13 @@ std::vector<double> TurnedOperator::displacement(std::span<const double>, const 
 
 double TurnedOperator::equilibrium_defect(std::span<const double> theta, const Response& response) const {
     return delam::equilibrium_defect(*bodies_, theta, internal_force(response), no_row_force_);
+}
+
+void TurnedOperator::require_memory(std::span<const double> memory) const {
+    const std::size_t one = dofs() + 1, three = 3 * dofs() + 1;
+    if (!memory.empty() && memory.size() != one && memory.size() != three)
+        fail(DELAM_ERROR_SNAPSHOT, "snapshot holds ", memory.size(), " numbers of a linearisation, allowed: 0, ", one,
+             " or ", three);
 }
 
 std::string TurnedOperator::description() const {

@@ -21,17 +21,40 @@
 
 namespace delam {
 
+// Says where a scene is linearised: at which places of the nodes, under which stresses. These are those of
+// displacements `from` with their change to first order, in the frames of displacements `along`: what a linear step
+// about `along` has led to. The true ones of its result have the squares of the rotations besides, by which a stiffness
+// of thin bodies leads far away (D. Magisano, L. Leonetti, G. Garcea, Comput. Methods Appl. Mech. Eng. 313 (2017)
+// 986-1005). Without `from` the stresses are the true ones.
+struct TurnedPoint {
+    std::vector<double> displacement, from, along;  // [mesh DOFs]
+    TurnedCell::Stresses stresses = TurnedCell::Stresses::count;
+    bool operator==(const TurnedPoint&) const = default;
+    // Returns it as the numbers that a state remembers, and back. None say that it was linearised at its displacements.
+    std::vector<double> numbers() const;
+    static TurnedPoint of(std::span<const double> numbers, std::span<const double> displacement);
+};
+
+struct LinearScene {
+    Problem problem;
+    std::shared_ptr<Mesh> mesh;
+    std::vector<std::shared_ptr<HostStiffness>> stiffness;  // [bodies]
+};
+
 class TurnedOperator final : public JumpOperator {
 public:
     // `problem` must outlive it.
     TurnedOperator(const Problem& problem, const Poll& poll);
 
     std::size_t dofs() const { return index(bodies_->dofs()); }
-    // The scene about these displacements, which stays linear: frames of pairs turned, a stiffness given for each body,
-    // and a pattern more, whose factor is always 1, with the forces K u - f(u) that make up for it. row_force: of the
-    // pairs, whose couples are held as they are. Where stresses are left out of the stiffness, it is semi-definite.
-    Problem linearised(std::span<const double> displacement, std::span<const double> row_force,
-                       TurnedCell::Stresses stresses) const;
+    // A scene that stays linear: frames of pairs turned, a stiffness given for each body, and a pattern more, whose
+    // factor is always 1, with the forces and the parts of jumps that make up for it. Without numbers yet.
+    LinearScene scene() const;
+    // Sets its stiffness and frames to those of a point. Where stresses are left out, it is semi-definite.
+    void turn(LinearScene& scene, const TurnedPoint& point) const;
+    // Sets its loads, so that at these displacements, which need not be those of turn(), and forces of the rows,
+    // forces on nodes and jumps are the true ones. Couples are held as they are.
+    void load(LinearScene& scene, std::span<const double> displacement, std::span<const double> row_force) const;
     // Sets what belongs to the displacements: jumps, energies, unknowns. The forces of rows stay.
     void complete(std::span<const double> theta, std::vector<double> displacement, Response& response) const;
     // The largest unbalanced force, and the rounding of such forces, both over the load: the largest reaction or dead
@@ -48,6 +71,7 @@ public:
     double equilibrium_defect(std::span<const double> theta, const Response& response) const override;
     std::span<const std::uint8_t> prescribed_rows() const override { return prescribed_; }
     const TurnedBodies* turned(const Response& response) const override { return &at(response.multipliers); }
+    void require_memory(std::span<const double> memory) const override;
     std::string description() const override;
 
 private:
@@ -58,7 +82,7 @@ private:
     const Problem& problem_;
     std::unique_ptr<BodySystem> bodies_;
     Carriers carriers_;
-    TurnedJumps jumps_;
+    std::unique_ptr<TurnedJumps> jumps_;
     std::vector<std::uint8_t> prescribed_;
     std::vector<double> no_row_force_;
     std::unique_ptr<TurnedBodies> turned_;
