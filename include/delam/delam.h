@@ -1158,9 +1158,10 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  * also the contact. It covers advances of a single front by whole rings of pairs. It does not cover new cracks, fronts
  * that advance together or partly damaged states. `search_gap` is infinite where there is no such bound (dead loads on
  * parts that nothing holds, `mixity_rule = variational`).
- * With `step_control = load`, jumps and pairs that pop release what their path at one load neither stores nor
- * dissipates, and the rest releases 0. Otherwise, with `mixity_rule = converged` and loads in proportion, `released` is
- * what the parts of the step release while the load stands still. Otherwise, a located jump releases upper - increment.
+ * Where steps follow their load (`step_control = auto` or `load`), jumps and pairs that pop release what their path at
+ * one load neither stores nor dissipates, and the rest releases 0. Otherwise, with `mixity_rule = converged` and loads
+ * in proportion, `released` is what the parts of the step release while the load stands still. Otherwise, a located
+ * jump releases upper - increment.
  * A step in which a pair loses more than 0.1 of its toughness releases its work less `increment` where that is
  * positive. All other steps release 0.
  * `bulk_factorisations` is 1 with the condensed operator, and one per subdomain with FETI. With the iterated operator,
@@ -1357,9 +1358,11 @@ DELAM_API int32_t delam_solver_tangent(delam_solver *solver, int64_t capacity, d
  * fixed (with `mixity_rule = frozen`, it is that of the elastic solution).
  * In a step of several substeps, each ends at its share of the change of the loads. A pair that comes to rest in one of
  * them keeps the derivative of its adhesion. The call then follows the substeps once more.
+ * With `step_control = auto`, later steps are taken whole, because a host's Newton method wants a smooth step. Saved
+ * states keep this.
  * The call costs one displacement solve per pattern and one per damaging pair (`mixity_rule = variational`: per
- * component of such a pair). The state does not change. DELAM_ERROR_NUMERICAL: the tangent is singular, i.e. a jump is
- * about to happen. DELAM_ERROR_STATE: one of these is true:
+ * component of such a pair). The state does not change otherwise. DELAM_ERROR_NUMERICAL: the tangent is singular, i.e.
+ * a jump is about to happen. DELAM_ERROR_STATE: one of these is true:
  *   - no step is pending
  *   - the pending step comes from delam_solver_equilibrate
  *   - the pending step has replaced earlier steps (backtracking), or has more than one substep (value `substeps`) with
@@ -1453,9 +1456,9 @@ DELAM_API int32_t delam_solver_look(delam_solver *solver, int64_t step);
  * release more than 1e-3 of what they dissipate then count together. The conditions apply to the longest advance among
  * them, of all interfaces together, and to the pairs of the interface that debonds most. An energetic step to another
  * state counts even if it releases nothing.
- * With `step_control = load`, a jump is an advance da during which the load M hardly rises, dlnM <= 0.03 da/A. A is the
- * area of the interface, and da that on which the toughness is dissipated. It extends over more than 2.5 pairs of each
- * front or over half of the interface, and may release nothing.
+ * Where steps follow their load (`step_control = auto` or `load`), a jump is an advance da during which the load M
+ * hardly rises, dlnM <= 0.03 da/A. A is the area of the interface, and da that on which the toughness is dissipated. It
+ * extends over more than 2.5 pairs of each front or over half of the interface, and may release nothing.
  * [null none; status argument; since 0.1] */
 DELAM_API int32_t delam_solver_jump_count(const delam_solver *solver, int64_t *count);
 /* Returns one jump of the state, in step *step. It lies between *before and *time: in the interval that bisection has

@@ -266,6 +266,7 @@ int32_t delam_solver_step_tangent(delam_solver* solver, int64_t capacity, double
         const auto patterns = static_cast<int64_t>(solver->core->problem().patterns.size());
         require_capacity(capacity, patterns * patterns, "matrix");
         copy_out(solver->core->step_tangent(), capacity, matrix, "matrix");
+        solver->core->take_whole_steps();
     });
 }
 

@@ -41,8 +41,8 @@ Scene bar(const char* name) {
     return scene;
 }
 
-// The same in space, one cell across.
-Scene slab() {
+// The same in space, one cell across. The versions that wrote the first states took steps whole.
+Scene slab(const char* step_control) {
     Scene scene(3, {1.0, 0.5}, {2, 1}, {1.0, 1.0}, {1, 1}, DELAM_HEX8);
     scene.interface(0, 1);
     scene.begin();
@@ -60,17 +60,22 @@ Scene slab() {
     scene.drive(top, {0.0, 0.0, 1.0}, scene.pattern("pull", {0.0, 1.0}, {0.0, 8e-5}), slanted);
     scene.text("reduction", "condensed");
     scene.text("mixity_rule", "converged");
+    scene.text("step_control", step_control);
     return scene;
 }
 
-Scene scene_of(const std::string& name) { return name == "space" ? slab() : bar(name.c_str()); }
+Scene scene_of(const std::string& name) {
+    if (name == "followed") return slab("load");
+    return name == "space" ? slab("fixed") : bar(name.c_str());
+}
 
 // Scenes, and the first version for which one of their states is kept.
 struct Golden {
     const char* name;
     std::uint32_t since;
 };
-constexpr Golden goldens[] = {{"feti", 5}, {"energetic", 5}, {"told", 6}, {"space", 6}, {"recorded", 7}};
+constexpr Golden goldens[] = {{"feti", 5},  {"energetic", 5}, {"told", 6},
+                              {"space", 6}, {"recorded", 7},  {"followed", 15}};
 constexpr int steps = 8, saved = 5;
 
 // told: the host changes a history halfway; recorded: it records a value. Both are then part of the saved state.

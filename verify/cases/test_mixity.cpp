@@ -139,6 +139,7 @@ Scene floating_ply(int d, const LawData& law, const char* rule, const char* redu
     scene.drive(top, cases::unit(d, d - 1), lift, tilt);
     scene.drive(top, cases::unit(d, 0), slide, std::vector<double>(top.size(), 1.0));
     if (d == 3) scene.drive(top, cases::unit(d, 1), slide, std::vector<double>(top.size(), -0.3));
+    scene.text("step_control", "fixed");  // one minimisation a step, by rules and methods that are compared
     scene.text("mixity_rule", rule);
     scene.text("reduction", reduction);
     if (std::string(reduction) == "feti") scene.number("subdomains", 3);

@@ -24,7 +24,8 @@ Table balance(const Options& options) {
             progress("balance: h " + std::to_string(h) + ", " + std::to_string(steps) + " steps");
             cases::Enf e;
             e.h = h;
-            const auto scene = cases::make_enf(e);
+            auto scene = cases::make_enf(e);
+            scene.text("step_control", "fixed");  // whole steps, whose errors fall with their length
             reference::Solver solver(scene, 0.0);
             double defect = 0.0;
             double defect_slides = 0.0;

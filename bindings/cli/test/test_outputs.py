@@ -18,7 +18,7 @@ scene = write(SCENE)
 out = os.path.join(folder(), "a", "b")
 code, text, _ = delam("run", scene, "--out", out)
 expect(code == 0 and "step 20/20" in text, "a run, with plain lines")
-files = ["fields.h5", "fields.xdmf", "history.csv", "jumps.csv", "result.json", "state.bin"]
+files = ["fields.h5", "fields.xdmf", "history.csv", "result.json", "state.bin"]
 expect(sorted(os.listdir(out)) == files, "its files and no other")
 rows = read(os.path.join(out, "history.csv")).decode().splitlines()
 titles = rows[0].split(",")
@@ -38,7 +38,8 @@ concept = about["concept"]
 expect(concept["solution"] == "local" and concept["mixity_rule"] == "converged", "the concept in result.json")
 expect(all(str(about["options"][k]) == v or float(about["options"][k]) == float(v) for k, v in concept.items()),
        "it is that of the options")
-expect(titles[-2:] == ["solution", "mixity_rule"] and all(r.endswith(",local,converged") for r in rows[1:]),
+expect(titles[-4:] == ["solution", "mixity_rule", "pops", "popped"] and
+       all(",local,converged," in r for r in rows[1:]),
        "the concept in each row of history.csv")
 with h5py.File(os.path.join(out, "fields.h5")) as file:
     words = {k: v.decode() if isinstance(v, bytes) else v for k, v in file.attrs.items()}
@@ -69,8 +70,8 @@ means = ["crack_area", "energy_release_rate_mean", "front_mixity_mean", "process
 expect(delam("run", write(text_of_wide.replace("[time]", asked)), "--out", wide)[0] == 0, "a beam in space")
 with open(os.path.join(wide, "history.csv"), newline="", encoding="utf-8") as file:
     table = csv.DictReader(file)
-    expect(table.fieldnames[-6:] == ["energy_release_rate_mean", "solution", "mixity_rule", means[0], *means[2:]],
-           f"last columns {table.fieldnames[-6:]}")
+    ending = ["energy_release_rate_mean", "solution", "mixity_rule", means[0], *means[2:], "pops", "popped"]
+    expect(table.fieldnames[-8:] == ending, f"last columns {table.fieldnames[-8:]}")
     grown = [{key: float(row[key]) for key in (*means, "energy_release_rate", "dissipated")} for row in table
              if int(row["step"]) >= 10]
 rates = [row["energy_release_rate_mean"] for row in grown]
@@ -105,7 +106,7 @@ other = folder()
 expect(delam("run", write(two), "--out", other)[0] == 0, "two patterns and a dead force")
 rows = read(os.path.join(other, "history.csv")).decode().splitlines()
 several = HEADER.replace("load,reaction", "load_press,reaction_press,load_side,reaction_side")
-expect(rows[0].startswith(several) and rows[0].endswith(",load_potential,front,solution,mixity_rule"),
+expect(rows[0].startswith(several) and rows[0].endswith(",load_potential,front,solution,mixity_rule,pops,popped"),
        "columns with several patterns and dead forces")
 with h5py.File(os.path.join(other, "fields.h5")) as file:
     expect(sorted(file["steps"]) == ["00000000", "00000002", "00000003", "00000004"],

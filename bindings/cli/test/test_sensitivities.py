@@ -36,6 +36,7 @@ coefficient = -6e-5
 end = 1.0
 steps = 12
 [solver]
+step_control = "fixed"  # as where sensitivities are followed, so that the differences are of the same steps
 damage_tolerance = 1e-11
 """)
 SPACE = MIXED.replace("dimension = 2", "dimension = 3\nwidth = 0.004").replace("divisions = 60", "divisions = [20, 2]")

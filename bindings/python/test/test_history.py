@@ -24,7 +24,9 @@ COARSE = """
 import logging, support
 logging.getLogger("delam").handlers.clear()
 import delam
-delam.Solver(support.double_cantilever(divisions=20)).history([1.0], ())
+problem = support.double_cantilever(divisions=20)
+problem.options["step_control"] = "fixed"
+delam.Solver(problem).history([1.0], ())
 """
 
 
@@ -137,13 +139,26 @@ class Stopped(unittest.TestCase):
 
 class Closing(unittest.TestCase):
     def test_balance(self):
-        history = delam.Solver(support.double_cantilever()).history(np.linspace(0.1, 1.0, 10), ["time"])
-        full = delam.Solver(support.double_cantilever()).history(np.linspace(0.1, 1.0, 10))
+        for control in ("fixed", "auto"):
+            self.expect_balance(control)
+
+    def expect_balance(self, control):
+        problem = support.double_cantilever()
+        problem.options["step_control"] = control
+        history = delam.Solver(problem).history(np.linspace(0.1, 1.0, 10), ["time"])
+        full = delam.Solver(problem).history(np.linspace(0.1, 1.0, 10))
         defect = (full["stored_bulk"] + full["stored_interface"] + full["dissipated"] + np.cumsum(full["released"])
                   - full["work"])
         at = int(np.abs(defect).argmax())
         self.assertEqual(history.closing, full.closing)
         (line,) = [line for line in history.closing if "energy balance" in line]
+        if control == "auto":
+            share = 100 * abs(defect[at]) / full["dissipated"][-1]
+            self.assertIn(f"work {full['work'][-1]:.3g} = stored ", line)
+            self.assertIn(f"dissipated {full['dissipated'][-1]:.3g} + released", line)
+            self.assertIn(f" {full['released'].sum():.3g} + open {-defect[-1]:.3g}; open is {share:.2g} % of the "
+                          f"dissipated energy at most ({-defect[at]:.3g} in step {at}, ", line)
+            return
         share = 100 * abs(defect[at]) / full["work"].max()
         self.assertIn(f"off by {share:.2g} % of the work", line)
         self.assertIn(f"is {defect[at]:.3g} in step {at}, time {full['time'][at]:g};", line)
@@ -176,11 +191,14 @@ class Closing(unittest.TestCase):
         columns |= {"step": np.arange(5.0), "time": np.arange(5.0) / 4, "work": np.array([0.0, 1, 2, 3, 4]),
                     "lower": np.full(5, 0.9), "upper": np.full(5, 1.1),
                     "increment": np.array([9, 1.0, 0.8, 1.2, np.nan])}
-        said = lines(columns, [], {"mixity_rule": "converged", "backtracking_tolerance": 1e-3})
+        said = lines(columns, [], {"step_control": "fixed", "mixity_rule": "converged",
+                                    "backtracking_tolerance": 1e-3})
         self.assertEqual(said[1:], ["two-sided estimate violated in steps: 2, 3, 4 (tolerance eta = 0.001)"])
 
     def test_estimate(self):
-        history = delam.Solver(support.double_cantilever()).history([1.0])
+        problem = support.double_cantilever()
+        problem.options["step_control"] = "fixed"
+        history = delam.Solver(problem).history([1.0])
         outside = history["increment"][1] > history["upper"][1] or history["increment"][1] < history["lower"][1]
         hollow = history["upper"][1] - history["lower"][1] > history["work"][1]
         said = "\n".join(history.closing)

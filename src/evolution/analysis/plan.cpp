@@ -12,6 +12,7 @@
 #include "evolution/step/backtrack.hpp"
 #include "evolution/step/pairs_of_scene.hpp"
 #include "scene/advice/scene_warnings.hpp"
+#include "scene/check/step_control.hpp"
 #include "scene/check/validate.hpp"
 
 namespace delam {
@@ -32,6 +33,7 @@ struct Basis {
     std::string refusal;      // why it does not fit into the memory, "": it may
     std::span<const std::uint8_t> prescribed;
     const std::vector<std::shared_ptr<const GradientTerm>>& gradient;
+    StepControl control;
 };
 
 // Two digits: predictions are good to a factor of two.
@@ -246,6 +248,8 @@ std::vector<PlanItem> items_of(const Basis& basis) {
              text("option kinematics = ", options.kinematics,
                   ": frames turn with cells and interfaces; each step condenses the bodies anew, once or twice"),
              0.0, 0.0, "-"});
+    items.push_back({"following the load within a step", basis.control.name == "load" ? used : left_out,
+                     basis.control.reason, 0.0, 0.0, "-"});
     const bool energetic = options.solution == "energetic";
     items.push_back({"energetic search", energetic ? used : left_out,
                      energetic
@@ -269,7 +273,7 @@ std::string figure(double value, const std::string& unit) { return unit == "-" ?
 std::vector<PlanItem> plan_of(const Solver& solver) {
     const JumpOperator& op = solver.stepper().op();
     return items_of({solver.problem(), solver.stepper().reduction(), op.description(), "", op.prescribed_rows(),
-                     solver.observer().pairs().gradient});
+                     solver.observer().pairs().gradient, solver.control()});
 }
 
 Forecast forecast(const Problem& problem, Monitor& monitor) {
@@ -279,7 +283,7 @@ Forecast forecast(const Problem& problem, Monitor& monitor) {
     if (!design.refusal.empty()) monitor.log(1, design.refusal);
     warn_of_scene(problem, monitor);
     return {items_of({problem, design.choice, design.description, design.refusal, design.prescribed,
-                      gradient_terms(problem)}),
+                      gradient_terms(problem), used_step_control(problem, problem.options)}),
             cost.setup / nominal_rate, cost.bytes};
 }
 

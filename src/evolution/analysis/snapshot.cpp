@@ -24,8 +24,8 @@ constexpr std::uint64_t magic = 0x31305453'4d4c4544;  // "DELMST01" in memory on
 // 5: the first that was ever published. 6: histories of patterns that the host has changed. 7: recorded values. 8:
 // released energy in the ledger. 10: another zone of the condensed operator, which begins anew after an older version.
 // 11: energies of candidates for the next search. 12: since when bodies are free. 13: how the growth of a step went on.
-// 14: what its single pairs released.
-constexpr std::uint32_t version = 14, oldest = 5;
+// 14: what its single pairs released. 15: whether its steps are taken whole.
+constexpr std::uint32_t version = 15, oldest = 5;
 constexpr std::int64_t most_steps = std::int64_t{1} << 53;
 // Hash and checksum of a larger file are compared piece by piece, before memory is taken for all of it.
 constexpr std::uint64_t largest_unchecked = std::uint64_t{1} << 20;

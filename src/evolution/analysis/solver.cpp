@@ -27,10 +27,9 @@ namespace {
 
 // The problem with the step control that its options lead to.
 Problem with_used_control(Problem problem) {
-    Options& options = problem.options;
-    const std::string control = used_step_control(options);
-    options.path_step = used_path_step(options);
-    options.step_control = control;
+    const StepControl control = used_step_control(problem, problem.options);
+    problem.options.step_control = control.name;
+    problem.options.path_step = control.path_step;
     return problem;
 }
 
@@ -77,6 +76,8 @@ std::string what_did_not_converge(const State& state, const Options& options) {
 
 Solver::Solver(const Problem& problem, Monitor& monitor, double time)
     : problem_(with_used_control(problem)),
+      given_(problem.options),
+      control_(used_step_control(problem, problem.options)),
       first_patterns_(problem.patterns),
       scene_hash_(hash(problem)),
       monitor_(monitor),
@@ -104,6 +105,23 @@ Outcome Solver::unconverged_displacement(const State& state) const {
     return {DELAM_NOT_CONVERGED, text("displacements at time ", state.time, ": not converged (worst linear residual ",
                                       state.effort.linear_residual, ", tolerance ", problem_.options.linear_tolerance,
                                       "; ", state.effort.contact_iterations, " active-set steps)")};
+}
+
+// Chooses the step control anew, where more is known than the options. way, dissipated: of the committed state.
+Solver::Chosen Solver::chosen(std::int64_t way, double dissipated, bool follows) const {
+    std::string whole;
+    if (follows) whole = "derivatives by numbers of the laws are followed";
+    if (way == 2) whole = "the host has asked for the tangent of a step";
+    if (way == 0 && dissipated > 0.0) whole = "so were the steps before";
+    Chosen next{used_step_control(problem_, given_, whole), problem_.options};
+    next.options.step_control = next.control.name;
+    next.options.path_step = next.control.path_step;
+    return next;
+}
+
+void Solver::adopt(Chosen next) noexcept {
+    control_ = std::move(next.control);
+    problem_.options = std::move(next.options);
 }
 
 void Solver::judge_balance(const State& state, Outcome& outcome) {
@@ -161,6 +179,7 @@ Outcome Solver::advance(double time) {
         note_jump(chain.at(committed.step), result.state, pending.jumps);
     }
     pending.state = std::move(result.state);
+    if (whole_) pending.state.growth.way = 2;
     pending.searched = std::move(result.searched);
     for (auto& [step, state] : chain.revised()) pending.revised.push_back(std::move(state));
     require_sound(problem_, pending.state, result.converged);
@@ -276,6 +295,13 @@ std::vector<double> Solver::step_tangent() {
     return stepper_.step_tangent(states_.committed(), pending->state);
 }
 
+void Solver::take_whole_steps() {
+    if (given_.step_control != "auto" || !follows_load(problem_.options)) return;
+    adopt(chosen(2, 0.0, false));
+    states_.take_whole_steps();
+    whole_ = true;
+}
+
 std::int64_t Solver::follow(std::span<const std::int64_t> interfaces, const std::string& key) {
     if (problem_.options.kinematics != "linear")
         fail(DELAM_ERROR_STATE, "sensitivities are not followed with kinematics = ", problem_.options.kinematics);
@@ -284,8 +310,10 @@ std::int64_t Solver::follow(std::span<const std::int64_t> interfaces, const std:
         fail(DELAM_ERROR_STATE, "sensitivities are followed from the initial state on: there are steps already");
     std::vector<FollowedParameter> parameters = followed_;
     parameters.push_back(followed_parameter(problem_, interfaces, key));
+    Chosen next = chosen(committed.growth.way, committed.ledger.dissipated, true);
     states_.set_sensitivity(stepper_.follow(parameters, committed));
     followed_ = std::move(parameters);
+    adopt(std::move(next));
     return static_cast<std::int64_t>(followed_.size()) - 1;
 }
 
@@ -309,10 +337,13 @@ void Solver::select(std::int64_t step) {
 
 void Solver::restore(State restored, std::vector<State> past, std::vector<JumpEvent> jumps,
                      std::vector<Pattern> patterns, Record record) {
+    Chosen next = chosen(restored.growth.way, restored.ledger.dissipated, !followed_.empty());
     stepper_.recall(restored);
     problem_.patterns = std::move(patterns);
     states_.restore(std::move(restored), std::move(past), std::move(jumps));
     record_ = std::move(record);
+    whole_ = false;
+    adopt(std::move(next));
     observer_.show(states_.committed());
 }
 

@@ -13,6 +13,7 @@
 #include "evolution/observe/record.hpp"
 #include "evolution/observe/warnings.hpp"
 #include "evolution/step/stepper.hpp"
+#include "scene/check/step_control.hpp"
 #include "scene/problem.hpp"
 
 namespace delam {
@@ -48,6 +49,8 @@ public:
     void select(std::int64_t step);
 
     const Problem& problem() const { return problem_; }
+    // The step control that is used, and why.
+    const StepControl& control() const { return control_; }
     // Outcome of the displacement step of the initial state.
     const Outcome& initial_outcome() const { return initial_outcome_; }
     // Replaces the committed states (of the same scene); discards a pending one.
@@ -64,6 +67,8 @@ public:
     std::vector<double> tangent() { return stepper_.tangent(states_.shown()); }
     // Consistent tangent of the pending step, [patterns][patterns].
     std::vector<double> step_tangent();
+    // From now on, step_control = auto takes steps whole, for a host that iterates.
+    void take_whole_steps();
     // From the initial state on, follows the derivatives by a number of the laws of these interfaces; its index.
     std::int64_t follow(std::span<const std::int64_t> interfaces, const std::string& key);
     // Returns dE/dtheta of the state that is shown by the parameters that are followed, [patterns][parameters].
@@ -74,11 +79,20 @@ public:
 private:
     void require_nothing_pending(double time) const;
     Outcome unconverged_displacement(const State& state) const;
+    struct Chosen {
+        StepControl control;
+        Options options;
+    };
+    Chosen chosen(std::int64_t way, double dissipated, bool follows) const;
+    void adopt(Chosen next) noexcept;
     // Appends what happened in a step that jumps.
     void note_jump(const State& before, State& after, std::vector<JumpEvent>& jumps) const;
     void judge_balance(const State& state, Outcome& outcome);
 
     Problem problem_;
+    Options given_;  // before step control and path_step were chosen
+    StepControl control_;
+    bool whole_ = false;  // the host has asked for the tangent of a step; committed states keep it
     std::vector<FollowedParameter> followed_;
     std::vector<Pattern> first_patterns_;  // before any history was changed
     std::uint64_t scene_hash_;

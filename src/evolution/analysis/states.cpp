@@ -25,6 +25,10 @@ void States::restore(State committed, std::vector<State> past, std::vector<JumpE
     rollback();
 }
 
+void States::take_whole_steps() noexcept {
+    if (pending_) pending_->state.growth.way = 2;
+}
+
 void States::propose(PendingStep pending) {
     selected_ = nullptr;
     pending_ = std::move(pending);

@@ -52,6 +52,8 @@ public:
     void restore(State committed, std::vector<State> past, std::vector<JumpEvent> jumps);
     // Sets the derivatives that are followed from the committed state on.
     void set_sensitivity(Sensitivity sensitivity) { committed_.sensitivity = std::move(sensitivity); }
+    // Notes in the pending state that later steps are taken whole.
+    void take_whole_steps() noexcept;
     void propose(PendingStep pending);
     // Makes the pending state the committed one; changes nothing if memory ends.
     void commit();

@@ -119,6 +119,8 @@ struct Growth {
     double told_pairs = 0.0;
     double told_dissipated = 0.0;
     double told_released = 0.0;
+    // 0: steps were taken whole, or there are none; 1: they follow their load; 2: from now on they are taken whole.
+    std::int64_t way = 0;
 };
 
 // A part of a load step.

@@ -124,7 +124,9 @@ inline constexpr auto saved_fields<State> = std::tuple_cat(
     saved_since(14,
         member_of(&State::growth, &Growth::told_pairs),
         member_of(&State::growth, &Growth::told_dissipated),
-        member_of(&State::growth, &Growth::told_released)));
+        member_of(&State::growth, &Growth::told_released)),
+    saved_since(15,
+        member_of(&State::growth, &Growth::way)));
 // clang-format on
 
 static_assert(complete<Response>(saved_fields<Response>) && complete<Ledger>(saved_fields<Ledger>) &&

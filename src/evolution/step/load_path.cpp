@@ -321,7 +321,8 @@ void LoadPath::accept(Trial trial) {
     sum_.increment += ledger.increment;
     sum_.upper += ledger.upper;
     sum_.increment_lower += ledger.increment_lower;
-    sum_.mixity_error = std::max(sum_.mixity_error, ledger.mixity_error);
+    sum_.dissipated += ledger.dissipated - at_.ledger.dissipated;
+    sum_.mixity_error += ledger.mixity_error * (ledger.dissipated - at_.ledger.dissipated);
     outcome_.released += next.outcome.released;
     outcome_.mixity_held += next.outcome.mixity_held;
     converged_ = converged_ && result.converged;
@@ -343,12 +344,13 @@ ControlledStep LoadPath::close() {
     state.ledger.increment = sum_.increment;
     state.ledger.upper = sum_.upper;
     state.ledger.increment_lower = sum_.increment_lower;
-    state.ledger.mixity_error = sum_.mixity_error;
+    state.ledger.mixity_error = sum_.dissipated > 0.0 ? sum_.mixity_error / sum_.dissipated : 0.0;
     outcome_.damage_change = state.outcome.damage_change;
     outcome_.jumps = static_cast<std::int64_t>(out.jumps.size());
     outcome_.pops = events_.pops;
     outcome_.popped = events_.popped;
     if (!popping_) growth_.pop_time = 0.0;
+    growth_.way = 1;
     state.effort = effort_;
     state.outcome = outcome_;
     state.history = history_;

@@ -23,7 +23,7 @@
 
 namespace delam {
 
-// True if steps are followed in this way (step_control = load).
+// True if steps are followed in this way (step_control = auto or load).
 bool follows_load(const Options& options);
 ControlledStep followed_step(Stepper& stepper, const PairGraph& graph, const State& before, double time,
                              const Options& options);

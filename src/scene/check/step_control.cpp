@@ -29,17 +29,31 @@ const char* lacking(const Options& options) {
     return nullptr;
 }
 
-}  // namespace
-
-std::string used_step_control(const Options& options) {
-    if (options.step_control != "auto") return options.step_control;
-    return lacking(options) == nullptr ? "load" : "fixed";
+// Returns why `auto` takes steps whole; empty: it follows their load.
+std::string why_whole(const Problem& problem, const Options& options, const std::string& asked) {
+    if (const char* what = lacking(options)) return text("following the load needs ", what);
+    if (problem.engine != nullptr) return "the engine of the host solves the bodies";
+    const std::vector<InterfaceGeometry>& interfaces = problem.mesh->interfaces();
+    for (std::size_t i = 0; i < interfaces.size(); ++i)
+        if (problem.interfaces[i].law.has_value() && !problem.interfaces[i].bonded && interfaces[i].face.empty())
+            return text("interface ", i, " has pairs without faces, whose fronts are not known");
+    return asked;
 }
 
-double used_path_step(const Options& options) {
+double used_path_step(const Options& options, bool follows) {
     if (options.path_step != Options{}.path_step) return options.path_step;
-    const double usual = used_step_control(options) == "load" ? part_of_zone : options.path_step;
+    const double usual = follows ? part_of_zone : options.path_step;
     return std::min(largest_part, usual * std::sqrt(options.accuracy / usual_accuracy));
+}
+
+}  // namespace
+
+StepControl used_step_control(const Problem& problem, const Options& options, const std::string& whole) {
+    const bool chosen = options.step_control == "auto";
+    const std::string why = chosen ? why_whole(problem, options, whole) : std::string();
+    const std::string name = !chosen ? options.step_control : why.empty() ? "load" : "fixed";
+    const std::string reason = text("option step_control = ", options.step_control, why.empty() ? "" : ": ", why);
+    return {name, reason, used_path_step(options, name == "load")};
 }
 
 void check_step_control(const Problem& problem) {

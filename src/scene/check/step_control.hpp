@@ -9,10 +9,16 @@
 
 namespace delam {
 
-// Returns `load`, `adaptive` or `fixed`. The option `auto` is `load` where the other options leave a path to follow.
-std::string used_step_control(const Options& options);
-// Returns the option path_step or, where it has its default, what follows from the option accuracy.
-double used_path_step(const Options& options);
+// The step control of an analysis.
+struct StepControl {
+    std::string name;    // load, adaptive or fixed
+    std::string reason;  // in words
+    double path_step;    // the option or, where it has its default, what follows from the option accuracy
+};
+// Returns `load` for the option `auto` where the other options leave a path to follow, the library solves the bodies,
+// and nothing needs whole steps. given: the options of the problem as the host gave them; whole: what needs whole
+// steps; empty: nothing.
+StepControl used_step_control(const Problem& problem, const Options& given, const std::string& whole = {});
 // Error(DELAM_ERROR_PROBLEM): step_control = load, and no path to follow.
 void check_step_control(const Problem& problem);
 

@@ -14,7 +14,7 @@ from table import row
 # key -> default. A new option needs a row of its own.
 DEFAULTS = {
     "solution": "local", "backtracking": "auto", "backtracking_limit": 100, "backtracking_depth": 1000,
-    "search_limit": 100000, "search_tolerance": 1e-2, "step_control": "fixed", "step_tolerance": 1e-2,
+    "search_limit": 100000, "search_tolerance": 1e-2, "step_control": "auto", "step_tolerance": 1e-2,
     "mixity_step_tolerance": 0, "smallest_step": 1e-4, "jump_tolerance": 0, "jump_size": 0.5, "damage_tolerance": 1e-5,
     "minimisation_limit": 5000, "backtracking_tolerance": 1e-3, "minimisation": "auto", "reduction": "auto",
     "contact": "auto", "mixity": "auto", "mixity_rule": "converged", "path_step": 0.15, "accuracy": 3e-3,
@@ -59,8 +59,9 @@ def hash_of_defaults(host, see):
         see.that(f"{key} = {default} is another scene than {key} left alone", hashed([(key, default)]) == fresh)
         other = {"local": "energetic", "fixed": "adaptive", "converged": "frozen", "orthonormal": "redundant",
                  "series": "none", "stiffness": "multiplicity", "linear": "corotational"}.get(default, "always")
-        if default == "auto" and key in ("backtracking", "minimisation", "reduction"):
-            other = {"backtracking": "on", "minimisation": "alternate", "reduction": "feti"}[key]
+        if default == "auto" and key in ("backtracking", "minimisation", "reduction", "step_control"):
+            other = {"backtracking": "on", "minimisation": "alternate", "reduction": "feti",
+                     "step_control": "adaptive"}[key]
         near = other if isinstance(default, str) else default + 1 if isinstance(default, int) and key not in (
             "jump_tolerance", "mixity_step_tolerance") else 1.001 * default if default else 1e-9
         if key not in OUTSIDE_THE_HASH:
@@ -164,13 +165,16 @@ def kinematics(host, see):
 @row("step_control", options=["step_control", "smallest_step"])
 def step_control(host, see):
     """A bar that snaps through. Fixed steps are not divided. Adaptive ones are halved until a part is shorter than the
-    smallest step: 2^-14 of the whole is the first such."""
+    smallest step: 2^-14 of the whole is the first such. By default, steps follow their load where there is a path to
+    follow: they end at the onset first; and energetic ones are whole."""
     def run(options):
-        bar, _ = soft_bar(host, 8.0, 0.3, options)
+        bar, _ = soft_bar(host, 8.0, 0.3, [("step_control", None), *options])
         return [int(bar.value("substeps")), int(bar.value("refused_steps"))]
 
-    see.equal("substeps by default", run([]), [1, 0])
-    observe(see, "step_control", run, ["adaptive"], [1, 0])
+    see.that("steps follow their load by default", run([])[0] > 1 and run([]) == run([("step_control", "load")]))
+    see.equal("substeps of an energetic step", run([("solution", "energetic")]), [1, 0])
+    see.equal("substeps of a fixed step", run([("step_control", "fixed")]), [1, 0])
+    observe(see, "step_control", run, ["adaptive", "fixed"])
     adaptive = lambda options: run([("step_control", "adaptive"), ("step_tolerance", 1e-9), *options])
     see.that("smallest_step left alone is smallest_step = 1e-4", adaptive([]) == adaptive([("smallest_step", 1e-4)]))
     for other in (1.3e-4, 0.6e-4):
@@ -284,7 +288,7 @@ def jump_size(host, see):
 def mixity_step_tolerance(host, see):
     """A stack whose mode turns within a step: the step is divided only when it is asked for."""
     def run(options):
-        problem, solver = turning(host, options)
+        problem, solver = turning(host, [("step_control", "fixed"), *options])
         del problem
         host("solver_advance", solver, 2.0)
         return [int(value(host, solver, "substeps")), int(value(host, solver, "mixity_error") > 0)]
@@ -401,7 +405,7 @@ def path_step(host, see):
             scenes.fill(host, problem, list(range(4 * row_of)),
                         lambda n: [0.0, 0.0] if n < 2 * row_of else [[0.0, 1.0], [ratio, 0.0]][n % row_of % 2],
                         scenes.ramp(host, problem))
-            for key, setting in options:
+            for key, setting in [("step_control", "fixed"), *options]:
                 scenes.give(host, problem, key, setting)
             solver = host("solver_create", problem, 0.0, Out())
             for total in (0.3, 0.3 + share):

@@ -91,7 +91,8 @@ def strong(host, normal, tangential):
 class Bar:
     """Two layers of one quad4 each on top of each other, without lateral contraction, pulled apart at the top: per unit
     of width the bodies are a spring of `bulk`, in series with the law. The top moves by the factor of `pull`, the
-    bottom down by `base` times that of a further pattern, unless base is 0. Both pairs of the interface open alike."""
+    bottom down by `base` times that of a further pattern, unless base is 0. Both pairs of the interface open alike.
+    Steps are taken whole, for the sake of closed forms, unless the options name a step control (None: the default)."""
 
     def __init__(self, host, law, bulk=1.0, width=1.0, options=(), times=(0.0, 1.0), values=(0.0, 1.0), time=0.0,
                  base=0.0):
@@ -111,8 +112,9 @@ class Bar:
             drive(host, problem, [0, 1], [0.0, -1.0], ramp(host, problem, "base", times, values), [base, base])
         for left in (2, 4):  # both faces stay level
             host("problem_add_equation", problem, 2, [left, left + 1], [0.0, 1.0, 0.0, -1.0], 0, None, None, 0)
-        for key, setting in options:
-            give(host, problem, key, setting)
+        for key, setting in {"step_control": "fixed", **dict(options)}.items():
+            if setting is not None:
+                give(host, problem, key, setting)
         self.solver = host("solver_create", problem, time, Out())
 
     def step(self, time, commit=True):

@@ -78,6 +78,7 @@ def ledger(context):
                     normal_toughness=250.0, tangential_toughness=250.0)
     problem = delam.Problem(mesh, plane="plane-strain")
     problem.set_formulation("standard")
+    problem.options["step_control"] = "fixed"
     problem.set_elastic(75e9, 0.3)
     problem.set_law(interface, law)
     problem.set_adhesion(interface, interface.places[:, 0] < notch - 1e-3 * cell, 0.0)

@@ -36,6 +36,7 @@ def scene(delam, specimen, h, patch=0.0, element="quad4", **options):
     problem = delam.Problem(mesh, plane="plane-strain")
     problem.set_elastic(75e9, 0.3)
     problem.set_formulation("incompatible" if element == "quad4-incompatible" else "standard")
+    problem.options["step_control"] = "fixed"  # whole steps, like the tables of PANM 15
     problem.set_law(interface, delam.Law("piecewise-linear", normal_stiffness=stiffness, tangential_stiffness=stiffness,
                                          normal_onset=onset, tangential_onset=onset,
                                          normal_toughness=toughness, tangential_toughness=toughness))

@@ -78,7 +78,7 @@ public:
           model_(model),
           solver_(std::move(solver)),
           folder_(folder),
-          history_(model, scene),
+          history_(model, scene, solver_.get()),
           fields_(folder.running(), scene, bulk),
           running_history_(folder.running() + "/history.csv"),
           running_state_(folder.running() + "/state.bin"),
@@ -161,7 +161,7 @@ public:
         outcome.started = origin_.started;
         outcome.problem_hash = state_.problem_hash;
         BulkFacts bulk = fields_.assemble(model_, scene_, static_cast<std::size_t>(state_.step), state_.problem_hash,
-                                          concept_of(model_.problem.get()));
+                                          concept_of(solver_.get()));
         // Without fields, the last state is estimated; of many processes, none has all displacements.
         if (!std::isfinite(bulk.mesh_error.away) && !fields_.on_many_processes())
             bulk.mesh_error = mesh_error_of(model_, solver_.get());

@@ -182,7 +182,7 @@ std::string result_text(const Model& model, delam_solver* solver, const Scene& s
     Json layers = Json::array();
     for (const Layer& layer : scene.layers) layers.push_back(layer.name);
     Json named = Json::object();
-    for (const auto& [key, value] : concept_of(model.problem.get())) named[key] = value;
+    for (const auto& [key, value] : concept_of(solver)) named[key] = value;
     const Json out{
         {"program", "delam"},
         {"version", delam_version()},

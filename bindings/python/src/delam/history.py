@@ -58,7 +58,7 @@ class History:
             "patterns": [{"name": name, "drives": drives.get(i, "displacement")}
                          for i, name in enumerate(solver._patterns)],
             "scene": {"dimension": solver.problem.dimension},
-            "options": {key: solver.option(key) for key in ("solution", "mixity_rule")}
+            "options": {key: solver.option(key) for key in ("solution", "mixity_rule", "step_control")}
                        | {"backtracking_tolerance": float(solver.option("backtracking_tolerance"))}}
         self.record()
 

@@ -28,8 +28,8 @@ struct Balance {
 // slides: the ledger of mixity_rule = variational, the columns that end in _slides.
 Balance balance_of(const Rows& rows, bool slides);
 std::string balance_line(const Balance& balance, const Scene& scene);
-// The same where work, stored, dissipated and released energy do not know of each other (step_control = load). jumps:
-// how many there were.
+// The same where work, stored, dissipated and released energy do not know of each other, because steps follow their
+// load. jumps: how many there were.
 std::string energies_line(const Balance& balance, std::size_t jumps, const Scene& scene);
 
 }  // namespace cli

@@ -23,7 +23,7 @@ namespace cli {
 struct Closing {
     std::vector<Jump> jumps;
     Balance balance;
-    bool follows_load = false;    // step_control = load
+    bool follows_load = false;    // within each step
     bool small_rotations = true;  // kinematics = linear
     MixityError mixity_error;
     SearchLimits search;

@@ -7,12 +7,25 @@
 
 namespace cli {
 
-Concept concept_of(const delam_problem* problem) {
+namespace {
+
+template <class Read>
+Concept concept_by(const Read& read) {
     Concept out;
     for (const char* key : {"solution", "mixity_rule", "backtracking", "backtracking_tolerance", "jump_tolerance",
                             "step_control", "mixity_step_tolerance"})
-        if (const char* value = delam_problem_option(problem, key)) out.emplace_back(key, value);
+        if (const char* value = read(key)) out.emplace_back(key, value);
     return out;
+}
+
+}  // namespace
+
+Concept concept_of(const delam_problem* problem) {
+    return concept_by([problem](const char* key) { return delam_problem_option(problem, key); });
+}
+
+Concept concept_of(const delam_solver* solver) {
+    return concept_by([solver](const char* key) { return delam_solver_option(solver, key); });
 }
 
 std::string concept_text(const Concept& named) {

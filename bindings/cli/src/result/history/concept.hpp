@@ -14,8 +14,10 @@ namespace cli {
 
 using Concept = std::vector<std::pair<std::string, std::string>>;  // option, value
 
-// The options that decide which solution is computed, as the problem has them; `solution` and `mixity_rule` come first.
+// The options that decide which solution is computed, as the problem has them, or as the solver has chosen them;
+// `solution` and `mixity_rule` come first.
 Concept concept_of(const delam_problem* problem);
+Concept concept_of(const delam_solver* solver);
 // "solution = local, mixity_rule = frozen, ..."
 std::string concept_text(const Concept& named);
 

@@ -28,7 +28,7 @@ constexpr const char* of_cracks[] = {"crack_length", "energy_release_rate", "fro
 constexpr const char* of_cracks_in_space[] = {"crack_area", "energy_release_rate_mean", "front_mixity_mean",
                                               "process_zone_pairs_mean"};
 
-// Columns of pairs that came apart one by one (step_control = load).
+// Columns of pairs that came apart one by one, in steps that follow their load.
 constexpr const char* of_pops[] = {"pops", "popped"};
 
 constexpr const char* unknown_title = "sensitivities_unknown";
@@ -42,7 +42,8 @@ std::string title_of(const std::string& value, const Scene& scene, std::size_t p
 std::string load_title(const Scene& scene, std::size_t pattern) { return title_of("load", scene, pattern); }
 std::string reaction_title(const Scene& scene, std::size_t pattern) { return title_of("reaction", scene, pattern); }
 
-History::History(const Model& model, const Scene& scene) : model_(model), scene_(scene), context_(model.context.get()) {
+History::History(const Model& model, const Scene& scene, const delam_solver* solver)
+    : model_(model), scene_(scene), context_(model.context.get()) {
     std::int64_t count = 0;
     call(context_, delam_problem_value_count(model.problem.get(), &count), std::string("history"));
     std::vector<std::string> known, aliases;
@@ -109,8 +110,8 @@ History::History(const Model& model, const Scene& scene) : model_(model), scene_
     if (cracks && scene.geometry.dimension == 3)
         for (const char* key : of_cracks_in_space)
             if (knows(key) && !has(key)) add(key, key);
-    const char* control = delam_problem_option(model.problem.get(), "step_control");
-    if (cracks && control != nullptr && std::string_view(control) != "fixed")
+    const std::string control = solver != nullptr ? option_text(solver, "step_control") : "";
+    if (cracks && control == "load")
         for (const char* key : of_pops)
             if (knows(key) && !has(key)) add(key, key);
 }

@@ -20,8 +20,9 @@ std::string reaction_title(const Scene& scene, std::size_t pattern);
 
 class History {
 public:
+    // solver: of the analysis, which decides whether its columns of pairs that pop come; null: it is not known yet.
     // Throws SceneFailure if [output] columns names a value that a solver of the problem does not have.
-    History(const Model& model, const Scene& scene);
+    History(const Model& model, const Scene& scene, const delam_solver* solver = nullptr);
 
     [[nodiscard]] std::string header() const;
     // Leaves out the last columns if the table that goes on has been begun by a version without them.

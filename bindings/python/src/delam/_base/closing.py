@@ -11,12 +11,15 @@ from .arrays import FloatArray
 from .records import Jump
 
 _ROUNDING = 1e-9  # of the energy
-_NOTICEABLE = 0.01  # of the work
+_NOTICEABLE = 0.01  # of the work, or of the dissipated energy
 
 
 def lines(columns: Mapping[str, FloatArray], jumps: Sequence[Jump], options: Mapping[str, Any]) -> list[str]:
-    """columns: of a History, by the names of its values; options: mixity_rule and backtracking_tolerance."""
-    out = [_of_jumps(jumps), _of_balance(columns, options["mixity_rule"] == "variational"),
+    """columns: of a History, by the names of its values; options: step_control, mixity_rule and
+    backtracking_tolerance."""
+    out = [_of_jumps(jumps),
+           _of_energies(columns, len(jumps)) if options["step_control"] == "load"
+           else _of_balance(columns, options["mixity_rule"] == "variational"),
            *_of_estimate(columns, options["backtracking_tolerance"])]
     return [line for line in out if line]
 
@@ -42,9 +45,33 @@ def _of_balance(columns: Mapping[str, FloatArray], slides: bool) -> str:
     if work == 0 and largest == 0:
         return "energy balance: no work was done"
     share = abs(largest) / work if work > 0 else np.inf
-    percent = "less than 0.001" if 0 < share < 1e-5 else format(100 * share, ".0f" if share >= 0.995 else ".2g")
-    return (f"{'' if share <= _NOTICEABLE else 'warning: '}energy balance: off by {percent} % of the work (stored + "
-            f"dissipated + released - work is {largest:.3g} in {_instant(columns, row)}; the work is up to {work:.3g})")
+    return (f"{'' if share <= _NOTICEABLE else 'warning: '}energy balance: off by {_percent(share)} of the work "
+            f"(stored + dissipated + released - work is {largest:.3g} in {_instant(columns, row)}; the work is up to "
+            f"{work:.3g})")
+
+
+def _percent(share: float) -> str:
+    return "less than 0.001 %" if 0 < share < 1e-5 else format(100 * share, ".0f" if share >= 0.995 else ".2g") + " %"
+
+
+def _of_energies(columns: Mapping[str, FloatArray], jumps: int) -> str:
+    """Where steps follow their load, so that the four energies do not know of each other."""
+    defect, work, dissipated = (columns[name] for name in ("defect", "work", "dissipated"))
+    scale, row = float(np.abs(work).max()), int(np.nanargmax(np.abs(defect)))
+    if scale == 0 and defect[row] == 0:
+        return "energy balance: no work was done"
+    energy = columns["stored_bulk"] + columns["stored_interface"] + columns["load_potential"]
+    stored = energy[-1] - energy[0]
+    released = defect[-1] + work[-1] - stored - dissipated[-1]
+    if abs(released) <= _ROUNDING * scale:
+        released = 0.0
+    damaged = dissipated[-1] > 0
+    share = abs(defect[row]) / (dissipated[-1] if damaged else scale)
+    where = f" in {jumps} {'jump' if jumps == 1 else 'jumps'}" if jumps else ""
+    return (f"{'' if share <= _NOTICEABLE else 'warning: '}energy balance: work {work[-1]:.3g} = stored {stored:.3g} + "
+            f"dissipated {dissipated[-1]:.3g} + released{where} {released:.3g} + open {-defect[-1]:.3g}; open is "
+            f"{_percent(share)} of the {'dissipated energy' if damaged else 'work'} at most ({-defect[row]:.3g} in "
+            f"{_instant(columns, row)})")
 
 
 def _of_estimate(columns: Mapping[str, FloatArray], tolerance: float) -> list[str]:
