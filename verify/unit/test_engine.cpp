@@ -125,6 +125,7 @@ LOOP_TEST(analyses_as_without_an_engine, 0, std::size(analyses)) {
     Problem plain = analysis_of(m);
     Engined engined(plain);
     plain.options.reduction = "condensed";
+    plain.options.step_control = "fixed";  // as it is with an engine
     Monitor monitor;
     Solver a(plain, monitor, 0.0), b(engined.problem, monitor, 0.0);
     std::int64_t broken = 0;

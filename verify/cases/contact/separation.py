@@ -127,6 +127,7 @@ def compare(name, builder, solution, steps):
         problem = builder()
         problem.options["reduction"] = reduction
         problem.options["solution"] = solution
+        problem.options["step_control"] = "fixed"  # the iterations are those of one minimisation
         for key, value in TOLERANCES.items():
             problem.options[key] = value
         rows, failed = analyse(problem, steps)
