@@ -18,7 +18,7 @@ struct ElementType {
     std::string_view note;
     std::size_t face_nodes =
         0;  // of a cohesive element: nodes of its lower face, which come first, and of its upper one
-    std::span<const std::uint8_t> order;  // node of Abaqus's that each of the cell's nodes is; empty: the same order
+    std::span<const std::uint8_t> order{};  // node of Abaqus's that each of the cell's nodes is; empty: the same order
 
     [[nodiscard]] bool cohesive() const { return face_nodes > 0; }
     [[nodiscard]] std::size_t nodes() const;
