@@ -13,7 +13,7 @@ std::vector<double> parts_tangent(Stepper& stepper, std::span<const Pattern> pat
                                   std::span<const StepPart> parts) {
     if (!stepper.increment(before, before.mixity)->quadratic())
         fail(DELAM_ERROR_STATE, "step tangent: not available, because the step was divided into ", parts.size(),
-             " substeps, and mixity_rule = variational");
+             " substeps (step_control, jump_tolerance or mixity_step_tolerance), and mixity_rule = variational");
     const std::size_t count = patterns.size(), pairs = before.adhesion.size();
     std::vector<FollowedParameter> loads(count);
     Sensitivity by;

@@ -289,7 +289,10 @@ std::vector<double> Solver::step_tangent() {
     if (pending->parts.size() > 1) {
         if (keeps_past(problem_.options))
             fail(DELAM_ERROR_STATE, "step tangent: not available, because the step was divided into ",
-                 pending->parts.size(), " substeps, with a search or backtracking in each");
+                 pending->parts.size(),
+                 " substeps (step_control, jump_tolerance or mixity_step_tolerance), with a search (solution = "
+                 "energetic) "
+                 "or backtracking in each");
         return parts_tangent(stepper_, problem_.patterns, states_.committed(), pending->parts);
     }
     return stepper_.step_tangent(states_.committed(), pending->state);
