@@ -48,8 +48,9 @@ HIGHEST_STRENGTH = 60.0  # MPa: a resin has no more; with half of it the peak of
 SHEAR_RATIO = 5 / 3  # of the strengths where the sheet has the toughness of one mode alone, which then decides
 STIFFNESS_FACTOR = 50.0  # E3 over the thickness of the layer next to the interface (A. Turon et al. 2007)
 OVERHANG = 5.0  # mm beyond a roller: half and twice of it change no load, since nothing acts there
-# Of the way from the notch to the load in the middle: the most that grows without --growth, for notches of more than 0.82 of
-# the half span. Half of it shows less of the curve; at 1 the process zone would lie below the load.
+# A crack grows without --growth by at most this part of the way from the notch to the load in the middle, which counts for
+# notches of more than 0.82 of the half span. Half of it shows less of the curve; at 1 the process zone would lie below
+# the load.
 NEAR = 0.9
 PAST = 1.15  # of the displacement at the end of the growth: the march ends after it
 

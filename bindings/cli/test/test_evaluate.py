@@ -89,7 +89,7 @@ def opening():
     expect(code == 0 and "delam fit: laws[0].normal_toughness 280 J/m2, interval 270 to 290, of mode I" in shown and "strength" not in shown,
            f"a fit beside it: {shown} {error}")
     expect("in the place of an earlier evaluation" in shown, "an earlier evaluation that is replaced is told")
-    # Of another mode: it is told, and does not stand beside.
+    # A toughness of another mode is told, and does not stand beside.
     with open(os.path.join(here, "fit.json"), "w", encoding="utf-8") as file:
         json.dump({"units": ["mm", "N"], "parameters": [
             {"key": "laws[0].tangential_toughness", "value": 0.8, "interval": [0.7, 0.9], "told": True}]}, file)

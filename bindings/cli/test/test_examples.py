@@ -19,7 +19,7 @@ FAMILIES = ("enf-ductile", "enf-brittle-local", "enf-brittle-energetic", "mmf-du
 PICTURES = {"fibre": ["stress-strain.png"], "laminate-thermal": ["stresses.png"], "dcb-3d": ["fronts.png", "cut.png"],
             "weave": ["stress-strain.png", "fronts.png", "cut.png"]}
 WHOLE = sys.argv[1:] == ["whole"]
-# What takes a second or two each; the others are checked. test_plot draws fronts.
+# These take a second or two each; the others are checked. test_plot draws fronts.
 SHORT = {"dcb-3d", "dcb-abaqus", "dcb-elastica", "peel", "enf-3d", "mmb", "fibre", "laminate-thermal"}
 SHORT_PICTURES = {"fibre"}
 SHORT_MESH = {"weave": ["mesh.h=0.9e-3", "mesh.gap=0.1e-3"]}

@@ -169,7 +169,7 @@ def teeth():
     found = quietly(search.run)
     first, second = study.rows_of(search, found)
     expect(first["told"] and not second["told"] and second["value"] == 1.0, f"of two that do the same: {first} {second}")
-    # With q at 0.5 and 2, p is 2 ** 0.5 of itself; 95 % of what lies anywhere between reach 0.95 of it in logarithms.
+    # At q = 0.5 and q = 2, p is 2 ** 0.5 of itself; 95 % of what lies anywhere between reach 0.95 of it in logarithms.
     wide = 2 ** (0.5 * 0.95)
     low, high = (end / first["value"] for end in first["interval"])
     expect(1 / wide * 0.9 < low < 1 / wide * 1.01 and wide * 0.99 < high < wide * 1.1, f"what is held widens it: {first}")

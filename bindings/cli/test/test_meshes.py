@@ -323,7 +323,7 @@ code, out, error = delam("check", scene(small, put("bare.msh", msh22({**NODES, 9
                                         'body = "surface-2"\ncomponent = ["y"]\npattern = "p"\n'))
 expect(code == 0 and 'body        "surface-1", 1 cell' in out and 'body        "surface-2", 2 cells' in out,
        f"entities are bodies where there are no groups: {error}")
-# What was taken and what was left out: edges and points that nobody has named.
+# The notes count what was taken, and edges and points that nobody has named.
 loose = [*CELLS, (1, 0, 7, (3, 4)), (1, 0, 8, (2, 4)), (15, 0, 9, (1,))]
 code, out, error = delam("check", scene(small, put("loose.msh", msh22(NODES, loose, NAMES)), BONDED + pulled("y")))
 expect(code == 0 and "note: taken: 3 cells (1 quad4, 2 tri3) in 2 bodies, 2 named sets" in out and

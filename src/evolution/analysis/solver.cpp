@@ -290,9 +290,8 @@ std::vector<double> Solver::step_tangent() {
         if (keeps_past(problem_.options))
             fail(DELAM_ERROR_STATE, "step tangent: not available, because the step was divided into ",
                  pending->parts.size(),
-                 " substeps (step_control, jump_tolerance or mixity_step_tolerance), with a search (solution = "
-                 "energetic) "
-                 "or backtracking in each");
+                 " substeps (step_control, jump_tolerance or mixity_step_tolerance), with a search "
+                 "(solution = energetic) or backtracking in each");
         return parts_tangent(stepper_, problem_.patterns, states_.committed(), pending->parts);
     }
     return stepper_.step_tangent(states_.committed(), pending->state);

@@ -76,7 +76,7 @@ class CurveData:
             points[which] = points[which] * factor
             self._require_numbers(self.names[which], points[which], f" times {name} {factor:g}")
         points = self._upright(points, said)
-        # What the machine lengthens and the specimen does not, before the load is one per width.
+        # The compliance of the machine counts for the whole load, before it is divided by the width.
         points = self._of_specimen(points, given, (length, force), given.scale / scale, said)
         self.rows = len(points[0])
         self._follow(points, given.loops == "follow", said)

@@ -34,7 +34,7 @@ def kind_of(symbol):
     return None, 1.0
 
 
-# What the number of a key of a scene is measured in, by how the key ends.
+# Each key of a scene has a quantity, which the end of its name tells.
 OF_KEYS = (("toughness", "{force}/{length}"), ("stiffness", "{force}/{length}^3"), ("strength", "{force}/{length}^2"),
            ("young", "{force}/{length}^2"), (r"\b[EG][123]+", "{force}/{length}^2"), ("thickness", "{length}"),
            (r"geometry\.(length|width|h)", "{length}"))

@@ -74,7 +74,7 @@ class Points:
         the largest load if that comes first."""
         leaves, offset = self._beyond(LEAVES, SURELY), self._beyond(0.05, 0.0)
         leaves = self.top if leaves is None else leaves
-        # With little noise, NL is no later than the 5 % offset by its definition; with much, by this.
+        # NL comes no later than the 5 % offset: by its definition where the noise is small, by this where it is large.
         leaves = leaves if offset is None else min(leaves, offset)
         return [self._point("NL", leaves),
                 self._point("5 %" if offset is not None else "5 % (after the largest load, which is taken)",
