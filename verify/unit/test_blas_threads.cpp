@@ -148,6 +148,9 @@ TEST(an_analysis_leaves_the_number) {
 TEST(a_small_analysis_starts_no_thread) {
     if (!host_wants(2) || openblas_get_parallel == nullptr || openblas_get_parallel() != 1) return;
     work_of_the_host();
+    // OpenBLAS starts as many as the process has ever asked for: 2, or 3 after another test in the same process.
+    const std::int64_t shared = threads_of_the_process();
+    ck_assert_int_gt(shared, 1);
     prepare_blas();
     ck_assert(has_threads(1));
     ck_assert_int_eq(openblas_get_num_threads(), 2);
@@ -162,13 +165,14 @@ TEST(a_small_analysis_starts_no_thread) {
     // A host whose work is shared has its threads again.
     work_of_the_host();
     ck_assert_int_eq(openblas_get_num_threads(), 2);
-    ck_assert(has_threads(2));
+    ck_assert(has_threads(shared));
 }
 
 // They may be at work for another thread of the host: then nothing ends them.
 TEST(threads_stay_where_the_host_has_others) {
     if (!host_wants(2) || openblas_get_parallel == nullptr || openblas_get_parallel() != 1) return;
     work_of_the_host();
+    const std::int64_t shared = threads_of_the_process();
     std::atomic<bool> over{false};
     std::thread other([&] {
         while (!over) std::this_thread::yield();
@@ -177,5 +181,6 @@ TEST(threads_stay_where_the_host_has_others) {
     const std::int64_t threads = threads_of_the_process();
     over = true;
     other.join();
-    ck_assert_int_eq(threads, 3);
+    ck_assert_int_gt(shared, 1);
+    ck_assert_int_eq(threads, shared + 1);
 }
