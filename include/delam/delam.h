@@ -1354,8 +1354,9 @@ DELAM_API int32_t delam_solver_tangent(delam_solver *solver, int64_t capacity, d
  * Nor must any pair reach the end of a branch of its law. Past a limit point it may be indefinite. With `mixity_rule =
  * converged`, a long step is followed in parts. A pair that damages in one part and unloads in a later one keeps an
  * adhesion that depends on the end of the step. The tangent takes this adhesion as fixed. Hosts that iterate set
- * `path_step = 1`, with which a step has one part. In the very first loaded step, the tangent treats the mixity as
- * fixed (with `mixity_rule = frozen`, it is that of the elastic solution).
+ * `path_step = 1`, with which a step has one part. In the very first loaded step with `mixity_rule = frozen`, the
+ * mixity is that of the elastic solution, and the tangent, which is then not symmetric, contains its change. With
+ * `mixity_rule = variational`, the tangent treats this mixity as fixed.
  * In a step of several substeps, each ends at its share of the change of the loads. A pair that comes to rest in one of
  * them keeps the derivative of its adhesion. The call then follows the substeps once more.
  * With `step_control = auto`, later steps are taken whole, because a host's Newton method wants a smooth step. Saved

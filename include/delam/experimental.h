@@ -243,8 +243,7 @@ DELAM_API int32_t delam_experimental_solver_follow(delam_solver *solver, int64_t
  * [pattern_count][parameters] is that of reaction:p, in its unit over that of the parameter. The derivatives are those
  * of the branch on which the analysis is. At a jump of the state, at a change of the contact set and where a pair
  * reaches a corner of its law, the analysis has none.
- * *unknown receives the number of pairs of which one quantity is taken as constant. This is the adhesion, if it came to
- * rest within a step. It is the mixity, if the pair damaged in the very first loaded step with `mixity_rule = frozen`.
+ * *unknown receives the number of pairs whose adhesion is taken as constant, because it came to rest within a step.
  * *unknown is usually 0 in analyses that do not jump. With `mixity_rule = converged`, long steps have parts, after
  * which pairs come to rest, unless `path_step = 1`. DELAM_ERROR_STATE: the state was loaded or set.
  * [unit matrix of factors; null unknown; status argument, state; source P. Michaleris, D. Tortorelli, C. Vidal, Int. J.

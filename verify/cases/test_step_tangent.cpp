@@ -149,13 +149,13 @@ LOOP_TEST(tangent_is_the_derivative, 0, setting_count) {
                 const auto i = static_cast<std::size_t>(3 * p + q);
                 const double difference =
                     (above[static_cast<std::size_t>(p)] - below[static_cast<std::size_t>(p)]) / (2.0 * e);
-                // Before the first load the mixity is that of the elastic solution, which changes too, so the first
-                // step of a mixed law is not compared.
-                if (k > 1)
+                // Variational tangents hold the mixity that the elastic solution of the first loaded step gives.
+                if (k > 1 || std::string(s.rule) != "variational")
                     cases::expect_near(
                         tangent[i] * ends[p] * ends[q], difference * ends[p] * ends[q], 2e-4, size,
                         std::string(s.name) + ", step " + std::to_string(k) + ", d " + names[p] + " / d " + names[q]);
                 softened = softened || std::abs(tangent[i] - secant[i]) * ends[p] * ends[q] > 0.02 * size;
+                if (k == 1) continue;  // there the mixities of the elastic solution depend on all loads
                 asymmetry = std::max(asymmetry, std::abs(tangent[i] - tangent[static_cast<std::size_t>(3 * q + p)]) *
                                                     ends[p] * ends[q] / size);
             }

@@ -215,8 +215,25 @@ FollowedParameter followed_parameter(const Problem& problem, std::span<const std
     return out;
 }
 
+std::vector<FollowedParameter> followed_loads(std::size_t patterns, std::size_t pairs, double share) {
+    std::vector<FollowedParameter> loads(patterns);
+    for (std::size_t q = 0; q < patterns; ++q) {
+        loads[q].law.assign(pairs, -1);
+        loads[q].load.assign(patterns, 0.0);
+        loads[q].load[q] = share;
+    }
+    return loads;
+}
+
+std::vector<double> by_loads(const Sensitivity& by, std::size_t patterns) {
+    std::vector<double> matrix(patterns * patterns);
+    for (std::size_t q = 0; q < patterns; ++q)
+        for (std::size_t p = 0; p < patterns; ++p) matrix[p * patterns + q] = by.conjugate[q * patterns + p];
+    return matrix;
+}
+
 Sensitivity sensitivity(Linearised linearised, std::span<const FollowedParameter> parameters,
-                        std::span<const Pattern> patterns, const StepRule* step) {
+                        std::span<const Pattern> patterns, const StepRule* step, const std::vector<double>* mixity) {
     const Sensitivity none, &before = step != nullptr ? step->before().sensitivity : none;
     const State& state = linearised.state();
     const std::size_t pairs = state.adhesion.size();
@@ -228,19 +245,19 @@ Sensitivity sensitivity(Linearised linearised, std::span<const FollowedParameter
     out.unknown = before.unknown;
     for (std::size_t p = 0; p < pairs && step != nullptr; ++p)
         if (active[p] == 0 && state.adhesion[p] > 0.0 && state.adhesion[p] < step->adhesion_before()[p]) ++out.unknown;
-    // In the first loaded step, the mixity of the rule `frozen` is that of an elastic solution, which is not followed.
-    if (step != nullptr && !step->in_parts() && step->before().loaded == 0)
-        out.unknown += std::count_if(damaging.directions.begin(), damaging.directions.end(),
-                                     [&](const PairDirection& d) { return linearised.pairs().mixed(d.pair); });
+    // The derivatives of a state that is given are 0.
+    const auto of = [&](const std::vector<double>& by, std::size_t k, std::size_t p) {
+        return by.empty() ? 0.0 : by[k * pairs + p];
+    };
     for (std::size_t k = 0; k < parameters.size(); ++k) {
-        std::vector<double> at_rest(pairs, 0.0), mixity(pairs, 0.0);
+        std::vector<double> at_rest(pairs, 0.0), begun(pairs, 0.0);
         for (std::size_t p = 0; p < pairs && step != nullptr; ++p) {
-            mixity[p] = before.mixity[k * pairs + p];
+            begun[p] = of(mixity != nullptr ? *mixity : before.mixity, k, p);
             if (active[p] == 0 && state.adhesion[p] > 0.0 && state.adhesion[p] == step->adhesion_before()[p])
-                at_rest[p] = before.adhesion[k * pairs + p];
+                at_rest[p] = of(before.adhesion, k, p);
         }
         Derivative by(linearised, parameters[k], step, damaging, patterns.size());
-        by.find(at_rest, mixity);
+        by.find(at_rest, begun);
         if (!by.known() && k == 0) out.unknown += static_cast<std::int64_t>(damaging.directions.size());
         out.conjugate.insert(out.conjugate.end(), by.conjugate().begin(), by.conjugate().end());
         out.adhesion.insert(out.adhesion.end(), by.adhesion().begin(), by.adhesion().end());

@@ -41,9 +41,16 @@ struct FollowedParameter {
 FollowedParameter followed_parameter(const Problem& problem, std::span<const std::int64_t> interfaces,
                                      const std::string& key);
 
+// Returns the load factors as parameters: a change of one at the end of a step changes the loads by this share of it.
+std::vector<FollowedParameter> followed_loads(std::size_t patterns, std::size_t pairs, double share);
+// Returns the derivatives of the conjugates by all load factors, [patterns][patterns], a row for each conjugate.
+std::vector<double> by_loads(const Sensitivity& by, std::size_t patterns);
+
 // Returns the derivatives of the state that the tangent has been made for. step: the increment that ended in it; null:
-// it is the initial state, without any damage.
+// it is elastic, without any damage since the initial state. mixity: derivatives of the mixities with which the step
+// began, [parameters][pairs]; null: they are those of the state before.
 Sensitivity sensitivity(Linearised linearised, std::span<const FollowedParameter> parameters,
-                        std::span<const Pattern> patterns, const StepRule* step);
+                        std::span<const Pattern> patterns, const StepRule* step,
+                        const std::vector<double>* mixity = nullptr);
 
 }  // namespace delam

@@ -14,6 +14,8 @@ namespace {
 
 constexpr double proportional = 1e-12;  // of the load factors
 constexpr double least_ratio = 1e-100;  // of two loads; the square of a smaller one may underflow
+// Energies agree to about as much, relative; a smaller difference of two says nothing.
+constexpr double rounding_of_energies = 1e-11;
 
 }  // namespace
 
@@ -68,16 +70,33 @@ Lift::Lift(JumpOperator& op, std::span<const std::uint8_t> bonded_rows, std::spa
     }
 }
 
+double Lift::form(std::span<const double> a, std::span<const double> b, std::span<const double> stiffness) const {
+    double sum = 0.0;
+    for (std::size_t p = 0; p < a.size(); ++p)
+        for (std::size_t q = 0; q < b.size(); ++q)
+            sum += a[p] * a_(static_cast<std::int64_t>(p), static_cast<std::int64_t>(q)) * b[q];
+    for (std::size_t i = 0; i < prescribed_.size(); ++i)
+        sum += stiffness[prescribed_[i]] * dot(jump_[i], a) * dot(jump_[i], b);
+    return sum;
+}
+
 double Lift::half_quadratic(std::span<const double> d, std::span<const double> stiffness) const {
-    double twice = 0.0;
-    for (std::size_t p = 0; p < d.size(); ++p)
-        for (std::size_t q = 0; q < d.size(); ++q)
-            twice += d[p] * a_(static_cast<std::int64_t>(p), static_cast<std::int64_t>(q)) * d[q];
-    for (std::size_t i = 0; i < prescribed_.size(); ++i) {
-        const double along = dot(jump_[i], d);
-        twice += stiffness[prescribed_[i]] * along * along;
-    }
-    return 0.5 * twice;
+    return 0.5 * form(d, d, stiffness);
+}
+
+double Lift::rise(std::span<const double> theta, const State& state, std::span<const double> stiffness,
+                  bool scaled) const {
+    const std::span<const double> reactions = state.response.conjugate, old = state.theta;
+    std::vector<double> d(theta.size());
+    for (std::size_t p = 0; p < d.size(); ++p) d[p] = theta[p] - old[p];
+    const double held = dot(d, reactions) + half_quadratic(d, stiffness);
+    if (!scaled) return held;
+    // (s - 1) g + (s - 1)^2 c is what scaling adds.
+    const double whole = 0.5 * form(old, old, stiffness), c = whole - 0.5 * dot(old, reactions);
+    const double g = dot(d, reactions) - form(d, old, stiffness);
+    if (!(c > rounding_of_energies * whole)) return held;
+    const double t = std::max(-1.0, -0.5 * g / c);
+    return held + t * g + t * t * c;
 }
 
 }  // namespace delam

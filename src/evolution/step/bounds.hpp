@@ -12,6 +12,14 @@
 //   upper = E(theta_k, q_{k-1}) - E(theta_{k-1}, q_{k-1}) = d.r_{k-1} + 1/2 d^T A d
 // exactly, for any load path. Jumps that constraints prescribe, or bind to others, are not held; their springs
 // s_i add s_i J_i J_i^T to A.
+//
+// Bodies, springs and frictionless contact answer an a-fold load with a-fold displacements (gaps are loads, too). So
+// q_{k-1} may also be compared with its jumps scaled by s >= 0, whose energy under theta_k is, with E = theta.r / 2,
+//   E(theta_k, s) = s^2 E_{k-1} + s (theta_k - s theta_{k-1}).r_{k-1}
+//                   + 1/2 (theta_k - s theta_{k-1})^T A (theta_k - s theta_{k-1})
+// and the same holds with k and k-1 exchanged. The least of it narrows both bounds by g^2 / (4 c), with g = d.(r - A
+// theta) and c = (theta^T A theta - theta.r) / 2 of the state that is scaled. Where no load pattern changes its share
+// of the whole, theta_k - s theta_{k-1} vanishes at the least: then the energies alone give it (reduced_bounds).
 #pragma once
 
 #include <functional>
@@ -31,9 +39,8 @@ struct EnergyBounds {
     double lower, upper;
 };
 
-// The same bounds for q = zeta alone, with E(theta, zeta) minimised over all displacements: narrower, since nothing is
-// held, and exact where no load pattern changes its share of the whole. Bodies, springs and frictionless contact
-// without a gap answer an a-fold load with a-fold displacements, so that with theta_{k-1} = a theta_k, a > 0,
+// The bounds for q = zeta alone, with E(theta, zeta) minimised over all displacements, so that nothing is held. With
+// theta_{k-1} = a theta_k, a > 0,
 //   lower = (1 - a^2) E(theta_k, zeta_k),   upper = (1/a^2 - 1) E(theta_{k-1}, zeta_{k-1})
 // where E leaves out the gradient energy, which stays. A step that damages nothing has lower = upper = its increment
 // under any loads. None: the loads change their shares.
@@ -53,8 +60,14 @@ public:
          const Take& take = {});
     // 1/2 d^T A d with the springs of `stiffness` [rows] on prescribed jumps.
     double half_quadratic(std::span<const double> d, std::span<const double> stiffness) const;
+    // E(theta, q) - E of a state, q: its jumps and adhesion. scaled: the jumps times the s >= 0 that makes it least.
+    double rise(std::span<const double> theta, const State& state, std::span<const double> stiffness,
+                bool scaled) const;
 
 private:
+    // a^T A b
+    double form(std::span<const double> a, std::span<const double> b, std::span<const double> stiffness) const;
+
     DenseMatrix a_;
     std::vector<std::size_t> prescribed_;
     std::vector<std::vector<double>> jump_;  // [prescribed][patterns]

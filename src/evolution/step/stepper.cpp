@@ -154,9 +154,8 @@ void Stepper::record_step(State& next, const StepRule& step, const InnerPath* pa
     Ledger& ledger = next.ledger;
     std::vector<double> d(next.theta.size());
     for (std::size_t p = 0; p < d.size(); ++p) d[p] = next.theta[p] - before.theta[p];
-    EnergyBounds bounds{
-        dot(d, next.response.conjugate) - lift_.half_quadratic(d, spring_stiffness(pairs_, next.adhesion)),
-        dot(d, before.response.conjugate) + lift_.half_quadratic(d, spring_stiffness(pairs_, before.adhesion))};
+    EnergyBounds bounds{-lift_.rise(before.theta, next, spring_stiffness(pairs_, next.adhesion), step.quadratic()),
+                        lift_.rise(next.theta, before, spring_stiffness(pairs_, before.adhesion), step.quadratic())};
     const double work = 0.5 * (dot(d, before.response.conjugate) + dot(d, next.response.conjugate));
     if (const auto reduced = step.quadratic() ? reduced_bounds(pairs_, before, next) : std::nullopt) {
         bounds = *reduced;
@@ -302,10 +301,22 @@ Stepper::Result Stepper::step(const State& before, double time, std::span<const 
     best.state.free_since = free_since(*operator_, contact_, pairs_, best.state, before);
     integrate_work(minimiser(), *step, best.state);
     places_.reset();
-    if (before.sensitivity.known())
-        best.state.sensitivity = sensitivity(Linearised(*operator_, pairs_, contact_, best.state), followed_,
-                                             problem_.patterns, increment(before, best.state.mixity).get());
+    if (before.sensitivity.known()) best.state.sensitivity = differentiate(before, best.state, followed_);
     return best;
+}
+
+// The mixities of the first loaded step begin as those of its elastic solution, and depend on what that depends on.
+Sensitivity Stepper::differentiate(const State& before, const State& state,
+                                   std::span<const FollowedParameter> parameters) {
+    const std::unique_ptr<StepRule> step = increment(before, state.mixity);
+    const auto of = [&](const State& at) { return Linearised(*operator_, pairs_, contact_, at); };
+    if (before.loaded != 0) return sensitivity(of(state), parameters, problem_.patterns, step.get());
+    State elastic;
+    places_.emplace(*operator_, before.theta, before.response);
+    start(elastic, before, state.time);
+    places_.reset();
+    const Sensitivity begun = sensitivity(of(elastic), parameters, problem_.patterns, nullptr);
+    return sensitivity(of(state), parameters, problem_.patterns, step.get(), &begun.mixity);
 }
 
 Sensitivity Stepper::follow(std::vector<FollowedParameter> parameters, const State& initial) {
@@ -492,8 +503,12 @@ std::vector<double> Stepper::tangent(const State& state) {
 
 std::vector<double> Stepper::step_tangent(const State& before, const State& state) {
     if (other_) return other_->step_tangent(before, state);
-    return Linearised(*operator_, pairs_, contact_, state)
-        .step_tangent(problem_.patterns, *increment(before, state.mixity));
+    const std::unique_ptr<StepRule> step = increment(before, state.mixity);
+    const std::size_t patterns = problem_.patterns.size();
+    // Where several loads give the first mixities, these depend on each of them.
+    if (before.loaded == 0 && patterns > 1 && step->quadratic() && !step->in_parts())
+        return by_loads(differentiate(before, state, followed_loads(patterns, state.adhesion.size(), 1.0)), patterns);
+    return Linearised(*operator_, pairs_, contact_, state).step_tangent(problem_.patterns, *step);
 }
 
 }  // namespace delam

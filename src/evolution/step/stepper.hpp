@@ -75,6 +75,9 @@ public:
     std::vector<double> tangent(const State& state);
     // d conjugate / d theta of a step from `before` to `state` (step_tangent.hpp).
     std::vector<double> step_tangent(const State& before, const State& state);
+    // Derivatives of a state, by parameters of the laws or of the loads, to which a step from `before` has led; those
+    // of `before` are in its own sensitivity.
+    Sensitivity differentiate(const State& before, const State& state, std::span<const FollowedParameter> parameters);
     // From now on every state gets its derivatives by these parameters; returns those of the initial state.
     Sensitivity follow(std::vector<FollowedParameter> parameters, const State& initial);
     // Returns the excess of the lower bound of a step over its increment, relative to the larger of energy and work. If
