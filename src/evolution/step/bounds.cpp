@@ -7,25 +7,16 @@
 #include "base/error.hpp"
 #include "base/numbers.hpp"
 #include "delam/delam.h"
+#include "evolution/minimise/proportional_loads.hpp"
 
 namespace delam {
 
 namespace {
 
-constexpr double proportional = 1e-12;  // of the load factors
-constexpr double least_ratio = 1e-100;  // of two loads; the square of a smaller one may underflow
 // Energies agree to about as much, relative; a smaller difference of two says nothing.
 constexpr double rounding_of_energies = 1e-11;
 
 }  // namespace
-
-std::optional<double> load_ratio(std::span<const double> before, std::span<const double> next) {
-    const double size = dot(next, next), a = size > 0.0 ? dot(before, next) / size : 0.0;
-    if (!(a > least_ratio)) return std::nullopt;
-    for (std::size_t p = 0; p < next.size(); ++p)
-        if (std::abs(before[p] - a * next[p]) > proportional * std::abs(before[p])) return std::nullopt;
-    return a;
-}
 
 std::optional<EnergyBounds> reduced_bounds(const PairLaws& pairs, const State& before, const State& next) {
     const double change = next.ledger.energy() - before.ledger.energy();
@@ -97,6 +88,13 @@ double Lift::rise(std::span<const double> theta, const State& state, std::span<c
     if (!(c > rounding_of_energies * whole)) return held;
     const double t = std::max(-1.0, -0.5 * g / c);
     return held + t * g + t * t * c;
+}
+
+EnergyBounds step_bounds(const Lift& lift, const PairLaws& pairs, const State& before, const State& next,
+                         bool quadratic) {
+    if (const auto reduced = quadratic ? reduced_bounds(pairs, before, next) : std::nullopt) return *reduced;
+    return {-lift.rise(before.theta, next, spring_stiffness(pairs, next.adhesion), quadratic),
+            lift.rise(next.theta, before, spring_stiffness(pairs, before.adhesion), quadratic)};
 }
 
 }  // namespace delam

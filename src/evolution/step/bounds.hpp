@@ -46,9 +46,6 @@ struct EnergyBounds {
 // under any loads. None: the loads change their shares.
 std::optional<EnergyBounds> reduced_bounds(const PairLaws& pairs, const State& before, const State& next);
 
-// a of theta_{k-1} = a theta_k, a > 0; none: the loads change their shares, or one is zero.
-std::optional<double> load_ratio(std::span<const double> before, std::span<const double> next);
-
 class Lift {
 public:
     Lift() = default;
@@ -72,5 +69,10 @@ private:
     std::vector<std::size_t> prescribed_;
     std::vector<std::vector<double>> jump_;  // [prescribed][patterns]
 };
+
+// Returns the narrowest of these bounds. quadratic: the energy is a quadratic form of loads and displacements, so that
+// displacements may be scaled.
+EnergyBounds step_bounds(const Lift& lift, const PairLaws& pairs, const State& before, const State& next,
+                         bool quadratic);
 
 }  // namespace delam

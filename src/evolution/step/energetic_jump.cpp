@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "base/numbers.hpp"
-#include "evolution/step/bounds.hpp"
+#include "evolution/minimise/proportional_loads.hpp"
 #include "evolution/step/growth_events.hpp"
 
 namespace delam {

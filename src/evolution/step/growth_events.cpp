@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "evolution/step/bounds.hpp"
+#include "evolution/minimise/proportional_loads.hpp"
 
 namespace delam {
 

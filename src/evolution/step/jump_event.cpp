@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/numbers.hpp"
-#include "evolution/step/bounds.hpp"
+#include "evolution/minimise/proportional_loads.hpp"
 
 namespace delam {
 

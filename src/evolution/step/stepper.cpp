@@ -10,6 +10,7 @@
 #include "delam/delam.h"
 #include "evolution/derivative/step_tangent.hpp"
 #include "evolution/increment/unstrained.hpp"
+#include "evolution/minimise/proportional_loads.hpp"
 #include "evolution/step/contact_work.hpp"
 #include "evolution/step/energetic_jump.hpp"
 #include "evolution/step/pairs_of_scene.hpp"
@@ -154,12 +155,8 @@ void Stepper::record_step(State& next, const StepRule& step, const InnerPath* pa
     Ledger& ledger = next.ledger;
     std::vector<double> d(next.theta.size());
     for (std::size_t p = 0; p < d.size(); ++p) d[p] = next.theta[p] - before.theta[p];
-    EnergyBounds bounds{-lift_.rise(before.theta, next, spring_stiffness(pairs_, next.adhesion), step.quadratic()),
-                        lift_.rise(next.theta, before, spring_stiffness(pairs_, before.adhesion), step.quadratic())};
+    const EnergyBounds bounds = step_bounds(lift_, pairs_, before, next, step.quadratic());
     const double work = 0.5 * (dot(d, before.response.conjugate) + dot(d, next.response.conjugate));
-    if (const auto reduced = step.quadratic() ? reduced_bounds(pairs_, before, next) : std::nullopt) {
-        bounds = *reduced;
-    }
     ledger.lower = bounds.lower;
     ledger.upper = bounds.upper;
     next.jump_within = {};
@@ -234,25 +231,6 @@ double Stepper::lower_excess(const State& state) const {
     return scale > 0.0 ? (state.ledger.lower - state.ledger.increment) / scale : 0.0;
 }
 
-// The state before answers loads in proportion with displacements in proportion, at its adhesion and with its contact
-// set: the bodies, springs and frictionless contact have no other length. (Free parts keep their places. Gaps are
-// loads, too.)
-bool Stepper::displaced_in_proportion(State& next, const State& before) const {
-    const std::optional<double> a = load_ratio(before.theta, next.theta);
-    if (!a || !operator_->traits().proportional || before.response.jump.empty() ||
-        !pairs_on_the_wrong_side(*operator_, contact_, before.theta, before.closed, before.response).empty() ||
-        free_motions(*operator_, contact_, spring_stiffness(pairs_, before.adhesion), before.theta, before.closed,
-                     before.response)
-                .columns > 0)
-        return false;
-    const double grown = 1.0 / *a;
-    Response& response = next.response;
-    for (auto* values : {&response.jump, &response.force, &response.conjugate})
-        for (double& v : *values) v *= grown;
-    for (double* energy : {&response.stored_bulk, &response.load_potential}) *energy *= grown * grown;
-    return true;
-}
-
 // No jump gives a mixity before the first load; the elastic solution of the step itself gives it.
 bool Stepper::start(State& next, const State& before, double time) {
     next = before;
@@ -281,7 +259,7 @@ Stepper::Result Stepper::step(const State& before, double time, std::span<const 
     const std::unique_ptr<StepRule> step = increment(before, first.mixity);
     // Plain alternation solves for the displacements in every step, as the reference solver does.
     const bool displaced = problem_.options.minimisation != "alternate" && step->quadratic() &&
-                           (before.loaded == 0 || displaced_in_proportion(first, before));
+                           (before.loaded == 0 || displaced_in_proportion(*operator_, pairs_, contact_, first, before));
     Result best{first, true};
     best.converged = minimise(best.state, *step, nullptr, displaced) && converged;
     for (const Start& from : also) {

@@ -84,6 +84,10 @@ public:
     // it is larger than eta, a state lower than `before` exists at its own time.
     double lower_excess(const State& state) const;
 
+    // Returns the change of the energy of a state by other load factors, with its jumps and its adhesion held.
+    double held_rise(const State& state, std::span<const double> theta) const {
+        return lift_.rise(theta, state, spring_stiffness(pairs_, state.adhesion), false);
+    }
     std::vector<double> factors(double time) const { return problem_.factors(time); }
     // True if all pairs that soften in a step, or are nearly loaded, have the same toughness before and after it.
     bool one_mode(const State& before, const State& after) {
@@ -116,8 +120,6 @@ private:
     void begin(State& next, const State& before, double time);
     // The state from which the minimisations of a step begin; false: its elastic displacements reached a limit.
     bool start(State& next, const State& before, double time);
-    // False: not known without a solve.
-    bool displaced_in_proportion(State& next, const State& before) const;
     InnerPath inner_path();
     // begun: what is dissipated down to the adhesion of `next`, where the step is followed in parts. displaced: the
     // displacements of `next` are those of its adhesion.
