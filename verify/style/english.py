@@ -49,7 +49,7 @@ GLOSSARY = {
     "creeping": (r"creep(?:s|ing)?", "slow; converges slowly"),
 }
 # Words that verify has not any more, but in its rules and in what earlier versions wrote.
-GONE_FROM_VERIFY = ("march",)
+GONE_FROM_VERIFY = ("march", "debt", "scout", "held against", "patience", "beneath", "violent", "creeping")
 OWN_WORDS = re.compile(r"verify/(?:style/|kept/\w+/|fuzz/corpus/|cases/golden/)")
 # What users and hosts have keeps its name, and a term of the field stays.
 ALLOWED = re.compile(r"delam_solver_look|`_look`|estimate_hollow|up-looking|(?<=solver\.)march(?=\()")

@@ -24,7 +24,7 @@ namespace {
 constexpr std::size_t most_starts = 2;
 // As `promising`, for following the path to a candidate, whose energy is an estimate (half and twice change nothing).
 constexpr double promising_way = 0.05;
-// Squares of the load ratios at which fronts are continued; a first one of 2 ends two steps of mixed modes elsewhere.
+// Squares of the load ratios at which fronts are continued; a first one of 2, or steps of 1.08, end a step elsewhere.
 constexpr double least_overload = 1.02, overload_growth = 1.04, most_overload = 4.0;
 // Fronts are continued to `beyond` times the energy dissipated down to a candidate (half ends two steps elsewhere), or
 // until, after `first_part` of that, the energy is `too_high` of the dissipated one above the step's.
