@@ -12,7 +12,8 @@ scene/limits.inc and base/restarts.inc (limits_NAME) is multiplied by a number o
 call copies the files that have changed since. COMMAND finds that library by DELAM_LIBRARY (Python) or LD_LIBRARY_PATH
 (programs of the tests); unit tests are targets of that build, and programs in FOLDER/build/verify. A line for each run
 says its exit status, how many lines of its output differ from those of the library as it is by more than --within of a
-number, seconds aside, and by how much at most. Lines `cost WORDS: NUMBER` are no results: of them it says between which factors the numbers change.
+number, seconds aside, and by how much at most. Lines `cost WORDS: NUMBER` are no results: it says by which factors they
+change.
 
 With --require, the exit status is 1 if a line differs, or if no constant has such a name: a constant that decides is a
 part of the method, and is called so where it stands.
@@ -73,12 +74,12 @@ T delam_scaled(double value) {
 HEADING = """# Constants of the sources
 
 Written by `constants.py FOLDER {command}`: what factors on each constant do to the analyses of that command, by the file
-and the name of the constant. Difference: the largest of the numbers of a result, relative, or how many lines of results
-differ in words. Cost: counts of solves and iterations over those with the constant itself. Where neither changes, no
-analysis came to the constant: it guards, or it is of another input.
+and the name of the constant (limits_: of scene/limits.inc and base/restarts.inc). Difference: the largest of the numbers
+of a result, relative, or how many lines of results differ in words. Cost: counts of solves and iterations over those with
+the constant itself. Where neither changes, no analysis came to the constant: it guards, or it is of another input.
 
 | constant | value | {factors} |
-|---|---{rule}|
+|---|{rule}
 """
 
 
@@ -164,6 +165,14 @@ def difference(one, other):
     return max((abs(a - b) / max(abs(a), abs(b)) for a, b in pairs if abs(a - b) > 1e-12), default=0.0)
 
 
+def write_table(path, own, factors, found):
+    """Writes the rows that are known so far; own: the words of the command line."""
+    rows = (f"| `{name}` | {value} | {' | '.join(cell)} |\n" for name, value, cell in found)
+    heading = HEADING.format(command=" ".join(["NAMES", *own[own.index("--"):]]), rule="---|" * (1 + len(factors)),
+                             factors=" | ".join(f"times {one}" for one in factors))
+    path.write_text(heading + "".join(rows), encoding="utf-8")
+
+
 def main():
     own = sys.argv[1:]
     command = own[own.index("--") + 1:] if "--" in own else []
@@ -195,19 +204,18 @@ def main():
         if now == status and len(found) == len(lines):
             apart = [difference(one, other) for one, other in zip(lines, found)]
         else:  # lines that only one of them has
-            apart = [math.inf] * len(set(lines) ^ set(found))
+            apart = [math.inf] * max(1, len(set(lines) ^ set(found)))
         count, words = sum(by > arguments.within for by in apart), sum(math.isinf(by) for by in apart)
         largest = max((by for by in apart if math.isfinite(by)), default=0.0)
         print(f"{name} times {factor}: exit status {now}, {count} lines differ, {words} of them in words, numbers by "
               f"{largest:.2g} at most" + (f"; costs times {min(ratios):.2f} to {max(ratios):.2f}" if ratios else ""), flush=True)
-        cells.setdefault(name, []).append("no answer" if now == "none" else "an error" if now != status else f"{words} lines" if words else
-                                          f"{largest:.0e}, {min(ratios):.2f} to {max(ratios):.2f}" if ratios else f"{largest:.0e}")
+        told = f"{largest:.0e}" + (f", {min(ratios):.2f} to {max(ratios):.2f}" if ratios else "")
+        cells.setdefault(name, []).append("no end" if now == "none" else "an error" if now != status else
+                                          f"{words} lines" if words else told)
         runs, wrong = runs + 1, wrong + (now != status or count > 0)
-    if arguments.table:
-        rows = (f"| `{name}` | {names[name]} | {' | '.join(cell)} |" for name, cell in cells.items())
-        arguments.table.write_text(HEADING.format(command=" ".join([*own[1:own.index("--")], "--", *command]),
-                                                  factors=" | ".join(f"times {one}" for one in arguments.factors.split(",")),
-                                                  rule="|---" * len(arguments.factors.split(","))) + "\n".join(rows) + "\n", encoding="utf-8")
+        if arguments.table:
+            write_table(arguments.table, own, arguments.factors.split(","),
+                        [(one, names[one], cell) for one, cell in cells.items()])
     print(f"{runs} runs, {wrong} of them with another result")
     return 1 if arguments.require and (wrong > 0 or runs == 0) else 0
 

@@ -5,8 +5,8 @@
     laminates.py [--instructions] [SCENE ..]        SCENE: two, eight, turned, turned-in-space
 
 Prints the energies of each step, and the solves, factors and linearisations as `cost` lines, which constants.py compares.
-With --instructions, valgrind counts the instructions of each scene: they do not depend on what else the machine does."""
-import os
+With --instructions, valgrind counts the instructions of each scene, beyond those that the interpreter takes to start: they
+do not depend on what else the machine does."""
 import re
 import subprocess
 import sys
@@ -22,8 +22,8 @@ def laminate(interfaces):
     problem = delam.Problem(mesh, plane="plane-strain")
     problem.set_elastic(70e9, 0.3)
     for bond in bonds:
-        problem.set_law(bond, delam.Law("piecewise-linear", normal_stiffness=1e12, tangential_stiffness=1e12, normal_toughness=2500.0,
-                        tangential_toughness=2500.0, normal_onset=20.0, tangential_onset=20.0))
+        problem.set_law(bond, delam.Law("piecewise-linear", normal_stiffness=1e12, tangential_stiffness=1e12,
+                                        normal_toughness=2500.0, tangential_toughness=2500.0, normal_onset=20.0, tangential_onset=20.0))
     for axis in "xy":
         problem.prescribe(mesh.find_nodes((length, 0.0), (length, ply * plies)), axis)
     bend = problem.add_pattern("bend", [0, 1], [0, 3e-3])
@@ -42,8 +42,8 @@ def turned(dimension):
     interface, up = mesh.add_interface(0, 1), "xyz"[dimension - 1]
     problem = delam.Problem(mesh, plane="plane-strain") if dimension == 2 else delam.Problem(mesh)
     problem.set_elastic(70e9, 0.3)
-    problem.set_law(interface, delam.Law("piecewise-linear", normal_stiffness=1e13, tangential_stiffness=1e13, normal_toughness=250.0,
-                    tangential_toughness=250.0, normal_onset=25.0, tangential_onset=25.0))
+    problem.set_law(interface, delam.Law("piecewise-linear", normal_stiffness=1e13, tangential_stiffness=1e13,
+                                         normal_toughness=250.0, tangential_toughness=250.0, normal_onset=25.0, tangential_onset=25.0))
     problem.set_adhesion(interface, interface.places[:, 0] < 0.06 - 1e-6, 0.0)
     pull = problem.add_pattern("pull", [0, 1], [0, 0.02])
     low, high = ([0.0], [0.012]) if dimension == 3 else ([], [])
@@ -74,14 +74,20 @@ def analyse(name, steps=8):
         print(f"cost {name}, {cost}: {count:.0f}")
 
 
-def instructions(name):
+def counted(*words):
+    """What a run prints, and its instructions."""
     made = subprocess.run(["valgrind", "--tool=cachegrind", "--cache-sim=no", "--cachegrind-out-file=/dev/null", sys.executable,
-                           __file__, name], capture_output=True, text=True, check=True, env={**os.environ, "PYTHONMALLOC": "malloc"})
-    print(made.stdout, end="")
-    print(f"cost {name}, instructions: {re.search('I *refs: *([0-9,]+)', made.stderr).group(1).replace(',', '')}")
+                           __file__, *words], capture_output=True, text=True, check=True)
+    return made.stdout, int(re.search("I *refs: *([0-9,]+)", made.stderr).group(1).replace(",", ""))
+
+
+def instructions(name):
+    _, start = counted("--nothing")
+    said, count = counted(name)
+    print(f"{said}cost {name}, instructions: {count - start}")
 
 
 if __name__ == "__main__":
-    COUNTED = "--instructions" in sys.argv
-    for chosen in [word for word in sys.argv[1:] if not word.startswith("--")] or SCENES:
-        (instructions if COUNTED else analyse)(chosen)
+    CHOSEN = [word for word in sys.argv[1:] if not word.startswith("--")] or ([] if "--nothing" in sys.argv else list(SCENES))
+    for chosen in CHOSEN:
+        (instructions if "--instructions" in sys.argv else analyse)(chosen)
