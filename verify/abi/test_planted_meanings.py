@@ -101,8 +101,8 @@ class Test:
             " *   reaction      [constraints][1]", " *   heat          [nodes][1]            F: heat\n"
             " *   reaction      [constraints][1]")), "^field heat: no row of the table")
         described = meanings.keys.described
-        meanings.keys.described = lambda *of: {**described(*of), "patience": None}
-        self.expect("a new option", self.gaps(), "^option patience: no row of the table observes its default")
+        meanings.keys.described = lambda *of: {**described(*of), "novelty": None}
+        self.expect("a new option", self.gaps(), "^option novelty: no row of the table observes its default")
         meanings.keys.described = described
         without = [row for row in table.ROWS if row.name != "nine constants"]
         self.expect("a row that is gone", self.gaps(rows=without),

@@ -184,7 +184,7 @@ public:
         delam_solver_commit(solver_);
         return true;
     }
-    bool out_of_patience() const { return host_.polls_left <= 0; }
+    bool out_of_polls() const { return host_.polls_left <= 0; }
 
 private:
     Host host_;  // its limit of polls holds for all that this solver does
@@ -206,7 +206,7 @@ void any_analysis(Input& in) {
             if (delam_solver_load(walker->solver(), static_cast<std::int64_t>(bytes.size()), bytes.data()) !=
                     DELAM_OK ||
                 !walker->goes_on(from + 1)) {
-                expect(walker->out_of_patience(), "a state is read and gone on from", "delam_solver_load");
+                expect(walker->out_of_polls(), "a state is read and gone on from", "delam_solver_load");
                 continue;
             }
             expect(saved(walker->solver()) == states[from + 1], "the rest is bitwise the same", "delam_solver_load");

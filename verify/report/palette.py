@@ -29,7 +29,6 @@ ROLES = {
     "fifth": (WINE, "D", "-"),
     "sixth": (FOREST, "P", "-"),
 }
-ORDINALS = ("first", "second", "third", "fourth", "fifth", "sixth")
 
 
 def style(role: str) -> tuple[str, str, str]:

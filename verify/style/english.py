@@ -1,18 +1,20 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Checks the English of comments, messages and names in src and bindings/cli/src: no comment begins with a fragment in
-the place of a sentence, and no private word stands where the field has one. In verify, some of these words do not come
-back.
+the place of a sentence, and no private word stands where the field has one. In the Python package, comments and docstrings
+begin with no fragment. In verify, some of these words do not come back.
 
     python3 verify/style/english.py [--glossary]
 """
 
 import argparse
+import ast
 import pathlib
 import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 FOLDERS = ("src", "bindings/cli/src")
+PACKAGE = "bindings/python/src/"
 CODE = {".c", ".h", ".cpp", ".hpp", ".inc"}
 VERIFY_TEXT = {".py", ".sh", ".json", ".txt"}  # besides code and documents
 
@@ -47,7 +49,7 @@ GLOSSARY = {
     "creeping": (r"creep(?:s|ing)?", "slow; converges slowly"),
 }
 # Words that verify has not any more, but in its rules and in what earlier versions wrote.
-GONE_FROM_VERIFY = ("march",)
+GONE_FROM_VERIFY = ("march", "debt", "scout", "held against", "patience", "beneath", "violent", "creeping")
 OWN_WORDS = re.compile(r"verify/(?:style/|kept/\w+/|fuzz/corpus/|cases/golden/)")
 # What users and hosts have keeps its name, and a term of the field stays.
 ALLOWED = re.compile(r"delam_solver_look|`_look`|estimate_hollow|up-looking|(?<=solver\.)march(?=\()")
@@ -73,6 +75,19 @@ def blocks(text):
             found.append([line, line, column, not own, [m.group()[2:].strip()]])
     for first, _, _, behind, lines in found:
         yield first, behind, " ".join(filter(None, lines))
+
+
+def python_blocks(text):
+    """Each docstring, and each comment on lines of its own: its first line, and its text."""
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)) and ast.get_docstring(node):
+            yield node.body[0].lineno, " ".join(ast.get_docstring(node).split())
+    before = False
+    for n, line in enumerate(text.splitlines(), 1):
+        comment = re.match(r"\s*#(?!!)\s*(.*)", line)
+        if comment and not before:
+            yield n, comment.group(1)
+        before = comment is not None and not comment.group(1).startswith("SPDX-")
 
 
 def is_fragment(comment, behind_code):
@@ -106,6 +121,10 @@ def private_words(name, text, words=tuple(GLOSSARY)):
 
 def problems(name, text):
     """Lists what this rule refuses in a file, a line each."""
+    if name.startswith(PACKAGE):
+        yield from (f"{name}:{line}: a comment needs a subject and a verb: {comment[:60]}"
+                    for line, comment in python_blocks(text) if is_fragment(comment, False))
+        return
     if name.startswith("verify/"):
         yield from () if OWN_WORDS.match(name) else private_words(name, text, GONE_FROM_VERIFY)
         return
@@ -118,7 +137,7 @@ def sources():
     paths = (p for folder in (*FOLDERS, "verify") for p in (ROOT / folder).rglob("*"))
     text = CODE | {".md", ".cmake"}
     return sorted(p for p in paths if p.is_file() and (p.name == "CMakeLists.txt" or p.suffix in text or
-                  p.suffix in VERIFY_TEXT and p.is_relative_to(ROOT / "verify")))
+                  p.suffix in VERIFY_TEXT and p.is_relative_to(ROOT / "verify"))) + sorted((ROOT / PACKAGE).rglob("*.py"))
 
 
 def main():
@@ -131,7 +150,7 @@ def main():
     texts = {p.relative_to(ROOT).as_posix(): p.read_text(encoding="utf-8") for p in sources()}
     wrong = [line for name, text in texts.items() for line in problems(name, text)]
     comments = sum(1 for name, text in texts.items() if pathlib.PurePath(name).suffix in CODE
-                   and not name.startswith("verify/")
+                   and not name.startswith(("verify/", PACKAGE))
                    for _, _, comment in blocks(text) if comment and not comment.startswith("SPDX-"))
     print(f"{len(texts)} files, {comments} comments, {len(GLOSSARY)} private words")
     for line in wrong:

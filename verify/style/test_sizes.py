@@ -189,7 +189,12 @@ def planted_english():
         assert not list(english.problems("src/a/b.cpp", text)), f"{text!r} was refused"
     assert list(english.problems("verify/a.py", "marches = []\n")) and not list(english.problems("verify/a.py", "solver.march(t)\n"))
     assert list(english.problems("src/a/README.md", "A fresh factor.\n")) and not list(english.problems("src/a/README.md", "Whether.\n"))
-    return len(refused) + 1
+    package, docstring = "bindings/python/src/delam/a.py", 'def a():\n    """%s"""\n'
+    for text in (docstring % "Whether it is closed.", docstring % "Of the last step.", "# What others call it.\nA = 1\n"):
+        assert list(english.problems(package, text)), f"{text!r} was not refused"
+    for text in (docstring % "True if it is closed.", "# SPDX-License-Identifier: BSD-3-Clause\n# Names of others.\nA = 1  # of them\n"):
+        assert not list(english.problems(package, text)), f"{text!r} was refused"
+    return len(refused) + 4
 
 
 def planted_steps():

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """delam fit: what is found from curves, what the data do not tell, how many analyses it takes, and, with the word whole,
-how often intervals cover the truth."""
+how often intervals cover the truth. `test_fits.py vary NAME ..` prints what half and twice of the constants of fit do."""
 import csv
 import json
 import os
@@ -454,8 +454,71 @@ def coverage(trials=100):
     return covered, trials
 
 
+def varied_fits():
+    """Yields the name and the search of fits that meet the constants of fit, what it finds, and the truths: exact and noisy
+    curves, teeth, ripples, coarse steps, a parameter that is not told."""
+    here, peel, beam, out = folder(), write(PEEL), write(BEAM), os.path.join(folder(), "out")
+    start("run", peel, "--out", out)
+    rows = table(os.path.join(out, "history.csv"))
+    keys, begins = list(TRUTH), [key.replace("[0]", ".0") for key in TRUTH]
+    for name, noise, more in (("exact", 0.0, {}), ("noise", 0.02, {}), ("more noise", 0.05, {}),
+                              ("coarse", 0.02, {"set": ["time.steps=160"]})):
+        path = curve(os.path.join(here, f"{name}.csv"), rows, noise=noise, seed=1000)
+        ends = [f"{begins[0]}=100:500@260", f"{begins[1]}=5e6:3e7@1.5e7"]
+        yield name, lambda path=path, ends=ends, more=more: solved(peel, path, ends, given_in(here, **more)), dict(TRUTH)
+    for seed, toughness in enumerate((0.31, 0.31, 0.2, 0.4)):
+        start("run", beam, "--out", out, "--set", f"laws[0].normal_toughness={toughness}", "--set", "laws[0].normal_strength=50.0")
+        path = machine_file(os.path.join(here, f"beam-{seed}.csv"), table(os.path.join(out, "history.csv")), seed)
+        given = given_in(here, width="25mm", loops=("cut", "follow")[seed % 2])
+        yield (f"beam {seed}", lambda path=path, given=given: solved(beam, path, ["laws.0.normal_toughness", "laws.0.normal_strength"], given),
+               {keys[0]: toughness})
+    for name, model in (("ripples of 0.01", lambda: Made(0.01)), ("ripples of 0.1", lambda: Made(0.1)),
+                        ("teeth", lambda: Toothed(1, 0.9)), ("hidden teeth", lambda: Toothed(1, 0.1, 0.03))):
+        def made(model=model):
+            search = study.Search(model(), "curve", 0.95)
+            return search, study.rows_of(search, quietly(search.run))
+        yield name, made, {"p": 1.6}
+
+
+def vary(names):
+    """Prints what half and twice of constants of fit do: how far what is told moves, in the standard errors of the fit with the
+    constants as they are, how often intervals hold the truth, and how many analyses the fits take."""
+    fits_of = list(varied_fits())
+
+    def run():
+        return {name: work() for name, work, _ in fits_of}
+
+    def line(now, before):
+        moved = {name: max([abs(row["value"] - old["value"]) / (old["standard_error"] or 1e-6 * old["value"])
+                            for row, old in zip(found[1], before[name][1]) if old["told"] and row["told"]], default=0.0)
+                 for name, found in now.items()}
+        told_now = sum(row["told"] for found in now.values() for row in found[1])
+        holds = [low < truth[row["key"]] < high for name, _, truth in fits_of for row in now[name][1]
+                 if row["key"] in truth and row["told"] and None not in (row["interval"]) for low, high in [row["interval"]]]
+        worst = max(moved, key=moved.get)
+        counts = [found[0].model.marches for found in now.values()]
+        return (f"moves {moved[worst]:.2f} standard errors at most ({worst}), {told_now} parameters told, {sum(holds)} of "
+                f"{len(holds)} intervals hold the truth, {sum(counts)} analyses, {max(counts)} at most")
+
+    before = run()
+    print(f"as they are: {line(before, before)}", flush=True)
+    for name in names:
+        owners = [module for module in list(sys.modules.values()) if "study" in (getattr(module, "__file__", None) or "")
+                  and hasattr(module, name)]
+        value = getattr(owners[0], name)
+        for factor in (0.5, 2):
+            for module in owners:
+                setattr(module, name, type(value)(value * factor))
+            print(f"{name} times {factor}: {line(run(), before)}", flush=True)
+        for module in owners:
+            setattr(module, name, value)
+
+
 if sys.argv[1:] == ["whole"]:
     long_fits()
+elif sys.argv[1:2] == ["vary"]:
+    vary(sys.argv[2:])
+    sys.exit()
 else:
     for part in (fits, rugged, teeth, alike, untold, words):
         part()

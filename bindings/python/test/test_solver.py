@@ -57,6 +57,14 @@ class Steps(unittest.TestCase):
         self.solver.commit()
         with self.assertRaisesRegex(delam.ArgumentError, r"adhesion has shape \(3,\), expected \(51,\)"):
             self.solver.equilibrate(0.02, [1, 1, 1])
+        for value in (1.5, -0.1):
+            adhesion[3] = value
+            with self.assertRaisesRegex(delam.ArgumentError, f"adhesion of pair 3 is {value}, allowed: 0 to 1"):
+                self.solver.equilibrate(0.02, adhesion)
+        adhesion[3] = np.nan
+        with self.assertRaisesRegex(delam.ArgumentError, r"adhesion\[3\] is nan, must be finite"):
+            self.solver.equilibrate(0.02, adhesion)
+        self.assertFalse(self.solver.pending)
 
     def test_march_is_a_generator(self):
         rows = []

@@ -44,6 +44,20 @@ struct Ledger {
     double energy() const { return stored_bulk + stored_interface + load_potential; }
     // Scale with which differences of energies are compared.
     double scale() const { return std::max(std::abs(energy()), std::abs(work)); }
+    // Adds the increment and the bounds of a part to those of its step.
+    void add_increments(const Ledger& part) {
+        lower += part.lower;
+        increment += part.increment;
+        upper += part.upper;
+        increment_lower += part.increment_lower;
+    }
+    // Takes the increment and the bounds of a step from the sums over its parts.
+    void take_increments(const Ledger& sum) {
+        lower = sum.lower;
+        increment = sum.increment;
+        upper = sum.upper;
+        increment_lower = sum.increment_lower;
+    }
     // True if this increment of the same step is lower than the ledger's by more than rounding.
     bool undercut_by(double other) const {
         constexpr double equivalence = 1e-10;  // of the scale

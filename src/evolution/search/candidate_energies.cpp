@@ -17,7 +17,8 @@ namespace delam {
 
 namespace {
 
-// Rows of a dense zone: beyond them whole displacement solves are cheaper.
+// Rows of a dense zone: beyond them whole displacement solves are cheaper. (Measured by verify/bench/constants.py with
+// verify/cases/search/energetic.py: half and twice of this number and the next one change no digit and no count.)
 constexpr std::size_t largest_dense_zone = 1500;
 // Searches for which an energy that they do not ask for is kept.
 constexpr std::int64_t forgotten = 4;

@@ -11,7 +11,9 @@
 
 namespace delam {
 
-// A candidate above the step's state by no more than this part of what it dissipates may relax below it.
+// A candidate above the step's state by no more than this part of what it dissipates may relax below it. (Measured by
+// verify/bench/constants.py with verify/cases/search/energetic.py: half and twice end in the same states, with 0.52 to
+// 1.38 times the solves.)
 inline constexpr double promising = 0.5;
 
 struct Candidate {

@@ -9,6 +9,8 @@ namespace delam {
 
 namespace {
 
+// (Measured by verify/bench/constants.py with verify/cases/search/energetic.py: half and twice of all numbers here
+// change no digit and no count.)
 constexpr std::int64_t energy_contact_steps = 200;  // beyond them the energy is not known
 // Share of the allowed error within which contact is left undecided.
 constexpr double undecided = 1e-3;

@@ -324,10 +324,7 @@ void LoadPath::accept(Trial trial) {
     next.jump_within = {};
     part.pops = part.pops || next.outcome.released > 0.0;
     events_.add(part, at_, next);
-    sum_.lower += ledger.lower;
-    sum_.increment += ledger.increment;
-    sum_.upper += ledger.upper;
-    sum_.increment_lower += ledger.increment_lower;
+    sum_.add_increments(ledger);
     sum_.dissipated += ledger.dissipated - at_.ledger.dissipated;
     sum_.mixity_error += ledger.mixity_error * (ledger.dissipated - at_.ledger.dissipated);
     outcome_.released += next.outcome.released;
@@ -347,10 +344,7 @@ ControlledStep LoadPath::close() {
     ControlledStep out{{std::move(at_), converged_, std::move(searched_)}, std::move(events_.jumps), std::move(parts_)};
     for (JumpEvent& jump : out.jumps) jump.step = out.result.state.step;
     State& state = out.result.state;
-    state.ledger.lower = sum_.lower;
-    state.ledger.increment = sum_.increment;
-    state.ledger.upper = sum_.upper;
-    state.ledger.increment_lower = sum_.increment_lower;
+    state.ledger.take_increments(sum_);
     state.ledger.mixity_error = sum_.dissipated > 0.0 ? sum_.mixity_error / sum_.dissipated : 0.0;
     outcome_.damage_change = state.outcome.damage_change;
     outcome_.jumps = static_cast<std::int64_t>(out.jumps.size());

@@ -172,10 +172,7 @@ void Parts::accept(Goal goal) {
         jumps_.push_back(describe_jump(stepper_.pairs(), graph_, at_, next));
         jumps_.back().step = step_;
     }
-    sum_.lower += next.ledger.lower;
-    sum_.increment += next.ledger.increment;
-    sum_.upper += next.ledger.upper;
-    sum_.increment_lower += next.ledger.increment_lower;
+    sum_.add_increments(next.ledger);
     sum_.mixity_error = std::max(sum_.mixity_error, next.ledger.mixity_error);
     const double margin = next.outcome.search_margin;
     outcome_.search_gap = std::max(outcome_.search_gap, next.outcome.search_gap);
@@ -200,10 +197,7 @@ ControlledStep Parts::close() {
     history_.substeps = static_cast<std::int64_t>(done_.size());
     ControlledStep out{{std::move(at_), converged_, std::move(searched_)}, std::move(jumps_), std::move(done_)};
     State& state = out.result.state;
-    state.ledger.lower = sum_.lower;
-    state.ledger.increment = sum_.increment;
-    state.ledger.upper = sum_.upper;
-    state.ledger.increment_lower = sum_.increment_lower;
+    state.ledger.take_increments(sum_);
     state.ledger.mixity_error = sum_.mixity_error;
     outcome_.damage_change = state.outcome.damage_change;
     outcome_.jumps = static_cast<std::int64_t>(out.jumps.size());

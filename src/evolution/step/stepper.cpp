@@ -20,16 +20,16 @@ namespace delam {
 
 namespace {
 
-constexpr std::size_t most_starts = 2;  // candidates of a search from which a step is minimised
-// Limit for following the path to a candidate, as `promising` is for minimising from it; the candidate only estimates
-// the energy that the path dissipates.
+// Measured by verify/bench/constants.py with verify/cases/search/energetic.py. Candidates from which a step is
+// minimised (half and twice end in the same states, with 0.49 and 1.56 times the solves).
+constexpr std::size_t most_starts = 2;
+// As `promising`, for following the path to a candidate, whose energy is an estimate (half and twice change nothing).
 constexpr double promising_way = 0.05;
-// Squares of the load ratios at which fronts are continued (continue_fronts).
+// Squares of the load ratios at which fronts are continued; a first one of 2, or steps of 1.08, end a step elsewhere.
 constexpr double least_overload = 1.02, overload_growth = 1.04, most_overload = 4.0;
-// Extent to which fronts are continued, relative to the energy dissipated down to a candidate.
-constexpr double beyond = 1.2;
-// A continuation ends above the step by `too_high` of its dissipated energy, after `first_part` of its extent.
-constexpr double too_high = 0.25, first_part = 0.1;
+// Fronts are continued to `beyond` times the energy dissipated down to a candidate (half ends two steps elsewhere), or
+// until, after `first_part` of that, the energy is `too_high` of the dissipated one above the step's.
+constexpr double beyond = 1.2, too_high = 0.25, first_part = 0.1;
 constexpr double same = 1e-3;  // spread of toughnesses, relative
 
 // True if all pairs that a candidate debonds have the same toughness.

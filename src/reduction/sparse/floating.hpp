@@ -29,11 +29,11 @@ public:
     std::span<const Zone::Coupling> anchors() const { return anchors_; }
     // As many springs as there are free motions, which hold these: a load that balances leaves them without force.
     std::span<const Zone::Coupling> free_anchors() const { return free_anchors_; }
-    // Rigid motions, of which all others are combinations [motions]; a free one's; u [mesh DOFs] and variables of one.
+    // Rigid motions, of which all others are combinations, [motions] each; that of a free one; its u [mesh DOFs] and
+    // variables.
     const DenseMatrix& jumps() const { return rigid_.jumps(); }
     std::int64_t motions() const { return rigid_.jumps().columns; }
     std::span<const double> free_combination(std::size_t i) const { return combination_[i]; }
-    std::vector<double> free_displacement(std::size_t i) const { return rigid_.displacement(combination_[i]); }
     std::vector<double> rigid_displacement(std::span<const double> combination) const {
         return rigid_.displacement(combination);
     }

@@ -131,7 +131,7 @@ def critical_states(context):
     losses = [f"One step through the brittle softening ends in different states: condensed by default (all of the damage minimised jointly) at {e_long:.4g} J/m stored and dissipated, alternating ways (minimisation = alternate) "
               f"at {e_alternating:.4g} J/m, {100 * (e_alternating / e_long - 1):.1f} % higher, with {joint.values['crack_length'] * 1e3:.1f} against {alternating.values['crack_length'] * 1e3:.1f} mm of crack and "
               f"{joint.values['reaction:lift']:.0f} against {alternating.values['reaction:lift']:.0f} N/m: each end is critical (no pair gains by itself), and the joint one is lower, because it takes pairs whose softening is unstable "
-              f"straight to their debonded branch ({joint.values['debond_moves']:.0f} times in this step), where alternations creep up to the first state that holds",
+              f"straight to their debonded branch ({joint.values['debond_moves']:.0f} times in this step), where alternations end in the first state that holds",
               f"The reason is the process zone: it is {joint.values['process_zone_pairs']:.0f} pair long, so that every set of broken pairs is critical over a range of loads. The library says so: \"{said}\"",
               f"The energetic search ends at {found:.4g} J/m; what bounds the front positions that it left out from below leaves {gap:.2g} J/m ({100 * gap / found:.1f} %) open",
               "Shorter steps end elsewhere again: " + ", ".join(f"{m.stored_and_spent:.4g} J/m ({name}, {n} steps)" for (name, n), m in short.items())

@@ -3,8 +3,8 @@
 import numpy as np
 
 # A test that goes back by more than this part of the range of x unloads; by less, x jitters. Encoders of machines
-# resolve 1e-4 of a test of some mm, and people unload by tenths: ten times of it takes
-# an unloading of 5 % for jitter. Half and twice of it were not measured.
+# resolve 1e-4 of a test of some mm, and people unload by tenths: ten times of it takes an unloading of 5 % for jitter.
+# Twice of it finds the same loops in test_measured.py; half of it takes the jitter there for loops.
 TURN = 0.01
 
 

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from numpy.typing import NDArray
 
-# What pictures and closing lines need, whichever values are asked for. All of it costs nothing to read.
+# Pictures and closing lines need these values, whichever ones are asked for. None of them costs anything to read.
 _ALWAYS = ("step", "time", "stored_bulk", "stored_interface", "dissipated", "load_potential", "work", "lower",
            "increment", "upper", "defect", "defect_slides", "backtracks")
 
@@ -95,7 +95,7 @@ class History:
         return {name: self._column(name) for name in self._columns}
 
     def _key(self, name: object) -> str | None:
-        """Of the values asked for, the one of this name or alias."""
+        """Returns the key of the value with this name or alias, or None: it was not asked for."""
         if name in self.names:
             return self._keys[self.names.index(str(name))]
         key = self._aliases.get(str(name), str(name))
@@ -139,9 +139,9 @@ class History:
 
     @property
     def closing(self) -> list[str]:
-        """What the command line ends a run with, a line each, as far as steps say it: jumps and the energy that they
-        released, the largest defect of the energy balance with its step, steps outside their two-sided estimate, and
-        steps whose estimate says nothing."""
+        """Returns the lines with which the command line ends a run, as far as the steps tell them: jumps and the energy
+        that they released, the largest defect of the energy balance with its step, steps outside their two-sided
+        estimate, and steps whose estimate says nothing."""
         return lines(self._by_value(), self._jumps, self._about["options"])
 
     @property

@@ -30,7 +30,7 @@ def kinds() -> dict[str, str]:
     return found
 
 
-# What others call a kind.
+# Other programs use these names for kinds.
 _SYNONYMS = {"bilinear": "piecewise-linear is the bilinear law", "triangular": "piecewise-linear is the bilinear law",
              "linear": "piecewise-linear softens on a straight line", "brittle": "griffith is the brittle law"}
 
@@ -45,7 +45,7 @@ def _known_kind(kind: str) -> bytes:
 
 
 def described(function: Any, *arguments: Any) -> Parameter:
-    """What a function of the library says of a parameter or an option."""
+    """Returns the description of a parameter or an option by a function of the library."""
     texts = [ctypes.c_char_p() for _ in Parameter._fields]
     status = function(*arguments, *(ctypes.byref(item) for item in texts))
     if status != raw.DELAM_OK:

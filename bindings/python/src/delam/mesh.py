@@ -38,7 +38,7 @@ def place_text(place: FloatArray) -> str:
 
 
 def interface_index(value: int | Interface, mesh: Mesh) -> int:
-    """Of an interface of this mesh, itself or its index."""
+    """Returns the index of an interface of this mesh, which is given by itself or by its index."""
     if isinstance(value, Interface) and value.mesh is not mesh:
         raise ArgumentError(f"interface {value.index} given is one of another mesh")
     return integer("interface", value)
@@ -264,7 +264,8 @@ class Mesh(Object):
         self._add_cells(library.delam_mesh_add_cells, cells, connectivity, bodies)
 
     def add_conforming_cells(self, cells: str, connectivity: ArrayLike, bodies: ArrayLike = 0) -> None:
-        """As add_cells, of a mesh whose bodies share nodes: those are doubled (node_origins has the originals)."""
+        """Adds cells as add_cells does, of a mesh whose bodies share nodes, and doubles these (node_origins has the
+        originals)."""
         self._add_cells(library.delam_mesh_add_conforming_cells, cells, connectivity, bodies)
 
     def _add_interface(self, function: Any, body_a: Body, body_b: Body, distance: float) -> Interface:
@@ -466,7 +467,7 @@ class Mesh(Object):
         return int(nodes[0])
 
     def _which(self, nodes: IntArray) -> str:
-        """Of several nodes at a place, for a message."""
+        """Lists several nodes at a place, with their bodies, for a message."""
         bodies = self.node_bodies[nodes].tolist()
         own = [f"{node} of body {body}" if body >= 0 else f"{node} of no body" for node, body in zip(nodes, bodies)]
         return f" ({listing(own)})" + (": give body=" if len(set(bodies)) > 1 else "")
@@ -513,7 +514,8 @@ def _made(source: Source, interfaces: bool) -> Mesh:
 
 
 def _distance(one: FloatArray, other: FloatArray) -> float:
-    """Of the nearest nodes; of large bodies an upper bound, from some nodes and their nearest ones in turn."""
+    """Returns the distance of the nearest nodes, or for large bodies an upper bound, from some nodes and their nearest
+    ones in turn."""
     few, many = (one, other) if len(one) < len(other) else (other, one)
     step = 1 + int(len(few) * len(many) / 2e7)
     best, at = min((float(np.linalg.norm(many - place, axis=1).min()), i) for i, place in enumerate(few[::step]))
@@ -525,7 +527,7 @@ def _distance(one: FloatArray, other: FloatArray) -> float:
 
 
 def _warn_of_lone_bodies(mesh: Mesh) -> None:
-    """Those that share no face with another."""
+    """Warns of bodies that share no face with another."""
     joined = {body for interface in mesh.interfaces for body in (interface.body_a, interface.body_b)}
     lone = [body for body in mesh._labels() if body not in joined]
     if not lone:

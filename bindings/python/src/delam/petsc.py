@@ -154,7 +154,7 @@ class Ranks:
 
     @property
     def closed(self) -> bool:
-        """Whether close() has freed what the ranks hold."""
+        """True if close() has freed what the ranks hold."""
         return not self._pointer
 
     def close(self) -> None:
@@ -201,7 +201,7 @@ class Ranks:
         return str(self._library.delam_petsc_message(self._pointer).decode(errors="replace"))
 
     def _together(self, function: Callable[[], _Result]) -> _Result:
-        """What the function returns; an error of some rank is raised on all of them."""
+        """Calls the function and returns its result; raises an error of one rank on all of them."""
         self._check()
         result: Any = None
         error: DelamError | None = None
@@ -232,7 +232,7 @@ class Ranks:
 
     def set_part(self, nodes: ArrayLike, matrix: object, coordinates: ArrayLike | None = None,
                  dimension: int = 3) -> None:
-        """What this rank adds to the stiffness of the bodies, which is the sum over all ranks.
+        """Sets what this rank adds to the stiffness of the bodies, which is the sum over all ranks.
 
         nodes        each once, in the numbers of the mesh of rank 0's problem; numbers beyond the mesh are nodes that
                      only the ranks know
@@ -306,8 +306,8 @@ class Ranks:
         self._call(self._library.delam_petsc_take_scene, *handles, problem=self._only_first(problem))
 
     def take_cells(self, mesh: Mesh | None, problem: Problem | None, ranks: ArrayLike | None = None) -> None:
-        """As take_scene, with a partition of the host's own. ranks: on rank 0, the rank of each cell of the mesh. Cells
-        on the two sides of an interface are best on one rank."""
+        """Takes the scene as take_scene does, with a partition of the host's own. ranks: on rank 0, the rank of each
+        cell of the mesh. Cells on the two sides of an interface are best on one rank."""
         def arguments() -> tuple[Any, ...]:
             handles = self._first("mesh", mesh, Mesh), self._first("problem", problem, Problem)
             given = gate("ranks", ranks, "int32", (None,)) if self.rank == 0 else None
@@ -371,7 +371,7 @@ class Ranks:
     # ---- what all ranks do in the work of rank 0
 
     def set_task(self, function: Callable[[Any], object]) -> None:
-        """What this rank does in `everywhere`: function(data), a function of its own. It may communicate with the other
+        """Sets the function that this rank calls in `everywhere`, as function(data). It may communicate with the other
         ranks and read the fields of its part, but not solve. All ranks call this."""
         def checked() -> None:
             if not callable(function):
@@ -448,8 +448,9 @@ class Ranks:
         return cells
 
     def part_field(self, name: str) -> NDArray[np.float64]:
-        """Of the state recovered last (`recover`), on this rank alone: "displacement" and "force" (K u) at the nodes of
-        `part_nodes`, "stress" and "rotation" of the cells of `part_cells`, as the fields of a solver have them."""
+        """Returns a field of the state recovered last (`recover`), on this rank alone: "displacement" and "force" (K u)
+        at the nodes of `part_nodes`, "stress" and "rotation" of the cells of `part_cells`, as the fields of a solver
+        have them."""
         key, rows, columns = text("name", name), c_int64(), c_int64()
         field = self._library.delam_petsc_part_field
         self._here(field, key, 0, None, ctypes.byref(rows), ctypes.byref(columns))

@@ -58,14 +58,14 @@ class Pattern:
         return f"<Pattern {self.index}: {self.name}>"
 
 
-# What prescribes a value: a pattern or its name, or {pattern: coefficient}.
+# A drive prescribes a value: it is a pattern or its name, or {pattern: coefficient}.
 Drive = str | Pattern | Mapping[Any, ArrayLike] | None
 _DRIVES = ("the pattern that add_pattern returned, its name, {pattern: coefficient}, or None: held at zero; a value "
            "other than zero needs a pattern that reaches it, add_pattern(name, [0, 1], [0, value])")
 
 
 def pattern_index(which: int | str | Pattern, problem: Problem, names: Sequence[str]) -> int:
-    """Of a pattern of this problem: itself, one of the names, or its index."""
+    """Returns the index of a pattern of this problem, which is given by itself, one of the names, or its index."""
     if isinstance(which, str):
         if which not in names:
             raise ArgumentError(f"pattern {which!r} is not known{meant(which, names)}; known are "
@@ -401,7 +401,7 @@ class Problem(Object):
 
     @property
     def hash(self) -> str:
-        """Of everything that determines the result: 16 hexadecimal digits."""
+        """Returns a hash of everything that determines the result, as 16 hexadecimal digits."""
         out = ctypes.create_string_buffer(17)
         self._call(library.delam_problem_hash, out, long=True)
         return out.value.decode()

@@ -59,7 +59,7 @@ class Fields(Mapping[str, Any]):
 
 
 class Result:
-    """What `delam run SCENE.toml --out FOLDER` has written, read only:
+    """Reads what `delam run SCENE.toml --out FOLDER` has written:
 
         result = delam.Result("out/enf")
         result.plot()                                  load over displacement
@@ -84,12 +84,12 @@ class Result:
 
     @property
     def complete(self) -> bool:
-        """Whether the run came to its end; otherwise the result has the steps that were finished."""
+        """True if the run came to its end; otherwise the result has the steps that were finished."""
         return bool(self.about["status"] == "complete")
 
     @property
     def closing(self) -> list[str]:
-        """What the run ended with: jumps, energy balance, warnings, a line each."""
+        """Returns the lines with which the run ended: jumps, energy balance, warnings."""
         return [str(line) for line in self.about.get("closing", [])]
 
     @property
@@ -209,5 +209,5 @@ def _sizes(table: IntArray) -> list[tuple[int, IntArray]]:
 
 
 def _arrays_of(group: Any) -> dict[str, Any]:
-    """What a group of an HDF5 file holds, read."""
+    """Reads a group of an HDF5 file into arrays by their names."""
     return {name: _arrays_of(item) if hasattr(item, "keys") else item[()] for name, item in group.items()}

@@ -34,7 +34,7 @@ __all__ = ["Average", "Condensed", "FIELDS", "Fronts", "Jump", "PlanItem", "Solv
 FIELDS = {"displacement": "nodes", "stress": "cells", "rotation": "cells", "jump": "pairs", "traction": "pairs",
           "adhesion": "pairs", "mixity": "pairs", "contact": "pairs", "reaction": "constraints",
           "free_since": "bodies", "free_motion": "bodies", "mesh_error": "cells"}
-# What others call a field.
+# Other programs use these names for fields.
 _SYNONYMS = {"damage": "'adhesion', which is 1 - damage", "zeta": "'adhesion'", "opening": "'jump'"}
 
 
@@ -80,7 +80,7 @@ class Values(Mapping[str, float]):
                         "dict(solver.values) of this state, or a History, whose rows can be")
 
     def describe(self) -> dict[str, ValueInfo]:
-        """What each of them is: {name: ValueInfo}."""
+        """Describes each value: {name: ValueInfo}."""
         return self._solver._described()
 
     def __repr__(self) -> str:
@@ -123,7 +123,7 @@ class Solver(Object):
         self._outcome(outcome, 3)
 
     def _warn_of_bare_interfaces(self) -> None:
-        """Those with a law that no pair holds from the start."""
+        """Warns of interfaces that have a law, but no pair that holds from the start."""
         counts = self.problem._pair_counts
         adhesion = np.empty(sum(counts))
         self._call(library.delam_solver_field, b"adhesion", -1, adhesion.size, pointer(adhesion))
@@ -137,7 +137,7 @@ class Solver(Object):
         self.context.call(function, self._handle, *arguments, long=long)
 
     def _described(self) -> dict[str, ValueInfo]:
-        """Of every value; asked for once."""
+        """Returns the descriptions of all values, which it asks for once."""
         if self._infos is None:
             texts, recorded = [ctypes.c_char_p() for _ in range(5)], ctypes.c_int32()
             infos = {}
@@ -184,7 +184,7 @@ class Solver(Object):
 
     @property
     def pending(self) -> bool:
-        """Whether a step is pending, to be committed or rolled back."""
+        """True if a step is pending, to be committed or rolled back."""
         out = ctypes.c_int32()
         self._call(library.delam_solver_pending, out)
         return bool(out.value)
@@ -488,7 +488,7 @@ class Solver(Object):
 
     @property
     def searched(self) -> str:
-        """What the energetic search of the last step compared."""
+        """Returns, as text, the states that the energetic search of the last step compared."""
         return self.context.text(library.delam_solver_searched, self._handle) or ""
 
     @property
@@ -497,7 +497,7 @@ class Solver(Object):
         return self._jumps(0)
 
     def _jumps(self, first: int) -> list[Jump]:
-        """From one of them on."""
+        """Returns the jumps from the given one on."""
         count = ctypes.c_int64()
         self._call(library.delam_solver_jump_count, count)
         jumps = []

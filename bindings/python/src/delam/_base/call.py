@@ -309,7 +309,7 @@ class Object:
 
     @property
     def closed(self) -> bool:
-        """Whether close() has freed this object."""
+        """True if close() has freed this object."""
         return not self._finalizer.alive
 
     def close(self) -> None:

@@ -14,7 +14,7 @@ from .library import library
 
 
 class CellType(NamedTuple):
-    """What the library says of a cell type."""
+    """Describes a cell type in the library's own numbers."""
 
     number: int
     nodes: int

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a module needs of objects whose classes lie above it, under the names of these classes."""
+"""Protocols of the objects whose classes lie above a module: each lists what the module needs, under the class's
+name."""
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence

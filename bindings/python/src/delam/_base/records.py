@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the objects return, as named tuples: data that need no object of the library, and can be pickled."""
+"""Defines what the objects return as named tuples: data that need no object of the library, and can be pickled."""
 from __future__ import annotations
 
 from typing import Any, NamedTuple
@@ -47,7 +47,7 @@ class Ties(NamedTuple):
 
 
 class Forecast(NamedTuple):
-    """Of an analysis that has not begun: setup in s at a nominal rate, memory in bytes."""
+    """Estimates an analysis that has not begun: its plan, its setup in s at a nominal rate, its memory in bytes."""
 
     plan: str
     setup: float
@@ -81,7 +81,7 @@ class Sparse(NamedTuple):
 
 
 class ValueInfo(NamedTuple):
-    """What the library says of a value. cost: "free", "reads" (goes over pairs or fronts) or "recovers" (recovers the
+    """Describes a value of the library. cost: "free", "reads" (goes over pairs or fronts) or "recovers" (recovers the
     displacements, a sparse solve); scope: "whole", "interface" or "pattern"; alias: another name for it, or "";
     recorded: Solver.record takes it."""
 

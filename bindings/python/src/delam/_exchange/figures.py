@@ -26,7 +26,7 @@ _OF_HISTORY = {"load": (".live", "load_figure"), "energies": (_CURVES, "energies
 
 
 def result_figure(folder: str, kind: str, cut: str | None) -> Figure:
-    """Of the result in a folder. cut: where to cut, for kind "cut" alone."""
+    """Draws the result in a folder. cut: the plane of kind "cut", which no other kind takes."""
     arguments: list[Any] = []
     if cut is not None:
         if kind != "cut":
@@ -41,7 +41,7 @@ def result_figure(folder: str, kind: str, cut: str | None) -> Figure:
 
 def history_figure(columns: Mapping[str, FloatArray], jumps: Sequence[Jump], about: Mapping[str, Any],
                    solver: Solver | None, kind: str, units: Mapping[str, str] | None, title: str) -> Figure:
-    """Of a History: its columns, its jumps, what it says about its scene, and its solver if it has one."""
+    """Draws a History from its columns, its jumps, its description of the scene, and its solver if it has one."""
     named = units_of(units)
     return _figure(lambda: shown(columns, jumps, {**about, "units": named}, solver, title), kind, _OF_HISTORY)
 

@@ -19,8 +19,8 @@ if TYPE_CHECKING:
 
 
 def read_file(path: str | os.PathLike[str]) -> meshio.Mesh:
-    """What meshio reads. Where it cannot, it prints and ends the program, or raises whatever its reader met: all of
-    this becomes a FileError with the file and the reason."""
+    """Returns the mesh that meshio reads. A failure, for which meshio may print, end the program or raise anything,
+    becomes a FileError with the file and the reason."""
     module = meshio_module()
     if not os.path.isfile(path):
         raise FileError(f"{os.fspath(path)}: there is no such file")

@@ -42,7 +42,8 @@ class Grid(NamedTuple):
     cell_data: dict[str, NDArray[Any]]
 
     def to_meshio(self) -> meshio.Mesh:
-        """As a meshio.Mesh. ImportError: meshio is not installed; ArgumentError: it lacks a type of cells."""
+        """Returns the grid as a meshio.Mesh. ImportError: meshio is not installed; ArgumentError: it lacks a type of
+        cells."""
         ends = np.cumsum([len(cells) for _, cells in self.blocks])[:-1]
         over_cells = {name: np.split(values, ends) for name, values in self.cell_data.items()}
         try:
@@ -51,7 +52,7 @@ class Grid(NamedTuple):
             raise ArgumentError(f"this meshio has no cells of type {kind}; to_vtk() has") from None
 
     def to_vtk(self) -> Any:
-        """As a vtkUnstructuredGrid. ImportError: VTK is not installed."""
+        """Returns the grid as a vtkUnstructuredGrid. ImportError: VTK is not installed."""
         model, support = vtk_modules()
         grid, points = model.vtkUnstructuredGrid(), model_points()
         points.SetData(support.numpy_to_vtk(self.points, deep=True))
@@ -72,7 +73,7 @@ class Grid(NamedTuple):
         return grid
 
     def to_pyvista(self) -> Any:
-        """As a pyvista.UnstructuredGrid. ImportError: PyVista is not installed."""
+        """Returns the grid as a pyvista.UnstructuredGrid. ImportError: PyVista is not installed."""
         try:
             import pyvista
         except ImportError:

@@ -20,7 +20,7 @@ def _kind() -> Any:
     base = importlib.import_module(".._pictures.result", __package__).Result
 
     class OfSolver(base):  # type: ignore[misc, valid-type]
-        """Without files. Names are those of history.csv: load and reaction of a single pattern."""
+        """A result without files. Its names are those of history.csv: load and reaction of a single pattern."""
 
         def __init__(self, columns: Mapping[str, FloatArray], jumps: Sequence[Jump], about: Mapping[str, Any],
                      solver: Solver | None, title: str) -> None:
@@ -35,7 +35,7 @@ def _kind() -> Any:
             return self._title
 
         def concept(self) -> dict[str, str]:
-            """As of a result of the command line, without the size of cells."""
+            """Returns what a result of the command line has here, without the size of cells."""
             options = self.about["options"]
             return {"solution": f"{options['solution']} solution", "mixity_rule": f"{options['mixity_rule']} mixity",
                     "steps": f"{self.about['steps']} steps"}
@@ -62,7 +62,7 @@ def _columns(values: Mapping[str, FloatArray], patterns: Sequence[Mapping[str, s
 
 
 def load_figure(result: Any) -> Any:
-    """Of the load curves, where there are any."""
+    """Draws the load curves; ValueError: the problem has no load pattern."""
     if not result.about["patterns"]:
         raise ValueError("no picture of load: the problem has no load pattern")
     return importlib.import_module(".._pictures.curves", __package__).load_figure(result)

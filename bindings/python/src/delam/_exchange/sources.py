@@ -34,7 +34,7 @@ class Source(NamedTuple):
 
 
 def of_meshio(source: meshio.Mesh | str | os.PathLike[str], bodies: str | Sequence[str] | None) -> Source:
-    """What meshes.read takes of a meshio.Mesh or of a file."""
+    """Returns the part of a meshio.Mesh, or of a file, that meshes.read takes."""
     if isinstance(source, (str, os.PathLike)):
         source = read_file(source)
     blocks = [(block.type, np.asarray(block.data, np.int64)) for block in source.cells]
@@ -48,7 +48,7 @@ def of_meshio(source: meshio.Mesh | str | os.PathLike[str], bodies: str | Sequen
 
 
 def of_vtk(grid: Any, bodies: str | None) -> Source:
-    """What meshes.from_vtk takes of a grid."""
+    """Returns the part of a grid that meshes.from_vtk takes."""
     model, support = vtk_modules()
     if not isinstance(grid, model.vtkUnstructuredGrid):
         raise ArgumentError(f"grid = {type(grid).__name__}, expected a vtkUnstructuredGrid or one of PyVista")
@@ -87,7 +87,7 @@ def _turned(points: FloatArray, blocks: list[tuple[str, IntArray]], labels: list
 
 
 def _chosen(types: Sequence[str]) -> list[int]:
-    """Which blocks of cells make the bodies."""
+    """Returns the indices of the blocks of cells that make the bodies."""
     kinds = [NAMES.get(name) for name in types]
     solid = [i for i, kind in enumerate(kinds) if kind is not None and CELL_TYPES[kind].dimension == 3]
     chosen = solid or [i for i, kind in enumerate(kinds) if kind is not None]
@@ -101,7 +101,7 @@ def _chosen(types: Sequence[str]) -> list[int]:
 
 
 def _fills(kind: str, solid: bool) -> bool:
-    """Whether an unknown cell type belongs to a body, which is then incomplete."""
+    """True if an unknown cell type belongs to a body, which is then incomplete."""
     volumes = ("tetra", "hexahedron", "wedge", "pyramid", "VTK type")
     surfaces = ("triangle", "quad")
     return kind.startswith(volumes if solid else volumes + surfaces)
@@ -201,7 +201,7 @@ def _labels(source: Any, blocks: list[tuple[str, IntArray]], chosen: list[int],
 
 
 def _reversal(kind: str) -> IntArray:
-    """Where each node of a cell of this kind stands in its mirror image."""
+    """Returns the place that each node of a cell of this kind has in its mirror image."""
     cell = CELL_TYPES[kind]
     corners = {3: [0, 2, 1], 4: [0, 3, 2, 1]}[cell.corners] if cell.dimension == 2 else (
         {4: [0, 2, 1, 3], 8: [0, 3, 2, 1, 4, 7, 6, 5], 6: [3, 4, 5, 0, 1, 2], 5: [0, 3, 2, 1, 4]}[cell.corners])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the cells of fields.h5 look like: outlines, skins, tones of the bodies."""
+"""Draws the cells of fields.h5: outlines, skins, tones of the bodies."""
 import matplotlib.colors
 import numpy as np
 

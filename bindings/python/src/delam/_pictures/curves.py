@@ -113,7 +113,7 @@ def energies_figure(result):
     name_axis(bottom.yaxis, "cumulated, minus work", result.scales("energy"))
     bottom.set_xlabel(axis("time", result.time))
     bottom.legend(loc="upper left", bbox_to_anchor=(0, -0.2), ncols=3, fontsize=8)
-    # As the run judged it: the picture and its closing line must not disagree.
+    # The run has judged the estimate: the picture must not disagree with its closing line.
     violated = result.about.get("estimate_violated", [])
     eta = result.about["options"]["backtracking_tolerance"]
     said = "" if violated is None else ": met in every step" if len(violated) == 0 else (

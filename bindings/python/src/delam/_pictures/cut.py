@@ -40,15 +40,15 @@ def plane_of(text):
 
 
 def interface_lines(group, distance, side):
-    """Where one side of an interface crosses the plane: pairs of its nodes [lines][2][2], counted as the interface
-    does."""
+    """Returns the lines in which one side of an interface crosses the plane: pairs of its nodes [lines][2][2], in the
+    interface's own numbers."""
     nodes = group[side][()]
     triangles = triangles_of(group["faces"][()], nodes)
     return cut_triangles(triangles, distance[nodes])[0]
 
 
 def variation(file, plane, points, step):
-    """How much the jumps, as far as one sees them along the plane's normal, vary along the cut: their variance."""
+    """Returns the variance, along the cut, of those components of the jumps that lie in the plane."""
     length, first, second = 0.0, np.zeros(2), 0.0
     distance, moved = plane.distance(points), step["displacement"][()][:, plane.seen]
     for group in file["interfaces"].values():
@@ -69,8 +69,9 @@ def flat_axis(file):
 
 
 def chosen_plane(file, step):
-    """Along the plane the jumps vary most: across the fronts, from what is open to what holds. Layers are not cut along
-    themselves. Of its places the one that meets most bodies: lengthwise through a yarn, else in the middle."""
+    """Returns the plane along which the jumps vary most: it runs across the fronts, from open pairs to closed ones, and
+    never along a layer. Of its places it takes the one that meets most bodies, such as lengthwise through a yarn, or
+    else the middle."""
     points, of = file["mesh/points"][()], body_of_nodes(file)
     used = points[of >= 0]
     low, size = used.min(0), np.ptp(used, axis=0)

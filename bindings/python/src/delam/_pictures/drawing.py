@@ -186,7 +186,7 @@ def body_labels(scene, points, paper):
 
 
 def gathered(found):
-    """Of very many texts those that differ in numbers alone are one: "fibre-1 (glass) and 29 like it"."""
+    """Merges texts that differ in numbers alone, where there are too many: "fibre-1 (glass) and 29 like it"."""
     if len(found) <= MOST_NAMED:
         return found
     alike = {}
@@ -270,7 +270,7 @@ def scene_figure(scene):
     draw_bodies(ax, scene, points, paper)
     found += draw_interfaces(ax, scene, points, paper)
     found += draw_marks(ax, scene, paper, 0.38 / scale)
-    # From here on in inches of the paper, from the left end of the room for labels.
+    # From here on lengths are inches of the paper, measured from the left end of the room for labels.
     width = WIDTH - MARGIN
     left = (WIDTH - scale * size[0]) / 2
     all_labels = spread(gathered(found), low, size)

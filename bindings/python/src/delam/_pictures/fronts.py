@@ -25,7 +25,7 @@ def main_axes(points):
 
 
 def seen_from_above(points):
-    """Whether an interface lies rather than stands."""
+    """True if an interface is closer to horizontal than to vertical."""
     return abs(main_axes(points)[1][2, 2]) > 0.5
 
 

@@ -24,8 +24,8 @@ MOST_TABLE = 1 << 30  # history.csv, jumps.csv
 MOST_SWEEP = 256 << 20  # sweep.json
 LAST_WORDS = 1 << 20  # so much of a log is searched for its last message
 
-# What a byte of deflated data stands for at most (https://zlib.net/zlib_tech.html); other filters that delam uses
-# change no size.
+# A byte of deflated data stands for at most so many bytes (https://zlib.net/zlib_tech.html); other filters that delam
+# uses change no size.
 MOST_INFLATED = 1032
 
 SHOWN = 60  # characters of a text that a message quotes
@@ -41,7 +41,7 @@ def quoted(text: str) -> str:
 
 
 def reason(error: OSError) -> str:
-    """What the system says, with what helps."""
+    """Returns the message of the system, or for too many open files the command that helps."""
     if error.errno in (errno.EMFILE, errno.ENFILE):
         return "too many open files: raise the limit with ulimit -n"
     return error.strerror or str(error)

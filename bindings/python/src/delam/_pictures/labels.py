@@ -5,8 +5,9 @@ import textwrap
 from dataclasses import dataclass
 
 WRAPPED = 46  # characters in a line: three such labels stand side by side in a page
-# With half as many a line passes behind a text in eight drawings of examples/ and three specimens of `delam new`, with
-# as many in six, with twice as many in the same six (`delam check --draw` of each).
+# So many orders of the labels are tried. With half of them, a line passes behind a text in eight drawings of examples/
+# and of three specimens of `delam new`; with all of them, and with twice as many, in six (`delam check --draw` of
+# each).
 ORDERS = 40
 GAP, BESIDE, EDGE = 0.12, 0.05, 0.02  # inches: between texts, from a line to its text, from a text to other lines
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the pictures share: a result of `delam run` as it lies in its folder, and how pictures look."""
+"""Reads a result of `delam run` from its folder for the pictures, and sets how pictures look."""
 import contextlib
 import errno
 import os
@@ -147,7 +147,8 @@ def four_digits(value, digits=4):
 
 
 def _plain_scales(length, force):
-    """Of results of earlier versions and of other programs, which have names of units alone: no prefixes."""
+    """Returns the scales of results that name their units alone, such as those of earlier versions: they take no
+    prefixes."""
     known = bool(length and force)
     work = "J" if (force, length) == ("N", "m") else f"{force} {length}"
     names = {"length": length, "area": f"{length}²" if length else "", "force": force,
@@ -158,7 +159,7 @@ def _plain_scales(length, force):
 
 
 class Result:
-    """What a folder holds."""
+    """Reads the files of a result's folder."""
 
     def __init__(self, folder):
         self.folder = folder
@@ -182,8 +183,8 @@ class Result:
         self.length, self.force, self.energy = (self.unit(key) for key in ("length", "force", "energy"))
 
     def scales(self, quantity):
-        """Of "length", "area", "force", "energy", "release_rate", "stress"; forces and energies of plane scenes are per
-        unit of thickness."""
+        """Returns the scales of "length", "area", "force", "energy", "release_rate" or "stress"; forces and energies of
+        plane scenes are per unit of thickness."""
         return self._scales[f"line_{quantity}" if self.flat and quantity in ("force", "energy") else quantity]
 
     def unit(self, quantity, largest=1.0):
@@ -229,7 +230,7 @@ class Result:
         return []
 
     def stress_unit(self, largest):
-        """What to divide stresses up to `largest` by, and the unit they have then."""
+        """Returns the number by which stresses up to `largest` are divided for a picture, and their unit then."""
         factor, unit = suiting(self.scales("stress"), largest)
         return 1 / factor, unit
 
@@ -274,7 +275,7 @@ class Result:
         return scene["title"] or os.path.basename(scene["file"])
 
     def concept(self):
-        """What decides which solution this is, in words; a dictionary from what to which."""
+        """Returns, in words, the choices that decide which solution this is, each by its name."""
         named = self.about["concept"]
         out = {}
         if "solution" in named:

@@ -23,7 +23,8 @@ def draw_stress(ax, moved, file, step, factor, largest):
 
 
 def stresses_figure(result):
-    """Of a plane scene with prescribed strains: stress along x, where most cells have less than the colours end at."""
+    """Draws the stress along x of a plane scene with prescribed strains; the colours end at a stress that few cells
+    exceed."""
     output = result.about["output"]
     if not result.prescribed_strains() or result.about["scene"]["dimension"] != 2 or "stress" not in output["fields"]:
         raise Nothing("stresses are drawn of plane scenes with prescribed strains that store the field stress")
