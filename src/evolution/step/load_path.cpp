@@ -232,7 +232,7 @@ double LoadPath::freed(const Trial& trial) const {
     if (!trial.one_mode || !trial.part.advance.fronts || flat(trial.part) || !(growth_.told_dissipated > 0.0))
         return 0.0;
     const double share = growth_.told_released / growth_.told_dissipated;
-    return share > options_.accuracy ? share : 0.0;
+    return share > 0.5 * options_.accuracy ? share : 0.0;
 }
 
 // Single pairs of one mode tell what they release, whichever way their parts cut the sequence of pops.
