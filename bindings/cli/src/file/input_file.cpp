@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <iterator>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -54,7 +55,7 @@ InputFile::~InputFile() { ::close(descriptor_); }
 
 std::string InputFile::read(std::int64_t count) {
     std::string out(static_cast<std::size_t>(std::clamp<std::int64_t>(count, 0, size_ - at_)), '\0');
-    out.resize(static_cast<std::size_t>(read_into(out.data(), static_cast<std::int64_t>(out.size()))));
+    out.erase(static_cast<std::size_t>(read_into(out.data(), std::ssize(out))));
     return out;
 }
 
