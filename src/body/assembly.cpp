@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <deque>
 #include <limits>
 #include <optional>
 
@@ -11,7 +12,11 @@
 #include "base/numbers.hpp"
 #include "base/team.hpp"
 #include "body/cell_elasticity.hpp"
+#include "body/cell_strains.hpp"
 #include "body/element.hpp"
+#include "body/equal/cell_shape.hpp"
+#include "body/equal/centre_gradients.hpp"
+#include "body/equal/row_table.hpp"
 #include "delam/delam.h"
 #include "mesh/faces.hpp"
 
@@ -191,6 +196,83 @@ void add(const Block& block, SparseMatrix& k) {
     }
 }
 
+// The matrices of the cells of a batch. Cells that a translation takes onto each other have the same one, which is
+// computed from coordinates that begin at their first node.
+class BatchMatrices {
+public:
+    BatchMatrices(const Mesh& mesh, std::span<const std::int64_t> cells) : mesh_(mesh), cells_(cells) {}
+
+    // Finds those of the cells first .. last - 1 of the list. model_of: a cell's.
+    void find(std::size_t first, std::size_t last, const auto& model_of, Team& team, const Poll& poll) {
+        matrix_.assign(last - first, nullptr);
+        jobs_.clear();
+        own_.clear();
+        for (std::size_t c = first; c < last; ++c) {
+            const BodyModel& model = model_of(cells_[c]);
+            take_shape(cells_[c], model);
+            const RowTable::Found found = known_.find(shape_.row());
+            const bool is_known = found.number >= 0 && !found.added;
+            std::vector<double>* matrix = is_known      ? &kept_[index(found.number)]
+                                          : found.added ? &kept_.emplace_back()
+                                                        : &own_.emplace_back();
+            if (!is_known) {
+                const std::size_t size = shape_.coordinates().size();
+                matrix->resize(size * size);
+                jobs_.push_back({cells_[c], &model, matrix});
+            }
+            matrix_[c - first] = matrix->data();
+        }
+        const auto compute = [this](std::int64_t piece) {
+            const BodyModel* model = nullptr;
+            std::optional<CellElasticity> elasticity;
+            CellShape shape;
+            const std::size_t begin = index(piece) * cells_at_a_time;
+            for (std::size_t j = begin; j < std::min(begin + cells_at_a_time, jobs_.size()); ++j) {
+                const Job& job = jobs_[j];
+                if (job.model != model) elasticity.emplace(*(model = job.model), mesh_.dimension());
+                shape.take(mesh_, job.cell);
+                cell_stiffness(mesh_.cell_type(job.cell), shape.coordinates(), job.cell, model->formulation,
+                               *elasticity, *job.matrix);
+            }
+        };
+        team.run(static_cast<std::int64_t>((jobs_.size() + cells_at_a_time - 1) / cells_at_a_time), compute,
+                 [&](std::int64_t) { call_if_set(poll); });
+    }
+    // Returns that of a cell of the batch, by its place there.
+    const double* matrix(std::size_t c) const { return matrix_[c]; }
+
+private:
+    struct Job {
+        std::int64_t cell;
+        const BodyModel* model;
+        std::vector<double>* matrix;
+    };
+
+    void take_shape(std::int64_t cell, const BodyModel& model) {
+        if (&model != model_) {
+            model_ = &model;
+            elasticity_.emplace(model, mesh_.dimension());
+        }
+        shape_.take(mesh_, cell);
+        shape_.add(static_cast<double>(model.formulation));
+        shape_.add(elasticity_->matrix(cell));
+        if (model.formulation != Formulation::mean_dilatation) return;
+        const Dilatation dilatation = elasticity_->dilatation(cell);
+        shape_.add(dilatation.stress);
+        shape_.add(dilatation.bulk);
+    }
+
+    const Mesh& mesh_;
+    std::span<const std::int64_t> cells_;
+    const BodyModel* model_ = nullptr;
+    std::optional<CellElasticity> elasticity_;  // of model_
+    CellShape shape_;
+    RowTable known_;
+    std::deque<std::vector<double>> kept_, own_;  // by the numbers of known_; those of a batch that are not kept
+    std::vector<const double*> matrix_;
+    std::vector<Job> jobs_;
+};
+
 // The pattern follows from the graph of nodes before any number is known: element matrices are added directly at their
 // positions, cell after cell, and no list of all their entries ever exists. Both triangles receive the same numbers in
 // the same order, whatever the number of threads. model_of: a cell's.
@@ -205,33 +287,13 @@ SparseMatrix assemble(const Mesh& mesh, std::span<const std::int64_t> cells, std
     SparseMatrix k = empty_matrix(graph, dim);
 
     Team team(std::min(useful_threads(threads), static_cast<std::int64_t>(cells.size() / batch + 1)));
-    const auto size_of = [&](std::size_t c) { return (graph.cell_start[c + 1] - graph.cell_start[c]) * dim * dim; };
-    std::vector<double> matrices;
-    std::vector<std::size_t> place;  // of the cells of a batch in `matrices`
+    BatchMatrices matrices(mesh, cells);
     for (std::size_t first = 0; first < cells.size(); first += batch) {
         const std::size_t last = std::min(first + batch, cells.size());
-        place.assign(1, 0);
-        for (std::size_t c = first; c < last; ++c) place.push_back(place.back() + size_of(c));
-        matrices.resize(place.back());
-        const auto compute = [&](std::int64_t piece) {
-            const BodyModel* model = nullptr;
-            std::optional<CellElasticity> elasticity;
-            const std::size_t begin = first + index(piece) * cells_at_a_time;
-            for (std::size_t c = begin; c < std::min(begin + cells_at_a_time, last); ++c) {
-                const Coordinates x = cell_coordinates(mesh, cells[c]);
-                if (const BodyModel& next = model_of(cells[c]); &next != model) {
-                    model = &next;
-                    elasticity.emplace(next, mesh.dimension());
-                }
-                cell_stiffness(mesh.cell_type(cells[c]), x.view(), cells[c], model->formulation, *elasticity,
-                               std::span<double>(matrices).subspan(place[c - first], size_of(c)));
-            }
-        };
-        team.run(static_cast<std::int64_t>((last - first + cells_at_a_time - 1) / cells_at_a_time), compute,
-                 [&](std::int64_t) { call_if_set(poll); });
+        matrices.find(first, last, model_of, team, poll);
         for (std::size_t c = first; c < last; ++c) {
             const Block block{std::span(local.node).subspan(local.start[c], local.start[c + 1] - local.start[c]),
-                              &graph.place[graph.cell_start[c]], &matrices[place[c - first]]};
+                              &graph.place[graph.cell_start[c]], matrices.matrix(c - first)};
             dim == 2 ? add<2>(block, k) : add<3>(block, k);
         }
     }
@@ -270,23 +332,29 @@ std::int64_t stiffness_entries(const Mesh& mesh, std::span<const std::int64_t> c
     return static_cast<std::int64_t>(graph.neighbour.size()) * mesh.dimension() * mesh.dimension();
 }
 
-// Without eigenstrains the in-plane rows suffice, and isotropic bodies have their zz from the others.
 std::vector<double> centre_stress(const Mesh& mesh, std::span<const BodyModel> models,
                                   std::span<const double> displacement, std::span<const Strain> eigenstrain) {
-    const std::size_t dim = index(mesh.dimension());
-    const auto of_cell = [&](std::int64_t cell) {
-        std::vector<double> own;
-        own.reserve(mesh.cell(cell).size() * dim);
-        for (const std::int64_t n : mesh.cell(cell))
-            own.insert(own.end(), displacement.begin() + n * mesh.dimension(),
-                       displacement.begin() + (n + 1) * mesh.dimension());
-        return own;
-    };
-    return centre_stress(mesh, models, of_cell, eigenstrain);
+    return centre_stress(mesh, models, displacement, CentreGradients(mesh).slopes(displacement), eigenstrain);
 }
 
 std::vector<double> centre_stress(const Mesh& mesh, std::span<const BodyModel> models,
-                                  const DisplacementOfCell& displacement, std::span<const Strain> eigenstrain) {
+                                  std::span<const double> displacement, std::span<const double> slopes,
+                                  std::span<const Strain> eigenstrain) {
+    const std::size_t dim = index(mesh.dimension());
+    std::array<double, 3 * most_cell_nodes> own;
+    const auto of_cell = [&](std::int64_t cell) {
+        auto to = own.begin();
+        for (const std::int64_t n : mesh.cell(cell))
+            to = std::copy_n(displacement.begin() + n * mesh.dimension(), dim, to);
+        return std::span<const double>(own.begin(), to);
+    };
+    return centre_stress(mesh, models, of_cell, slopes, eigenstrain);
+}
+
+// Without eigenstrains the in-plane rows suffice, and isotropic bodies have their zz from the others.
+std::vector<double> centre_stress(const Mesh& mesh, std::span<const BodyModel> models,
+                                  const DisplacementOfCell& displacement, std::span<const double> slopes,
+                                  std::span<const Strain> eigenstrain) {
     const std::size_t dim = index(mesh.dimension());
     std::vector<CellElasticity> elasticity;
     for (const BodyModel& model : models) elasticity.emplace_back(model, mesh.dimension());
@@ -296,9 +364,8 @@ std::vector<double> centre_stress(const Mesh& mesh, std::span<const BodyModel> m
     const std::size_t count = dim == 2 ? 3 : 6;  // of strains
     for (std::int64_t c = 0; c < mesh.cell_count(); ++c) {
         poll_cancel("recover");
-        const std::vector<double> u = displacement(c);
-        const Coordinates x = cell_coordinates(mesh, c);
-        std::array<double, 6> strain = centre_strain(mesh.cell_type(c), x.view(), u);
+        const double* slope = &slopes[index(c) * dim * dim];
+        std::array<double, 6> strain = dim == 2 ? strain_of<2>(slope) : strain_of<3>(slope);
         const std::size_t body = index(mesh.cell_body(c));
         const BodyModel& model = models[body];
         const std::span<const double> matrix = elasticity[body].matrix(c);
@@ -308,7 +375,8 @@ std::vector<double> centre_stress(const Mesh& mesh, std::span<const BodyModel> m
             Strain e = eigenstrain.empty() ? Strain{} : eigenstrain[body];
             if (axes != nullptr) e = rotated_strain(e, *axes);
             if (projected) {
-                const double third = dilatation_correction(mesh.cell_type(c), x.view(), u) / 3.0;
+                const double third =
+                    dilatation_correction(mesh.cell_type(c), cell_coordinates(mesh, c).view(), displacement(c)) / 3.0;
                 for (std::size_t i = 0; i < 3; ++i) e[i] -= third;
             }
             if (dim == 3) {

@@ -3,12 +3,12 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
 #include "base/monitor.hpp"
 #include "body/eigenstrain.hpp"
+#include "body/equal/centre_gradients.hpp"
 #include "body/model.hpp"
 #include "linalg/sparse/sparse.hpp"
 #include "mesh/mesh.hpp"
@@ -41,9 +41,12 @@ std::int64_t stiffness_entries(const Mesh& mesh, std::span<const std::int64_t> c
 // material axes (none if the list is empty).
 std::vector<double> centre_stress(const Mesh& mesh, std::span<const BodyModel> models,
                                   std::span<const double> displacement, std::span<const Strain> eigenstrain = {});
-// Returns the same of displacements that each cell has for itself: [nodes of the cell][dimension], by its index.
-using DisplacementOfCell = std::function<std::vector<double>(std::int64_t cell)>;
+// Returns the same where the displacement gradients at the centres are known (CentreGradients::slopes).
 std::vector<double> centre_stress(const Mesh& mesh, std::span<const BodyModel> models,
-                                  const DisplacementOfCell& displacement, std::span<const Strain> eigenstrain = {});
+                                  std::span<const double> displacement, std::span<const double> slopes,
+                                  std::span<const Strain> eigenstrain);
+std::vector<double> centre_stress(const Mesh& mesh, std::span<const BodyModel> models,
+                                  const DisplacementOfCell& displacement, std::span<const double> slopes,
+                                  std::span<const Strain> eigenstrain);
 
 }  // namespace delam

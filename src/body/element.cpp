@@ -397,8 +397,9 @@ double dilatation_correction(CellType type, std::span<const double> coordinates,
         const Projection<Cell::nodes, Cell::dim, Cell::functions> projection(type, coordinates.data());
         projected = projection.at_centre(displacement.data());
     });
-    const std::array<double, 6> strain = centre_strain(type, coordinates, displacement);
-    return projected - strain[0] - strain[1] - (topology(type).dimension == 3 ? strain[2] : 0.0);
+    const PhysicalGradient at = physical_gradient(type, coordinates, centre_gradient(type));
+    for (std::size_t i = 0; i < coordinates.size(); ++i) projected -= at.gradient[i] * displacement[i];
+    return projected;
 }
 
 double integrate_gradients(CellType type, std::span<const double> coordinates, std::span<double> integral) {
@@ -408,20 +409,6 @@ double integrate_gradients(CellType type, std::span<const double> coordinates, s
         volume = gradient_integrals<Cell::nodes, Cell::dim>(type, coordinates.data(), integral.data());
     });
     return volume;
-}
-
-// eps_ij = (u_i,j + u_j,i)/2, the shear components doubled.
-std::array<double, 6> centre_strain(CellType type, std::span<const double> coordinates,
-                                    std::span<const double> displacement) {
-    const CellTopology& shape = topology(type);
-    const auto dim = index(shape.dimension);
-    const PhysicalGradient at_centre = physical_gradient(type, coordinates, centre_gradient(type));
-    std::array<double, 6> strain{};
-    for (std::size_t a = 0; a < index(shape.nodes); ++a)
-        for (std::size_t i = 0; i < dim; ++i)
-            for (std::size_t j = 0; j < dim; ++j)
-                strain[voigt(dim, i, j)] += at_centre.gradient[a * dim + j] * displacement[a * dim + i];
-    return strain;
 }
 
 }  // namespace delam

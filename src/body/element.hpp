@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Isoparametric elements with full quadrature: stiffness and centre strains of a single cell. The shape
+// Isoparametric elements with full quadrature: stiffness of a single cell. The shape
 // functions, and with them smallest_jacobian(), are the mesh's (mesh/shape.hpp).
 #pragma once
 
@@ -32,10 +32,5 @@ double dilatation_correction(CellType type, std::span<const double> coordinates,
 
 // int dN_a/dx_j dx into integral[nodes*dimension], and the cell's volume.
 double integrate_gradients(CellType type, std::span<const double> coordinates, std::span<double> integral);
-
-// Strains (engineering, order of elasticity_matrix; 3 in the plane, 6 in space) at the cell's centre from its nodal
-// displacements [nodes][dimension]. Internal modes have no strain there.
-std::array<double, 6> centre_strain(CellType type, std::span<const double> coordinates,
-                                    std::span<const double> displacement);
 
 }  // namespace delam

@@ -13,9 +13,9 @@ namespace delam {
 // u_x,y)/2 in 2D, (curl u)/2 in 3D. A rotation by theta causes a spurious strain of about theta^2/2. displacement:
 // [mesh nodes][dimension].
 std::vector<double> centre_rotation(const Mesh& mesh, std::span<const double> displacement);
+// Returns the same from displacement gradients (CentreGradients::slopes).
+std::vector<double> rotations(std::span<const double> slopes, std::size_t dimension);
 // Returns the largest length of such vectors of `columns` numbers.
 double largest_length(std::span<const double> rotation, std::size_t columns);
-// Largest length of this vector.
-double largest_rotation(const Mesh& mesh, std::span<const double> displacement);
 
 }  // namespace delam

@@ -228,4 +228,20 @@ TEST(descriptions_and_aliases) {
     cases::expect(solver.value("staggered_iterations") > 0.0, "there is something to compare");
 }
 
+// All fields of an instant, and the values that recover the displacements, take one recovery.
+TEST(one_recovery_serves_all_fields_of_an_instant) {
+    const reference::Scene scene = cases::small_enf();
+    Solver solver(scene, 0.0);
+    cases::walk(solver, 1, 3);
+    const double before = solver.value("field_recoveries");
+    for (const char* name : {"displacement", "stress", "rotation", "mesh_error"}) {
+        std::int64_t rows = 0, columns = 0;
+        REQUIRE(scene, delam_solver_field_shape, solver.get(), name, -1, &rows, &columns);
+        std::vector<double> values(static_cast<std::size_t>(rows * columns));
+        REQUIRE(scene, delam_solver_field, solver.get(), name, -1, rows * columns, values.data());
+    }
+    for (const char* name : {"rotation_max", "mesh_error", "mesh_error_fronts", "mesh_excess"}) solver.value(name);
+    cases::expect(solver.value("field_recoveries") == before + 1, "recovered more than once");
+}
+
 }  // namespace

@@ -43,6 +43,9 @@ falls = [k for k in range(1, STEPS) if reaction[k - 1] < reaction[k] > reaction[
 expect(set(chosen) >= eighths | {first}, f"eighths of the analysis and the first damage, {first}: {chosen}")
 expect(set(falls[:1]) <= set(chosen), f"the first peak, {falls[:1]}")
 expect(len(chosen) <= 20, f"{len(chosen)} instants")
+with h5py.File(os.path.join(out, "fields.h5")) as file:
+    estimated = [int(name) for name in sorted(file["steps"]) if "mesh_error" in file["steps"][name].attrs]
+expect(set(estimated) == {first, STEPS // 2, STEPS}, f"the error of the mesh is estimated three times: {estimated}")
 
 # A jump, with the state before it.
 out, _ = run(changed("steps = 20", f"steps = {STEPS}", brittle()))

@@ -40,7 +40,7 @@ def refused(what, out, *words, says, code=3):
 
 
 # Folders of a run.
-for name in ("running/notes.txt", "running/history.csv", "running/state.bin", "running/step_00000001.h5.bak",
+for name in ("running/notes.txt", "running/history.csv", "running/state.bin", "running/step_00000001.bin.bak",
              "running/old/notes.txt", "history.csv", "fields.h5", "state.bin", "jumps.csv", "fields.xdmf"):
     out = folder()
     put(os.path.join(out, name))
@@ -252,10 +252,10 @@ digit = next(at for at in range(len(row) // 2, len(row)) if row[at:at + 1].isdig
 other = row[:digit] + (b"1" if row[digit:digit + 1] != b"1" else b"2") + row[digit + 1:]
 damaged("a digit of the history", changing("history.csv", row, other), r"history\.csv: not as it was")
 damaged("a missing history", lambda at: os.remove(os.path.join(at, "history.csv")), r"history\.csv")
-step = "step_00000002.h5"
+step = "step_00000002.bin"
 damaged("a missing step", lambda at: os.remove(os.path.join(at, step)), step + ": missing")
 damaged("another step in its place",
-        lambda at: shutil.copy(os.path.join(at, "step_00000003.h5"), os.path.join(at, step)), step + ": not as it was")
+        lambda at: shutil.copy(os.path.join(at, "step_00000003.bin"), os.path.join(at, step)), step + ": not as it was")
 length = os.path.getsize(os.path.join(running, step))
 for at in (length // 2, length - 100):
     def flip(folder_, at=at):

@@ -136,7 +136,7 @@ for format_ in (2, 3):
     expect(format_ == 3 or (about["started"] == "2026-01-31T12:00:00Z" and about["resumed"] == 7), "with its date")
 
 # Killed while steps are revised: the state that is saved counts on what they held before.
-for name in ("history.csv", "step_00000002.h5"):
+for name in ("history.csv", "step_00000002.bin"):
     out = folder()
     stop_after(5, signal.SIGINT, out)
     path = os.path.join(out, "running", name)

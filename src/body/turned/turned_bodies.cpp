@@ -151,8 +151,13 @@ std::vector<double> TurnedBodies::rotation_vectors() const {
 }
 
 std::vector<double> TurnedBodies::centre_stress(std::span<const BodyModel> models) const {
+    std::vector<double> own;
+    const auto of_cell = [&](std::int64_t c) {
+        own = local_displacement(c);
+        return std::span<const double>(own);
+    };
     std::vector<double> stress =
-        delam::centre_stress(mesh_, models, [this](std::int64_t c) { return local_displacement(c); });
+        delam::centre_stress(mesh_, models, of_cell, CentreGradients(mesh_).slopes(of_cell), {});
     const bool plane = mesh_.dimension() == 2;
     const std::size_t columns = plane ? 4 : 6;
     for (std::size_t c = 0; c < cells_.size(); ++c) {

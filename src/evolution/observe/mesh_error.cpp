@@ -12,6 +12,8 @@
 #include "base/numbers.hpp"
 #include "body/cell_elasticity.hpp"
 #include "body/cell_strains.hpp"
+#include "body/equal/cell_shape.hpp"
+#include "body/equal/row_table.hpp"
 #include "linalg/dense/small_solve.hpp"
 #include "mesh/shape.hpp"
 
@@ -26,6 +28,9 @@ constexpr double another_material = 0.3;
 constexpr std::size_t in_plane[] = {0, 1, 3};  // xx, yy, xy among all six
 
 using Stress = std::array<double, most_strains>;
+// Stresses or their sums, of an even number of entries, which two at a time take fewer instructions.
+template <std::size_t count>
+using StressRow = std::array<double, count + count % 2>;
 
 // Factor on eta^2. Stresses of quadratic cells, and of hex8 with incompatible modes, are closer to their own nodal
 // means than to the solution. (Measured, as verify/cases/mesh_error/effectivity.py prints it: medians of estimated over
@@ -68,8 +73,10 @@ public:
     }
     std::size_t points() const { return points_; }
     std::size_t nodes() const { return nodes_; }
-    double weight(std::size_t node, std::size_t point) const { return weight_[node * points_ + point]; }
-    double shape(std::size_t point, std::size_t node) const { return shape_[point][node]; }
+    // Weights of the points for the value at a node, [points].
+    const double* weights(std::size_t node) const { return &weight_[node * points_]; }
+    // Values of the shape functions at a point, [nodes].
+    const double* shapes(std::size_t point) const { return shape_[point].data(); }
 
 private:
     std::size_t points_, nodes_;
@@ -80,43 +87,63 @@ private:
 // Stresses of one cell after another.
 class Stresses {
 public:
-    Stresses(const Mesh& mesh, std::span<const BodyModel> models, std::span<const double> displacement,
-             std::span<const Strain> eigenstrain)
-        : mesh_(mesh), models_(models), displacement_(displacement), eigenstrain_(eigenstrain) {
+    Stresses(const Mesh& mesh, std::span<const BodyModel> models, std::span<const std::uint8_t> known)
+        : mesh_(mesh), models_(models) {
         for (const BodyModel& model : models) elasticity_.emplace_back(model, mesh.dimension());
+        which_.assign(index(mesh.cell_count()), -1);
+        for (std::int64_t c = 0; c < mesh.cell_count(); ++c)
+            if (known[body(c)] != 0)
+                which_[index(c)] = static_cast<std::int32_t>(cells_.number(shape(c), [&] { return strained_cell(c); }));
+    }
+    void take(std::span<const double> displacement, std::span<const Strain> eigenstrain) {
+        displacement_ = displacement;
+        eigenstrain_ = eigenstrain;
     }
     std::size_t strains() const { return mesh_.dimension() == 2 ? 3 : 6; }
     std::span<const double> elasticity(std::int64_t cell) { return elasticity_[body(cell)].matrix(cell); }
 
-    // Appends the stresses at the Gauss points of a cell and their volumes. Returns CellStrains::excess.
-    double append(std::int64_t cell, std::vector<Stress>& stress, std::vector<double>& volume) {
-        u_.clear(), x_.clear();
+    // Finds the stresses at the Gauss points of a cell and their volumes. Returns CellStrains::excess.
+    template <std::size_t count>
+    double find(std::int64_t cell, std::size_t points, StressRow<count>* stress, double* volume) {
+        const std::size_t dim = index(mesh_.dimension());
+        std::array<double, 3 * most_cell_nodes> u;
+        double* to = u.data();
         for (const std::int64_t n : mesh_.cell(cell))
-            for (std::size_t i = 0; i < index(mesh_.dimension()); ++i) {
-                u_.push_back(displacement_[index(n) * index(mesh_.dimension()) + i]);
-                x_.push_back(mesh_.node(n)[i]);
-            }
-        const CellType type = mesh_.cell_type(cell);
+            for (std::size_t i = 0; i < dim; ++i) *to++ = displacement_[index(n) * dim + i];
         const std::span<const double> matrix = elasticity(cell);
+        const std::int32_t which = which_[index(cell)];
+        if (which < 0) shape(cell);
+        which < 0 ? strained_cell(cell).find({u.data(), to}, strains_)
+                  : cells_.at(which).find({u.data(), to}, strains_);
         const bool projected = models_[body(cell)].formulation == Formulation::mean_dilatation;
         const Dilatation dilatation = projected ? elasticity_[body(cell)].dilatation(cell) : Dilatation{};
         const Stress prescribed = prescribed_stress(cell, matrix);
-        const std::size_t count = this->strains(), points = quadrature(type).points.size();
-        const CellStrains strains = cell_strains(type, x_, matrix, models_[body(cell)].formulation, u_);
         for (std::size_t q = 0; q < points; ++q) {
-            Stress& own = stress.emplace_back();
             for (std::size_t i = 0; i < count; ++i) {
-                own[i] = strains.dilatation[q] * dilatation.stress[i] - prescribed[i];
+                double sum = strains_.dilatation[q] * dilatation.stress[i] - prescribed[i];
                 for (std::size_t j = 0; j < count; ++j)
-                    own[i] += matrix[i * count + j] * strains.strain[q * most_strains + j];
+                    sum += matrix[i * count + j] * strains_.strain[q * most_strains + j];
+                stress[q][i] = sum;
             }
-            volume.push_back(strains.volume[q]);
+            volume[q] = strains_.volume[q];
         }
-        return strains.excess;
+        return strains_.excess;
     }
 
 private:
     std::size_t body(std::int64_t cell) const { return index(mesh_.cell_body(cell)); }
+    // Returns what tells strains of cells apart.
+    std::span<const double> shape(std::int64_t cell) {
+        shape_.take(mesh_, cell);
+        shape_.add(static_cast<double>(models_[body(cell)].formulation));
+        shape_.add(elasticity(cell));
+        return shape_.row();
+    }
+    // Returns that of the cell whose shape was taken last.
+    StrainedCell strained_cell(std::int64_t cell) {
+        return StrainedCell(mesh_.cell_type(cell), shape_.coordinates(), elasticity(cell),
+                            models_[body(cell)].formulation);
+    }
     // C e*, of which plane stress has the part in the plane alone.
     Stress prescribed_stress(std::int64_t cell, std::span<const double> matrix) {
         Stress stress{};
@@ -144,7 +171,10 @@ private:
     std::span<const double> displacement_;
     std::span<const Strain> eigenstrain_;
     std::vector<CellElasticity> elasticity_;
-    std::vector<double> u_, x_;
+    CellShape shape_;
+    ByRow<StrainedCell> cells_;
+    std::vector<std::int32_t> which_;  // [cells]; -1: not kept
+    CellStrains strains_;
 };
 
 // The corners of cells, numbered so that corners at one node share a number if their stresses are comparable.
@@ -184,7 +214,8 @@ public:
         groups_ = next.size();
     }
     std::size_t groups() const { return groups_; }
-    std::size_t group(std::int64_t cell, std::size_t node) const { return group_[start_[index(cell)] + node]; }
+    // The groups of a cell's nodes.
+    const std::size_t* of(std::int64_t cell) const { return &group_[start_[index(cell)]]; }
 
 private:
     static bool comparable(std::span<const double> a, std::span<const double> b) {
@@ -216,7 +247,7 @@ public:
         }
     }
     // 1/2 s : C^-1 : s.
-    double energy(const Stress& stress) const {
+    double energy(const StressRow<strains>& stress) const {
         double sum = 0.0;
         for (std::size_t i = 0; i < strains; ++i)
             for (std::size_t j = 0; j < strains; ++j) sum += stress[i] * compliance_[i * strains + j] * stress[j];
@@ -227,61 +258,92 @@ private:
     std::array<double, strains * strains> elasticity_{}, compliance_{};
 };
 
+template <std::size_t size>
+void add_row(double factor, const std::array<double, size>& row, std::array<double, size>& sum) {
+    for (std::size_t i = 0; i < size; ++i) sum[i] += factor * row[i];
+}
+
 template <std::size_t count>
-MeshError estimate(const Mesh& mesh, std::span<const BodyModel> models, std::span<const std::uint8_t> known,
-                   std::span<const double> displacement, std::span<const Strain> eigenstrain) {
-    Stresses stresses(mesh, models, displacement, eigenstrain);
-    const Corners corners(mesh, known, stresses);
-    std::map<CellType, ToNodes> to_nodes;
-    // Stresses and volumes of all Gauss points, cell after cell, and what modes would take off.
-    std::vector<Stress> stress;
-    std::vector<double> volume;
-    MeshError error{std::vector<double>(index(mesh.cell_count()), std::numeric_limits<double>::quiet_NaN()),
-                    std::vector<double>(index(mesh.cell_count()), 0.0)};
-    const auto each_cell = [&](const auto& use) {
+class Estimate final : public MeshErrorEstimate {
+public:
+    Estimate(const Mesh& mesh, std::vector<BodyModel> models, std::vector<std::uint8_t> known)
+        : mesh_(mesh),
+          models_(std::move(models)),
+          known_(std::move(known)),
+          stresses_(mesh, models_, known_),
+          corners_(mesh, known_, stresses_) {
+        for (std::int64_t c = 0; c < mesh.cell_count(); ++c)
+            if (is_known(c))
+                points_ += to_nodes_.try_emplace(mesh.cell_type(c), mesh.cell_type(c)).first->second.points();
+    }
+    MeshError of(std::span<const double> displacement, std::span<const Strain> eigenstrain) override;
+
+private:
+    bool is_known(std::int64_t cell) const { return known_[index(mesh_.cell_body(cell))] != 0; }
+    // Calls use(cell, its type's values, its first Gauss point among all).
+    void each_cell(const auto& use) {
         std::size_t first = 0;
-        for (std::int64_t c = 0; c < mesh.cell_count(); ++c) {
+        for (std::int64_t c = 0; c < mesh_.cell_count(); ++c) {
             poll_cancel("recover");
-            if (known[index(mesh.cell_body(c))] == 0) continue;
-            const CellType type = mesh.cell_type(c);
-            const ToNodes& cell = to_nodes.try_emplace(type, type).first->second;
+            if (!is_known(c)) continue;
+            const ToNodes& cell = to_nodes_.find(mesh_.cell_type(c))->second;
             use(c, cell, first);
             first += cell.points();
         }
-    };
+    }
+
+    const Mesh& mesh_;
+    std::vector<BodyModel> models_;
+    std::vector<std::uint8_t> known_;
+    Stresses stresses_;
+    Corners corners_;
+    std::map<CellType, ToNodes> to_nodes_;
+    std::size_t points_ = 0;  // of all cells
+};
+
+template <std::size_t count>
+MeshError Estimate<count>::of(std::span<const double> displacement, std::span<const Strain> eigenstrain) {
+    stresses_.take(displacement, eigenstrain);
+    MeshError error{std::vector<double>(index(mesh_.cell_count()), std::numeric_limits<double>::quiet_NaN()),
+                    std::vector<double>(index(mesh_.cell_count()), 0.0)};
+    // Stresses and volumes of all Gauss points, cell after cell.
+    std::vector<StressRow<count>> stress(points_);
+    std::vector<double> volume(points_);
 
     // s* at a node: the mean over the cells there, by their volume.
-    std::vector<Stress> mean(corners.groups(), Stress{});
-    std::vector<double> around(corners.groups(), 0.0);
+    std::vector<StressRow<count>> mean(corners_.groups(), StressRow<count>{});
+    std::vector<double> around(corners_.groups(), 0.0);
     each_cell([&](std::int64_t c, const ToNodes& cell, std::size_t first) {
-        error.excess[index(c)] = stresses.append(c, stress, volume);
+        const std::size_t* group = corners_.of(c);
+        const StressRow<count>* at = &stress[first];
+        error.excess[index(c)] = stresses_.template find<count>(c, cell.points(), &stress[first], &volume[first]);
         double own = 0.0;
         for (std::size_t q = 0; q < cell.points(); ++q) own += volume[first + q];
         for (std::size_t a = 0; a < cell.nodes(); ++a) {
-            const std::size_t group = corners.group(c, a);
-            around[group] += own;
-            for (std::size_t q = 0; q < cell.points(); ++q)
-                for (std::size_t i = 0; i < count; ++i)
-                    mean[group][i] += own * cell.weight(a, q) * stress[first + q][i];
+            StressRow<count> sum{};
+            const double* weight = cell.weights(a);
+            for (std::size_t q = 0; q < cell.points(); ++q) add_row(weight[q], at[q], sum);
+            add_row(own, sum, mean[group[a]]);
+            around[group[a]] += own;
         }
     });
     for (std::size_t g = 0; g < mean.size(); ++g)
-        for (double& s : mean[g]) s /= around[g];
+        for (std::size_t i = 0; i < count; ++i) mean[g][i] /= around[g];
 
     Compliance<count> compliance;
     each_cell([&](std::int64_t c, const ToNodes& cell, std::size_t first) {
-        compliance.take(stresses.elasticity(c));
+        const std::size_t* group = corners_.of(c);
+        const StressRow<count>* at = &stress[first];
+        compliance.take(stresses_.elasticity(c));
         double sum = 0.0;
         for (std::size_t q = 0; q < cell.points(); ++q) {
-            Stress difference{};
-            for (std::size_t i = 0; i < count; ++i) {
-                difference[i] = -stress[first + q][i];
-                for (std::size_t a = 0; a < cell.nodes(); ++a)
-                    difference[i] += cell.shape(q, a) * mean[corners.group(c, a)][i];
-            }
+            StressRow<count> difference{};
+            const double* shape = cell.shapes(q);
+            for (std::size_t a = 0; a < cell.nodes(); ++a) add_row(shape[a], mean[group[a]], difference);
+            add_row(-1.0, at[q], difference);
             sum += volume[first + q] * compliance.energy(difference);
         }
-        sum *= calibration(mesh.cell_type(c), models[index(mesh.cell_body(c))].formulation);
+        sum *= calibration(mesh_.cell_type(c), models_[index(mesh_.cell_body(c))].formulation);
         // Bending that all cells of a layer hide in the same way leaves stresses continuous; the modes see it.
         error.of_cell[index(c)] = std::max(sum, error.excess[index(c)]);
     });
@@ -290,10 +352,10 @@ MeshError estimate(const Mesh& mesh, std::span<const BodyModel> models, std::spa
 
 }  // namespace
 
-MeshError mesh_error(const Mesh& mesh, std::span<const BodyModel> models, std::span<const std::uint8_t> known,
-                     std::span<const double> displacement, std::span<const Strain> eigenstrain) {
-    return mesh.dimension() == 2 ? estimate<3>(mesh, models, known, displacement, eigenstrain)
-                                 : estimate<6>(mesh, models, known, displacement, eigenstrain);
+std::unique_ptr<MeshErrorEstimate> mesh_error_estimate(const Mesh& mesh, std::vector<BodyModel> models,
+                                                       std::vector<std::uint8_t> known) {
+    if (mesh.dimension() == 2) return std::make_unique<Estimate<3>>(mesh, std::move(models), std::move(known));
+    return std::make_unique<Estimate<6>>(mesh, std::move(models), std::move(known));
 }
 
 }  // namespace delam

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -23,9 +24,16 @@ struct MeshError {
     std::vector<double> excess;   // [cells] what incompatible modes would take off standard cells, F L
 };
 
-// models, known: by body index; models where known is 0 are not read. displacement: [mesh nodes][dimension].
-// eigenstrain: by body index, in material axes, or empty.
-MeshError mesh_error(const Mesh& mesh, std::span<const BodyModel> models, std::span<const std::uint8_t> known,
-                     std::span<const double> displacement, std::span<const Strain> eigenstrain);
+// The cells and nodes of a mesh as all estimates need them.
+class MeshErrorEstimate {
+public:
+    virtual ~MeshErrorEstimate() = default;
+    // displacement: [mesh nodes][dimension]. eigenstrain: by body index, in material axes, or empty.
+    virtual MeshError of(std::span<const double> displacement, std::span<const Strain> eigenstrain) = 0;
+};
+
+// models, known: by body index; models where known is 0 are not read. The mesh must outlive what is returned.
+std::unique_ptr<MeshErrorEstimate> mesh_error_estimate(const Mesh& mesh, std::vector<BodyModel> models,
+                                                       std::vector<std::uint8_t> known);
 
 }  // namespace delam

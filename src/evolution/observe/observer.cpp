@@ -24,6 +24,7 @@ constexpr double largest_share = 0.99;  // of the energy: larger estimates say n
 void Observer::show(const State& state) {
     shown_ = &state;
     displacement_.clear();
+    slopes_.clear();
     fronts_.clear();
     mesh_error_.reset();
 }
@@ -49,12 +50,15 @@ double Observer::largest_rotation(const State& state) {
     if (problem_.mesh->cell_count() == 0) return unknown;
     if (const TurnedBodies* turned = op_.turned(state.response))
         return largest_length(turned->rotation_vectors(), problem_.mesh->dimension() == 2 ? 1 : 3);
-    return delam::largest_rotation(*problem_.mesh, displacement(state));
+    const std::size_t dim = index(problem_.mesh->dimension());
+    const std::vector<double> rotation =
+        rotations(&state == shown_ ? slopes() : centres().slopes(displacement(state)), dim);
+    return largest_length(rotation, dim == 2 ? 1 : 3);
 }
 
 std::vector<double> Observer::rotation() {
     const TurnedBodies* turned = op_.turned(state().response);
-    return turned != nullptr ? turned->rotation_vectors() : centre_rotation(*problem_.mesh, displacement());
+    return turned != nullptr ? turned->rotation_vectors() : rotations(slopes(), index(problem_.mesh->dimension()));
 }
 
 std::vector<BodyModel> Observer::models() const {
@@ -73,10 +77,24 @@ std::vector<Strain> Observer::eigenstrains(const State& state) const {
 }
 
 MeshError Observer::estimate(const State& state) {
-    std::vector<std::uint8_t> with_material;
-    for (std::int32_t body = 0; body < problem_.mesh->body_count(); ++body)
-        with_material.push_back(known(body) ? 1 : 0);
-    return delam::mesh_error(*problem_.mesh, models(), with_material, displacement(state), eigenstrains(state));
+    if (estimates_ == nullptr) {
+        std::vector<std::uint8_t> with_material;
+        for (std::int32_t body = 0; body < problem_.mesh->body_count(); ++body)
+            with_material.push_back(known(body) ? 1 : 0);
+        estimates_ = mesh_error_estimate(*problem_.mesh, models(), std::move(with_material));
+    }
+    return &state == shown_ ? estimates_->of(displacement(), eigenstrains())
+                            : estimates_->of(displacement(state), eigenstrains(state));
+}
+
+const CentreGradients& Observer::centres() {
+    if (!centres_) centres_.emplace(*problem_.mesh);
+    return *centres_;
+}
+
+const std::vector<double>& Observer::slopes() {
+    if (slopes_.empty()) slopes_ = centres().slopes(displacement());
+    return slopes_;
 }
 
 std::vector<double> Observer::mesh_error_of_cells() {
@@ -118,8 +136,9 @@ std::vector<double> Observer::free_motions() const {
 std::vector<double> Observer::stress() {
     const Mesh& mesh = *problem_.mesh;
     const TurnedBodies* turned = op_.turned(state().response);
-    std::vector<double> stress = turned != nullptr ? turned->centre_stress(models())
-                                                   : centre_stress(mesh, models(), displacement(), eigenstrains());
+    std::vector<double> stress = turned != nullptr
+                                     ? turned->centre_stress(models())
+                                     : centre_stress(mesh, models(), displacement(), slopes(), eigenstrains());
     const std::int64_t columns = mesh.dimension() == 2 ? 4 : 6;
     for (std::int64_t c = 0; c < mesh.cell_count(); ++c)
         if (!known(mesh.cell_body(c))) std::fill_n(stress.begin() + c * columns, columns, unknown);

@@ -3,11 +3,13 @@
 // shown, it keeps what it has computed.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "base/numbers.hpp"
 #include "body/averages.hpp"
+#include "body/equal/centre_gradients.hpp"
 #include "evolution/contact/contact.hpp"
 #include "evolution/increment/damage_step.hpp"
 #include "evolution/increment/state.hpp"
@@ -94,6 +96,9 @@ private:
     std::vector<BodyModel> models() const;
     std::vector<Strain> eigenstrains(const State& state) const;
     MeshError estimate(const State& state);
+    const CentreGradients& centres();
+    // Displacement gradients at the centres of the cells (CentreGradients::slopes), of the state that is shown.
+    const std::vector<double>& slopes();
 
     const Problem& problem_;
     const JumpOperator& op_;
@@ -103,6 +108,9 @@ private:
     const State* shown_ = nullptr;
     const EngineOperator* in_engine_;
     std::vector<double> displacement_;                            // empty: not recovered
+    std::vector<double> slopes_;                                  // empty: not computed
+    std::optional<CentreGradients> centres_;                      // nothing: not yet needed
+    std::unique_ptr<MeshErrorEstimate> estimates_;                // null: not yet needed
     std::vector<std::optional<std::vector<CrackFront>>> fronts_;  // [interfaces]
     std::optional<MeshErrorShares> mesh_error_;                   // nothing: not estimated
     std::int64_t recoveries_ = 0;

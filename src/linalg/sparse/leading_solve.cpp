@@ -48,9 +48,12 @@ void solve_leading_block(const Supernodes& nodes, const double* values, std::int
     for (std::size_t s = 0; s < count; ++s) {
         const Part p = part_at(nodes, values, leading, s);
         poll(p);
+        below.resize(std::max(below.size(), index(p.below)));
+        // Few forces are loads or come from an interface: most columns before them stay zero.
+        const double* own = y.data() + p.first;
+        if (std::all_of(own, own + p.columns, [](double v) { return v == 0.0; })) continue;
         blas::trsv("L", "N", "N", &p.columns, p.value, &p.rows, y.data() + p.first, &each);
         if (p.below == 0) continue;
-        below.resize(std::max(below.size(), index(p.below)));
         blas::gemv("N", &p.below, &p.columns, &once, below_of(p), &p.rows, y.data() + p.first, &each, &overwrite,
                    below.data(), &each);
         for (std::size_t i = 0; i < index(p.below); ++i) y[index(p.others[i])] -= below[i];

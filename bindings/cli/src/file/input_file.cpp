@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <iterator>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -54,17 +55,22 @@ InputFile::~InputFile() { ::close(descriptor_); }
 
 std::string InputFile::read(std::int64_t count) {
     std::string out(static_cast<std::size_t>(std::clamp<std::int64_t>(count, 0, size_ - at_)), '\0');
-    std::size_t got = 0;
-    while (got < out.size()) {
-        const ssize_t now = ::read(descriptor_, out.data() + got, out.size() - got);
+    out.erase(static_cast<std::size_t>(read_into(out.data(), std::ssize(out))));
+    return out;
+}
+
+std::int64_t InputFile::read_into(char* bytes, std::int64_t count) {
+    const std::int64_t wanted = std::clamp<std::int64_t>(count, 0, size_ - at_);
+    std::int64_t got = 0;
+    while (got < wanted) {
+        const ssize_t now = ::read(descriptor_, bytes + got, static_cast<std::size_t>(wanted - got));
         if (now < 0 && errno == EINTR) continue;
         if (now < 0) unreadable(path_, reason_of(errno));
         if (now == 0) break;
-        got += static_cast<std::size_t>(now);
+        got += now;
     }
-    out.resize(got);
-    at_ += static_cast<std::int64_t>(got);
-    return out;
+    at_ += got;
+    return got;
 }
 
 std::string read_bytes(const std::string& path, std::int64_t most) {

@@ -21,6 +21,8 @@ public:
     [[nodiscard]] std::int64_t size() const { return size_; }
     // The next bytes, `count` of them or as many as there are.
     std::string read(std::int64_t count);
+    // Reads them into memory, and returns how many there are.
+    std::int64_t read_into(char* bytes, std::int64_t count);
     std::string rest() { return read(size_ - at_); }
 
 private:

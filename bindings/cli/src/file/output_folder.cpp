@@ -171,7 +171,7 @@ void require_unchanged(const std::string& folder, const Published& published) {
     for (const auto& [name, content] : published.files) {
         const std::string file = folder + "/" + name;
         if (std::find(result_names().begin(), result_names().end(), name) == result_names().end() || !is_there(file) ||
-            content_of_file(file) != content)
+            !has_content(file, content))
             throw Failure(exit_scene,
                           file + ": missing, or not as the run has written it; run the scene again, without --resume");
     }

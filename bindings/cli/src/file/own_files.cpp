@@ -45,20 +45,24 @@ bool is_running_name(std::string_view name) {
            std::any_of(std::begin(running_names), std::end(running_names), has_name);
 }
 
-// NUMBER of step_NUMBER.h5 has eight digits or more.
+// NUMBER of step_NUMBER.bin has eight digits or more.
 std::optional<std::size_t> step_of(std::string_view name) {
     constexpr std::string_view before = "step_";
     if (!name.starts_with(before)) return std::nullopt;
     const auto digits = name.substr(before.size());
     const auto end = std::find_if(digits.begin(), digits.end(), [](unsigned char c) { return std::isdigit(c) == 0; });
     const auto number = digits.substr(0, static_cast<std::size_t>(end - digits.begin()));
-    if (number.size() < 8 || !is_name(name, fmt::format("{}{}.h5", before, number))) return std::nullopt;
+    // Versions before 0.3 wrote files that end with .h5.
+    if (number.size() < 8 || (!is_name(name, fmt::format("{}{}.bin", before, number)) &&
+                              !is_name(name, fmt::format("{}{}.h5", before, number))))
+        return std::nullopt;
     std::size_t step = 0;
     const auto [last, code] = std::from_chars(number.data(), number.data() + number.size(), step);
     return code == std::errc() ? std::optional(step) : std::nullopt;
 }
 
-std::string step_name(std::size_t step) { return fmt::format("step_{:08d}.h5", step); }
+std::string step_name(std::size_t step) { return fmt::format("step_{:08d}.bin", step); }
+std::string earlier_step_name(std::size_t step) { return fmt::format("step_{:08d}.h5", step); }
 
 bool is_marked(const std::string& folder) {
     const std::string path = fmt::format("{}/{}", folder, marker_name);

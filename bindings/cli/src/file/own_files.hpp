@@ -25,6 +25,8 @@ const std::vector<std::string>& result_names();
 // needs to go on.
 bool is_running_name(std::string_view name);
 std::string step_name(std::size_t step);
+// The name that versions before 0.3 gave it.
+std::string earlier_step_name(std::size_t step);
 // The step of such a name, or of what is written beside it; nothing: it is another name.
 std::optional<std::size_t> step_of(std::string_view name);
 

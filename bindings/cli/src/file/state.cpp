@@ -127,7 +127,7 @@ StateFile read_state(const std::string& path) {
             const std::size_t length = seal_of("", "").size();
             if (state.bytes.size() < length) throw damaged;
             seal = state.bytes.substr(state.bytes.size() - length);
-            state.bytes.resize(state.bytes.size() - length);
+            state.bytes.erase(state.bytes.size() - length);
         }
         if (state.bytes.size() != json.at("size").get<std::uint64_t>() || !is_possible(state)) throw damaged;
         if (sealed ? seal != seal_of(head.line, state.bytes) : hash_text(state.bytes) != json.at("checksum"))

@@ -18,6 +18,7 @@
 #include "model/call.hpp"
 #include "result/fields/h5.hpp"
 #include "result/fields/step_file.hpp"
+#include "result/fields/step_rows.hpp"
 #include "result/fields/xdmf.hpp"
 
 namespace cli {
@@ -141,7 +142,9 @@ bool Fields::estimates_mesh_error(std::size_t step) const {
     return judges() ? place == fixed.size() / 2 : std::has_single_bit(place);
 }
 
-std::string Fields::step_path(std::size_t step) const { return folder_ + "/" + step_name(step); }
+std::string Fields::step_path(std::size_t step) const {
+    return folder_ + "/" + (earlier_.contains(step) ? earlier_step_name(step) : step_name(step));
+}
 
 std::string Fields::revised_path(std::size_t step) const { return step_path(step) + std::string(revised_suffix); }
 
@@ -159,7 +162,7 @@ void Fields::write_step(const Model& model, delam_solver* solver, const Scene& s
         const std::string bytes = step_bytes(model, solver, scene, static_cast<std::int64_t>(step), scene.times[step],
                                              estimates_mesh_error(step));
         Appender(path, 0).append(bytes);
-        hashes_[step] = hash_text(bytes);
+        hashes_[step] = file_hash_of(bytes);
     }
     written_.insert(step);
     unsynchronised_.push_back(path);
@@ -201,13 +204,15 @@ void Fields::resume(std::size_t last, const std::optional<Companions>& saved) {
         instants_.take_every_step();
     std::size_t k = 0;
     for (const std::size_t step : instants_.up_to(last)) {
+        const std::string earlier = folder_ + "/" + earlier_step_name(step);
+        if (is_there(earlier) || is_there(earlier + std::string(revised_suffix))) earlier_.insert(step);
         const std::string path = step_path(step);
         const std::string expected = saved && k < saved->fields.size() ? saved->fields[k] : "";
         take_revised(path,
-                     [&expected](const std::string& revised) { return content_of_file(revised).hash == expected; });
+                     [&expected](const std::string& revised) { return hash_like(expected, revised) == expected; });
         ++k;
         if (!is_there(path)) throw Failure(exit_scene, path + ": missing; run again without --resume");
-        hashes_[step] = content_of_file(path).hash;
+        hashes_[step] = hash_like(expected, path);
         if (saved ? hashes_[step] != expected : !is_step_file(path, step))
             throw Failure(exit_scene, path + ": not as it was when the state was saved; run again without --resume");
         written_.insert(step);
@@ -247,15 +252,12 @@ BulkFacts Fields::assemble(const Model& model, const Scene& scene, std::size_t l
         const h5::Group group(h5::new_group(file.get(), "steps"), path);
         for (const std::size_t step : chosen) {
             const std::string name = fmt::format("{:08d}", step);
-            const std::string image = bulk_ == nullptr ? read_bytes(step_path(step)) : "";
-            const h5::File from(bulk_ == nullptr ? h5::open_bytes(image) : h5::open(step_path(step)), step_path(step));
-            if (bulk_ != nullptr) {
-                const std::vector<FileRange> of_step = copy_step(from.get(), step_path(step), group.get(), name, scene);
+            const std::string bytes = read_step(step_path(step));
+            if (!copy_earlier_step(bytes, step_path(step), group.get(), name)) {
+                const std::vector<FileRange> of_step = copy_step(bytes, step_path(step), group.get(), name);
                 ranges.insert(ranges.end(), of_step.begin(), of_step.end());
-            } else {
-                h5::require(H5Ocopy(from.get(), "step", group.get(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), path);
             }
-            const h5::Group own(H5Gopen2(from.get(), "step", H5P_DEFAULT), step_path(step));
+            const h5::Group own(H5Gopen2(group.get(), name.c_str(), H5P_DEFAULT), path);
             facts.rotation_max = std::max(facts.rotation_max, h5::read_number(own.get(), "rotation_max"));
             const MeshError error{h5::read_number_if_there(own.get(), "mesh_error"),
                                   h5::read_number_if_there(own.get(), "mesh_error_fronts"),

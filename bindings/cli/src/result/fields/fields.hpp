@@ -57,6 +57,7 @@ private:
     Instants instants_;
     std::set<std::size_t> written_;  // steps that have a file
     std::vector<std::string> unsynchronised_;
+    std::set<std::size_t> earlier_;              // steps whose files a version before 0.3 named
     std::set<std::size_t> revised_;              // steps whose files wait for settle()
     std::map<std::size_t, std::string> hashes_;  // by step; without those that many processes have written since
 };

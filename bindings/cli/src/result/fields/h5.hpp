@@ -60,25 +60,12 @@ using Attribute = Id<H5Aclose>;
 using Properties = Id<H5Pclose>;
 using Type = Id<H5Tclose>;
 
-// Creates the file in a folder or, with access, in memory; replaces an earlier file.
-inline hid_t create(const std::string& path, hid_t access = driver_access()) {
+// Creates the file; replaces an earlier one.
+inline hid_t create(const std::string& path) {
     (void)take_trouble();
-    return H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
+    return H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, driver_access());
 }
 inline hid_t open(const std::string& path) { return H5Fopen(path.c_str(), H5F_ACC_RDONLY, driver_access()); }
-
-// A file whose bytes are in memory, to be read: HDF5 1.10 crashes where it copies an object and cannot read the file.
-inline hid_t open_bytes(const std::string& bytes) {
-    begin();
-    if (!memory_for_a_file()) throw std::bad_alloc();
-    const Properties access(H5Pcreate(H5P_FILE_ACCESS), "fields.h5");
-    constexpr std::size_t increment = std::size_t{1} << 16;  // of a file that grows; this one does not
-    // HDF5 takes the bytes as they may change, and copies them.
-    if (H5Pset_fapl_core(access.get(), increment, false) < 0 ||
-        H5Pset_file_image(access.get(), const_cast<char*>(bytes.data()), bytes.size()) < 0)
-        return H5I_INVALID_HID;
-    return H5Fopen("step", H5F_ACC_RDONLY, access.get());
-}
 
 inline void require(herr_t status, const std::string& what) {
     if (status < 0) refuse(what, "HDF5 could not write");
@@ -107,22 +94,28 @@ inline hid_t type_of<std::int32_t>() {
 inline constexpr std::size_t least_packed_bytes = std::size_t{1} << 20;
 
 // columns 0: a vector.
-template <class T>
-void write(hid_t parent, const std::string& name, const std::vector<T>& values, std::size_t columns) {
-    const hsize_t shape[2] = {values.size() / (columns > 0 ? columns : 1), columns};
+inline void write(hid_t parent, const std::string& name, hid_t type, const void* values, std::int64_t rows,
+                  std::int64_t columns) {
+    const hsize_t shape[2] = {static_cast<hsize_t>(rows), static_cast<hsize_t>(columns)};
+    const std::int64_t count = rows * (columns > 0 ? columns : 1);
     const Space space(H5Screate_simple(columns > 0 ? 2 : 1, shape, nullptr), name);
     const Properties properties(H5Pcreate(H5P_DATASET_CREATE), name);
     // A date of its own would make each file of a result another.
     require(H5Pset_obj_track_times(properties.get(), false), name);
-    if (values.size() * sizeof(T) > least_packed_bytes) {
+    if (static_cast<std::size_t>(count) * H5Tget_size(type) > least_packed_bytes) {
         require(H5Pset_chunk(properties.get(), columns > 0 ? 2 : 1, shape), name);
         require(H5Pset_shuffle(properties.get()), name);
         require(H5Pset_deflate(properties.get(), 1), name);
     }
-    const Data data(
-        H5Dcreate2(parent, name.c_str(), type_of<T>(), space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT), name);
-    if (!values.empty())
-        require(H5Dwrite(data.get(), type_of<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), name);
+    const Data data(H5Dcreate2(parent, name.c_str(), type, space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT),
+                    name);
+    if (count > 0) require(H5Dwrite(data.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), name);
+}
+
+template <class T>
+void write(hid_t parent, const std::string& name, const std::vector<T>& values, std::size_t columns) {
+    const auto rows = static_cast<std::int64_t>(values.size() / (columns > 0 ? columns : 1));
+    write(parent, name, type_of<T>(), values.data(), rows, static_cast<std::int64_t>(columns));
 }
 
 // Room for a matrix of doubles, whose bytes others write: one behind the other, from the returned offset of the file
@@ -143,26 +136,14 @@ inline std::int64_t reserve(hid_t parent, const std::string& name, std::int64_t 
     return static_cast<std::int64_t>(offset);
 }
 
-// Place of such a matrix in the file; offset -1: its bytes do not lie one behind the other.
-struct Extent {
-    std::int64_t offset = -1, rows = 0, columns = 0;
-};
-inline Extent extent(hid_t parent, const std::string& name) {
-    const Data data(H5Dopen2(parent, name.c_str(), H5P_DEFAULT), name);
-    const Space space(H5Dget_space(data.get()), name);
-    hsize_t shape[2] = {0, 0};
-    if (H5Sget_simple_extent_ndims(space.get()) != 2 || H5Sget_simple_extent_dims(space.get(), shape, nullptr) < 0)
-        throw OutputFailure(name, "HDF5 finds no matrix there (file damaged?)");
-    const haddr_t offset = H5Dget_offset(data.get());
-    return {offset == HADDR_UNDEF ? -1 : static_cast<std::int64_t>(offset), static_cast<std::int64_t>(shape[0]),
-            static_cast<std::int64_t>(shape[1])};
+inline void attribute(hid_t parent, const std::string& name, hid_t type, const void* value) {
+    const Space space(H5Screate(H5S_SCALAR), name);
+    const Attribute out(H5Acreate2(parent, name.c_str(), type, space.get(), H5P_DEFAULT, H5P_DEFAULT), name);
+    require(H5Awrite(out.get(), type, value), name);
 }
-
 template <class T>
 void attribute(hid_t parent, const std::string& name, T value) {
-    const Space space(H5Screate(H5S_SCALAR), name);
-    const Attribute out(H5Acreate2(parent, name.c_str(), type_of<T>(), space.get(), H5P_DEFAULT, H5P_DEFAULT), name);
-    require(H5Awrite(out.get(), type_of<T>(), &value), name);
+    attribute(parent, name, type_of<T>(), &value);
 }
 
 inline void attribute(hid_t parent, const std::string& name, const std::string& value) {

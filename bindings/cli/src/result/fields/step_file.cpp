@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <utility>
 
 #include "file/file.hpp"
 #include "model/call.hpp"
 #include "result/fields/h5.hpp"
+#include "result/fields/step_rows.hpp"
 
 namespace cli {
 
@@ -26,7 +28,8 @@ Field fetch(const Model& model, delam_solver* solver, const std::string& key, st
 }
 
 // The crack fronts of an interface; writes nothing if there are none.
-void write_front(const Model& model, const delam_solver* solver, hid_t group, std::int64_t index) {
+void write_front(const Model& model, const delam_solver* solver, StepRows& step, const std::string& group,
+                 std::int64_t index) {
     std::int64_t fronts = 0;
     std::int64_t count = 0;
     const std::string what = "crack fronts";
@@ -45,14 +48,14 @@ void write_front(const Model& model, const delam_solver* solver, hid_t group, st
          delam_solver_front(solver, index, fronts, count, starts.data(), closed.data(), places.values.data(),
                             directions.values.data(), lengths.data(), rates.data(), zones.data(), pairs.data()),
          what);
-    h5::write(group, "front_starts", starts, 0);
-    h5::write(group, "front_closed", closed, 0);
-    h5::write(group, "front_points", padded(places, 3).values, 3);
-    h5::write(group, "front_directions", padded(directions, 3).values, 3);
-    h5::write(group, "front_lengths", lengths, 0);
-    h5::write(group, "front_rates", rates, 3);
-    h5::write(group, "front_zone_lengths", zones, 0);
-    h5::write(group, "front_zone_pairs", pairs, 0);
+    step.rows(group + "front_starts", starts, 0);
+    step.rows(group + "front_closed", closed, 0);
+    step.rows(group + "front_points", padded(places, 3).values, 3);
+    step.rows(group + "front_directions", padded(directions, 3).values, 3);
+    step.rows(group + "front_lengths", lengths, 0);
+    step.rows(group + "front_rates", rates, 3);
+    step.rows(group + "front_zone_lengths", zones, 0);
+    step.rows(group + "front_zone_pairs", pairs, 0);
 }
 
 // The two nodes of each pair.
@@ -75,14 +78,15 @@ Pairs pairs_of(const Model& model, std::int64_t index) {
 // Returns the place of the displacement of a node, [3]; empty: it is not wanted.
 using DisplacementOf = std::function<const double*(std::int64_t node)>;
 
-void write_interface(const Model& model, delam_solver* solver, const Scene& scene, hid_t parent, std::int64_t index,
+void write_interface(const Model& model, delam_solver* solver, const Scene& scene, StepRows& step, std::int64_t index,
                      const DisplacementOf& displacement) {
-    const h5::Group group(h5::new_group(parent, "interface_" + std::to_string(index)), "fields.h5");
-    for (const auto& [name, key] : {std::pair{"zeta", "adhesion"}, {"mixity", "mixity"}, {"contact", "contact"}})
-        if (wants(scene, name)) h5::write(group.get(), name, fetch(model, solver, key, index).values, 0);
-    for (const char* name : {"jump", "traction"})
-        if (wants(scene, name)) h5::write(group.get(), name, padded(fetch(model, solver, name, index), 3).values, 3);
-    if (wants(scene, "front")) write_front(model, solver, group.get(), index);
+    const std::string name = "interface_" + std::to_string(index), group = name + "/";
+    step.group(name);
+    for (const auto& [field, key] : {std::pair{"zeta", "adhesion"}, {"mixity", "mixity"}, {"contact", "contact"}})
+        if (wants(scene, field)) step.rows(group + field, fetch(model, solver, key, index).values, 0);
+    for (const char* field : {"jump", "traction"})
+        if (wants(scene, field)) step.rows(group + field, padded(fetch(model, solver, field, index), 3).values, 3);
+    if (wants(scene, "front")) write_front(model, solver, step, group, index);
     if (!displacement) return;
     // Mean of the two faces, so that the block can be warped with the bodies.
     const Pairs pairs = pairs_of(model, index);
@@ -90,32 +94,33 @@ void write_interface(const Model& model, delam_solver* solver, const Scene& scen
     for (std::size_t i = 0; i < pairs.a.size(); ++i)
         for (std::size_t c = 0; c < 3; ++c)
             mean[3 * i + c] = 0.5 * (displacement(pairs.a[i])[c] + displacement(pairs.b[i])[c]);
-    h5::write(group.get(), "displacement", mean, 3);
+    step.rows(group + "displacement", mean, 3);
 }
 
-// Who has the fields of nodes and cells: writes them into the group of a step, or leaves room for them, and knows the
-// displacements at interfaces and the largest rotation of a cell.
+// Who has the fields of nodes and cells: writes them, or leaves room for them, and knows the displacements at
+// interfaces and the largest rotation of a cell.
 struct BulkSource {
-    std::function<void(hid_t group)> write;
+    std::function<void(StepRows& step)> write;
     DisplacementOf displacement;
     std::function<double()> largest_rotation;
-    std::function<void(hid_t group)> write_mesh_error;  // empty: it is not estimated
+    std::function<void(StepRows& step)> write_mesh_error;  // empty: it is not estimated
 };
 
 constexpr const char* mesh_error_keys[] = {"mesh_error", "mesh_error_fronts", "mesh_excess"};
 
 // Everything that a step file says, in its order.
-void write_step(hid_t file, const Model& model, delam_solver* solver, const Scene& scene, std::int64_t step,
-                double time, const BulkSource& source) {
-    const h5::Group group(h5::new_group(file, "step"), "fields.h5");
-    h5::attribute(group.get(), "step", step);
-    h5::attribute(group.get(), "time", time);
-    source.write(group.get());
-    h5::attribute(group.get(), "rotation_max", bulk_fields(scene).empty() ? 0.0 : source.largest_rotation());
-    if (source.write_mesh_error && !bulk_fields(scene).empty()) source.write_mesh_error(group.get());
+StepRows rows_of_step(const Model& model, delam_solver* solver, const Scene& scene, std::int64_t number, double time,
+                      const BulkSource& source) {
+    StepRows step;
+    step.number("step", number);
+    step.number("time", time);
+    source.write(step);
+    step.number("rotation_max", bulk_fields(scene).empty() ? 0.0 : source.largest_rotation());
+    if (source.write_mesh_error && !bulk_fields(scene).empty()) source.write_mesh_error(step);
     for (std::size_t i = 0; i < model.interfaces.size(); ++i)
-        write_interface(model, solver, scene, group.get(), static_cast<std::int64_t>(i),
+        write_interface(model, solver, scene, step, static_cast<std::int64_t>(i),
                         wants(scene, "displacement") ? source.displacement : DisplacementOf());
+    return step;
 }
 
 // The nodes of all pairs, ascending.
@@ -139,25 +144,24 @@ std::pair<std::int64_t, std::int64_t> mesh_rows(const Model& model) {
     return {nodes, cells};
 }
 
+hid_t h5_type(StepItem::Type type) {
+    return type == StepItem::Type::real   ? h5::type_of<double>()
+           : type == StepItem::Type::wide ? h5::type_of<std::int64_t>()
+                                          : h5::type_of<std::int32_t>();
+}
+
+bool is_hdf5(std::string_view bytes) { return bytes.starts_with("\x89HDF"); }
+
 }  // namespace
 
 std::string step_bytes(const Model& model, delam_solver* solver, const Scene& scene, std::int64_t step, double time,
                        bool estimate) {
-    h5::begin();
-    const h5::Properties access(H5Pcreate(H5P_FILE_ACCESS), "fields.h5");
-    // The image grows once, to about what it takes: HDF5 clears what it allocates.
-    const auto [node_rows, cell_rows] = mesh_rows(model);
-    std::size_t room = std::size_t{1} << 16;
-    for (const BulkField& field : bulk_fields(scene))
-        room += field.columns * sizeof(double) * static_cast<std::size_t>(field.of_nodes ? node_rows : cell_rows);
-    h5::require(H5Pset_fapl_core(access.get(), room, false), "fields.h5");
-    const h5::File file(h5::create("step", access.get()), "fields.h5");
     Field displacement;
     BulkSource source;
-    source.write = [&](hid_t group) {
+    source.write = [&](StepRows& to) {
         for (const BulkField& field : bulk_fields(scene)) {
             Field rows = stored(field, fetch(model, solver, field.name, -1));
-            h5::write(group, field.name, rows.values, field.columns);
+            to.rows(field.name, rows.values, field.columns);
             if (field.name == "displacement") displacement = std::move(rows);
         }
     };
@@ -167,22 +171,15 @@ std::string step_bytes(const Model& model, delam_solver* solver, const Scene& sc
         call(model.context.get(), delam_solver_value(solver, "rotation_max", &largest), std::string("rotation_max"));
         return largest;
     };
-    const auto write_mesh_error = [&](hid_t group) {
+    const auto write_mesh_error = [&](StepRows& to) {
         for (const char* key : mesh_error_keys) {
             double part = 0;
             call(model.context.get(), delam_solver_value(solver, key, &part), std::string(key));
-            h5::attribute(group, key, part);
+            to.number(key, part);
         }
     };
     if (estimate) source.write_mesh_error = write_mesh_error;
-    write_step(file.get(), model, solver, scene, step, time, source);
-    h5::require(H5Fflush(file.get(), H5F_SCOPE_GLOBAL), "fields.h5");
-    const ssize_t size = H5Fget_file_image(file.get(), nullptr, 0);
-    if (size < 0) throw OutputFailure("fields.h5", "HDF5 gave no image of a step");
-    std::string bytes(static_cast<std::size_t>(size), '\0');
-    if (H5Fget_file_image(file.get(), bytes.data(), bytes.size()) < 0)
-        throw OutputFailure("fields.h5", "HDF5 gave no image of a step");
-    return bytes;
+    return rows_of_step(model, solver, scene, step, time, source).bytes();
 }
 
 void write_step_file(const std::string& path, const Model& model, delam_solver* solver, const Scene& scene,
@@ -198,14 +195,10 @@ void write_step_file(const std::string& path, const Model& model, delam_solver* 
         bytes += 8 * static_cast<std::int64_t>(field.columns) * (field.of_nodes ? node_rows : cell_rows);
     const std::string beside = path + ".new";
     require_room(beside, bytes);
-    std::vector<Room> rooms;
     BulkSource source;
-    source.write = [&, &node_count = node_rows, &cell_count = cell_rows](hid_t group) {
-        for (const BulkField& field : wanted) {
-            const std::int64_t rows = field.of_nodes ? node_count : cell_count;
-            rooms.push_back(
-                {field, rows, h5::reserve(group, field.name, rows, static_cast<std::int64_t>(field.columns))});
-        }
+    source.write = [&, &node_count = node_rows, &cell_count = cell_rows](StepRows& to) {
+        for (const BulkField& field : wanted)
+            to.room(field.name, field.of_nodes ? node_count : cell_count, static_cast<std::int64_t>(field.columns));
     };
     source.displacement = [&](std::int64_t node) {
         return &displacement[3 * static_cast<std::size_t>(std::lower_bound(nodes.begin(), nodes.end(), node) -
@@ -213,14 +206,27 @@ void write_step_file(const std::string& path, const Model& model, delam_solver* 
     };
     source.largest_rotation = [&] { return bulk.largest_rotation(); };
     try {
-        h5::File file(h5::create(beside), beside);
-        write_step(file.get(), model, solver, scene, step, time, source);
-        h5::require(H5Fflush(file.get(), H5F_SCOPE_GLOBAL), beside);
-        file.close(beside);
-        fill_holes(beside);
-        if (!rooms.empty()) bulk.write(beside, rooms);
+        const StepRows rows = rows_of_step(model, solver, scene, step, time, source);
+        remove_file(beside);
+        Appender(beside, 0).append(rows.bytes());
+        std::vector<Room> rooms;
+        std::int64_t end = 0;
+        for (const StepItem& item : rows.items()) {
+            end = item.offset + item.bytes();
+            if (item.kind != StepItem::Kind::room) continue;
+            const auto is_it = [&item](const BulkField& field) { return field.name == item.name; };
+            rooms.push_back({*std::find_if(wanted.begin(), wanted.end(), is_it), item.rows(), item.offset});
+        }
+        if (!rooms.empty()) {
+            std::filesystem::resize_file(beside, static_cast<std::uintmax_t>(end));
+            fill_holes(beside);
+            bulk.write(beside, rooms);
+        }
         synchronise(beside);
         rename_file(beside, path);
+    } catch (const std::filesystem::filesystem_error& error) {
+        remove_file(beside);
+        throw OutputFailure(beside, error.code().message());
     } catch (...) {
         std::error_code code;
         std::filesystem::remove(beside, code);
@@ -230,36 +236,50 @@ void write_step_file(const std::string& path, const Model& model, delam_solver* 
 
 bool is_step_file(const std::string& path, std::size_t step) {
     try {
-        const h5::File file(h5::open(path), path);
-        const h5::Group group(H5Gopen2(file.get(), "step", H5P_DEFAULT), path);
-        return h5::read_number(group.get(), "step") == static_cast<double>(step);
-    } catch (const OutputFailure&) {
+        const std::string bytes = read_step(path);
+        if (is_hdf5(bytes)) {
+            const h5::File file(h5::open(path), path);
+            const h5::Group group(H5Gopen2(file.get(), "step", H5P_DEFAULT), path);
+            return h5::read_number(group.get(), "step") == static_cast<double>(step);
+        }
+        return step_number(step_items(bytes, path), bytes, "step") == static_cast<double>(step);
+    } catch (const Failure&) {
         return false;
     }
 }
 
-std::vector<FileRange> copy_step(hid_t file, const std::string& path, hid_t parent, const std::string& name,
-                                 const Scene& scene) {
-    const h5::Group from(H5Gopen2(file, "step", H5P_DEFAULT), path);
+bool copy_earlier_step(std::string_view bytes, const std::string& path, hid_t parent, const std::string& name) {
+    if (!is_hdf5(bytes)) return false;
+    const h5::File from(h5::open(path), path);
+    h5::require(H5Ocopy(from.get(), "step", parent, name.c_str(), H5P_DEFAULT, H5P_DEFAULT), path);
+    return true;
+}
+
+std::vector<FileRange> copy_step(std::string_view bytes, const std::string& path, hid_t parent,
+                                 const std::string& name) {
     const h5::Group to(h5::new_group(parent, name), "fields.h5");
-    h5::attribute(to.get(), "step", static_cast<std::int64_t>(h5::read_number(from.get(), "step")));
-    for (const char* number : {"time", "rotation_max"})
-        h5::attribute(to.get(), number, h5::read_number(from.get(), number));
+    std::unique_ptr<h5::Group> inner;
+    std::string group;
     std::vector<FileRange> ranges;
-    std::vector<std::string> small;
-    for (const BulkField& field : bulk_fields(scene)) {
-        const h5::Extent extent = h5::extent(from.get(), field.name);
-        if (extent.offset < 0) {
-            small.push_back(field.name);  // compressed: a step of `delam`
-            continue;
+    for (const StepItem& item : step_items(bytes, path)) {
+        const std::size_t slash = item.name.find('/');
+        if (slash != std::string::npos && item.name.substr(0, slash) != group) {
+            group = item.name.substr(0, slash);
+            inner = std::make_unique<h5::Group>(h5::new_group(to.get(), group), "fields.h5");
         }
-        const std::int64_t place = h5::reserve(to.get(), field.name, extent.rows, extent.columns);
-        ranges.push_back({path, extent.offset, 8 * extent.rows * extent.columns, place});
+        if (item.kind == StepItem::Kind::group) continue;
+        const hid_t parent_of = slash == std::string::npos ? to.get() : inner->get();
+        const std::string own = slash == std::string::npos ? item.name : item.name.substr(slash + 1);
+        const char* from = bytes.data() + (item.kind == StepItem::Kind::room ? 0 : item.offset);
+        if (item.kind == StepItem::Kind::room) {
+            const std::int64_t place = h5::reserve(parent_of, own, item.rows(), item.columns);
+            ranges.push_back({path, item.offset, item.bytes(), place});
+        } else if (item.kind == StepItem::Kind::number) {
+            h5::attribute(parent_of, own, h5_type(item.type), from);
+        } else {
+            h5::write(parent_of, own, h5_type(item.type), from, item.rows(), item.columns);
+        }
     }
-    for (hsize_t i = 0; H5Lexists(from.get(), ("interface_" + std::to_string(i)).c_str(), H5P_DEFAULT) > 0; ++i)
-        small.push_back("interface_" + std::to_string(i));
-    for (const std::string& item : small)
-        h5::require(H5Ocopy(from.get(), item.c_str(), to.get(), item.c_str(), H5P_DEFAULT, H5P_DEFAULT), "fields.h5");
     return ranges;
 }
 
