@@ -204,7 +204,7 @@ def rows_of(search, found):
     lower, upper = search.misfit.bounds()
     places = np.flatnonzero(found.kept).tolist()
     errors = found.profile.errors()
-    factor = found.profile.factor
+    factors = found.profile.factors
     rows = []
     for k, parameter in enumerate(search.model.parameters):
         row = {"key": parameter.path, "value": values[k], "start": parameter.start, "told": bool(found.kept[k]),
@@ -218,7 +218,7 @@ def rows_of(search, found):
         if found.intervals:
             # Of what lies anywhere in a range, the confidence lies in the same part of it.
             one, shift = found.intervals[which], found.shifts[which]
-            held = [min(factor * shift.standard, search.level * most) for most in (shift.below, shift.above)]
+            held = [min(factors[which] * shift.standard, search.level * most) for most in (shift.below, shift.above)]
             row["standard_error"] = values[k] * float(np.hypot(errors[which], shift.standard))
             ends = np.array([-np.hypot(one.below, held[0]), np.hypot(one.above, held[1])])
             ends = np.clip(at + ends, lower[k], upper[k])
