@@ -175,6 +175,36 @@ def teeth():
     expect(1 / wide * 0.9 < low < 1 / wide * 1.01 and wide * 0.99 < high < wide * 1.1, f"what is held widens it: {first}")
 
 
+class Late(Made):
+    """A straight line that a crack leaves at x = p, and which hardly depends on p before. The truth is 0.8, the data end at 1."""
+
+    def __init__(self, start):
+        super().__init__(0.0)
+        self.parameters = [SimpleNamespace(path="p", start=start, lower=0.05, upper=20.0, of_law=True)]
+        x = np.linspace(0, 1, 60)
+        noise = 0.003 * np.random.default_rng(4).standard_normal(60)
+        self.data = [SimpleNamespace(x=x, at=x, y=self.curve(x, 0.8) + noise, turns=None)]
+
+    @staticmethod
+    def curve(x, p):
+        return (1 + 0.01 * p) * x - 1.5 * np.maximum(0.0, x - p)
+
+    def evaluate(self, values):
+        self.marches += 1
+        x, p = self.data[0].x, float(values[0])
+        return Answer([self.curve(x, p)], [0.01 * x + 1.5 * (x > p)], [0.0], [None])
+
+
+def late():
+    """A start at which the crack grows after the end of the data is left to an earlier one."""
+    for start_at in (1.2, 1.6, 0.4):
+        model = Late(start_at)
+        found = quietly(study.Search(model, "curve", 0.95).run)
+        value, interval = start_at * float(np.exp(found.outcome.point.at[0])), found.intervals[0]
+        expect(abs(value - 0.8) < 0.01 and value * np.exp(-interval.below) < 0.8 < value * np.exp(interval.above) and model.marches <= 12,
+               f"from {start_at}: {value}, {interval}, {model.marches} analyses")
+
+
 def quietly(work):
     """What a function returns that talks."""
     with open(os.devnull, "w", encoding="utf-8") as silent:
@@ -457,6 +487,6 @@ def coverage(trials=100):
 if sys.argv[1:] == ["whole"]:
     long_fits()
 else:
-    for part in (fits, rugged, teeth, alike, untold, words):
+    for part in (fits, rugged, late, teeth, alike, untold, words):
         part()
 finish()

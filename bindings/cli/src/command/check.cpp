@@ -169,7 +169,8 @@ void say_effort(const Found& effort) {
                                               : fmt::format("{:.2g} h", seconds / 3600);
     const std::string memory =
         mebibytes < 1024 ? fmt::format("{:.0f} MiB", mebibytes) : fmt::format("{:.3g} GiB", mebibytes / 1024);
-    say("effort      {} or more, and {} of memory (predicted; modes that mix, jumps and large rotations take longer)\n",
+    say("effort      about {} and {} of memory (predicted to an order of magnitude: modes that mix, jumps and large "
+        "rotations take longer)\n",
         time, memory);
 }
 
