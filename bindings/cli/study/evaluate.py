@@ -51,7 +51,7 @@ class Curve:
             raise Trouble(f"{path}: {int(there.sum())} points with displacement and load: at least 5 are expected")
         way = Way(columns[0][there], columns[1][there], False)
         if way.loops:
-            said.append(f"{len(way.loops)} unloadings cut")
+            said.append(f"{len(way.loops)} unloading{'s' * (len(way.loops) > 1)} cut")
         if way.averaged:
             said.append(f"x jitters: {int(there.sum())} points are averaged to {len(way.x)}")
         self.path, self.displacement, self.load = path, way.x, way.y

@@ -283,14 +283,22 @@ def report(search, found, given):
              "read": [d.said for d in model.data], "units": list(model.units), "jumps": jumps, "unknown_pairs": model.unknown, "doubted": doubted}
     write_file(os.path.join(out, "fit.json"), json.dumps(about, indent=1, allow_nan=False))
     lines = ["scene,x,y,model,residual"]
+    texts = [text_of(row, given.confidence, unit_of_key(row["key"], model.units), 4) for row in rows if row["told"]]
     for which, (data, curve) in enumerate(zip(model.data, answer.curves)):
         lines += [f"{which + 1},{x!r},{y!r},{m!r},{m - y!r}" for x, y, m in zip(*map(np.ndarray.tolist, (data.x, data.y, curve)))]
         draw_fit(out, which, model, curve, answer.histories[which], jumps[which],
-                 read_about(os.path.join(model.work, f"{which + 1}-at")))
+                 read_about(os.path.join(model.work, f"{which + 1}-at")), texts)
     write_file(os.path.join(out, "fit.csv"), "\n".join(lines) + "\n")
     say_rows(rows, given.confidence, about["units"])
-    say(f"root mean square of the residuals {misfit.in_words(rms)}, {len(misfit.y)} points, {model.marches} analyses")
+    say(f"root mean square of the residuals {misfit.in_words(rms)}, {len(misfit.y)} points, {model.marches} analyses; intervals take the model "
+        "as right")
     warn(search, found, doubted, jumps)
+
+
+def text_of(row, level, unit, digits=6):
+    """A parameter with its interval."""
+    low, high = (float("nan") if end is None else end for end in row["interval"])
+    return f"{row['key']} = {row['value']:.{digits}g}{unit}, {100 * level:g} % interval {low:.{digits}g} to {high:.{digits}g}{unit}"
 
 
 def say_rows(rows, level, units):
@@ -299,10 +307,8 @@ def say_rows(rows, level, units):
         if not row["told"]:
             say(f"{row['key']} is not told by the data: {row['value']:.6g}{unit} is its start")
             continue
-        low, high = (float("nan") if end is None else end for end in row["interval"])
-        say(f"{row['key']} = {row['value']:.6g}{unit}, {100 * level:g} % interval {low:.6g} to {high:.6g}{unit}"
-            + (", of this {:.2g} below and {:.2g} above for what is held".format(*row["of_held"])
-               if any(row.get("of_held", [])) else "")
+        say(text_of(row, level, unit) + (", of this {:.2g} below and {:.2g} above for what is held".format(*row["of_held"])
+                                         if any(row.get("of_held", [])) else "")
             + (" (at its bound)" if row["at_bound"] else ""))
 
 
