@@ -290,9 +290,14 @@ def report(search, found, given):
                  read_about(os.path.join(model.work, f"{which + 1}-at")), texts)
     write_file(os.path.join(out, "fit.csv"), "\n".join(lines) + "\n")
     say_rows(rows, given.confidence, about["units"])
-    say(f"root mean square of the residuals {misfit.in_words(rms)}, {len(misfit.y)} points, {model.marches} analyses; intervals take the model "
-        "as right")
+    say(f"root mean square of the residuals {misfit.in_words(rms)}, {len(misfit.y)} points, {model.marches} analyses; {right(search.names)}")
     warn(search, found, doubted, jumps)
+
+
+def right(names):
+    """What the intervals know nothing of, in a sentence."""
+    alone = any(name.endswith("_toughness") for name in names) and not any(name.endswith(("_strength", "_onset")) for name in names)
+    return "intervals take the model as right" + (", strengths too, which are not among --parameters" if alone else "")
 
 
 def text_of(row, level, unit, digits=6):

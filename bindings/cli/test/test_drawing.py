@@ -67,6 +67,14 @@ for name, direction, texts in (('name = "bar"', 'component = ["y"]', ("bar: 1.5 
     told(f"a lever is drawn: {texts}", code == 0 and all(f"<!-- {text} -->".encode() in picture for text in texts), error)
     told("what does not move in parallel is no lever", (b"uy = -1 press" in picture) == ('"y"' in direction))
 
+# ---- angles of plies
+
+sheet = "--layup 0/90/-45/-45 --ply 0.5mm --width 4mm --length 4mm --E1 126GPa --E2 11GPa --G12 6.6GPa --GIc 220J/m2 --GIIc 600J/m2 --strain 1%"
+laminate = start("new", "laminate", *sheet.split())[1]
+code, error, picture = drawn(laminate)
+told("plies have their angles", code == 0 and all(f"<!-- ply {k + 1} (ply, {angle}°) -->".encode() in picture
+                                                  for k, angle in enumerate((0, 90, -45, -45))), error)
+
 # ---- what cannot be drawn, or must not be replaced
 
 code, error, _ = drawn(SCENE, "scene.pdf")

@@ -79,6 +79,22 @@ ViewInterface interface_of(const Model& model, std::size_t index) {
     return out;
 }
 
+constexpr std::size_t most_angles = 8;  // of plies of one layer that are named
+
+// Returns ", 90°" for a layer whose fibres lie in its plane at this angle to x, all angles for one of few plies.
+std::string turned(const Layer& layer) {
+    std::vector<std::array<double, 6>> plies = layer.plies;
+    if (plies.empty() && layer.axes) plies.push_back(*layer.axes);
+    if (plies.empty() || plies.size() > most_angles) return "";
+    std::vector<std::string> angles;
+    for (const auto& axes : plies) {
+        if (std::abs(axes[2]) > 1e-9) return "";
+        const double degrees = std::atan2(axes[1], axes[0]) * 180 / std::acos(-1.0);
+        angles.push_back(fmt::format("{:g}", std::round(10 * degrees) / 10 + 0.0));
+    }
+    return fmt::format(", {}°", fmt::join(angles, "/"));
+}
+
 class Drawing {
 public:
     Drawing(const Model& model, const Scene& scene)
@@ -95,7 +111,8 @@ public:
         for (const std::int64_t node : seen.nodes) points.push_back(point(node));
         for (const std::int64_t cell : seen.cells) body.push_back(mesh_.body[static_cast<std::size_t>(cell)]);
         for (const Layer& layer : scene_.layers)
-            bodies.push_back({{"name", layer.name}, {"material", scene_.materials[layer.material].name}});
+            bodies.push_back(
+                {{"name", layer.name}, {"material", scene_.materials[layer.material].name + turned(layer)}});
         json out{{"dimension", mesh_.dimension},
                  {"title", scene_.title.empty() ? scene_.file : scene_.title},
                  {"scales", json::array()},
