@@ -379,6 +379,9 @@ def words():
     study.say_rows(study.rows_of(search, found), 0.95, model.units)
     study.warn(search, found, ["laws[0].normal_toughness"], [[1.25]])
     study.say = say
+    for names, strengths in ((["laws[0].normal_toughness"], True), (["laws[0].normal_toughness", "laws[0].normal_strength"], False),
+                             (["materials[0].young"], False)):
+        expect(("strengths too" in study.right(names)) == strengths, f"what intervals take as right: {names}")
     for text in ("toughness = 1.59.* N/mm, 95 % interval 1.5.* to 1.6.* N/mm$", "begin from there, --parameters laws.0.normal_toughness@1.59",
                  "interval of laws.0..normal_toughness cannot be trusted: at its ends", "may depend on it in steps",
                  r"refine the mesh \(--set geometry.divisions=100 --set time.steps=18\)", "--parameters laws.0.normal_toughness@1.9",
