@@ -35,6 +35,10 @@ KINDS = {
                    "normal-strength", "shear-strength", "strain")),
     "laminate": ("", ("ply", "width", "length", "GIc", "GIIc", "strain")),
 }
+# What a kind takes besides.
+ELASTIC, LAW = PLY + ("young", "poisson"), ("GIc", "GIIc", "eta", "normal-strength", "shear-strength")
+TAKEN = {kind: ("eta",) if kind == "fibre" else ELASTIC + LAW + (() if kind == "laminate" else ("length", "growth"))
+         for kind in KINDS}
 DEFAULTS = {"nu12": 0.3, "nu23": 0.45, "eta": 2.0}
 FACTORS = {"dcb": "The factor is the opening between both arms: the reaction is the force of the machine.",
            "adcb": "The factor is the opening between both arms: the reaction is the force of the machine.",
@@ -86,6 +90,15 @@ def required(given):
         missing.append("--layup")
     if missing:
         raise command.Trouble(f"{kind} needs {', '.join(missing)} as well (`delam help new` explains them)")
+
+
+def unused(given):
+    """A sentence about the numbers that the kind does not take; nothing if it takes all."""
+    kind = given["kind"]
+    other = [option(key) for key in given["sheet"] if key not in KINDS[kind][1] + TAKEN[kind]]
+    if given["layup"] and kind != "laminate":
+        other.append("--layup")
+    return [f"{kind} does not take {', '.join(other)}: not used"] if other else []
 
 
 def sheet_of(given):
@@ -253,7 +266,7 @@ def main():
     write(scenes.scene(of), given["out"], given["replace"])
     said = standards.warnings(of) if of.kind in beams.THEORY else []
     # The program has chosen mm and N itself: other units are no hint.
-    for line in said + [re.sub(r"; the numbers suggest .*", "", one) for one in found["warnings"]]:
+    for line in unused(given) + said + [re.sub(r"; the numbers suggest .*", "", one) for one in found["warnings"]]:
         print(command.printable(f"warning: {line}"), file=sys.stderr)
     if given["out"]:
         print(f"zone      {'; '.join(found['process_zones'])}")

@@ -8,7 +8,7 @@ def between(value, low, high):
 
 
 def thick_enough(of):
-    """The least thickness of both arms, so that displacements stay small (ASTM D5528, 8.4; ISO 15024, annex)."""
+    """The least thickness of both arms, so that displacements stay small (ASTM D5528)."""
     return 8.28 * (of.gic * of.notch ** 2 / of.e1) ** (1 / 3)
 
 

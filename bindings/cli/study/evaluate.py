@@ -46,12 +46,15 @@ class Curve:
         self.names = [option or table.units[k] for k, option in zip((x, y), given.units or ["", ""])]
         units = [self._unit(table, k, name, kind) for k, name, kind in zip((x, y), self.names, ("length", "force"))]
         columns = [np.abs(table.columns[k]) * size for k, size in zip((x, y), units)]
+        columns[0] = columns[0] - given.machine * columns[1]
         there = np.isfinite(columns[0]) & np.isfinite(columns[1])
         if there.sum() < 5:
             raise Trouble(f"{path}: {int(there.sum())} points with displacement and load: at least 5 are expected")
         way = Way(columns[0][there], columns[1][there], False)
+        if given.machine:
+            said.append(f"machine and fixture take {1e3 * given.machine * np.max(way.y):.4g} mm of the displacement at the largest load")
         if way.loops:
-            said.append(f"{len(way.loops)} unloadings cut")
+            said.append(f"{len(way.loops)} unloading{'s' * (len(way.loops) > 1)} cut")
         if way.averaged:
             said.append(f"x jitters: {int(there.sum())} points are averaged to {len(way.x)}")
         self.path, self.displacement, self.load = path, way.x, way.y
@@ -235,7 +238,7 @@ def report(given, curve, answers, points, fitted):
     replaced = os.path.lexists(os.path.join(given.out, NAMES[0]))
     held = hold(given.out)
     claim(given.out, NAMES, False)
-    about = {"test": given.test, "file": curve.path, "sheet": given.sheet,
+    about = {"test": given.test, "file": curve.path, "sheet": {key: text for key, text in given.sheet.items() if text},
              "units": {"displacement": "m", "crack": "m", "load": "N", "compliance": "m/N", "toughness": "J/m2",
                        "numbers": {name: unit for answer in answers for name, unit in answer.units().items()}},
              "compliance": points.compliance, "zero": points.zero, "noise": points.noise,
@@ -259,6 +262,7 @@ def report(given, curve, answers, points, fitted):
 def main():
     given = given_words()
     sheet = sheet_of(given)
+    given.machine = sheet.pop("compliance", 0.0)
     fitted = beside(given.beside) if given.beside else []
     curve = Curve(given.data[0], given)
     answers, points = TESTS[given.test](curve, sheet, given)

@@ -5,7 +5,8 @@ import os
 from look import BLUE, GREY, RED, axis, plt, save, units_of
 
 
-def draw_fit(out, which, model, curve, history, jumps, about):
+def draw_fit(out, which, model, curve, history, jumps, about, found):
+    """found: a line for each parameter that the data tell."""
     data = model.data[which]
     length, force, _ = units_of(about)
     figure, (above, below) = plt.subplots(2, 1, figsize=(7.2, 5.4), sharex=True, constrained_layout=True,
@@ -16,9 +17,9 @@ def draw_fit(out, which, model, curve, history, jumps, about):
         above.axvline(x, color=RED, linewidth=0.8, linestyle=":", label="jump" if k == 0 else None)
     above.set_ylabel(axis(model.y_name, force if model.y_name.startswith("reaction") else ""))
     above.legend()
-    above.set_title(os.path.basename(model.files[which]))
+    above.set_title("\n".join([os.path.basename(model.files[which]), *found]), fontsize=9)
     below.axhline(0.0, color=GREY, linewidth=0.8)
     below.plot(data.x, curve - data.y, "o", color=BLUE, markersize=3)
     below.set_ylabel("model - data")
-    below.set_xlabel(axis(model.x_name, length if model.x_name.startswith("load") else ""))
+    below.set_xlabel(axis(model.named_x(which)[0], length if model.x_name.startswith("load") else ""))
     save(figure, os.path.join(out, "fit.png" if len(model.data) == 1 else f"fit-{which + 1}.png"))

@@ -47,6 +47,34 @@ told("0.12 m are drawn in mm", b"<!-- extent 120" in in_mm or b"<!-- extent 0.12
 told("the axes have the unit of the scene", b"m] -->" in in_mm)
 told("PNG", drawn(SCENE, "scene.png")[2].startswith(b"\x89PNG"))
 
+# ---- an equation of two parallel displacements is a lever, whose load has its place by their factors
+
+LEVER = """
+[[equations]]
+NAME
+pattern = "press"
+coefficient = -1.0
+left = [
+    { patch = { centre = [0.06, 0.006], length = 0.001, face = "+y" }, component = ["y"], coefficient = 1.5 },
+    { patch = { centre = [0.0, 0.0045], length = 0.003, face = "-x" }, layer = "upper", DIRECTION, coefficient = -0.5 },
+]
+"""
+unloaded = SCENE[:SCENE.index("[[loads]]")] + "[time]" + SCENE.split("[time]")[1]
+for name, direction, texts in (('name = "bar"', 'component = ["y"]', ("bar: 1.5 uy", "bar: -0.5 uy", "bar: uy = -1 press")),
+                               ("", 'component = ["y"]', ("equations[0]: uy = -1 press",)),
+                               ("", 'component = ["x"]', ("equations[0]: 1.5 uy", "equations[0]: -0.5 ux"))):
+    code, error, picture = drawn(unloaded + LEVER.replace("NAME", name).replace("DIRECTION", direction))
+    told(f"a lever is drawn: {texts}", code == 0 and all(f"<!-- {text} -->".encode() in picture for text in texts), error)
+    told("what does not move in parallel is no lever", (b"uy = -1 press" in picture) == ('"y"' in direction))
+
+# ---- angles of plies
+
+sheet = "--layup 0/90/-45/-45 --ply 0.5mm --width 4mm --length 4mm --E1 126GPa --E2 11GPa --G12 6.6GPa --GIc 220J/m2 --GIIc 600J/m2 --strain 1%"
+laminate = start("new", "laminate", *sheet.split())[1]
+code, error, picture = drawn(laminate)
+told("plies have their angles", code == 0 and all(f"<!-- ply {k + 1} (ply, {angle}°) -->".encode() in picture
+                                                  for k, angle in enumerate((0, 90, -45, -45))), error)
+
 # ---- what cannot be drawn, or must not be replaced
 
 code, error, _ = drawn(SCENE, "scene.pdf")
@@ -97,8 +125,9 @@ def cubes(bodies):
 
 figure = drawing.scene_figure(cubes(1))
 told("half of the faces of a cube are seen", len(figure.axes[0].collections[0].get_paths()) == 3)
-for bodies in (1, 2, 11, 40):
-    figure = drawing.scene_figure(cubes(bodies))
+bar = {"text": "bar: uz = -1 press", "ends": [[0.5, 0.5, 1], [0, 0.5, 0.5]], "load": [0.9, 0.5, 1], "direction": [0, 0, -1]}
+for bodies, levers in ((1, []), (2, []), (11, []), (40, []), (1, [bar]), (3, [bar])):
+    figure = drawing.scene_figure({**cubes(bodies), "levers": levers})
     figure.canvas.draw()
     boxes = [(text.get_text(), text.get_window_extent()) for text in figure.texts if text.get_text()]
     over = [(a[0], b[0]) for a, b in itertools.combinations(boxes, 2) if a[1].overlaps(b[1])]
@@ -106,7 +135,11 @@ for bodies in (1, 2, 11, 40):
     cut = [text for text, box in boxes
            if box.x0 < 0 or box.y0 < 0 or box.x1 > figure.bbox.width or box.y1 > figure.bbox.height]
     told(f"{bodies} cubes: no text is cut off", not cut, cut)
+    told("the bar lies beyond the bodies", all(
+        line.get_ydata().min() > max(path.vertices[:, 1].max() for path in figure.axes[0].collections[0].get_paths())
+        for line in figure.axes[0].lines if line.get_linewidth() == 5))
     names = {text for text, _ in boxes}
+    told("the bar is named", {one["text"] for one in levers} <= names)
     told(f"{bodies} cubes: all are named", bodies > drawing.MOST_NAMED or
          {f"body {b} (m)" for b in range(bodies)} <= names)
     told(f"{bodies} cubes: very many are named once", bodies < drawing.MOST_NAMED or

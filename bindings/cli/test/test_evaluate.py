@@ -80,6 +80,14 @@ def opening():
     code, shown, error = start(*words, "--E1", "140GPa", "--out", out)
     value = evaluated(out)["toughness"]["effective crack"]["max"]
     expect(code == 0 and "0 crack lengths: at least 3" in error and abs(value / TOUGH - 1) < 1e-3, f"without marks: {value} {error}")
+    # With a soft machine, whose displacement is taken off.
+    soft = raw(os.path.join(here, "soft.csv"), ["Extension (mm)", "Load (N)"], (x + 5e-3 * y, y))
+    for more, right in ((["--compliance", "5e-3mm/N"], True), ([], False)):
+        code, shown, error = start(*words[:2], soft, *words[3:], "--E1", "140GPa", *more, "--out", out)
+        value = evaluated(out)["toughness"]["effective crack"]["max"]
+        expect(code == 0 and (abs(value / TOUGH - 1) < 1e-3) == right and ("machine and fixture take" in shown) == right,
+               f"a soft machine {more}: {value} {error}")
+    expect_error(start(*words, "--compliance", "5e-3mm", "--out", out), 2, "--compliance 5e-3mm: .* such as 2e-5mm/N")
     # Beside a fit, in its units.
     with open(os.path.join(here, "fit.json"), "w", encoding="utf-8") as file:
         json.dump({"units": ["mm", "N"], "parameters": [

@@ -14,6 +14,10 @@ def refuse(text, *patterns, code=2):
 scene = write(SCENE)
 code, out, _ = answer = start("check", scene)
 expect(code == 0 and "unknowns" in out and "left out" in out, "check prints the plan")
+words = re.search(r"\neffort      about ([\d.]+) s and (\d+) MiB.*\n(note: .*\n)*\nHow it is computed", out)
+found = json.loads(start("check", scene, "--json", "--set", "time.steps=40")[1])["effort"]
+expect(words and 1.1 * float(words[1]) < found["seconds"] < 2.2 * float(words[1]) and abs(found["bytes"] / 2**20 - int(words[2])) < 1,
+       f"what it takes stands before the plan, of twice as many steps twice as much: {out[:1500]} {found}")
 expect(delam("check", scene) == answer, "a program that is already loaded prints the same")
 expect("initial state" not in out, "check solves a small scene")
 # Dense blocks of 2000 rows, more than 2 s at the nominal rate: planned, not factored.

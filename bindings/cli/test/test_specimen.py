@@ -118,6 +118,12 @@ def units():
                           (["--length", "40mm"], "--length 40 mm is too short")):
         sheet = [*good] if words[0] == "--length" else [w for w in good if w not in ("--arm", "1.5mm")]
         expect_error(delam("new", "dcb", *sheet, *words), 2, re.escape(wanted))
+    sheet = ("laminate --layup 0/90/90/0 --ply 0.5mm --width 4mm --length 4mm --young 70GPa --GIc 220J/m2 --GIIc 600J/m2 "
+             "--strain 1%").split()
+    code, _, error = delam("new", *sheet)
+    expect(code == 0 and "take" not in error, f"a laminate takes all of its sheet: {error}")
+    code, _, error = delam("new", *sheet, "--notch", "2mm", "--half-span", "50mm")
+    expect(code == 0 and "warning: laminate does not take --half-span, --notch: not used" in error, f"numbers that do nothing: {error}")
     expect_error(delam("new", "enf", *good), 2, "enf needs --half-span, --GIIc as well")
     code, _, error = delam("new", "dbc", *good)
     expect(code == 2 and "dbc" in error and "dcb" in error, "an unknown kind")

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `delam check`: finds out what would be computed as one JSON object, which is printed as it is or in lines for people.
 #include <algorithm>
+#include <cstdlib>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -67,15 +68,27 @@ constexpr double short_setup = 2.0;
 
 struct Planned {
     std::string text;
+    double setup = 0.0, memory = 0.0;  // s, byte
     bool converged = true;
 };
+
+// Returns the seconds that the plan predicts for a load step: the cost of this item, which ends its line; 0 without
+// one.
+double step_seconds(const std::string& plan) {
+    const std::size_t line = plan.find("time of a load step: used");
+    if (line == std::string::npos) return 0.0;
+    const std::size_t cost = plan.rfind("(cost ", plan.find('\n', line));
+    return cost == std::string::npos || cost < line ? 0.0 : std::strtod(plan.c_str() + cost + 6, nullptr);
+}
 
 // A small scene is solved at its initial state, which finds what a plan cannot.
 Planned plan(const Model& model, const Scene& scene) {
     const char* text = "";
-    double setup = 0.0;
-    call(model.context.get(), delam_problem_plan(model.problem.get(), &text, &setup, nullptr), {scene.file, "", 0});
-    Planned planned{text, true};
+    Planned planned;
+    double& setup = planned.setup;
+    call(model.context.get(), delam_problem_plan(model.problem.get(), &text, &setup, &planned.memory),
+         {scene.file, "", 0});
+    planned.text = text;
     if (setup > short_setup) {
         planned.text += fmt::format(
             "initial state: left out, its factorisations are predicted to take {:.2g} s; delam run computes it\n",
@@ -147,6 +160,26 @@ void say_bodies(const Found& found) {
             set["faces"] == 0 ? "" : ", " + counted(set["faces"], "face"));
 }
 
+// Says what an analysis takes, in the words of those who run it.
+void say_effort(const Found& effort) {
+    const auto seconds = effort["seconds"].get<double>();
+    const double mebibytes = effort["bytes"].get<double>() / 1048576.0;
+    const std::string time = seconds < 120    ? fmt::format("{:.2g} s", seconds)
+                             : seconds < 7200 ? fmt::format("{:.0f} min", seconds / 60)
+                                              : fmt::format("{:.2g} h", seconds / 3600);
+    const std::string memory =
+        mebibytes < 1024 ? fmt::format("{:.0f} MiB", mebibytes) : fmt::format("{:.3g} GiB", mebibytes / 1024);
+    say("effort      about {} and {} of memory (predicted to an order of magnitude: modes that mix, jumps and large "
+        "rotations take longer)\n",
+        time, memory);
+}
+
+void say_plan(const Found& plan) {
+    say("\nHow it is computed (nothing to be done about): what the method uses and leaves out, why, and what that "
+        "costs or saves.\n\n");
+    for (const Found& line : plan) say("{}\n", wrapped(line.get<std::string>(), plan_width));
+}
+
 void say_lines_of(const Found& found) {
     const auto text = [](const Found& of, const char* key) { return of[key].get<std::string>(); };
     say("{}: correct\n", text(found, "file"));
@@ -186,9 +219,9 @@ void say_lines_of(const Found& found) {
             "({})\n",
             text(units, "length"), text(units, "force"), text(units, "reason"));
     }
-    say("\n");
-    for (const Found& line : found["plan"]) say("{}\n", wrapped(line.get<std::string>(), plan_width));
+    if (found.contains("effort")) say_effort(found["effort"]);
     for (const Found& note : found["notes"]) say("note: {}\n", note.get<std::string>());
+    say_plan(found["plan"]);
     // Not on standard output, where they are lost when that goes to a file.
     for (const Found& warning : found["warnings"]) complain("warning: {}\n", warning.get<std::string>());
 }
@@ -237,6 +270,9 @@ Found examined(const std::string& scene_file, const std::vector<std::string>& se
     (void)(caller.around ? caller.around(model, make_plan) : make_plan());
     Found found = find(scene_file, scene, model);
     found["imported"] = imported;
+    if (const double step = step_seconds(planned.text); step > 0)
+        found["effort"] = {{"seconds", planned.setup + static_cast<double>(scene.step_count()) * step},
+                           {"bytes", planned.memory}};
     found["plan"] = lines_of(said_of_scene(planned.text, model));
     std::vector<std::string>& warnings = said.warnings;
     const std::vector<std::string> more = warnings_of(model, scene);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <optional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -78,6 +79,22 @@ ViewInterface interface_of(const Model& model, std::size_t index) {
     return out;
 }
 
+constexpr std::size_t most_angles = 8;  // of plies of one layer that are named
+
+// Returns ", 90°" for a layer whose fibres lie in its plane at this angle to x, all angles for one of few plies.
+std::string turned(const Layer& layer) {
+    std::vector<std::array<double, 6>> plies = layer.plies;
+    if (plies.empty() && layer.axes) plies.push_back(*layer.axes);
+    if (plies.empty() || plies.size() > most_angles) return "";
+    std::vector<std::string> angles;
+    for (const auto& axes : plies) {
+        if (std::abs(axes[2]) > 1e-9) return "";
+        const double degrees = std::atan2(axes[1], axes[0]) * 180 / std::acos(-1.0);
+        angles.push_back(fmt::format("{:g}", std::round(10 * degrees) / 10 + 0.0));
+    }
+    return fmt::format(", {}°", fmt::join(angles, "/"));
+}
+
 class Drawing {
 public:
     Drawing(const Model& model, const Scene& scene)
@@ -94,7 +111,8 @@ public:
         for (const std::int64_t node : seen.nodes) points.push_back(point(node));
         for (const std::int64_t cell : seen.cells) body.push_back(mesh_.body[static_cast<std::size_t>(cell)]);
         for (const Layer& layer : scene_.layers)
-            bodies.push_back({{"name", layer.name}, {"material", scene_.materials[layer.material].name}});
+            bodies.push_back(
+                {{"name", layer.name}, {"material", scene_.materials[layer.material].name + turned(layer)}});
         json out{{"dimension", mesh_.dimension},
                  {"title", scene_.title.empty() ? scene_.file : scene_.title},
                  {"scales", json::array()},
@@ -105,6 +123,7 @@ public:
                  {"bodies", bodies},
                  {"interfaces", json::array()},
                  {"marks", json::array()},
+                 {"levers", json::array()},
                  {"remarks", json::array()}};
         for (const Scale& scale : scales_of(Quantity::length, scene_.units.names))
             out["scales"].push_back({scale.factor, scale.name});
@@ -258,12 +277,67 @@ private:
                 out, "tie", one.where, false,
                 fmt::format("{}: moves with \"{}\"", called(one.place, one.where), scene_.controls[one.control].name),
                 {});
-        for (const EquationData& one : scene_.equations)
+        for (const EquationData& one : scene_.equations) {
+            const std::string name = one.name.empty() ? one.place.path : one.name;
             for (const EquationTerm& term : one.left)
-                add_mark(out, "tie", term.where, true,
-                         fmt::format("{}{}: {:g} {}", one.place.path, place_text(term.where), term.coefficient,
-                                     along(term.direction)),
-                         {});
+                add_mark(
+                    out, "tie", term.where, true,
+                    fmt::format("{}{}: {:g} {}", name, place_text(term.where), term.coefficient, along(term.direction)),
+                    {});
+            add_lever(out, one, name);
+        }
+    }
+
+    // Returns the middle of what a term of an equation takes hold of; nothing if that has no place.
+    [[nodiscard]] std::optional<std::array<double, 3>> middle_of(const Selection& where) const {
+        const auto* control = std::get_if<ControlNode>(&where.shape);
+        if (control != nullptr && !scene_.controls[control->index].placed) return std::nullopt;
+        const auto nodes = select(model_.context.get(), model_.mesh.get(), scene_, where, true).nodes;
+        if (nodes.empty()) return std::nullopt;
+        std::array<double, 3> middle{};
+        for (const std::int64_t node : nodes)
+            for (std::size_t a = 0; a < 3; ++a)
+                middle[a] += mesh_.points[static_cast<std::size_t>(3 * node) + a] / static_cast<double>(nodes.size());
+        return middle;
+    }
+
+    // Two parallel displacements c1 u1 + c2 u2 are (c1 + c2) times that of one point of a rigid bar through both
+    // places, which divides their distance by c1 and c2: the load of a lever. It is drawn if it is no farther off the
+    // bodies than these are long.
+    void add_lever(json& out, const EquationData& one, const std::string& name) const {
+        if (one.left.size() != 2 || one.right.empty()) return;
+        const std::vector<double>& along_first = one.left[0].direction;
+        const std::vector<double>& along_second = one.left[1].direction;
+        double product = 0, first = 0, second = 0;
+        for (std::size_t a = 0; a < along_first.size(); ++a) {
+            product += along_first[a] * along_second[a];
+            first += along_first[a] * along_first[a];
+            second += along_second[a] * along_second[a];
+        }
+        if (std::abs(product) < (1 - 1e-9) * std::sqrt(first * second)) return;
+        const double c1 = one.left[0].coefficient, c2 = one.left[1].coefficient * product / first, sum = c1 + c2;
+        const auto p1 = middle_of(one.left[0].where), p2 = middle_of(one.left[1].where);
+        if (!p1 || !p2 || sum == 0) return;
+        std::array<double, 3> load{};
+        double above = 0;  // of the load over the first place: it has the height of that
+        for (std::size_t a = 0; a < 3; ++a) load[a] = (c1 * (*p1)[a] + c2 * (*p2)[a]) / sum;
+        for (std::size_t a = 0; a < along_first.size(); ++a) above += along_first[a] * (load[a] - (*p1)[a]) / first;
+        for (std::size_t a = 0; a < along_first.size(); ++a) load[a] -= above * along_first[a];
+        for (std::size_t a = 0; a < 3; ++a) {
+            double low = mesh_.points[a], high = low;
+            for (std::size_t i = a; i < mesh_.points.size(); i += 3) {
+                low = std::min(low, mesh_.points[i]);
+                high = std::max(high, mesh_.points[i]);
+            }
+            if (load[a] < 2 * low - high || load[a] > 2 * high - low) return;
+        }
+        std::vector<double> direction = along_first;
+        for (double& x : direction) x *= one.right.front().coefficient / sum > 0 ? 1 : -1;
+        out["levers"].push_back(
+            {{"text", fmt::format("{}: {} = {}", name, along(along_first), terms_text(one.right, 1 / sum))},
+             {"ends", {*p1, *p2}},
+             {"load", load},
+             {"direction", direction}});
     }
 
     void add_remarks(json& remarks) const {

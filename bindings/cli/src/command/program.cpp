@@ -286,6 +286,7 @@ void add_evaluate(CLI::App& app, Arguments& into, Commands& of) {
           Entry{"lever", "from the middle to the load on the lever, of mmb"},
           Entry{"block-pin", "dcb with load blocks: from the middle of the arm to the pin, l1 of ISO 15024"},
           Entry{"block-length", "dcb with load blocks: length of a block, 2 l2 of ISO 15024"},
+          Entry{"compliance", "of machine and fixture, which takes its displacement off, e.g. 2e-5mm/N"},
           Entry{"E1", "modulus along the fibres, e.g. 140GPa"}, Entry{"E2", "modulus across them"},
           Entry{"G13", "shear modulus across the thickness"}, Entry{"G12", "the same of a ply, instead of --G13"}})
         of.evaluate->add_option("--" + std::string(entry.key), study.sheet[entry.key], entry.meaning)

@@ -168,6 +168,7 @@ struct EquationTerm {
 struct EquationData {
     std::vector<EquationTerm> left;
     std::vector<Term> right;  // empty: 0
+    std::string name;         // of the scene, or empty
     Place place;
 };
 

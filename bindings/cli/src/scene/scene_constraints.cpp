@@ -155,6 +155,7 @@ void read_constraints(const Table& root, Scene& scene) {
         if (equation.left.empty())
             table.fail("left", "is needed: [{ point = [..], component = [\"y\"], coefficient = 1.0 }, ..]");
         equation.right = read_right(table, scene);
+        if (table.has("name")) equation.name = table.text("name");
         equation.place = table.place();
         scene.equations.push_back(std::move(equation));
     }

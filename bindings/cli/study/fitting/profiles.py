@@ -45,14 +45,24 @@ def correlated(residual, starts):
 
 
 def covariance(residual, jacobian, starts):
-    """The inverse of J'J and the covariance of the parameters. Errors may differ from point to point (noise in
-    proportion to the load): HC3 of J. MacKinnon, H. White, J. Econometrics 29 (1985) 305-325, with the leverages of the
-    points; and neighbours may err alike."""
+    """The inverse of J'J, the covariance of the parameters, and how many degrees of freedom each variance has. Errors may
+    differ from point to point (noise in proportion to the load): HC3 of J. MacKinnon, H. White, J. Econometrics 29 (1985)
+    305-325, with the leverages of the points; and neighbours may err alike. A variance to which few points contribute has
+    few degrees of freedom: twice its mean squared over its variance, for errors of one size (R. Bell, D. McCaffrey, Survey
+    Methodology 28 (2002) 169-181; G. Imbens, M. Kolesar, Rev. Econ. Stat. 98 (2016) 701-712)."""
     left, singular, vectors = np.linalg.svd(jacobian, full_matrices=False)
     inverse = (vectors.T / singular) @ left.T
     leverage = np.sum(left ** 2, axis=1)
-    errors = residual / np.maximum(1 - leverage, 0.1)
-    return inverse @ inverse.T, (inverse * errors ** 2) @ inverse.T * correlated(residual, starts)
+    most = 1 / np.maximum(1 - leverage, 0.1)
+    alike = correlated(residual, starts)
+    freedom = []
+    for row in inverse:
+        # The variance is e'MDMe of the errors e, with D = diag(parts) and M = I - UU'; this is tr(DM)^2 / tr(DMDM).
+        parts = (row * most) ** 2
+        mean = parts @ (1 - leverage)
+        spread = parts ** 2 @ (1 - 2 * leverage) + np.sum(((left.T * parts) @ left) ** 2)
+        freedom.append(mean ** 2 / spread / alike if spread > 0 else 1.0)
+    return inverse @ inverse.T, (inverse * (residual * most) ** 2) @ inverse.T * alike, np.array(freedom)
 
 
 @dataclass
@@ -112,8 +122,8 @@ class Profile:
         self.jacobian = outcome.jacobian[:, kept]
         self.chord = chord[kept]
         starts = np.cumsum([0] + [len(data.x) for data in misfit.model.data][:-1]).tolist()
-        self.inverse, self.covariance = covariance(self.point.residual, self.jacobian, starts)
-        self.factor = student(level, len(misfit.y) - len(self.places))
+        self.inverse, self.covariance, freedom = covariance(self.point.residual, self.jacobian, starts)
+        self.factors = np.array([student(level, one) for one in freedom])
         self.better = None  # a point with less misfit than the solution
 
     def errors(self):
@@ -123,7 +133,7 @@ class Profile:
         """The intervals without analyses at their ends; none where there are no more points than parameters."""
         if len(self.misfit.y) <= len(self.places) or not np.isfinite(self.errors()).all():
             return []
-        return [Interval(half, half, trusted) for half in self.factor * self.errors()]
+        return [Interval(half, half, trusted) for half in self.factors * self.errors()]
 
     def _ratio(self, k, distance):
         """How much more misfit there is at a distance than the derivatives predict, and whether the bounds allow it."""
@@ -164,7 +174,7 @@ class Profile:
 
     def interval(self, k, analyses):
         """Of the k-th kept parameter. analyses: how many may be spent beyond the two at its ends."""
-        half = self.factor * self.errors()[k]
+        half = self.factors[k] * self.errors()[k]
         if half > FARTHEST:
             return Interval(half, half, False)
         distance = max(half, FAR) if self.chord[k] else half

@@ -112,7 +112,8 @@ class CurveData:
         text = f"{abs(slack):.4g}{' ' * bool(units[0])}{units[0]}"
         said.append((f"slack: the load begins at {text}, which is taken off" if slack > 0 else
                      f"preload: the line of the load begins {text} before 0, which is added") +
-                    (f", and {int((~kept).sum())} points before it are left out" if not kept.all() else "") +
+                    ("" if kept.all() else ", and the point before it is left out" if (~kept).sum() == 1 else
+                     f", and {int((~kept).sum())} points before it are left out") +
                     ("; --slack none keeps it, --slack LENGTH gives another one" if given.slack == "find" else ""))
         return [x[kept] - slack, y[kept]]
 

@@ -8,7 +8,7 @@ import numpy as np
 
 def beam_offset(crack, compliance):
     """By how much the crack of a clamped arm is longer: where the line of the cube roots of the compliances meets the
-    axis (ISO 15024, 10.2; ASTM D5528, 12.1.1). Not negative."""
+    axis (ISO 15024; the modified beam theory of ASTM D5528). Not negative."""
     slope, at_zero = np.polyfit(crack, np.cbrt(compliance), 1)
     return max(0.0, float(at_zero / slope))
 
@@ -60,7 +60,7 @@ def modified_compliance_calibration(displacement, load, crack, sheet):
 
 
 def chi(e1, e2, g13):
-    """By how many arms the crack is longer because the arms rotate at its tip (ASTM D6671, eqs. 4 and 5)."""
+    """By how many arms the crack is longer because the arms rotate at its tip (ASTM D6671)."""
     gamma = 1.18 * np.sqrt(e1 * e2) / g13
     return float(np.sqrt(e1 / (11 * g13) * (3 - 2 * (gamma / (1 + gamma)) ** 2)))
 
@@ -131,18 +131,18 @@ def enf_effective(first, sheet):
 
 
 def enf_calibration(cracks, compliances):
-    """C = A + m a^3 of ASTM D7905 (11.3): A, m."""
+    """C = A + m a^3 of the compliance calibration of ASTM D7905: A, m."""
     m, a = np.polyfit(np.asarray(cracks) ** 3, compliances, 1)
     return float(a), float(m)
 
 
 def enf_calibrated(load, m, sheet):
-    """3 m P^2 a0^2 / 2 b of ASTM D7905 (11.5)."""
+    """3 m P^2 a0^2 / 2 b of the compliance calibration of ASTM D7905."""
     return 1.5 * m * load ** 2 * sheet["notch"] ** 2 / sheet["width"]
 
 
 def mmb_modulus(compliance, chi, sheet):
-    """The bending modulus of ASTM D6671, eq. 8, from the compliance at the point of load."""
+    """The bending modulus of ASTM D6671 from the compliance at the point of load."""
     half, lever, h, notch = 0.5 * sheet["span"], sheet["lever"], sheet["arm"], sheet["notch"]
     return ((8 * (notch + chi * h) ** 3 * (3 * lever - half) ** 2
              + (6 * (notch + 0.42 * chi * h) ** 3 + 4 * half ** 3) * (lever + half) ** 2)
@@ -150,7 +150,7 @@ def mmb_modulus(compliance, chi, sheet):
 
 
 def mixed_mode_bending(load, crack, chi, modulus, sheet):
-    """The rates of both modes of ASTM D6671, eqs. 9 and 10."""
+    """The rates of both modes of ASTM D6671."""
     half, lever, b, h = 0.5 * sheet["span"], sheet["lever"], sheet["width"], sheet["arm"]
     common = load ** 2 / (16 * b ** 2 * h ** 3 * half ** 2 * modulus)
     return (12 * common * (3 * lever - half) ** 2 * (crack + chi * h) ** 2,

@@ -70,7 +70,7 @@ class Points:
         return Point(name, place, float(self.displacement[place]), float(self.load[place]), float(self.error[place]))
 
     def _standard(self):
-        """NL, "5 %" and "max" (ISO 15024, 9.2; ASTM D5528, 11.1): the second is where the compliance is 5 % larger, or
+        """NL, "5 %" and "max" (ISO 15024, ASTM D5528): the second is where the compliance is 5 % larger, or
         the largest load if that comes first."""
         leaves, offset = self._beyond(LEAVES, SURELY), self._beyond(0.05, 0.0)
         leaves = self.top if leaves is None else leaves

@@ -9,7 +9,7 @@ from measured.units import kind_of, quantity
 SHEET = {"width": ("length", "25mm"), "arm": ("length", "1.5mm"), "notch": ("length", "50mm"), "span": ("length", "100mm"),
          "half-span": ("length", "50mm"), "lever": ("length", "41.3mm"), "block-pin": ("length", "5mm"),
          "block-length": ("length", "10mm"), "E1": ("stress", "140GPa"), "E2": ("stress", "10GPa"), "G13": ("stress", "5GPa"),
-         "G12": ("stress", "5GPa")}
+         "G12": ("stress", "5GPa"), "compliance": ("length/force", "2e-5mm/N")}
 NEEDED = {"dcb": ("width", "arm", "notch"), "enf": ("width", "arm", "notch", "span"),
           "mmb": ("width", "arm", "notch", "span", "lever", "E1", "E2", "G13")}
 # Two names of one number, and the factor: `delam new` has the second of each.

@@ -17,6 +17,7 @@ ROW, FONT = 0.19, 10.5  # inches of a line of a label; points of its letters, 14
 # The least extent over the largest: thinner bodies are drawn as if thicker, by a round factor. With half of it
 # each of four layers is 3 mm high on paper, with twice as much a drawing of a beam is half as high as a page.
 THINNEST = 0.12
+LIFT = 0.3  # inches between the bodies and the bar of a lever: with half of it marks on the bodies touch it
 MOST_NAMED = 24  # labels: with half of it eight layers are not all named, with twice it names fill a page
 MOST_MARKS = 12  # symbols of a support or a load along what it holds
 MESH_SHOWN = 4000  # faces: of more the lines would cover the tones
@@ -175,6 +176,38 @@ def draw_marks(ax, scene, paper, reach):
         yield mark["text"], at[len(at) // 2:len(at) // 2 + 1], colour
 
 
+class Lever:
+    """An equation that is that of a rigid bar on two places, which a load moves: drawn beside the bodies, on the side
+    from which the load presses. drawn: points of the bodies on the paper [n][2]; reach: the length of an arrow there;
+    lift: the distance of the bar."""
+
+    def __init__(self, lever, drawn, paper, reach, lift):
+        direction = np.asarray(lever["direction"], float)
+        towards = paper(np.pad(direction, (0, 3 - len(direction))) / paper.factors)
+        length = np.linalg.norm(towards)
+        self.text, self.seen = lever["text"], length > 1e-9
+        if not self.seen:  # it points at the eye
+            return
+        self.away = -towards / length
+        self.level = (drawn @ self.away).max() + lift
+        self.ends = paper(np.asarray(lever["ends"], float))
+        self.load = self.on_bar(paper(np.asarray(lever["load"], float)))
+        self.tail = self.load + reach * self.away
+
+    def on_bar(self, points):
+        return points + (self.level - points @ self.away)[..., None] * self.away
+
+    def draw(self, ax):
+        bar = np.vstack([self.on_bar(self.ends), self.load])
+        order = np.argsort(bar @ np.array([self.away[1], -self.away[0]]))
+        bar = bar[order[[0, -1]]]
+        ax.add_line(plt.Line2D(*bar.T, color=GREY, linewidth=5, solid_capstyle="round", clip_on=False, zorder=4))
+        for end, top in zip(self.ends, self.on_bar(self.ends)):
+            ax.add_line(plt.Line2D(*np.array([end, top]).T, color=GREY, linewidth=2, clip_on=False, zorder=4))
+        ax.annotate("", self.load, self.tail, annotation_clip=False, zorder=5,
+                    arrowprops={"arrowstyle": "-|>", "color": RED, "linewidth": 1.6, "shrinkA": 0, "shrinkB": 0})
+
+
 def body_labels(scene, points, paper):
     body = np.asarray(scene["body"])
     centres = np.zeros((len(body), 2))
@@ -270,6 +303,14 @@ def scene_figure(scene):
     draw_bodies(ax, scene, points, paper)
     found += draw_interfaces(ax, scene, points, paper)
     found += draw_marks(ax, scene, paper, 0.38 / scale)
+    levers = [Lever(one, drawn, paper, 0.38 / scale, LIFT / scale) for one in scene.get("levers", [])]
+    levers = [one for one in levers if one.seen]
+    for one in levers:
+        one.draw(ax)
+        found.append((one.text, one.tail[None], RED))
+    tails = np.array([one.tail for one in levers]).reshape(-1, 2)
+    over, under = (scale * max(0.0, *ends) if levers else 0.0  # inches of levers above and below the bodies
+                   for ends in ((tails[:, 1] - high[1]), (low[1] - tails[:, 1])))
     # From here on lengths are inches of the paper, measured from the left end of the room for labels.
     width = WIDTH - MARGIN
     left = (WIDTH - scale * size[0]) / 2
@@ -290,9 +331,9 @@ def scene_figure(scene):
     extent = " × ".join(f"{value:.4g}" for value in factor * paper.size)
     remarks.insert(0, f"extent {extent} {unit}".rstrip())
     foot = 0.2 + ROW * len(remarks)
-    bottom = foot + 0.72 + 2 * ROW * rows_below
+    bottom = foot + 0.72 + 2 * ROW * rows_below + under
     top = bottom + scale * size[1]
-    height = top + 0.5 + 2 * ROW * rows_above + 0.35
+    height = top + over + 0.5 + 2 * ROW * rows_above + 0.35
     figure.set_size_inches(WIDTH, height)
     ax.set_position((left / WIDTH, bottom / height, scale * size[0] / WIDTH, scale * size[1] / height))
     ax.set_xlim(low[0], low[0] + size[0])
@@ -301,9 +342,10 @@ def scene_figure(scene):
         artist.set_clip_on(False)
     box = (left, bottom, left + scale * size[0], top)
     name_axes(ax, scene, paper, box, figure)
+    around = (box[0], box[1] - under, box[2], box[3] + over)
     for label in all_labels:
         label.y += bottom
-        draw_label(figure, label, box, height, label in upper)
+        draw_label(figure, label, around, height, label in upper)
     figure.text(MARGIN / 2 / WIDTH, 1 - 0.1 / height, scene["title"], fontsize=12, va="top")
     figure.text(MARGIN / 2 / WIDTH, 0.1 / height, "\n".join(remarks), fontsize=9, color=GREY, va="bottom")
     return figure

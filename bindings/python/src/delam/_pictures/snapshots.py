@@ -187,8 +187,10 @@ def plot_solid(result, file, shots, scale):
     width = 5.0 if len(hidden) else 4.0
     shapes = [solid_shape(file, step, scale, hidden) for _, step in shots]
     height = max(width * shape[1] / shape[0] for shape in shapes) + 0.5
-    size = max(width * columns, 8.0), rows * (height + 1.3 * len(names)) + 1.0  # the title takes 8 inches
-    figure = plt.figure(figsize=size, layout="constrained")
+    size = max(width * columns, 8.0), rows * (height + 0.1 + 1.4 * len(names)) + 1.1  # the title takes 8 inches
+    figure = plt.figure(figsize=size)
+    # By default two lines of the title touch those of the bodies below them.
+    figure.set_layout_engine("constrained", h_pad=0.1)
     grid = figure.add_gridspec(rows * (1 + len(names)), columns, height_ratios=([height] + [1.3] * len(names)) * rows)
     drawn = matplotlib.cm.ScalarMappable(plt.Normalize(0, 1), ZETA) if len(hidden) else None
     axes = []
@@ -210,6 +212,8 @@ def plot_solid(result, file, shots, scale):
             drawn = flat.tripcolor(at[:, 0], at[:, 1], triangles, zeta, cmap=ZETA, vmin=0, vmax=1, shading="gouraud")
             if zeta.min() < 0.5 < zeta.max():
                 flat.tricontour(at[:, 0], at[:, 1], triangles, zeta, levels=[0.5], colors="black", linewidths=0.9)
+            flat.set_xlim(at[:, 0].min(), at[:, 0].max())  # of one scale with and without a front
+            flat.set_ylim(at[:, 1].min(), at[:, 1].max())
             flat.set_aspect("equal")
             flat.axis("off")
             flat.set_title(f"interface {text_of(file['interfaces'][name].attrs['name'])}, {seen}", fontsize=8)
