@@ -82,9 +82,10 @@ void CandidateEnergies::focus(std::span<const std::uint8_t> wanted) {
     wanted_ = std::move(pairs);
 }
 
+// A pair that has broken at another load has done so with another mixity.
 void CandidateEnergies::recall(std::span<const double> memory) {
     const std::size_t patterns = direction_.size();
-    if (memory.size() <= patterns || !std::ranges::equal(memory.first(patterns), direction_)) return;
+    if (follow_mixity_ || memory.size() <= patterns || !std::ranges::equal(memory.first(patterns), direction_)) return;
     std::span<const double> left = memory.subspan(patterns);
     if (left.front() != layout) return recall_first_layout(left);
     left = left.subspan(1);
@@ -117,6 +118,7 @@ void CandidateEnergies::recall_first_layout(std::span<const double> entries) {
 std::vector<double> CandidateEnergies::memory() const {
     std::vector<double> m(direction_);
     m.push_back(layout);
+    if (follow_mixity_) return m;
     for (const auto& [key, known] : known_) {
         const CandidateEnergy& e = known.energy;
         if (known.age > forgotten || !std::isfinite(e.value)) continue;
@@ -188,10 +190,13 @@ void CandidateEnergies::from_operator(std::span<const double> adhesion, std::spa
         e.value = response_.stored_bulk + response_.load_potential + stored_energy(pairs, adhesion, response_.jump) -
                   gradient_energy(pairs, adhesion);  // this energy does not grow with the load
         if (!follow_mixity_) return;
+        // A pair breaks on its way between two jumps, and the place depends on their size.
+        std::vector<double> jump(response_.jump);
+        for (double& j : jump) j *= size_;
         const auto dim = index(pairs.dimension);
         for (const std::int64_t p : e.next)
             e.next_mixity.push_back(breaking_mixity(index(p), adhesion, known[index(p)], [&](std::size_t q) {
-                return std::span<const double>(response_.jump).subspan(q * dim, dim);
+                return std::span<const double>(jump).subspan(q * dim, dim);
             }));
     } catch (const Error& error) {
         if (error.status() != DELAM_LIMIT) throw;

@@ -86,6 +86,8 @@ private:
     bool touches_debonded(std::span<const std::int64_t> ring) const;
     Candidate candidate(std::size_t n) const;
     void sample(std::size_t n, bool exact = false);
+    // Brings D of all samples up to date with what ring n has shown.
+    void update_costs(std::size_t n);
     // Samples these rings anew, with exact energies; false: the limit is reached.
     bool sample_exactly(std::initializer_list<std::size_t> places);
     // A place of ring n that does not move with the front, where rings are single pairs.
@@ -101,6 +103,8 @@ private:
     bool settled_by_a_larger_one(std::size_t n) const;
     // Keeps what the sample says about smaller cracks.
     void bound_smaller_cracks(std::size_t n);
+    // Returns the ring whose sample tells whether the growth over an edge is stable; 0: the samples do.
+    std::size_t to_resolve(const GrowthProfile& known, const GrowthProfile::Edge& edge) const;
     void refine_minimum();
     void close_gap();
     // Rings without a sample between two that have one, or beyond the last: low, and the next sample.
@@ -132,10 +136,11 @@ private:
     std::map<std::size_t, Candidate> value_;            // by rings; adhesion is left out: only I and D are needed
     std::map<std::size_t, double> cost_;                // D
     mutable std::map<std::size_t, double> other_cost_;  // where it does not depend on the samples
-    std::vector<std::vector<double>> mixity_;           // B of a ring, from the nearest sample before it
+    std::vector<std::vector<double>> mixity_;           // B of a ring as its sample shows it; empty: not sampled
     std::vector<double> least_cost_;                    // [rings and 1], where the mixity follows the iterates
     std::vector<std::size_t> unknown_;                  // [rings and 1] rings before, whose mixity no sample has shown
     std::set<std::size_t> exact_;                       // rings of exact samples
+    double best_before_;                                // lowest I before this sweep
     std::size_t best_at_ = 0;
     std::size_t all_ = 0;  // rings of the front; those kept may matter and fit
     bool stopped_ = false;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 
 #include "base/numbers.hpp"
@@ -62,6 +63,18 @@ Run longest_run(const std::vector<GrowthProfile::Edge>& edges, std::span<const d
     return longest;
 }
 
+// True if most of what a step has debonded lies where the growth of a front was sampled.
+bool tells_most(const PairLaws& pairs, std::span<const std::uint8_t> told, const State& before, const State& after) {
+    double all = 0.0, there = 0.0;
+    for (std::size_t p = 0; p < told.size(); ++p) {
+        if (pairs.law[p] == nullptr) continue;
+        const double own = pairs.weight[p] * (before.adhesion[p] - after.adhesion[p]);
+        all += own;
+        if (told[p] != 0) there += own;
+    }
+    return there > 0.5 * all;
+}
+
 }  // namespace
 
 std::optional<JumpWithin> energetic_jump(const PairLaws& pairs, const PairGraph& graph, std::span<const double> initial,
@@ -69,14 +82,19 @@ std::optional<JumpWithin> energetic_jump(const PairLaws& pairs, const PairGraph&
                                          const State& after) {
     const bool unloaded = max_abs(before.theta) == 0.0;
     const std::optional<double> begin = unloaded ? 0.0 : load_ratio(before.theta, after.theta);
-    if (!begin || *begin > 1.0) return std::nullopt;
+    if (begin && *begin > 1.0) return std::nullopt;
     JumpWithin found;
     found.known = JumpWithin::told_by_search;
+    std::vector<std::uint8_t> told(initial.size(), 0);
     for (const GrowthProfile& profile : profiles) {
         const std::size_t reached =
             leading(profile, [&](std::size_t p) { return after.adhesion[p] <= broken * before.adhesion[p]; });
-        const std::size_t zone =
-            leading(profile, [&](std::size_t p) { return initial[p] - before.adhesion[p] > debonded_below; });
+        const auto softened = [&](const State& state) {
+            return leading(profile, [&](std::size_t p) { return initial[p] - state.adhesion[p] > debonded_below; });
+        };
+        const std::size_t zone = softened(before), ahead = softened(after);
+        for (std::size_t n = 0; n < std::max(reached, ahead) && n < profile.ring.size(); ++n)
+            for (const std::int64_t p : profile.ring[n]) told[index(p)] = 1;
         if (static_cast<double>(reached) <= static_cast<double>(zone) + pairs_of_jump) continue;
         std::vector<double> area(1, 0.0);
         for (const std::vector<std::int64_t>& ring : profile.ring) {
@@ -89,12 +107,13 @@ std::optional<JumpWithin> energetic_jump(const PairLaws& pairs, const PairGraph&
         if (static_cast<double>(run.to - run.from) <= pairs_of_jump || !(run.area > found.debonded)) continue;
         found.debonded = run.area;
         found.interface = profile.interface;
-        found.load = std::clamp(std::sqrt(run.square), *begin, 1.0);
+        found.load = begin ? std::clamp(std::sqrt(run.square), *begin, 1.0) : 1.0;
     }
-    if (!(found.debonded > 0.0)) return std::nullopt;
+    if (!(found.debonded > 0.0)) return tells_most(pairs, told, before, after) ? std::optional(found) : std::nullopt;
     found.released = after.outcome.released;
     found.conjugate_before = before.response.conjugate;
     found.conjugate_after = after.response.conjugate;
+    if (!begin) return found;
     for (double& q : found.conjugate_before) q *= *begin > 0.0 ? found.load / *begin : 1.0;
     for (double& q : found.conjugate_after) q *= found.load;
     return found;

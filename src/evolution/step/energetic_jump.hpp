@@ -14,8 +14,9 @@
 
 namespace delam {
 
-// Returns the longest jump of the step. None: the samples show none, as within the process zone of the state before, or
-// where the loads are not in proportion. initial: [pairs] adhesion at first.
+// Returns the longest jump of the step, or that it has none: `debonded` is 0. Where the loads are not in proportion,
+// the hull is that at the load of the end, which is then the load of the jump. None: the step has debonded pairs
+// elsewhere than where growth was sampled, or the load falls. initial: [pairs] adhesion at first.
 std::optional<JumpWithin> energetic_jump(const PairLaws& pairs, const PairGraph& graph, std::span<const double> initial,
                                          std::span<const GrowthProfile> profiles, const State& before,
                                          const State& after);

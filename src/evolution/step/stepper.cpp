@@ -432,10 +432,8 @@ void Stepper::search(Result& best, const StepRule& step) {
     if (!followed) lowest = compare_candidates(best, found, step);
     if (twin_) best.state.search_memory = twin_->memory();
     best.state.search_energies = std::move(found.energies);
-    // Where D depends on the path, the samples do not tell which states follow each other.
-    if (!step.follows_iterates() || this->one_mode(before, best.state))
-        if (auto jump = energetic_jump(pairs_, graph_, initial_adhesion_, found.profiles, before, best.state))
-            best.state.jump_within = std::move(*jump);
+    if (auto jump = energetic_jump(pairs_, graph_, initial_adhesion_, found.profiles, before, best.state))
+        best.state.jump_within = std::move(*jump);
     StepOutcome& outcome = best.state.outcome;
     const double kept = best.state.ledger.increment;
     best.state.effort.search_candidates += found.candidates;

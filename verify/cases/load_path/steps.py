@@ -11,6 +11,7 @@ open, work less stored, dissipated and released energy.
   steps that are not followed.
 - a film that comes off by a change of temperature, at an energy release rate that does not depend on its length: one
   jump through the rest of the interface, which releases next to nothing.
+- the first and the second with solution = energetic: no jump either, and what the search has left out bounded closely.
 With options that leave no path to follow, step_control = load is refused.
 
 --outcomes prints what the analyses give, without judging it: what each dissipates, and its jumps. verify/bench/constants.py
@@ -170,6 +171,25 @@ def jumping(name, make, length, counts):
     expect(max(times) - min(times) < 0.03 * max(times), f"{name}: at the same load within 3 %")
 
 
+def searched(name, make, counts, bound):
+    """bound: of search_gap, over the energy or the work."""
+    for steps in counts:
+        problem = make()
+        problem.options["solution"] = "energetic"
+        solver = delam.Solver(problem)
+        gap = margin = 0.0
+        for step in range(1, steps + 1):
+            solver.advance(step / steps)
+            solver.commit()
+            values = solver.values
+            scale = max(values["stored_bulk"] + values["stored_interface"] + values["dissipated"], values["work"])
+            gap, margin = max(gap, values["search_gap"] / scale), min(margin, values["search_margin"] / scale)
+        expect(not solver.jumps, f"{name}, energetic, {steps} steps: growth is no jump ({len(solver.jumps)})")
+        expect(gap < bound, f"{name}, energetic, {steps} steps: gap {100 * gap:.2f} % of the energy")
+        expect(margin > -1e-8, f"{name}, energetic, {steps} steps: the lowest state that was seen is kept "
+               f"({-margin:.1e} of the energy)")
+
+
 def refused():
     """The option goes with others only where they leave a path to follow."""
     for key, value in (("solution", "energetic"), ("mixity_rule", "frozen"), ("minimisation", "alternate"),
@@ -213,6 +233,8 @@ def main():
     steady("opened", opened, counts)
     cheap("opened", opened, 40)
     jumping("film", film, 0.02, counts)
+    searched("bending", SCENES["bending"], (15, 40), 0.075)
+    searched("turned back", turned, (24,), 0.015)
     refused()
     sys.exit(1 if failures else 0)
 
