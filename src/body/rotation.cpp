@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/cancel_scope.hpp"
 #include "base/numbers.hpp"
 #include "body/equal/centre_gradients.hpp"
 
@@ -14,6 +15,7 @@ std::vector<double> rotations(std::span<const double> slopes, std::size_t dimens
     std::vector<double> rotation;
     rotation.reserve(slopes.size() / entries * (dimension == 2 ? 1 : 3));
     for (std::size_t first = 0; first < slopes.size(); first += entries) {
+        poll_cancel("recover");
         const double* slope = &slopes[first];
         for (std::size_t axis = dimension == 2 ? 2 : 0; axis < 3; ++axis) {
             const std::size_t i = (axis + 1) % 3, j = (axis + 2) % 3;

@@ -111,7 +111,8 @@ class OfTheCommandLine(unittest.TestCase):
 
     def test_jumps(self):
         brittle = self.folder.parent / "brittle"
-        run(brittle, "geometry.h=0.003", "time.steps=10", "solver.solution=energetic")
+        name = "enf-brittle-energetic"
+        run(brittle, "time.steps=10", scene=support.ROOT / "examples" / name / f"{name}.toml")
         jumps = delam.Result(brittle).jumps
         with open(brittle / "jumps.csv", encoding="utf-8") as file:
             rows = list(csv.DictReader(file))

@@ -9,9 +9,8 @@ namespace delam {
 namespace {
 
 // Rows that are known at most. Reason: meshes of layers have 10 to 60 different cells, graded ones as many as they
-// have columns, and free ones no two that are equal, of which a bounded number is kept in vain. Measured by
-// verify/unit/test_row_table.cpp and as `valgrind --tool=callgrind delam run examples/enf/enf.toml`, which has 33:
-// half and twice of it take the same instructions.
+// have columns, and free ones no two that are equal, of which a bounded number is kept in vain. (examples/enf has 33,
+// by verify/unit/test_row_table.cpp. Half and twice have not been measured.)
 constexpr std::size_t most_rows = 1024;
 
 // Mixes the bits of a row (multiplicative hashing; D. Knuth, The Art of Computer Programming 3, section 6.4).

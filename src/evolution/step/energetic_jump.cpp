@@ -14,9 +14,9 @@ namespace delam {
 
 namespace {
 
-// A ring is broken if its pairs have no more than this part of what they had. `delam run
-// ../shared/cases/truth/F1c-film-energetic-silent.toml` names the same jump with half of it; with twice, whatever is
-// loaded would count as broken.
+// A ring is broken if its pairs have no more than this part of what they had. (The film of
+// verify/cases/load_path/steps.py with solution = energetic has the same jump with half of it; with twice, whatever is
+// loaded would count as broken.)
 constexpr double broken = 0.5;
 
 // Returns how many rings, from the first on, hold this of all their pairs.

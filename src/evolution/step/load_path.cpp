@@ -315,9 +315,9 @@ void LoadPath::accept(Trial trial) {
     if (!known) {
         const bool moves_first = flat(part) && load_ratio(at_.theta, next.theta);
         const double own = moves_first ? ledger.upper : work(next, part.start);
+        tell(trial);
         next.outcome.released = flat(part) || part.pops ? std::max(0.0, own - ledger.increment)
                                                         : freed(trial) * (ledger.dissipated - at_.ledger.dissipated);
-        tell(trial);
         ledger.work = at_.ledger.work + own;
         ledger.released = at_.ledger.released + next.outcome.released;
     }

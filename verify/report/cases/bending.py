@@ -14,7 +14,7 @@ STIFFNESS, NORMAL = 1e15, 60e6                                  # N/m3, Pa
 TURON = NORMAL * math.sqrt(MODE_II / MODE_I)                    # the strength in shear that keeps the mixity
 PATCH = 1e-3                                                    # m, of rollers and noses
 VALUES = ("load:press", "reaction:press", "stored_bulk", "stored_interface", "dissipated", "work", "lower", "increment",
-          "increment_lower", "upper", "released", "defect", "crack_length", "mixity_error")
+          "increment_lower", "upper", "released", "popped", "defect", "crack_length", "mixity_error")
 
 
 def toughness(mixity):
@@ -299,8 +299,9 @@ def at_once(analyses):
 
 
 def unnamed(of, steps):
-    """Those of the steps for which no jump with a released energy is recorded."""
+    """Those of the steps for which no released energy is recorded, of a jump or of single pairs that popped."""
     named = {j["step"] for j in of.jumps if math.isfinite(j["released"])}
+    named |= {k for k, popped in enumerate(of.at["popped"]) if popped > 0.0}
     return [k for k in steps if k not in named]
 
 

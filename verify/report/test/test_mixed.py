@@ -17,7 +17,7 @@ ELASTIC = 5.6e-8  # m/(N/m) of the notch, G_II/G = 0.8
 HIGH = "peak over that of beam theory, over what is allowed"
 LOW = "peak below that of beam theory, over what is allowed"
 BOOKED = "dissipated per new crack, off its softening zone"
-LEDGER = "stored + dissipated + released - work, over the work"
+LEDGER = "stored + dissipated + released - work, over what is dissipated"
 UNNAMED = "falls of the load without a recorded jump"
 
 
@@ -34,7 +34,7 @@ def exact(steps, second=bending.MODE_II):
     end = down[-1]
     out = types.SimpleNamespace(specimen=specimen, h=1e-4, steps=steps, open=0, jumps=[], shear=bending.TURON)
     at = {name: [0.0] for name in ("load:press", "reaction:press", "stored_bulk", "stored_interface", "dissipated",
-                                   "work", "released", "crack_length", "lower", "increment", "increment_lower",
+                                   "work", "released", "popped", "crack_length", "lower", "increment", "increment_lower",
                                    "upper")}
     at["crack_length"] = [bending.NOTCH]
     i = 0
@@ -57,7 +57,7 @@ def exact(steps, second=bending.MODE_II):
                             ("work", at["work"][-1] + rest + released), ("released", released),
                             ("crack_length", crack[i])):
             at[name].append(value)
-        for name in ("stored_interface", "lower", "increment", "increment_lower", "upper"):
+        for name in ("stored_interface", "popped", "lower", "increment", "increment_lower", "upper"):
             at[name].append(0.0)
     out.zones = [[(0.1 * k, specimen.mixity(a)) for k in range(1, 10)] for a in at["crack_length"]]
     out.at, out.down, out.load, out.crack = at, at["load:press"], at["reaction:press"], at["crack_length"]

@@ -189,7 +189,7 @@ def plot_solid(result, file, shots, scale):
     height = max(width * shape[1] / shape[0] for shape in shapes) + 0.5
     size = max(width * columns, 8.0), rows * (height + 0.1 + 1.4 * len(names)) + 1.1  # the title takes 8 inches
     figure = plt.figure(figsize=size)
-    # By default two lines of the title touch those of the bodies below them.
+    # The pad keeps two lines of the title apart from those of the bodies below them.
     figure.set_layout_engine("constrained", h_pad=0.1)
     grid = figure.add_gridspec(rows * (1 + len(names)), columns, height_ratios=([height] + [1.3] * len(names)) * rows)
     drawn = matplotlib.cm.ScalarMappable(plt.Normalize(0, 1), ZETA) if len(hidden) else None
