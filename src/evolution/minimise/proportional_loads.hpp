@@ -6,6 +6,7 @@
 #include <span>
 
 #include "evolution/contact/contact.hpp"
+#include "evolution/increment/damage_step.hpp"
 #include "evolution/increment/state.hpp"
 #include "reduction/operator/jump_operator.hpp"
 

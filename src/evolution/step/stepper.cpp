@@ -411,9 +411,7 @@ void Stepper::search(Result& best, const StepRule& step) {
             ++minimised;
             const double extent = beyond * (dissipated - own);
             Continuation continued = continue_fronts(best, step, extent);
-            // A path that climbs too high does not tell that a state far below is none.
-            const bool beyond_doubt = candidate.incremental < level - promising_way * (dissipated - own);
-            followed = !(continued.farthest < extent) || (continued.given_up && !beyond_doubt);
+            followed = continued.given_up || !(continued.farthest < extent);
             if (followed) {
                 lowest = continued.incremental;
                 other.effort = best.state.effort;
