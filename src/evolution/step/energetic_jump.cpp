@@ -14,9 +14,9 @@ namespace delam {
 
 namespace {
 
-// A ring is broken if its pairs have no more than this part of what they had. (The film of
-// verify/cases/load_path/steps.py with solution = energetic has the same jump with half of it; with twice, whatever is
-// loaded would count as broken.)
+// A ring is broken if its pairs have no more than this part of what they had. (Measured by
+// delam run with solution = energetic on a film that comes off by cooling: half of it gives the same jump. With twice
+// of it, whatever is loaded would count as broken.)
 constexpr double broken = 0.5;
 
 // Returns how many rings, from the first on, hold this of all their pairs.
