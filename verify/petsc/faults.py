@@ -232,7 +232,7 @@ def disk():
         done = at_step(ranks, out, 3)
         if done is not None:
             resource.prlimit(ranks.pid(1), resource.RLIMIT_FSIZE, (1000, 1000))
-        ended(ranks, what, r"cannot write .*h5", "--resume|start again", codes=(3,), limit=START)
+        ended(ranks, what, r"cannot write .*step_\d+[.]bin", "--resume|start again", codes=(3,), limit=START)
     goes_on(out, what, 2)
     small = folder()
     mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=64k", "tmpfs", small], capture_output=True,
