@@ -22,9 +22,15 @@ double bulk(const Response& r) { return r.stored_bulk + r.load_potential; }
 class Segment {
 public:
     Segment(const Response& from, const Response& to) : from_(from), to_(to) {
-        for (std::size_t i = 0; i < from.jump.size(); ++i)
-            bend_ -= (to.jump[i] - from.jump[i]) * (to.force[i] - from.force[i]);
+        for (std::size_t i = 0; i < from.jump.size(); ++i) {
+            const double opened = to.jump[i] - from.jump[i];
+            slope_ -= opened * from.force[i];
+            bend_ -= opened * (to.force[i] - from.force[i]);
+        }
     }
+    // E(s) - E(0) of the bodies, from the work of the tractions: the residual of an iterative solve enters it with its
+    // square, and a difference of two energies of the whole scene with itself.
+    double bulk_change(double s) const { return s * (slope_ + 0.5 * s * bend_); }
     double bulk_energy(double s) const { return (1.0 - s) * bulk(from_) + s * bulk(to_) - 0.5 * s * (1.0 - s) * bend_; }
     std::vector<double> jump(double s) const { return mean(from_.jump, to_.jump, s); }
     Response at(double s) const {
@@ -47,7 +53,7 @@ private:
     }
     const Response& from_;
     const Response& to_;
-    double bend_ = 0.0;
+    double slope_ = 0.0, bend_ = 0.0;
 };
 
 }  // namespace
@@ -125,11 +131,10 @@ bool CurvedDisplacement::run(const DisplacementSolve& solve, std::vector<std::ui
         converged = solve(m.stiffness, m.force, to_closed, to);
         const std::vector<double> image = gather(to.jump), from = gather(at);
         const Segment segment(response, to);
-        const double energy = bulk(response) + interface_energy(response.jump);
-        const double slack =
-            scene_rounding * (std::abs(response.stored_bulk) + std::abs(response.load_potential) + std::abs(energy));
+        const double energy = interface_energy(response.jump);
+        const double slack = scene_rounding * (std::abs(bulk(response)) + energy);
         double s = 1.0;
-        while (s > 1e-3 && segment.bulk_energy(s) + interface_energy(segment.jump(s)) > energy + slack)
+        while (s > 1e-3 && segment.bulk_change(s) + interface_energy(segment.jump(s)) > energy + slack)
             s *= ahead ? 0.0 : 0.5;
         if (s <= 1e-3 && !ahead) return left <= acceptable && converged;  // rounding of the energy
         if (s >= 1.0) {

@@ -5,9 +5,8 @@
 // Its linear part and a spring that bounds its curvature from above replace it around the last jumps (variational.hpp).
 // This leaves an ordinary step with springs w k (zeta + mu) and additional forces. Each solution is a search direction:
 // along the segment between two admissible displacements of the operator the bulk energy is exactly quadratic,
-// quadratic,
 //
-//   E(s) = (1-s) E_0 + s E_1 - s (1-s)/2 Q,     Q = (u_1-u_0)^T K (u_1-u_0) = -(j_1-j_0).(lambda_1-lambda_0),
+//   E(s) - E(0) = -s (j_1-j_0).lambda_0 + s^2/2 Q,     Q = (u_1-u_0)^T K (u_1-u_0) = -(j_1-j_0).(lambda_1-lambda_0),
 //
 // so the energy of every point on it is known without a solve, and no point that increases it is taken. The iteration
 // ends when the traction of the law equals that of the bodies.
