@@ -1261,8 +1261,9 @@ DELAM_API int32_t delam_solver_recorded(const delam_solver *solver, const char *
  * it is that of the state before the step (in the first loaded step, of the elastic solution). With `converged`, it is
  * that of the end of the step; a pair that broke keeps the B of the last iterate in which it still adhered. With
  * `variational`, it is that of the step's own displacements.
- * part is an interface index for pair fields, or -1 for all interfaces one after another. It is -1 for the other
- * fields.
+ * part is an interface index for pair fields, or -1 for all interfaces one after another. For displacement it may be a
+ * node: the field has its row alone, and where the bodies are condensed, the others are not recovered. It is -1
+ * otherwise.
  * [null rows, columns; status argument; since 0.1] */
 DELAM_API int32_t delam_solver_field_shape(const delam_solver *solver, const char *key, int64_t part, int64_t *rows,
                                            int64_t *columns);
@@ -1277,7 +1278,8 @@ DELAM_API int32_t delam_solver_field(delam_solver *solver, const char *key, int6
  *   *volume         in L2 or L3
  * Shear strains are doubled, and the strain includes eigenstrains. In 2D the out-of-plane components follow from the
  * plane assumption. The averages do not include the opening of interfaces between bodies. Bodies without cells have no
- * volume; all results are 0 if no body has cells. The function recovers the displacements.
+ * volume; all results are 0 if no body has cells. The function recovers the displacements, unless the bodies are
+ * condensed: then the averages follow from jumps and loads, which the first call prepares with a few sparse solves.
  * [unit volume L2 or L3, strain 1, stress F/L2; null volume, strain, stress; status cancelled, argument; source none;
  * since 0.1] */
 DELAM_API int32_t delam_solver_average(const delam_solver *solver, int32_t body, double *volume, double *strain,

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "body/averages.hpp"
 
+#include <algorithm>
 #include <vector>
 
 #include "base/cancel_scope.hpp"
 #include "body/cell_elasticity.hpp"
+#include "linalg/dense/dense.hpp"
 #include "mesh/faces.hpp"
 #include "mesh/shape.hpp"
 
@@ -16,26 +18,26 @@ constexpr std::size_t in_plane[] = {0, 1, 3}, out_of_plane[] = {2, 4, 5};  // xx
 
 std::size_t shear(std::size_t i, std::size_t j) { return i + j == 1 ? 3 : i + j == 3 ? 4 : 5; }
 
-// Integral of the strain over a cell, and its volume.
-double integrate(const Mesh& mesh, std::int64_t c, std::span<const double> displacement,
-                 std::array<double, 6>& strain) {
+// The volume of a cell, and the integrals of the gradients of its nodes' shape functions, [nodes][dimension].
+struct CellIntegral {
+    double volume = 0.0;
+    std::vector<double> gradient;
+};
+
+CellIntegral integrate(const Mesh& mesh, std::int64_t c) {
     const std::size_t dim = index(mesh.dimension());
     const auto cell = mesh.cell(c);
     std::vector<double> x;
     for (const std::int64_t n : cell) x.insert(x.end(), mesh.node(n).begin(), mesh.node(n).end());
     const Quadrature& gauss = quadrature(mesh.cell_type(c));
-    double volume = 0.0;
+    CellIntegral out{0.0, std::vector<double>(cell.size() * dim, 0.0)};
     for (std::size_t q = 0; q < gauss.points.size(); ++q) {
         const PhysicalGradient g = physical_gradient(mesh.cell_type(c), x, gauss.gradients[q]);
         const double part = gauss.weights[q] * g.jacobian;
-        volume += part;
-        for (std::size_t a = 0; a < cell.size(); ++a)
-            for (std::size_t i = 0; i < dim; ++i)
-                for (std::size_t j = 0; j < dim; ++j)
-                    strain[i == j ? i : shear(i, j)] +=
-                        part * g.gradient[a * dim + j] * displacement[index(cell[a]) * dim + i];
+        out.volume += part;
+        for (std::size_t i = 0; i < out.gradient.size(); ++i) out.gradient[i] += part * g.gradient[i];
     }
-    return volume;
+    return out;
 }
 
 // Strains out of the plane for which the stresses there vanish: C_oo e_o = -C_oi e_i, by elimination (C_oo is
@@ -59,38 +61,113 @@ void relax(const SpaceElasticity& c, std::array<double, 6>& strain) {
     }
 }
 
+// The strain less the prescribed one from that of the displacements less it, [6][6]: with the strains out of the plane
+// that stresses of zero there leave.
+SpaceElasticity elastic_strain(const SpaceElasticity& elasticity, bool free) {
+    SpaceElasticity m{};
+    for (std::size_t j = 0; j < 6; ++j) {
+        std::array<double, 6> strain{};
+        strain[j] = 1.0;
+        if (free) relax(elasticity, strain);
+        for (std::size_t i = 0; i < 6; ++i) m[i * 6 + j] = strain[i];
+    }
+    return m;
+}
+
+SpaceElasticity product(const SpaceElasticity& a, const SpaceElasticity& b) {
+    SpaceElasticity m{};
+    for (std::size_t i = 0; i < 6; ++i)
+        for (std::size_t j = 0; j < 6; ++j)
+            for (std::size_t k = 0; k < 6; ++k) m[i * 6 + j] += a[i * 6 + k] * b[k * 6 + j];
+    return m;
+}
+
+// e* in the axes of a cell, from that in material axes, [6][6].
+SpaceElasticity turned(const Axes* axes) {
+    SpaceElasticity m{};
+    for (std::size_t j = 0; j < 6; ++j) {
+        Strain unit{};
+        unit[j] = 1.0;
+        const Strain own = axes == nullptr ? unit : rotated_strain(unit, *axes);
+        for (std::size_t i = 0; i < 6; ++i) m[i * 6 + j] = own[i];
+    }
+    return m;
+}
+
 }  // namespace
+
+AverageWeights average_weights(const Mesh& mesh, std::span<const BodyModel> models, std::int32_t body) {
+    std::vector<CellElasticity> elasticity;
+    for (const BodyModel& model : models) elasticity.emplace_back(model, mesh.dimension());
+    const std::size_t dim = index(mesh.dimension());
+    AverageWeights w;
+    w.strain_of_eigenstrain.resize(models.size());
+    w.stress_of_eigenstrain.resize(models.size());
+    const auto add = [&](std::array<std::vector<double>, 6>& to, const SpaceElasticity& map, std::size_t strain,
+                         std::size_t dof, double value) {
+        for (std::size_t r = 0; r < 6; ++r) {
+            if (map[r * 6 + strain] == 0.0) continue;
+            if (to[r].empty()) to[r].assign(index(mesh.node_count()) * dim, 0.0);
+            to[r][dof] += map[r * 6 + strain] * value;
+        }
+    };
+    for (std::int64_t c = 0; c < mesh.cell_count(); ++c) {
+        const auto own = index(mesh.cell_body(c));
+        if (body >= 0 && mesh.cell_body(c) != body) continue;
+        poll_cancel("recover");
+        const CellIntegral cell = integrate(mesh, c);
+        w.volume += cell.volume;
+        const SpaceElasticity& space = elasticity[own].space(c);
+        const bool free = mesh.dimension() == 2 && models[own].plane == Plane::stress;
+        const SpaceElasticity elastic = elastic_strain(space, free), stress = product(space, elastic);
+        const auto nodes = mesh.cell(c);
+        for (std::size_t a = 0; a < nodes.size(); ++a)
+            for (std::size_t i = 0; i < dim; ++i)
+                for (std::size_t j = 0; j < dim; ++j) {
+                    const std::size_t strain = i == j ? i : shear(i, j), dof = index(nodes[a]) * dim + i;
+                    add(w.strain, elastic, strain, dof, cell.gradient[a * dim + j]);
+                    add(w.stress, stress, strain, dof, cell.gradient[a * dim + j]);
+                }
+        // strain = elastic (eps - e*) + e*
+        const SpaceElasticity turn = turned(elasticity[own].axes(c)), strain_of = product(elastic, turn),
+                              stress_of = product(stress, turn);
+        for (std::size_t i = 0; i < 36; ++i) {
+            w.strain_of_eigenstrain[own][i] += cell.volume * (turn[i] - strain_of[i]);
+            w.stress_of_eigenstrain[own][i] -= cell.volume * stress_of[i];
+        }
+    }
+    if (!(w.volume > 0.0)) return w;
+    const auto divide = [&](auto& of) {
+        for (double& x : of) x /= w.volume;
+    };
+    for (auto* const of : {&w.strain, &w.stress}) std::for_each(of->begin(), of->end(), divide);
+    for (auto* const of : {&w.strain_of_eigenstrain, &w.stress_of_eigenstrain})
+        std::for_each(of->begin(), of->end(), divide);
+    return w;
+}
+
+VolumeAverage AverageWeights::with(const std::array<double, 6>& strain_of_displacement,
+                                   const std::array<double, 6>& stress_of_displacement,
+                                   std::span<const Strain> eigenstrain) const {
+    VolumeAverage out{volume, strain_of_displacement, stress_of_displacement};
+    for (std::size_t b = 0; b < eigenstrain.size(); ++b)
+        for (std::size_t i = 0; i < 6; ++i)
+            for (std::size_t j = 0; j < 6; ++j) {
+                out.strain[i] += strain_of_eigenstrain[b][i * 6 + j] * eigenstrain[b][j];
+                out.stress[i] += stress_of_eigenstrain[b][i * 6 + j] * eigenstrain[b][j];
+            }
+    return out;
+}
 
 VolumeAverage volume_average(const Mesh& mesh, std::span<const BodyModel> models, std::span<const double> displacement,
                              std::span<const Strain> eigenstrain, std::int32_t body) {
-    std::vector<CellElasticity> elasticity;
-    for (const BodyModel& model : models) elasticity.emplace_back(model, mesh.dimension());
-    VolumeAverage sum;
-    for (std::int64_t c = 0; c < mesh.cell_count(); ++c) {
-        const std::int32_t own = mesh.cell_body(c);
-        if (body >= 0 && own != body) continue;
-        poll_cancel("recover");
-        std::array<double, 6> strain{};
-        const double volume = integrate(mesh, c, displacement, strain);
-        sum.volume += volume;
-        Strain prescribed{};
-        if (!eigenstrain.empty()) {
-            const Axes* axes = elasticity[index(own)].axes(c);
-            prescribed = axes == nullptr ? eigenstrain[index(own)] : rotated_strain(eigenstrain[index(own)], *axes);
-        }
-        for (std::size_t i = 0; i < 6; ++i) strain[i] -= volume * prescribed[i];
-        const SpaceElasticity& space = elasticity[index(own)].space(c);
-        const bool free = mesh.dimension() == 2 && models[index(own)].plane == Plane::stress;
-        if (free) relax(space, strain);
-        for (std::size_t i = 0; i < 6; ++i) {
-            sum.strain[i] += strain[i] + volume * prescribed[i];
-            for (std::size_t j = 0; j < 6; ++j) sum.stress[i] += space[i * 6 + j] * strain[j];
-        }
+    const AverageWeights weights = average_weights(mesh, models, body);
+    std::array<double, 6> strain{}, stress{};
+    for (std::size_t i = 0; i < 6; ++i) {
+        strain[i] = dot(weights.strain[i], displacement);
+        stress[i] = dot(weights.stress[i], displacement);
     }
-    if (!(sum.volume > 0.0)) return sum;
-    for (double& s : sum.strain) s /= sum.volume;
-    for (double& s : sum.stress) s /= sum.volume;
-    return sum;
+    return weights.with(strain, stress, eigenstrain);
 }
 
 }  // namespace delam

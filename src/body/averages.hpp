@@ -5,7 +5,9 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <vector>
 
+#include "body/cell_elasticity.hpp"
 #include "body/eigenstrain.hpp"
 #include "body/model.hpp"
 #include "mesh/mesh.hpp"
@@ -24,5 +26,18 @@ struct VolumeAverage {
 // material axes, or empty: stresses are C (eps - e*), strains the whole eps.
 VolumeAverage volume_average(const Mesh& mesh, std::span<const BodyModel> models, std::span<const double> displacement,
                              std::span<const Strain> eigenstrain, std::int32_t body);
+
+// The same averages as sums over displacements and eigenstrains.
+struct AverageWeights {
+    double volume = 0.0;
+    // [6] each [mesh DOFs]; empty: the component does not depend on displacements
+    std::array<std::vector<double>, 6> strain, stress;
+    std::vector<SpaceElasticity> strain_of_eigenstrain, stress_of_eigenstrain;  // [bodies], [6][6]
+
+    // strain, stress: the sums over the displacements.
+    VolumeAverage with(const std::array<double, 6>& strain_of_displacement,
+                       const std::array<double, 6>& stress_of_displacement, std::span<const Strain> eigenstrain) const;
+};
+AverageWeights average_weights(const Mesh& mesh, std::span<const BodyModel> models, std::int32_t body);
 
 }  // namespace delam

@@ -355,7 +355,7 @@ LOOP_TEST(provable_bounds, 0, 3) {
         cases::expect(m.warnings.empty(), "a fine analysis warns: " + (m.warnings.empty() ? "" : m.warnings.front()));
 }
 
-// Recorded defects decrease with the step; those of the ledger of PANM 15 (2010) stay, unless the mixity is
+// Recorded defects are small in steps of any length; those of the ledger of PANM 15 (2010) stay, unless the mixity is
 // variational.
 TEST(defects_side_by_side) {
     if (!cases::whole()) return;
@@ -366,10 +366,9 @@ TEST(defects_side_by_side) {
         for (const cases::MmfAnalysis& analysis : m)
             cases::expect(analysis.unfinished == 0, std::string(rule) + ": unfinished steps");
         if (std::string(rule) != "converged") continue;
-        // The work errs by the softening of a step; what is dissipated is that of fine steps from the first.
-        cases::expect_below(std::abs(m[2].defect), 0.4 * std::abs(m[0].defect), "converged: recorded defect");
+        // Steps follow their load: the defect is as small in few steps as in many.
         for (const cases::MmfAnalysis& analysis : m) {
-            cases::expect_below(std::abs(analysis.defect), 1e-3 * analysis.dissipated, "converged: recorded defect");
+            cases::expect_below(std::abs(analysis.defect), 3e-4 * analysis.dissipated, "converged: recorded defect");
             cases::expect_near(analysis.dissipated, m[2].dissipated, 2e-3, m[2].dissipated, "converged: dissipated");
         }
     }

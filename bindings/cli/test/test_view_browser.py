@@ -185,7 +185,8 @@ def quiet(found, what):
     expect(found["unnamed"] == [], f"{what}: all that can be used has a name {found['unnamed']}")
 
 
-coarse = changed("steps = 20", "steps = 5", changed("h = 0.0015", "h = 0.003"))
+UNITS = '[units]\nlength = "m"\nforce = "N"\n[time]\n'
+coarse = changed("[time]\n", UNITS, changed("steps = 20", "steps = 5", changed("h = 0.0015", "h = 0.003")))
 out, (answer, pictures) = driven(coarse)
 judge(out, answer, pictures, "2D", 1.5)
 expect(answer["walks"][0]["title"] == "small ENF" and answer["walks"][0]["warnings"] == [], "2D: title, and no warning")

@@ -19,9 +19,10 @@ enum class Of { nodes, cells, pairs, constraints, bodies };
 struct FieldRow {
     const char* key;
     Of of;
-    std::int64_t columns[2];                             // in the plane, in space
-    std::vector<double> (*read)(Observer&);              // of everything; null: of pairs
-    double (*pair)(const Observer&, std::size_t entry);  // of pairs: one entry of [pairs][columns]
+    std::int64_t columns[2];                                             // in the plane, in space
+    std::vector<double> (*read)(Observer&);                              // of everything; null: of pairs
+    double (*pair)(const Observer&, std::size_t entry);                  // of pairs: one entry of [pairs][columns]
+    std::vector<double> (*one)(Observer&, std::int64_t part) = nullptr;  // of one node; null: of all together only
 };
 
 std::vector<double> free_since(Observer& observer) {
@@ -32,7 +33,12 @@ std::vector<double> free_since(Observer& observer) {
 }
 
 constexpr FieldRow field_table[] = {
-    {"displacement", Of::nodes, {2, 3}, [](Observer& o) { return o.displacement(); }, nullptr},
+    {"displacement",
+     Of::nodes,
+     {2, 3},
+     [](Observer& o) { return o.displacement(); },
+     nullptr,
+     [](Observer& o, std::int64_t node) { return o.displacement_of(node); }},
     {"stress", Of::cells, {4, 6}, [](Observer& o) { return o.stress(); }, nullptr},
     {"rotation", Of::cells, {1, 3}, [](Observer& o) { return o.rotation(); }, nullptr},
     {"jump", Of::pairs, {2, 3}, nullptr, [](const Observer& o, std::size_t i) { return o.state().response.jump[i]; }},
@@ -89,7 +95,12 @@ FieldShape field_shape(const Observer& observer, const std::string& key, std::in
             fail(DELAM_ERROR_ARGUMENT, "field '", key, "': part ", part, ", allowed: -1 to ", interfaces - 1);
         return {pair_range(observer, part).second, columns};
     }
-    if (part != -1) fail(DELAM_ERROR_ARGUMENT, "field '", key, "': part ", part, ", allowed: -1");
+    if (row.one != nullptr) {
+        if (part < -1 || part >= mesh.node_count())
+            fail(DELAM_ERROR_ARGUMENT, "field '", key, "': part ", part, ", allowed: -1 to ", mesh.node_count() - 1);
+        if (part >= 0) return {1, columns};
+    } else if (part != -1)
+        fail(DELAM_ERROR_ARGUMENT, "field '", key, "': part ", part, ", allowed: -1");
     switch (row.of) {
         case Of::nodes:
             return {mesh.node_count(), columns};
@@ -105,6 +116,7 @@ FieldShape field_shape(const Observer& observer, const std::string& key, std::in
 std::vector<double> field(Observer& observer, const std::string& key, std::int64_t part) {
     const FieldShape shape = field_shape(observer, key, part);
     const FieldRow& row = find_field(key);
+    if (row.one != nullptr && part >= 0) return row.one(observer, part);
     if (row.read != nullptr) return row.read(observer);
     const std::size_t first = index(pair_range(observer, part).first * shape.columns);
     std::vector<double> out(index(shape.rows * shape.columns));

@@ -14,7 +14,8 @@ struct FieldShape {
     std::int64_t rows;
     std::int64_t columns;
 };
-// part: an interface for pair fields, -1 for everything. Throws Error(DELAM_ERROR_ARGUMENT) for an unknown key or part.
+// part: an interface for pair fields, a node for displacements, -1 for everything. Throws Error(DELAM_ERROR_ARGUMENT)
+// for an unknown key or part.
 FieldShape field_shape(const Observer& observer, const std::string& key, std::int64_t part);
 std::vector<double> field(Observer& observer, const std::string& key, std::int64_t part);
 

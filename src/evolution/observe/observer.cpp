@@ -145,10 +145,41 @@ std::vector<double> Observer::stress() {
     return stress;
 }
 
+const Observer::AverageReadings* Observer::average_readings(std::int32_t body) {
+    const auto [at, made] = averages_.try_emplace(body);
+    std::optional<AverageReadings>& kept = at->second;
+    if (!made) return kept ? &*kept : nullptr;
+    AverageReadings readings{average_weights(*problem_.mesh, models(), body), {}, {}};
+    const auto take = [&](std::array<std::vector<double>, 6>& weights, std::array<LinearReading, 6>& to) {
+        for (std::size_t i = 0; i < 6; ++i) {
+            if (weights[i].empty()) continue;
+            std::optional<LinearReading> reading = op_.reading(weights[i]);
+            if (!reading) return false;
+            to[i] = std::move(*reading);
+            weights[i].clear();
+            weights[i].shrink_to_fit();
+        }
+        return true;
+    };
+    if (take(readings.rest.strain, readings.strain) && take(readings.rest.stress, readings.stress))
+        kept = std::move(readings);
+    return kept ? &*kept : nullptr;
+}
+
 VolumeAverage Observer::average(std::int32_t body) {
     if (op_.turned(state().response) != nullptr)
         fail(DELAM_ERROR_STATE, "averages of strain and stress are not known with kinematics = corotational");
-    VolumeAverage average = volume_average(*problem_.mesh, models(), displacement(), eigenstrains(), body);
+    VolumeAverage average;
+    if (const AverageReadings* readings = average_readings(body)) {
+        std::array<double, 6> strain{}, stress{};
+        for (std::size_t i = 0; i < 6; ++i) {
+            strain[i] = readings->strain[i].at(state().theta, state().response);
+            stress[i] = readings->stress[i].at(state().theta, state().response);
+        }
+        average = readings->rest.with(strain, stress, eigenstrains());
+    } else {
+        average = volume_average(*problem_.mesh, models(), displacement(), eigenstrains(), body);
+    }
     for (std::int32_t b = 0; b < problem_.mesh->body_count(); ++b) {
         if ((body >= 0 && b != body) || known(b) || problem_.mesh->host_body(b)) continue;
         average.stress.fill(unknown);
@@ -174,6 +205,28 @@ const std::vector<double>& Observer::displacement() {
         ++recoveries_;
     }
     return displacement_;
+}
+
+std::vector<double> Observer::displacement_of(std::int64_t node) {
+    const auto dim = index(problem_.mesh->dimension());
+    const auto [at, made] = nodes_.try_emplace(node);
+    std::optional<std::vector<LinearReading>>& kept = at->second;
+    if (made) {
+        std::vector<LinearReading> readings;
+        std::vector<double> weights(index(problem_.mesh->node_count()) * dim, 0.0);
+        for (std::size_t k = 0; k < dim; ++k) {
+            weights[index(node) * dim + k] = 1.0;
+            std::optional<LinearReading> reading = op_.reading(weights);
+            if (!reading) break;
+            readings.push_back(std::move(*reading));
+            weights[index(node) * dim + k] = 0.0;
+        }
+        if (readings.size() == dim) kept = std::move(readings);
+    }
+    std::vector<double> out;
+    for (std::size_t k = 0; k < dim; ++k)
+        out.push_back(kept ? (*kept)[k].at(state().theta, state().response) : displacement()[index(node) * dim + k]);
+    return out;
 }
 
 std::vector<double> Observer::displacement(const State& state) {

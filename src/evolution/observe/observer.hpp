@@ -3,6 +3,9 @@
 // shown, it keeps what it has computed.
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -72,8 +75,11 @@ public:
     std::vector<double> stress();
     // e* of the bodies, in material axes; empty if there are none.
     std::vector<Strain> eigenstrains() const { return eigenstrains(state()); }
-    // Returns the average over a body (index), -1: over all; recovers the displacements.
+    // Returns the average over a body (index), -1: over all; recovers the displacements where the operator has no
+    // reading of them.
     VolumeAverage average(std::int32_t body);
+    // Returns the displacement of a node, [dimension]; recovers those of all where the operator has no reading of it.
+    std::vector<double> displacement_of(std::int64_t node);
     // Returns the rotations of the cells (centre_rotation); vectors of rotation where they may be large.
     std::vector<double> rotation();
     // Returns the largest rotation of a cell, rad; NaN without cells. Recovers the displacements.
@@ -91,6 +97,13 @@ public:
     const std::vector<CrackFront>& crack_fronts(std::int64_t interface);
 
 private:
+    // The averages over a body from jumps and loads.
+    struct AverageReadings {
+        AverageWeights rest;  // without weights of displacements
+        std::array<LinearReading, 6> strain, stress;
+    };
+    // Returns null if the operator has none.
+    const AverageReadings* average_readings(std::int32_t body);
     bool known(std::int32_t body) const { return problem_.material[index(body)].has_value(); }
     // Returns the model of each body; undefined where the material is unknown.
     std::vector<BodyModel> models() const;
@@ -113,6 +126,10 @@ private:
     std::unique_ptr<MeshErrorEstimate> estimates_;                // null: not yet needed
     std::vector<std::optional<std::vector<CrackFront>>> fronts_;  // [interfaces]
     std::optional<MeshErrorShares> mesh_error_;                   // nothing: not estimated
+    // By body and by node, as asked for; of the operator, which never changes: results of a resumed analysis are the
+    // same.
+    std::map<std::int32_t, std::optional<AverageReadings>> averages_;
+    std::map<std::int64_t, std::optional<std::vector<LinearReading>>> nodes_;
     std::int64_t recoveries_ = 0;
 };
 

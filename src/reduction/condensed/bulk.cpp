@@ -226,6 +226,61 @@ std::vector<double> Bulk::displacement(std::span<const double> theta, std::span<
     return u;
 }
 
+std::vector<double> Bulk::moved_bonded(std::span<const double> nodal) const {
+    std::vector<double> on_variables(index(variables().count())), moved(nodal.size(), 0.0);
+    multiply_transposed(variables().transform, nodal, on_variables);
+    system_->add_variables(solve_bonded(on_variables), moved);
+    return moved;
+}
+
+// displacement(), transposed. With G = T S T^T its stages are
+//
+//     u_0 = U theta + T E x,   u_1 = u_0 + G (f theta - K u_0),
+//     y = A^-1 D^T T^T (f theta - K u_1),   u_2 = u_1 + T D y,   u = u_2 + G (f theta - K u_2),
+//
+// D: the variables of the kept displacements. From the last to the first, each turns  l . u  into  l' . u_before  plus
+// the work of  f theta  in what it adds.
+LinearReading Bulk::reading(std::span<const double> weights) const {
+    std::vector<double> l(weights.begin(), weights.end()), works(l.size(), 0.0);  // works: f theta acts in it
+    const auto pass = [&](std::span<const double> added) {
+        const std::vector<double> resisted = system_->stressed(added);
+        for (std::size_t i = 0; i < l.size(); ++i) {
+            l[i] -= resisted[i];
+            works[i] += added[i];
+        }
+    };
+    const auto on_variables = [&](std::span<const double> nodal) {
+        std::vector<double> out(index(variables().count()));
+        multiply_transposed(variables().transform, nodal, out);
+        return out;
+    };
+    pass(moved_bonded(l));
+    if (equations_.kept() > 0) {
+        const std::vector<double> left = on_variables(l);
+        std::vector<double> kept(index(equations_.kept())), added(l.size(), 0.0);
+        for (std::size_t k = 0; k < kept.size(); ++k) kept[k] = equations_.on_rest(left, static_cast<std::int64_t>(k));
+        solve_lower(kept_factor_, kept);
+        solve_lower_transposed(kept_factor_, kept);
+        system_->add_variables(equations_.variables_of_kept(kept), added);
+        pass(added);
+        pass(moved_bonded(l));
+    }
+    const std::vector<double> left = on_variables(l);
+    LinearReading reading;
+    for (std::int64_t i = 0; i < unknowns(); ++i)
+        reading.of_row.push_back(equations_.on_rest(left, equations_.kept() + i));
+    const std::vector<double> none(index(unknowns()), 0.0);
+    for (std::size_t p = 0; p < problem_.patterns.size(); ++p) {
+        std::vector<double> unit(problem_.patterns.size(), 0.0);
+        unit[p] = 1.0;
+        std::vector<double> u = system_->lift(unit);
+        system_->add_variables(equations_.variables_at(unit, none), u);
+        const std::vector<double>& force = system_->force()[p];
+        reading.of_pattern.push_back(dot(l, u) + (force.empty() ? 0.0 : dot(works, force)));
+    }
+    return reading;
+}
+
 std::vector<double> Bulk::skeleton_at_rest(std::span<const double> theta) const {
     std::vector<double> skeleton(superelements_->variable().size(), 0.0);
     if (resting_ == nullptr) return skeleton;

@@ -26,6 +26,7 @@
 #include "reduction/dense/rigid_jumps.hpp"
 #include "reduction/operator/body_system.hpp"
 #include "reduction/operator/jump_row.hpp"
+#include "reduction/operator/linear_reading.hpp"
 #include "scene/problem.hpp"
 
 namespace delam {
@@ -70,6 +71,9 @@ public:
                                  std::span<const std::uint8_t> wanted) const;
     // Returns the displacements from the unknowns alone.
     std::vector<double> displacement(std::span<const double> theta, std::span<const double> unknowns) const;
+    // Returns how the sum of displacements with these weights, [mesh DOFs], follows from unknowns and loads: of_row has
+    // the unknowns.
+    LinearReading reading(std::span<const double> weights) const;
     // Returns the bodies as they are without condensation.
     const BodySystem& system() const { return *system_; }
     // S and L of all unknowns: m^2 numbers.
@@ -89,6 +93,8 @@ private:
     void take_loads(std::size_t first, const Poll& poll);  // of the patterns from the first on
     void rest(const Poll& poll);
     std::vector<double> solve_bonded(std::span<const double> forces) const;
+    // T S T^T of nodal forces, where S is what solve_bonded() does.
+    std::vector<double> moved_bonded(std::span<const double> nodal) const;
     std::vector<double> carried(std::span<const double> theta, std::span<const double> displacement) const;
     void condense_loads(std::size_t first, const Poll& poll);
     void find_pattern_stiffness(std::size_t first, const StrainLoads& strained, const Poll& poll);

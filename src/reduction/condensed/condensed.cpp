@@ -292,6 +292,14 @@ std::vector<double> Condensed::displacement(std::span<const double> theta, const
     return bulk_->displacement(theta, unknowns_of(response));
 }
 
+std::optional<LinearReading> Condensed::reading(std::span<const double> weights) const {
+    LinearReading of_unknowns = bulk_->reading(weights);
+    std::vector<double> of_row(bulk_->rows().size(), 0.0);
+    for (std::size_t i = 0; i < of_unknowns.of_row.size(); ++i)
+        of_row[index(bulk_->row_of_unknown()[i])] += of_unknowns.of_row[i];
+    return LinearReading{std::move(of_row), std::move(of_unknowns.of_pattern)};
+}
+
 std::vector<double> Condensed::reaction(std::span<const double> theta, const Response& response) const {
     const BodySystem& system = bulk_->system();
     return body_reactions(system, theta, system.stressed(displacement(theta, response)), response.force);

@@ -25,6 +25,7 @@ public:
     void expect_changes(std::span<const std::size_t> rows) override { choice_.expect_changes(rows); }
     OperatorTraits traits() const override { return {.proportional = true, .renewable = true}; }
     std::vector<double> displacement(std::span<const double> theta, const Response& response) const override;
+    std::optional<LinearReading> reading(std::span<const double> weights) const override;
     std::vector<double> reaction(std::span<const double> theta, const Response& response) const override;
     double equilibrium_defect(std::span<const double> theta, const Response& response) const override;
     double rounding_energy(std::span<const double> theta, const Response& response) const override;

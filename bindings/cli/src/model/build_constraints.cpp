@@ -280,17 +280,14 @@ std::array<double, 6> cell_strain(const Model& model, const Scene& scene, delam_
     const delam_context* context = model.context.get();
     const std::size_t dimension = cell.periods.front().size();
     const Dual dual = dual_of(cell);
-    std::int64_t nodes = 0;
-    call(context, delam_mesh_size(model.mesh.get(), nullptr, &nodes, nullptr, nullptr, nullptr), cell.place);
-    std::vector<double> u(static_cast<std::size_t>(nodes) * dimension);
-    call(context, delam_solver_field(solver, "displacement", -1, static_cast<std::int64_t>(u.size()), u.data()),
-         cell.place);
     std::array<std::array<double, 3>, 3> h{};
     for (std::size_t k = 0; k < cell.periods.size(); ++k) {
-        const auto node =
-            static_cast<std::size_t>(control_node(context, model.mesh.get(), scene, cell.controls[k], cell.place));
+        const std::int64_t node = control_node(context, model.mesh.get(), scene, cell.controls[k], cell.place);
+        std::array<double, 3> u{};
+        call(context, delam_solver_field(solver, "displacement", node, static_cast<std::int64_t>(dimension), u.data()),
+             cell.place);
         for (std::size_t i = 0; i < dimension; ++i)
-            for (std::size_t j = 0; j < dimension; ++j) h[i][j] += u[node * dimension + i] * dual.vectors[k][j];
+            for (std::size_t j = 0; j < dimension; ++j) h[i][j] += u[i] * dual.vectors[k][j];
     }
     return {h[0][0], h[1][1], h[2][2], h[0][1] + h[1][0], h[1][2] + h[2][1], h[0][2] + h[2][0]};
 }
