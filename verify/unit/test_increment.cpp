@@ -96,6 +96,27 @@ TEST(damage_step_minimises_the_energy) {
     }
 }
 
+// A mixity that lags stays, does not count as held, and tells whether the last iterate shows another one.
+TEST(mixities_lag) {
+    std::mt19937 random(4);
+    for (int trial = 0; trial < 10; ++trial) {
+        const auto c = some_case(random, 2 + trial % 2);
+        const auto other = some_case(random, c->pairs.dimension);
+        ConvergedIncrement rule(c->pairs, c->before, c->before.mixity, 1e-6),
+            loose(c->pairs, c->before, c->before.mixity, {1e-6, 1.0, 1e3});
+        const std::vector<double> used = rule.memory().used;
+        for (ConvergedIncrement* lagging : {&rule, &loose}) {
+            lagging->lag();
+            ck_assert(!lagging->observe(c->before.adhesion, other->jump));
+            ck_assert(lagging->memory().used == used);
+            ck_assert_int_eq(lagging->held(), 0);
+        }
+        ck_assert(rule.memory().own != used);
+        ck_assert(!rule.follows());
+        ck_assert(loose.follows());
+    }
+}
+
 // The energy of the whole changes with the jumps as the minima of the pairs do.
 TEST(pairs_add_up_to_the_energy) {
     std::mt19937 random(5);

@@ -24,8 +24,8 @@ constexpr std::uint64_t magic = 0x31305453'4d4c4544;  // "DELMST01" in memory on
 // 5: the first that was ever published. 6: histories of patterns that the host has changed. 7: recorded values. 8:
 // released energy in the ledger. 10: another zone of the condensed operator, which begins anew after an older version.
 // 11: energies of candidates for the next search. 12: since when bodies are free. 13: how the growth of a step went on.
-// 14: what its single pairs released. 15: whether its steps are taken whole.
-constexpr std::uint32_t version = 15, oldest = 5;
+// 14: what its single pairs released. 15: whether its steps are taken whole. 16: jumps before the last part of a step.
+constexpr std::uint32_t version = 16, oldest = 5;
 constexpr std::int64_t most_steps = std::int64_t{1} << 53;
 // Hash and checksum of a larger file are compared piece by piece, before memory is taken for all of it.
 constexpr std::uint64_t largest_unchecked = std::uint64_t{1} << 20;
@@ -39,7 +39,9 @@ void forget_zones(State& state) {
 void check(const State& state, const Solver& solver, std::uint32_t found_version) {
     Sound sound(found_version);
     sound.compare(state, solver.states().committed());
-    if (!sound.sizes) fail(DELAM_ERROR_SNAPSHOT, "snapshot has arrays of other sizes than this solver");
+    const std::size_t last = state.jump_before.size();
+    if (!sound.sizes || (last != 0 && last != state.response.jump.size()))
+        fail(DELAM_ERROR_SNAPSHOT, "snapshot has arrays of other sizes than this solver");
     for (const auto* fractions : {&state.adhesion, &state.mixity, &state.mixity_before})
         for (const double v : *fractions)
             if (!(v >= 0.0 && v <= 1.0))

@@ -337,6 +337,16 @@ ContactResult solve_contact(JumpOperator& op, const ContactScene& scene, std::sp
     result.solves = found.solves;
     result.doubts = found.doubts;
     result.fallback = found.descended;
+    // From a set that is far off, faces come apart pair by pair; coarse sets first take fewer solves.
+    if (!cold && found.last == ContactSolve::solved && !found.settled) {
+        const ContactRows coarse = contact_rows(scene, op.prescribed_rows(), true);
+        if (coarse.first > coarse.least) {
+            ContactResult again = solve_contact(op, scene, stiffness, theta, closed, response, true, row_force, before);
+            if (again.converged) again.solves += result.solves;  // otherwise the limit is told
+            again.linear_iterations += result.linear_iterations;
+            return again;
+        }
+    }
     if (found.last != ContactSolve::solved) refuse_free_load(scene, system.springs(), theta);
     result.converged = result.converged && found.settled;
     for (std::size_t i = 0; i < set.size(); ++i) closed[rows.row[i] / dim] = set[i];

@@ -184,6 +184,9 @@ struct State {
     JumpWithin jump_within;
     Sensitivity sensitivity;
     Growth growth;
+    // [rows] jumps at the begin of the part that has led here along the load (step/load_path.hpp); empty: none has, or
+    // the next part does not go on in its direction.
+    std::vector<double> jump_before;
     // [bodies] the step since which nothing holds all of a body's motions; negative: something does.
     std::vector<std::int64_t> free_since;
 };

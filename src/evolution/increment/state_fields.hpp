@@ -126,7 +126,9 @@ inline constexpr auto saved_fields<State> = std::tuple_cat(
         member_of(&State::growth, &Growth::told_dissipated),
         member_of(&State::growth, &Growth::told_released)),
     saved_since(15,
-        member_of(&State::growth, &Growth::way)));
+        member_of(&State::growth, &Growth::way)),
+    saved_since(16,
+        any_size(&State::jump_before)));
 // clang-format on
 
 static_assert(complete<Response>(saved_fields<Response>) && complete<Ledger>(saved_fields<Ledger>) &&

@@ -24,6 +24,10 @@ public:
     virtual bool settled(const State& state) = 0;
     // Pairs whose mixity is held because it does not settle.
     virtual std::int64_t held() const = 0;
+    // From now on all mixities stay as they are, and none counts as held.
+    virtual void lag() {}
+    // True if no mixity that lags differs from that of the last iterate by more than may stay open.
+    virtual bool follows() const { return true; }
     // Writes mixity, mixity_error and mixity_held of the minimisation into the state.
     virtual void record(State& state) const = 0;
     // Mixities to come back to; how much they have swung is not forgotten.

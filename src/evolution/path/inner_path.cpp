@@ -110,30 +110,40 @@ double InnerPath::bound(const State& at, std::span<const double> mixity) const {
 bool InnerPath::part(const State& at, State& next, bool displaced) {
     const double stride = bound(at, next.mixity);
     const State start = next;
-    const bool free = !bounded_ && one_mode(at, next.mixity, nullptr);
-    std::unique_ptr<StepRule> own = make_(at, next.mixity, free ? 1.0 : stride);
-    bool converged = minimise_(next, *own, displaced);
-    bounded_ = !free;
+    const bool free = !bounded_ && !lags_ && one_mode(at, next.mixity, nullptr);
+    std::unique_ptr<StepRule> own;
+    const auto minimise = [&](double most) {
+        const Effort effort = next.effort;
+        next = start;
+        next.effort = effort;
+        own = make_(at, next.mixity, most);
+        if (lags_) own->lag();
+        bounded_ = most < 1.0;
+        return minimise_(next, *own, displaced);
+    };
+    bool converged = minimise(lags_ ? stride_ : free ? 1.0 : stride);
     if (free && !one_mode(next, next.mixity, &at)) {
         double most = 0.0;
         for (std::size_t p = 0; p < next.adhesion.size(); ++p)
             if (pairs_.mixed(p) && next.adhesion[p] < at.adhesion[p])
                 most = std::max(most, own->left(p, at.adhesion[p]) - own->left(p, next.adhesion[p]));
-        if (most > stride) {
-            bounded_ = true;
-            const Effort effort = next.effort;
-            next = start;
-            next.effort = effort;
-            own = make_(at, next.mixity, stride);
-            converged = minimise_(next, *own, displaced);
-        }
+        if (most > stride) converged = minimise(stride);
+    }
+    // Where mixities and damage drive each other to and fro, mixities that lag let the damage come to rest, because
+    // what has been damaged stays so.
+    if (next.outcome.mixity_held > 0 && stride_ < 1.0) {
+        lags_ = true;
+        converged = minimise(stride_);
     }
     stopped_ = own->stopped(next.adhesion);
+    if (!lags_) return converged;
+    next.mixity = own->memory().own;
+    stopped_ = stopped_ || (!own->follows() && next.adhesion != at.adhesion);
     return converged;
 }
 
-bool InnerPath::follow(State& next, const StepRule& step, const Dissipation* begun, const Watch& watch,
-                       bool displaced) {
+bool InnerPath::follow(State& next, const StepRule& step, const Dissipation* begun, const Watch& watch, bool displaced,
+                       std::span<const double> last) {
     State at = step.before();
     at.theta = next.theta;
     at.time = next.time;
@@ -142,8 +152,9 @@ bool InnerPath::follow(State& next, const StepRule& step, const Dissipation* beg
                       : Dissipation{dissipation(pairs_, next.mixity, at.adhesion, next.adhesion),
                                     dissipation_linear(pairs_, next.mixity, at.adhesion, next.adhesion), 0.0};
     at.adhesion = next.adhesion;
-    last_.clear();
+    last_.assign(last.begin(), last.end());
     bounded_ = false;
+    lags_ = false;
     points_.clear();
     started_elsewhere_ = next.adhesion != step.before().adhesion;
     std::int64_t held = 0;

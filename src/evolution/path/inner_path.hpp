@@ -10,6 +10,10 @@
 // If no pair reaches the bound, the path has one part. If all loaded pairs have the same toughness (one mode), the path
 // does not matter, and the step is not bounded. If they differ at the end of the step, the step is followed in parts
 // after all. A law that debonds at once (Griffith's) is not bounded either.
+//
+// Where a minimisation that follows the mixities would find no rest (it is stable at none of the mixities that its own
+// states show), the parts from there on keep the mixities with which they begin, until a part ends with those that it
+// began with, or nearly. Such a state lies on or below the threshold of each pair.
 #pragma once
 
 #include <functional>
@@ -40,9 +44,11 @@ public:
 
     // Follows the step in parts, from the adhesion and mixity of `next`, which has the load of the end of the step;
     // `step` begins at the state before. begun: what the step has dissipated down to this adhesion; none: at these
-    // mixities. displaced: the displacements of `next` are those of its adhesion. False: a part did not converge.
+    // mixities. displaced: the displacements of `next` are those of its adhesion. last: jumps
+    // at the state from which a part has led to the one before the step; empty: not known. False: a part did not
+    // converge.
     bool follow(State& next, const StepRule& step, const Dissipation* begun = nullptr, const Watch& watch = {},
-                bool displaced = false);
+                bool displaced = false, std::span<const double> last = {});
     // True if all pairs that are damaged in part, or nearly loaded to their onset, have the same toughness at these
     // mixities, or if there are no such pairs. before: pairs that were damaged since then count, too, at the mixities
     // that they show now.
@@ -70,6 +76,7 @@ private:
     Minimise minimise_;
     bool started_elsewhere_ = false;
     bool bounded_ = false;      // a part of this path has needed its bound: so do those that follow
+    bool lags_ = false;         // mixities do not settle in a part of this path: they lag behind by one
     bool stopped_ = false;      // the last part, by its bound
     std::vector<double> last_;  // jumps at the state before the last part
     Dissipation dissipated_;

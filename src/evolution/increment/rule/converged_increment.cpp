@@ -92,12 +92,19 @@ bool ConvergedIncrement::settled(const State& state) {
         return true;
     }
     restore(before);
-    return open <= tolerance();
+    // The others need not come nearer than those that are held, and no minimisation settles these.
+    const bool holds = std::any_of(swing_.begin(), swing_.end(), [](const Swing& s) { return s.share <= 0.0; });
+    return apart() > 0 || open <= (holds ? most_open() : tolerance());
 }
 
-std::int64_t ConvergedIncrement::held() const {
+void ConvergedIncrement::lag() {
+    lags_ = true;
+    for (Swing& s : swing_) s.share = s.most = 0.0;
+}
+
+std::int64_t ConvergedIncrement::apart() const {
     return std::count_if(swing_.begin(), swing_.end(),
-                         [&](const Swing& s) { return s.share <= 0.0 && s.open > tolerance(); });
+                         [&](const Swing& s) { return s.share <= 0.0 && s.open > most_open(); });
 }
 
 double ConvergedIncrement::least(std::size_t pair) const {

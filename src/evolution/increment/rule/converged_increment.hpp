@@ -5,6 +5,8 @@
 // traction of its own; energies are compared at equal B.
 #pragma once
 
+#include <algorithm>
+
 #include "evolution/increment/rule/frozen_increment.hpp"
 
 namespace delam {
@@ -18,7 +20,9 @@ public:
     using StepRule::observe;
     bool observe(std::size_t pair, const Driving& y) override;
     bool settled(const State& state) override;
-    std::int64_t held() const override;
+    std::int64_t held() const override { return lags_ ? 0 : apart(); }
+    void lag() override;
+    bool follows() const override { return apart() == 0; }
     // At the toughness with which the part began, so that the bound stays while the mixities move.
     double least(std::size_t pair) const override;
     bool in_parts() const override { return true; }
@@ -40,7 +44,11 @@ private:
         double open = 0.0;   // rest of the last change, which was not made
         std::int64_t turns = 0;
     };
+    std::int64_t apart() const;
+    double most_open() const { return std::max(tolerance(), limits_.held); }
+
     std::vector<Swing> swing_;
+    bool lags_ = false;
     std::vector<double> mixity_begun_;
     mutable std::vector<double> least_;  // computed when asked for; before that: -1
 };

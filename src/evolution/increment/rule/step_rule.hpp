@@ -15,9 +15,11 @@ namespace delam {
 
 // Bounds of a minimisation.
 struct StepLimits {
-    StepLimits(double tolerance_, double stride_ = 1.0) : tolerance(tolerance_), stride(stride_) {}
+    StepLimits(double tolerance_, double stride_ = 1.0, double held_ = 0.0)
+        : tolerance(tolerance_), stride(stride_), held(held_) {}
     double tolerance;  // of the tractions (Increment::change), and relative of a toughness
     double stride;     // share of its toughness that a pair may dissipate, where the rule bounds it
+    double held;       // relative error of the toughness of a pair up to which its mixity may be held
 };
 
 class StepRule : public Increment, public StepMixities, public StepAccount {
