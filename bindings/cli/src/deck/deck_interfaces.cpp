@@ -212,13 +212,13 @@ private:
         for (std::size_t i = 0; i < set.lower.size(); ++i) {
             const std::int32_t a = one_body(set.lower[i], set, section.place);
             const std::int32_t b = one_body(set.upper[i], set, section.place);
-            if (a == b)
-                throw SceneFailure(section.place,
-                                   fmt::format("an element of \"{}\" lies within {}, and a body has no interface with "
-                                               "itself: {}",
-                                               set.name, body(a), sections_of_one_side));
             const bool tied = !set.apart.empty() && set.apart[i] >= 0;
             const double gap = tied ? set.apart[i] : gap_of(set.lower[i], set.upper[i]);
+            if (a == b && (tied || gap > 1e-6 * edge_))
+                throw SceneFailure(section.place,
+                                   fmt::format("an element of \"{}\" lies within {}, and its faces are {:.6g} apart: "
+                                               "within one body the nodes of both faces coincide; {}",
+                                               set.name, body(a), gap, sections_of_one_side));
             loose = loose || tied;
             sum += gap;
             least = std::min(least, gap);

@@ -100,6 +100,9 @@ struct InterfaceData {
     std::size_t law = 0;
     std::vector<Region> regions;
     Place place;
+
+    // True if it stands for the seams within one body, where faces of it lie on each other with nodes of their own.
+    [[nodiscard]] bool within() const { return !a.empty() && a == b && a.find('*') == std::string::npos; }
 };
 
 struct GeneralContact {

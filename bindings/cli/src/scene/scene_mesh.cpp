@@ -166,10 +166,10 @@ void read_mesh_interfaces(const Table& root, Scene& scene) {
             interface.b = table.text("b");
             require_body(table, "a", interface.a, scene, index);
             require_body(table, "b", interface.b, scene, index);
-            if (interface.a == interface.b && !is_pattern(interface.a))
-                table.fail("b", fmt::format("\"{}\" is a too: two bodies are expected", interface.b));
         }
         interface.projected = table.flag("projected");
+        if (interface.projected && interface.within())
+            table.fail("projected", "is for two bodies: the nodes of a seam within one body have to coincide");
         if (interface.projected) {
             if (is_pattern(interface.a) || is_pattern(interface.b)) table.fail("projected", "needs two bodies by name");
             interface.points = table.text("projection", "means") == "points";

@@ -188,7 +188,8 @@ KeyTable interface_table() {
         text_key("lower").need().in_layers().says("name of a layer"),
         text_key("upper").need().in_layers().says("name of the layer directly on it"),
         text_key("a").in_mesh().says("name of a body, * matches any characters"),
-        text_key("b").in_mesh().says("name of a body; the jump is its displacement relative to a"),
+        text_key("b").in_mesh().says(
+            "name of a body; the jump is its displacement relative to a. The same as a: the seams within this body"),
         flag_key("all").in_mesh().says("instead of a and b: all touching bodies without an entry of their own"),
         text_key("law").says("name of a law"),
         flag_key("bonded").says("instead of a law: bonded perfectly and permanently"),
