@@ -93,9 +93,31 @@ for ny in (0, 2):
     if one is not None:
         expect(one[-1]["dissipated"] > 1e-4, f"one column of elements, {where}: {one[-1]['dissipated']}")
 
+    # Two bodies that share nodes: of one material the same as one body.
+    two = run(deck(block, [("Low", "M"), ("Up", "M")]))
+    alike(f"two bodies, {where}", two, slit)
+    if two is not None and slit is not None:
+        alike(f"two bodies, {where}", two, slit, "dissipated")
+    # Of two materials, once the glue is broken, as without it.
+    mixed = [("Low", "M"), ("Up", "N")]
+    broken, open_ = run(deck(block, mixed)), run(deck(block, mixed, cohesive=False))
+    if broken is not None and open_ is not None:
+        expect(abs(broken[-1]["reaction"] - open_[-1]["reaction"]) < 1e-9 * open_[-1]["reaction"],
+               f"two materials, {where}: {broken[-1]['reaction']}, {open_[-1]['reaction']} is expected")
+
 thick = Block(3, ny=0, gap=0.01)
 expect_error(delam("check", write(deck(thick, ALL), "deck.inp", folder())), 2,
              r"lies within \"All\", and its faces are 0.01 apart")
+
+write(deck(Block(3, ny=0), [("Low", "M"), ("Up", "M")]), "two.inp", place := folder())
+code, two, _ = delam("import", os.path.join(place, "two.inp"))
+expect('shared = "bonded"' in two, "the part that shares nodes is bonded")
+for old, new, said in (('shared = "bonded"', 'shared = "bonded"\nprojected = true', "is for meshes that match"),
+                       ('a = "Low"', 'a = "L*"', "needs two bodies by name")):
+    expect_error(delam("check", write(two.replace(old, new, 1), "scene.toml", place)), 2, said)
+write(deck(Block(6, ny=0), [("Low", "M"), ("Up", "M")], cohesive=False), "two.inp", place)
+whole = two.split("notch =")[0] + two.split("notch =")[1].split("\n", 1)[1]
+expect_error(delam("check", write(whole, "scene.toml", place)), 2, "7 of the 7 pairs of nodes are one node")
 
 # The same as a scene: what is wrong with an entry of one body.
 place = folder()

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "delam/experimental.h"
 #include "model/build_contact.hpp"
 #include "model/call.hpp"
 #include "model/selection.hpp"
@@ -110,6 +111,39 @@ void build_layers(Model& model, const Scene& scene) {
     model.interfaces = scene.interfaces;
 }
 
+// Splits off the pairs of the last interface whose two nodes are one in the file, and bonds them.
+void bond_shared(Model& model, const Scene& scene, std::int64_t index) {
+    InterfaceData data = model.interfaces.back();
+    const delam_context* context = model.context.get();
+    const delam_mesh* mesh = model.mesh.get();
+    std::int64_t pairs = 0, nodes = 0;
+    call(context, delam_mesh_interface_size(mesh, index, nullptr, nullptr, &pairs, nullptr, nullptr), data.place);
+    call(context, delam_mesh_size(mesh, nullptr, &nodes, nullptr, nullptr, nullptr), data.place);
+    std::vector<std::int64_t> node_a(static_cast<std::size_t>(pairs)), node_b(node_a.size()), shared;
+    std::vector<std::int64_t> origins(static_cast<std::size_t>(nodes));
+    call(context, delam_mesh_interface_pairs(mesh, index, node_a.data(), node_b.data(), nullptr, nullptr), data.place);
+    call(context, delam_mesh_node_origins(mesh, nodes, origins.data()), data.place);
+    for (std::size_t p = 0; p < node_a.size(); ++p)
+        if (origins[static_cast<std::size_t>(node_a[p])] == origins[static_cast<std::size_t>(node_b[p])])
+            shared.push_back(static_cast<std::int64_t>(p));
+    if (shared.empty() || shared.size() == node_a.size())
+        throw SceneFailure(data.place,
+                           fmt::format("shared = \"bonded\": {} of the {} pairs of nodes are one node in the "
+                                       "file; a part of them is expected",
+                                       shared.size(), node_a.size()));
+    std::int64_t made = 0;
+    call(context,
+         delam_experimental_mesh_split_interface(model.mesh.get(), index, static_cast<std::int64_t>(shared.size()),
+                                                 shared.data(), 0, &made),
+         data.place);
+    data.bonded = true;
+    data.contact = false;
+    data.regions.clear();
+    const auto [a, b] = std::pair(data.lower, data.upper);
+    push_interface(model, scene, std::move(data), a, b);
+    model.interfaces.back().name += "-shared";
+}
+
 // Interfaces between two bodies given by name.
 void add_named_interfaces(Model& model, const Scene& scene) {
     std::map<std::string, std::size_t> body_named;
@@ -130,6 +164,7 @@ void add_named_interfaces(Model& model, const Scene& scene) {
                               : delam_mesh_add_interface(model.mesh.get(), label_a, label_b, data.tolerance, &index),
              data.place);
         push_interface(model, scene, data, a, b);
+        if (data.shared_bonded) bond_shared(model, scene, index);
     }
 }
 
@@ -219,7 +254,9 @@ void build_from(Model& model, const Scene& scene) {
 class RegionPairs {
 public:
     RegionPairs(const Model& model, const Scene& scene, std::int64_t index, const InterfaceData& data)
-        : dimension_(static_cast<std::size_t>(scene.geometry.dimension)), seam_(data.within()), mesh_(*scene.mesh) {
+        : dimension_(static_cast<std::size_t>(scene.geometry.dimension)),
+          seam_(data.within() || data.shared_bonded),
+          mesh_(*scene.mesh) {
         const Place& place = data.place;
         const delam_context* context = model.context.get();
         const delam_mesh* mesh = model.mesh.get();
@@ -261,7 +298,7 @@ public:
     }
 
 private:
-    // True if b's node of a pair fulfils something. a's node may be a point within a face; within a body, where the
+    // True if b's node of a pair fulfils something. a's node may be a point within a face; at a seam, where the
     // order of the cells says which side is b, it counts too.
     template <typename Predicate>
     [[nodiscard]] bool either(std::int64_t pair, const Predicate& holds) const {

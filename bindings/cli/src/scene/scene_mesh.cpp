@@ -176,6 +176,9 @@ void read_mesh_interfaces(const Table& root, Scene& scene) {
             interface.gap = table.number("gap", 0.0);
         }
         interface.tolerance = table.number("tolerance", 0.0);
+        interface.shared_bonded = table.text("shared", "law") == "bonded";
+        if (interface.shared_bonded && (all || interface.within() || is_pattern(interface.a + interface.b)))
+            table.fail("shared", "\"bonded\" needs two bodies by name");
         interface.bonded = table.flag("bonded");
         interface.contact = table.flag("contact");
         read_gaps(table, interface);

@@ -214,6 +214,12 @@ KeyTable interface_table() {
             .in_mesh()
             .otherwise("1e-6")
             .says("largest distance at which two nodes coincide, divided by the shortest edge"),
+        choice_key("shared", {"law", "bonded"})
+            .in_mesh()
+            .otherwise("law")
+            .says(
+                "nodes that both bodies have in the file: part of the interface with its law, or bonded, whatever the "
+                "law of the rest"),
         tables_key("notch", "notch").says("parts without adhesion from the start"),
         tables_key("adhesion", "adhesion").says("parts with an adhesion of their own"),
     };
@@ -237,6 +243,7 @@ KeyTable interface_table() {
          "is for projected = true",
          Scenes::mesh},
         {excludes, {"bonded"}, {"initial_gap", "adjust"}, {}, "bonded faces have no gap", Scenes::mesh},
+        {excludes, {"shared"}, {"projected"}, {}, "is for meshes that match", Scenes::mesh},
         {excludes, {"projected"}, {"all"}, {}, "needs two bodies by name", Scenes::mesh},
     };
     return table;
