@@ -227,6 +227,19 @@ DELAM_API int32_t delam_experimental_solver_recover(delam_solver *solver);
 DELAM_API int32_t delam_experimental_solver_eigenstrains(delam_solver *solver, int64_t capacity, int32_t *bodies,
                                                          double *eigenstrains, int64_t *count);
 
+/* ---- interfaces ------------------------------------------------------------------------------------------------- */
+
+/* Moves pairs [count] of an interface into a new one between the same two bodies, so that both have laws or bonds of
+ * their own. An example are bodies that share nodes on one part of their common surface and are glued on the rest.
+ * *out_interface receives the index of the new interface. The pairs of both keep their order, weights and frames, and
+ * are numbered anew. A face of the interface goes where all of its pairs are. A face with pairs of both is one of
+ * neither. DELAM_ERROR_ARGUMENT: a pair occurs twice, or one of the interfaces would have
+ * no pair.
+ * [null none; status argument; source none; since 0.2] */
+DELAM_API int32_t delam_experimental_mesh_split_interface(delam_mesh *mesh, int64_t interface_index, int64_t count,
+                                                          const int64_t *pairs, int32_t index_base,
+                                                          int64_t *out_interface);
+
 /* ---- sensitivities ---------------------------------------------------------------------------------------------- */
 
 /* Follows the derivative of the analysis with respect to a number of the laws: key, as of delam_law_set, e.g.

@@ -10,6 +10,7 @@
 
 #include "capi/handle/handles.hpp"
 #include "evolution/analysis/solver.hpp"
+#include "mesh/pairing/interfaces.hpp"
 #include "scene/engine.hpp"
 #include "scene/part.hpp"
 
@@ -149,6 +150,19 @@ int32_t delam_experimental_solver_eigenstrains(delam_solver* solver, int64_t cap
             if (eigenstrains != nullptr) std::copy_n(strains[index(b)].begin(), 6, eigenstrains + 6 * b);
         }
         if (count != nullptr) *count = needed;
+    });
+}
+
+int32_t delam_experimental_mesh_split_interface(delam_mesh* mesh, int64_t interface_index, int64_t count,
+                                                const int64_t* pairs, int32_t index_base, int64_t* out_interface) {
+    return guard_build(mesh, [&] {
+        require_pointer(out_interface, "out_interface");
+        require_base(index_base);
+        const auto interfaces = static_cast<std::int64_t>(mesh->core->interfaces().size());
+        const std::int64_t own = require_index(interface_index, interfaces, 0, "interface_index");
+        const std::int64_t there = mesh->core->interfaces()[index(own)].pair_count();
+        require_count_up_to(count, "count", 1, there);
+        *out_interface = split_interface(*mesh->core, own, require_indices(pairs, count, there, index_base, "pairs"));
     });
 }
 

@@ -83,6 +83,8 @@ private:
     friend void turn_frames(Mesh& mesh, std::size_t interface, std::vector<double> frames) {
         mesh.interfaces_[interface].frame = std::move(frames);
     }
+    // Moves pairs of an interface into a new one (pairing/interfaces.hpp).
+    friend std::int64_t split_interface(Mesh& mesh, std::int64_t interface, std::span<const std::int64_t> pairs);
     // Labels of the bodies that have an interface, ascending.
     std::vector<std::int32_t> joined_labels() const;
     // Check cell `number`: check_label refuses a label that takes no more cells; take_node refuses a node that the

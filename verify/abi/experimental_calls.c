@@ -27,6 +27,36 @@ static void fine(int32_t status) {
 
 #define REFUSED(call, word) expect((call), DELAM_ERROR_ARGUMENT, (word), #call)
 
+/* Creates the context. One interface becomes two: the pair of the left end, and the others. */
+static void create_and_split(void) {
+    static const int64_t hostile[] = {INT64_MIN, INT64_MIN / 8, -1, INT64_MAX / 8, INT64_MAX};
+    const double length = 0.02, thickness[] = {2e-3, 2e-3};
+    const int64_t cells = 4, layers[] = {1, 1};
+    int64_t glue;
+    delam_mesh *mesh;
+    fine(delam_context_create(&context));
+    fine(delam_mesh_create_layers(context, 2, &length, &cells, 2, thickness, layers, DELAM_QUAD4, &mesh));
+    fine(delam_mesh_add_interface(mesh, 0, 1, 0, &glue));
+    const int64_t left_pair[] = {0, 0}, every[] = {0, 1, 2, 3, 4};
+    int64_t half, there[2];
+    for (int i = 0; i < 5; ++i) {
+        REFUSED(delam_experimental_mesh_split_interface(mesh, hostile[i], 1, left_pair, 0, &half), "interface_index");
+        REFUSED(delam_experimental_mesh_split_interface(mesh, glue, hostile[i], left_pair, 0, &half), "count");
+        REFUSED(delam_experimental_mesh_split_interface(mesh, glue, 1, &hostile[i], 0, &half), "pairs");
+    }
+    REFUSED(delam_experimental_mesh_split_interface(mesh, glue, 2, left_pair, 0, &half), "twice");
+    REFUSED(delam_experimental_mesh_split_interface(mesh, glue, 5, every, 0, &half), "at least one");
+    REFUSED(delam_experimental_mesh_split_interface(mesh, glue, 1, NULL, 0, &half), "pairs");
+    REFUSED(delam_experimental_mesh_split_interface(mesh, glue, 1, left_pair, 2, &half), "index_base");
+    REFUSED(delam_experimental_mesh_split_interface(mesh, glue, 1, left_pair, 0, NULL), "out_interface");
+    fine(delam_experimental_mesh_split_interface(mesh, glue, 1, left_pair, 0, &half));
+    for (int i = 0; i < 2; ++i)
+        fine(delam_mesh_interface_size(mesh, i == 0 ? glue : half, NULL, NULL, &there[i], NULL, NULL));
+    ++checks;
+    if (half != glue + 1 || there[0] != 4 || there[1] != 1) ++failures, printf("the pairs of both interfaces\n");
+    delam_mesh_destroy(&mesh);
+}
+
 int main(void) {
     static const char *const keys[] = {"normal_stiffness", "tangential_stiffness", "normal_onset",
                                        "tangential_onset", "normal_toughness",     "tangential_toughness"};
@@ -39,7 +69,7 @@ int main(void) {
     delam_law *law;
     delam_problem *problem;
     delam_solver *solver;
-    fine(delam_context_create(&context));
+    create_and_split();
     fine(delam_mesh_create_layers(context, 2, &length, &cells, 2, thickness, layers, DELAM_QUAD4, &mesh));
     fine(delam_mesh_add_interface(mesh, 0, 1, 0, &glue));
     fine(delam_law_create(context, "piecewise-linear", &law));

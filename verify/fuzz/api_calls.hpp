@@ -435,6 +435,13 @@ inline const Call calls[] = {
      [](const Asked& a) { return watched(a.world, a.in, [&] { return follow(a.in, a.solver); }); }},
     {"delam_experimental_solver_sensitivity", Subject::solver, may::argument | may::state,
      [](const Asked& a) { return sensitivity(a.in, a.solver); }},
+    {"delam_experimental_mesh_split_interface", Subject::mesh, may::argument,
+     [](const Asked& a) {
+         std::int64_t index = -1;
+         const std::int64_t pairs[] = {a.in.index(3), a.in.index(3)};
+         return IN_ORDER(delam_experimental_mesh_split_interface, a.mesh, a.in.index(2), a.in.flag() ? 1 : 2, pairs, 0,
+             a.in.seldom() ? nullptr : &index);
+     }},
     {"delam_solver_destroy", Subject::solver, may::usual,
      [](const Asked& a) {
          a.world.solver.put(static_cast<std::size_t>(a.in.below(slots)), nullptr, nullptr);

@@ -162,7 +162,7 @@ expect(row is not None and abs(row["dissipated"] - 5.0) < 1e-9, f"a notch in a s
 for text, words in (("", '"lower" and "upper" touch, but none says how they hold together'),
                     (LAW.replace("upper", "uper"), r'interfaces\[0\]\.b: "uper": no body.*did you mean'),
                     (LAW + LAW, "another interface between these bodies"),
-                    (LAW.replace('"upper"', '"lower"'), "two bodies are expected"),
+                    (LAW.replace('"upper"', '"lower"'), "this body has no seam"),
                     (LAW + 'notch = [{ set = "corner" }]\n', r"interfaces\[0\]\.notch\[0\]: no pair"),
                     (LAW + 'notch = [{ from = 0, to = 1 }]\n', r"notch\[0\]\.from: is not for a scene with \[mesh\]"),
                     (LAW + BONDED, "there are no bodies that touch and have no interface yet")):

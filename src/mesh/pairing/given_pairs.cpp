@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Bodies that the library knows by their nodes alone, and interfaces whose pairs the host gives, like those of an
-// obstacle but with two deformable sides.
+// obstacle but with two deformable sides; and pairs of an interface that the host moves into another.
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "base/cancel_scope.hpp"
 #include "base/error.hpp"
@@ -16,6 +17,39 @@
 #include "mesh/points.hpp"
 
 namespace delam {
+
+namespace {
+
+// Returns the part of an interface whose pairs have `part` in `part_of`.
+InterfaceGeometry part_of_interface(const InterfaceGeometry& whole, int dimension,
+                                    const std::vector<std::uint8_t>& part_of, std::uint8_t part) {
+    InterfaceGeometry made;
+    made.body_a = whole.body_a;
+    made.body_b = whole.body_b;
+    made.nodes_per_face = whole.nodes_per_face;
+    made.reach = whole.reach;
+    const auto square = index(dimension) * index(dimension);
+    std::vector<std::int64_t> number(part_of.size(), -1);
+    for (std::size_t p = 0; p < part_of.size(); ++p) {
+        if (part_of[p] != part) continue;
+        number[p] = made.pair_count();
+        made.node_a.push_back(whole.node_a[p]);
+        made.node_b.push_back(whole.node_b[p]);
+        made.weight.push_back(whole.weight[p]);
+        const auto frame = whole.frame.begin() + static_cast<std::ptrdiff_t>(p * square);
+        made.frame.insert(made.frame.end(), frame, frame + static_cast<std::ptrdiff_t>(square));
+    }
+    const auto per_face = index(whole.nodes_per_face);
+    for (std::size_t f = 0; f < whole.face.size(); f += per_face) {
+        const auto first = whole.face.begin() + static_cast<std::ptrdiff_t>(f);
+        const auto last = first + static_cast<std::ptrdiff_t>(per_face);
+        if (std::any_of(first, last, [&](std::int64_t p) { return part_of[index(p)] != part; })) continue;
+        std::for_each(first, last, [&](std::int64_t p) { made.face.push_back(number[index(p)]); });
+    }
+    return made;
+}
+
+}  // namespace
 
 std::int64_t add_pairs(Mesh& mesh, std::int32_t label_a, std::int32_t label_b, std::span<const std::int64_t> nodes_a,
                        std::span<const std::int64_t> nodes_b, std::span<const double> normals,
@@ -70,6 +104,27 @@ std::int64_t add_pairs(Mesh& mesh, std::int32_t label_a, std::int32_t label_b, s
         made.face.assign(face.begin(), face.end());
     }
     return mesh.append(std::move(made));
+}
+
+std::int64_t split_interface(Mesh& mesh, std::int64_t interface, std::span<const std::int64_t> pairs) {
+    const auto count = static_cast<std::int64_t>(mesh.interfaces().size());
+    if (interface < 0 || interface >= count)
+        fail(DELAM_ERROR_ARGUMENT, "interface_index ", interface, ": must be in 0..", count - 1);
+    const InterfaceGeometry& whole = mesh.interfaces()[index(interface)];
+    std::vector<std::uint8_t> part(whole.node_a.size(), 0);
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        if (pairs[i] < 0 || pairs[i] >= whole.pair_count())
+            fail(DELAM_ERROR_ARGUMENT, "pairs[", i, "] = ", pairs[i], ": must be in 0..", whole.pair_count() - 1);
+        if (std::exchange(part[index(pairs[i])], std::uint8_t{1}) != 0)
+            fail(DELAM_ERROR_ARGUMENT, "pairs[", i, "] = ", pairs[i], " occurs twice");
+    }
+    if (pairs.empty() || pairs.size() == part.size())
+        fail(DELAM_ERROR_ARGUMENT, "pairs: ", pairs.size(), " of the ", part.size(), " pairs of interface ", interface,
+             " are listed: each part needs at least one");
+    InterfaceGeometry rest = part_of_interface(whole, mesh.dimension(), part, 0);
+    const std::int64_t made = mesh.append(part_of_interface(whole, mesh.dimension(), part, 1));
+    mesh.interfaces_[index(interface)] = std::move(rest);
+    return made;
 }
 
 }  // namespace delam

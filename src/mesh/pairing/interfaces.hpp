@@ -36,6 +36,10 @@ std::int64_t add_pairs(Mesh& mesh, std::int32_t label_a, std::int32_t label_b, s
                        std::span<const std::int64_t> nodes_b, std::span<const double> normals,
                        std::span<const double> weights, int nodes_per_face, std::span<const std::int64_t> face);
 
+// Moves pairs of an interface, each listed once, into a new one between the same bodies. A face goes where all of its
+// pairs are; one with pairs of both is left out, and its weight stays with its pairs.
+std::int64_t split_interface(Mesh& mesh, std::int64_t interface, std::span<const std::int64_t> pairs);
+
 // Returns the body indices of two labels that differ and have no interface.
 std::pair<std::int32_t, std::int32_t> require_unjoined(const Mesh& mesh, std::int32_t label_a, std::int32_t label_b);
 // Throws Error(DELAM_ERROR_MESH) where a body has no faces.

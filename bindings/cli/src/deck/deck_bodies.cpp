@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <set>
 #include <unordered_map>
 #include <utility>
 
@@ -169,6 +171,38 @@ std::int64_t FacePlaces::coinciding(const std::string& set, const std::string& o
         if (found != (turned ? faces : others).end()) at->second += turned ? found->second : count;
     }
     return at->second;
+}
+
+double farthest(const MeshData& mesh, const std::string& from, const std::string& to) {
+    const auto dimension = static_cast<std::size_t>(mesh.dimension);
+    const auto places = [&](const std::string& name) {
+        std::set<std::int64_t> nodes;
+        for (const Face& face : mesh.face_sets.at(name)) nodes.insert(face.begin(), face.end());
+        nodes.erase(-1);
+        std::vector<std::array<double, 3>> out;
+        for (const std::int64_t node : nodes) {
+            std::array<double, 3> place{};
+            const auto first = mesh.nodes.begin() + static_cast<std::ptrdiff_t>(node) * mesh.dimension;
+            std::copy_n(first, dimension, place.begin());
+            out.push_back(place);
+        }
+        std::sort(out.begin(), out.end());
+        return out;
+    };
+    const auto others = places(to);
+    double most = 0;
+    for (const std::array<double, 3>& x : places(from)) {
+        // Outward along the first axis from where x would stand, until that distance alone is too large.
+        double nearest = std::numeric_limits<double>::infinity();
+        const auto compare = [&](const std::array<double, 3>& y) {
+            nearest = std::min(nearest, std::hypot(x[0] - y[0], x[1] - y[1], x[2] - y[2]));
+        };
+        const auto middle = std::lower_bound(others.begin(), others.end(), x);
+        for (auto y = middle; y != others.end() && (*y)[0] - x[0] <= nearest; ++y) compare(*y);
+        for (auto y = middle; y != others.begin() && x[0] - (*(y - 1))[0] <= nearest; --y) compare(*(y - 1));
+        most = std::max(most, nearest);
+    }
+    return most;
 }
 
 NodeBodies::NodeBodies(const MeshData& mesh) : of_(mesh.nodes.size() / static_cast<std::size_t>(mesh.dimension)) {

@@ -54,6 +54,9 @@ private:
     std::unique_ptr<Known> known_;
 };
 
+// Returns the largest distance of a node of one set of faces from the nearest node of another.
+double farthest(const MeshData& mesh, const std::string& from, const std::string& to);
+
 // The bodies that have a node in their cells, ascending.
 class NodeBodies {
 public:

@@ -2,7 +2,6 @@
 #include "deck/deck_interfaces.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -38,40 +37,8 @@ struct Held {
     bool open = false;  // surfaces, whose distance counts
     double adjust = 0;
     bool bonded = false;  // tied
+    bool shared = false;  // bonded where the bodies share nodes
 };
-
-// Returns the largest distance of a node of one surface from the nearest node of another.
-double farthest(const MeshData& mesh, const std::string& from, const std::string& to) {
-    const auto dimension = static_cast<std::size_t>(mesh.dimension);
-    const auto places = [&](const std::string& name) {
-        std::set<std::int64_t> nodes;
-        for (const Face& face : mesh.face_sets.at(name)) nodes.insert(face.begin(), face.end());
-        nodes.erase(-1);
-        std::vector<std::array<double, 3>> out;
-        for (const std::int64_t node : nodes) {
-            std::array<double, 3> place{};
-            const auto first = mesh.nodes.begin() + static_cast<std::ptrdiff_t>(node) * mesh.dimension;
-            std::copy_n(first, dimension, place.begin());
-            out.push_back(place);
-        }
-        std::sort(out.begin(), out.end());
-        return out;
-    };
-    const auto others = places(to);
-    double most = 0;
-    for (const std::array<double, 3>& x : places(from)) {
-        // Outward along the first axis from where x would stand, until that distance alone is too large.
-        double nearest = std::numeric_limits<double>::infinity();
-        const auto compare = [&](const std::array<double, 3>& y) {
-            nearest = std::min(nearest, std::hypot(x[0] - y[0], x[1] - y[1], x[2] - y[2]));
-        };
-        const auto middle = std::lower_bound(others.begin(), others.end(), x);
-        for (auto y = middle; y != others.end() && (*y)[0] - x[0] <= nearest; ++y) compare(*y);
-        for (auto y = middle; y != others.begin() && x[0] - (*(y - 1))[0] <= nearest; --y) compare(*(y - 1));
-        most = std::max(most, nearest);
-    }
-    return most;
-}
 
 class Interfaces {
 public:
@@ -98,7 +65,7 @@ public:
         for (const ContactPair& pair : deck_.pairs) add_pair(pair);
         for (const Tie& tie : model_.ties) add_tie(tie);
         if (!deck_.adhering.empty()) add_everywhere();
-        for (const auto& [key, pair] : touching_) require_one_way(pair);
+        for (const auto& [key, pair] : touching_) bond_shared(pair);
         std::string out = laws_;
         for (const Held& held : held_) out += entry(held);
         for (const auto& [key, pair] : touching_) {
@@ -129,15 +96,27 @@ private:
         return found == held_by_.end() ? nullptr : &held_[found->second];
     }
 
-    // Bodies that share some nodes and have doubled ones elsewhere would be bonded and free at once.
-    void require_one_way(const BodyPair& pair) {
-        const Held* held = find(pair.a, pair.b);
+    // Bodies that share some nodes are bonded there, whatever they have between their doubled nodes elsewhere.
+    void bond_shared(const BodyPair& pair) {
+        Held* held = find(pair.a, pair.b);
         if (pair.shared == 0 || (pair.doubled == 0 && held == nullptr)) return;
-        throw SceneFailure(
-            held != nullptr ? held->place : model_.file,
-            fmt::format("{} and {} share the nodes of {} sides, where they would be bonded, and have nodes "
-                        "of their own elsewhere, and an interface has one law: {}",
-                        body(pair.a), body(pair.b), pair.shared, sections_of_one_side));
+        if (held == nullptr) {
+            add({pair.a, pair.b, "", "", 0.0, true, model_.file});
+            held = find(pair.a, pair.b);
+            deck_.changed.push_back(
+                fmt::format("{} and {} touch where they share no nodes, and have nothing between "
+                            "them: here they are in contact",
+                            body(pair.a), body(pair.b)));
+        }
+        if (held->bonded) return;
+        if (!held->matching || pair.doubled == 0)
+            throw SceneFailure(
+                held->place,
+                fmt::format("{} and {} share the nodes of {} sides, where they would be bonded, and {}: {}",
+                            body(pair.a), body(pair.b), pair.shared,
+                            held->matching ? "no other sides of them coincide" : "have faces that are apart elsewhere",
+                            sections_of_one_side));
+        held->shared = true;
     }
 
     void add(const Held& held) {
@@ -212,13 +191,13 @@ private:
         for (std::size_t i = 0; i < set.lower.size(); ++i) {
             const std::int32_t a = one_body(set.lower[i], set, section.place);
             const std::int32_t b = one_body(set.upper[i], set, section.place);
-            if (a == b)
-                throw SceneFailure(section.place,
-                                   fmt::format("an element of \"{}\" lies within {}, and a body has no interface with "
-                                               "itself: {}",
-                                               set.name, body(a), sections_of_one_side));
             const bool tied = !set.apart.empty() && set.apart[i] >= 0;
             const double gap = tied ? set.apart[i] : gap_of(set.lower[i], set.upper[i]);
+            if (a == b && (tied || gap > 1e-6 * edge_))
+                throw SceneFailure(section.place,
+                                   fmt::format("an element of \"{}\" lies within {}, and its faces are {:.6g} apart: "
+                                               "within one body the nodes of both faces coincide; {}",
+                                               set.name, body(a), gap, sections_of_one_side));
             loose = loose || tied;
             sum += gap;
             least = std::min(least, gap);
@@ -468,6 +447,7 @@ private:
         out += held.bonded        ? "bonded = true\n"
                : held.law.empty() ? "contact = true\n"
                                   : fmt::format("law = {}\n", toml_text(held.law));
+        if (held.shared) out += "shared = \"bonded\"\n";
         if (!held.matching) out += "projected = true\n";
         if (held.gap > 0) out += fmt::format("gap = {}\n", toml_number(held.gap));
         if (held.open && !held.law.empty()) out += "initial_gap = \"open\"\n";

@@ -5,11 +5,14 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "model/call.hpp"
 
@@ -70,15 +73,21 @@ void add_contact_of(Model& model, const Scene& scene, std::size_t a, std::size_t
     push_interface(model, scene, std::move(data), a, b);
 }
 
+// Returns the body of the next interface that the mesh has and the model has not.
+std::size_t next_body(const Model& model, const Place& place) {
+    std::int32_t body = 0;
+    call(model.context.get(),
+         delam_mesh_interface_size(model.mesh.get(), static_cast<std::int64_t>(model.interfaces.size()), nullptr, &body,
+                                   nullptr, nullptr, nullptr),
+         place);
+    return static_cast<std::size_t>(body);
+}
+
 // Adds as many interfaces of bodies with themselves as the mesh has got.
 void push_own(Model& model, const Scene& scene, std::int64_t count, const InterfaceData& data) {
     for (; count > 0; --count) {
-        std::int32_t body = 0;
-        call(model.context.get(),
-             delam_mesh_interface_size(model.mesh.get(), static_cast<std::int64_t>(model.interfaces.size()), nullptr,
-                                       &body, nullptr, nullptr, nullptr),
-             data.place);
-        push_interface(model, scene, data, static_cast<std::size_t>(body), static_cast<std::size_t>(body));
+        const std::size_t body = next_body(model, data.place);
+        push_interface(model, scene, data, body, body);
     }
 }
 
@@ -132,6 +141,44 @@ bool apart(const Model& model, const Scene& scene, std::int64_t index) {
 }
 
 }  // namespace
+
+void add_seams(Model& model, const Scene& scene) {
+    std::map<std::string, const InterfaceData*> entries;  // by body
+    const InterfaceData* first = nullptr;
+    for (const InterfaceData& data : scene.interfaces) {
+        if (!data.within()) continue;
+        if (first == nullptr) first = &data;
+        if (data.tolerance != first->tolerance)
+            throw SceneFailure(data.place, fmt::format("tolerance is {}, that of {} {}: the seams share one",
+                                                       data.tolerance, first->place.path, first->tolerance));
+        if (!entries.emplace(data.a, &data).second)
+            throw SceneFailure(data.place, "there is another interface within this body");
+    }
+    if (first == nullptr) return;
+    std::int64_t count = 0;
+    call(model.context.get(), delam_mesh_add_seams(model.mesh.get(), first->tolerance, &count), first->place);
+    std::set<std::string> found;
+    for (; count > 0; --count) {
+        const std::size_t body = next_body(model, first->place);
+        const std::string& name = scene.layers[body].name;
+        const auto entry = entries.find(name);
+        if (found.insert(name).second && entry == entries.end() && !scene.general_contact)
+            model.said.push_back(
+                fmt::format("body \"{}\" has a seam and no entry for it: its sides are in contact; a = "
+                            "\"{}\", b = \"{}\" with a law makes them adhere",
+                            name, name, name));
+        InterfaceData contact;
+        contact.contact = true;
+        contact.place = first->place;
+        push_interface(model, scene, entry != entries.end() ? *entry->second : contact, body, body);
+    }
+    for (const auto& [name, entry] : entries)
+        if (!found.contains(name))
+            throw SceneFailure(entry->place,
+                               fmt::format("\"{}\" is a and b, and this body has no seam: none of its outer "
+                                           "faces lie on each other with nodes of their own",
+                                           name));
+}
 
 void add_general_contact(Model& model, const Scene& scene,
                          const std::function<bool(std::size_t, std::size_t)>& has_entry) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contact that needs more than an entry of its own: wherever outer faces have no interface, and across gaps.
+// Seams within bodies, and contact that needs more than an entry: wherever outer faces have no interface, across gaps.
 #pragma once
 
 #include <cstddef>
@@ -8,6 +8,10 @@
 #include "model/model.hpp"
 
 namespace cli {
+
+// Adds the interfaces of seams within bodies for which the scene has entries, in all bodies; seams of others are in
+// contact.
+void add_seams(Model& model, const Scene& scene);
 
 // Adds interfaces of contact between bodies that have none and whose faces lie within the gap of [contact], and between
 // the two sides of seams within a body. has_entry: whether the scene has an entry for two bodies.

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "delam/experimental.h"
 #include "model/build_contact.hpp"
 #include "model/call.hpp"
 #include "model/selection.hpp"
@@ -110,13 +111,46 @@ void build_layers(Model& model, const Scene& scene) {
     model.interfaces = scene.interfaces;
 }
 
+// Splits off the pairs of the last interface whose two nodes are one in the file, and bonds them.
+void bond_shared(Model& model, const Scene& scene, std::int64_t index) {
+    InterfaceData data = model.interfaces.back();
+    const delam_context* context = model.context.get();
+    const delam_mesh* mesh = model.mesh.get();
+    std::int64_t pairs = 0, nodes = 0;
+    call(context, delam_mesh_interface_size(mesh, index, nullptr, nullptr, &pairs, nullptr, nullptr), data.place);
+    call(context, delam_mesh_size(mesh, nullptr, &nodes, nullptr, nullptr, nullptr), data.place);
+    std::vector<std::int64_t> node_a(static_cast<std::size_t>(pairs)), node_b(node_a.size()), shared;
+    std::vector<std::int64_t> origins(static_cast<std::size_t>(nodes));
+    call(context, delam_mesh_interface_pairs(mesh, index, node_a.data(), node_b.data(), nullptr, nullptr), data.place);
+    call(context, delam_mesh_node_origins(mesh, nodes, origins.data()), data.place);
+    for (std::size_t p = 0; p < node_a.size(); ++p)
+        if (origins[static_cast<std::size_t>(node_a[p])] == origins[static_cast<std::size_t>(node_b[p])])
+            shared.push_back(static_cast<std::int64_t>(p));
+    if (shared.empty() || shared.size() == node_a.size())
+        throw SceneFailure(data.place,
+                           fmt::format("shared = \"bonded\": {} of the {} pairs of nodes are one node in the "
+                                       "file; a part of them is expected",
+                                       shared.size(), node_a.size()));
+    std::int64_t made = 0;
+    call(context,
+         delam_experimental_mesh_split_interface(model.mesh.get(), index, static_cast<std::int64_t>(shared.size()),
+                                                 shared.data(), 0, &made),
+         data.place);
+    data.bonded = true;
+    data.contact = false;
+    data.regions.clear();
+    const auto [a, b] = std::pair(data.lower, data.upper);
+    push_interface(model, scene, std::move(data), a, b);
+    model.interfaces.back().name += "-shared";
+}
+
 // Interfaces between two bodies given by name.
 void add_named_interfaces(Model& model, const Scene& scene) {
     std::map<std::string, std::size_t> body_named;
     for (std::size_t i = 0; i < scene.mesh->body_names.size(); ++i) body_named.emplace(scene.mesh->body_names[i], i);
     std::set<std::pair<std::size_t, std::size_t>> held;
     for (const InterfaceData& data : scene.interfaces) {
-        if (data.a.empty() || is_pattern(data.a) || is_pattern(data.b)) continue;
+        if (data.a.empty() || data.within() || is_pattern(data.a) || is_pattern(data.b)) continue;
         const std::size_t a = body_named.at(data.a);
         const std::size_t b = body_named.at(data.b);
         if (!held.insert(std::minmax(a, b)).second)
@@ -130,6 +164,7 @@ void add_named_interfaces(Model& model, const Scene& scene) {
                               : delam_mesh_add_interface(model.mesh.get(), label_a, label_b, data.tolerance, &index),
              data.place);
         push_interface(model, scene, data, a, b);
+        if (data.shared_bonded) bond_shared(model, scene, index);
     }
 }
 
@@ -207,6 +242,7 @@ void build_from(Model& model, const Scene& scene) {
     for (const CellBlock& block : data.blocks)
         model.partitions.insert(model.partitions.end(), block.partitions.begin(), block.partitions.end());
     add_named_interfaces(model, scene);
+    add_seams(model, scene);
     if (scene.general_contact)
         add_general_contact(model, scene, [&](std::size_t a, std::size_t other) {
             return entry_for(scene, scene.layers[a].name, scene.layers[other].name) != nullptr;
@@ -217,8 +253,11 @@ void build_from(Model& model, const Scene& scene) {
 // The pairs of an interface that lie in a set.
 class RegionPairs {
 public:
-    RegionPairs(const Model& model, const Scene& scene, std::int64_t index, const Place& place)
-        : dimension_(static_cast<std::size_t>(scene.geometry.dimension)), mesh_(*scene.mesh) {
+    RegionPairs(const Model& model, const Scene& scene, std::int64_t index, const InterfaceData& data)
+        : dimension_(static_cast<std::size_t>(scene.geometry.dimension)),
+          seam_(data.within() || data.shared_bonded),
+          mesh_(*scene.mesh) {
+        const Place& place = data.place;
         const delam_context* context = model.context.get();
         const delam_mesh* mesh = model.mesh.get();
         std::int64_t pairs = 0;
@@ -227,12 +266,12 @@ public:
         std::int32_t per_face = 0;
         call(context, delam_mesh_interface_size(mesh, index, nullptr, nullptr, &pairs, &faces, &per_face), place);
         call(context, delam_mesh_size(mesh, nullptr, &nodes, nullptr, nullptr, nullptr), place);
-        node_b_.resize(static_cast<std::size_t>(pairs));
+        node_a_.resize(static_cast<std::size_t>(pairs));
+        node_b_.resize(node_a_.size());
         origins_.resize(static_cast<std::size_t>(nodes));
         faces_.resize(static_cast<std::size_t>(faces * per_face));
         per_face_ = static_cast<std::size_t>(per_face);
-        // Face b's nodes always exist; face a's nodes may be points within faces.
-        call(context, delam_mesh_interface_pairs(mesh, index, nullptr, node_b_.data(), nullptr, nullptr), place);
+        call(context, delam_mesh_interface_pairs(mesh, index, node_a_.data(), node_b_.data(), nullptr, nullptr), place);
         call(context, delam_mesh_interface_faces(mesh, index, faces_.data()), place);
         call(context, delam_mesh_node_origins(mesh, nodes, origins_.data()), place);
     }
@@ -242,8 +281,7 @@ public:
         if (region.outside) return outside(region.set);
         const std::vector<std::int64_t>& set = mesh_.node_sets.at(region.set);
         const auto in_set = [&](std::int64_t pair) {
-            return std::binary_search(set.begin(), set.end(),
-                                      origins_[static_cast<std::size_t>(node_b_[static_cast<std::size_t>(pair)])]);
+            return either(pair, [&](std::int64_t n) { return std::binary_search(set.begin(), set.end(), n); });
         };
         // A pair from which a face leads out is a tip.
         std::vector<bool> tip(node_b_.size(), false);
@@ -260,6 +298,25 @@ public:
     }
 
 private:
+    // True if b's node of a pair fulfils something. a's node may be a point within a face; at a seam, where the
+    // order of the cells says which side is b, it counts too.
+    template <typename Predicate>
+    [[nodiscard]] bool either(std::int64_t pair, const Predicate& holds) const {
+        const auto at = static_cast<std::size_t>(pair);
+        return holds(origins_[static_cast<std::size_t>(node_b_[at])]) ||
+               (seam_ && holds(origins_[static_cast<std::size_t>(node_a_[at])]));
+    }
+
+    // The pairs of a seam at no face of a set. A face at the tip is none of the interface, but its pair adheres.
+    [[nodiscard]] std::vector<std::int64_t> beside(const std::vector<std::array<std::int64_t, 9>>& faces) const {
+        std::set<std::int64_t> nodes;
+        for (const auto& face : faces) nodes.insert(face.begin(), face.end());
+        std::vector<std::int64_t> out;
+        for (std::int64_t pair = 0; pair < static_cast<std::int64_t>(node_b_.size()); ++pair)
+            if (!either(pair, [&](std::int64_t node) { return nodes.contains(node); })) out.push_back(pair);
+        return out;
+    }
+
     // The pairs without a face in the set, which is one of faces or else one of nodes that hold all corners of a face.
     [[nodiscard]] std::vector<std::int64_t> outside(const std::string& name) const {
         const std::size_t corners = dimension_ == 2 ? 2 : per_face_ % 3 == 0 ? 3 : 4;
@@ -270,6 +327,7 @@ private:
         };
         std::set<std::set<std::int64_t>> known;
         const auto faces = mesh_.face_sets.find(name);
+        if (seam_ && faces != mesh_.face_sets.end()) return beside(faces->second);
         if (faces != mesh_.face_sets.end())
             for (const auto& face : faces->second) {
                 const auto all = static_cast<std::size_t>(std::find(face.begin(), face.end(), -1) - face.begin());
@@ -282,11 +340,12 @@ private:
             std::vector<std::int64_t> at;
             for (std::size_t i = 0; i < corners; ++i)
                 at.push_back(origins_[static_cast<std::size_t>(node_b_[static_cast<std::size_t>(faces_[f + i])])]);
+            const auto among = [&](std::int64_t node) { return std::binary_search(nodes.begin(), nodes.end(), node); };
+            const auto first = faces_.begin() + static_cast<std::ptrdiff_t>(f);
             const bool in_set = faces != mesh_.face_sets.end()
                                     ? known.contains(key_of(at.begin(), at.end()))
-                                    : std::all_of(at.begin(), at.end(), [&](std::int64_t node) {
-                                          return std::binary_search(nodes.begin(), nodes.end(), node);
-                                      });
+                                    : std::all_of(first, first + static_cast<std::ptrdiff_t>(corners),
+                                                  [&](std::int64_t pair) { return either(pair, among); });
             for (std::size_t i = 0; i < per_face_ && in_set; ++i) held[static_cast<std::size_t>(faces_[f + i])] = true;
         }
         std::vector<std::int64_t> out;
@@ -296,9 +355,10 @@ private:
     }
 
     std::size_t dimension_;
+    bool seam_;
     const MeshData& mesh_;
     std::size_t per_face_ = 1;
-    std::vector<std::int64_t> node_b_;
+    std::vector<std::int64_t> node_a_, node_b_;
     std::vector<std::int64_t> faces_;
     std::vector<std::int64_t> origins_;
 };
@@ -329,7 +389,7 @@ std::int64_t set_box(Model& model, std::int64_t index, const Region& region) {
 }
 
 void set_mesh_regions(Model& model, const Scene& scene, std::int64_t index, const InterfaceData& data) {
-    const RegionPairs sets(model, scene, index, data.place);
+    const RegionPairs sets(model, scene, index, data);
     for (const Region& region : data.regions) {
         std::int64_t count = 0;
         if (region.set.empty()) {

@@ -94,12 +94,16 @@ struct InterfaceData {
     bool open = false;  // distances of the faces count
     double adjust = 0;  // smaller ones do not
     double tolerance = 0;
+    bool shared_bonded = false;  // pairs of nodes that both bodies have in the file are bonded, whatever the law
     std::string name;
     bool bonded = false;
     bool contact = false;  // alone, no adhesion
     std::size_t law = 0;
     std::vector<Region> regions;
     Place place;
+
+    // True if it stands for the seams within one body, where faces of it lie on each other with nodes of their own.
+    [[nodiscard]] bool within() const { return !a.empty() && a == b && a.find('*') == std::string::npos; }
 };
 
 struct GeneralContact {

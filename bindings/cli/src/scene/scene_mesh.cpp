@@ -166,16 +166,19 @@ void read_mesh_interfaces(const Table& root, Scene& scene) {
             interface.b = table.text("b");
             require_body(table, "a", interface.a, scene, index);
             require_body(table, "b", interface.b, scene, index);
-            if (interface.a == interface.b && !is_pattern(interface.a))
-                table.fail("b", fmt::format("\"{}\" is a too: two bodies are expected", interface.b));
         }
         interface.projected = table.flag("projected");
+        if (interface.projected && interface.within())
+            table.fail("projected", "is for two bodies: the nodes of a seam within one body have to coincide");
         if (interface.projected) {
             if (is_pattern(interface.a) || is_pattern(interface.b)) table.fail("projected", "needs two bodies by name");
             interface.points = table.text("projection", "means") == "points";
             interface.gap = table.number("gap", 0.0);
         }
         interface.tolerance = table.number("tolerance", 0.0);
+        interface.shared_bonded = table.text("shared", "law") == "bonded";
+        if (interface.shared_bonded && (all || interface.within() || is_pattern(interface.a + interface.b)))
+            table.fail("shared", "\"bonded\" needs two bodies by name");
         interface.bonded = table.flag("bonded");
         interface.contact = table.flag("contact");
         read_gaps(table, interface);

@@ -188,7 +188,8 @@ KeyTable interface_table() {
         text_key("lower").need().in_layers().says("name of a layer"),
         text_key("upper").need().in_layers().says("name of the layer directly on it"),
         text_key("a").in_mesh().says("name of a body, * matches any characters"),
-        text_key("b").in_mesh().says("name of a body; the jump is its displacement relative to a"),
+        text_key("b").in_mesh().says(
+            "name of a body; the jump is its displacement relative to a. The same as a: the seams within this body"),
         flag_key("all").in_mesh().says("instead of a and b: all touching bodies without an entry of their own"),
         text_key("law").says("name of a law"),
         flag_key("bonded").says("instead of a law: bonded perfectly and permanently"),
@@ -213,6 +214,12 @@ KeyTable interface_table() {
             .in_mesh()
             .otherwise("1e-6")
             .says("largest distance at which two nodes coincide, divided by the shortest edge"),
+        choice_key("shared", {"law", "bonded"})
+            .in_mesh()
+            .otherwise("law")
+            .says(
+                "nodes that both bodies have in the file: part of the interface with its law, or bonded, whatever the "
+                "law of the rest"),
         tables_key("notch", "notch").says("parts without adhesion from the start"),
         tables_key("adhesion", "adhesion").says("parts with an adhesion of their own"),
     };
@@ -236,6 +243,7 @@ KeyTable interface_table() {
          "is for projected = true",
          Scenes::mesh},
         {excludes, {"bonded"}, {"initial_gap", "adjust"}, {}, "bonded faces have no gap", Scenes::mesh},
+        {excludes, {"shared"}, {"projected"}, {}, "is for meshes that match", Scenes::mesh},
         {excludes, {"projected"}, {"all"}, {}, "needs two bodies by name", Scenes::mesh},
     };
     return table;
