@@ -12,7 +12,7 @@ scene/limits.inc and base/restarts.inc (limits_NAME) is multiplied by a number o
 call copies the files that have changed since. COMMAND finds that library by DELAM_LIBRARY (Python) or LD_LIBRARY_PATH
 (programs of the tests); unit tests are targets of that build, and programs in FOLDER/build/verify. A line for each run
 says its exit status, how many lines of its output differ from those of the library as it is by more than --within of a
-number, seconds aside, and by how much at most. Lines `cost WORDS: NUMBER` are no results: it says by which factors they
+number, but for seconds, and by how much at most. Lines `cost WORDS: NUMBER` are no results: it says by which factors they
 change.
 
 With --require, the exit status is 1 if a line differs, or if no constant has such a name: a constant that decides is a

@@ -162,7 +162,7 @@ TEST(model_is_the_derivative) {
     }
 }
 
-// Stored and dissipated energies of a step, summed pair by pair from the law, are what the ledger books.
+// Stored and dissipated energies of a step, summed pair by pair from the law, are what the ledger records.
 TEST(the_ledger_is_the_sum_over_pairs) {
     std::mt19937 random(11);
     for (int trial = 0; trial < 30; ++trial) {
