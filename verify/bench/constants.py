@@ -65,9 +65,9 @@ WHOLE = {"adhesion_after_most_growths", "adhesion_after_most_halvings", "body_re
          "coupled_damage_idle_limit", "coupled_damage_limit", "curved_displacement_most_steps",
          "dissection_few_vertices", "elimination_order_few_rows", "face_point_most_steps",
          "jump_variables_short_equation", "load_path_most_refused", "path_dissipation_mixity_halvings",
-         "path_dissipation_parts", "search_most_contacts", "search_rounds", "search_seeds",
-         "step_control_smooth_levels", "stepper_most_starts", "sweep_fine", "sweep_fine_mixity", "sweep_largest_crack",
-         "sweep_small_zone", "turned_cell_most_polar_steps", "zone_energies_energy_contact_steps",
+         "path_dissipation_parts", "search_most_contacts", "search_seeds",
+         "step_control_smooth_levels", "row_table_most_rows", "stepper_most_starts", "sweep_fine", "sweep_fine_mixity",
+         "sweep_small_zone", "sweep_turns", "turned_cell_most_polar_steps", "zone_energies_energy_contact_steps",
          "zone_energies_most_solved", "zone_energies_recheck_factor", "zone_energies_rounds_outside",
          "zone_energies_spare_rows"}
 FACTOR = """#ifdef __cplusplus
@@ -184,7 +184,7 @@ def difference(one, other):
     """The largest relative difference of the numbers of two lines; infinite if their words differ."""
     if one is None or other is None:
         return math.inf
-    bare = [re.sub(r"\d+\.?\d* s\b", "", line) for line in (one, other)]
+    bare = [re.sub(r"\d+\.?\d* s\b|/tmp/\S+", "", line) for line in (one, other)]  # times, and names of temporary files
     if NUMBER.sub("#", bare[0]) != NUMBER.sub("#", bare[1]):
         return math.inf
     pairs = zip(*(map(float, NUMBER.findall(line)) for line in bare))

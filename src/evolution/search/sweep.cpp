@@ -17,9 +17,9 @@ namespace {
 constexpr std::size_t fine = 8;          // rings that are all sampled; of longer sweeps about as many
 constexpr std::size_t fine_mixity = 16;  // where the mixity of a ring is that of the sample before it
 // Edges of up to so many rings are sampled throughout: the pairs of a cell differ in mixity, which makes two edges of a
-// stable front one of three rings if a sample is missing. (Without it, single-leg
-// bending in 15 steps with solution = energetic named a jump that is none, while mixities of earlier loads were still
-// used. Half and twice have not been measured.)
+// stable front one of three rings if a sample is missing. (Without it, single-leg bending in 15 steps with solution =
+// energetic named a jump that is none, while mixities of earlier loads were still used. Half and twice change nothing
+// in verify/bench/analyses.py.)
 constexpr std::size_t turns = 4;
 constexpr std::size_t small_zone = 512;  // rows of a zone that serves all new cracks
 
