@@ -3,6 +3,7 @@
 // this choice, because the last digits of the next solve depend on it.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <utility>
