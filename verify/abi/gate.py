@@ -230,7 +230,7 @@ def main():
     parser.add_argument("--base", help="delam.h, where HEADER is that of a library on top of libdelam")
     parser.add_argument("--experimental", help="header outside the promise")
     parser.add_argument("--list")
-    parser.add_argument("--cholmod", action="store_true", help="look at what is taken from CHOLMOD")
+    parser.add_argument("--cholmod", action="store_true", help="check what is taken from CHOLMOD")
     parser.add_argument("--baseline", help="default: baseline/delam.abi, or with --base that of HEADER's name")
     parser.add_argument("--baseline-header", help="default: baseline/delam/delam.h, or with --base that of HEADER's name")
     options = parser.parse_args()

@@ -19,7 +19,7 @@ listed.
 
 The tables of the header are held to the library by two small analyses, in the plane and in space, each once more with
 other units of length, force and time: values and fields are there, have their shape, and scale as their unit says
-(zeros aside). Each text is taken.
+(but for zeros). Each text is taken.
 """
 import argparse
 import ctypes
@@ -456,9 +456,9 @@ def main():
     for line in wrong + unlike:
         print(line)
     if not wrong + unlike:
-        fresh = sorted(set(today) - set(baseline))
+        added = sorted(set(today) - set(baseline))
         print(f"{len(baseline)} keys as in the baseline; the units of {len(seen)} values and fields measured"
-              + (f"; new: {', '.join(fresh)}" if fresh else ""))
+              + (f"; new: {', '.join(added)}" if added else ""))
     sys.exit(1 if wrong + unlike else 0)
 
 

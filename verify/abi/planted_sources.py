@@ -69,7 +69,7 @@ BREAKS = [
      "driving, adhesion_old), {}};", "driving, P ? 1.0 : adhesion_old), {}};"),
     ("traction without damage", "law/respond.cpp",
      "at.traction[c] = at.adhesion * law", "at.traction[c] = (P ? 1.0 : at.adhesion) * law"),
-    ("rollback keeps the step that was looked at", "evolution/analysis/solver.cpp",
+    ("rollback keeps the step that was selected", "evolution/analysis/solver.cpp",
      "    states_.rollback();\n    observer_.show(states_.committed());",
      "    const std::int64_t seen = states_.selected() ? states_.shown().step : -1, last = states_.present().step;\n"
      "    states_.rollback();\n    if (P && seen >= 0 && seen < last) states_.select(seen);\n"

@@ -187,9 +187,9 @@ def main():
             print(f"{name}: {line}")
         failures += len(found)
     if not failures:
-        fresh = sorted(set(functions) - set(baseline))
+        added = sorted(set(functions) - set(baseline))
         print(f"{len(baseline)} lines in brackets hold what the baseline promised"
-              + (f"; new: {', '.join(fresh)}" if fresh else ""))
+              + (f"; new: {', '.join(added)}" if added else ""))
     sys.exit(1 if failures else 0)
 
 

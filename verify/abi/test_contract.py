@@ -177,7 +177,7 @@ class Scene:
         fine("solver_save", self.solver, needed[0], data, needed)
         return data
 
-    def look(self):
+    def values(self):
         """The data that an error must leave unchanged: sizes of the mesh, hash of the problem, state of the solver."""
         sizes = [short(0)] + [whole(0) for _ in range(4)]
         fine("mesh_size", self.mesh, *sizes)
@@ -380,13 +380,13 @@ def listed(function):
 
 
 def attempt(function, what, expected, change, named=None):
-    """One call on a fresh scene with the right arguments but for `change`."""
+    """One call on a new scene with the right arguments but for `change`."""
     short_name = function.name[len("delam_"):]
     make, arguments = CALLS[short_name]
     scene = make()
     right = arguments(scene)
     keep = list(right)
-    before = scene.look()
+    before = scene.values()
     if change:
         change(right)
     status = call(short_name, *right)
@@ -401,7 +401,7 @@ def attempt(function, what, expected, change, named=None):
             failures.append(f"{function.name}: {what}: the message does not name it: '{message}'")
     last = function.parameters[-1]
     makes = last.name == "out" and last.type.endswith("**")
-    if status < 0 and scene.look() != before:
+    if status < 0 and scene.values() != before:
         failures.append(f"{function.name}: {what}: status {status}, but the object has changed")
     if makes and status < 0 and right[-1] is not None and right[-1].value is not None:
         failures.append(f"{function.name}: {what}: *out is not NULL")

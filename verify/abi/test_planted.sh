@@ -97,7 +97,7 @@ CODE
 printf 'delam_law_create 0.1\ndelam_law_respond 0.1\ndelam_law_watch 0.2\n' >"$work/sound/symbols.txt"
 cp "$root/src/capi/delam.map" "$work/sound/delam.map"
 
-# planted NAME: a fresh copy to break. make NAME [OPTIONS]: its library. gate NAME CHECK [OPTIONS].
+# planted NAME: a new copy to break. make NAME [OPTIONS]: its library. gate NAME CHECK [OPTIONS].
 planted() {
     rm -rf "${work:?}/$1"
     cp -r "$work/sound" "$work/$1"

@@ -28,10 +28,10 @@ class Test:
         self.header = headers.read(self.header_path)
         self.baseline = table.read_baseline(meanings.BASELINE)
         self.library = library
-        self.table = self.fresh()
+        self.table = self.new_table()
         self.table.host = PlantedHost(self.header, self.table.host.library)
 
-    def fresh(self, past=False):
+    def new_table(self, past=False):
         return meanings.Table(self.library, self.header, self.baseline, past)
 
     def failed(self, rows):
@@ -116,7 +116,7 @@ class Test:
         """A library without a function and without an option: left out if it is older than they are."""
         rows = [row for row in table.ROWS if row.name in ("nine constants", "gluing")]
         for version, message in ("0.0", None), ("0.1", "^nine constants: .*set_orthotropic: the library does not have"):
-            old = self.fresh(past=True)
+            old = self.new_table(past=True)
             own = old.host._function
             old.host._function = lambda name, own=own: refuse(name) if name.endswith("orthotropic") else own(name)
             old.version = lambda version=version: tuple(int(n) for n in version.split("."))

@@ -7,12 +7,13 @@
                                                             runs COMMAND with each constant whose FILE_NAME matches the
                                                             expression NAMES, times each factor
 
-FOLDER holds a copy of the sources in which each `constexpr double`, each whole number in a table here, and each row of
-scene/limits.inc and base/restarts.inc (limits_NAME) is multiplied by a number of the environment, and its build; each
-call copies the files that have changed since. COMMAND finds that library by DELAM_LIBRARY (Python) or LD_LIBRARY_PATH
+FOLDER holds a copy of the sources in which each `constexpr double`, each whole number in a table here, each row of
+scene/limits.inc and base/restarts.inc (limits_NAME), and each number of the scripts of bindings/cli/study whose name has
+capitals only is multiplied by a number of the environment, and its build; each call copies the files that have changed
+since. COMMAND finds that library by DELAM_LIBRARY (Python) or LD_LIBRARY_PATH
 (programs of the tests); unit tests are targets of that build, and programs in FOLDER/build/verify. A line for each run
 says its exit status, how many lines of its output differ from those of the library as it is by more than --within of a
-number, seconds aside, and by how much at most. Lines `cost WORDS: NUMBER` are no results: it says by which factors they
+number, but for seconds, and by how much at most. Lines `cost WORDS: NUMBER` are no results: it says by which factors they
 change.
 
 With --require, the exit status is 1 if a line differs, or if no constant has such a name: a constant that decides is a
@@ -20,6 +21,11 @@ part of the method, and is called so where it stands.
 
     constants.py /tmp/constants 'least_motion|rigid_jumps' -- \\
         /usr/bin/python3 verify/cases/contact/random_scenes.py --scenes 250 --outcomes
+
+Numbers of scripts are those of a command that runs in the copy:
+
+    constants.py /tmp/constants '^(descent|profiles)_' --targets delam_cli --longest 900 -- \\
+        /usr/bin/python3 /tmp/constants/sources/bindings/cli/test/test_fits.py outcomes
 
 --table FILE writes a table of the differences and costs; CONSTANTS.md has that of all constants with analyses.py.
 """
@@ -38,9 +44,17 @@ CONSTANT = re.compile(r"^( *)(inline )?(static )?constexpr (double|int|std::size
 TABLE = "#define DELAM_STEERING(type, name, value, reason) type name = value;"
 VARIED_TABLE = ("#define DELAM_STEERING(type, name, value, reason) \\\n"
                 "    type name = delam_scaled<type>(static_cast<double>(value) * delam_factor(\"limits_\" #name));")
+# A number of a script, with what stands behind it.
+SCRIPT_CONSTANT = re.compile(r"^([A-Z][A-Z_]*) = ((?:np\.log\()?[-\d.e]+\)?)(?= *(?:#|$))", re.M)
+SCRIPTS = pathlib.Path("bindings/cli/study")
+SCRIPT_FACTOR = """import os
+
+
+def varied(name, value):
+    return type(value)(value * float(os.environ.get("DELAM_FACTOR_" + name, "1")))
+"""
 ROW = re.compile(r"^DELAM_STEERING\([^,]+, (\w+), ([^,]+),", re.M)
 NUMBER = re.compile(r"[-+]?\d+\.?\d*(?:e[-+]?\d+)?")
-LONGEST = 120  # s; half of a number that grows by itself may never end
 COST = re.compile(r"^cost (.*): (\S+)$")
 # Constants that stand in constant expressions or in lambdas without captures.
 FIXED = {"law/softening/law_kind.hpp", "law/admissible.cpp", "mesh/selection.cpp"}
@@ -51,9 +65,9 @@ WHOLE = {"adhesion_after_most_growths", "adhesion_after_most_halvings", "body_re
          "coupled_damage_idle_limit", "coupled_damage_limit", "curved_displacement_most_steps",
          "dissection_few_vertices", "elimination_order_few_rows", "face_point_most_steps",
          "jump_variables_short_equation", "load_path_most_refused", "path_dissipation_mixity_halvings",
-         "path_dissipation_parts", "search_most_contacts", "search_rounds", "search_seeds",
-         "step_control_smooth_levels", "stepper_most_starts", "sweep_fine", "sweep_fine_mixity", "sweep_largest_crack",
-         "sweep_small_zone", "turned_cell_most_polar_steps", "zone_energies_energy_contact_steps",
+         "path_dissipation_parts", "search_most_contacts", "search_seeds",
+         "step_control_smooth_levels", "row_table_most_rows", "stepper_most_starts", "sweep_fine", "sweep_fine_mixity",
+         "sweep_small_zone", "sweep_turns", "turned_cell_most_polar_steps", "zone_energies_energy_contact_steps",
          "zone_energies_most_solved", "zone_energies_recheck_factor", "zone_energies_rounds_outside",
          "zone_energies_spare_rows"}
 FACTOR = """#ifdef __cplusplus
@@ -102,6 +116,14 @@ def varied(stem, text, names):
     return CONSTANT.sub(replaced, text.replace(TABLE, VARIED_TABLE))
 
 
+def varied_script(stem, text, names):
+    """The text of a script in which numbers have factors; adds their names and values."""
+    def replaced(m):
+        names[f"{stem}_{m.group(1)}"] = m.group(2)
+        return f'{m.group(1)} = __import__("script_factor").varied("{stem}_{m.group(1)}", {m.group(2)})'
+    return SCRIPT_CONSTANT.sub(replaced, text)
+
+
 def copied(sources, names):
     """Copies the tracked files that differ, with factors in those of the library; adds the names and values of its constants."""
     tracked = subprocess.run(["git", "-C", ROOT, "ls-files", "-z"], check=True, capture_output=True).stdout
@@ -111,6 +133,8 @@ def copied(sources, names):
         in_library = where.parts[0] == "src" and where.parts[1] != "petsc" and where.suffix in (".cpp", ".hpp")
         if in_library and where.relative_to("src").as_posix() not in FIXED:
             content = varied(where.stem, content.decode(), names).encode()
+        if where.suffix == ".py" and where.is_relative_to(SCRIPTS):
+            content = varied_script(where.stem, content.decode(), names).encode()
         if where.as_posix() in ("src/scene/limits.inc", "src/base/restarts.inc"):
             names.update((f"limits_{name}", value) for name, value in ROW.findall(content.decode()))
         if not target.exists() or target.read_bytes() != content:
@@ -125,9 +149,10 @@ def make(folder, targets):
     """Copies and builds the library; its constants and their values."""
     names = {}
     copied(folder / "sources", names)
-    factor = folder / "factor.hpp"
-    if not factor.exists() or factor.read_text(encoding="utf-8") != FACTOR:
-        factor.write_text(FACTOR, encoding="utf-8")
+    for name, text in (("factor.hpp", FACTOR), ("script_factor.py", SCRIPT_FACTOR)):
+        factor = folder / name
+        if not factor.exists() or factor.read_text(encoding="utf-8") != text:
+            factor.write_text(text, encoding="utf-8")
     if not (folder / "build/build.ninja").exists():
         subprocess.run(["cmake", "-S", folder / "sources", "-B", folder / "build", "--preset", "release",
                         "-DDELAM_BUILD_TESTS=ON", f"-DCMAKE_CXX_FLAGS=-include {folder}/factor.hpp"], check=True)
@@ -135,14 +160,15 @@ def make(folder, targets):
     return names
 
 
-def run(folder, command, factors):
-    """Exit status and lines of a command with the library in the folder."""
+def run(folder, command, factors, longest):
+    """Exit status and lines of a command with the library in the folder; none after so many seconds."""
     library = folder / "build" / "lib"
     environment = {**os.environ, "DELAM_LIBRARY": str(library / "libdelam.so"), "LD_LIBRARY_PATH": str(library),
-                   "PYTHONPATH": str(ROOT / "bindings" / "python" / "src"), "OPENBLAS_NUM_THREADS": "1",
+                   "PYTHONPATH": f"{ROOT / 'bindings' / 'python' / 'src'}:{folder}", "OPENBLAS_NUM_THREADS": "1",
+                   "DELAM": os.environ.get("DELAM", str(folder / "build" / "bin" / "delam")), "PYTHONDONTWRITEBYTECODE": "1",
                    **{f"DELAM_FACTOR_{name}": str(factor) for name, factor in factors.items()}}
     try:
-        made = subprocess.run(command, env=environment, capture_output=True, text=True, check=False, timeout=LONGEST)
+        made = subprocess.run(command, env=environment, capture_output=True, text=True, check=False, timeout=longest)
     except subprocess.TimeoutExpired:
         return "none", []
     return made.returncode, (made.stdout + made.stderr).splitlines()
@@ -158,7 +184,7 @@ def difference(one, other):
     """The largest relative difference of the numbers of two lines; infinite if their words differ."""
     if one is None or other is None:
         return math.inf
-    bare = [re.sub(r"\d+\.?\d* s\b", "", line) for line in (one, other)]
+    bare = [re.sub(r"\d+\.?\d* s\b|/tmp/\S+", "", line) for line in (one, other)]  # times, and names of temporary files
     if NUMBER.sub("#", bare[0]) != NUMBER.sub("#", bare[1]):
         return math.inf
     pairs = zip(*(map(float, NUMBER.findall(line)) for line in bare))
@@ -182,6 +208,8 @@ def main():
     parser.add_argument("--factors", default="0.5,2")
     parser.add_argument("--targets", default="")
     parser.add_argument("--within", type=float, default=1e-5)
+    parser.add_argument("--longest", type=float, default=120.0,
+                        help="s for a run: half of a number that grows by itself may never end (default: 120)")
     parser.add_argument("--require", action="store_true")
     parser.add_argument("--list", action="store_true")
     parser.add_argument("--table", type=pathlib.Path)
@@ -191,14 +219,14 @@ def main():
     if arguments.list or not command:
         print("\n".join(names))
         return 0
-    status, lines = run(folder, command, {})
+    status, lines = run(folder, command, {}, arguments.longest)
     lines, costs = parted(lines)
     print(f"as it is: exit status {status}, {len(lines)} lines", flush=True)
     runs, wrong, cells = 0, 0 if lines else 1, {}
     for name, factor in itertools.product(names, arguments.factors.split(",")):
         if not re.search(arguments.names, name):
             continue
-        now, found = run(folder, command, {name: factor})
+        now, found = run(folder, command, {name: factor}, arguments.longest)
         found, other = parted(found)
         ratios = [other[what] / cost for what, cost in costs.items() if what in other and cost]
         if now == status and len(found) == len(lines):

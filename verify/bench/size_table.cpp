@@ -53,7 +53,7 @@ struct SizedAnalysis {
     std::size_t steps = 0, not_converged = 0;
     double alternations = 0.0, iterations = 0.0, solves = 0.0, factors = 0.0, dissipated = 0.0, defect = 0.0;
     double iterating = 0.0, most_iterations = 0.0;  // solves that iterate; iterations of the longest
-    std::map<std::string, double> silence;          // s of processor time without a look at cancellations, by stage
+    std::map<std::string, double> silence;          // s of processor time without a poll of cancellations, by stage
     double kkt = nan;
     std::string kkt_text;
 

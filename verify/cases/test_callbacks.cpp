@@ -37,19 +37,19 @@ void try_everything(const Scene& scene, delam_solver* solver) {
     };
     double value = 0.0;
     std::int64_t count = 0;
-    delam_solver* fresh = nullptr;
+    delam_solver* none = nullptr;
     delam_law* law = nullptr;
     refused(delam_solver_value(solver, "time", &value), "value");
     refused(delam_solver_advance(solver, 2.0), "advance");
     refused(delam_solver_commit(solver), "commit");
     refused(delam_solver_rollback(solver), "rollback");
     refused(delam_solver_save(solver, 0, nullptr, &count), "save");
-    refused(delam_solver_create(scene.problem(), 0.0, &fresh), "create");
+    refused(delam_solver_create(scene.problem(), 0.0, &none), "create");
     refused(delam_problem_set_number(scene.problem(), "damage_tolerance", 0.5), "set_number");
     refused(delam_mesh_node_origins(scene.mesh(), 0, &count), "origins");
     refused(delam_law_create(scene.context(), "griffith", &law), "law_create");
     refused(delam_context_set_log(scene.context(), nullptr, nullptr), "set_log");
-    cases::expect(fresh == nullptr && law == nullptr && count == 0 && asked == 10, "something was made");
+    cases::expect(none == nullptr && law == nullptr && count == 0 && asked == 10, "something was made");
     cases::expect(delam_solver_option(solver, "solution") == nullptr, "a text was given");
 }
 

@@ -210,7 +210,7 @@ Block make_block(Host& host, std::int32_t dimension) {
 void build_meshes(Host& host, const Block& b) {
     delam_mesh*& mesh = host.h.mesh;
     const auto print = [&] { return print_of(mesh); };
-    const auto fresh = [&](bool with_cells) {
+    const auto new_mesh = [&](bool with_cells) {
         delam_mesh_destroy(&mesh);
         host.require(delam_mesh_create(host.h.context, b.dimension, b.node_count, b.nodes.data(), &mesh),
                      "delam_mesh_create");
@@ -226,7 +226,7 @@ void build_meshes(Host& host, const Block& b) {
     for (std::size_t i = at(b.dimension) - 1; i < normals.size(); i += at(b.dimension)) normals[i] = 1.0;
 
     // Stripes of bodies across a mesh with common nodes: most nodes are doubled.
-    fresh(false);
+    new_mesh(false);
     std::vector<std::int32_t> stripes(at(b.cells));
     for (std::int64_t c = 0; c < b.cells; ++c) stripes[at(c)] = 2 * b.labels[at(c)] + static_cast<std::int32_t>(c % 2);
     host.call("delam_mesh_add_conforming_cells", 2 * b.cells, print, [&] {
@@ -235,7 +235,7 @@ void build_meshes(Host& host, const Block& b) {
     host.call("delam_mesh_add_all_interfaces", b.cells, print,
               [&] { return delam_mesh_add_all_interfaces(mesh, 0.0, &index); });
     // One body of two halves that share no node.
-    fresh(false);
+    new_mesh(false);
     const std::vector<std::int32_t> one(at(b.cells), 0);
     host.require(delam_mesh_add_cells(mesh, b.type, b.cells, b.connectivity.data(), one.data(), 0), "cells");
     host.call("delam_mesh_add_seams", b.cells, print, [&] { return delam_mesh_add_seams(mesh, 0.0, &index); });
@@ -247,17 +247,17 @@ void build_meshes(Host& host, const Block& b) {
     host.require(delam_mesh_add_cells(mesh, b.type, b.cells, b.connectivity.data(), one.data(), 0), "cells");
     host.call("delam_mesh_add_self_contact", b.cells, print,
               [&] { return delam_mesh_add_self_contact(mesh, 0.5, &index); });
-    fresh(true);
+    new_mesh(true);
     host.call("delam_mesh_add_projected_interface", b.cells, print,
               [&] { return delam_mesh_add_projected_interface(mesh, 0, 1, 0.0, &index); });
-    fresh(true);
+    new_mesh(true);
     host.call("delam_mesh_add_mortar_interface", b.cells, print,
               [&] { return delam_mesh_add_mortar_interface(mesh, 0, 1, 0.0, &index); });
     host.call("delam_mesh_add_obstacle", b.cells / 2, print, [&] {
         return delam_mesh_add_obstacle(mesh, static_cast<std::int64_t>(bottom.size()), bottom.data(), normals.data(),
                                        nullptr, b.node_count - 1, 0, &index);
     });
-    fresh(false);
+    new_mesh(false);
     const auto count = static_cast<std::int64_t>(b.body[0].size());
     for (std::int32_t body = 0; body < 2; ++body)
         host.call("delam_mesh_add_host_body", count, print,
@@ -267,7 +267,7 @@ void build_meshes(Host& host, const Block& b) {
         return delam_mesh_add_pairs(mesh, 0, 1, count, b.body[0].data(), b.body[1].data(), ones.data(), ones.data(), 0,
                                     0, nullptr, 0, &index);
     });
-    fresh(false);
+    new_mesh(false);
     host.call("delam_mesh_add_cells", b.cells, print,
               [&] { return delam_mesh_add_cells(mesh, b.type, b.cells, b.connectivity.data(), b.labels.data(), 0); });
     host.call("delam_mesh_add_interface", b.cells, print,

@@ -158,7 +158,7 @@ std::vector<std::uint32_t> versions_read() {
         if (message.find("snapshot version " + std::to_string(version) + ",") == std::string::npos)
             read.push_back(version);
     }
-    cases::expect(read.back() == present, "a version beyond that of a fresh save is read");
+    cases::expect(read.back() == present, "a version beyond that of a new save is read");
     cases::expect(read.back() - read.front() + 1 == read.size(), "versions in between are not read");
     return read;
 }

@@ -292,32 +292,32 @@ std::string hash_of(const Scene& scene) {
 TEST(hash_and_keys) {
     const Scene scene = flexure(2);
     std::vector<std::string> seen;
-    const auto fresh = [&](const Law& law, const std::string& what) {
+    const auto expect_new = [&](const Law& law, const std::string& what) {
         use(scene, law);
         const std::string hash = hash_of(scene);
         cases::expect(std::find(seen.begin(), seen.end(), hash) == seen.end(), what + " does not change the hash");
         seen.push_back(hash);
     };
-    for (const Kind& kind : kinds()) fresh(make_law(scene, kind), kind.kind);
+    for (const Kind& kind : kinds()) expect_new(make_law(scene, kind), kind.kind);
     for (const char* criterion : {"valoroso-champaney", "benzeggagh-kenane"})
-        fresh(make_law(scene, kinds()[0], criterion), criterion);
+        expect_new(make_law(scene, kinds()[0], criterion), criterion);
     Kind other = kinds()[2];
     other.plateau = 0.25;
-    fresh(make_law(scene, other), "plateau");
+    expect_new(make_law(scene, other), "plateau");
     other = kinds()[3];
     other.s[1] = 0.7;
-    fresh(make_law(scene, other), "table");
+    expect_new(make_law(scene, other), "table");
     const Law law = make_law(scene, kinds()[0]);
     scene.require(delam_law_set(law.get(), "gradient", 0.01), "gradient");
-    fresh(law, "gradient");
+    expect_new(law, "gradient");
     laws::Bilinear data;
-    fresh(bilinear(scene, data, true), "host");
+    expect_new(bilinear(scene, data, true), "host");
     delam_law* raw = nullptr;
     REQUIRE(scene, delam_law_create_host, scene.context(), "other", laws::adhesion, laws::dissipation, &data, &raw);
     const Law named(raw);
     scene.require(delam_law_set(raw, "normal_stiffness", 125e9), "key");
     scene.require(delam_law_set(raw, "tangential_stiffness", 60e9), "key");
-    fresh(named, "name of the host's law");
+    expect_new(named, "name of the host's law");
 
     const auto refused = [&](std::int32_t status, const std::string& part) {
         const std::string message = delam_context_message(scene.context());

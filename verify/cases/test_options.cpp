@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The options as a host sees them: every listed option is at its default in a fresh solver, refuses values outside its
+// The options as a host sees them: every listed option is at its default in a new solver, refuses values outside its
 // range, and changes the hash of the scene. No option is named here except the one that affects no digit.
 #include <algorithm>
 #include <cmath>
@@ -99,22 +99,22 @@ std::int32_t set_initial(const Scene& scene, const Listed& option) {
 TEST(defaults_are_those_listed) {
     const Scene scene = pair_of_cells();
     const Solver solver(scene, 0.0);
-    const std::string fresh = hash_of(scene);
+    const std::string untouched = hash_of(scene);
     for (const Listed& option : listed()) {
         cases::expect(delam_solver_option(solver.get(), option.key.c_str()) != nullptr,
                       option.key + ": a solver does not know it");
         const char* value = delam_problem_option(scene.problem(), option.key.c_str());
         const bool same =
             option.type == "text" ? value == option.initial : number_of(value) == number_of(option.initial);
-        cases::expect(same, option.key + ": a fresh problem has " + value + ", the list says " + option.initial);
+        cases::expect(same, option.key + ": a new problem has " + value + ", the list says " + option.initial);
         scene.require(set_initial(scene, option), option.key.c_str());
-        cases::expect(hash_of(scene) == fresh, option.key + ": its default, set, is another scene");
+        cases::expect(hash_of(scene) == untouched, option.key + ": its default, set, is another scene");
     }
 }
 
 TEST(ranges_are_kept) {
     const Scene scene = pair_of_cells();
-    const std::string fresh = hash_of(scene);
+    const std::string untouched = hash_of(scene);
     std::int64_t index = 0;
     for (const Listed& option : listed()) {
         double lower = 0.0, upper = 0.0;
@@ -140,7 +140,7 @@ TEST(ranges_are_kept) {
             cases::expect(set(scene, option, value) == DELAM_ERROR_ARGUMENT,
                           option.key + " takes " + std::to_string(value));
         cases::expect(set(scene, option, std::string("1")) == DELAM_ERROR_ARGUMENT, option.key + " takes a text");
-        cases::expect(hash_of(scene) == fresh, option.key + ": what was refused has changed the scene");
+        cases::expect(hash_of(scene) == untouched, option.key + ": what was refused has changed the scene");
         if (range.with_lower) scene.require(set(scene, option, range.lower), option.key.c_str());
         if (range.with_upper) scene.require(set(scene, option, range.upper), option.key.c_str());
         scene.require(set_initial(scene, option), option.key.c_str());
@@ -175,8 +175,8 @@ TEST(aliases_are_taken) {
 // Each value of an option gives another scene: all hashes differ. Other words for one value give the same scene.
 TEST(hash_changes_with_every_option) {
     const Scene scene = pair_of_cells();
-    const std::string fresh = hash_of(scene);
-    std::set<std::string> seen{fresh};
+    const std::string untouched = hash_of(scene);
+    std::set<std::string> seen{untouched};
     for (const Listed& option : listed()) {
         std::size_t values = 0, scenes = 0;
         const auto check = [&](const std::string& what) {
@@ -184,9 +184,9 @@ TEST(hash_changes_with_every_option) {
             // A state of a step that followed its load may go on in others.
             const bool either = option.key == "step_control" && what != "adaptive";
             if (option.key == "threads" || option.key == "memory_limit" || either) {
-                cases::expect(hash == fresh, option.key + " changes the hash");
+                cases::expect(hash == untouched, option.key + " changes the hash");
                 scenes += either && what != "fixed" ? 1 : 0;
-            } else if (hash != fresh) {
+            } else if (hash != untouched) {
                 cases::expect(seen.insert(hash).second, option.key + " = " + what + " hashes like another scene");
                 ++scenes;
             }
@@ -214,7 +214,7 @@ TEST(hash_changes_with_every_option) {
         cases::expect(values > 1 && (option.key == "threads" || option.key == "memory_limit" || scenes == values - 1),
                       option.key + ": a value of it is no other scene than the default");
         scene.require(set_initial(scene, option), option.key.c_str());
-        cases::expect(hash_of(scene) == fresh, option.key + ": back at its default, the scene is another");
+        cases::expect(hash_of(scene) == untouched, option.key + ": back at its default, the scene is another");
     }
 }
 

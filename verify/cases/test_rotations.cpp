@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Large rotations: arms, peeled films and flexure specimens against elastica, rigid motions of the whole scene, books
-// and saved states, and what the option refuses.
+// Large rotations: arms, peeled films and flexure specimens against elastica, rigid motions of the whole scene,
+// balances and saved states, and what the option refuses.
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -115,7 +115,7 @@ struct Linearisations {
 
 // Open by less than a part of the work, and no step outside of its two-sided estimate by more than a part of the
 // energy.
-void expect_closed_books(const Solver& solver, double open, double outside) {
+void expect_closed_balance(const Solver& solver, double open, double outside) {
     const double energy =
         solver.value("stored_bulk") + solver.value("stored_interface") + solver.value("load_potential");
     const double work = solver.value("work");
@@ -158,7 +158,7 @@ TEST(double_cantilever_grows_like_an_elastica) {
     for (int k = 1; k <= 40; ++k) {
         solver.step(k / 40.0);
         solver.commit();
-        expect_closed_books(solver, 1.5e-3, 1e-4);
+        expect_closed_balance(solver, 1.5e-3, 1e-4);
         if (k < 30 || k % 10 != 0) continue;
         const Arm arm = cases::growing_arm(bending_stiffness(young, 0.5), 0.25, 0.5 * k);
         cases::expect_near(0.5 * solver.value("reaction:load"), arm.force, 5e-3, arm.force, "force");

@@ -104,27 +104,27 @@ TEST(damaged_bytes) {
     solver.commit();
     const auto bytes = solver.save();
 
-    Solver fresh(scene, 0.0);
-    fresh.step(0.25);
-    fresh.commit();
-    const auto before = cases::read_bits(fresh);
+    Solver unused(scene, 0.0);
+    unused.step(0.25);
+    unused.commit();
+    const auto before = cases::read_bits(unused);
     for (std::size_t i = 0; i < bytes.size(); ++i) {
         auto broken = bytes;
         broken[i] = static_cast<std::uint8_t>(broken[i] ^ (1U << (i % 8)));
-        expect_refused(fresh, broken, "bit of byte " + std::to_string(i));
+        expect_refused(unused, broken, "bit of byte " + std::to_string(i));
     }
     for (std::size_t n = 0; n < bytes.size(); ++n) {
         std::vector<std::uint8_t> cut;
         cut.reserve(bytes.size());
         cut.assign(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(n));
-        expect_refused(fresh, cut, "cut after " + std::to_string(n) + " bytes");
+        expect_refused(unused, cut, "cut after " + std::to_string(n) + " bytes");
     }
     auto longer = bytes;
     longer.push_back(0);
-    expect_refused(fresh, longer, "one byte too many");
-    cases::expect_same(fresh, cases::read_bits(fresh), before, "after refusals");
-    scene.require(fresh.load(bytes), "delam_solver_load");
-    cases::expect_same(fresh, cases::read_bits(fresh), cases::read_bits(solver), "after loading");
+    expect_refused(unused, longer, "one byte too many");
+    cases::expect_same(unused, cases::read_bits(unused), before, "after refusals");
+    scene.require(unused.load(bytes), "delam_solver_load");
+    cases::expect_same(unused, cases::read_bits(unused), cases::read_bits(solver), "after loading");
 }
 
 TEST(other_scene) {

@@ -79,10 +79,10 @@ LOOP_TEST(long_walk, 0, walk_count) {
         }
         const double time = w.time * (0.2 + 0.8 * draw(random));
         walker.equilibrate(time, zeta);
-        Solver fresh(scene, 0.0);
-        fresh.equilibrate(time, zeta);
+        Solver unused(scene, 0.0);
+        unused.equilibrate(time, zeta);
         const std::string where = std::string(w.name) + ", state " + std::to_string(k);
-        expect_equal(walker, fresh, {"displacement", "jump", "traction", "reaction"}, 1e-8, where);
+        expect_equal(walker, unused, {"displacement", "jump", "traction", "reaction"}, 1e-8, where);
         cases::expect_below(walker.value("kkt_equilibrium"), 1e-10, where + ": equilibrium");
         walker.commit();
     }
@@ -98,16 +98,16 @@ TEST(rollback_of_the_first_step) {
         return scene;
     };
     const Scene scene = make();
-    Solver solver(scene, 0.0), fresh(scene, 0.0);
+    Solver solver(scene, 0.0), unused(scene, 0.0);
     solver.step(0.4);
     solver.rollback();
     solver.step(0.7);
-    fresh.step(0.7);
-    cases::expect(solver.field("jump") == fresh.field("jump") && solver.field("traction") == fresh.field("traction"),
+    unused.step(0.7);
+    cases::expect(solver.field("jump") == unused.field("jump") && solver.field("traction") == unused.field("traction"),
                   "bits of the step");
     solver.commit();
-    fresh.commit();
-    cases::expect(solver.save() == fresh.save(), "bytes of the snapshot");
+    unused.commit();
+    cases::expect(solver.save() == unused.save(), "bytes of the snapshot");
 }
 
 // A soft arm below or above one 1e8 times stiffer: its tractions result from its own stiffness, whichever side it is

@@ -49,7 +49,7 @@ bool fails(const void* caller) {
 }
 
 // The C library's own functions, found through the dynamic linker, so that valgrind, which replaces them there, sees
-// each block. Looking them up may itself allocate; those allocations are served directly.
+// each block. Resolving them may itself allocate; those allocations are served directly.
 struct Real {
     void* (*malloc)(std::size_t) = __libc_malloc;
     void* (*calloc)(std::size_t, std::size_t) = __libc_calloc;
@@ -64,7 +64,7 @@ F next(const char* name, F direct) {
 }
 Real& real() {
     static constinit Real functions;
-    static constinit int state = 0;  // 0 not looked up yet, 1 being looked up, 2 known
+    static constinit int state = 0;  // 0 not resolved yet, 1 being resolved, 2 known
     if (state == 0) {
         state = 1;
         const Real found{next("malloc", __libc_malloc), next("calloc", __libc_calloc), next("realloc", __libc_realloc),

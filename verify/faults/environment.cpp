@@ -219,13 +219,13 @@ void with_signals() {
 
     // Another thread watches the handlers all the time: they must be the host's, except while METIS runs.
     std::atomic<bool> over{false};
-    std::atomic<long> looks{0}, foreign{0};
+    std::atomic<long> polls{0}, foreign{0};
     std::thread watcher([&] {
         sigset_t everything;
         sigfillset(&everything);
         pthread_sigmask(SIG_SETMASK, &everything, nullptr);
         while (!over) {
-            ++looks;
+            ++polls;
             if (!same(Process::now().term_action, mine.term_action)) ++foreign;
         }
     });
@@ -262,8 +262,8 @@ void with_signals() {
     expect(cuts > 0, "METIS cut no body: its handlers and random numbers were not there to be put back");
     std::printf(
         "             interrupted %ld times; METIS cut %ld bodies, its handlers were there in %ld of %ld "
-        "looks\n",
-        ticks.load(), cuts.load(), foreign.load(), looks.load());
+        "polls\n",
+        ticks.load(), cuts.load(), foreign.load(), polls.load());
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ if ! command -v localedef >/dev/null || ! [ -e "/usr/share/i18n/locales/$name" ]
 fi
 mkdir -p locales
 if ! [ -d "locales/$name.UTF-8" ]; then
-    # Made aside and moved in one step: tests that run at the same time want the same one, and none may see half of it.
+    # Made elsewhere and moved in one step: tests that run at the same time want the same one, and none may see half of it.
     making=$(mktemp -d "locales/$name.XXXXXX")
     localedef --no-archive -i "$name" -f UTF-8 "$making/$name.UTF-8" || exit 1
     mv -T "$making/$name.UTF-8" "locales/$name.UTF-8" 2>/dev/null || [ -d "locales/$name.UTF-8" ] || exit 1

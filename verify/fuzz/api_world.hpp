@@ -91,7 +91,7 @@ struct World {
         for (const auto& each : engines)
             expect(each->engine.released == each->taken, "each engine that was taken is released once", "release");
     }
-    // Engines fail and answer nonsense only while the call runs that is asked, not while objects are looked at.
+    // Engines fail and answer nonsense only while the call runs that is asked, not while objects are compared.
     void wake(bool awake) {
         for (const auto& each : engines) each->engine.awake = awake, each->engine.failed &= !awake;
     }

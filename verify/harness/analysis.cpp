@@ -13,7 +13,7 @@ double optional_value(const reference::Solver& solver, const char* key) {
     return delam_solver_value(solver.get(), key, &value) == DELAM_OK ? value : std::numeric_limits<double>::quiet_NaN();
 }
 
-// The booked energies of the solver's current step.
+// The recorded energies of the solver's current step.
 Record read(const reference::Solver& solver) {
     Record r;
     r.stored_bulk = solver.value("stored_bulk");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One analysis of a flexure specimen by the library, with options that it may not have: the booked energies of every
+// One analysis of a flexure specimen by the library, with options that it may not have: the recorded energies of every
 // step.
 #pragma once
 

@@ -128,7 +128,7 @@ Table energetic(const Options& options) {
         "carried on to that step's load, less "
         "energy and dissipation of the state after. toughness: dissipated per length of the whole advance, J/m2, the "
         "library's and the scan's. located_mm: load of the first jump by bisection within the step; crossing_mm: load "
-        "at which the scan's energies cross, steps aside. defect: "
+        "at which the scan's energies cross, steps apart from it. defect: "
         "largest |stored + dissipated - work|; a jump's release is part of it.";
     table.columns = {
         "specimen",      "exponent",      "mixity",     "h_mm",          "patch_mm",       "method",

@@ -217,7 +217,7 @@ TrialAnalysis analyse(const Trial& trial, Realisation realisation) {
         Result before = read(solver, exported, realisation, 0);
         const double start = before.stored_bulk + before.stored_interface + before.load_potential;
         double work = 0.0, dissipated = 0.0, scale = trial.least_energy;
-        std::vector<double> booked_less_own;
+        std::vector<double> recorded_less_own;
         double own_before = energies_of(scene, exported, before).total();
         std::optional<OwnLaw> law;
         if (trial.law) law.emplace(*trial.law);
@@ -241,7 +241,7 @@ TrialAnalysis analyse(const Trial& trial, Realisation realisation) {
             for (const double miss :
                  {now.stored_bulk - own.bulk, now.stored_interface - own.interface, now.load_potential - own.potential,
                   missed_work(before, now, own_before, own.total()), law ? now.dissipated - dissipated : 0.0})
-                booked_less_own.push_back(std::abs(miss));
+                recorded_less_own.push_back(std::abs(miss));
             m.defect = std::abs(own.bulk + own.interface + own.potential + now.dissipated - work - start);
             if (law && k + 1 == trial.times.size()) m.damage = damage_residual(*law, scene, exported, before, now);
             m.states.push_back(now);
@@ -250,7 +250,7 @@ TrialAnalysis analyse(const Trial& trial, Realisation realisation) {
             solver.commit();
         }
         m.kkt = kkt_of(trial, scene, exported, m.states);
-        for (const double miss : booked_less_own)
+        for (const double miss : recorded_less_own)
             m.ledger = worse(m.ledger, miss == 0.0 ? 0.0 : scale > 0.0 ? miss / scale : infinite);
         m.defect = m.defect == 0.0 ? 0.0 : scale > 0.0 ? m.defect / scale : infinite;
     } catch (const reference::Failure& failure) {
@@ -414,7 +414,8 @@ Study::Study(const Options& options) : options_(options) {
         "Hard cases, each over a range of one parameter, by every realisation. error: against the reference named, "
         "largest relative difference (of displacements, jumps, tractions, reactions, energies) over all steps unless "
         "the subject says otherwise. kkt: worst violation of the primal KKT conditions of all states, from exported "
-        "fields. ledger: energies and work booked less those computed from the fields, over the largest. defect: what "
+        "fields. ledger: energies and work recorded less those computed from the fields, over the largest. defect: "
+        "what "
         "the balance of energies at the end misses (it falls with the steps where something is damaged). damage: "
         "adhesions less the minimisers at their jumps. direct: the monolithic reference at the adhesions of the "
         "condensed analysis; FETI whose adhesions are others is compared with a direct solution at its own. Where the "

@@ -53,7 +53,7 @@ struct Trial {
     double delta = 1e-5;                    // damage_tolerance of the scene
     double limit = 1e-10;                   // of the error, for "right to LIMIT"
     double direct_limit = 0.0;              // of the direct reference's own error; 0: the same
-    double acceptance_limit = 1e-9;         // of the primal KKT and the booked energies
+    double acceptance_limit = 1e-9;         // of the primal KKT and the recorded energies
     double defect_limit = 0.0;              // of the energy balance; 0: not judged (it decreases with the steps)
     double defect = 0.0;                    // the defect that theory predicts, over the largest energy
     // At least these scales are used to measure violations, for a scene that has no stress of its own.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The work that a step books, checked from the reactions and energies at its ends.
+// The work that a step records, checked from the reactions and energies at its ends.
 #pragma once
 
 #include <algorithm>
@@ -21,11 +21,11 @@ inline double missed_work(const Result& before, const Result& now, double start,
         lower += d * before.pattern[p];
         upper += d * now.pattern[p];
     }
-    const double booked = now.work - before.work, grown = end - start;
+    const double recorded = now.work - before.work, grown = end - start;
     const double size = std::max({std::abs(end), std::abs(grown), std::abs(before.work)});
-    const bool integrated = now.dissipated == before.dissipated && booked >= lower && booked <= upper &&
-                            std::abs(booked - grown) <= 5e-3 * size && std::abs(trapezoid - grown) > 2e-3 * size;
-    return integrated ? 0.0 : booked - trapezoid;
+    const bool integrated = now.dissipated == before.dissipated && recorded >= lower && recorded <= upper &&
+                            std::abs(recorded - grown) <= 5e-3 * size && std::abs(trapezoid - grown) > 2e-3 * size;
+    return integrated ? 0.0 : recorded - trapezoid;
 }
 
 }  // namespace harness

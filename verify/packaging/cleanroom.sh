@@ -3,7 +3,7 @@
 # cleanroom.sh [OPTION ...] CHECKOUT COMMAND...: runs a command in a copy of a checkout on a bare Debian of this machine's
 # release, as a newcomer would, where nothing is installed that the command does not install. To be called as root.
 #   --as-user       as an ordinary user without sudo, not as root
-#   --room FOLDER   uses this room, and keeps it: what one command installs, the next one finds. Without: a fresh room,
+#   --room FOLDER   uses this room, and keeps it: what one command installs, the next one finds. Without: a new room,
 #                   which is removed afterwards.
 #   --archive       the copy is the source archive of HEAD, without .git; else a clone, with what is not committed
 #   --folder NAME   of the copy, in the home of the room's user (default: checkout)
@@ -128,9 +128,9 @@ if [[ ! -d $bare ]]; then
 fi
 mkdir -p "$archives"
 
-fresh=no
+own=no
 if [[ -z $room ]]; then
-    fresh=yes
+    own=yes
     room=$(mktemp -d "$store/room.XXXXXX")
     log=$(mktemp "$store/log.XXXXXX")
 else
@@ -138,7 +138,7 @@ else
 fi
 # leave: removes the room, if it is not to be kept.
 leave() {
-    if [[ $fresh == yes ]]; then
+    if [[ $own == yes ]]; then
         rm -rf --one-file-system "$room"
     fi
 }

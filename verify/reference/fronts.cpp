@@ -65,9 +65,9 @@ Fronts::Fronts(const Flexure& data, double load, std::size_t kept) : flexure_(ma
     for (const std::size_t f : {fronts_.size() / 2, fronts_.size() * 9 / 10}) {
         adhesion = flexure_.adhesion;
         std::fill_n(adhesion.begin(), fronts_[f].first_intact, 0.0);
-        Solver fresh(scene, 0.0);
-        fresh.equilibrate(data.time(load), adhesion);
-        const double stored = fresh.value("stored_bulk") + fresh.value("stored_interface");
+        Solver unused(scene, 0.0);
+        unused.equilibrate(data.time(load), adhesion);
+        const double stored = unused.value("stored_bulk") + unused.value("stored_interface");
         if (std::abs(fronts_[f].stored - stored) > 2e-8 * stored)
             throw Failure(0, "fronts: energy of front " + std::to_string(f) + " is " +
                                  std::to_string(fronts_[f].stored / stored - 1.0) + " off a solution from scratch");

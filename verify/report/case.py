@@ -223,7 +223,7 @@ def axis(label: str, unit: str = "", scale: str = "linear", **more) -> dict:
 
 
 def series(name: str, role: str, x: list, y: list, **more) -> dict:
-    """role picks colour and marker (palette.py). more: line ("solid", "dashed", "none"), marker (False: none), hollow (True: open markers, for
+    """role picks colour and marker (palette.py). more: line ("solid", "dashed", "none"), marker (False: none), unfilled (True: open markers, for
     bounds), low and high: ends of its spread."""
     return {"name": name, "role": role, "x": list(x), "y": list(y), **more}
 
@@ -261,7 +261,7 @@ LEDGER_VALUES = ("stored_bulk", "stored_interface", "dissipated", "work", "lower
 
 def ledger_of(analyses: dict, unit: str, slack: float = 1e-9) -> dict:
     """The energy ledger of analyses, by name: each the values of the public API after every step, lists by their names,
-    the initial state first. Sums of the two-sided estimate beside what was booked; beyond: steps outside of it by more
+    the initial state first. Sums of the two-sided estimate beside what was recorded; beyond: steps outside of it by more
     than `slack` of the largest energy. With "released", what jumps set free in each step, it is a column too."""
     rows, gone = [], any("released" in at for at in analyses.values())
     for name, at in analyses.items():
@@ -276,7 +276,7 @@ def ledger_of(analyses: dict, unit: str, slack: float = 1e-9) -> dict:
     columns = [column("analysis", "", key=True), *(column(what, unit) for what in energies),
                column("beyond a bound", "steps")]
     return table("At the end of the analysis", columns, rows,
-                 "An analysis: all load steps of a scene in turn. As the library books it, by its public values. Defect: growth of what is stored, and dissipated"
+                 "An analysis: all load steps of a scene in turn. As the library records it, by its public values. Defect: growth of what is stored, and dissipated"
                  + (" and released" if gone else "") + ", less the work; bounds and increments are summed over the steps.")
 
 

@@ -5,7 +5,7 @@ CLAIMS = [
     {"chapter": "a", "text": "Both realisations, FETI and the condensed interface, solve the displacement step as a direct factorisation "
                              "of the whole system does, and the state they end with meets the primal KKT conditions, checked outside "
                              "the library."},
-    {"chapter": "b", "text": "Every step books all energies and a two-sided estimate; balance and band shrink with the step, mesh and step "
+    {"chapter": "b", "text": "Every step records all energies and a two-sided estimate; balance and band shrink with the step, mesh and step "
                              "refined together converge (in mixed mode with the mixity of the step itself; a frozen one "
                              "needs short steps for it), and energetic analyses find what an exhaustive scan of crack fronts finds."},
     {"chapter": "c", "text": "At equal error an analysis costs a few linear solves of the scene, tens of times less than alternate "

@@ -105,7 +105,7 @@ def _draw(plot: dict, size: tuple[float, float]):
         colour, marker, line = palette.style(s["role"])
         turn = repeated.get(s["role"], 0)
         repeated[s["role"]] = turn + 1
-        # Several series of one role differ by their lines and by filled or hollow markers.
+        # Several series of one role differ by their lines and by filled or unfilled markers.
         line = LINES[s["line"]] if "line" in s else ("-", "--", ":", "-.")[turn % 4] if line == "-" else line
         x, y = list(s["x"]), [math.nan if v is None else v for v in s["y"]]
         for name, values in (("x", x), ("y", y)):
@@ -113,7 +113,7 @@ def _draw(plot: dict, size: tuple[float, float]):
                 values[:] = [v if v > 0 else math.nan for v in values]
         axes.plot(x, y, color=colour, linestyle=line or "none",
                   marker="" if s.get("marker") is False or (len(x) > 60 and line) else marker or ("o" if not line else ""),
-                  markerfacecolor="white" if s.get("hollow", turn % 2 == 1) else colour, label=s["name"], linewidth=1.6 + 0.9 * below,
+                  markerfacecolor="white" if s.get("unfilled", turn % 2 == 1) else colour, label=s["name"], linewidth=1.6 + 0.9 * below,
                   markersize=scale * (5 + 2 * below))
     axes.set_xscale(plot["x"]["scale"])
     axes.set_yscale(plot["y"]["scale"])

@@ -7,14 +7,14 @@ NO_LEDGER = {
     "a": "None: states are compared one by one, at the adhesion that an analysis had; what each of them stores is a column "
          "of the tables.",
     "b": "None: nothing is analysed.",
-    "c": "None here: the program that takes the times books no ledger; energies are columns where methods are compared, "
-         "and such analyses are booked in chapters (b) and (e).",
-    "d": "None: many small scenes in place of one analysis. The energies of each are booked again from its fields, outside "
+    "c": "None here: the program that takes the times records no ledger; energies are columns where methods are compared, "
+         "and such analyses are recorded in chapters (b) and (e).",
+    "d": "None: many small scenes in place of one analysis. The energies of each are recorded again from its fields, outside "
          "the library; where a table has the columns, they are ledger and defect.",
     "e": "None here: fields, tractions and loads are compared, and energies among them where there is a reference.",
     "f": "None: interfaces and bindings are compared, no analysis is evaluated.",
     "g": "None: cost is measured, no analysis is evaluated.",
-    "h": "None: every case of this chapter books one.",
+    "h": "None: every case of this chapter records one.",
 }
 
 

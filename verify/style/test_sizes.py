@@ -187,7 +187,9 @@ def planted_english():
     ]
     for text in fine:
         assert not list(english.problems("src/a/b.cpp", text)), f"{text!r} was refused"
-    assert list(english.problems("verify/a.py", "marches = []\n")) and not list(english.problems("verify/a.py", "solver.march(t)\n"))
+    for text in ("marches = []\n", "fresh = []\n", "# What is booked.\n", "solver.look(1)\n", "# Put it aside.\n"):
+        assert list(english.problems("verify/a.py", text)), f"{text!r} was not refused"
+    assert not list(english.problems("verify/a.py", "solver.march(t)\n"))
     assert list(english.problems("src/a/README.md", "A fresh factor.\n")) and not list(english.problems("src/a/README.md", "Whether.\n"))
     package, docstring = "bindings/python/src/delam/a.py", 'def a():\n    """%s"""\n'
     for text in (docstring % "Whether it is closed.", docstring % "Of the last step.", "# What others call it.\nA = 1\n"):

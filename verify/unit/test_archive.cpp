@@ -23,7 +23,7 @@ struct Part {
     std::int64_t count = 3;
     double late = 0.25;
 };
-// A struct as it may look after two further versions of the format.
+// A struct as it may be after two further versions of the format.
 struct Sample {
     double first = 1.0;
     std::vector<double> list{};

@@ -59,7 +59,7 @@ std::vector<std::uint8_t> rows_of_pairs(const Problem& problem, std::size_t firs
 class Operators {
 public:
     Operators() : problem_(peel()), bulk_(std::make_shared<Bulk>(problem_, monitor_)) { bulk_->condense(monitor_); }
-    std::unique_ptr<Condensed> fresh() { return std::make_unique<Condensed>(bulk_, problem_, monitor_); }
+    std::unique_ptr<Condensed> make() { return std::make_unique<Condensed>(bulk_, problem_, monitor_); }
     const Problem& problem() const { return problem_; }
 
 private:
@@ -84,7 +84,7 @@ void solve_alike(const Problem& problem, Condensed& one, Condensed& other) {
 // A search works only in the zone, often for several steps, before it solves for the whole.
 TEST(zone_before_a_solve) {
     Operators all;
-    const auto one = all.fresh(), other = all.fresh();
+    const auto one = all.make(), other = all.make();
     one->zone(springs(all.problem(), 2), rows_of_pairs(all.problem(), 0, 4), false);
     other->recall(one->memory());
     ck_assert(same_bits(one->memory(), other->memory()));
@@ -94,7 +94,7 @@ TEST(zone_before_a_solve) {
 // Negative zero equals zero; it must not survive in an operator that restores a memory with positive zero.
 TEST(zeros_with_a_sign) {
     Operators all;
-    const auto one = all.fresh(), other = all.fresh();
+    const auto one = all.make(), other = all.make();
     const std::vector<double> theta{1.0};
     Response response;
     one->solve(springs(all.problem(), 2), theta, response);
@@ -116,7 +116,7 @@ TEST(zeros_with_a_sign) {
 // Also after zones with another history, and after a discarded one.
 TEST(another_past) {
     Operators all;
-    const auto one = all.fresh(), other = all.fresh();
+    const auto one = all.make(), other = all.make();
     const std::vector<double> theta{1.0};
     Response response;
     for (const std::size_t broken : {1U, 2U, 7U}) one->solve(springs(all.problem(), broken), theta, response);
@@ -135,7 +135,7 @@ TEST(another_past) {
 // nothing of it is left for the time after.
 TEST(expected_changes) {
     Operators all;
-    const auto one = all.fresh(), other = all.fresh();
+    const auto one = all.make(), other = all.make();
     const std::vector<double> theta{1.0};
     std::vector<std::size_t> normal;
     for (std::size_t r = 0; r < static_cast<std::size_t>(all.problem().jump_count()); r += 2) normal.push_back(r);

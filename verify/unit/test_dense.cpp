@@ -284,10 +284,10 @@ LOOP_TEST(extrapolated_contraction, 0, 5) {
         for (double& v : z) v += random.real();
     }
     // The first step is plain, and a fixed point stays one.
-    Extrapolation fresh;
-    ck_assert(fresh.next(z, map(z)) == map(z));
+    Extrapolation unused;
+    ck_assert(unused.next(z, map(z)) == map(z));
     for (int k = 0; k < 4; ++k) {
-        const std::vector<double> kept = fresh.next(z, z);
+        const std::vector<double> kept = unused.next(z, z);
         ck_assert(k == 0 || distance(kept, z) < 1e-6 * largest(z));
     }
 }

@@ -183,7 +183,27 @@ TEST(model_is_the_derivative) {
     }
 }
 
-// Stored and dissipated energies of a step, summed pair by pair from the law, are what the ledger books.
+// The error of a step in parts is that of its dissipated energy over this energy, however the step was divided. A part
+// that dissipates nothing has no error.
+TEST(parts_add_up_to_the_error_of_their_step) {
+    const double dissipated[] = {0.0, 2.0, 3.0, 0.0, 7.0}, error[] = {0.5, 0.1, 0.4, 0.9, 0.05};
+    Ledger before, sum, step;
+    before.dissipated = 10.0;
+    double all = 0.0, missed = 0.0;
+    for (std::size_t k = 0; k < std::size(dissipated); ++k) {
+        Ledger part = before;
+        part.dissipated += dissipated[k];
+        part.mixity_error = error[k];
+        sum.add_part(part, before);
+        all += dissipated[k];
+        missed += dissipated[k] * error[k];
+        before = part;
+    }
+    step.take_parts(sum);
+    ck_assert_double_eq_tol(step.mixity_error, missed / all, 1e-15);
+}
+
+// Stored and dissipated energies of a step, summed pair by pair from the law, are what the ledger records.
 TEST(the_ledger_is_the_sum_over_pairs) {
     std::mt19937 random(11);
     for (int trial = 0; trial < 30; ++trial) {

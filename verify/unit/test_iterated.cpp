@@ -162,10 +162,10 @@ TEST(floating_parts_are_found) {
                 }
             system.set(std::move(couplings), held);
             kept.update();
-            Floating fresh(bodies, system);
-            fresh.update();
-            ck_assert_uint_eq(kept.free().size(), fresh.free().size());
-            ck_assert_uint_eq(kept.weak().size(), fresh.weak().size());
+            Floating unused(bodies, system);
+            unused.update();
+            ck_assert_uint_eq(kept.free().size(), unused.free().size());
+            ck_assert_uint_eq(kept.weak().size(), unused.weak().size());
             afloat += kept.free().size() + kept.weak().size() > 0 ? 1 : 0;
             // Nothing is held where all interfaces have separated, and all is where little has.
             if (front > 0.12 + 1e-9 && weak < 1e-3) ck_assert_uint_gt(kept.free().size() + kept.weak().size(), 0);

@@ -104,7 +104,7 @@ Found analyse(const Scene& scene, const Limits& limits) {
         found.converged = found.converged && outcome.status == DELAM_OK;
         solver.commit();
         const State& state = solver.states().shown();
-        // Without what is released: a step's deficit of energy is booked as released from a bound on, and the deficit
+        // Without what is released: a step's deficit of energy is recorded as released from a bound on, and the deficit
         // of "energetic" lies at this bound.
         for (const double e : {state.ledger.stored_bulk, state.ledger.stored_interface, state.ledger.dissipated})
             found.energies.push_back(e);

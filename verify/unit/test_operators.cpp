@@ -218,7 +218,7 @@ LOOP_TEST(feti_does_not_depend_on_the_past, 0, 7) {
     const unit::LayerCase& c = unit::layer_cases[loop < 6 ? loop : 15];
     const unit::LayerState scene(c, 7), other(c, 8);
     Monitor monitor;
-    Feti fresh(scene.problem, monitor), used(scene.problem, monitor);
+    Feti unused(scene.problem, monitor), used(scene.problem, monitor);
     std::vector<std::uint8_t> elsewhere(scene.wanted.size(), 0);
     std::fill(elsewhere.end() - static_cast<std::ptrdiff_t>(scene.dim) * 20, elsewhere.end(), std::uint8_t{1});
     ck_assert(used.zone(other.springs, elsewhere, false) != nullptr);
@@ -226,12 +226,12 @@ LOOP_TEST(feti_does_not_depend_on_the_past, 0, 7) {
     used.solve(scene.springs, scene.theta, before);
     ck_assert(used.zone(scene.springs, elsewhere, false) != nullptr);
     DenseZone* of_used = used.zone(scene.springs, scene.wanted, false);
-    DenseZone* of_fresh = fresh.zone(scene.springs, scene.wanted, false);
-    ck_assert(of_used->jump_rows() == of_fresh->jump_rows());
-    ck_assert(of_used->energy().stiffness.value == of_fresh->energy().stiffness.value);
-    ck_assert(of_used->energy().load.value == of_fresh->energy().load.value);
+    DenseZone* of_unused = unused.zone(scene.springs, scene.wanted, false);
+    ck_assert(of_used->jump_rows() == of_unused->jump_rows());
+    ck_assert(of_used->energy().stiffness.value == of_unused->energy().stiffness.value);
+    ck_assert(of_used->energy().load.value == of_unused->energy().load.value);
     // Nor does a solve depend on the zones before it.
-    fresh.solve(scene.springs, scene.theta, after);
+    unused.solve(scene.springs, scene.theta, after);
     ck_assert(before.jump == after.jump && before.force == after.force);
     ck_assert(before.stored_bulk == after.stored_bulk);
 }

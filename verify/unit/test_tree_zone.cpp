@@ -162,12 +162,12 @@ LOOP_TEST(the_factor_is_that_of_the_whole, 0, 2) {
         ck_assert(factor.factor(s.held, s.spring, s.cross, {}));
         expect_solves(factor, bodies, s, random);
         // No digit of earlier factors and solves is left.
-        TreeFactor fresh(bodies);
-        ck_assert(fresh.factor(s.held, s.spring, s.cross, {}));
+        TreeFactor unused(bodies);
+        ck_assert(unused.factor(s.held, s.spring, s.cross, {}));
         const std::vector<std::uint8_t> all(bodies.nodes().size(), 1);
         const std::vector<double> b = random.vector(static_cast<Index>(s.held.size()));
         std::vector<double> x(b.size()), y(b.size());
-        ck_assert(factor.solve(b, all, x) == fresh.solve(b, all, y));
+        ck_assert(factor.solve(b, all, x) == unused.solve(b, all, y));
         ck_assert(same_bits(x, y));
     }
 }

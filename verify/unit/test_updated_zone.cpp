@@ -111,11 +111,11 @@ LOOP_TEST(small_changes, 0, 48) {
         change(c, random);
         const std::vector<double> pull =
             k % 3 == 0 ? random.vector(static_cast<Index>(c.rows.size())) : std::vector<double>();
-        DenseZone fresh = c.zone();
-        const bool definite = fresh.factor(c.couplings(), c.held);
+        DenseZone unused = c.zone();
+        const bool definite = unused.factor(c.couplings(), c.held);
         ck_assert_int_eq(zone.factor(c.couplings(), c.held), definite);
         if (!definite) continue;
-        const Zone::Solution expected = fresh.solve(theta, pull), found = zone.solve(theta, pull);
+        const Zone::Solution expected = unused.solve(theta, pull), found = zone.solve(theta, pull);
         ck_assert_int_eq(found.balanced, expected.balanced);
         if (!expected.balanced) continue;
         ++compared;
@@ -123,7 +123,7 @@ LOOP_TEST(small_changes, 0, 48) {
         ck_assert_msg(off <= 1e-11, "change %d: unknowns differ by %.2e", k, off);
         std::vector<double> force(c.rows.size(), 0.0), other(c.rows.size(), 0.0);
         zone.complete_forces(theta, found, force);
-        fresh.complete_forces(theta, expected, other);
+        unused.complete_forces(theta, expected, other);
         for (std::size_t r = 0; r < force.size(); ++r)
             ck_assert_msg(std::abs(force[r] - other[r]) <= 1e-10 * max_abs(other), "change %d: force of row %zu", k, r);
     }
@@ -143,8 +143,8 @@ LOOP_TEST(definiteness, 0, 12) {
         const auto r = at(random.below(c.plain));
         const double before = c.spring[r];
         c.spring[r] = -random.real(1.0, 60.0);
-        DenseZone fresh = c.zone();
-        const bool definite = fresh.factor(c.couplings(), c.held);
+        DenseZone unused = c.zone();
+        const bool definite = unused.factor(c.couplings(), c.held);
         ck_assert_int_eq(zone.factor(c.couplings(), c.held), definite);
         if (!definite) ++indefinite;
         if (!definite || k % 2 == 0) c.spring[r] = before;
@@ -164,9 +164,9 @@ LOOP_TEST(stiff_springs, 0, 10) {
     for (double& s : c.spring)
         if (s > 1e3) s = 0.0;
     ck_assert(zone.factor(c.couplings(), c.held));
-    DenseZone fresh = c.zone();
-    ck_assert(fresh.factor(c.couplings(), c.held));
-    const double off = compare(zone.solve(theta, {}), fresh.solve(theta, {}));
+    DenseZone unused = c.zone();
+    ck_assert(unused.factor(c.couplings(), c.held));
+    const double off = compare(zone.solve(theta, {}), unused.solve(theta, {}));
     ck_assert_msg(off <= 1e-11, "unknowns differ by %.2e", off);
 }
 
@@ -174,7 +174,7 @@ LOOP_TEST(stiff_springs, 0, 10) {
 LOOP_TEST(forgets, 0, 12) {
     Random random(static_cast<unsigned>(loop) + 370U);
     Case c = make_case(random, 40, 0, loop % 3);
-    DenseZone used = c.zone(), fresh = c.zone();
+    DenseZone used = c.zone(), unused = c.zone();
     const std::vector<double> theta = random.vector(2);
     for (int k = 0; k < 5; ++k) {
         ck_assert(used.factor(c.couplings(), c.held));
@@ -183,8 +183,8 @@ LOOP_TEST(forgets, 0, 12) {
     }
     used.forget();
     for (int k = 0; k < 5; ++k) {
-        ck_assert_int_eq(used.factor(c.couplings(), c.held), fresh.factor(c.couplings(), c.held));
-        const Zone::Solution a = used.solve(theta, {}), b = fresh.solve(theta, {});
+        ck_assert_int_eq(used.factor(c.couplings(), c.held), unused.factor(c.couplings(), c.held));
+        const Zone::Solution a = used.solve(theta, {}), b = unused.solve(theta, {});
         ck_assert(a.balanced == b.balanced && a.unknowns == b.unknowns);
         change(c, random);
     }

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """delam fit: what is found from curves, what the data do not tell, how many analyses it takes, and, with the word whole,
-how often intervals cover the truth. `test_fits.py vary NAME ..` prints what half and twice of the constants of fit do."""
+how often intervals cover the truth. `test_fits.py vary NAME ..` prints what half and twice of the constants of fit do, `outcomes` what the same fits find:
+verify/bench/constants.py compares these lines."""
 import csv
 import json
 import os
@@ -546,10 +547,23 @@ def vary(names):
             setattr(module, name, value)
 
 
+def outcomes():
+    """Prints what the fits of vary() find, without judging it, and as `cost` lines how many analyses they take."""
+    for name, work, _ in varied_fits():
+        search, rows = work()
+        for row in rows:
+            ends = " to ".join("none" if end is None else f"{end:.6g}" for end in row["interval"])
+            print(f"{name}, {row['key']}: " + (f"{row['value']:.6g}, {ends}" if row["told"] else "not told"))
+        print(f"cost {name}, analyses: {search.model.marches}", flush=True)
+
+
 if sys.argv[1:] == ["whole"]:
     long_fits()
 elif sys.argv[1:2] == ["vary"]:
     vary(sys.argv[2:])
+    sys.exit()
+elif sys.argv[1:] == ["outcomes"]:
+    outcomes()
     sys.exit()
 else:
     for part in (fits, rugged, late, teeth, alike, untold, words):

@@ -10,7 +10,7 @@ namespace {
 
 // Rows that are known at most. Reason: meshes of layers have 10 to 60 different cells, graded ones as many as they
 // have columns, and free ones no two that are equal, of which a bounded number is kept in vain. (examples/enf has 33,
-// by verify/unit/test_row_table.cpp. Half and twice have not been measured.)
+// by verify/unit/test_row_table.cpp. Half and twice change nothing in verify/bench/analyses.py.)
 constexpr std::size_t most_rows = 1024;
 
 // Mixes the bits of a row (multiplicative hashing; D. Knuth, The Art of Computer Programming 3, section 6.4).

@@ -44,19 +44,24 @@ struct Ledger {
     double energy() const { return stored_bulk + stored_interface + load_potential; }
     // Scale with which differences of energies are compared.
     double scale() const { return std::max(std::abs(energy()), std::abs(work)); }
-    // Adds the increment and the bounds of a part to those of its step.
-    void add_increments(const Ledger& part) {
+    // Adds the increment and the bounds of a part to those of its step, and the energy that it has dissipated since
+    // `before` with the error of that energy: the error of a step is the mean of its parts.
+    void add_part(const Ledger& part, const Ledger& before) {
         lower += part.lower;
         increment += part.increment;
         upper += part.upper;
         increment_lower += part.increment_lower;
+        const double own = part.dissipated - before.dissipated;
+        dissipated += own;
+        mixity_error += own > 0.0 ? (part.mixity_error - mixity_error) * own / dissipated : 0.0;
     }
-    // Takes the increment and the bounds of a step from the sums over its parts.
-    void take_increments(const Ledger& sum) {
+    // Takes the increment, the bounds and the error of a step from its parts.
+    void take_parts(const Ledger& sum) {
         lower = sum.lower;
         increment = sum.increment;
         upper = sum.upper;
         increment_lower = sum.increment_lower;
+        mixity_error = sum.mixity_error;
     }
     // True if this increment of the same step is lower than the ledger's by more than rounding.
     bool undercut_by(double other) const {

@@ -12,26 +12,6 @@ namespace {
 
 constexpr double worth_mentioning = 1e-9;  // of the toughness
 
-// Connected parts of a set of pairs, each ascending.
-std::vector<std::vector<std::int64_t>> components(const PairGraph& graph, const std::vector<std::uint8_t>& set) {
-    std::vector<std::vector<std::int64_t>> found;
-    std::vector<std::uint8_t> seen(set.size(), 0);
-    for (std::size_t p = 0; p < set.size(); ++p) {
-        if (set[p] == 0 || seen[p] != 0) continue;
-        std::vector<std::int64_t> part{static_cast<std::int64_t>(p)};
-        seen[p] = 1;
-        for (std::size_t at = 0; at < part.size(); ++at)
-            for (const std::int64_t q : graph.neighbours(index(part[at])))
-                if (set[index(q)] != 0 && seen[index(q)] == 0) {
-                    seen[index(q)] = 1;
-                    part.push_back(q);
-                }
-        std::sort(part.begin(), part.end());
-        found.push_back(std::move(part));
-    }
-    return found;
-}
-
 }  // namespace
 
 PairGraph::PairGraph(std::span<const InterfaceGeometry> interfaces) {
@@ -57,6 +37,25 @@ PairGraph::PairGraph(std::span<const InterfaceGeometry> interfaces) {
         neighbour_.push_back(q);
     }
     for (std::size_t p = 0; p + 1 < start_.size(); ++p) start_[p + 1] += start_[p];
+}
+
+std::vector<std::vector<std::int64_t>> components(const PairGraph& graph, const std::vector<std::uint8_t>& set) {
+    std::vector<std::vector<std::int64_t>> found;
+    std::vector<std::uint8_t> seen(set.size(), 0);
+    for (std::size_t p = 0; p < set.size(); ++p) {
+        if (set[p] == 0 || seen[p] != 0) continue;
+        std::vector<std::int64_t> part{static_cast<std::int64_t>(p)};
+        seen[p] = 1;
+        for (std::size_t at = 0; at < part.size(); ++at)
+            for (const std::int64_t q : graph.neighbours(index(part[at])))
+                if (set[index(q)] != 0 && seen[index(q)] == 0) {
+                    seen[index(q)] = 1;
+                    part.push_back(q);
+                }
+        std::sort(part.begin(), part.end());
+        found.push_back(std::move(part));
+    }
+    return found;
 }
 
 std::vector<std::uint8_t> adhering_pairs(const PairLaws& pairs, std::span<const double> adhesion,

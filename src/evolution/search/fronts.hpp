@@ -44,6 +44,8 @@ struct Front {
 // Smaller adhesion counts as debonded in reports.
 inline constexpr double debonded_below = 1e-3;
 
+// Returns the connected parts of a set of pairs, [pairs] 1 for those in it; each ascending.
+std::vector<std::vector<std::int64_t>> components(const PairGraph& graph, const std::vector<std::uint8_t>& set);
 // [pairs] 1 if a significant amount is left to dissipate. The adhesion itself does not show this: at k = 1e17 N/m3 a
 // thousandth of it still bridges a crack.
 std::vector<std::uint8_t> adhering_pairs(const PairLaws& pairs, std::span<const double> adhesion,

@@ -13,15 +13,13 @@ namespace {
 
 // Half and twice of these numbers were measured by verify/bench/constants.py with verify/cases/search/energetic.py.
 // Those of `fine` and `small_zone` find the same states, with 0.88 to 1.23 and 1.00 times the candidates; half of
-// `fine_mixity` moves an energy by 6e-5 with 0.92 times as many, twice by 5e-6 with 1.17. `largest_crack` decides:
-// where three interfaces compete, half and twice end in other states, and 32 times of it in those of twice.
-constexpr std::size_t fine = 8;            // rings that are all sampled; of longer sweeps about as many
-constexpr std::size_t fine_mixity = 16;    // where the mixity of a ring is that of the sample before it
-constexpr std::size_t largest_crack = 32;  // rings of a new crack, and of the zone about it
+// `fine_mixity` moves an energy by 6e-5 with 0.92 times as many, twice by 5e-6 with 1.17.
+constexpr std::size_t fine = 8;          // rings that are all sampled; of longer sweeps about as many
+constexpr std::size_t fine_mixity = 16;  // where the mixity of a ring is that of the sample before it
 // Edges of up to so many rings are sampled throughout: the pairs of a cell differ in mixity, which makes two edges of a
-// stable front one of three rings if a sample is missing. (Without it, single-leg
-// bending in 15 steps with solution = energetic named a jump that is none, while mixities of earlier loads were still
-// used. Half and twice have not been measured.)
+// stable front one of three rings if a sample is missing. (Without it, single-leg bending in 15 steps with solution =
+// energetic named a jump that is none, while mixities of earlier loads were still used. Half and twice change nothing
+// in verify/bench/analyses.py.)
 constexpr std::size_t turns = 4;
 constexpr std::size_t small_zone = 512;  // rows of a zone that serves all new cracks
 
@@ -52,14 +50,20 @@ double SearchRun::compare(Candidate& candidate, std::span<const std::int64_t> ne
 std::vector<std::uint8_t> reach_of_new_cracks(SearchRun& search, std::span<const Front> fronts, const Candidate& base) {
     const std::vector<std::uint8_t> adhering = search.adhering(base);
     std::vector<std::uint8_t> reached(adhering.size(), 0);
+    std::size_t rows = 0;
     for (const Front& front : fronts) {
         if (!front.nucleation) continue;
-        const std::vector<std::vector<std::int64_t>> ring = rings(search.graph, adhering, front);
-        for (std::size_t k = 0; k < std::min(ring.size(), largest_crack + 1); ++k)
-            for (const std::int64_t p : ring[k]) reached[index(p)] = 1;
+        double cost = search.least_cost(base);
+        for (const std::vector<std::int64_t>& ring : rings(search.graph, adhering, front)) {
+            for (const std::int64_t p : ring) {
+                if (reached[index(p)] == 0) rows += index(search.pairs().dimension);
+                reached[index(p)] = 1;
+                cost += search.least_left(base, index(p));
+            }
+            if (rows > small_zone) return {};
+            if (search.floor + cost >= search.best) break;
+        }
     }
-    const auto pairs = index(std::count(reached.begin(), reached.end(), std::uint8_t{1}));
-    if (pairs * index(search.pairs().dimension) > small_zone) reached.clear();
     return reached;
 }
 
@@ -137,7 +141,7 @@ void Sweep::keep_rings() {
     while (keep < ring_.size() && (keep < 2 || search_.floor + cost < search_.best)) {
         rows += ring_[keep].size();
         if (keep > 0 && rows * index(pairs.dimension) > search_.energies.largest_zone()) break;
-        if (nucleation_ && (keep == largest_crack || touches_debonded(ring_[keep]))) break;
+        if (nucleation_ && touches_debonded(ring_[keep])) break;
         for (const std::int64_t i : ring_[keep]) {
             const std::size_t p = index(i);
             cost += search_.least_left(base_, p);

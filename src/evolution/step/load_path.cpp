@@ -332,9 +332,7 @@ void LoadPath::accept(Trial trial) {
     next.jump_within = {};
     part.pops = part.pops || next.outcome.released > 0.0;
     events_.add(part, at_, next);
-    sum_.add_increments(ledger);
-    sum_.dissipated += ledger.dissipated - at_.ledger.dissipated;
-    sum_.mixity_error += ledger.mixity_error * (ledger.dissipated - at_.ledger.dissipated);
+    sum_.add_part(ledger, at_.ledger);
     outcome_.released += next.outcome.released;
     outcome_.mixity_held += next.outcome.mixity_held;
     converged_ = converged_ && result.converged;
@@ -354,8 +352,7 @@ ControlledStep LoadPath::close() {
     ControlledStep out{{std::move(at_), converged_, std::move(searched_)}, std::move(events_.jumps), std::move(parts_)};
     for (JumpEvent& jump : out.jumps) jump.step = out.result.state.step;
     State& state = out.result.state;
-    state.ledger.take_increments(sum_);
-    state.ledger.mixity_error = sum_.dissipated > 0.0 ? sum_.mixity_error / sum_.dissipated : 0.0;
+    state.ledger.take_parts(sum_);
     outcome_.damage_change = state.outcome.damage_change;
     outcome_.jumps = static_cast<std::int64_t>(out.jumps.size());
     outcome_.pops = events_.pops;

@@ -172,8 +172,7 @@ void Parts::accept(Goal goal) {
         jumps_.push_back(describe_jump(stepper_.pairs(), graph_, at_, next));
         jumps_.back().step = step_;
     }
-    sum_.add_increments(next.ledger);
-    sum_.mixity_error = std::max(sum_.mixity_error, next.ledger.mixity_error);
+    sum_.add_part(next.ledger, at_.ledger);
     const double margin = next.outcome.search_margin;
     outcome_.search_gap = std::max(outcome_.search_gap, next.outcome.search_gap);
     outcome_.search_margin = done_.empty() ? margin : std::min(outcome_.search_margin, margin);
@@ -197,8 +196,7 @@ ControlledStep Parts::close() {
     history_.substeps = static_cast<std::int64_t>(done_.size());
     ControlledStep out{{std::move(at_), converged_, std::move(searched_)}, std::move(jumps_), std::move(done_)};
     State& state = out.result.state;
-    state.ledger.take_increments(sum_);
-    state.ledger.mixity_error = sum_.mixity_error;
+    state.ledger.take_parts(sum_);
     outcome_.damage_change = state.outcome.damage_change;
     outcome_.jumps = static_cast<std::int64_t>(out.jumps.size());
     history_.refused_steps = refused_;

@@ -3,6 +3,7 @@
 // this choice, because the last digits of the next solve depend on it.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -57,8 +58,11 @@ private:
     double spring_of(const Springs& springs, std::size_t unknown) const;
     std::vector<std::uint8_t> grown(std::vector<std::uint8_t> set, std::size_t size) const;
     bool floats_unless_held(std::span<const std::uint8_t> unknowns, std::span<const double> springs) const;
-    // An unknown that has not changed may leave the zone so many choices later.
-    std::uint8_t forgotten() const { return static_cast<std::uint8_t>(limits_.zone_forgotten); }
+    // An unknown that has not changed may leave the zone so many choices later. A saved state has two bits for them.
+    std::uint8_t forgotten() const {
+        constexpr std::int64_t oldest = 3;
+        return static_cast<std::uint8_t>(std::min(limits_.zone_forgotten, oldest));
+    }
 
     const Bulk& bulk_;
     const Limits& limits_;

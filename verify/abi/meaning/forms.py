@@ -150,7 +150,7 @@ def bilinear_dissipated(onset, total, zeta):
 
 
 def numbers(count, seed=1, low=-1.0, high=1.0):
-    """That look like no others: of a small generator, the same everywhere."""
+    """That equal no others: of a small generator, the same everywhere."""
     found, state = [], seed * 2654435761 % 2**32
     for _ in range(count):
         state = (1664525 * state + 1013904223) % 2**32

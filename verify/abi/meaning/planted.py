@@ -372,7 +372,7 @@ BREAKS = {
     "half the condensed stiffness": ("condensed operator", told("solver_condensed", stiffness=HALF)),
     "the record backwards": ("record", told("solver_recorded", values=backwards)),
     "what a jump releases and dissipates": ("jump_tolerance", exchanged("solver_jump", ("dissipated", "released"))),
-    "step -1 is the first": ("looking back", given("solver_look", step=default(0, -1))),
+    "step -1 is the first": ("selecting earlier steps", given("solver_look", step=default(0, -1))),
     "energies of bodies and interfaces": ("values of a bar", key_as(
         {"stored_bulk": "stored_interface", "stored_interface": "stored_bulk"})),
     "damage without its slope": ("values of a bar", key_as({"dissipated": "dissipated_slides"})),

@@ -233,7 +233,7 @@ def rollback(host, see):
 
 @row("what loading replaces")
 def loading(host, see):
-    """A loaded state brings its history and its record, and ends a pending step and a look back."""
+    """A loaded state brings its history and its record, and ends a pending step and a selection of an earlier step."""
     law = scenes.strong(host, 10.0, 1.0)
     one, other = (scenes.Bar(host, law, bulk=10.0, options=[("backtracking", "on")]) for _ in range(2))
     host("solver_record", one.solver, "time")

@@ -48,7 +48,7 @@ def solution(host, see):
                     [("solution", "energetic"), ("backtracking", "off")]):
         bar = brittle_bar(host, bulk, stiffness, toughness, [0.1, 0.2, 0.3], options)
         kept.append(host.status("solver_look", bar.solver, 0))
-    see.equal("status of looking back, local, off, energetic, off", kept, [-1, -1, 0, -1])
+    see.equal("status of selecting earlier steps, local, off, energetic, off", kept, [-1, -1, 0, -1])
 
 
 @row("steps that a return replaces")
@@ -137,7 +137,7 @@ def backtracking_tolerance(host, see):
 
 @row("backtracking_depth", options=["backtracking_depth"])
 def backtracking_depth(host, see):
-    """After 1002 steps the first that can be looked at is 2."""
+    """After 1002 steps the first that can be selected is 2."""
     def run(options, steps=1002):
         bar = Bar(host, scenes.strong(host, 1.0, 1.0), options=[("backtracking", "on"), *options])
         for step in range(steps):

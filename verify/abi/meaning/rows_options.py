@@ -52,11 +52,11 @@ def hash_of_defaults(host, see):
             scenes.give(host, problem, key, setting)
         return host("problem_hash", problem, Out(17))
 
-    fresh = hashed([])
+    untouched = hashed([])
     for key, default in DEFAULTS.items():
         if not known(host, key):
             continue
-        see.that(f"{key} = {default} is another scene than {key} left alone", hashed([(key, default)]) == fresh)
+        see.that(f"{key} = {default} is another scene than {key} left alone", hashed([(key, default)]) == untouched)
         other = {"local": "energetic", "fixed": "adaptive", "converged": "frozen", "orthonormal": "redundant",
                  "series": "none", "stiffness": "multiplicity", "linear": "corotational"}.get(default, "always")
         if default == "auto" and key in ("backtracking", "minimisation", "reduction", "step_control"):
@@ -65,7 +65,7 @@ def hash_of_defaults(host, see):
         near = other if isinstance(default, str) else default + 1 if isinstance(default, int) and key not in (
             "jump_tolerance", "mixity_step_tolerance") else 1.001 * default if default else 1e-9
         if key not in OUTSIDE_THE_HASH:
-            see.that(f"{key} = {near} is the same scene as {key} left alone", hashed([(key, near)]) != fresh)
+            see.that(f"{key} = {near} is the same scene as {key} left alone", hashed([(key, near)]) != untouched)
 
 
 def known(host, key):
@@ -305,10 +305,10 @@ def turning(host, options, toughness=(0.1, 0.6)):
     host("problem_set_elastic", problem, -1, 1e3, 0.25)
     host("problem_set_law", problem, 0, law)
     up = scenes.ramp(host, problem, "up", (0.0, 1.0), (0.0, 0.018))
-    aside = scenes.ramp(host, problem, "aside", (1.0, 2.0), (0.0, 0.05))
+    across = scenes.ramp(host, problem, "across", (1.0, 2.0), (0.0, 0.05))
     scenes.hold(host, problem, [0, 1, 2, 3], [[1.0, 0.0], [0.0, 1.0]])
     scenes.drive(host, problem, [4, 5, 6, 7], [0.0, 1.0], up, [1.0] * 4)
-    scenes.drive(host, problem, [4, 5, 6, 7], [1.0, 0.0], aside, [1.0] * 4)
+    scenes.drive(host, problem, [4, 5, 6, 7], [1.0, 0.0], across, [1.0] * 4)
     for key, setting in options:
         scenes.give(host, problem, key, setting)
     solver = host("solver_create", problem, 0.0, Out())
@@ -362,7 +362,7 @@ def mixity_rule(host, see):
 
 
 def leaning(host, rule):
-    """Two soft layers pulled up and aside at once: the solver at the end of its first step, and the mixities of its
+    """Two soft layers pulled up and across at once: the solver at the end of its first step, and the mixities of its
     elastic solution."""
     springs = (100.0, 30.0)
     mesh = host("mesh_create_layers", host.context, 2, [1.0], [1], 2, [1.0, 1.0], [1, 1], TYPES["quad4"], Out())

@@ -106,14 +106,14 @@ def condensed(host, see):
     columns, springs = 2, (40.0, 15.0)
     mesh, problem = stack(host, 2, columns, [scenes.strong(host, *springs)])
     theta = [1.0, 0.7, 1.3]
-    up, aside, push = (scenes.ramp(host, problem, name, values=(0.0, end))
-                       for name, end in zip(("up", "aside", "push"), theta))
+    up, across, push = (scenes.ramp(host, problem, name, values=(0.0, end))
+                       for name, end in zip(("up", "across", "push"), theta))
     scenes.hold(host, problem, [0, 1, 2], [[1.0, 0.0], [0.0, 1.0]])
     scenes.drive(host, problem, [9, 10, 11], [0.0, 1.0], up, [0.3, 0.35, 0.2])
-    scenes.drive(host, problem, [9], [1.0, 0.0], aside, [0.05])
+    scenes.drive(host, problem, [9], [1.0, 0.0], across, [0.05])
     # One pair is prescribed on both sides: its jump is the loads' alone.
-    host("problem_prescribe_nodes", problem, 1, [3], [1.0, 0.0], 1, [aside], [0.012], 0)
-    host("problem_prescribe_nodes", problem, 1, [6], [1.0, 0.0], 2, [up, aside], [0.02, 0.03], 0)
+    host("problem_prescribe_nodes", problem, 1, [3], [1.0, 0.0], 1, [across], [0.012], 0)
+    host("problem_prescribe_nodes", problem, 1, [6], [1.0, 0.0], 2, [up, across], [0.02, 0.03], 0)
     host("problem_add_forces", problem, push, 2, [8, 5], [0.4, 1.3, -0.2, -0.7], 0)
     solver = host("solver_create", problem, 1.0, Out())
     n, entries = host("solver_condensed_size", solver, Out(), Out())
@@ -139,7 +139,7 @@ def condensed(host, see):
     see.that("the interface is open", all(u > 0 for u in found[::2]))
     conjugate = [-forms.dot(load[n * p:n * p + n], x) + forms.dot(constant[3 * p:3 * p + 3], theta) +
                  sum(offset[3 * r + p] * spring[r] * found[r] for r in range(rows)) for p in range(patterns)]
-    see.near("reactions", [value(host, solver, f"reaction:{name}") for name in ("up", "aside", "push")], conjugate,
+    see.near("reactions", [value(host, solver, f"reaction:{name}") for name in ("up", "across", "push")], conjugate,
              "F L", rel=1e-8)
     energy = sum(value(host, solver, key) for key in ("stored_bulk", "load_potential"))
     own = 0.5 * sum(x[i] * s[n * i + j] * x[j] for i in range(n) for j in range(n)) + \
@@ -352,8 +352,8 @@ def plan_beforehand(host, see):
              host("problem_value_count", bar.problem, Out()) == host("solver_value_count", bar.solver, Out()) > 0)
 
 
-@row("looking back", says=["solver_look: step -1 selects"])
-def look(host, see):
+@row("selecting earlier steps", says=["solver_look: step -1 selects"])
+def select(host, see):
     bar = scenes.Bar(host, scenes.strong(host, 10.0, 1.0), bulk=10.0, options=[("backtracking", "on")])
     bar.step(0.1)
     bar.step(0.4)

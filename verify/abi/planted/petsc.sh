@@ -37,7 +37,7 @@ CODE
 printf 'delam_petsc_create 0.1\ndelam_petsc_run 0.1\n' >"$work/top/symbols.txt"
 cp "$root/src/petsc/petsc.map" "$work/top/petsc.map"
 cp -r "$work/top" "$work/top.sound"
-# on_top NAME: a fresh copy to break. make_top NAME [OPTIONS]. gate_top NAME CHECK. lint_top NAME. promise_top NAME.
+# on_top NAME: a new copy to break. make_top NAME [OPTIONS]. gate_top NAME CHECK. lint_top NAME. promise_top NAME.
 on_top() {
     rm -rf "${work:?}/$1"
     cp -r "$work/top.sound" "$work/$1"

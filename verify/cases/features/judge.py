@@ -52,7 +52,7 @@ def open_ledger(history):
     return max(abs(values["defect"]) for values, _ in history) / max(abs(values["work"]) for values, _ in history)
 
 
-def judge_books(features, history):
+def judge_balance(features, history):
     """stored + dissipated + released = work, in every step."""
     released = 0.0
     work = max(abs(values["work"]) for values, _ in history)
@@ -81,7 +81,7 @@ def judge(features):
     features = ordered(features)
     scene = Scene(features)
     history, asked = scene.run(lambda: analyse(scene, [feature for feature in features if feature in QUERIES]))
-    judge_books(features, history)
+    judge_balance(features, history)
     judge_damage(scene, history)
     if asked:  # what is asked changes nothing
         for k, (one, other) in enumerate(zip(plain(features), history)):

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The same analysis in few and in many load steps: what it dissipates, which jumps it reports, and what its books leave
+"""The same analysis in few and in many load steps: what it dissipates, which jumps it reports, and what its energy balance leaves
 open, work less stored, dissipated and released energy.
 
     steps.py [--all | --outcomes]
@@ -118,7 +118,7 @@ def analyse(problem, steps):
     return solver, released
 
 
-def books(solver, released):
+def balance(solver, released):
     """What the four energies leave open, over the dissipated one; each is read from another value."""
     values = solver.values
     stored = values["stored_bulk"] + values["stored_interface"] + values["load_potential"]
@@ -131,13 +131,13 @@ def steady(name, make, counts, bound):
     for steps in counts:
         solver, released = analyse(make(), steps)
         dissipated.append(solver.values["dissipated"])
-        opens.append(books(solver, released))
+        opens.append(balance(solver, released))
         print(f"      {name}, {steps} steps: dissipated {dissipated[-1]:.5f} J/m, released {released:.5f}, open "
               f"{100 * opens[-1]:.3f} %, {len(solver.jumps)} jumps")
         expect(not solver.jumps, f"{name}, {steps} steps: growth is no jump")
     spread = (max(dissipated) - min(dissipated)) / min(dissipated)
     expect(spread < 5e-3, f"{name}: dissipated within 0.5 % ({100 * spread:.2f} %)")
-    expect(max(map(abs, opens)) < bound, f"{name}: the books are open by {100 * max(map(abs, opens)):.2f} % at most")
+    expect(max(map(abs, opens)) < bound, f"{name}: the balance is open by {100 * max(map(abs, opens)):.2f} % at most")
     expect(max(map(abs, opens)) > 1e-7, f"{name}: what is open is measured, not defined")
 
 
@@ -169,7 +169,7 @@ def jumping(name, make, length, counts):
             times.append(jumps[0].time)
             expect(abs(jumps[0].debonded - length) < 0.12 * length, f"{name}, {steps} steps: through the interface")
             expect(jumps[0].released >= 0.0, f"{name}, {steps} steps: it releases no negative energy")
-        expect(abs(books(solver, released)) < 5e-3, f"{name}, {steps} steps: the books are closed")
+        expect(abs(balance(solver, released)) < 5e-3, f"{name}, {steps} steps: the balance is closed")
     expect(max(times) - min(times) < 0.03 * max(times), f"{name}: at the same load within 3 %")
 
 

@@ -110,14 +110,14 @@ def ledger(context):
         tables=[{"title": "Energies over the load, every tenth of the analysis", "note": "",
                  "columns": [column("load", "mm", key=True), column("reaction", "N/m"), column("bodies", "J/m"),
                              column("interface", "J/m", past=1e-5),
-                             column("dissipated", "J/m", past=1e-5), column("work, booked", "J/m"),
+                             column("dissipated", "J/m", past=1e-5), column("work, recorded", "J/m"),
                              column("work, from the reaction", "J/m"),
                              column("defect", "of the final work", past="free")],
                  "rows": [[round(mm[k], 9), at["reaction:load"][k], at["stored_bulk"][k], at["stored_interface"][k],
                            at["dissipated"][k], at["work"][k], again[k],
                            (total[k] - again[k]) / size] for k in range(0, n, every)]}],
         ledger=ledger_of({f"h = {1e3 * cell:g} mm, {steps} steps": at}, "J/m"),
-        checks=[check("booked work against the reaction's integral",
+        checks=[check("recorded work against the reaction's integral",
                       max(abs(a - b) for a, b in zip(at["work"], again)) / size, 1e-13,
                       "the work of a step is the trapezoid of the reactions at its ends, up to rounding"),
                 check("defect of the balance", max(abs(a - b) for a, b in zip(total, again)) / size,
@@ -135,7 +135,7 @@ def ledger(context):
                         at["increment"][1:]),
                      series("lower bound", "lower", mm[1:], at["lower"][1:])])],
         figures=[figure("enf_work_defect", max(abs(a - b) for a, b in zip(at["work"], again)) / size, "of the work",
-                        "Ductile ENF: booked work against the integral of the reaction, largest difference",
+                        "Ductile ENF: recorded work against the integral of the reaction, largest difference",
                         past="rounding")])
 
 

@@ -36,7 +36,7 @@ def distance(a, b, key):
 
 
 def missed(m):
-    """A bound of what frozen mixity books wrongly: toughness that each step missed, by its own word, times what it
+    """A bound of what frozen mixity records wrongly: toughness that each step missed, by its own word, times what it
     dissipated."""
     spent = m.at["dissipated"]
     return sum(e * (b - a) for e, a, b in zip(m.at["mixity_error"][1:], spent, spent[1:])) / spent[-1]

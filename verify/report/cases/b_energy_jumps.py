@@ -98,11 +98,11 @@ def energetic_case(specimen, quick, expected):
             if not method.startswith("energetic"):
                 continue
             of = rows.where(method=method)
-            # Frozen mixity in mixed mode: locating the jump books other mixities than the scan's steps do; another
+            # Frozen mixity in mixed mode: locating the jump records other mixities than the scan's steps do; another
             # history, listed below.
             same = [r for r in of.rows if specimen.startswith("enf") or method == "energetic"
                     or r[of.index("mixity")] != "frozen"]
-            # The scan books the mixities of fronts at rest, rule `converged` those of the path at the load at which a step
+            # The scan records the mixities of fronts at rest, rule `converged` those of the path at the load at which a step
             # ends: where they differ, so may the energies, by no more.
             along = [r for r in same if r[of.index("mixity")] == "converged"]
             other = max((r[of.index("excess")] / max(1e-4, abs(r[of.index("toughness")] / r[of.index("scan_toughness")] - 1.0))
@@ -110,14 +110,14 @@ def energetic_case(specimen, quick, expected):
             rest = [r[of.index("excess")] for r in same if r not in along]
             limit, why = (1e-11, "no front of the exhaustive scan may be lower; in mode II both histories have the "
                                  "same toughness: rounding alone") if specimen.startswith("enf") else (
-                1e-4, "no front of the exhaustive scan may be lower; in mixed mode the two histories book mixities of "
+                1e-4, "no front of the exhaustive scan may be lower; in mixed mode the two histories record mixities of "
                       "their own states, which need not "
                       "agree to the last digits")
             if rest:
                 checks.append(check(f"{method}: energy above the scan's", largest(rest), limit, why))
             if along:
                 checks.append(check(f"{method}, converged: energy above the scan's, over the difference of the toughnesses",
-                                    other, 1.0, "the scan books mixities of fronts at rest, this rule those of the path at "
+                                    other, 1.0, "the scan records mixities of fronts at rest, this rule those of the path at "
                                     "the load at which the step ends; at least 1e-4"))
             checks.append(check(f"{method}: analyses whose jump is in another step than the scan's",
                                 sum(r[of.index("jump_step")] != r[of.index("scan_step")] for r in same), 0,

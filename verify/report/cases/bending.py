@@ -180,18 +180,18 @@ def analyse(delam, specimen, h, steps, path=None, **more):
     problem, interface = scene(delam, specimen, h, [0.0, *(d for d, _ in legs)], **more)
     places, found = np.array(interface.places[:, 0]), [[]]
 
-    def look(solver):
+    def watch(solver):
         found.append(zone(places, np.array(solver.field("adhesion")), np.array(solver.field("jump"))))
 
-    out = run(delam, problem, legs, look=look)
+    out = run(delam, problem, legs, watch=watch)
     out.specimen, out.h, out.shear, out.zones = specimen, h, more.get("shear", TURON), found
     return out
 
 
-def run(delam, problem, legs, keys=(), look=None):
+def run(delam, problem, legs, keys=(), watch=None):
     """An analysis of a problem with one pattern, a leg in each unit of time. `at`: lists of the values after every step,
     the initial state first; `load`, `down` (displacement), `crack`; `jumps`: recorded() ones; `open`: steps that met an
-    iteration limit. look(solver) is called after every step."""
+    iteration limit. watch(solver) is called after every step."""
     out = types.SimpleNamespace(steps=sum(n for _, n in legs), open=0)
     times = [0.0, *(leg + k / count for leg, (_, count) in enumerate(legs) for k in range(1, count + 1))]
     with delam.Solver(problem) as solver:
@@ -205,8 +205,8 @@ def run(delam, problem, legs, keys=(), look=None):
                     out.open += 1
                 solver.commit()
                 history.record()
-                if look:
-                    look(solver)
+                if watch:
+                    watch(solver)
         jumps = [(j.step, j.before, j.time, j.released, *j.reaction_before, *j.reaction_after) for j in solver.jumps]
     out.at = {name: [float(v) for v in history[name]] for name in (*VALUES, *keys)}
     out.down, out.load, out.crack = (out.at[name] for name in ("load:press", "reaction:press", "crack_length"))
@@ -335,7 +335,7 @@ def pairs(of):
     return sum(counts) / len(counts) if counts else 0.0
 
 
-def booked(of):
+def accounted(of):
     """Dissipated per new crack over what the softening zones on the way ask for, and over the criterion at the
     mixities of beam theory; NaN without growth."""
     steps = growth(of)

@@ -102,7 +102,7 @@ def analysis_case(scene, *, quick, expected, cap, shipped=False):
             end = found["critical"]["methods"]["accelerated"]
             kkt = end.get("end_state_kkt")
             checks.append(check("one more damage step moves the adhesion, worst of the steps", end["damage_fixed_point_worst_of_steps"], 1e-4,
-                                "ten times the stopping test, which looks at the last change: where the crack jumps, several states are critical and histories may differ"))
+                                "ten times the stopping test, which tests the last change: where the crack jumps, several states are critical and histories may differ"))
             if isinstance(kkt, dict):
                 checks.append(check("primal KKT of the end state", kkt["worst"], 1e-8, "evaluated outside the solver from exported fields"))
         else:
@@ -124,9 +124,9 @@ def analysis_case(scene, *, quick, expected, cap, shipped=False):
         bounded = {r[0] for r in rows if "lower bound" in r[10]}  # stopped, or priced from what was
         plots = [plot("Time and memory of the analysis", axis("peak memory", "of one factorisation"), axis("time", "linear solves", "log"),
                       [series(label + AT_LEAST * (label in bounded), roles[label], [held[label]], [value], line="none",
-                              hollow=label in bounded) for label, value in over if label in held],
+                              unfilled=label in bounded) for label, value in over if label in held],
                       [{"kind": "horizontal", "value": float(goal), "label": "goal"}], "Further left and further down is better. Where the note in the table says so, the baseline is "
-                      "priced from counted factorisations; what was stopped is hollow, and would be higher.")]
+                      "priced from counted factorisations; what was stopped is unfilled, and would be higher.")]
         if history:
             plots.append(plot("What they all compute", axis("displacement of mid-span", "mm"), axis("reaction", "N/m"), history))
         return result(
@@ -334,7 +334,7 @@ def methods(context):
                             "else the last point of each curve would be the reference's"))
         curves = [series(NAMES[key] + more, key, [p[0] for p in kept], [p[1] / unit for p in kept], **how)
                   for key, both in points.items()
-                  for kept, more, how in zip(both, ("", AT_LEAST), ({}, {"line": "none", "hollow": True})) if kept]
+                  for kept, more, how in zip(both, ("", AT_LEAST), ({}, {"line": "none", "unfilled": True})) if kept]
         plots.append(plot(f"Work against precision: {what}", axis(f"error of the {what}, mesh alone", "relative", "log"),
                           axis("time", f"linear solves on {finest:g} mm", "log"), curves, (),
                           f"One point a mesh, {meshes[0]['h_mm']:g} mm on the right to {finest:g} mm on the left; further left and "

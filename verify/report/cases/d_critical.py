@@ -136,7 +136,7 @@ def critical_states(context):
               f"The energetic search ends at {found:.4g} J/m; what bounds the front positions that it left out from below leaves {gap:.2g} J/m ({100 * gap / found:.1f} %) open",
               "Shorter steps end elsewhere again: " + ", ".join(f"{m.stored_and_spent:.4g} J/m ({name}, {n} steps)" for (name, n), m in short.items())
               + ": the toughness follows the mode mixity of the step before, so that another history costs another energy",
-              f"With a zone of several pairs and mixity_rule = converged the two ways end at the same adhesions, but book {100 * split:.1f} % different dissipation ({near.values['dissipated']:.4g} and {far.values['dissipated']:.4g} J/m): pairs that "
+              f"With a zone of several pairs and mixity_rule = converged the two ways end at the same adhesions, but record {100 * split:.1f} % different dissipation ({near.values['dissipated']:.4g} and {far.values['dissipated']:.4g} J/m): pairs that "
               "break within the step keep the mixity of the iterate in which they broke, so that the way, down to its rounding, decides; the past does not judge these numbers"]
     if distance(joint, feti_joint) > 1e-9:
         losses.insert(1, f"Joint FETI ends at {feti_joint.stored_and_spent:.4g} J/m, another critical state than the condensed operator's: which unstable pair comes first is decided by the rounding of the linear solves")

@@ -14,10 +14,10 @@ DIRECT = reference("direct solver", "verify/reference/direct: SuiteSparse's CHOL
                    "at the adhesions of the condensed analysis; FETI that ends at others is compared with a direct solution at its own; no solver code is shared", "its own KKT violation is drawn and tabled beside those of the others")
 KKT_WHY = ("gap, pressure, complementarity, equilibrium, supports and law from exported fields, outside the library, each over the largest of "
            "its kind; iterations stop at 1e-12 of the residual, three decades and more are left for the condition of the scene")
-LEDGER_WHY = "energies booked against Clapeyron's theorem, springs and work computed from fields, over the largest; only rounding may differ"
+LEDGER_WHY = "energies recorded against Clapeyron's theorem, springs and work computed from fields, over the largest; only rounding may differ"
 
 
-LEGEND = ("KKT: worst violation of gap, pressure, complementarity, equilibrium, supports and law. Ledger: booked energies against those computed from fields. Defect: what the balance of "
+LEGEND = ("KKT: worst violation of gap, pressure, complementarity, equilibrium, supports and law. Ledger: recorded energies against those computed from fields. Defect: what the balance of "
           "energy over the analysis misses; it falls with the length of the steps, is large where a step breaks much at once, and is judged only where a check above names it. Damage: what a "
           "further damage step would change.")
 
@@ -298,7 +298,7 @@ def decades(value):
 
 def cases():
     none = " (none at -330)"
-    sudden = "Defect: everything breaks within one step, whose work is booked along a straight line of the load; it is what the interface sets free on the way, up to all of the work, and no fault of the state."
+    sudden = "Defect: everything breaks within one step, whose work is recorded along a straight line of the load; it is what the interface sets free on the way, up to all of the work, and no fault of the state."
     k = dict(x="k", unit="N/m3")
     return [
         stability("stiffness", "Interface stiffness from 1e6 to 1e22 N/m3", "Sixteen decades of interface stiffness leave the elastic solution right to 3e-9, by either realisation, in the plane and in space.",

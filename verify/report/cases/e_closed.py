@@ -240,7 +240,7 @@ def bar(context):
             spent = solver.values["dissipated"]
         all_of_it = BAR["toughness"] * (BAR["length"] - BAR["start"] + 0.5 / cells)
         loads.append([cells, exact * 1e3, from_work * 1e3, from_work / exact - 1, spent / all_of_it - 1])
-        checks += [check(f"free bar, {cells} cells: load of the jump, off", abs(from_work / exact - 1), 5e-3 if cells == 200 else 1.0 / cells, "from the work that is booked; h/L, half of it with 200 cells"),
+        checks += [check(f"free bar, {cells} cells: load of the jump, off", abs(from_work / exact - 1), 5e-3 if cells == 200 else 1.0 / cells, "from the work that is recorded; h/L, half of it with 200 cells"),
                    check(f"free bar, {cells} cells: dissipated, off", abs(spent / all_of_it - 1), 1e-13, "all of the bond, the pair at the tip with its whole cell: a sum, rounding alone")]
     return result(reference("closed form", "a bar on a bond of membrane stiffness Et and length lam = sqrt(Et/k): F = Et w/(a + lam), plateau sqrt(2 G Et); with a free far end it comes off at once at (a + lam) = (L + lam)/2", "the far end many lam away: exp(-7) of the force at the ends of the range"),
                   tables=[{"title": "Peeling of the held bar", "note": "", "columns": [column("solution", key=True), column("cells", key=True), column("h", "mm"), column("force, off", "of the plateau", past=1e-4), column("front, off", "mm", past=1e-4)], "rows": rows},

@@ -211,7 +211,7 @@ def user_element(context):
     u = np.zeros(3)
     with delam.Solver(arms(delam, False), not_converged="raise") as element, delam.Solver(arms(delam, True), not_converged="raise") as whole:
         quadratic, worst_force, worst_spent, forces = 0, 0.0, 0.0, []
-        booked = delam.History(element, LEDGER_VALUES), delam.History(whole, LEDGER_VALUES)
+        recorded = delam.History(element, LEDGER_VALUES), delam.History(whole, LEDGER_VALUES)
         for k in range(1, steps + 1):
             time, residuals = k / steps, []
             while True:
@@ -231,7 +231,7 @@ def user_element(context):
             element.commit()
             whole.advance(time)
             whole.commit()
-            for history in booked:
+            for history in recorded:
                 history.record()
             if len(residuals) >= 3 and residuals[-2] < 1e-3 and residuals[-1] <= 100 * residuals[-2] ** 2 + 1e-11:
                 quadratic += 1
@@ -252,7 +252,7 @@ def user_element(context):
                   checks=[check("force of the element off the whole structure", worst_force, 1e-9, "the residual of the host's Newton method, 1e-10, through softening"), check("dissipated energy, off", worst_spent, 1e-9, "as of the force"),
                           check("steps with quadratic convergence", quadratic, 15, "the last residual is at most 100 times the square of the one before; steps without damage are linear and need two", ">="),
                           check("Newton iterations of a step", max(iterations), 7, "more would not be Newton's method"), check("energy dissipated", spent, 0.1, "J/m: the arms part, it is no elastic element", ">=")],
-                  ledger=ledger_of({"element in the host": booked[0], "whole structure, springs of the machine included": booked[1]}, "J/m"),
+                  ledger=ledger_of({"element in the host": recorded[0], "whole structure, springs of the machine included": recorded[1]}, "J/m"),
                   plots=[plot("Force of the machine", axis("time"), axis("force", "N/m"), [series("whole structure", "reference", [f[0] for f in forces], [f[2] for f in forces], marker=False), series("element in the host", "condensed", [f[0] for f in forces], [f[1] for f in forces], line="none")]),
                          plot("Newton's method of the host, longest step", axis("iteration"), axis("residual", "relative", "log"), [series("residual", "condensed", list(range(1, len(longest) + 1)), [max(v, FLOOR) for v in longest])])],
                   figures=[figure("user_element_force", worst_force, "relative", "Sub-laminate as one element of a host: force against the whole structure in one scene, largest difference", past="rounding")])

@@ -34,7 +34,7 @@ def at(x, y, place):
 
 
 def energy_checks(h):
-    """Of every coupon: what the ledger books is in balance, and bounded from both sides."""
+    """Of every coupon: what the ledger records is in balance, and bounded from both sides."""
     size = max(max(abs(v) for v in h["stored_bulk"]), max(abs(v) for v in h["work"]))
     stored = [a + b for a, b in zip(h["stored_bulk"], h["stored_interface"])]
     gain = max(s - stored[0] + d - w for s, d, w in zip(stored, h["dissipated"], h["work"])) / size
@@ -42,7 +42,7 @@ def energy_checks(h):
     above = max(a - b for a, b in zip(h["increment"], h["upper"])) / size
     healed = max((a - b for a, b in zip(h["dissipated"], h["dissipated"][1:])), default=0.0) / size
     why = "eta of the two-sided estimate, over the largest energy"
-    return [check("energy out of nothing, over the work", max(gain, 0.0), 5e-4, "stored + dissipated is at most the work, which is booked by the trapezoidal rule: steps of this size leave up to 1e-4"),
+    return [check("energy out of nothing, over the work", max(gain, 0.0), 5e-4, "stored + dissipated is at most the work, which is recorded by the trapezoidal rule: steps of this size leave up to 1e-4"),
             check("below the lower bound", max(below, 0.0), 1e-3, why), check("above the upper bound", max(above, 0.0), 1e-3, why),
             check("dissipated energy that comes back", max(healed, 0.0), 1e-9, "damage only grows; rounding")]
 

@@ -265,7 +265,7 @@ def cases():
             group_case("f-fuzz", "Fuzzing, replayed", "^fuzz/replay", "Every committed input, and every input that was once a defect, ends with a listed status and nothing changed after an error.",
                        "the contract after every call (verify/fuzz): listed status, message, unchanged state", True, 20,
                        [(f"fuzz/replay_{n}", r"(\d+) inputs", "inputs replayed", "fuzz_inputs") for n in ("api_sequence", "saved_state", "mesh_arrays", "scene")]),
-            group_case("f-faults", "Faults injected", "^fault/[^t]", "Cancelled at a look, out of memory at an allocation, under other rounding modes, traps and locales: the promised status and "
+            group_case("f-faults", "Faults injected", "^fault/[^t]", "Cancelled at a poll, out of memory at an allocation, under other rounding modes, traps and locales: the promised status and "
                        "the state before, bit by bit.", "the undisturbed run of the same scene, bit by bit (verify/faults)", False, 90,
                        [("fault/long_cancel", r"(\d+) calls cancelled", "calls cancelled", "fault_cancelled"),
                         ("fault/long_memory", r"(\d+) (?:failed )?allocations", "allocations failed", "fault_allocations")], long="^fault/long_(cancel|memory)$"),

@@ -9,7 +9,7 @@ from case import Case, Failed, axis, check, column, figure, largest, ledger_of, 
 WIDTH = 25.4e-3                                         # m, of the specimens in the published loads
 PUBLISHED = {"0.2": 126.6, "0.5": 379.0, "0.8": 725.0}  # N at that width
 JUMP = 1.580e-3                                         # m, energetic, G_II/G = 0.8
-APART, PEAK, BOOKED = 0.02, 0.025, 0.02
+APART, PEAK, RECORDED = 0.02, 0.025, 0.02
 OUT_OF_RATIO = 90e6                                     # Pa
 PAST = 1e-4
 BEAMS = reference(
@@ -77,15 +77,15 @@ def judged(name, analyses, turned=(), jumps=None):
     checks = [check("loads of analyses with different steps, apart", off, APART, "at every displacement that two "
                     f"analyses with the same cells and strengths share; the largest at {1e3 * where:.4g} mm ({who})"),
               check("displacements that they share", min(c[2] for c in compared), 40, "fewer would be no analysis", ">=")]
-    booked, high, low = {n: bending.booked(m) for n, m in everything.items()}, [], []
+    accounted, high, low = {n: bending.accounted(m) for n, m in everything.items()}, [], []
     for n, m in everything.items():
         top, _, gain = peak_of(m)
-        beam = specimen.critical(bending.NOTCH, booked[n][1] if n in turned else 1.0)
+        beam = specimen.critical(bending.NOTCH, accounted[n][1] if n in turned else 1.0)
         high.append((top / beam - 1.0) / allowed_above(m))
         low.append((1.0 - (top + gain) / beam) / allowed_below(m))
     why = f"{newtons(specimen.critical(bending.NOTCH)):.4g} N by beam theory"
     if turned:
-        why += "; out of Turon's ratio with the toughness that was booked"
+        why += "; out of Turon's ratio with the toughness that was recorded"
     checks += [check("peak over that of beam theory, over what is allowed", max(*high, 0.0), 1.0,
                      f"{why}; allowed: {100 * PEAK:g} %, where the softening zone has less than five pairs "
                      f"{200 * PEAK:g} %"),
@@ -93,12 +93,12 @@ def judged(name, analyses, turned=(), jumps=None):
                      f"{why}; allowed: {100 * PEAK:g} %, times (115 MPa/strength)^2, because the softening zone is part "
                      "of the crack (in pure modes half of its share of the crack), and what the load gains in a step"),
                check("dissipated per new crack, off its softening zone",
-                     largest(abs(booked[n][0] - 1.0) for n, m in everything.items() if resolved(m)), BOOKED,
+                     largest(abs(accounted[n][0] - 1.0) for n, m in everything.items() if resolved(m)), RECORDED,
                      "the integral of the threshold over adhesions and mixities of pairs in the zone, the law "
                      "evaluated by this case; from the peak on, jumps included; zones of five pairs or more")]
     if specimen.kind != "mmb":
         checks.append(check("dissipated per new crack, off the criterion",
-                            largest(abs(whole - 1.0) for _, whole in booked.values()), BOOKED,
+                            largest(abs(whole - 1.0) for _, whole in accounted.values()), RECORDED,
                             "a pure mode has one toughness"))
     due = ledgers.falls_at_once(everything, scene_of)
     # With fewer pairs the front goes on pair by pair, and the load falls and rises with each, also within a step; the
@@ -121,9 +121,9 @@ def judged(name, analyses, turned=(), jumps=None):
 def rows_of(name, analyses):
     specimen, rows, due = bending.SPECIMENS[name], [], ledgers.falls_at_once(analyses, scene_of)
     for title, m in analyses.items():
-        (top, where, _), fine, booked = peak_of(m), finest(m, analyses), bending.booked(m)
+        (top, where, _), fine, accounted = peak_of(m), finest(m, analyses), bending.accounted(m)
         rows.append([title, m.steps, newtons(top), top / specimen.critical(bending.NOTCH),
-                     1e3 * where, bending.pairs(m), *(None if math.isnan(v) else v for v in booked),
+                     1e3 * where, bending.pairs(m), *(None if math.isnan(v) else v for v in accounted),
                      None if m is fine else bending.apart(m, fine)[0], ledgers.defect_of(m), sum(m.at["released"]),
                      len(due[title]), len(bending.unnamed(m, due[title])), len(m.jumps), m.open])
     return table("Analyses", [column("analysis", key=True), column("steps"), column("peak", "N at 25.4 mm", past=PAST),
@@ -181,11 +181,11 @@ def local(name, jumps):
             analyses.update(turned)
             turned = {}
         fine, everything = max(steps.values(), key=lambda m: m.steps), {**analyses, **turned}
-        off = {n: bending.booked(m)[1] - 1.0 for n, m in everything.items() if m.steps == 400}
+        off = {n: bending.accounted(m)[1] - 1.0 for n, m in everything.items() if m.steps == 400}
         losses = [f"{n}: a new crack dissipates {100 * abs(v):.2g} % {'more' if v > 0 else 'less'} than the criterion "
                   "has at the mixity of beam theory: that of pairs in the softening zone is another, also in Turon's "
                   "ratio of strengths, because in slender arms the zones of the two modes have different lengths"
-                  for n, v in off.items() if abs(v) > BOOKED]
+                  for n, v in off.items() if abs(v) > RECORDED]
         beam = newtons(specimen.critical(bending.NOTCH))
         return result(BEAMS, tables=[rows_of(name, everything)], checks=judged(name, analyses, turned, jumps),
                       losses=losses, ledger=ledger_of({n: m.at for n, m in everything.items()}, "J/m"),
@@ -242,7 +242,7 @@ def energetic(context):
         analyses.update({f"{name}, energetic": of, f"{name}, local": beside})
         plots.append(loads(name, [("energetic", "energetic", of), ("local", "local", beside)], of,
                            f"Load over displacement, G_II/G = {name}"))
-        rows.append([name, newtons(peak_of(of)[0]), newtons(peak_of(beside)[0]), PUBLISHED[name], *bending.booked(of),
+        rows.append([name, newtons(peak_of(of)[0]), newtons(peak_of(beside)[0]), PUBLISHED[name], *bending.accounted(of),
                      ledgers.defect_of(of), sum(of.at["released"]), len(of.jumps), of.open + beside.open])
         if name == "0.8":
             more, jump = jump_of(of, beside)
@@ -252,8 +252,8 @@ def energetic(context):
         checks += [check(f"{name}: energetic and local loads, apart", off, APART, "growth is stable: both follow the "
                          f"criterion; the largest at {1e3 * where:.4g} mm"),
                    check(f"{name}: displacements compared", met, 40, "fewer would be no analysis", ">=")]
-    booked = largest(abs(row[4] - 1.0) for row in rows)
-    checks += [ledgers.balance(analyses), check("dissipated per new crack, off its softening zone", booked, BOOKED,
+    accounted = largest(abs(row[4] - 1.0) for row in rows)
+    checks += [ledgers.balance(analyses), check("dissipated per new crack, off its softening zone", accounted, RECORDED,
                                                "as of the local analyses; the jump included")]
     analysed = table("Analyses", [
         column("G_II/G", key=True), column("peak, energetic", "N at 25.4 mm", past=PAST),

@@ -11,7 +11,7 @@ sys.path.insert(0, str(planted.REPORT / "cases"))
 sys.path.insert(0, str(planted.REPORT.parent.parent / "bindings" / "python" / "src"))
 import bending  # noqa: E402
 import h_mixed  # noqa: E402
-from test_mixed import BOOKED, HIGH, LOW, failed  # noqa: E402
+from test_mixed import RECORDED, HIGH, LOW, failed  # noqa: E402
 
 
 @unittest.skipUnless(os.environ.get("DELAM_LIBRARY"), "DELAM_LIBRARY names no library")
@@ -30,13 +30,13 @@ class Analysed(unittest.TestCase):
     def test_a_wrong_toughness_in_shear(self):
         for factor, side in ((1.2, HIGH), (0.8, LOW)):
             with self.subTest(factor=factor):
-                self.assertEqual(self.judged(second=factor * bending.MODE_II), {side, BOOKED})
+                self.assertEqual(self.judged(second=factor * bending.MODE_II), {side, RECORDED})
 
     def test_a_mixity_held_through_each_step(self):
-        self.assertLessEqual({HIGH, BOOKED}, self.judged(mixity_rule="frozen"))
+        self.assertLessEqual({HIGH, RECORDED}, self.judged(mixity_rule="frozen"))
 
     def test_a_path_that_is_not_resolved(self):
-        self.assertEqual(self.judged(path_step=1.0), {BOOKED})
+        self.assertEqual(self.judged(path_step=1.0), {RECORDED})
 
 
 if __name__ == "__main__":

@@ -16,7 +16,7 @@ import h_mixed  # noqa: E402
 ELASTIC = 5.6e-8  # m/(N/m) of the notch, G_II/G = 0.8
 HIGH = "peak over that of beam theory, over what is allowed"
 LOW = "peak below that of beam theory, over what is allowed"
-BOOKED = "dissipated per new crack, off its softening zone"
+RECORDED = "dissipated per new crack, off its softening zone"
 LEDGER = "stored + dissipated + released - work, over what is dissipated"
 UNNAMED = "falls of the load without a recorded jump"
 
@@ -86,11 +86,11 @@ class Judged(unittest.TestCase):
     def test_a_wrong_toughness_in_one_mode(self):
         for factor, side in ((1.2, HIGH), (0.8, LOW)):
             wrong = {f"{n} steps": exact(n, factor * bending.MODE_II) for n in (100, 400)}
-            self.assertEqual(failed(h_mixed.judged("0.8", wrong, jumps=True)), {side, BOOKED})
+            self.assertEqual(failed(h_mixed.judged("0.8", wrong, jumps=True)), {side, RECORDED})
 
     @staticmethod
     def cut(of, share=0.2, hidden=False):
-        """The jump books less than its path dissipates; hidden: what is missing is called released."""
+        """The jump records less than its path dissipates; hidden: what is missing is called released."""
         k = of.jumps[0]["step"]
         missing = share * (of.at["dissipated"][k] - of.at["dissipated"][k - 1])
         for i in range(k, len(of.load)):
@@ -99,10 +99,10 @@ class Judged(unittest.TestCase):
             of.at["released"][k] += missing
 
     def test_a_path_cut_short(self):
-        self.assertEqual(self.judged(_400=self.cut), {BOOKED, LEDGER})
+        self.assertEqual(self.judged(_400=self.cut), {RECORDED, LEDGER})
 
-    def test_a_path_cut_short_and_booked_as_released(self):
-        self.assertEqual(self.judged(_100=lambda m: self.cut(m, hidden=True)), {BOOKED})
+    def test_a_path_cut_short_and_recorded_as_released(self):
+        self.assertEqual(self.judged(_100=lambda m: self.cut(m, hidden=True)), {RECORDED})
 
     def test_a_mixity_held_too_long(self):
         def later(of):  # the elastic line goes on for three steps

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""books.py SCENE.toml FOLDER: computes the four energies of the closing line anew, from history.csv, jumps.csv and the
+"""energy_balance.py SCENE.toml FOLDER: computes the four energies of the closing line anew, from history.csv, jumps.csv and the
 last fields of fields.h5, for scenes in the plane with one bilinear law, no gaps and no dead forces: work from the
 reactions (each between its values at the ends of a step), stored energy by Clapeyron's theorem, dissipated energy from
 the adhesion of each pair (between its values in mode I and II; modes of other
