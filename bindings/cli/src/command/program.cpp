@@ -257,6 +257,12 @@ void add_fit(CLI::App& app, Arguments& into, Commands& of) {
     of.fit->add_option("--confidence", study.confidence, "of the intervals (default 0.95)")
         ->type_name("LEVEL")
         ->check(number_within(0.01, 0.9999, "a number from 0.01 to 0.9999"));
+    of.fit
+        ->add_option("--held", study.held,
+                     "by which part numbers of laws and elastic constants that are not among the parameters are moved "
+                     "in the end, to say what an error there does, an analysis each (default 0.1; 0: none)")
+        ->type_name("PART")
+        ->check(number_within(0, 1, "a number from 0 to 1"));
     of.fit->add_option("--out,-o", into.folder, "folder for fit.json, fit.csv and pictures")
         ->type_name(folder_value)
         ->required();
