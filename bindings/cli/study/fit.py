@@ -27,7 +27,7 @@ from _pictures.input_file import MOST_RESULT, Unreadable, read_json  # noqa: E40
 from command import complain, loading, say  # noqa: E402
 from fit_model import Infeasible, Model, Parameter, read_scene, units_of_scene, word_of  # noqa: E402
 from fitting.descent import COARSE_SHORT, ENOUGH, SHORT, Outcome, descend  # noqa: E402
-from fitting.held import lines_of, moved_by_held  # noqa: E402
+from fitting.held import lines_of, moved_by_held, widened  # noqa: E402
 from fitting.identify import TOLD, held_ranges, noise_of, told  # noqa: E402
 from fitting.misfit import Misfit, Slopes  # noqa: E402
 from fitting.profiles import Profile, shifts_of_held  # noqa: E402
@@ -259,6 +259,9 @@ def rows_of(search, found):
             ends = np.clip(at + ends, lower[k], upper[k])
             # Beyond this a logarithm has no number, and the data no say.
             row["interval"] = [float(misfit_start[k] * np.exp(end)) if abs(end) < 300 else None for end in ends]
+            if found.others and None not in row["interval"]:
+                factors_of_ends = widened(found.others, *(end / values[k] for end in row["interval"]), k)
+                row["interval_with_held"] = [float(values[k] * factor) for factor in factors_of_ends]
             row["of_held"] = [float(values[k] * abs(np.expm1(end))) for end in (-held[0], held[1])]
     return rows
 
@@ -299,6 +302,11 @@ def report(search, found, given):
     say_rows(rows, given.confidence, about["units"])
     for line in lines_of(found.others, search.part, search.names, lambda key: unit_of_key(key, model.units)):
         say(line)
+    for row in rows if found.others else []:
+        low, high = row.get("interval_with_held", (None, None))
+        if low is not None:
+            say(f"    with errors of {100 * search.part:g} % in each number that is held, the interval of {row['key']} is {low:.4g} to "
+                f"{high:.4g}{unit_of_key(row['key'], model.units)}")
     say(f"root mean square of the residuals {misfit.in_words(rms)}, {len(misfit.y)} points, {analyses(search)}"
         f"{'' if found.others else '; ' + right(search.names)}")
     warn(search, found, doubted, jumps)

@@ -61,7 +61,10 @@ def held():
            f"the modulus does most: {changes}")
     expect("held, and taken as right by the intervals; 10 % more of\n    materials[0].young (of 7e+10) changes" in shown
            and "take the model as right" not in shown, f"it is said beside the interval: {shown}")
-    value = about["parameters"][0]["value"]
+    row = about["parameters"][0]
+    value, wide = row["value"], sum(change ** 2 for change in changes.values()) ** 0.5
+    low, high = (end / value - 1 for end in row["interval_with_held"])
+    expect(-wide < low < -0.8 * wide and 0.8 * wide < high < 1.3 * wide, f"errors in all of them at once: {low}, {high}, {wide}")
     for key, moved in (("laws.0.normal_strength", 1.1 * 1.2e7), ("materials.0.young", 1.1 * 70e9), ("materials.0.poisson", 0.33)):
         again, _ = fitted(scene, data, "--set", "solver.damage_tolerance=1e-9", "--set", f"{key}={moved!r}", "--held", "0")
         found = again["parameters"][0]["value"] / value - 1
@@ -74,7 +77,7 @@ def held():
     part = next(row["changes"][TOUGH] for row in half["held"] if row["key"] == "materials[0].young")
     expect(0.4 < part / changes["materials[0].young"] < 0.6, f"of half of it: {part}")
     expect_error(start("fit", scene, "--data", data, "--parameters", "laws.0.normal_toughness", "--out", out + "2", "--held", "2"), 2,
-                 "--held.*a number from 0 to 1")
+                 "--held: Value 2 not in range 0")
 
 
 def columns(out):

@@ -262,7 +262,7 @@ void add_fit(CLI::App& app, Arguments& into, Commands& of) {
                      "by which part numbers of laws and elastic constants that are not among the parameters are moved "
                      "in the end, to say what an error there does, an analysis each (default 0.1; 0: none)")
         ->type_name("PART")
-        ->check(number_within(0, 1, "a number from 0 to 1"));
+        ->check(CLI::Range(0.0, 1.0));
     of.fit->add_option("--out,-o", into.folder, "folder for fit.json, fit.csv and pictures")
         ->type_name(folder_value)
         ->required();

@@ -74,6 +74,13 @@ def moved_by_held(model, misfit, outcome, kept, part):
     return [Held(key, first[key], moved) for key, moved in zip(keys, found)]
 
 
+def widened(held, low, high, k):
+    """The interval of parameter k about its value, as two factors, where each number that is held may be off by the part:
+    independent errors, whose squares add up."""
+    square = sum(np.log1p(one.moves[k]) ** 2 for one in held if one.moves is not None)
+    return float(np.exp(-np.hypot(np.log(low), np.sqrt(square)))), float(np.exp(np.hypot(np.log(high), np.sqrt(square))))
+
+
 def lines_of(held, part, names, units_of):
     """What is said of it, the largest moves first. units_of(key): the unit after a blank."""
     def size(one):
@@ -87,7 +94,7 @@ def lines_of(held, part, names, units_of):
         changes = ", ".join(f"{name} by {100 * move:+.2g} %" for name, move in zip(names, one.moves) if not np.isnan(move))
         out.append(f"    {one.key} (of {one.value:.6g}{units_of(one.key)}) changes {changes}")
     if idle:
-        out.append(f"    {', '.join(idle)} changes nothing by {100 * LITTLE:g} %")
+        out.append(f"    {', '.join(idle)}: by less than {100 * LITTLE:g} %")
     if failed:
         out.append(f"    {', '.join(failed)}: the scene has no answer there")
     return out
