@@ -105,8 +105,9 @@ def flaws():
     rows, _ = rows_of(scene, "--set", "time.steps=1", "--set", "output.columns=['crack_area']")
     # The pairs within, and half of those of its border at most, lie in it.
     expect(0.7 * 12 < float(rows[0]["crack_area"]) < 12 * 1.3, f"its area: {rows[0]['crack_area']}")
-    code, _, error = delam("check", scene, "--draw", os.path.join(folder(), "flaw.svg"))
-    expect(code == 0 and b"notch" in read(os.path.join(folder(), "flaw.svg")), f"it is drawn: {error}")
+    drawing = os.path.join(folder(), "flaw.svg")
+    code, _, error = delam("check", scene, "--draw", drawing)
+    expect(code == 0 and b"notch" in read(drawing), f"it is drawn: {error}")
     scene, _, error = made("laminate", [*sheet, "--flaw", "4.3mm"], "--replace")
     about = tomllib.loads(read(scene).decode())["interfaces"]
     expect("law" in about[1] and about[1]["notch"][0]["lower"][1] == 0.0 and about[1]["notch"][0]["upper"][1] == 10.0 and "ends between pairs" in error,
