@@ -161,7 +161,7 @@ void add_view(CLI::App& app, Arguments& into, Commands& of) {
 CLI::Validator number_within(double low, double high, const std::string& allowed) {
     return {[=](const std::string& text) {
                 double value = 0;
-                if (CLI::detail::lexical_cast(text, value) && value >= low && value <= high && value != 0)
+                if (CLI::detail::lexical_cast(text, value) && value >= low && value <= high && (value != 0 || low == 0))
                     return std::string();
                 return fmt::format("{:.40}: {} is expected", text, allowed);
             },
@@ -262,7 +262,7 @@ void add_fit(CLI::App& app, Arguments& into, Commands& of) {
                      "by which part numbers of laws and elastic constants that are not among the parameters are moved "
                      "in the end, to say what an error there does, an analysis each (default 0.1; 0: none)")
         ->type_name("PART")
-        ->check(CLI::Range(0.0, 1.0));
+        ->check(number_within(0, 1, "a number from 0 to 1"));
     of.fit->add_option("--out,-o", into.folder, "folder for fit.json, fit.csv and pictures")
         ->type_name(folder_value)
         ->required();
