@@ -36,8 +36,9 @@ KINDS = {
     "laminate": ("", ("ply", "width", "length", "GIc", "GIIc", "strain")),
 }
 # What a kind takes besides.
+FLAW = ("flaw", "flaw-width", "flaw-at", "flaw-across", "flaw-interface")
 ELASTIC, LAW = PLY + ("young", "poisson"), ("GIc", "GIIc", "eta", "normal-strength", "shear-strength")
-TAKEN = {kind: ("eta",) if kind == "fibre" else ELASTIC + LAW + (() if kind == "laminate" else ("length", "growth"))
+TAKEN = {kind: ("eta",) if kind == "fibre" else ELASTIC + LAW + (FLAW if kind == "laminate" else ("length", "growth"))
          for kind in KINDS}
 DEFAULTS = {"nu12": 0.3, "nu23": 0.45, "eta": 2.0}
 FACTORS = {"dcb": "The factor is the opening between both arms: the reaction is the force of the machine.",
@@ -106,7 +107,7 @@ def sheet_of(given):
     required(given)
     numbers = {**DEFAULTS, **given["sheet"]}
     keys = ("width length arm lower-arm notch half-span span inner-span lever growth E1 E2 G12 nu12 nu23 young poisson GIc "
-            "GIIc eta normal-strength shear-strength radius fraction fibre-young fibre-poisson ply strain").split()
+            "GIIc eta normal-strength shear-strength radius fraction fibre-young fibre-poisson ply strain").split() + list(FLAW)
     of = types.SimpleNamespace(**{key.lower().replace("-", "_"): numbers.get(key) for key in keys})
     of.kind, of.steps, of.layup = given["kind"], given["steps"], given["layup"]
     of.title, of.command = KINDS[of.kind][0], printable_command(given["command"])
@@ -116,6 +117,7 @@ def sheet_of(given):
         of.e1 = of.e2 = of.young
         of.g12 = of.young / (2 * (1 + of.poisson))
     of.g13 = of.g12
+    of.said = []  # warnings of the specimen
     of.both_modes = of.gic is not None and of.giic is not None
     of.gic = of.giic if of.gic is None else of.gic
     of.giic = of.gic if of.giic is None else of.giic
@@ -233,8 +235,49 @@ def mesh_laminate(of):
     if len(of.angles) < 2:
         raise command.Trouble(f"--layup {of.layup}: two plies at least are expected")
     size = of.ply
+    place_flaw_between(of)
     of.cells, of.cells_width = max(4, round(of.length / size)), max(8, round(of.width / size))
+    place_flaw(of)
     propose_interface(of, 4 * size)
+
+
+def place_flaw_between(of):
+    """The interface of the flaw, counted from 0."""
+    given = [option(key) for key in FLAW[1:] if getattr(of, key.replace("-", "_")) is not None]
+    if of.flaw is None and given:
+        raise command.Trouble(f"{', '.join(given)}: without --flaw, the length of the flaw, there is none")
+    most = len(of.angles) - 1
+    which = of.flaw_interface or (most + 1) // 2
+    if which != int(which) or not 1 <= which <= most:
+        raise command.Trouble(f"--flaw-interface {which:g} is not allowed: one of the interfaces 1 to {most}, from the bottom up")
+    of.flaw_between = int(which) - 1 if of.flaw is not None else None
+
+
+def place_flaw(of):
+    """Where the flaw begins and ends along x and y: at pairs of the mesh, and within the laminate."""
+    of.flaw_from, of.flaw_to = [], []
+    if of.flaw is None:
+        return
+    for name, place, size, whole, cells, option_of in (
+            ("x", of.flaw_at, of.flaw, of.length, of.cells, "--flaw"),
+            ("y", of.flaw_across, of.flaw_width or of.width, of.width, of.cells_width, "--flaw-width")):
+        middle, pairs = whole / 2 if place is None else place, whole / cells
+        ends = middle - size / 2, middle + size / 2
+        if not (ends[0] < whole and ends[1] > 0):
+            raise command.Trouble(f"the flaw lies from {name} = {ends[0]:g} to {ends[1]:g} mm, outside of the laminate, which ends at "
+                                  f"{whole:g} mm")
+        meant = max(0.0, ends[0]), min(whole, ends[1])
+        if meant[1] - meant[0] < size - 1e-9 * whole:
+            of.said.append(f"the flaw from {name} = {ends[0]:g} to {ends[1]:g} mm does not fit into the laminate, which ends at 0 and "
+                           f"{whole:g} mm: it is cut off there")
+        found = [pairs * round(end / pairs) for end in meant]
+        if found[1] - found[0] < pairs / 2:
+            raise command.Trouble(f"{option_of} {size:g} mm is too short: pairs are {pairs:g} mm apart along {name}, a ply's thickness")
+        if max(abs(a - b) for a, b in zip(found, meant)) > 1e-6 * pairs:
+            of.said.append(f"the flaw from {name} = {meant[0]:g} to {meant[1]:g} mm ends between pairs, which are {pairs:g} mm apart: "
+                           f"in the scene it lies from {found[0]:g} to {found[1]:g} mm")
+        of.flaw_from.append(found[0])
+        of.flaw_to.append(found[1])
 
 
 def write(text, path, replace):
@@ -266,7 +309,7 @@ def main():
     write(scenes.scene(of), given["out"], given["replace"])
     said = standards.warnings(of) if of.kind in beams.THEORY else []
     # The program has chosen mm and N itself: other units are no hint.
-    for line in unused(given) + said + [re.sub(r"; the numbers suggest .*", "", one) for one in found["warnings"]]:
+    for line in unused(given) + said + of.said + [re.sub(r"; the numbers suggest .*", "", one) for one in found["warnings"]]:
         print(command.printable(f"warning: {line}"), file=sys.stderr)
     if given["out"]:
         print(f"zone      {'; '.join(found['process_zones'])}")

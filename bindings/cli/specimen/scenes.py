@@ -199,12 +199,19 @@ def fibre_scene(of):
         table("[units]", length='"mm"', force='"N"')])
 
 
+def joint(of, i):
+    """What joins ply i and the next one; plies of one direction stay together, but around a flaw."""
+    if i == of.flaw_between:
+        low, high = (f"[{', '.join(map(number, ends))}]" for ends in (of.flaw_from, of.flaw_to))
+        return {"law": '"resin"', "notch": f"[{{ lower = {low}, upper = {high} }}]"}
+    return {"bonded": "true"} if of.angles[i] == of.angles[i + 1] else {"law": '"resin"'}
+
+
 def laminate_scene(of):
     plies = of.angles
     layers = "\n".join(table("[[layers]]", name=quoted(f"ply {i + 1}"), thickness=of.ply, divisions=1, material='"ply"',
                              angle=angle) for i, angle in enumerate(plies))
-    joints = "\n".join(table("[[interfaces]]", lower=quoted(f"ply {i + 1}"), upper=quoted(f"ply {i + 2}"),
-                             **({"bonded": "true"} if plies[i] == plies[i + 1] else {"law": '"resin"'}))
+    joints = "\n".join(table("[[interfaces]]", lower=quoted(f"ply {i + 1}"), upper=quoted(f"ply {i + 2}"), **joint(of, i))
                        for i in range(len(plies) - 1))
     top = of.ply * len(plies)
     return "\n".join([
@@ -212,7 +219,8 @@ def laminate_scene(of):
         f'{of.width:g} mm.\nschema = 1\ntitle = {quoted("Laminate " + of.layup)}\n',
         table("[geometry]", dimension=3, cell='"hex8"', length=of.length, width=of.width,
               divisions=f"[{of.cells}, {of.cells_width}]"),
-        materials(of), layers, laws(of), "# Plies of one direction stay together.\n" + joints,
+        materials(of), layers, laws(of), "# Plies of one direction stay together"
+        + ("" if of.flaw is None else ", but around the flaw, which is the notch") + ".\n" + joints,
         table("[[supports]]", name='"grip at rest"', fix='["x"]',
               box=f"{{ lower = [0.0, 0.0, 0.0], upper = [0.0, {number(of.width)}, {number(top)}] }}"),
         table("[[supports]]", name='"pin"', point="[0.0, 0.0, 0.0]", fix='["y", "z"]'),

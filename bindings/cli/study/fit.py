@@ -27,6 +27,7 @@ from _pictures.input_file import MOST_RESULT, Unreadable, read_json  # noqa: E40
 from command import complain, loading, say  # noqa: E402
 from fit_model import Infeasible, Model, Parameter, read_scene, units_of_scene, word_of  # noqa: E402
 from fitting.descent import COARSE_SHORT, ENOUGH, SHORT, Outcome, descend  # noqa: E402
+from fitting.held import lines_of, moved_by_held, widened  # noqa: E402
 from fitting.identify import TOLD, held_ranges, noise_of, told  # noqa: E402
 from fitting.misfit import Misfit, Slopes  # noqa: E402
 from fitting.profiles import Profile, shifts_of_held  # noqa: E402
@@ -56,26 +57,29 @@ OFF = 0.01  # root mean square from which on the model is off at its start: that
 @dataclass
 class Solution:
     """outcome of the search, mask of the parameters that the data tell, a sentence for each other one, intervals of the
-    kept ones, the profile that they are of, and how what is held shifts them."""
+    kept ones, the profile that they are of, how what is held shifts them, and what the numbers do that are no parameters."""
     outcome: Outcome
     kept: np.ndarray
     reasons: dict
     intervals: list
     profile: Profile
     shifts: list
+    others: list
 
 
 class Search:
     """Finds the parameters: from a start, through which of them are told, to their intervals."""
 
-    def __init__(self, model, weights, level):
-        self.model, self.level = model, level
+    def __init__(self, model, weights, level, held=0.0):
+        """held: by which part numbers that are no parameters move in the end; 0: they do not."""
+        self.model, self.level, self.part = model, level, held
         self.misfit = Misfit(model, weights)
         self.names = [p.path for p in model.parameters]
         self.units = [unit_of_key(name, model.units) for name in self.names]
         count = len(self.names)
         self.most = ANALYSES + OF_MANY * max(0, count - 2)
         self.for_held = 0  # analyses
+        self.marches_of_search = 0
         self.noise = max(noise_of(data, np.max(np.abs(data.y))) for data in model.data)
 
     def left(self):
@@ -195,7 +199,9 @@ class Search:
             outcome.converged, outcome.message = False, "the data do not tell what is fitted where the search has ended"
         outcome, intervals, profile = self._intervals(slopes, outcome, kept)
         shifts = shifts_of_held(self.misfit, outcome, kept, held_ranges(self.misfit, outcome.point.at))
-        return Solution(outcome, kept, reasons, intervals, profile, shifts)
+        self.marches_of_search = self.model.marches
+        others = moved_by_held(self.model, self.misfit, outcome, kept, self.part) if self.part > 0 else []
+        return Solution(outcome, kept, reasons, intervals, profile, shifts, others)
 
     def _intervals(self, slopes, outcome, kept):
         while True:
@@ -253,6 +259,9 @@ def rows_of(search, found):
             ends = np.clip(at + ends, lower[k], upper[k])
             # Beyond this a logarithm has no number, and the data no say.
             row["interval"] = [float(misfit_start[k] * np.exp(end)) if abs(end) < 300 else None for end in ends]
+            if found.others and None not in row["interval"]:
+                factors_of_ends = widened(found.others, *(end / values[k] for end in row["interval"]), k)
+                row["interval_with_held"] = [float(values[k] * factor) for factor in factors_of_ends]
             row["of_held"] = [float(values[k] * abs(np.expm1(end))) for end in (-held[0], held[1])]
     return rows
 
@@ -278,9 +287,10 @@ def report(search, found, given):
     rms = float(np.sqrt(np.mean(residual ** 2)))
     jumps = [sorted(set(map(float, history[model.x_name][history["jumps"] > 0]))) for history in answer.histories]
     about = {"parameters": rows, "confidence": given.confidence, "correlation": correlations(search, found), "rms": rms,
-             "points": len(misfit.y), "marches": model.marches, "converged": found.outcome.converged,
+             "points": len(misfit.y), "marches": search.marches_of_search, "converged": found.outcome.converged,
              "message": found.outcome.message, "scenes": model.files, "data": [d.path for d in model.data],
-             "read": [d.said for d in model.data], "units": list(model.units), "jumps": jumps, "unknown_pairs": model.unknown, "doubted": doubted}
+             "read": [d.said for d in model.data], "units": list(model.units), "jumps": jumps, "unknown_pairs": model.unknown, "doubted": doubted,
+             "held_larger_by": search.part, "held": held_rows(search, found)}
     write_file(os.path.join(out, "fit.json"), json.dumps(about, indent=1, allow_nan=False))
     lines = ["scene,x,y,model,residual"]
     texts = [text_of(row, given.confidence, unit_of_key(row["key"], model.units), 4) for row in rows if row["told"]]
@@ -290,8 +300,30 @@ def report(search, found, given):
                  read_about(os.path.join(model.work, f"{which + 1}-at")), texts)
     write_file(os.path.join(out, "fit.csv"), "\n".join(lines) + "\n")
     say_rows(rows, given.confidence, about["units"])
-    say(f"root mean square of the residuals {misfit.in_words(rms)}, {len(misfit.y)} points, {model.marches} analyses; {right(search.names)}")
+    for line in lines_of(found.others, search.part, search.names, lambda key: unit_of_key(key, model.units)):
+        say(line)
+    for row in rows if found.others else []:
+        low, high = row.get("interval_with_held", (None, None))
+        if low is not None:
+            say(f"    with errors of {100 * search.part:g} % in each number that is held, the interval of {row['key']} is {low:.4g} to "
+                f"{high:.4g}{unit_of_key(row['key'], model.units)}")
+    say(f"root mean square of the residuals {misfit.in_words(rms)}, {len(misfit.y)} points, {analyses(search)}"
+        f"{'' if found.others else '; ' + right(search.names)}")
     warn(search, found, doubted, jumps)
+
+
+def held_rows(search, found):
+    """What fit.json says of the numbers that are no parameters."""
+    return [{"key": one.key, "value": one.value,
+             "changes": None if one.moves is None else {name: None if np.isnan(move) else float(move)
+                                                        for name, move in zip(search.names, one.moves)}}
+            for one in found.others]
+
+
+def analyses(search):
+    """How many there were, those of the search apart from those with what is held."""
+    more = search.model.marches - search.marches_of_search
+    return f"{search.marches_of_search} analyses" + (f" and {more} of what is held" if more else "")
 
 
 def right(names):
@@ -329,7 +361,7 @@ def warn(search, found, doubted, jumps):
     there = dict(zip(search.names, search.misfit.values(found.outcome.point.at)))
     if not found.outcome.converged:
         words = " ".join(f"{word_of(name)}@{there[name]:.6g}" for name in there)
-        say(f"warning: {model.marches} analyses have not found the least misfit ({found.outcome.message}): begin from there, "
+        say(f"warning: {search.marches_of_search} analyses have not found the least misfit ({found.outcome.message}): begin from there, "
             f"--parameters {words}")
     if doubted:
         one = len(doubted) == 1
@@ -387,7 +419,8 @@ def main():
     if len({p.path for p in parameters}) < len(parameters):
         raise Trouble("--parameters: a key is given twice")
     scenes, data = read_all(given)
-    search = Search(Model(given.scenes, scenes, data, parameters, given), given.weights, given.confidence)
+    search = Search(Model(given.scenes, scenes, data, parameters, given), given.weights, given.confidence,
+                    given.held)
     held = hold(given.out)  # until the end
     claim_folder(given.out, len(data))
     make_folder(os.path.join(given.out, "work"))

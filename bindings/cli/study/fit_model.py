@@ -335,6 +335,13 @@ class Model:
         self._require_within(which, x[0], x[-1])
         return np.interp(data.x, x, y)
 
+    def curve_with(self, which, name, values, more):
+        """The curve of one scene at the parameters and with other numbers of the scene, by key; Infeasible where there is
+        no answer. It has no derivatives, and is none of the points of the search."""
+        settings = self._settings(values) + [setting(key, float(value)) for key, value in more.items()] + self._coarser(which)
+        history = self._march(which, name, settings)
+        return self._at_data(which, history, self._column(history, self.y_name, which))
+
     def _curve(self, job):
         """One scene: its curve, derivatives and history."""
         which, values = job

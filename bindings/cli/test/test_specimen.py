@@ -7,6 +7,7 @@ import math
 import os
 import re
 import sys
+import tomllib
 
 from support import delam, expect, expect_error, finish, folder, read
 
@@ -90,6 +91,35 @@ def peaks():
             force = float(rows[-1]["reaction"]) / (0.01 * 20 * 0.5 * (126e3 + 11e3))
             expect(abs(force - 1) < 0.01, f"laminate: force over that of its plies {force:.4f}")
         expect("at least 3 are needed" not in said, f"{kind}: resolved")
+
+
+def flaws():
+    """A flaw of a laminate is a notch of the interface that the sheet names, at pairs of the mesh; where it does not fit, words
+    say so."""
+    sheet = OTHERS["laminate"].split()
+    flaw = ["--flaw", "4mm", "--flaw-width", "3mm", "--flaw-at", "8mm", "--flaw-across", "0.4cm", "--flaw-interface", "1"]
+    scene, _, error = made("laminate", [*sheet, *flaw])
+    about = tomllib.loads(read(scene).decode())
+    expect(about["interfaces"][0]["notch"] == [{"lower": [6.0, 2.5], "upper": [10.0, 5.5]}] and "law" in about["interfaces"][0]
+           and not any("notch" in one for one in about["interfaces"][1:]) and "flaw" not in error, f"where it lies: {error}")
+    rows, _ = rows_of(scene, "--set", "time.steps=1", "--set", "output.columns=['crack_area']")
+    # The pairs within, and half of those of its border at most, lie in it.
+    expect(0.7 * 12 < float(rows[0]["crack_area"]) < 12 * 1.3, f"its area: {rows[0]['crack_area']}")
+    drawing = os.path.join(folder(), "flaw.svg")
+    code, _, error = delam("check", scene, "--draw", drawing)
+    expect(code == 0 and b"notch" in read(drawing), f"it is drawn: {error}")
+    scene, _, error = made("laminate", [*sheet, "--flaw", "4.3mm"], "--replace")
+    about = tomllib.loads(read(scene).decode())["interfaces"]
+    expect("law" in about[1] and about[1]["notch"][0]["lower"][1] == 0.0 and about[1]["notch"][0]["upper"][1] == 10.0 and "ends between pairs" in error,
+           f"the middle interface, whose plies have one direction, and the whole width: {error}")
+    code, _, error = delam("new", *"laminate".split(), *sheet, "--flaw", "4mm", "--flaw-at", "19mm")
+    expect(code == 0 and "from x = 17 to 21 mm does not fit into the laminate" in error, f"a flaw at the end: {error}")
+    for words, wanted in ((["--flaw", "4mm", "--flaw-at", "30mm"], "outside of the laminate"),
+                          (["--flaw", "0.1mm"], "--flaw 0.1 mm is too short: pairs are 0.5 mm apart along x"),
+                          (["--flaw-width", "2mm"], "--flaw-width: without --flaw"),
+                          (["--flaw", "4mm", "--flaw-interface", "4"], "--flaw-interface 4 is not allowed: one of the interfaces 1 to 3"),
+                          (["--flaw", "4mm", "--flaw-interface", "1.5"], "--flaw-interface 1.5 is not allowed")):
+        expect_error(delam("new", "laminate", *sheet, *words), 2, re.escape(wanted))
 
 
 def units():
@@ -178,6 +208,7 @@ if sys.argv[1:] == ["pairs"]:
     print_pairs()
 else:
     units()
+    flaws()
     places()
     standards()
     peaks()

@@ -161,7 +161,7 @@ void add_view(CLI::App& app, Arguments& into, Commands& of) {
 CLI::Validator number_within(double low, double high, const std::string& allowed) {
     return {[=](const std::string& text) {
                 double value = 0;
-                if (CLI::detail::lexical_cast(text, value) && value >= low && value <= high && value != 0)
+                if (CLI::detail::lexical_cast(text, value) && value >= low && value <= high && (value != 0 || low == 0))
                     return std::string();
                 return fmt::format("{:.40}: {} is expected", text, allowed);
             },
@@ -257,6 +257,12 @@ void add_fit(CLI::App& app, Arguments& into, Commands& of) {
     of.fit->add_option("--confidence", study.confidence, "of the intervals (default 0.95)")
         ->type_name("LEVEL")
         ->check(number_within(0.01, 0.9999, "a number from 0.01 to 0.9999"));
+    of.fit
+        ->add_option("--held", study.held,
+                     "by which part numbers of laws and elastic constants that are not among the parameters are moved "
+                     "in the end, to say what an error there does, an analysis each (default 0.1; 0: none)")
+        ->type_name("PART")
+        ->check(number_within(0, 1, "a number from 0 to 1"));
     of.fit->add_option("--out,-o", into.folder, "folder for fit.json, fit.csv and pictures")
         ->type_name(folder_value)
         ->required();

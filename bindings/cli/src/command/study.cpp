@@ -59,7 +59,8 @@ int study(const Study& of) {
                                {"crack", of.crack},
                                {"calibration", of.calibration},
                                {"beside", of.beside},
-                               {"confidence", of.confidence}};
+                               {"confidence", of.confidence},
+                               {"held", of.held}};
     std::string words;
     try {
         words = given.dump(-1, ' ', true);

@@ -22,7 +22,8 @@ WORDS = {
 
 
 def _words(title):
-    return re.findall(r"[^\W\d_]+", title.lower())
+    """In small letters, with ss for ß: Rißlänge is the older spelling."""
+    return re.findall(r"[^\W\d_]+", title.lower().replace("ß", "ss"))
 
 
 def found(table, kind):
