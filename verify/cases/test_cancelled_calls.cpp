@@ -429,6 +429,11 @@ void read_solver(Host& host, const Block& b) {
                                           nullptr, nullptr, nullptr);
         });
     }
+    host.again = [&] {  // how averages follow from jumps belongs to a solver
+        delam_solver_destroy(&solver);
+        host.require(delam_solver_create(host.h.problem, 0.0, &solver), "delam_solver_create");
+        host.require(delam_solver_advance(solver, 0.5), "delam_solver_advance");
+    };
     host.read("delam_solver_average", b.cells, print,
               [&] { return delam_solver_average(solver, -1, &value, nullptr, nullptr); });
 }

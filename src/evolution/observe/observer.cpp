@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/cancel_scope.hpp"
 #include "base/error.hpp"
 #include "base/numbers.hpp"
 #include "body/assembly.hpp"
@@ -145,25 +146,27 @@ std::vector<double> Observer::stress() {
     return stress;
 }
 
+// Nothing is kept of a call that was cancelled, or that ran out of memory.
 const Observer::AverageReadings* Observer::average_readings(std::int32_t body) {
-    const auto [at, made] = averages_.try_emplace(body);
-    std::optional<AverageReadings>& kept = at->second;
-    if (!made) return kept ? &*kept : nullptr;
+    const auto known_already = averages_.find(body);
+    if (known_already != averages_.end()) return known_already->second ? &*known_already->second : nullptr;
     AverageReadings readings{average_weights(*problem_.mesh, models(), body), {}, {}};
     const auto take = [&](std::array<std::vector<double>, 6>& weights, std::array<LinearReading, 6>& to) {
         for (std::size_t i = 0; i < 6; ++i) {
+            poll_cancel("recover", problem_.mesh->node_count());
             if (weights[i].empty()) continue;
             std::optional<LinearReading> reading = op_.reading(weights[i]);
             if (!reading) return false;
             to[i] = std::move(*reading);
-            weights[i].clear();
-            weights[i].shrink_to_fit();
+            weights[i] = {};
         }
         return true;
     };
+    std::optional<AverageReadings> made;
     if (take(readings.rest.strain, readings.strain) && take(readings.rest.stress, readings.stress))
-        kept = std::move(readings);
-    return kept ? &*kept : nullptr;
+        made = std::move(readings);
+    const auto at = averages_.emplace(body, std::move(made)).first;
+    return at->second ? &*at->second : nullptr;
 }
 
 VolumeAverage Observer::average(std::int32_t body) {
@@ -207,26 +210,28 @@ const std::vector<double>& Observer::displacement() {
     return displacement_;
 }
 
-std::vector<double> Observer::displacement_of(std::int64_t node) {
+const std::vector<LinearReading>& Observer::node_readings(std::int64_t node) {
+    const auto known_already = nodes_.find(node);
+    if (known_already != nodes_.end()) return known_already->second;
     const auto dim = index(problem_.mesh->dimension());
-    const auto [at, made] = nodes_.try_emplace(node);
-    std::optional<std::vector<LinearReading>>& kept = at->second;
-    if (made) {
-        std::vector<LinearReading> readings;
+    std::vector<LinearReading> readings;
+    for (std::size_t k = 0; k < dim; ++k) {
+        poll_cancel("recover", problem_.mesh->node_count());
         std::vector<double> weights(index(problem_.mesh->node_count()) * dim, 0.0);
-        for (std::size_t k = 0; k < dim; ++k) {
-            weights[index(node) * dim + k] = 1.0;
-            std::optional<LinearReading> reading = op_.reading(weights);
-            if (!reading) break;
-            readings.push_back(std::move(*reading));
-            weights[index(node) * dim + k] = 0.0;
-        }
-        if (readings.size() == dim) kept = std::move(readings);
+        weights[index(node) * dim + k] = 1.0;
+        if (std::optional<LinearReading> reading = op_.reading(weights)) readings.push_back(std::move(*reading));
     }
+    return nodes_.emplace(node, std::move(readings)).first->second;
+}
+
+std::vector<double> Observer::displacement_of(std::int64_t node) {
+    const std::vector<LinearReading>& readings = node_readings(node);
     std::vector<double> out;
-    for (std::size_t k = 0; k < dim; ++k)
-        out.push_back(kept ? (*kept)[k].at(state().theta, state().response) : displacement()[index(node) * dim + k]);
-    return out;
+    for (const LinearReading& reading : readings) out.push_back(reading.at(state().theta, state().response));
+    if (!readings.empty()) return out;
+    const auto dim = static_cast<std::ptrdiff_t>(problem_.mesh->dimension());
+    const auto begin = displacement().begin() + node * dim;
+    return {begin, begin + dim};
 }
 
 std::vector<double> Observer::displacement(const State& state) {

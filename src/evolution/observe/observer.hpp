@@ -104,6 +104,8 @@ private:
     };
     // Returns null if the operator has none.
     const AverageReadings* average_readings(std::int32_t body);
+    // Returns the readings of the displacement of a node, [dimension]; empty if the operator has none.
+    const std::vector<LinearReading>& node_readings(std::int64_t node);
     bool known(std::int32_t body) const { return problem_.material[index(body)].has_value(); }
     // Returns the model of each body; undefined where the material is unknown.
     std::vector<BodyModel> models() const;
@@ -126,10 +128,9 @@ private:
     std::unique_ptr<MeshErrorEstimate> estimates_;                // null: not yet needed
     std::vector<std::optional<std::vector<CrackFront>>> fronts_;  // [interfaces]
     std::optional<MeshErrorShares> mesh_error_;                   // nothing: not estimated
-    // By body and by node, as asked for; of the operator, which never changes: results of a resumed analysis are the
-    // same.
+    // These are made when they are first asked for, and then used always: so a resumed analysis has the same digits.
     std::map<std::int32_t, std::optional<AverageReadings>> averages_;
-    std::map<std::int64_t, std::optional<std::vector<LinearReading>>> nodes_;
+    std::map<std::int64_t, std::vector<LinearReading>> nodes_;
     std::int64_t recoveries_ = 0;
 };
 

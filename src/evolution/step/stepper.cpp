@@ -33,10 +33,8 @@ constexpr double least_overload = 0.02, overload_growth = 0.04, most_overload = 
 // dissipated one above the step's.
 constexpr double beyond = 0.2, too_high = 0.25, first_part = 0.1;
 constexpr double same = 1e-3;  // spread of toughnesses, relative
-// Error of the toughness of a pair whose mixity is held, over the accuracy of the dissipated energy, of which it is a
-// small part. (Measured by verify/cases/load_path/settling.py: half and twice change no printed digit of what is
-// dissipated or open, and take
-// 675 and 621 alternations instead of 678, before parts that do not settle were followed at their own load.)
+// Error of the toughness of a pair whose mixity is held, over the accuracy of what dissipates. (Measured by
+// verify/cases/load_path/settling.py: half and twice change no printed energy, and take 675 and 621 alternations.)
 constexpr double held_of_accuracy = 0.1;
 
 // True if all pairs that a candidate debonds have the same toughness.

@@ -47,8 +47,8 @@ public:
     virtual std::vector<double> reaction(std::span<const double> theta, const Response& response) const = 0;
     // Displacements [mesh DOFs] of a response of this operator.
     virtual std::vector<double> displacement(std::span<const double> theta, const Response& response) const = 0;
-    // How the sum of displacements with these weights, [mesh DOFs], follows from any response; nothing: they must be
-    // recovered.
+    // Returns how the sum of displacements with these weights, [mesh DOFs], follows from any response; nothing: they
+    // must be recovered.
     virtual std::optional<LinearReading> reading(std::span<const double> /*weights*/) const { return std::nullopt; }
     // Adds rigid motions that nothing active resists to a response. displacement: theirs, [mesh DOFs]; combination: of
     // the columns of RigidMotions(problem).jumps(); jump: theirs, [rows].

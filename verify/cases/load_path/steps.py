@@ -126,7 +126,7 @@ def balance(solver, released):
 
 
 def steady(name, make, counts, bound):
-    """bound: of what the books leave open, over the dissipated energy."""
+    """bound: of what the balance leaves open, over the dissipated energy."""
     dissipated, opens = [], []
     for steps in counts:
         solver, released = analyse(make(), steps)
