@@ -40,7 +40,7 @@ program play_abaqus
     call whole(1, 'frozen', 20, 1e-8_dp)
     call whole(0, 'converged', 20, 1e-8_dp)
     call whole(2, 'converged in parts', 20, 3e-2_dp)
-    ! A scene follows its load, so that what its pairs dissipate is integrated along a curve from increment to increment.
+    ! A scene follows its load: what its pairs dissipate is integrated along a curve from increment to increment.
     call whole(2, 'converged in parts', 160, 1e-4_dp)
   case ('energy')
     call energy_balance()
