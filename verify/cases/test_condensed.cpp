@@ -137,6 +137,37 @@ void expect_accepted(const Solver& solver, const Exported& exported, double tole
     cases::expect_below(a.worst(), tolerance, where + ": " + a.text());
 }
 
+// Single nodes, which are read from jumps and loads, have the displacements that the whole field has.
+void expect_nodes(const Solver& solver, int dimension, const std::string& where) {
+    const std::vector<double> all = solver.field("displacement");
+    const auto d = static_cast<std::size_t>(dimension);
+    const std::size_t nodes = all.size() / d;
+    for (std::size_t node = 0; node < nodes; node += std::max<std::size_t>(1, nodes / 7)) {
+        std::array<double, 3> one{};
+        cases::expect(delam_solver_field(solver.get(), "displacement", static_cast<std::int64_t>(node), dimension,
+                                         one.data()) == DELAM_OK,
+                      where + ": one node");
+        for (std::size_t k = 0; k < d; ++k)
+            cases::expect_near(one[k], all[node * d + k], 1e-10, largest(all), where + ": displacement of a node");
+    }
+}
+
+// The condensed operator reads averages from jumps and loads, the other integrates recovered displacements.
+void expect_averages(const Solver& read, const Solver& integrated, const std::string& where) {
+    std::array<double, 6> strain{}, stress{}, other_strain{}, other_stress{};
+    double volume = 0.0, other = 0.0;
+    cases::expect(
+        delam_solver_average(read.get(), -1, &volume, strain.data(), stress.data()) == DELAM_OK &&
+            delam_solver_average(integrated.get(), -1, &other, other_strain.data(), other_stress.data()) == DELAM_OK,
+        where + ": averages");
+    const auto size = [](const std::array<double, 6>& x) { return largest({x.begin(), x.end()}); };
+    cases::expect_near(volume, other, 1e-14, other, where + ": volume");
+    for (std::size_t i = 0; i < 6; ++i) {
+        cases::expect_near(strain[i], other_strain[i], 1e-8, size(other_strain), where + ": mean strain");
+        cases::expect_near(stress[i], other_stress[i], 1e-8, size(other_stress), where + ": mean stress");
+    }
+}
+
 LOOP_TEST(every_scene, 0, entry_count) {
     const Entry& entry = entries[loop];
     if (takes_long(entry.name) && !cases::whole()) return;
@@ -169,6 +200,7 @@ LOOP_TEST(every_scene, 0, entry_count) {
         if (status != DELAM_OK)
             throw std::runtime_error(where + ": condensed: " + delam_context_message(condensed.context()));
         attempt([&] { expect_accepted(a, exported, 1e-10, where + ", condensed"); });
+        attempt([&] { expect_nodes(a, condensed.dimension(), where); });
         attempt([&] {
             reference::State state;
             try {
@@ -198,6 +230,7 @@ LOOP_TEST(every_scene, 0, entry_count) {
             cases::expect(third == DELAM_OK, where + ", iterated: " + delam_context_message(iterated.context()));
             expect_accepted(c, exported, 1e-10, where + ", iterated");
             expect_equal(c, a, fields, 1e-9, where + ", iterated");
+            expect_averages(a, c, where);
         });
         a.commit();
         if (other >= 0) b.commit();

@@ -400,7 +400,7 @@ class Solver(Object):
         return out
 
     def average(self, body: Body | None = None) -> Average:
-        """Volume, average strain and average stress of a body; None: of all. It recovers the displacements."""
+        """Volume, average strain and average stress of a body; None: of all."""
         volume, strain, stress = ctypes.c_double(), np.empty(6), np.empty(6)
         self._call(library.delam_solver_average, self.problem.mesh._chosen(body), volume, pointer(strain),
                    pointer(stress), long=True)
