@@ -117,7 +117,7 @@ def surfaces(n):
 
 def steps(n, again="*BOUNDARY\nHELD, 1, 1, {}\n"):
     return loads(2, "*BOUNDARY\nHELD, 2, 2\n" + "".join(
-        f"*STEP\n*STATIC\n1.0, 1.0\n{again.format(0.001 * (k % 5))}*END STEP\n" for k in range(n)))
+        f"*STEP\n*STATIC, DIRECT\n1.0, 1.0\n{again.format(0.001 * (k % 5))}*END STEP\n" for k in range(n)))
 
 
 KINDS = {
@@ -153,7 +153,7 @@ KINDS = {
     "points of an amplitude": lambda n: loads(2, STEP.format("HELD").replace("*BOUNDARY", "*BOUNDARY, AMPLITUDE=A"),
                                               "*AMPLITUDE, NAME=A\n" + "".join(f"{k}.0, {k % 9}.0\n" for k in range(n))),
     "points in total time": lambda n: loads(
-        2, "".join(f"*STEP\n*STATIC\n1.0, 1.0\n{'*BOUNDARY, AMPLITUDE=A' if k == 0 else '*BOUNDARY'}\n"
+        2, "".join(f"*STEP\n*STATIC, DIRECT\n1.0, 1.0\n{'*BOUNDARY, AMPLITUDE=A' if k == 0 else '*BOUNDARY'}\n"
                    f"{'HELD, 1, 1, 1.0' if k == 0 else 'HELD, 2, 2'}\n*END STEP\n" for k in range(n)),
         "*BOUNDARY\nHELD, 2, 2\n*AMPLITUDE, NAME=A, TIME=TOTAL TIME\n" + "".join(f"{k}.0, {k % 9}.0\n" for k in range(n))),
     "forces": forces,
