@@ -53,6 +53,8 @@ double interaction(double normal_toughness, double tangential_toughness, double 
         std::swap(p, q);
     }
     const double ratio = a / c;
+    // The factors below round to 1, as in symmetric scenes, whose second mode is rounding.
+    if (ratio < 0x1p-55 && p >= 1.0 && q >= 1.0) return a;
     if (p == q) return a * std::exp(-std::log1p(std::pow(ratio, p)) / p);
     return a * std::exp(-decay(std::pow(ratio, q), p, q));
 }
