@@ -211,7 +211,9 @@ void say_lines_of(const Found& found) {
         std::vector<std::string> keys;
         for (const auto& [key, value] : proposal["keys"].items())
             keys.push_back(fmt::format("{} = {:.3e}", key, value.get<double>()));
-        say("propose     law \"{}\", {}: {}\n", text(proposal, "law"), fmt::join(keys, ", "), text(proposal, "reason"));
+        const std::string line = fmt::format("propose     law \"{}\", {}: {}", text(proposal, "law"),
+                                             fmt::join(keys, ", "), text(proposal, "reason"));
+        say("{}\n", wrapped(line, plan_width));
     }
     if (found["units"].contains("proposed")) {
         const Found& units = found["units"]["proposed"];
