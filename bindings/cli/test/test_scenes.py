@@ -35,6 +35,8 @@ expect(delam("run")[0] == 2 and delam("fly")[0] == 2, "wrong usage is exit 2")
 expect(start() == start("help") and start()[0] == 0, "without a word the program lists its commands, as help does")
 
 refuse(changed("young = 75e9", "yuong = 75e9"), r"scene\.toml:10: materials\[0\]\.yuong", "did you mean 'young'")
+refuse(changed("young = 75e9", "E = 75e9"), r"materials\[0\]\.E: unknown key \(did you mean 'young'\?\)")
+refuse(changed("poisson = ", "nu = "), r"materials\[0\]\.nu: unknown key \(did you mean 'poisson'\?\)")
 refuse(changed("[time]", "[tiem]"), "tiem", "did you mean 'time'")
 refuse(changed("young = 75e9", "young = -75e9"), r"scene\.toml:10: materials\[0\]\.young", "-75000000000", "> 0")
 refuse(changed("poisson = 0.3", "poisson = 0.5"), r"materials\[0\]\.poisson", "0.5", r"in \(-1, 0.5\)")

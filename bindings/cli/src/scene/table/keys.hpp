@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "text/range.hpp"
@@ -51,6 +52,7 @@ struct KeyRow {
     std::string initial;  // default as TOML; in words if it depends on other keys
     std::string content;  // the table that it holds
     std::string meaning;
+    std::vector<std::string> synonyms;  // that people write for it; a message then names the key
 
     KeyRow& need() { return needed = true, *this; }
     KeyRow& in_layers() { return scenes = Scenes::layers, *this; }
@@ -61,6 +63,7 @@ struct KeyRow {
     KeyRow& or_alone() { return or_one = true, *this; }
     KeyRow& otherwise(std::string_view text) { return initial = text, *this; }
     KeyRow& says(std::string_view text) { return meaning = text, *this; }
+    KeyRow& written(std::vector<std::string> others) { return synonyms = std::move(others), *this; }
 };
 
 // A condition on the keys of one table. A key counts as given unless it is missing or false.

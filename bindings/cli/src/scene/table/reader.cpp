@@ -135,7 +135,13 @@ void Table::check_keys() const {
         if (std::find(known.begin(), known.end(), key) != known.end()) continue;
         if (keys_->row(key) != nullptr)
             fail(key, scenes_ == Scenes::mesh ? "is not for a scene with [mesh]" : "is for a scene with [mesh]");
-        fail(key, fmt::format("unknown key{}; allowed here: {}", suggestion(key, known), listing(known)));
+        const auto written_so = [&](const KeyRow& row) {
+            return std::find(row.synonyms.begin(), row.synonyms.end(), key) != row.synonyms.end();
+        };
+        const auto meant = std::find_if(keys_->rows.begin(), keys_->rows.end(), written_so);
+        const std::string hint =
+            meant == keys_->rows.end() ? suggestion(key, known) : fmt::format(" (did you mean '{}'?)", meant->key);
+        fail(key, fmt::format("unknown key{}; allowed here: {}", hint, listing(known)));
     }
 }
 

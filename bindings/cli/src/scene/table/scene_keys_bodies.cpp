@@ -45,8 +45,12 @@ KeyTable material_table() {
     KeyTable table{"material", "an elastic material", {}, {}};
     table.rows = {
         text_key("name").need().says("by which layers and bodies refer to it"),
-        number_key("young", positive).says("Young's modulus of an isotropic material"),
-        number_key("poisson", poisson_range).says("Poisson's ratio of an isotropic material"),
+        number_key("young", positive)
+            .says("Young's modulus of an isotropic material")
+            .written({"E", "e", "modulus", "youngs_modulus"}),
+        number_key("poisson", poisson_range)
+            .says("Poisson's ratio of an isotropic material")
+            .written({"nu", "v", "poissons_ratio"}),
     };
     for (const char* key : {"E1", "E2", "E3"})
         table.rows.push_back(number_key(key, positive).says("Young's modulus along an axis of the material"));
