@@ -180,6 +180,12 @@ class Reading(unittest.TestCase):
         np.testing.assert_array_equal(self.solver.field("jump", 0), self.solver.field("jump"))
         interface = mesh.interfaces[0]
         moved = self.solver.field("displacement")
+        for node in range(0, len(moved), 7):
+            off = np.abs(self.solver.displacement(node) - moved[node]).max()
+            self.assertLess(off, 1e-9 * np.abs(moved).max())
+        for node in (-1, len(moved), 1.0, True, "1"):
+            with self.assertRaisesRegex(delam.ArgumentError, "node is .*, allowed: 0 to"):
+                self.solver.displacement(node)
         opening = moved[interface.nodes_b] - moved[interface.nodes_a]
         np.testing.assert_allclose(self.solver.field("jump", interface)[:, 0], opening[:, 1], atol=1e-9)
         for name, part, words in (

@@ -399,6 +399,16 @@ class Solver(Object):
         self._call(library.delam_solver_field, text("name", name), part, out.size, pointer(out), long=True)
         return out
 
+    def displacement(self, node: int) -> FloatArray:
+        """Displacement of one node in the state described (Values), [dimension], lengths: a gauge. Where the bodies are
+        condensed, those of the others are not recovered. ArgumentError: there is no such node."""
+        nodes = self.problem.mesh.node_count
+        if isinstance(node, bool) or not isinstance(node, (int, np.integer)) or not 0 <= node < nodes:
+            raise ArgumentError(f"node is {node!r}, allowed: 0 to {nodes - 1}")
+        out = np.empty(self.problem.dimension)
+        self._call(library.delam_solver_field, b"displacement", int(node), out.size, pointer(out), long=True)
+        return out
+
     def average(self, body: Body | None = None) -> Average:
         """Volume, average strain and average stress of a body; None: of all."""
         volume, strain, stress = ctypes.c_double(), np.empty(6), np.empty(6)
