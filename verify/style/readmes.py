@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Checks that every file of src is named in the README of its folder or of a folder above it, that each path to a file of
-the repository, in a text or a comment, leads to one, and that the functions of a load step are where src/README.md says.
+the repository, in a text or a comment, leads to one, that the functions of a load step are where src/README.md says, and
+that the top level has nothing else than what is agreed.
 
     python3 verify/style/readmes.py
 """
@@ -21,6 +22,18 @@ PATH = re.compile(r"(?<![\w/.-])(?:src|verify|bindings|examples|include)/(?!NAME
 STEPS = 12  # lines that follow one load step in src/README.md
 STEP = re.compile(r"^(?P<number>\d+)\. `(?P<file>[\w/.]+)`: `(?P<function>[\w:]+)` ", re.M)
 UNREAD = ("CHANGELOG.md", "verify/style/test_sizes.py", "verify/packaging/components.sh")
+
+
+# Beside names that begin with a dot.
+TOP = {"CMakeLists.txt", "CMakePresets.json", "README.md", "LICENSE", "CHANGELOG.md", "CONTRIBUTING.md", "include", "src",
+       "bindings", "verify", "examples"}
+
+
+def strange(names):
+    """Yields what else the top level has, of the paths that git tracks."""
+    for top in sorted({name.split("/")[0] for name in names} - TOP):
+        if not top.startswith("."):
+            yield f"{top}: the top level has no such file or folder"
 
 
 def problems(src):
@@ -67,7 +80,7 @@ def lost(root, names):
 
 def main():
     names = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=False).stdout.splitlines()
-    wrong = [*problems(ROOT / "src"), *misled(ROOT / "src"),
+    wrong = [*strange(names), *problems(ROOT / "src"), *misled(ROOT / "src"),
              *lost(ROOT, [name for name in names if name not in UNREAD and (ROOT / name).is_file()])]
     for line in wrong:
         print(line, file=sys.stderr)

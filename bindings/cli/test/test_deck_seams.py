@@ -98,7 +98,7 @@ for ny in (0, 2):
     alike(f"two bodies, {where}", two, slit)
     if two is not None and slit is not None:
         alike(f"two bodies, {where}", two, slit, "dissipated")
-    # Of two materials, once the glue is broken, as without it.
+    # Two materials: once the glue is broken, the result is that without it.
     mixed = [("Low", "M"), ("Up", "N")]
     broken, open_ = run(deck(block, mixed)), run(deck(block, mixed, cohesive=False))
     if broken is not None and open_ is not None:
