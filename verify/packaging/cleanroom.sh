@@ -203,7 +203,29 @@ unshare "${namespaces[@]}" bash -euc '
     # Ranks of one machine speak over its loopback, also offline.
     ip link set lo up 2>/dev/null || true
     mount -t proc proc "$room/proc"
-    mount --rbind /dev "$room/dev"
+    # The room has devices of its own: whatever replaces its /dev/null does not harm the machine, and a machine whose
+    # /dev/null was replaced does not harm the room.
+    mount -t tmpfs -o mode=755,size=16m dev "$room/dev"
+    while read -r name major minor; do
+        mknod -m 666 "$room/dev/$name" c "$major" "$minor"
+    done <<<"null 1 3
+zero 1 5
+full 1 7
+random 1 8
+urandom 1 9
+tty 5 0"
+    mkdir "$room/dev/pts" "$room/dev/shm"
+    mount -t devpts -o newinstance,ptmxmode=666,mode=620 devpts "$room/dev/pts"
+    ln -s pts/ptmx "$room/dev/ptmx"
+    mount -t tmpfs -o mode=1777 shm "$room/dev/shm"
+    ln -s /proc/self/fd "$room/dev/fd"
+    for name in 0:stdin 1:stdout 2:stderr; do
+        ln -s "/proc/self/fd/${name%%:*}" "$room/dev/${name#*:}"
+    done
+    if ! chroot --userspec=newcomer "$room" bash -c ": >/dev/null"; then
+        echo "cleanroom.sh: an ordinary user cannot write to /dev/null in the room: $(ls -l "$room/dev/null")"
+        exit 2
+    fi
     mount --rbind -o ro /sys "$room/sys"
     mount --bind "$kept" "$room/var/tmp/kept"
     exec chroot --userspec="$user" "$room" env -i "$@" \
