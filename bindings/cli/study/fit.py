@@ -293,20 +293,15 @@ def report(search, found, given):
              "held_larger_by": search.part, "held": held_rows(search, found)}
     write_file(os.path.join(out, "fit.json"), json.dumps(about, indent=1, allow_nan=False))
     lines = ["scene,x,y,model,residual"]
-    texts = [text_of(row, given.confidence, unit_of_key(row["key"], model.units), 4) for row in rows if row["told"]]
+    texts = [text_of(row, search, given.confidence, 4, "\n") for row in rows if row["told"]]
     for which, (data, curve) in enumerate(zip(model.data, answer.curves)):
         lines += [f"{which + 1},{x!r},{y!r},{m!r},{m - y!r}" for x, y, m in zip(*map(np.ndarray.tolist, (data.x, data.y, curve)))]
         draw_fit(out, which, model, curve, answer.histories[which], jumps[which],
                  read_about(os.path.join(model.work, f"{which + 1}-at")), texts)
     write_file(os.path.join(out, "fit.csv"), "\n".join(lines) + "\n")
-    say_rows(rows, given.confidence, about["units"])
+    say_rows(rows, search, given.confidence)
     for line in lines_of(found.others, search.part, search.names, lambda key: unit_of_key(key, model.units)):
         say(line)
-    for row in rows if found.others else []:
-        low, high = row.get("interval_with_held", (None, None))
-        if low is not None:
-            say(f"    with errors of {100 * search.part:g} % in each number that is held, the interval of {row['key']} is {low:.4g} to "
-                f"{high:.4g}{unit_of_key(row['key'], model.units)}")
     say(f"root mean square of the residuals {misfit.in_words(rms)}, {len(misfit.y)} points, {analyses(search)}"
         f"{'' if found.others else '; ' + right(search.names)}")
     warn(search, found, doubted, jumps)
@@ -332,21 +327,28 @@ def right(names):
     return "intervals take the model as right" + (", strengths too, which are not among --parameters" if alone else "")
 
 
-def text_of(row, level, unit, digits=6):
-    """A parameter with its interval."""
-    low, high = (float("nan") if end is None else end for end in row["interval"])
-    return f"{row['key']} = {row['value']:.{digits}g}{unit}, {100 * level:g} % interval {low:.{digits}g} to {high:.{digits}g}{unit}"
+def text_of(row, search, level, digits=6, between=" "):
+    """A parameter with its interval; where other numbers are held, also the interval with errors in these."""
+    unit = unit_of_key(row["key"], search.model.units)
+
+    def ends(name):
+        low, high = (float("nan") if end is None else end for end in row[name])
+        return f"{low:.{digits}g} to {high:.{digits}g}{unit}"
+
+    text = f"{row['key']} = {row['value']:.{digits}g}{unit}, {100 * level:g} % interval {ends('interval')}"
+    if any(row.get("of_held", [])):
+        text += ", of this {:.2g} below and {:.2g} above for parameters that are held".format(*row["of_held"])
+    if "interval_with_held" in row:
+        text += f" from the curve alone,{between}{ends('interval_with_held')} with errors of {100 * search.part:g} % in each number that is held"
+    return text
 
 
-def say_rows(rows, level, units):
+def say_rows(rows, search, level):
     for row in rows:
-        unit = unit_of_key(row["key"], units)
-        if not row["told"]:
-            say(f"{row['key']} is not told by the data: {row['value']:.6g}{unit} is its start")
-            continue
-        say(text_of(row, level, unit) + (", of this {:.2g} below and {:.2g} above for what is held".format(*row["of_held"])
-                                         if any(row.get("of_held", [])) else "")
-            + (" (at its bound)" if row["at_bound"] else ""))
+        if row["told"]:
+            say(text_of(row, search, level) + (" (at its bound)" if row["at_bound"] else ""))
+        else:
+            say(f"{row['key']} is not told by the data: {row['value']:.6g}{unit_of_key(row['key'], search.model.units)} is its start")
 
 
 def finer(scene):

@@ -96,6 +96,12 @@ def opening():
     code, shown, error = start(*words, "--beside", here, "--out", out)
     expect(code == 0 and "delam fit: laws[0].normal_toughness 280 J/m2, interval 270 to 290, of mode I" in shown and "strength" not in shown,
            f"a fit beside it: {shown} {error}")
+    with open(os.path.join(here, "fit.json"), "w", encoding="utf-8") as file:
+        json.dump({"units": ["mm", "N"], "parameters": [
+            {"key": "laws[0].normal_toughness", "value": 0.28, "interval": [0.27, 0.29], "interval_with_held": [0.25, 0.31],
+             "told": True}]}, file)
+    code, again, error = start(*words, "--beside", here, "--out", out)
+    expect(code == 0 and "280 J/m2, interval 250 to 310, of mode I" in again, f"with errors in what is held: {again} {error}")
     expect("in the place of an earlier evaluation" in shown, "an earlier evaluation that is replaced is told")
     # A toughness of another mode is told, and does not stand beside.
     with open(os.path.join(here, "fit.json"), "w", encoding="utf-8") as file:

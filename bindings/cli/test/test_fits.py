@@ -377,7 +377,7 @@ def words():
     model.named_x = lambda which: ("displacement", " mm")
     said = []
     study.say, say = said.append, study.say
-    study.say_rows(study.rows_of(search, found), 0.95, model.units)
+    study.say_rows(study.rows_of(search, found), search, 0.95)
     study.warn(search, found, ["laws[0].normal_toughness"], [[1.25]])
     study.say = say
     for names, strengths in ((["laws[0].normal_toughness"], True), (["laws[0].normal_toughness", "laws[0].normal_strength"], False),

@@ -59,7 +59,7 @@ def held():
            and TOUGH not in changes, f"all numbers of the law and the elastic constants: {changes}")
     expect(max(changes, key=lambda key: abs(changes[key])) == "materials[0].young" and abs(changes["materials[0].young"]) > 0.01,
            f"the modulus does most: {changes}")
-    expect("held, and taken as right by the intervals; 10 % more of\n    materials[0].young (of 7e+10) changes" in shown
+    expect("held, and taken as right by the intervals from the curve alone; 10 % more of\n    materials[0].young (of 7e+10) changes" in shown
            and "take the model as right" not in shown, f"it is said beside the interval: {shown}")
     row = about["parameters"][0]
     value, wide = row["value"], sum(change ** 2 for change in changes.values()) ** 0.5

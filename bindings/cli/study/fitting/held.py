@@ -89,7 +89,7 @@ def lines_of(held, part, names, units_of):
     moving = sorted((one for one in held if one.moves is not None and size(one) >= LITTLE), key=size, reverse=True)
     idle = [one.key for one in held if one.moves is not None and size(one) < LITTLE]
     failed = [one.key for one in held if one.moves is None]
-    out = [f"held, and taken as right by the intervals; {100 * part:g} % more of"] if held else []
+    out = [f"held, and taken as right by the intervals from the curve alone; {100 * part:g} % more of"] if held else []
     for one in moving:
         changes = ", ".join(f"{name} by {100 * move:+.2g} %" for name, move in zip(names, one.moves) if not np.isnan(move))
         out.append(f"    {one.key} (of {one.value:.6g}{units_of(one.key)}) changes {changes}")

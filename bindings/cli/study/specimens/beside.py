@@ -11,8 +11,8 @@ TOTAL = {"dcb": "mode I", "enf": "mode II"}  # of which mode the toughness of a 
 
 
 def beside(folder):
-    """Toughnesses of a fit in J/m2, and exponents of its criterion: key, value, ends of the interval; those of which it
-    knows the units."""
+    """Toughnesses of a fit in J/m2, and exponents of its criterion: key, value, ends of the interval, with errors in what
+    is held where the fit has looked at them; those of which it knows the units."""
     try:
         about = read_json(os.path.join(folder, "fit.json"), MOST_RESULT)
     except OSError as error:
@@ -28,7 +28,8 @@ def beside(folder):
         size = factor if name in MODES else 1.0
         if name in MODES and row.get("told", True) or name == "toughness_exponent":
             rows.append((row["key"], row["value"] * size,
-                         *(end * size if end is not None else float("nan") for end in row["interval"])))
+                         *(end * size if end is not None else float("nan")
+                           for end in row.get("interval_with_held", row["interval"]))))
     return rows
 
 
