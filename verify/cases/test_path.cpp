@@ -201,6 +201,19 @@ LOOP_TEST(ledger_of_a_jump, 0, 2) {
     }
 }
 
+// A front with few pairs in its process zone follows path_step, too: each time that parts are half as long, the
+// dissipated energy changes, and by less and less.
+LOOP_TEST(few_pairs_follow_path_step, 0, 2) {
+    const reference::Flexure data = jumping(loop == 0 ? 3e-3 : 1.5e-3, 1e13);
+    std::vector<double> dissipated;
+    for (const double path_step : {0.1, 0.05, 0.025, 0.0125})
+        dissipated.push_back(analyse(data, 5, "condensed", "auto", path_step).dissipated);
+    for (std::size_t k = 0; k + 1 < dissipated.size(); ++k)
+        cases::expect(std::abs(dissipated[k + 1] - dissipated[k]) > 1e-5 * dissipated[k], "parts change the path");
+    cases::expect_below(std::abs(dissipated[3] - dissipated[2]), 0.8 * std::abs(dissipated[1] - dissipated[0]),
+                        "they change it less and less");
+}
+
 // Steps sixteen times as long: the same front, and what it dissipates as well as their own estimate says.
 TEST(coarse_and_fine_steps) {
     const reference::Flexure data = jumping(1.5e-3, 1e12);

@@ -7,21 +7,19 @@
 
 #include "base/numbers.hpp"
 #include "evolution/increment/path_dissipation.hpp"
+#include "evolution/path/advance.hpp"
 #include "law/mixity.hpp"
 
 namespace delam {
 
 namespace {
 
-// Half and twice of these numbers were measured by verify/bench/constants.py with verify/bench/analyses.py.
-// `most_parts` is the accuracy of a path: in five steps with mixed modes, half moves the dissipated energy by 0.9 % and
-// the work by 3.5 % at most, with up to twice the solves, and twice by 1.0 % and 5 %, with 0.4 times as many; it acts
-// on zones of up to 1 / (2 path_step) pairs alone. (Parts repeated until their recorded error was below `accuracy` left
-// these differences, and took 1.26 times the alternations in examples/mmb: the states differ, not the integrals.) Half
-// and twice of `softening` move the dissipated energy by 0.1 %, and of the others not at all.
+// Half and twice of these numbers were measured by verify/bench/constants.py with verify/bench/analyses.py: those of
+// `softening` move the dissipated energy by 0.1 %, and of the others not at all. (Parts repeated until their recorded
+// error was below `accuracy` took 1.26 times the alternations in examples/mmb and left what parts of other sizes
+// change: the states differ, not the integrals.)
 constexpr double nearly_loaded_share = 0.5;  // driving energy over onset, from which the mode of a pair counts
 constexpr double softening = 0.02;           // share dissipated, and left, of a pair in the process zone
-constexpr double most_parts = 0.5;           // share times pairs of the process zone
 constexpr double same_mode = 1e-3;           // spread of onset and toughness, relative, that is no change of mode
 
 }  // namespace
@@ -106,7 +104,7 @@ double InnerPath::bound(const State& at, std::span<const double> mixity) const {
     }
     double longest = 1.0;
     for (std::size_t i = 0; i < zone.size(); ++i) longest = std::max(longest, zone[i] / std::max(front[i], 1.0));
-    return std::clamp(most_parts / longest, stride_, 1.0);
+    return std::clamp(pairs_of_part(stride_) / longest, stride_, 1.0);
 }
 
 bool InnerPath::part(const State& at, State& next, bool displaced) {

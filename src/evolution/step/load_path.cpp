@@ -19,8 +19,7 @@ namespace delam {
 
 namespace {
 
-// Pairs on a front that a part of mixed mode dissipates, over path_step, and at most; one where pairs pop.
-constexpr double pairs_of_part = 5.0, most_pairs_of_part = 0.5, popping_pairs = 1.0;
+constexpr double popping_pairs = 1.0;      // on a front, that a part of mixed mode dissipates where pairs pop
 constexpr double softening_of_part = 0.5;  // of the pairs that soften in one mode, before any of them is spent
 constexpr double same_rate = 3.0;          // times the rate of the part before: the growth goes on as it did
 constexpr double allowance = 1.2;          // times what a part should dissipate
@@ -165,9 +164,7 @@ Plan LoadPath::plan() const {
 
 double LoadPath::wanted(const Advance& advance, bool one_mode) const {
     if (!advance.fronts) return (one_mode ? softening_of_part : options_.path_step) * advance.zone;
-    const double pairs = one_mode   ? pairs_of_jump
-                         : popping_ ? popping_pairs
-                                    : std::min(most_pairs_of_part, pairs_of_part * options_.path_step);
+    const double pairs = one_mode ? pairs_of_jump : popping_ ? popping_pairs : pairs_of_part(options_.path_step);
     return std::max(pairs * advance.row, options_.path_step * advance.zone);
 }
 
