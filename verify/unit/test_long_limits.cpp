@@ -25,12 +25,13 @@ struct Row {
     std::function<void(Limits& limits, double factor)> scale;
 };
 
+// A share above one half, twice, goes half of the way to one: beyond one it has no meaning.
 template <class Number>
 Number scaled(Number value, double factor) {
     if constexpr (std::is_integral_v<Number>)
         return std::max<Number>(1, static_cast<Number>(std::llround(static_cast<double>(value) * factor)));
     else
-        return value * factor;
+        return factor > 1.0 && value > 0.5 && value < 1.0 ? 1.0 - (1.0 - value) / factor : value * factor;
 }
 
 std::vector<Row> rows() {
@@ -137,7 +138,8 @@ constexpr const char* heading =
     "# Numbers that steer the solvers\n\n"
     "Written by `DELAM_LIMITS=LIMITS.md verify/unit_test_long_limits` in a build folder: what half and twice of each "
     "number "
-    "do to the analyses of `verify/unit/test_long_limits.cpp`.\n\n"
+    "do to the analyses of `verify/unit/test_long_limits.cpp`. Twice a share above one half is half of the way to "
+    "one.\n\n"
     "Difference: the largest of energies and reactions, relative, and of adhesions. Work: solves and Krylov iterations "
     "over those with the number itself. Where neither changes, no analysis came to the number: it guards.\n\n"
     "| number | value | reason | half: difference, work | twice: difference, work |\n|---|---|---|---|---|\n";
