@@ -39,6 +39,12 @@ like(changed("steps = 20", "steps = 20\n[solver]\nminimisation = \"alternate\"\n
      "solver.minimisation=staggered", "solver.multipliers=redundant")
 like(changed("steps = 20", "steps = 20\n[output]\nsnapshots = [0.5, 1.0]"), "output.snapshots=[0.5, 1.0]")
 
+# A word that is missing, or of another kind, is named, with what it means and where more stands.
+for words, wanted in (((), "run: scene SCENE is required: scene file"), ((scene,), "run: --out FOLDER is required: folder for the results"),
+                      ((scene, "--out"), "run: --out: 1 required FOLDER missing"),
+                      ((scene, "--out", scene + "-out", "more"), "run: .*more")):
+    expect_error(delam("run", *words), 2, "^delam: " + wanted, "`delam help run` tells more$")
+
 refuse("geometry.h=0.0007", r"geometry\.h", "evenly", "h = 0.00075 divides all")
 refuse("geometry.hh=1", r"geometry\.hh", "did you mean 'h'")
 refuse("tiem.steps=3", "tiem", "did you mean 'time'")

@@ -426,6 +426,21 @@ std::vector<std::string> words_of(int argc, char** argv, const CLI::App& app) {
     return words;
 }
 
+// Returns what is wrong with the words of a command. A word that is missing is told with what it means.
+Failure refused(const CLI::ParseError& error, const CLI::App& app) {
+    const std::vector<CLI::App*> commands = app.get_subcommands();
+    if (commands.empty()) return {exit_scene, error.what()};
+    std::string text = error.what();
+    for (const CLI::Option* option : commands.front()->get_options())
+        if (error.get_name() == "RequiredError" && option->get_required() && option->count() == 0) {
+            text = fmt::format("{} {} is required: {}", option->get_name(), option->get_type_name(),
+                               option->get_description());
+            break;
+        }
+    const std::string name = commands.front()->get_name();
+    return {exit_scene, fmt::format("{}: {}; `delam help {}` tells more", name, text, name)};
+}
+
 int guarded(int argc, char** argv, const Caller& caller) {
     CLI::App app("delam: delamination of layered structures by energy minimisation");
     app.footer(footer);
@@ -445,11 +460,11 @@ int guarded(int argc, char** argv, const Caller& caller) {
         std::reverse(words.begin(), words.end());  // as CLI11 takes them
         app.parse(std::move(words));
     } catch (const CLI::ParseError& e) {
-        std::ostringstream shown, wrong;
-        const int code = app.exit(e, shown, wrong);
+        if (e.get_exit_code() != 0) throw refused(e, app);
+        std::ostringstream shown;
+        app.exit(e, shown);
         say_text(shown.str());
-        complain("{}", wrong.str());
-        return code == 0 ? exit_done : exit_scene;
+        return exit_done;
     }
     if (of.options->parsed()) return options(given.json);
     if (of.import->parsed()) return import(given.deck, given.folder, given.replace);
