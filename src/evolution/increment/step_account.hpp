@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "evolution/increment/state.hpp"
 
@@ -11,8 +12,9 @@ namespace delam {
 // Energy that a step dissipates, F L.
 struct Dissipation {
     double recorded = 0.0;
-    double linear = 0.0;  // in the split of PANM 15 (2010)
-    double error = 0.0;   // estimate for `recorded`
+    double linear = 0.0;            // in the split of PANM 15 (2010)
+    double error = 0.0;             // estimate for `recorded`
+    std::vector<double> of_pair{};  // [pairs] parts of `recorded`; empty: not known
 };
 
 class StepAccount {

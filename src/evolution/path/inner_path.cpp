@@ -22,6 +22,19 @@ constexpr double nearly_loaded_share = 0.5;  // driving energy over onset, from 
 constexpr double softening = 0.02;           // share dissipated, and left, of a pair in the process zone
 constexpr double same_mode = 1e-3;           // spread of onset and toughness, relative, that is no change of mode
 
+Dissipation at_mixities(const PairLaws& pairs, std::span<const double> mixity, std::span<const double> from,
+                        std::span<const double> to) {
+    Dissipation sum{dissipation(pairs, mixity, from, to), dissipation_linear(pairs, mixity, from, to), 0.0,
+                    std::vector<double>(to.size(), 0.0)};
+    for (std::size_t p = 0; p < to.size(); ++p) {
+        if (pairs.law[p] == nullptr || to[p] == from[p]) continue;
+        const Toughness t = pairs.toughness(p, mixity[p]);
+        const Law& law = *pairs.law[p];
+        sum.of_pair[p] = pairs.weight[p] * (law.dissipated(t, to[p]) - law.dissipated(t, from[p]));
+    }
+    return sum;
+}
+
 }  // namespace
 
 bool InnerPath::one_mode(const State& at, std::span<const double> mixity, const State* before) const {
@@ -75,6 +88,7 @@ void InnerPath::record(const State& at, const State& next) {
                                           at.adhesion[p], next.adhesion[p]},
                                          next.mixity[p]);
         dissipated_.recorded += pairs_.weight[p] * e.dissipated;
+        if (!dissipated_.of_pair.empty()) dissipated_.of_pair[p] += pairs_.weight[p] * e.dissipated;
         dissipated_.linear += pairs_.weight[p] * e.linear;
         dissipated_.error += pairs_.weight[p] * e.error;
     }
@@ -147,10 +161,7 @@ bool InnerPath::follow(State& next, const StepRule& step, const Dissipation* beg
     State at = step.before();
     at.theta = next.theta;
     at.time = next.time;
-    dissipated_ = begun != nullptr
-                      ? *begun
-                      : Dissipation{dissipation(pairs_, next.mixity, at.adhesion, next.adhesion),
-                                    dissipation_linear(pairs_, next.mixity, at.adhesion, next.adhesion), 0.0};
+    dissipated_ = begun != nullptr ? *begun : at_mixities(pairs_, next.mixity, at.adhesion, next.adhesion);
     at.adhesion = next.adhesion;
     last_.assign(last.begin(), last.end());
     bounded_ = false;

@@ -60,7 +60,7 @@ void Trials::sweep(const Front& front, const Candidate& base, const char* with) 
     SearchResult& result = search_.result;
     const char* what = front.nucleation ? "new crack" : "front";
     if (search_.left <= 0) {
-        if (!front.nucleation) result.bound = std::min(result.bound, search_.floor + search_.least_cost(base));
+        if (!front.nucleation) result.left_out.push_back({search_.least_cost(base), {}, {}, {}, {{0, search_.floor}}});
         result.words +=
             text(what, " of interface ", front.interface, with, ": not searched, search_limit is reached\n");
         return;
@@ -106,7 +106,7 @@ void Trials::advance_together(std::span<const Front> fronts) {
         for (const auto& r : ring)
             for (std::size_t k = reached; k < std::min(n, r.size()); ++k)
                 for (const std::int64_t p : r[k]) {
-                    joint.least_cost += search_.least_left(start_, index(p));
+                    if (!joint.least.empty()) joint.least[index(p)] = search_.least_left(start_, index(p));
                     joint.adhesion[index(p)] = 0.0;
                 }
         reached = std::min(n, longest);
@@ -125,9 +125,8 @@ Candidate Trials::restored(const Candidate& base, std::span<const std::int64_t> 
         out.adhesion[index(p)] = start_.adhesion[index(p)];
         out.mixity[index(p)] = start_.mixity[index(p)];
     }
-    out.least_cost = start_.least_cost;
-    for (std::size_t p = 0; p < out.adhesion.size(); ++p)
-        if (out.adhesion[p] != start_.adhesion[p]) out.least_cost += search_.least_left(start_, p);
+    for (std::size_t p = 0; p < out.least.size(); ++p)
+        out.least[p] = out.adhesion[p] != start_.adhesion[p] ? search_.least_left(start_, p) : 0.0;
     return out;
 }
 
@@ -270,7 +269,9 @@ SearchResult Search::run(const Increment& increment, const StepAccount& account,
                   from.ledger.increment,
                   tolerance,
                   problem_.options.search_limit};
-    Trials trials(run, from, {increment.adhesion_before(), {mixity.begin(), mixity.end()}, 0.0});
+    Candidate start{increment.adhesion_before(), {mixity.begin(), mixity.end()}};
+    if (account.follows_iterates()) start.least.assign(start.adhesion.size(), 0.0);
+    Trials trials(run, from, std::move(start));
     trials.run();
     result.starts = trials.take_found();
     result.energies = energies.memory();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numeric>
 
 #include "base/numbers.hpp"
 
@@ -96,6 +97,11 @@ Sweep::Sweep(SearchRun& search, const Front& front, const Candidate& base)
     keep_rings();
 }
 
+double SearchRun::least_cost(const Candidate& c) const {
+    if (!account.follows_iterates()) return cost(c);
+    return std::accumulate(c.least.begin(), c.least.end(), 0.0);
+}
+
 // With g convex, g(1) = 0 and g(0) = Gc, what is left of the toughness, Gc - g(zeta), is at least zeta Gc.
 double SearchRun::least_left(const Candidate& base, std::size_t pair) const {
     const Law& law = *pairs().law[pair];
@@ -107,21 +113,21 @@ double SearchRun::least_left(const Candidate& base, std::size_t pair) const {
 
 void Sweep::bound_costs() {
     const PairLaws& pairs = search_.pairs();
-    least_cost_.assign(1, base_.least_cost);
+    least_cost_.assign(1, search_.least_cost(base_));
+    ring_least_.assign(ring_.size(), {});
     unknown_.assign(1, 0);
     for (std::size_t n = 0; n < ring_.size(); ++n) {
         const std::vector<double>& known = mixity_[n];
-        double cost = 0.0;
         for (std::size_t i = 0; i < ring_[n].size(); ++i) {
             const std::size_t p = index(ring_[n][i]);
             if (known.empty() || !pairs.mixed(p)) {
-                cost += search_.least_left(base_, p);
+                ring_least_[n].push_back(search_.least_left(base_, p));
                 continue;
             }
             const Toughness t = pairs.toughness(p, known[std::min(i, known.size() - 1)]);
-            cost += pairs.weight[p] * (t.total - pairs.law[p]->dissipated(t, base_.adhesion[p]));
+            ring_least_[n].push_back(pairs.weight[p] * (t.total - pairs.law[p]->dissipated(t, base_.adhesion[p])));
         }
-        least_cost_.push_back(least_cost_.back() + cost);
+        least_cost_.push_back(std::accumulate(ring_least_[n].begin(), ring_least_[n].end(), least_cost_.back()));
         unknown_.push_back(unknown_.back() + (known.empty() ? 1 : 0));
     }
 }
@@ -176,7 +182,8 @@ Candidate Sweep::candidate(std::size_t n) const {
         }
     }
     if (const auto it = value_.find(n); it != value_.end()) c.incremental = it->second.incremental;
-    if (!least_cost_.empty()) c.least_cost = least_cost_[n];
+    for (std::size_t k = 0; k < n && !ring_least_.empty(); ++k)
+        for (std::size_t i = 0; i < ring_[k].size(); ++i) c.least[index(ring_[k][i])] = ring_least_[k][i];
     return c;
 }
 
@@ -248,17 +255,37 @@ double Sweep::between(std::size_t low, std::size_t high) const {
     return value_.at(high).incremental - search_.result.error - gradient - cost_.at(high) + first;
 }
 
-std::optional<Sweep::Gap> Sweep::lowest_gap() const {
-    std::optional<Gap> lowest;
-    const auto consider = [&](std::size_t low, std::size_t high, double least) {
-        if (!lowest || least < lowest->least) lowest = Gap{low, high, least};
-    };
+std::vector<Sweep::Gap> Sweep::gaps() const {
+    std::vector<Gap> found;
     for (auto low = value_.begin(), high = std::next(low); high != value_.end(); low = high++)
         if (high->first > low->first + 1 || !shown(high->first) || !std::isfinite(high->second.incremental))
-            consider(low->first, high->first, between(low->first, high->first));
+            found.push_back({low->first, high->first, between(low->first, high->first)});
     const std::size_t last = value_.rbegin()->first;
-    if (last < all_) consider(last, ring_.size(), search_.floor + least_cost(std::min(last + 1, ring_.size())));
-    return lowest;
+    if (last < all_)
+        found.push_back({last, ring_.size(), search_.floor + least_cost(std::min(last + 1, ring_.size()))});
+    return found;
+}
+
+std::optional<Sweep::Gap> Sweep::lowest_gap() const {
+    const std::vector<Gap> all = gaps();
+    const auto lowest = std::ranges::min_element(all, {}, &Gap::least);
+    return lowest != all.end() ? std::optional(*lowest) : std::nullopt;
+}
+
+LeftOut Sweep::left_out() const {
+    LeftOut out;
+    if (ring_least_.empty()) {
+        out.places.push_back({0, bound()});
+        return out;
+    }
+    out.least = base_.least;
+    out.ring = ring_;
+    out.ring_least = ring_least_;
+    for (const Gap& gap : gaps()) {
+        const std::size_t first = std::min(gap.low + 1, ring_.size());
+        out.places.push_back({first, gap.least - least_cost(first)});
+    }
+    return out;
 }
 
 double Sweep::bound() const {
@@ -444,12 +471,14 @@ void Sweep::run() {
         sample_new_crack();
     else
         sample_coarsely();
-    if (value_.size() > 1) {
+    // A sample that closes a gap may be the lowest, or show mixities with which another one is.
+    for (std::size_t known = 1; known != value_.size();) {
+        known = value_.size();
         refine_minimum();
         if (!nucleation_) close_gap();
     }
     for (const auto& [n, sampled] : value_) search_.note_lowest(sampled.incremental);
-    search_.result.bound = std::min(search_.result.bound, nucleation_ ? infinite : bound());
+    if (!nucleation_) search_.result.left_out.push_back(left_out());
 }
 
 }  // namespace delam

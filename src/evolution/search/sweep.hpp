@@ -40,7 +40,7 @@ struct SearchRun {
     const PairLaws& pairs() const { return increment.pairs(); }
     double cost(const Candidate& c) const { return account.cost(c.mixity, c.adhesion); }
     // D of a candidate is no less.
-    double least_cost(const Candidate& c) const { return account.follows_iterates() ? c.least_cost : cost(c); }
+    double least_cost(const Candidate& c) const;
     const std::vector<std::uint8_t>& adhering(const Candidate& base);
     // These pairs and those that new cracks may reach, where a small zone serves both, or always.
     std::vector<std::uint8_t> with_new_cracks(std::vector<std::uint8_t> wanted, bool always) const;
@@ -77,8 +77,9 @@ public:
     // Adds samples to those on whose hull the front grows, up to the best one or to where another adhesion has it.
     void resolve_growth(std::span<const double> adhesion);
     GrowthProfile profile() const;
-    // No state between or beyond the samples lies below.
+    // No state between or beyond the samples lies below, at the mixities that they show.
     double bound() const;
+    LeftOut left_out() const;
 
 private:
     // Keeps the rings whose dissipation alone does not yet exceed what could be gained.
@@ -112,7 +113,9 @@ private:
         std::size_t low, high;
         double least;  // no state of these rings, nor that of `high` if its mixities are not all known, lies below
     };
-    // Returns the gap with the lowest states; none: all rings are sampled.
+    // Ascending; none: all rings are sampled.
+    std::vector<Gap> gaps() const;
+    // Returns the gap with the lowest states.
     std::optional<Gap> lowest_gap() const;
     // Lower bound of what lies between two samples.
     double between(std::size_t low, std::size_t high) const;
@@ -138,6 +141,7 @@ private:
     mutable std::map<std::size_t, double> other_cost_;  // where it does not depend on the samples
     std::vector<std::vector<double>> mixity_;           // B of a ring as its sample shows it; empty: not sampled
     std::vector<double> least_cost_;                    // [rings and 1], where the mixity follows the iterates
+    std::vector<std::vector<double>> ring_least_;       // of each pair
     std::vector<std::size_t> unknown_;                  // [rings and 1] rings before, whose mixity no sample has shown
     std::set<std::size_t> exact_;                       // rings of exact samples
     double best_before_;                                // lowest I before this sweep

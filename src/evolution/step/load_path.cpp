@@ -210,21 +210,29 @@ bool LoadPath::goes_on(const Trial& trial) const {
 }
 
 // One mode dissipates the same on any path, but its work is that of the trapezoidal rule. From a state without jumps
-// on, no ratio of loads tells the work up to the first damage, so that a part without damage comes first.
+// on, no ratio of loads tells the work up to the first damage, so that a part without damage comes first. In mixed
+// mode, parts that are short enough for what they dissipate are so for their work, too, once the first zone has formed.
 bool LoadPath::short_enough(const Trial& trial) const {
     if (at_.loaded == 0) return false;
     if (flat(trial.part)) return true;
-    const double area = trial.part.advance.area;
-    if (!trial.one_mode) return area <= allowance * trial.limit;
+    const Advance& advance = trial.part.advance;
+    const double area = advance.area;
     const Ledger& next = trial.result.state.ledger;
     const double dissipated = next.dissipated - at_.ledger.dissipated;
+    if (!trial.one_mode) {
+        // Until the first zone is spent, the reactions bend most, while little is dissipated.
+        const double of_zone = dissipated * advance.zone / area;
+        const double left = next.increment - work(trial.result.state, trial.part.start);
+        const bool closes = next.dissipated > of_zone || std::abs(left) <= options_.accuracy * of_zone;
+        return area <= allowance * trial.limit && closes;
+    }
     const double open = next.increment + freed(trial) * dissipated - work(trial.result.state, trial.part.start);
     // The errors of parts have either sign; what counts is their sum.
     const bool closes = std::abs(open) <= options_.accuracy * dissipated ||
                         std::abs(at_.ledger.defect() + open) <= options_.accuracy * next.dissipated;
     const bool steady = trial.part.rise <= steady_rise;
-    const double pairs_on_fronts = trial.part.advance.fronts ? pairs_of_jump : 0.0;
-    const double least = std::max(wanted(trial.part.advance, false), pairs_on_fronts * trial.part.advance.row);
+    const double pairs_on_fronts = advance.fronts ? pairs_of_jump : 0.0;
+    const double least = std::max(wanted(trial.part.advance, false), pairs_on_fronts * advance.row);
     return (goes_on(trial) || area <= allowance * trial.limit) && (closes || (steady && area <= allowance * least));
 }
 

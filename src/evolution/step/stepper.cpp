@@ -32,31 +32,16 @@ constexpr double least_overload = 0.02, overload_growth = 0.04, most_overload = 
 // states, with 1.00 and 1.03 times the solves), or until, after `first_part` of that, the energy is `too_high` of the
 // dissipated one above the step's.
 constexpr double beyond = 0.2, too_high = 0.25, first_part = 0.1;
-constexpr double same = 1e-3;  // spread of toughnesses, relative
 // Error of the toughness of a pair whose mixity is held, over the accuracy of what dissipates. (Measured by
 // verify/cases/load_path/settling.py: half and twice change no printed energy, and take 675 and 621 alternations.)
 constexpr double held_of_accuracy = 0.1;
 
-// True if all pairs that a candidate debonds have the same toughness.
-bool same_toughness(const PairLaws& pairs, const Candidate& candidate, std::span<const double> from) {
-    double least = std::numeric_limits<double>::infinity(), most = 0.0;
-    for (std::size_t p = 0; p < from.size(); ++p) {
-        if (pairs.law[p] == nullptr || !(candidate.adhesion[p] <= 0.0) || !(from[p] > 0.0)) continue;
-        const double total = pairs.toughness(p, candidate.mixity[p]).total;
-        least = std::min(least, total);
-        most = std::max(most, total);
-    }
-    return most <= (1.0 + same) * least;
-}
-
-// True if a candidate debonds no more pairs than soften already. The step itself has compared such states.
-bool within_zone(std::span<const double> candidate, std::span<const double> from) {
-    std::int64_t debonded = 0, softening = 0;
-    for (std::size_t p = 0; p < from.size(); ++p) {
-        debonded += candidate[p] <= 0.0 && from[p] > 0.0 ? 1 : 0;
-        softening += from[p] > 0.0 && from[p] < 1.0 ? 1 : 0;
-    }
-    return debonded <= softening;
+// Returns what a step has cost the pairs that it broke; none, where that is not known.
+PathCosts costs_of(const PairLaws& pairs, std::span<const double> along, const State& state) {
+    if (along.empty()) return {};
+    std::vector<std::uint8_t> broken = adhering_pairs(pairs, state.adhesion, toughnesses(pairs, state.mixity));
+    for (std::uint8_t& b : broken) b = b == 0 ? 1 : 0;
+    return {{along.begin(), along.end()}, std::move(broken)};
 }
 
 }  // namespace
@@ -201,7 +186,7 @@ InnerPath Stepper::inner_path() {
 }
 
 // Starts from the adhesion and the mixity of `next`.
-bool Stepper::minimise(State& next, const StepRule& step, const Dissipation* begun, bool displaced) {
+Stepper::Result Stepper::minimise(State next, const StepRule& step, const Dissipation* begun, bool displaced) {
     InnerPath path = inner_path();
     // A step in several parts at the load of its end turns off the path that has led to its begin.
     const std::span<const double> last = stride_ < 1.0 ? std::span<const double>() : step.before().jump_before;
@@ -211,7 +196,7 @@ bool Stepper::minimise(State& next, const StepRule& step, const Dissipation* beg
     next.loaded = step.before().loaded != 0 || any_jump(pairs_, next.response.jump) ? 1 : 0;
     record_step(next, step, step.in_parts() ? &path : nullptr);
     next.memory = operator_->memory();
-    return converged;
+    return {std::move(next), converged, {}, step.in_parts() ? path.dissipated().of_pair : std::vector<double>()};
 }
 
 // Beyond the limit of a dead load, alternation takes adhesion to zero by ever smaller steps and displacements to
@@ -270,8 +255,8 @@ Stepper::Result Stepper::step(const State& before, double time, std::span<const 
     // Plain alternation solves for the displacements in every step, as the reference solver does.
     const bool displaced = problem_.options.minimisation != "alternate" && step->quadratic() &&
                            (before.loaded == 0 || displaced_in_proportion(*operator_, pairs_, contact_, first, before));
-    Result best{first, true};
-    best.converged = minimise(best.state, *step, nullptr, displaced) && converged;
+    Result best = minimise(first, *step, nullptr, displaced);
+    best.converged = best.converged && converged;
     for (const Start& from : also) {
         State other = first;
         other.effort = best.state.effort;
@@ -318,9 +303,9 @@ Sensitivity Stepper::follow(std::vector<FollowedParameter> parameters, const Sta
 
 // Minimises from another start and keeps the lower state. All effort is counted.
 void Stepper::keep_lower(Result& best, State other, const StepRule& step, const Dissipation* begun) {
-    const bool converged = minimise(other, step, begun);
-    const Effort effort = other.effort;
-    if (best.state.ledger.undercut_by(other.ledger.increment)) best = {std::move(other), converged};
+    Result found = minimise(std::move(other), step, begun);
+    const Effort effort = found.state.effort;
+    if (best.state.ledger.undercut_by(found.state.ledger.increment)) best = std::move(found);
     best.state.effort = effort;
 }
 
@@ -330,7 +315,7 @@ Stepper::Continuation Stepper::continue_fronts(Result& best, const StepRule& ste
     const State& from = best.state;
     const Ledger &now = from.ledger, &then = step.before().ledger;
     const Dissipation own{now.dissipated - then.dissipated, now.dissipated_linear - then.dissipated_linear,
-                          now.mixity_error * (now.dissipated - then.dissipated)};
+                          now.mixity_error * (now.dissipated - then.dissipated), best.along};
     Continuation found;
     State at = from;
     Dissipation reached = own;
@@ -364,6 +349,7 @@ Stepper::Continuation Stepper::continue_fronts(Result& best, const StepRule& ste
         }
         reached = path.dissipated();
     }
+    found.costs = costs_of(pairs_, reached.of_pair, at);
     best.state.effort = at.effort;
     best.state.effort.search_candidates += found.compared;
     return found;
@@ -371,11 +357,17 @@ Stepper::Continuation Stepper::continue_fronts(Result& best, const StepRule& ste
 
 // A zone's energy keeps the contact outside as it was, unless a check has shown otherwise, and may be too low.
 // Candidates that seem lower than the kept state are therefore compared by displacement steps of their own. Returns the
-// lowest candidate.
-double Stepper::compare_candidates(Result& best, const SearchResult& found, const StepRule& step) {
+// lowest candidate, but for those that the step itself has compared (`known`), whose mixities are those of a sharp
+// front.
+double Stepper::compare_candidates(Result& best, const SearchResult& found, const StepRule& step,
+                                   const std::function<bool(const Candidate&)>& known) {
     double lowest = std::numeric_limits<double>::infinity();
     bool compared = false;
     for (const Candidate& candidate : found.starts) {
+        if (known(candidate)) {
+            compared = true;
+            continue;
+        }
         const double kept = best.state.ledger.increment;
         if (!best.state.ledger.undercut_by(candidate.incremental))
             return std::min(lowest, compared ? candidate.incremental : found.lowest);
@@ -407,20 +399,26 @@ void Stepper::search(Result& best, const StepRule& step) {
     const bool one_mode = step.in_parts() && inner_path().one_mode(from, from.mixity, nullptr);
     std::size_t minimised = 0;
     bool followed = false;
+    PathCosts costs = costs_of(pairs_, best.along, best.state);
     double lowest = std::numeric_limits<double>::infinity();
+    const auto along_path = [&](const Candidate& candidate) {
+        return step.in_parts() && !(one_mode && same_toughness(pairs_, candidate, from.adhesion));
+    };
+    const auto known = [&](const Candidate& candidate) {
+        return along_path(candidate) && within_zone(candidate.adhesion, from.adhesion);
+    };
     for (const Candidate& candidate : found.starts) {
         const double dissipated = dissipation(pairs_, candidate.mixity, before.adhesion, candidate.adhesion);
         if (minimised == most_starts || followed) break;
         if (candidate.incremental > level + promising * dissipated) continue;
         State other = best.state;
-        if (step.in_parts() && !(one_mode && same_toughness(pairs_, candidate, from.adhesion))) {
+        if (along_path(candidate)) {
             const double own = from.ledger.dissipated - before.ledger.dissipated;
-            if (candidate.incremental > level + promising_way * (dissipated - own) ||
-                within_zone(candidate.adhesion, from.adhesion))
-                continue;
+            if (candidate.incremental > level + promising_way * (dissipated - own) || known(candidate)) continue;
             ++minimised;
             const double extent = (1.0 + beyond) * (dissipated - own);
             Continuation continued = continue_fronts(best, step, extent);
+            costs = std::move(continued.costs);
             followed = continued.given_up || !(continued.farthest < extent);
             if (followed) {
                 lowest = continued.incremental;
@@ -439,7 +437,7 @@ void Stepper::search(Result& best, const StepRule& step) {
         other.mixity = candidate.mixity;
         keep_lower(best, std::move(other), step);
     }
-    if (!followed) lowest = compare_candidates(best, found, step);
+    if (!followed) lowest = compare_candidates(best, found, step, known);
     if (twin_) best.state.search_memory = twin_->memory();
     best.state.search_energies = std::move(found.energies);
     if (auto jump = energetic_jump(pairs_, graph_, initial_adhesion_, found.profiles, before, best.state))
@@ -450,7 +448,7 @@ void Stepper::search(Result& best, const StepRule& step) {
     outcome.search_margin = std::isfinite(lowest) ? lowest - kept : 0.0;
     // Candidates under the variational rule have energies at the mixities of the start, which are no bound.
     outcome.search_gap =
-        step.bounds_candidates() ? std::max(0.0, kept - found.bound) : std::numeric_limits<double>::infinity();
+        step.bounds_candidates() ? std::max(0.0, kept - found.bound(costs)) : std::numeric_limits<double>::infinity();
     best.searched =
         text("step ", best.state.step, " at time ", best.state.time, ": ", found.candidates,
              " candidates, the step was minimised from ", minimised,

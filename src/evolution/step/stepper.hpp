@@ -5,6 +5,7 @@
 // the lowest; `local` starts from z_before, `energetic` also from the best states of a search (search.hpp).
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -35,7 +36,8 @@ public:
     struct Result {
         State state;
         bool converged = true;
-        std::string searched{};  // the candidates that the search compared; empty: there was none
+        std::string searched{};       // the candidates that the search compared; empty: there was none
+        std::vector<double> along{};  // [pairs] dissipated along the path of the step, F L; empty: not known
     };
     // The initial state: displacements at the initial adhesion.
     Result initial(double time);
@@ -123,7 +125,7 @@ private:
     InnerPath inner_path();
     // begun: what is dissipated down to the adhesion of `next`, where the step is followed in parts. displaced: the
     // displacements of `next` are those of its adhesion.
-    bool minimise(State& next, const StepRule& step, const Dissipation* begun = nullptr, bool displaced = false);
+    Result minimise(State next, const StepRule& step, const Dissipation* begun = nullptr, bool displaced = false);
     void refuse_runaway(const State& state, const StepRule& step);
     void record_step(State& next, const StepRule& step, const InnerPath* path = nullptr) const;
     void keep_lower(Result& best, State other, const StepRule& step, const Dissipation* begun = nullptr);
@@ -132,13 +134,15 @@ private:
     struct Continuation {
         State state;  // adhesion and mixity
         Dissipation dissipated;
+        PathCosts costs;                                               // of the whole way and of the step before it
         double incremental = std::numeric_limits<double>::infinity();  // I, F L
         double farthest = 0.0;                                         // dissipated at the end of the way, F L
         bool given_up = false;                                         // it lies far above the step
         std::int64_t compared = 0;                                     // states on it
     };
     Continuation continue_fronts(Result& best, const StepRule& step, double extent);
-    double compare_candidates(Result& best, const SearchResult& found, const StepRule& step);
+    double compare_candidates(Result& best, const SearchResult& found, const StepRule& step,
+                              const std::function<bool(const Candidate&)>& known);
     void search(Result& best, const StepRule& step);
 
     const Problem& problem_;

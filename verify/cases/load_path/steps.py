@@ -250,7 +250,7 @@ def main():
     steady("opened", opened, counts, 5e-3)
     cheap("opened", opened, 40)
     jumping("film", film, 0.02, counts)
-    searched("bending", SCENES["bending"], (15, 40), 0.075)
+    searched("bending", SCENES["bending"], (15, 40), 0.02)
     searched("turned back", turned, (24,), 0.015)
     comes_off(20)
     refused()
