@@ -13,14 +13,14 @@
 #include "evolution/minimise/proportional_loads.hpp"
 #include "evolution/path/advance.hpp"
 #include "evolution/step/growth_events.hpp"
+#include "scene/advice/expected_parts.hpp"
 #include "scene/advice/process_zone.hpp"
 
 namespace delam {
 
 namespace {
 
-// Pairs on a front that a part of mixed mode dissipates, over path_step, and at most; one where pairs pop.
-constexpr double pairs_of_part = 5.0, most_pairs_of_part = 0.5, popping_pairs = 1.0;
+constexpr double popping_pairs = 1.0;      // that a part of mixed mode dissipates where pairs pop
 constexpr double softening_of_part = 0.5;  // of the pairs that soften in one mode, before any of them is spent
 constexpr double same_rate = 3.0;          // times the rate of the part before: the growth goes on as it did
 constexpr double allowance = 1.2;          // times what a part should dissipate
@@ -165,10 +165,8 @@ Plan LoadPath::plan() const {
 
 double LoadPath::wanted(const Advance& advance, bool one_mode) const {
     if (!advance.fronts) return (one_mode ? softening_of_part : options_.path_step) * advance.zone;
-    const double pairs = one_mode   ? pairs_of_jump
-                         : popping_ ? popping_pairs
-                                    : std::min(most_pairs_of_part, pairs_of_part * options_.path_step);
-    return std::max(pairs * advance.row, options_.path_step * advance.zone);
+    if (!one_mode && !popping_) return advance_of_part(options_.path_step, advance.row, advance.zone);
+    return std::max((one_mode ? pairs_of_jump : popping_pairs) * advance.row, options_.path_step * advance.zone);
 }
 
 // Work of the reactions, by the trapezoidal rule from the first damage on: up to there, reactions grow with the load.
