@@ -21,6 +21,8 @@
 #include "reduction/condensed/bulk.hpp"
 #include "reduction/sparse/iterated/iterated.hpp"
 #include "refused.hpp"
+#include "scene/advice/expected_parts.hpp"
+#include "scene/advice/process_zone.hpp"
 
 using namespace delam;
 
@@ -295,7 +297,22 @@ TEST(waits_for_orderings_are_predicted) {
     // Piece by piece.
     const double expected =
         ordering * nominal_rate * static_cast<double>(bulk.superelements().largest_inside()) / 1.05e6;
-    ck_assert(std::abs(predict_condensed(bulk).ordering - expected) < 1e-9 * expected);
+    ck_assert(std::abs(predict_condensed(bulk, 1.0).ordering - expected) < 1e-9 * expected);
+}
+
+// A front advances by a tenth of its zone or half a pair in a part; half of the pairs break.
+TEST(parts_follow_from_the_zone) {
+    const Problem problem = unit::make_flexure({});
+    ck_assert(expected_parts(problem, false, 0.1).growth == 0.0);
+    const ProcessZone zone = predicted_process_zone(problem, 0);
+    const double pairs = zone.length / zone.spacing;
+    ck_assert(pairs > 0.0);
+    const auto& adhesion = problem.interfaces[0].adhesion;
+    const auto adhering = static_cast<double>(std::ranges::count_if(adhesion, [](double z) { return z > 0.0; }));
+    const double expected = 0.5 * adhering / std::max(0.5, 0.1 * pairs);
+    ck_assert(std::abs(expected_parts(problem, true, 0.1).growth - expected) < 1e-9 * expected);
+    // Longer parts are no more.
+    ck_assert(expected_parts(problem, true, 0.5).growth <= expected);
 }
 
 TEST(size_memory_and_time_decide) {
@@ -304,12 +321,17 @@ TEST(size_memory_and_time_decide) {
     c.condensation = {1e9, 1e9, 1e8, 1e10};
     c.iteration = {1e9, 1e9, 1e9, 5e9};
     c.monolithic = 5e9;
+    c.memory = {1.5e10, "planted"};
     choose(c);
     ck_assert(c.condensed() && c.reason.find("2 times") != std::string::npos);
     c.monolithic = 3e9;  // 3.3 times
     choose(c);
     ck_assert(iterated() && c.reason.find("more than 2.5") != std::string::npos);
-    c.iteration.bytes = 2e10;
+    c.memory.bytes = 3e10;  // less than half of it
+    choose(c);
+    ck_assert(c.condensed());
+    c.memory.bytes = 1.5e10;
+    c.iteration.bytes = 1.4e10;  // more than condensed
     choose(c);
     ck_assert(c.condensed());
     c.condensation.bytes = 1e8;  // three times, but little

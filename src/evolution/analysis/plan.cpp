@@ -43,6 +43,19 @@ double rounded(double seconds) {
     return unit * std::round(seconds / unit);
 }
 
+// Tells how many parts followed steps are expected to have.
+PlanItem parts_of_steps(const ReductionChoice& choice) {
+    const double parts = choice.parts.growth;
+    if (!(parts > 0.0)) return {"parts of the steps", left_out, "steps are taken whole", 0.0, 0.0, "s"};
+    return {"parts of the steps",
+            used,
+            text("predicted: ", std::round(parts), " in all steps together, if ", expected_share,
+                 " of the pairs that adhere break, which nobody knows beforehand; twice as many take twice as long"),
+            parts * choice.own().part / nominal_rate,
+            0.0,
+            "s"};
+}
+
 void add_realisations(std::vector<PlanItem>& items, const Basis& basis) {
     const ReductionChoice& choice = basis.choice;
     const std::string words = text(choice.forced ? "set by " : "chosen by predicted cost and memory: ", choice.reason);
@@ -87,6 +100,7 @@ void add_realisations(std::vector<PlanItem>& items, const Basis& basis) {
                           rounded(own.setup / nominal_rate), " s; ", nominal_steps, " steps then end after ",
                           rounded(own.analysis() / nominal_rate), " s"),
                      own.step / nominal_rate, 0.0, "s"});
+    items.push_back(parts_of_steps(choice));
     const double bytes = own.bytes, most = own.most;
     const std::string limits = text(
         most > bytes ? text("; with as many directions and as large patches as iterations may have, ", most, " byte")

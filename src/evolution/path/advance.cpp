@@ -23,12 +23,6 @@ constexpr double spent = 0.98;
 constexpr double damaged = 1e-3;
 // Part of the largest loss from which on a pair counts as one of the first ones, where no front tells them.
 constexpr double of_the_most = 0.5;
-// Pairs on a front that a part dissipates, over path_step, and at most: where the process zone has few pairs, this is
-// the accuracy of a path, and goes with the option. (Measured by verify/bench/constants.py with
-// verify/bench/analyses.py: in five whole steps of mixed mode, half moves the dissipated energy by 0.9 % and the work
-// by 3.5 % at most, with up to twice the solves; twice by 1.0 % and 5 %, with 0.4 times as many. The test
-// few_pairs_follow_path_step shows what path_step does.)
-constexpr double pairs_per_path_step = 5.0, most_pairs_of_part = 0.5;
 
 // g/Gc, [pairs]; 1 where nothing adheres.
 std::vector<double> spent_shares(const PairLaws& pairs, const State& state) {
@@ -42,8 +36,6 @@ std::vector<double> spent_shares(const PairLaws& pairs, const State& state) {
 }
 
 }  // namespace
-
-double pairs_of_part(double path_step) { return std::min(most_pairs_of_part, pairs_per_path_step * path_step); }
 
 Advance advance_between(const PairLaws& pairs, const PairGraph& graph, std::span<const double> initial,
                         const State& before, const State& after) {

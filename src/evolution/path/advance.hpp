@@ -23,10 +23,6 @@ struct Advance {
 Advance advance_between(const PairLaws& pairs, const PairGraph& graph, std::span<const double> initial,
                         const State& before, const State& after);
 
-// Returns how many pairs on a front a part of mixed mode may dissipate: the smaller the option path_step, the fewer, so
-// that a zone of few pairs is followed as finely as one of many.
-double pairs_of_part(double path_step);
-
 // Returns the factor on the load, and with it on the jumps, at which the first pair meets its threshold; 1: some do.
 double load_margin(const PairLaws& pairs, const State& state);
 

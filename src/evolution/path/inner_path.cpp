@@ -7,8 +7,8 @@
 
 #include "base/numbers.hpp"
 #include "evolution/increment/path_dissipation.hpp"
-#include "evolution/path/advance.hpp"
 #include "law/mixity.hpp"
+#include "scene/advice/expected_parts.hpp"
 
 namespace delam {
 

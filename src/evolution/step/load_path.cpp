@@ -13,6 +13,7 @@
 #include "evolution/minimise/proportional_loads.hpp"
 #include "evolution/path/advance.hpp"
 #include "evolution/step/growth_events.hpp"
+#include "scene/advice/expected_parts.hpp"
 #include "scene/advice/process_zone.hpp"
 
 namespace delam {
@@ -164,8 +165,8 @@ Plan LoadPath::plan() const {
 
 double LoadPath::wanted(const Advance& advance, bool one_mode) const {
     if (!advance.fronts) return (one_mode ? softening_of_part : options_.path_step) * advance.zone;
-    const double pairs = one_mode ? pairs_of_jump : popping_ ? popping_pairs : pairs_of_part(options_.path_step);
-    return std::max(pairs * advance.row, options_.path_step * advance.zone);
+    if (!one_mode && !popping_) return advance_of_part(options_.path_step, advance.row, advance.zone);
+    return std::max((one_mode ? pairs_of_jump : popping_pairs) * advance.row, options_.path_step * advance.zone);
 }
 
 // Work of the reactions, by the trapezoidal rule from the first damage on: up to there, reactions grow with the load.

@@ -17,6 +17,7 @@
 #include "reduction/sparse/engine/engine_operator.hpp"
 #include "reduction/sparse/iterated/iterated.hpp"
 #include "scene/carriers.hpp"
+#include "scene/check/step_control.hpp"
 
 namespace delam {
 
@@ -61,7 +62,7 @@ double cut_nodes(const std::array<double, 3>& side, int dimension, double nodes,
 
 }  // namespace
 
-ReductionCost predict_condensed(const Bulk& bulk) {
+ReductionCost predict_condensed(const Bulk& bulk, double minimisations) {
     const Superelements& pieces = bulk.superelements();
     const CondensationSize once = pieces.condensation();
     const double stiffness = 16.0 * number(bulk.system().stiffness().entries()),
@@ -71,7 +72,8 @@ ReductionCost predict_condensed(const Bulk& bulk) {
     cost.setup = pieces.size().flops + 2.0 * once.operations + setup_overhead * number(bulk.transformed().rows);
     cost.longest = pieces.longest();
     cost.ordering = ordering_operations * number(pieces.largest_inside());
-    cost.step = condensed_step * once.operations + step_overhead * number(bulk.system().variables().trailing());
+    cost.part = step_overhead * number(bulk.system().variables().trailing());
+    cost.step = condensed_step * once.operations + minimisations * cost.part;
     // T^T K T while the leaves are condensed; afterwards what is left of the skeleton.
     cost.bytes = stiffness + factor + 8.0 * pieces.dense_entries() +
                  std::max(transformed,
@@ -90,6 +92,7 @@ ReductionCost predict_iterated(const IteratedSize& size) {
     cost.ordering = ordering_operations * size.variables;
     cost.step = solves * iterated_products * product + patch_operations * std::min(size.variables, patch_variables) +
                 iterated_renewals * size.factor.flops;
+    cost.part = solves / usual_minimisations * iterated_products * product;
     // K, T^T K T, CHOLMOD's permuted copy of half of it, the factor, some states and the directions of an
     // iteration.
     const double factors = 8.0 * size.factors * size.stored;
@@ -187,6 +190,7 @@ ReductionCost predict_feti(const Problem& problem, std::int64_t subdomains, doub
     cost.longest = std::max(sparse, 2.0 * cube(boundary));
     const double product = (schur ? 2.0 : 1.0) * 2.0 * boundary * boundary * from_memory;
     cost.step = feti_solves * parts * (feti_iterations * product + (series ? 2.0 / 3.0 * cube(jumps) : 0.0));
+    cost.part = cost.step / usual_minimisations;
     cost.bytes =
         16.0 * 0.5 * element_entries + parts * 8.0 * (supernodes * entries + (schur ? 3.0 : 2.0) * boundary * boundary);
     if (series) cost.bytes += parts * series_bytes * jumps * jumps;
@@ -234,8 +238,10 @@ void choose(ReductionChoice& choice) {
     const std::string memory =
         text("the condensed operator needs ", mebibytes(c.bytes), ", ", std::round(10.0 * ratio) / 10.0,
              " times the memory of one monolithic factorisation");
-    if (c.bytes > memory_floor && ratio > memory_ratio && i.bytes < c.bytes)
-        return decide(Realisation::iterated, text(memory, ", more than ", memory_ratio));
+    if (c.bytes > memory_share * limit && ratio > memory_ratio && i.bytes < c.bytes)
+        return decide(Realisation::iterated,
+                      text(memory, ", more than ", memory_ratio, ", and more than ", memory_share, " of ",
+                           mebibytes(limit), " (", choice.memory.what, ")"));
     const std::string times =
         text(nominal_steps, " load steps, the measure of this choice, are predicted to take ", seconds(c.analysis()),
              " condensed and ", seconds(i.analysis()), " iterated, at ", nominal_rate * 1e-9, " GF/s");
@@ -370,6 +376,8 @@ Design chosen(const Problem& problem, Monitor& monitor) {
     ReductionChoice& choice = design.choice;
     choice.memory = memory_for(problem);
     if (problem.engine != nullptr) return of_engine(std::move(design), problem, monitor);
+    const StepControl control = used_step_control(problem, options);
+    choice.parts = expected_parts(problem, control.name == "load", control.path_step);
     choice.unknowns = problem.jump_count();
     choice.subdomains = feti_subdomains(problem);
     choice.feti = predict_feti(problem, choice.subdomains, choice.boundary);
@@ -409,7 +417,7 @@ Design chosen(const Problem& problem, Monitor& monitor) {
     }
     auto bulk = std::make_unique<Bulk>(problem, monitor);
     choice.unknowns = bulk->system().variables().trailing();
-    choice.condensation = predict_condensed(*bulk);
+    choice.condensation = predict_condensed(*bulk, choice.parts.per_step);
     choice.iteration = predict_iterated(iterated_size(*bulk));
     choice.factor_entries = bulk->superelements().size().entries;
     choice.monolithic = predict_monolithic_bytes(*bulk);

@@ -16,6 +16,7 @@
 #include "base/monitor.hpp"
 #include "reduction/operator/bound_rows.hpp"
 #include "reduction/operator/jump_operator.hpp"
+#include "scene/advice/expected_parts.hpp"
 #include "scene/problem.hpp"
 
 namespace delam {
@@ -24,10 +25,8 @@ namespace delam {
 inline constexpr double nominal_rate = 20e9;  // operations/s of one core in a large factorisation
 // Number of load steps that an analysis is assumed to have.
 inline constexpr double nominal_steps = 40.0;
-// The condensed analysis may need so many times the memory of one monolithic factorisation.
+// The condensed analysis may need so many times the memory of one monolithic factorisation, where it needs much.
 inline constexpr double memory_ratio = 2.5;
-// Memory that every machine for such work has: below it the ratio decides nothing.
-inline constexpr double memory_floor = 4096.0 * 1048576.0;
 // Rows of a dense matrix that LAPACK with 32-bit integers can address.
 inline constexpr std::int64_t dense_limit = 46340;
 
@@ -40,6 +39,7 @@ struct ReductionCost {
     double ordering = 0.0;  // operations of METIS, which cannot be interrupted, before a factorisation of all bodies
     double most = 0.0;      // bytes at the peak where its iterations are many; 0: it does not iterate with vectors
     bool possible = true;   // LAPACK's integers hold its largest dense matrix
+    double part = 0.0;      // operations of a minimisation, of which a step has one or more
     double analysis() const { return setup + nominal_steps * step; }
 };
 
@@ -61,13 +61,15 @@ struct ReductionChoice {
     std::int64_t unknowns = 0;    // dense rows of the condensed operator
     std::int64_t subdomains = 0;  // FETI's
     double boundary = 0.0;        // DOFs of a subdomain's boundary, mean
+    ExpectedParts parts;          // minimisations that the analysis is expected to take
     MemoryLimit memory{std::numeric_limits<double>::infinity(), ""};  // that the analysis may take
 };
 
 class Bulk;
 class EngineOperator;
 struct IteratedSize;
-ReductionCost predict_condensed(const Bulk& bulk);
+// minimisations: of a step.
+ReductionCost predict_condensed(const Bulk& bulk, double minimisations);
 // Takes the size from the condensed operator's analysis, without another one.
 IteratedSize iterated_size(const Bulk& bulk);
 ReductionCost predict_iterated(const IteratedSize& size);

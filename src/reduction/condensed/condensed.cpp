@@ -98,12 +98,12 @@ bool Condensed::tree_pays(std::span<const std::uint8_t> active) {
         if (choice_.inside()[i] != 0) places.push_back(bulk_->equations().place(static_cast<std::int64_t>(i)));
     const auto n = static_cast<double>(places.size());
     if (n < limits.zone_tree_least || problem_.mesh->interfaces().size() < 2) return false;
-    if (bulk_->rigid().columns > 0 && split_motions(bulk_->rigid(), active).free.columns > 0) return false;
     if (tree_ == nullptr) {
         tree_ = std::make_unique<TreeFactor>(bulk_->superelements());
         tree_offered_ = TreeZone::offered_by(*bulk_, *tree_, problem_.mesh->dimension());
     }
-    return tree_offered_ && n * n * n / 3.0 > limits.zone_tree * tree_->operations(places);
+    if (!tree_offered_ || !(n * n * n / 3.0 > limits.zone_tree * tree_->operations(places))) return false;
+    return bulk_->rigid().columns == 0 || split_motions(bulk_->rigid(), active).free.columns == 0;
 }
 
 void Condensed::condense_dense(std::span<const std::uint8_t> active) {

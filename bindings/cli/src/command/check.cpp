@@ -72,10 +72,10 @@ struct Planned {
     bool converged = true;
 };
 
-// Returns the seconds that the plan predicts for a load step: the cost of this item, which ends its line; 0 without
+// Returns the seconds that the plan predicts for this subject: the cost of the item, which ends its line; 0 without
 // one.
-double step_seconds(const std::string& plan) {
-    const std::size_t line = plan.find("time of a load step: used");
+double seconds_of(const std::string& plan, const std::string& subject) {
+    const std::size_t line = plan.find(subject + ": used");
     if (line == std::string::npos) return 0.0;
     const std::size_t cost = plan.rfind("(cost ", plan.find('\n', line));
     return cost == std::string::npos || cost < line ? 0.0 : std::strtod(plan.c_str() + cost + 6, nullptr);
@@ -169,8 +169,8 @@ void say_effort(const Found& effort) {
                                               : fmt::format("{:.2g} h", seconds / 3600);
     const std::string memory =
         mebibytes < 1024 ? fmt::format("{:.0f} MiB", mebibytes) : fmt::format("{:.3g} GiB", mebibytes / 1024);
-    say("effort      about {} and {} of memory (predicted to an order of magnitude: modes that mix, jumps and large "
-        "rotations take longer)\n",
+    say("effort      about {} and {} of memory (predicted as if half of the interfaces broke; searches, jumps and "
+        "large rotations take longer)\n",
         time, memory);
 }
 
@@ -272,8 +272,9 @@ Found examined(const std::string& scene_file, const std::vector<std::string>& se
     (void)(caller.around ? caller.around(model, make_plan) : make_plan());
     Found found = find(scene_file, scene, model);
     found["imported"] = imported;
-    if (const double step = step_seconds(planned.text); step > 0)
-        found["effort"] = {{"seconds", planned.setup + static_cast<double>(scene.step_count()) * step},
+    if (const double step = seconds_of(planned.text, "time of a load step"); step > 0)
+        found["effort"] = {{"seconds", planned.setup + static_cast<double>(scene.step_count()) * step +
+                                           seconds_of(planned.text, "parts of the steps")},
                            {"bytes", planned.memory}};
     found["plan"] = lines_of(said_of_scene(planned.text, model));
     std::vector<std::string>& warnings = said.warnings;

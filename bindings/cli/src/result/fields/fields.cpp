@@ -230,10 +230,10 @@ BulkFacts Fields::assemble(const Model& model, const Scene& scene, std::size_t l
     }
     const std::string path = folder_ + "/fields.h5";
     const std::set<std::size_t> chosen = instants_.up_to(last);
-    std::int64_t bytes = std::int64_t{1} << 20;
+    std::int64_t room = std::int64_t{1} << 20;
     for (const std::size_t step : chosen)
-        bytes += static_cast<std::int64_t>(std::filesystem::file_size(step_path(step)));
-    require_room(path, bytes);
+        room += static_cast<std::int64_t>(std::filesystem::file_size(step_path(step)));
+    require_room(path, room);
 
     BulkFacts facts;
     std::vector<XdmfStep> steps;
