@@ -188,14 +188,9 @@ private:
                 if (inserted) at->second.points = {{0.0, temperatures_.initial(body)}};
                 follow(at->second, step, line, end);
             }
+        require_held(ending, step_, step.renewed);
         for (const auto& [number, history] : ending) {
             if (history->given == step_) continue;
-            if (!history->force)
-                throw SceneFailure(
-                    step.place,
-                    fmt::format("OP=NEW frees \"{}\", degree of freedom {}, in this step: "
-                                "supports that end are not imported; keep it, or end the analysis with the step before",
-                                history->line.where.text, history->dof));
             LoadLine ended = history->line;
             ended.magnitude = 0;
             ended.amplitude.clear();
@@ -443,6 +438,7 @@ private:
                                                       "traction (*DSLOAD)",
                                                       numbers.size(), most_single_nodes));
         for (const std::int64_t node : numbers) {
+            if (!mesh_.has_given(node)) continue;
             // A later line replaces the force of an earlier one only where both have the same place.
             if (!loaded_.insert({node, dof}).second)
                 throw SceneFailure(raw.place, fmt::format("a node of \"{}\" has a force from another line by another "

@@ -132,7 +132,7 @@ private:
     // The angle of a ply, and an orientation of a shell, are about the normal of the plies, which must be axis 3 here.
     void require_third_axis(const Section& section) const {
         const bool said = !section.orientation.empty() && orientation_of(section).about == 3;
-        if (section.angle != 0 && !said)
+        if ((section.angle != 0 || section.turned_plies) && !said)
             throw SceneFailure(section.place,
                                "the angle of a ply is imported with an *ORIENTATION whose second line is "
                                "3, ..: axis 3 is the normal of the plies");
@@ -149,6 +149,8 @@ private:
                 say_once(deck_.changed, "*SHELL SECTION without ORIENTATION: material axes 1, 2, 3 are x, y, z");
             return "";
         }
+        if (section.plies && !section.orientation.empty())
+            return "# The axes of its plies are those of the mesh, one cell for each ply.\n";
         Axes axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
         if (!section.orientation.empty()) {
             const Orientation& o = orientation_of(section);

@@ -46,4 +46,16 @@ std::string surface_name(const Model& model, const Entry& raw) {
     return surface == entry.scope->surfaces.end() ? "" : surface_set_name(*entry.scope, surface->second);
 }
 
+CohesiveElement cohesive_element(const Model& model, const std::vector<std::int64_t>& lower) {
+    for (const Part* scope : model.scopes())
+        for (const Element& element : scope->elements) {
+            if (!element.type->cohesive() || element.type->face_nodes != lower.size()) continue;
+            bool same = true;
+            for (std::size_t k = 0; k < lower.size() && same; ++k)
+                same = node_number(*scope, element.nodes[k], element.place) == lower[k];
+            if (same) return {scope, &element};
+        }
+    return {};
+}
+
 }  // namespace cli::abaqus

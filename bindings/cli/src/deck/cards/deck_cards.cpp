@@ -107,7 +107,7 @@ private:
     }
 
     void take_material(const InpCard& card) {
-        deck_.materials.push_back({card.required("NAME"), "", {}, {}, {}, card.place});
+        deck_.materials.push_back({card.required("NAME"), "", {}, {}, {}, {}, card.place});
         damage_of_ = &DeckReader::damage_of_material;
     }
 
@@ -158,6 +158,7 @@ private:
             }
         if (count == 0) card.refuse("TYPE", type, "ISOTROPIC, ORTHOTROPIC, ENGINEERING CONSTANTS, LAMINA or TRACTION");
         m.constants = card.row();
+        m.elastic_place = card.place;
         // A temperature may follow, and another row would be for another temperature.
         if (m.constants.size() < count || m.constants.size() > count + 1)
             throw SceneFailure(card.place, fmt::format("{} numbers: {} constants, at one temperature, are expected",
@@ -214,19 +215,24 @@ private:
         const bool table = d.mixed_mode == "TABULAR";
         if (!d.mixed_mode.empty() && d.mixed_mode != "BK" && d.mixed_mode != "POWER LAW" && !table)
             card.refuse("MIXED MODE BEHAVIOR", d.mixed_mode, "BK, POWER LAW or TABULAR");
-        if (card.has("MODE MIX RATIO") && upper(card.required("MODE MIX RATIO")) != "ENERGY")
-            card.refuse("MODE MIX RATIO", card.required("MODE MIX RATIO"),
-                        "ENERGY, by which the toughnesses of the modes are mixed,");
-        if (table && d.softening == "TABULAR")
+        if (card.has("MODE MIX RATIO")) d.mix_ratio = upper(card.required("MODE MIX RATIO"));
+        if (d.mix_ratio != "ENERGY" && d.mix_ratio != "TRACTION")
+            card.refuse("MODE MIX RATIO", d.mix_ratio, "ENERGY or, with MIXED MODE BEHAVIOR=TABULAR, TRACTION");
+        if (d.mix_ratio == "TRACTION" && !table)
             throw SceneFailure(card.place,
-                               "MIXED MODE BEHAVIOR=TABULAR is imported with SOFTENING=LINEAR or EXPONENTIAL");
+                               "MODE MIX RATIO=TRACTION belongs to MIXED MODE BEHAVIOR=TABULAR: BK and POWER LAW mix "
+                               "energies; write MODE MIX RATIO=ENERGY, or leave it out");
+        if (table && (d.softening == "TABULAR" || (d.softening != "LINEAR" && d.evolution == "DISPLACEMENT")))
+            throw SceneFailure(card.place,
+                               "MIXED MODE BEHAVIOR=TABULAR is imported with SOFTENING=LINEAR or, with TYPE=ENERGY, "
+                               "EXPONENTIAL");
         if (!d.mixed_mode.empty() && !table) {
             d.power = inp_number(card.required("POWER"), card.place);
             if (!(d.power > 0)) throw SceneFailure(card.place, fmt::format("POWER={}: must be > 0", d.power));
         }
         if (card.has("DEGRADATION") && upper(card.required("DEGRADATION")) != "MAXIMUM")
             card.refuse("DEGRADATION", card.required("DEGRADATION"), "MAXIMUM");
-        if (d.evolution == "DISPLACEMENT" && !d.mixed_mode.empty())
+        if (d.evolution == "DISPLACEMENT" && !d.mixed_mode.empty() && !table)
             throw SceneFailure(card.place, "MIXED MODE BEHAVIOR=" + d.mixed_mode + " needs TYPE=ENERGY");
         if (d.softening != "TABULAR" && !table) require_one_line(card);
         (void)card.first_line();
@@ -244,6 +250,7 @@ private:
         interaction.cohesive = true;
         interaction.eligibility = upper(card.parameter("ELIGIBILITY"));
         interaction.stiffness = card.row();
+        interaction.stiffness_place = card.place;
         if (interaction.stiffness.empty()) return;  // that of contact
         if (interaction.stiffness.size() < 2) throw SceneFailure(card.place, "Knn, Kss, Ktt are expected, or no line");
         interaction.stiffness.resize(3, interaction.stiffness[1]);
@@ -263,18 +270,11 @@ private:
                 !card.lines[0].fields[0].empty())
                 section.width = positive_number(card.lines[0].fields[0], card.lines[0].place);
         } else {
-            if (card.has("STACK DIRECTION") && card.required("STACK DIRECTION") != "3")
-                card.refuse("STACK DIRECTION", card.required("STACK DIRECTION"), "3");
-            if (card.lines.size() != 1)
-                throw SceneFailure(card.place,
-                                   fmt::format("a composite of {} plies: one ply in each element is imported; "
-                                               "give the plies elements of their own",
-                                               card.lines.size()));
-            const InpLine& line = card.lines[0];
-            if (line.fields.size() < 3) throw SceneFailure(line.place, "thickness, points, material are expected");
-            section.material = line.fields[2];
-            if (line.fields.size() > 3 && !line.fields[3].empty())
-                section.angle = inp_number(line.fields[3], line.place);
+            const Laminate laminate = laminate_of(card);
+            section.material = laminate.material;
+            section.plies = laminate.plies.angles.size() > 1;
+            section.turned_plies = section.plies && laminate.turns();
+            if (!section.plies) section.angle = laminate.plies.angles[0];
         }
         deck_.sections.push_back(std::move(section));
     }

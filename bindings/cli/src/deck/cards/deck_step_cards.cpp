@@ -144,7 +144,10 @@ bool StepReader::renews(const InpCard& card) {
 
 void StepReader::take_boundary(const InpCard& card) {
     card.only({"AMPLITUDE", "OP", "TYPE", "FIXED"});
-    if (renews(card)) step(card).new_boundaries = true;
+    if (renews(card)) {
+        step(card).new_boundaries = true;
+        step(card).renewed = card.place;
+    }
     const std::string type = card.has("TYPE") ? upper(card.required("TYPE")) : "DISPLACEMENT";
     if (type != "DISPLACEMENT" && type != "VELOCITY") card.refuse("TYPE", type, "DISPLACEMENT or VELOCITY");
     const bool rate = type == "VELOCITY";
