@@ -455,7 +455,8 @@ private:
     }
 
     [[nodiscard]] std::string entry(const Held& held) const {
-        std::string out = fmt::format("[[interfaces]]\na = {}\nb = {}\n", body(held.a), body(held.b));
+        std::string out =
+            fmt::format("{}[[interfaces]]\na = {}\nb = {}\n", origin_line(held.place), body(held.a), body(held.b));
         out += held.bonded        ? "bonded = true\n"
                : held.law.empty() ? "contact = true\n"
                                   : fmt::format("law = {}\n", toml_text(held.law));

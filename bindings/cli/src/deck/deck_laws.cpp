@@ -280,7 +280,7 @@ std::string law_text(const std::string& name, const Numbers& stiffness, double t
     require_positive(toughness, 2, "toughness", damage.evolution_place);
     const std::string kind = kind_of(name, damage, changed);
 
-    std::string out = fmt::format("[[laws]]\nname = {}\n", toml_text(name));
+    std::string out = fmt::format("{}[[laws]]\nname = {}\n", origin_line(place), toml_text(name));
     if (kind != "piecewise-linear") out += fmt::format("kind = \"{}\"\n", kind);
     for (std::size_t m = 0; m < 2; ++m)
         out += fmt::format("{}_stiffness = {}\n", m == 0 ? "normal" : "tangential", toml_number(stiffness[m]));

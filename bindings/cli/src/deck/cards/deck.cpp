@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "text/printable.hpp"
+
 namespace cli::abaqus {
 
 int degree_of_freedom(const std::string& field, int most, const Place& place) {
@@ -56,6 +58,10 @@ CohesiveElement cohesive_element(const Model& model, const std::vector<std::int6
             if (same) return {scope, &element};
         }
     return {};
+}
+
+std::string origin_line(const Place& place) {
+    return fmt::format("{}{}\t{}\t{}\n", begin_of_origin_line, place.line, one_line(place.path), one_line(place.file));
 }
 
 }  // namespace cli::abaqus

@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -44,6 +45,9 @@ private:
     std::vector<T> all_;
     std::unordered_map<std::string, std::size_t> at_;
 };
+
+// Begins a line of origin_line(); no other line of a scene begins so.
+inline constexpr std::string_view begin_of_origin_line = "#@";
 
 inline constexpr const char* axis_names[] = {"x", "y", "z"};
 
@@ -214,6 +218,9 @@ struct CohesiveElement {
     const Element* element = nullptr;
 };
 CohesiveElement cohesive_element(const Model& model, const std::vector<std::int64_t>& lower);
+
+// The line before a table of the scene that says which card it comes from; import_deck makes a comment of it.
+std::string origin_line(const Place& place);
 
 // 1 to `most`. Throws SceneFailure at `place`.
 int degree_of_freedom(const std::string& field, int most, const Place& place);

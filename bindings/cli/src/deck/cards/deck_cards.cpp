@@ -18,7 +18,8 @@ namespace {
 
 // Requests for output, settings of a solver, and what quasi-static steps without temperatures do not need.
 const std::set<std::string> not_needed{"CONDUCTIVITY",    "CONTACT CONTROLS",
-                                       "CONTACT FILE",    "CONTACT OUTPUT",
+                                       "CONTACT FILE",    "CONTACT FORMULATION",
+                                       "CONTACT OUTPUT",  "CONTOUR INTEGRAL",
                                        "CONTACT PRINT",   "CONTROLS",
                                        "DAMPING",         "DENSITY",
                                        "EL FILE",         "EL PRINT",
@@ -36,11 +37,16 @@ const std::set<std::string> not_needed{"CONDUCTIVITY",    "CONTACT CONTROLS",
 const std::set<std::string> of_mesh{
     "NODE",         "ELEMENT",  "NSET",         "ELSET", "SURFACE", "PART",  "END PART",     "ASSEMBLY",
     "END ASSEMBLY", "INSTANCE", "END INSTANCE", "TIE",   "NGEN",    "ELGEN", "DISTRIBUTION", "DISTRIBUTION TABLE"};
+constexpr const char* contact_at_start =
+    "*CONTACT INITIALIZATION DATA: no faces are moved; those that lie on each other are in contact";
 // Keywords whose effect the scene has in another way; each is reported once.
 const std::pair<const char*, const char*> otherwise[] = {
     {"DAMAGE STABILIZATION", "*DAMAGE STABILIZATION: no viscosity; jumps of the crack are found by energy"},
+    {"CONTACT INITIALIZATION ASSIGNMENT", contact_at_start},
+    {"CONTACT INITIALIZATION DATA", contact_at_start},
     {"FRICTION", "*FRICTION: contact without friction"},
     {"SURFACE BEHAVIOR", "*SURFACE BEHAVIOR: contact is exact, without a penalty"},
+    {"SURFACE PROPERTY ASSIGNMENT", "*SURFACE PROPERTY ASSIGNMENT: surfaces are the sides of cells as they are meshed"},
 };
 
 class DeckReader {
@@ -70,6 +76,10 @@ private:
             left_.insert(word);
             return;
         }
+        if (card.has("INTERFERENCE FIT") || card.has("INITIAL CLEARANCE"))
+            throw SceneFailure(card.place,
+                               "faces that are pressed or parted at the start are imported as they are meshed: "
+                               "give the nodes their distance, or ADJUST= of *CONTACT PAIR");
         for (const auto& [keyword, text] : otherwise)
             if (word == keyword) return say_once(deck_.changed, text);
         if (steps_.take(card)) return;
