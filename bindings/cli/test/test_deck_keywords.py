@@ -315,7 +315,8 @@ def check_temperatures():
         scene, _ = imported(bar("", at=""))
         expect("[[thermal]]" not in scene, "a constant temperature does nothing")
     expect("[[thermal]]" not in imported(bar("", at="*Temperature\nEvery, 180.\n"))[0], "nor does one that stays")
-    refused(bar("", at="*Temperature\nTop, 20.\n"), r"deck\.inp:\d+: \*TEMPERATURE", '"Top" has .* of the .* nodes of "Up"')
+    refused(bar("", at="*Temperature\nTop, 20.\n"), r"deck\.inp:\d+: \*TEMPERATURE",
+            '"Top" has .* of the .* nodes of "Up", and not node 1001')
     refused(bar("", at="*Temperature\nEvery, 20., 30.\n"), "through the thickness")
     refused(bar("", alpha="*Expansion, type=ANISO\n1e-5,\n"), r"\*EXPANSION: TYPE=ANISO")
 
@@ -359,6 +360,29 @@ def check_left_out():
         said = said[1] + said[2]
         expect('cohesive: 4 elements of "Coh"' in said, f"what there is: {said[-900:]}")
         expect(("4 cohesive elements of the mesh left out" in said) == left, f"{held}: {said[-900:]}")
+
+
+def check_supports_that_end():
+    """A step whose OP=NEW frees supports is told which lines keep them; with these lines it runs."""
+    second = "*Step\n*Static\n0.1, 1., 1e-5, 0.1\n*Boundary, op=NEW\n{}*End step\n"
+    text = deck() + second.format("Bottom, 2\n1, 1\n")
+    line = 1 + text.splitlines().index("*Boundary, op=NEW")
+    refused(text, rf"deck\.inp:{line}: \*BOUNDARY: OP=NEW frees .*\"Top, 1\", \"Top, 2, 2, 0.03\", or end the analysis")
+    rows, _ = history(deck() + second.format("Bottom, 2\n1, 1\nTop, 1\nTop, 2, 2, 0.03\n"))
+    expect(len(rows) == 21, f"with its lines: {len(rows)} instants")
+    close("what is kept", rows[-1]["load"], 0.03)
+    many = "".join(f"{n}, 2\n" for n in range(1, 6))
+    refused(deck(held=many + "1, 1\nTop, 1\n") + second.format("Top, 2, 2, 0.03\n"), r'"1, 2", .* and 3 more, or end')
+
+
+def check_cohesive_nodes():
+    """An element whose nodes begin at another corner is told its order, with which it runs."""
+    text = deck()
+    first = text.index("201, 6, 7, 103, 102")
+    turned = text.replace("201, 6, 7, 103, 102", "201, 7, 103, 102, 6")
+    line = 1 + text[:first].count("\n")
+    refused(turned, rf'deck\.inp:{line}: \*ELEMENT: element 201 of "Coh" has a face that is no side', "write 201, 103, 102, 6, 7")
+    same("in that order", text.replace("201, 6, 7, 103, 102", "201, 103, 102, 6, 7"), text)
 
 
 def check_messages():
@@ -417,6 +441,8 @@ check_cae()
 check_increments()
 check_parameters()
 check_temperatures()
+check_supports_that_end()
+check_cohesive_nodes()
 check_messages()
 check_left_out()
 check_ends()

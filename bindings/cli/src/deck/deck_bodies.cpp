@@ -96,6 +96,23 @@ FaceBodies::FaceBodies(const MeshData& mesh) : dimension_(mesh.dimension) {
     for (auto& [key, bodies] : bodies_) sort_once(bodies);
 }
 
+std::vector<std::size_t> FaceBodies::order_by_sides(const std::vector<std::int64_t>& nodes) const {
+    // The other ways in which a quadrilateral and a brick lie between two of their opposite sides.
+    static const std::vector<std::size_t> orders[] = {{1, 2, 3, 0}, {0, 3, 7, 4, 1, 2, 6, 5}, {0, 4, 5, 1, 3, 7, 6, 2}};
+    for (const auto& order : orders) {
+        if (order.size() != nodes.size()) continue;
+        bool sides = true;
+        for (std::size_t first = 0; first < order.size(); first += order.size() / 2) {
+            Face face;
+            face.fill(-1);
+            for (std::size_t k = 0; k < order.size() / 2; ++k) face[k] = nodes[order[first + k]];
+            sides = sides && !of(face).empty();
+        }
+        if (sides) return order;
+    }
+    return {};
+}
+
 std::vector<std::int32_t> FaceBodies::of(const Face& face) const {
     const auto found = bodies_.find(key_of(face, dimension_));
     return found == bodies_.end() ? std::vector<std::int32_t>{} : found->second;

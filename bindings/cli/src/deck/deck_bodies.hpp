@@ -23,6 +23,9 @@ public:
     explicit FaceBodies(const MeshData& mesh);
     // Ascending and without repetitions; empty: no side of a cell.
     [[nodiscard]] std::vector<std::int32_t> of(const Face& face) const;
+    // Returns the places of the nodes of a cohesive element in an order in which both halves are sides of cells; empty:
+    // there is none.
+    [[nodiscard]] std::vector<std::size_t> order_by_sides(const std::vector<std::int64_t>& nodes) const;
     [[nodiscard]] const std::map<FaceKey, std::vector<std::int32_t>>& all() const { return bodies_; }
 
 private:

@@ -2,8 +2,15 @@
 // The history of a place: its values over time, as the lines of a deck prescribe them.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "deck/cards/deck.hpp"
 #include "deck/deck_points.hpp"
@@ -32,5 +39,25 @@ struct History {
         return out;
     }
 };
+
+// Supports hold to the end of the analysis: OP=NEW at `place` must give again in this step what would end.
+inline void require_held(const std::map<std::size_t, History*>& ending, std::size_t step, const Place& place) {
+    constexpr std::size_t most_named = 4;
+    std::vector<std::string> freed;
+    for (const auto& [number, history] : ending) {
+        if (history->force || history->given == step) continue;
+        const double value = history->points.back().second;
+        freed.push_back(fmt::format("{}, {}", history->line.where.text, history->dof));
+        if (value != 0) freed.back() += fmt::format(", {}, {}", history->dof, value);
+    }
+    if (freed.empty()) return;
+    const std::size_t count = freed.size();
+    freed.resize(std::min(count, most_named));
+    throw SceneFailure(place, fmt::format("OP=NEW frees what steps before have prescribed: supports that end are not "
+                                          "imported; to keep them, write below this line \"{}\"{}, or end the analysis "
+                                          "with the step before",
+                                          fmt::join(freed, "\", \""),
+                                          count > most_named ? fmt::format(" and {} more", count - most_named) : ""));
+}
 
 }  // namespace cli::abaqus

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "deck/abaqus/left_out.hpp"
 #include "deck/deck_bodies.hpp"
@@ -166,17 +167,27 @@ private:
         return out;
     }
 
-    [[nodiscard]] std::int32_t one_body(const Face& face, const CohesiveSet& set, const Place& place) const {
-        const std::vector<std::int32_t> bodies = faces_.of(face);
+    [[nodiscard]] std::int32_t one_body(const CohesiveSet& set, std::size_t element, bool upper,
+                                        const Place& section) const {
+        const std::vector<std::int32_t> bodies = faces_.of(upper ? set.upper[element] : set.lower[element]);
         if (bodies.size() == 1) return bodies[0];
+        const Face& first = set.lower[element];
+        const auto [scope, at] = cohesive_element(model_, {first.begin(), std::find(first.begin(), first.end(), -1)});
+        if (at == nullptr) throw SceneFailure(section, fmt::format("\"{}\" has a face at no body", set.name));
+        const std::string name =
+            fmt::format("element {} of \"{}\"", full_name(*scope, std::to_string(at->id)), set.name);
+        if (!bodies.empty())
+            throw SceneFailure(at->place, fmt::format("{} has a face between {} and {}: its nodes must be those of one "
+                                                      "of them",
+                                                      name, body(bodies[0]), body(bodies[1])));
+        std::vector<std::int64_t> nodes, better;
+        for (const std::int64_t id : at->nodes) nodes.push_back(node_number(*scope, id, at->place));
+        for (const std::size_t k : faces_.order_by_sides(nodes)) better.push_back(at->nodes[k]);
         throw SceneFailure(
-            place, bodies.empty() ? fmt::format("an element of \"{}\" has a face that is no side of a cell: "
-                                                "the first half of its nodes is one face, the second half the "
-                                                "other",
-                                                set.name)
-                                  : fmt::format("an element of \"{}\" has a face between {} and {}: its nodes must be "
-                                                "those of one of them",
-                                                set.name, body(bodies[0]), body(bodies[1])));
+            at->place,
+            fmt::format("{} has a face that is no side of a cell: the first half of its nodes is one face, the second "
+                        "half the other{}",
+                        name, better.empty() ? "" : fmt::format("; write {}, {}", at->id, fmt::join(better, ", "))));
     }
 
     void add_cohesive(const CohesiveSet& set) {
@@ -189,8 +200,8 @@ private:
         double sum = 0, least = std::numeric_limits<double>::infinity(), most = 0;
         bool loose = false;
         for (std::size_t i = 0; i < set.lower.size(); ++i) {
-            const std::int32_t a = one_body(set.lower[i], set, section.place);
-            const std::int32_t b = one_body(set.upper[i], set, section.place);
+            const std::int32_t a = one_body(set, i, false, section.place);
+            const std::int32_t b = one_body(set, i, true, section.place);
             const bool tied = !set.apart.empty() && set.apart[i] >= 0;
             const double gap = tied ? set.apart[i] : gap_of(set.lower[i], set.upper[i]);
             if (a == b && (tied || gap > 1e-6 * edge_))
@@ -240,7 +251,7 @@ private:
                                                            material.name));
         Numbers stiffness = material.constants;
         for (double& k : stiffness) k /= thickness;
-        return new_law("material", material.name, stiffness, thickness, material.damage, material.place);
+        return new_law("material", material.name, stiffness, thickness, material.damage, material.elastic_place);
     }
 
     // The law of this name and thickness, made where it is new.
@@ -393,7 +404,8 @@ private:
                                  "times that of a cell: {:.6g}",
                                  interaction.name, penalty_factor, stiffness[0]));
         }
-        return new_law("interaction", interaction.name, stiffness, 1.0, interaction.damage, interaction.place);
+        return new_law("interaction", interaction.name, stiffness, 1.0, interaction.damage,
+                       interaction.stiffness_place);
     }
 
     // The least Young's modulus of the materials of bodies.
@@ -443,7 +455,8 @@ private:
     }
 
     [[nodiscard]] std::string entry(const Held& held) const {
-        std::string out = fmt::format("[[interfaces]]\na = {}\nb = {}\n", body(held.a), body(held.b));
+        std::string out =
+            fmt::format("{}[[interfaces]]\na = {}\nb = {}\n", origin_line(held.place), body(held.a), body(held.b));
         out += held.bonded        ? "bonded = true\n"
                : held.law.empty() ? "contact = true\n"
                                   : fmt::format("law = {}\n", toml_text(held.law));

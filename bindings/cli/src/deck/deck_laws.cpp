@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -21,7 +22,8 @@ constexpr double maximum_exponent = 100;
 void require_isotropic(const Numbers& values, const char* what, std::int32_t dimension, const Place& place) {
     if (dimension == 3 && values.size() > 2 && std::abs(values[1] - values[2]) > 1e-9 * std::abs(values[1]))
         throw SceneFailure(place, fmt::format("{}: {} and {} in the two directions of sliding: the law of an interface "
-                                              "has one value for both",
+                                              "has one value for both; write the same twice, that of the direction in "
+                                              "which the crack grows",
                                               what, values[1], values[2]));
 }
 
@@ -103,28 +105,65 @@ double area_with_straight_damage(const DamageCards& damage, const Mode& mode) {
     return area / damage.values.back()[1];
 }
 
-// Makes Benzeggagh and Kenane's criterion of a table of toughnesses over the share of shear in the energy, between
-// whose rows Abaqus interpolates: with two rows it is the same, with exponent 1.
-DamageCards with_criterion(const std::string& name, const DamageCards& table, std::vector<std::string>& changed) {
+// A table over the mode mix ratio, in the quantities of a law.
+class MixTable {
+public:
+    MixTable(const DamageCards& damage, const Mode (&modes)[2])
+        : damage_(damage), normal_(modes[0]), shear_(modes[1]) {}
+
+    // Returns the share of shear in the energy. MODE MIX RATIO=TRACTION has 2/pi of the angle between the tractions,
+    // which damage leaves as it is because it lowers both alike.
+    [[nodiscard]] double share(double ratio) const {
+        if (damage_.mix_ratio != "TRACTION" || ratio == 0 || ratio == 1) return ratio;
+        const double r = std::tan(ratio * std::numbers::pi / 2), shear = r * r / shear_.stiffness;
+        return shear / (1 / normal_.stiffness + shear);
+    }
+    // Returns the toughness of a row. TYPE=DISPLACEMENT has the length of the jump beyond that at the onset, and the
+    // traction falls linearly.
+    [[nodiscard]] double toughness(double value, double share) const {
+        if (damage_.evolution == "ENERGY") return value;
+        const double onset = onset_energy(share);
+        const double jump = std::sqrt(2 * onset * ((1 - share) / normal_.stiffness + share / shear_.stiffness));
+        return onset * (1 + value / jump);
+    }
+
+private:
+    [[nodiscard]] double onset_energy(double share) const {
+        const double normal = normal_.strength * normal_.at_onset() / 2,
+                     shear = shear_.strength * shear_.at_onset() / 2;
+        const double a = (1 - share) / normal, b = share / shear;
+        return 1 / (damage_.initiation.starts_with("MAX") ? std::max(a, b) : a + b);
+    }
+
+    const DamageCards& damage_;
+    Mode normal_, shear_;
+};
+
+// Makes Benzeggagh and Kenane's criterion of a table over the mode mix ratio, between whose rows Abaqus interpolates:
+// with two rows of toughnesses over shares of the energy it is the same, with exponent 1.
+DamageCards with_criterion(const std::string& name, const DamageCards& table, const Mode (&modes)[2],
+                           std::vector<std::string>& changed) {
     constexpr double allowed = 0.03;  // of a toughness: measured ones scatter by more
     const Place& place = table.evolution_place;
-    std::map<double, double> row;  // toughness by the share of shear
+    const MixTable mix(table, modes);
+    std::map<double, double> row;  // value by mode mix ratio
     for (const Numbers& line : table.values) {
         if (line.size() < 2 || !(line[0] > 0 && line[1] >= 0 && line[1] <= 1))
-            throw SceneFailure(place, "rows of a toughness > 0 and a mode mix ratio in [0, 1] are expected");
+            throw SceneFailure(place, fmt::format("rows of {} > 0 and a mode mix ratio in [0, 1] are expected",
+                                                  table.evolution == "ENERGY" ? "a toughness" : "a displacement"));
         const auto [at, inserted] = row.emplace(line[1], line[0]);
         if (!inserted && std::abs(at->second - line[0]) > 1e-9 * line[0])
             throw SceneFailure(place,
-                               fmt::format("toughnesses {} and {} at the mode mix ratio {}: the law of an interface "
-                                           "has one value for both directions of sliding",
+                               fmt::format("{} and {} at the mode mix ratio {}: the law of an interface has one value "
+                                           "for both directions of sliding; give one row",
                                            at->second, line[0], line[1]));
     }
     if (!row.contains(0) || !row.contains(1))
         throw SceneFailure(place, "rows of the mode mix ratios 0 and 1, the pure modes, are expected");
-    const double normal = row.at(0), shear = row.at(1);
+    const double normal = mix.toughness(row.at(0), 0), shear = mix.toughness(row.at(1), 1);
     double least = HUGE_VAL, most = 0;
-    for (const auto& [share, toughness] : row) {
-        const double part = (toughness - normal) / (shear - normal);
+    for (const auto& [ratio, value] : row) {
+        const double share = mix.share(ratio), part = (mix.toughness(value, share) - normal) / (shear - normal);
         if (share <= 0 || share >= 1 || !(part > 0 && part < 1)) continue;
         least = std::min(least, std::log(part) / std::log(share));
         most = std::max(most, std::log(part) / std::log(share));
@@ -133,21 +172,24 @@ DamageCards with_criterion(const std::string& name, const DamageCards& table, st
     double off = 0;
     for (auto a = row.begin(), b = std::next(a); b != row.end(); ++a, ++b)
         for (const double x : {0.25, 0.5, 0.75, 1.0}) {
-            const double share = a->first + x * (b->first - a->first), wanted = a->second + x * (b->second - a->second);
+            const double share = mix.share(a->first + x * (b->first - a->first));
+            const double wanted = mix.toughness(a->second + x * (b->second - a->second), share);
             const double found = normal + (shear - normal) * std::pow(share, exponent);
             off = std::max(off, std::abs(found / wanted - 1));
         }
     const std::string curve = fmt::format("Benzeggagh and Kenane's curve with exponent {:.4g}", exponent);
     if (off > allowed)
         throw SceneFailure(place, fmt::format("{} is off by {:.3g} % from the table of toughnesses (MIXED MODE "
-                                              "BEHAVIOR=TABULAR): at most {:.2g} % are imported; give BK or POWER LAW",
+                                              "BEHAVIOR=TABULAR): at most {:.2g} % are imported; give TYPE=ENERGY with "
+                                              "BK or POWER LAW",
                                               curve, 100 * off, 100 * allowed));
     if (off > 1e-9)
-        changed.push_back(
-            fmt::format("law \"{}\": the table of toughnesses over the mode mix is {} here, which is off "
-                        "by up to {:.2g} %",
-                        name, curve, 100 * off));
+        changed.push_back(fmt::format(
+            "law \"{}\": the table of toughnesses over the mode mix is {} here, from {:.6g} to {:.6g}, which "
+            "is off by up to {:.2g} %",
+            name, curve, normal, shear, 100 * off));
     DamageCards out = table;
+    out.evolution = "ENERGY";
     out.mixed_mode = "BK";
     out.power = exponent;
     out.values = {{normal, shear}};
@@ -220,25 +262,25 @@ std::string kind_of(const std::string& name, const DamageCards& damage, std::vec
 
 std::string law_text(const std::string& name, const Numbers& stiffness, double thickness, const DamageCards& cards,
                      std::int32_t dimension, const Place& place, std::vector<std::string>& changed) {
-    const DamageCards damage = cards.mixed_mode == "TABULAR" ? with_criterion(name, cards, changed) : cards;
-    if (damage.initiation.empty() || damage.evolution.empty())
+    if (cards.initiation.empty() || cards.evolution.empty())
         throw SceneFailure(place,
                            fmt::format("\"{}\" has no {}: an interface that stays whole is no law; bodies that "
                                        "share nodes are bonded",
-                                       name, damage.initiation.empty() ? "*DAMAGE INITIATION" : "*DAMAGE EVOLUTION"));
+                                       name, cards.initiation.empty() ? "*DAMAGE INITIATION" : "*DAMAGE EVOLUTION"));
     require_positive(stiffness, 2, "stiffness", place);
     require_isotropic(stiffness, "stiffness", dimension, place);
-    require_positive(damage.strengths, 2, damage.initiation.c_str(), damage.initiation_place);
-    require_isotropic(damage.strengths, damage.initiation.c_str(), dimension, damage.initiation_place);
-    const bool strains = damage.initiation.back() == 'E';
+    require_positive(cards.strengths, 2, cards.initiation.c_str(), cards.initiation_place);
+    require_isotropic(cards.strengths, cards.initiation.c_str(), dimension, cards.initiation_place);
+    const bool strains = cards.initiation.back() == 'E';
     Mode modes[2];
     for (std::size_t m = 0; m < 2; ++m)
-        modes[m] = {stiffness[m], damage.strengths[m] * (strains ? stiffness[m] * thickness : 1.0)};
+        modes[m] = {stiffness[m], cards.strengths[m] * (strains ? stiffness[m] * thickness : 1.0)};
+    const DamageCards damage = cards.mixed_mode == "TABULAR" ? with_criterion(name, cards, modes, changed) : cards;
     const Numbers toughness = toughness_of(name, damage, modes, dimension, changed);
     require_positive(toughness, 2, "toughness", damage.evolution_place);
     const std::string kind = kind_of(name, damage, changed);
 
-    std::string out = fmt::format("[[laws]]\nname = {}\n", toml_text(name));
+    std::string out = fmt::format("{}[[laws]]\nname = {}\n", origin_line(place), toml_text(name));
     if (kind != "piecewise-linear") out += fmt::format("kind = \"{}\"\n", kind);
     for (std::size_t m = 0; m < 2; ++m)
         out += fmt::format("{}_stiffness = {}\n", m == 0 ? "normal" : "tangential", toml_number(stiffness[m]));

@@ -56,7 +56,7 @@ public:
         std::string out = time_text();
         std::string loads;
         std::map<std::string, std::vector<std::size_t>> held;  // places with nothing but 0
-        std::vector<std::string> order;
+        std::vector<std::pair<std::string, Place>> order;
         std::map<std::string, int> moved;  // places by pattern
         for (const auto& key : keys_) {
             const History& history = histories_.at(key);
@@ -68,17 +68,18 @@ public:
                 const auto turned = transforms_.direction(history.line.where, key.dof);
                 for (const auto& [place, axis, control] : prescribed(history.line.where, key.dof))
                     loads += fmt::format(
-                        "[[loads]]\n{}{}\npattern = {}\n{}\n", place,
+                        "{}[[loads]]\n{}{}\npattern = {}\n{}\n", origin_line(history.line.where.place), place,
                         turned ? "direction = " + toml_list(*turned)
                                : fmt::format("component = [\"{}\"]", axis_names[axis]),
                         toml_text(pattern),
                         coefficient == 1 ? "" : fmt::format("coefficient = {}\n", toml_number(coefficient)));
             } else if (const auto turned = transforms_.direction(history.line.where, key.dof)) {
                 for (const auto& [place, axis, control] : prescribed(history.line.where, key.dof))
-                    out += fmt::format("[[supports]]\n{}direction = {}\n\n", place, toml_list(*turned));
+                    out += fmt::format("{}[[supports]]\n{}direction = {}\n\n", origin_line(history.line.where.place),
+                                       place, toml_list(*turned));
             } else {
                 for (const auto& [place, axis, control] : prescribed(history.line.where, key.dof)) {
-                    if (!held.contains(place)) order.push_back(place);
+                    if (!held.contains(place)) order.emplace_back(place, history.line.where.place);
                     held[place].push_back(axis);
                 }
             }
@@ -89,13 +90,13 @@ public:
                     "pattern \"{}\" moves {} places in proportion: its reaction is the sum of their forces, "
                     "each times its coefficient",
                     pattern, places));
-        for (const std::string& place : order) {
+        for (const auto& [place, origin] : order) {
             std::vector<std::string> axes;
             std::vector<std::size_t>& all = held[place];
             std::sort(all.begin(), all.end());
             all.erase(std::unique(all.begin(), all.end()), all.end());
             for (const std::size_t axis : all) axes.emplace_back(axis_names[axis]);
-            out += fmt::format("[[supports]]\n{}fix = {}\n\n", place, toml_list(axes));
+            out += fmt::format("{}[[supports]]\n{}fix = {}\n\n", origin_line(origin), place, toml_list(axes));
         }
         std::map<std::int32_t, Points> changes;
         for (auto& [body, history] : heated_) changes.emplace(body, std::move(history.points));
@@ -188,14 +189,9 @@ private:
                 if (inserted) at->second.points = {{0.0, temperatures_.initial(body)}};
                 follow(at->second, step, line, end);
             }
+        require_held(ending, step_, step.renewed);
         for (const auto& [number, history] : ending) {
             if (history->given == step_) continue;
-            if (!history->force)
-                throw SceneFailure(
-                    step.place,
-                    fmt::format("OP=NEW frees \"{}\", degree of freedom {}, in this step: "
-                                "supports that end are not imported; keep it, or end the analysis with the step before",
-                                history->line.where.text, history->dof));
             LoadLine ended = history->line;
             ended.magnitude = 0;
             ended.amplitude.clear();
@@ -337,8 +333,9 @@ private:
         const Pattern pattern{alike == 1 ? base : fmt::format("{}-{}", base, alike), unit};
         std::vector<double> times;
         for (const auto& [time, share] : points) times.push_back(time);
-        patterns_ += fmt::format("[[patterns]]\nname = {}\ntimes = {}\nvalues = {}\n\n", toml_text(pattern.name),
-                                 toml_list(times), toml_list(values));
+        patterns_ +=
+            fmt::format("{}[[patterns]]\nname = {}\ntimes = {}\nvalues = {}\n\n", origin_line(history.line.where.place),
+                        toml_text(pattern.name), toml_list(times), toml_list(values));
         made.emplace(std::move(points), pattern);
         return {pattern.name, peak / unit};
     }
@@ -394,8 +391,8 @@ private:
         const auto [name, peak] = pattern_of(history);
         const std::string pattern = fmt::format("pattern = {}\n", toml_text(name));
         if (history.line.distributed == "P")
-            return fmt::format("[[forces]]\nset = {}\n{}pressure = {}\n\n", toml_text(faces_named(where)), pattern,
-                               toml_number(peak));
+            return fmt::format("{}[[forces]]\nset = {}\n{}pressure = {}\n\n", origin_line(where.place),
+                               toml_text(faces_named(where)), pattern, toml_number(peak));
         std::vector<double> force(static_cast<std::size_t>(mesh_.dimension), 0.0);
         if (history.line.distributed == "TRVEC") {
             double length = 0;
@@ -404,8 +401,8 @@ private:
                 throw SceneFailure(where.place, "a magnitude and a direction are expected");
             for (std::size_t a = 0; a < force.size(); ++a)
                 force[a] = peak * history.line.direction[a] / std::sqrt(length);
-            return fmt::format("[[forces]]\nset = {}\n{}traction = {}\n\n", toml_text(faces_named(where)), pattern,
-                               toml_list(force));
+            return fmt::format("{}[[forces]]\nset = {}\n{}traction = {}\n\n", origin_line(where.place),
+                               toml_text(faces_named(where)), pattern, toml_list(force));
         }
         // The scene is per unit of thickness.
         const double width = mesh_.dimension == 2 && deck_.width > 0 ? deck_.width : 1.0;
@@ -416,7 +413,8 @@ private:
             force[axis] = 1;
             if (const auto turned = transforms_.direction(where, dof)) force = *turned;
             for (double& x : force) x *= peak / width;
-            out += fmt::format("[[forces]]\n{}{}force = {}\n\n", place, pattern, toml_list(force));
+            out += fmt::format("{}[[forces]]\n{}{}force = {}\n\n", origin_line(where.place), place, pattern,
+                               toml_list(force));
         }
         return out;
     }
@@ -443,6 +441,7 @@ private:
                                                       "traction (*DSLOAD)",
                                                       numbers.size(), most_single_nodes));
         for (const std::int64_t node : numbers) {
+            if (!mesh_.has_given(node)) continue;
             // A later line replaces the force of an earlier one only where both have the same place.
             if (!loaded_.insert({node, dof}).second)
                 throw SceneFailure(raw.place, fmt::format("a node of \"{}\" has a force from another line by another "

@@ -238,7 +238,8 @@ void References::couple(const Coupling& coupling) {
         extend(control.determined, axis_row(a));
         names.emplace_back(axis_names[a]);
     }
-    constraints_ += fmt::format("[[couplings]]\nset = {}\ncomponent = {}\n{}", toml_text(set), toml_list(names), place);
+    constraints_ += fmt::format("{}[[couplings]]\nset = {}\ncomponent = {}\n{}", origin_line(coupling.place),
+                                toml_text(set), toml_list(names), place);
     // A rotation that moves none of the nodes is left out.
     std::erase_if(levers, [&](const Row& row) { return !(std::sqrt(dot(row, row)) > 1e-6 * longest); });
     if (!levers.empty()) {
@@ -309,7 +310,7 @@ void References::equate(const std::vector<EquationEntry>& terms) {
             if (std::fpclassify(terms[k].coefficient) != FP_ZERO)
                 left += term_text(terms[k], nodes[k][nodes[k].size() == 1 ? 0 : i]);
         if (left.empty()) throw SceneFailure(terms.front().where.place, "all coefficients of the equation are 0");
-        constraints_ += fmt::format("[[equations]]\nleft = [\n{}]\n\n", left);
+        constraints_ += fmt::format("{}[[equations]]\nleft = [\n{}]\n\n", origin_line(terms.front().where.place), left);
     }
 }
 

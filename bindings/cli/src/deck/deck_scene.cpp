@@ -103,7 +103,7 @@ private:
             const std::string rest =
                 fmt::format("material = {}\n{}\n", toml_text(material.name), axes_text(section, *found.scope));
             for (const std::string& name : entries_for(plain, begin, begin + pieces_[i], sorted))
-                bodies += fmt::format("[[bodies]]\nname = {}\n{}", toml_text(name), rest);
+                bodies += fmt::format("{}[[bodies]]\nname = {}\n{}", origin_line(section.place), toml_text(name), rest);
             begin += pieces_[i];
         }
         std::string out;
@@ -132,7 +132,7 @@ private:
     // The angle of a ply, and an orientation of a shell, are about the normal of the plies, which must be axis 3 here.
     void require_third_axis(const Section& section) const {
         const bool said = !section.orientation.empty() && orientation_of(section).about == 3;
-        if (section.angle != 0 && !said)
+        if ((section.angle != 0 || section.turned_plies) && !said)
             throw SceneFailure(section.place,
                                "the angle of a ply is imported with an *ORIENTATION whose second line is "
                                "3, ..: axis 3 is the normal of the plies");
@@ -149,6 +149,8 @@ private:
                 say_once(deck_.changed, "*SHELL SECTION without ORIENTATION: material axes 1, 2, 3 are x, y, z");
             return "";
         }
+        if (section.plies && !section.orientation.empty())
+            return "# The axes of its plies are those of the mesh, one cell for each ply.\n";
         Axes axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
         if (!section.orientation.empty()) {
             const Orientation& o = orientation_of(section);
@@ -168,7 +170,9 @@ private:
 
     std::string material_text(const MaterialCards& m) {
         const Numbers& c = m.constants;
-        std::string out = fmt::format("[[materials]]\nname = {}\n", toml_text(m.name));
+        std::string out =
+            fmt::format("{}[[materials]]\nname = {}\n",
+                        origin_line(m.elastic_place.line > 0 ? m.elastic_place : m.place), toml_text(m.name));
         const auto key = [&](const char* name, double value) {
             out += fmt::format("{} = {}\n", name, toml_number(value));
         };
@@ -227,6 +231,26 @@ std::string header(const ImportedScene& scene, const std::string& deck) {
     return out + "\n";
 }
 
+// Makes comments of the lines that say where tables come from.
+void note_origins(ImportedScene& scene) {
+    std::string out;
+    int number = 1;
+    for (std::size_t at = 0; at < scene.text.size(); ++number) {
+        const std::size_t end = std::min(scene.text.find('\n', at), scene.text.size() - 1) + 1;
+        std::string line = scene.text.substr(at, end - at);
+        at = end;
+        if (line.starts_with(begin_of_origin_line)) {
+            const std::size_t path = line.find('\t') + 1, file = line.find('\t', path) + 1;
+            const Place place{line.substr(file, line.size() - 1 - file), line.substr(path, file - 1 - path),
+                              std::stoi(line.substr(begin_of_origin_line.size()))};
+            scene.origins.emplace(number + 1, place);
+            line = "# " + place.text() + "\n";
+        }
+        out += line;
+    }
+    scene.text = std::move(out);
+}
+
 }  // namespace
 
 }  // namespace cli::abaqus
@@ -277,6 +301,7 @@ ImportedScene import_deck(const std::string& deck_path, const std::string& mesh_
         out.taken.push_back(counted(static_cast<std::int64_t>(deck.equations.size()), "equation"));
     out.taken.push_back(counted(static_cast<std::int64_t>(deck.steps.size()), "step"));
     out.text = abaqus::header(out, deck_path) + text;
+    abaqus::note_origins(out);
     return out;
 }
 

@@ -3,6 +3,7 @@
 // change.
 #pragma once
 
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,6 +14,7 @@ namespace cli {
 
 struct ImportedScene {
     std::string text;                   // TOML
+    std::map<int, Place> origins{};     // of its tables, by the lines at which they begin: cards of the deck
     std::vector<std::string> taken;     // translated items and their new form, for people
     std::vector<std::string> changed;   // items that the scene handles in another way
     std::vector<std::string> left_out;  // items that the scene does not have

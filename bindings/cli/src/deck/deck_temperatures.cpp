@@ -23,7 +23,8 @@ const std::vector<std::int32_t>& Temperatures::bodies(const Entry& where) const 
         for (const CellBlock& block : mesh_.blocks) {
             const std::size_t count = shape_of(block.type).nodes;
             for (std::size_t i = 0; i < block.connectivity.size(); ++i)
-                nodes_[static_cast<std::size_t>(block.bodies[i / count])].insert(block.connectivity[i]);
+                if (mesh_.has_given(block.connectivity[i]))
+                    nodes_[static_cast<std::size_t>(block.bodies[i / count])].insert(block.connectivity[i]);
         }
     }
     std::set<std::int64_t> given, whole;
@@ -47,11 +48,18 @@ const std::vector<std::int32_t>& Temperatures::bodies(const Entry& where) const 
         if (of(given) > of(whole))
             throw SceneFailure(
                 where.place,
-                fmt::format("\"{}\" has {} of the {} nodes of \"{}\": one temperature of a whole body is "
-                            "imported; give a set of all nodes",
-                            where.text, of(given), own.size(), mesh_.body_names[static_cast<std::size_t>(body)]));
+                fmt::format("\"{}\" has {} of the {} nodes of \"{}\", and not node {}: one temperature of a whole body "
+                            "is imported; give a set of all of its nodes",
+                            where.text, of(given), own.size(), mesh_.body_names[static_cast<std::size_t>(body)],
+                            label_of(*std::find_if(own.begin(), own.end(),
+                                                   [&](std::int64_t node) { return !given.contains(node); }))));
     }
     return at->second;
+}
+
+std::string Temperatures::label_of(std::int64_t node) const {
+    const Part& owner = model_.owner_of(node);
+    return full_name(owner, std::to_string(owner.nodes[static_cast<std::size_t>(node - owner.first_node)].id));
 }
 
 double Temperatures::initial(std::int32_t body) const {

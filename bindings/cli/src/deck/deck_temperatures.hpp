@@ -24,6 +24,8 @@ public:
     [[nodiscard]] double initial(std::int32_t body) const;
 
 private:
+    [[nodiscard]] std::string label_of(std::int64_t node) const;
+
     const Deck& deck_;
     const Model& model_;
     const MeshData& mesh_;

@@ -31,7 +31,8 @@ struct CohesiveSet {
  */
 struct MeshData {
     std::int32_t dimension = 2;
-    std::vector<double> nodes;  ///< [n][dimension], in the unit of length of the file
+    std::vector<double> nodes;      ///< [n][dimension], in the unit of length of the file
+    std::int64_t given_nodes = -1;  ///< the first of them, which the file has; those behind lie between plies; -1: all
     std::vector<CellBlock> blocks;
     std::vector<std::string> body_names;                         ///< by label
     std::map<std::string, std::vector<std::int64_t>> node_sets;  ///< named nodes, each once and ascending
@@ -41,6 +42,9 @@ struct MeshData {
     std::string plane;                  ///< "plane-strain" or "plane-stress" where the file says so; else empty
     std::vector<CohesiveSet> cohesive;  ///< what holds bodies together in the file
     std::vector<std::string> notes;     ///< what was decided on the way, for people
+
+    /** True if the file has this node. */
+    [[nodiscard]] bool has_given(std::int64_t node) const { return given_nodes < 0 || node < given_nodes; }
 };
 
 }  // namespace cli

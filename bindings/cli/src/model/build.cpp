@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
+#include <tuple>
+#include <unordered_set>
 
 #include "model/build_constraints.hpp"
 #include "model/build_contact.hpp"
@@ -69,7 +72,12 @@ void set_interfaces(Model& model, const Scene& scene) {
     }
 }
 
-void prescribe(Model& model, const Scene& scene, const Prescription& data) {
+// Nodes by what is prescribed there: direction, patterns and coefficients.
+using Prescribed = std::map<std::tuple<std::vector<double>, std::vector<std::int64_t>, std::vector<double>>,
+                            std::unordered_set<std::int64_t>>;
+
+// before: what is prescribed at nodes already. Two entries may say the same of a node, as where sets overlap.
+void prescribe(Model& model, const Scene& scene, const Prescription& data, Prescribed& before) {
     const Selected at = select(model.context.get(), model.mesh.get(), scene, data.where, data.mean);
     note_place(model, scene, data.where, at);
     if (data.mean && at.weights.empty()) throw SceneFailure(data.place, "mean: a single node has no face");
@@ -79,16 +87,22 @@ void prescribe(Model& model, const Scene& scene, const Prescription& data) {
         patterns.push_back(static_cast<std::int64_t>(term.pattern));
         coefficients.push_back(term.coefficient);
     }
-    const auto count = static_cast<std::int64_t>(at.nodes.size());
     const auto pattern_count = static_cast<std::int64_t>(patterns.size());
-    std::vector<double> all;
-    for (std::size_t i = 0; i < at.nodes.size(); ++i) all.insert(all.end(), coefficients.begin(), coefficients.end());
     for (const std::vector<double>& direction : data.directions) {
+        std::vector<std::int64_t> nodes = at.nodes;
+        if (at.weights.empty()) {
+            auto& alike = before[{direction, patterns, coefficients}];
+            std::erase_if(nodes, [&](std::int64_t node) { return alike.contains(node); });
+            alike.insert(nodes.begin(), nodes.end());
+        }
+        const auto count = static_cast<std::int64_t>(nodes.size());
+        std::vector<double> all;
+        for (std::size_t i = 0; i < nodes.size(); ++i) all.insert(all.end(), coefficients.begin(), coefficients.end());
         const std::int32_t status =
             at.weights.empty()
-                ? delam_problem_prescribe_nodes(model.problem.get(), count, at.nodes.data(), direction.data(),
+                ? delam_problem_prescribe_nodes(model.problem.get(), count, nodes.data(), direction.data(),
                                                 pattern_count, patterns.data(), all.data(), 0)
-                : delam_problem_prescribe_mean(model.problem.get(), count, at.nodes.data(), at.weights.data(),
+                : delam_problem_prescribe_mean(model.problem.get(), count, nodes.data(), at.weights.data(),
                                                direction.data(), pattern_count, patterns.data(), coefficients.data(),
                                                0);
         call(model.context.get(), status, data.place);
@@ -151,8 +165,9 @@ void fill(Model& model, const Scene& scene) {
              pattern.place);
     }
     set_gaps(model, scene);
+    Prescribed prescribed;
     for (const Prescription& data : scene.prescriptions) {
-        prescribe(model, scene, data);
+        prescribe(model, scene, data, prescribed);
         note_constraints(model, data.place);
     }
     for (const DeadForce& data : scene.forces) add_force(model, scene, data);

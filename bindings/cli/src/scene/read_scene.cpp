@@ -239,7 +239,8 @@ Scene read_scene(const std::string& file, const std::vector<std::string>& settin
     scene.file_hash = hash_text(bytes);
 
     const Table root(parsed, {source, "", 0}, scene_table("scene"),
-                     parsed.contains("mesh") ? Scenes::mesh : Scenes::layers);
+                     parsed.contains("mesh") ? Scenes::mesh : Scenes::layers,
+                     scene.imported ? &scene.imported->origins : nullptr);
     scene.title = root.text("title", "");
     if (root.has("mesh")) {
         read_mesh_table(root, scene);

@@ -22,6 +22,7 @@ struct Place {
     std::string file;
     std::string path;
     int line = 0;
+    bool whole = false;  // all that stands in the object of this place has this line
 
     [[nodiscard]] std::string text() const {
         std::string out = file;

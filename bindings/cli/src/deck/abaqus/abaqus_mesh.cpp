@@ -15,7 +15,9 @@
 
 #include "deck/abaqus/cell_axes.hpp"
 #include "deck/abaqus/inp_cards.hpp"
+#include "deck/abaqus/orientations.hpp"
 #include "deck/abaqus/tied_faces.hpp"
+#include "delam/delam.h"
 #include "mesh/cell_shape.hpp"
 #include "text/say.hpp"
 #include "text/wording.hpp"
@@ -35,6 +37,7 @@ public:
         add_cells();
         add_sets();
         add_cohesive();
+        split_plies();
         return std::move(mesh_);
     }
 
@@ -132,7 +135,6 @@ private:
     }
 
     void add_cells() {
-        std::vector<std::vector<ElementAt>> elements;  // by block
         for (const Part* scope : model_.scopes())
             for (std::size_t i = 0; i < scope->elements.size(); ++i) {
                 const Element& element = scope->elements[i];
@@ -141,14 +143,53 @@ private:
                                           [&](const CellBlock& b) { return b.type == element.type->cell; });
                 if (block == mesh_.blocks.end()) {
                     block = mesh_.blocks.insert(block, CellBlock{element.type->cell, {}, {}});
-                    elements.emplace_back();
+                    elements_.emplace_back();
                 }
-                elements[static_cast<std::size_t>(block - mesh_.blocks.begin())].push_back({scope, i});
+                elements_[static_cast<std::size_t>(block - mesh_.blocks.begin())].push_back({scope, i});
                 for (const std::int64_t id : element.nodes)
                     block->connectivity.push_back(node_number(*scope, id, element.place));
                 block->bodies.push_back(body_of_.at({scope, i}));
             }
-        set_cell_axes(model_, elements, mesh_);
+        set_cell_axes(model_, elements_, mesh_);
+    }
+
+    // The cells of a composite of several plies become one for each of them.
+    void split_plies() {
+        mesh_.given_nodes = static_cast<std::int64_t>(mesh_.nodes.size()) / mesh_.dimension;
+        std::vector<Plies> laminates;
+        std::map<ElementAt, std::size_t> laminate_at;
+        std::int64_t made = 0;
+        for (const Part* scope : model_.scopes())
+            for (std::size_t i = 0; i < scope->sections.size(); ++i) {
+                const InpCard& card = *scope->section_cards[i];
+                Plies plies = card.has("COMPOSITE") ? laminate_of(card).plies : Plies{};
+                if (plies.angles.size() < 2) continue;
+                plies.name = body_name(scope->sections[i]);
+                std::set<ElementAt> members;
+                model_.collect_elements(scope->sections[i], members);
+                for (const ElementAt& at : members) {
+                    if (at.type().cell != DELAM_HEX8)
+                        throw SceneFailure(
+                            at.element().place,
+                            fmt::format("element {} ({}) has {} plies: give it one, or take C3D8, C3D8I, "
+                                        "C3D8R or SC8R",
+                                        at.element().id, at.type().name, plies.angles.size()));
+                    laminate_at[at] = laminates.size();
+                    made += static_cast<std::int64_t>(plies.angles.size());
+                }
+                if (made > most_copies)
+                    throw SceneFailure(card.place,
+                                       fmt::format("{} cells for all plies: at most {} are made", made, most_copies));
+                laminates.push_back(std::move(plies));
+            }
+        if (laminates.empty()) return;
+        std::vector<const Plies*> of_cell;
+        for (const auto& block : elements_)
+            for (const ElementAt& at : block) {
+                const auto found = laminate_at.find(at);
+                of_cell.push_back(found == laminate_at.end() ? nullptr : &laminates[found->second]);
+            }
+        split_into_plies(mesh_, of_cell);
     }
 
     void add_sets() {
@@ -312,6 +353,7 @@ private:
     }
 
     Model& model_;
+    std::vector<std::vector<ElementAt>> elements_;  // by block of cells
     std::map<ElementAt, std::int32_t> body_of_;
     std::map<std::string, std::int32_t> label_of_;  // of bodies, by name
     Met assigned_;

@@ -141,7 +141,8 @@ private:
         bool differ = false;
         for (const Part* scope : model_.scopes())
             for (std::size_t i = 0; i < scope->sections.size(); ++i)
-                if (const auto found = named_by(*scope, i)) differ = differ || may_differ(*found->card);
+                if (const auto found = named_by(*scope, i))
+                    differ = differ || may_differ(*found->card) || of_several_plies(*scope->section_cards[i]);
         std::vector<OrientedSection> out;
         for (const Part* scope : model_.scopes())
             for (std::size_t i = 0; differ && i < scope->sections.size(); ++i)
@@ -164,21 +165,21 @@ private:
         return here && rectangular && !card.lines.empty() && orientation_of(card).of_each_element();
     }
 
+    static bool of_several_plies(const InpCard& section) {
+        return section.has("COMPOSITE") && laminate_of(section).plies.angles.size() > 1;
+    }
+
     [[nodiscard]] std::optional<Named> named_by(const Part& scope, std::size_t section) const {
         const InpCard& card = *scope.section_cards[section];
         const std::string name = card.parameter("ORIENTATION");
         return name.empty() ? std::nullopt : find_named(model_, scope, &Part::orientations, name);
     }
 
+    // Returns the angle of the one ply; several turn the axes of their own cells (ply_cells.hpp).
     static double angle_of(const InpCard& section) {
-        if (!section.has("COMPOSITE") || section.lines.empty()) return 0;
-        if (section.lines.size() > 1)
-            throw SceneFailure(section.place,
-                               fmt::format("a composite of {} plies, whose cells have axes of their own: give the "
-                                           "plies elements of their own",
-                                           section.lines.size()));
-        const InpLine& ply = section.lines[0];
-        return ply.fields.size() > 3 && !ply.fields[3].empty() ? inp_number(ply.fields[3], ply.place) : 0;
+        if (!section.has("COMPOSITE")) return 0;
+        const Laminate laminate = laminate_of(section);
+        return laminate.plies.angles.size() == 1 ? laminate.plies.angles[0] : 0;
     }
 
     [[nodiscard]] std::array<double, 6> axes_of(const OrientedSection& section, const ElementAt& at) {

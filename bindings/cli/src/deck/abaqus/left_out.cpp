@@ -12,10 +12,17 @@ struct Words {
 
 constexpr Words keywords[] = {
     {"BEAM SECTION", "beams stay out: give solid cells, or a rigid *COUPLING"},
+    {"CLEARANCE", "give the nodes their distance, or ADJUST= of *CONTACT PAIR"},
+    {"DEBOND",
+     "debonding by the virtual crack closure technique stays out: give *COHESIVE BEHAVIOR with "
+     "*DAMAGE INITIATION and *DAMAGE EVOLUTION"},
     {"ELCOPY", "write the elements (*ELEMENT, *ELGEN)"},
     {"EMBEDDED ELEMENT", "embedded elements stay out: mesh the body around them"},
     {"FREQUENCY", "vibrations would change the result's meaning: steps are *STATIC"},
     {"MEMBRANE SECTION", "membranes stay out: give solid cells"},
+    {"MODEL CHANGE",
+     "parts and contact stay for the whole analysis: end it with the step before, or take out what "
+     "is removed"},
     {"NCOPY", "write the nodes (*NODE, *NGEN)"},
     {"NFILL", "write the nodes (*NODE, *NGEN)"},
     {"PARAMETER DEPENDENCE", "tables of parameters stay out: give a *PARAMETER the value"},

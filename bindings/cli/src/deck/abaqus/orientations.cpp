@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <fmt/format.h>
+
 namespace cli::abaqus {
 
 namespace {
@@ -118,6 +120,51 @@ Orientation orientation_of(const InpCard& card) {
         out.about = static_cast<int>(by[0]);
         if (by.size() == 2) out.angle = by[1];
     }
+    return out;
+}
+
+bool Laminate::turns() const {
+    return std::any_of(plies.angles.begin(), plies.angles.end(), [](double angle) { return angle != 0; });
+}
+
+Laminate laminate_of(const InpCard& section) {
+    if (section.has("STACK DIRECTION") && section.required("STACK DIRECTION") != "3")
+        section.refuse("STACK DIRECTION", section.required("STACK DIRECTION"), "3");
+    Laminate out;
+    out.plies.place = section.place;
+    out.plies.name = section.parameter("ELSET");
+    (void)section.first_line();
+    for (const InpLine& line : section.lines) {
+        if (line.fields.size() < 3) throw SceneFailure(line.place, "thickness, points, material are expected");
+        if (out.material.empty()) out.material = line.fields[2];
+        if (upper(line.fields[2]) != upper(out.material))
+            throw SceneFailure(line.place,
+                               fmt::format("plies of \"{}\" and of \"{}\" in one cell are not imported: give "
+                                           "the plies elements of their own, and each material its section",
+                                           out.material, line.fields[2]));
+        out.plies.thicknesses.push_back(line.fields[0].empty() ? 0 : inp_number(line.fields[0], line.place));
+        const bool angle = line.fields.size() > 3 && !line.fields[3].empty();
+        if (angle && is_name(line.fields[3]))
+            throw SceneFailure(line.place, "\"" + line.fields[3] +
+                                               "\": the angle of a ply within the ORIENTATION= of the section is "
+                                               "expected");
+        out.plies.angles.push_back(angle ? inp_number(line.fields[3], line.place) : 0);
+    }
+    // The plies up to the middle one, which is there twice.
+    if (section.has("SYMMETRIC"))
+        for (auto* each : {&out.plies.thicknesses, &out.plies.angles}) {
+            const std::vector<double> half = *each;
+            each->insert(each->end(), half.rbegin(), half.rend());
+        }
+    if (out.plies.thicknesses.size() == 1) return out;
+    for (std::size_t i = 0; i < section.lines.size(); ++i)
+        if (!(out.plies.thicknesses[i] > 0))
+            throw SceneFailure(section.lines[i].place,
+                               fmt::format("thickness {}: must be > 0", out.plies.thicknesses[i]));
+    if (out.turns() && !section.has("ORIENTATION"))
+        throw SceneFailure(section.place,
+                           "the angles of plies need the ORIENTATION= of the section, whose second line is 3, ..: axis "
+                           "3 is the normal of the plies");
     return out;
 }
 

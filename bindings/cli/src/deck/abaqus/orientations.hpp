@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The material axes of *ORIENTATION: of whole sections, or of each element by its place or by a *DISTRIBUTION.
+// The material axes of *ORIENTATION: of whole sections, or of each element by its place or by a *DISTRIBUTION; and the
+// plies of a section, which turn them.
 #pragma once
 
 #include <array>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "deck/abaqus/inp_cards.hpp"
+#include "mesh/ply_cells.hpp"
 
 namespace cli::abaqus {
 
@@ -30,6 +32,16 @@ struct Orientation {
 };
 
 Orientation orientation_of(const InpCard& card);
+
+// The plies of a section with COMPOSITE, from the side of the first nodes of its elements on.
+struct Laminate {
+    std::string material;
+    Plies plies;
+
+    // True if a ply has another angle than 0.
+    [[nodiscard]] bool turns() const;
+};
+Laminate laminate_of(const InpCard& section);
 
 // Turns axes about one of them, 1 to 3.
 void turn(Axes& axes, int about, double degrees);

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "text/printable.hpp"
+
 namespace cli::abaqus {
 
 int degree_of_freedom(const std::string& field, int most, const Place& place) {
@@ -44,6 +46,22 @@ std::string surface_name(const Model& model, const Entry& raw) {
     const Entry entry = model.resolved_scope(raw);
     const auto surface = entry.scope->surfaces.find(upper(entry.text));
     return surface == entry.scope->surfaces.end() ? "" : surface_set_name(*entry.scope, surface->second);
+}
+
+CohesiveElement cohesive_element(const Model& model, const std::vector<std::int64_t>& lower) {
+    for (const Part* scope : model.scopes())
+        for (const Element& element : scope->elements) {
+            if (!element.type->cohesive() || element.type->face_nodes != lower.size()) continue;
+            bool same = true;
+            for (std::size_t k = 0; k < lower.size() && same; ++k)
+                same = node_number(*scope, element.nodes[k], element.place) == lower[k];
+            if (same) return {scope, &element};
+        }
+    return {};
+}
+
+std::string origin_line(const Place& place) {
+    return fmt::format("{}{}\t{}\t{}\n", begin_of_origin_line, place.line, one_line(place.path), one_line(place.file));
 }
 
 }  // namespace cli::abaqus

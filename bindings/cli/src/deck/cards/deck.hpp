@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -44,6 +46,9 @@ private:
     std::unordered_map<std::string, std::size_t> at_;
 };
 
+// Begins a line of origin_line(); no other line of a scene begins so.
+inline constexpr std::string_view begin_of_origin_line = "#@";
+
 inline constexpr const char* axis_names[] = {"x", "y", "z"};
 
 // *DAMAGE INITIATION and *DAMAGE EVOLUTION, of a material or of a surface interaction.
@@ -53,7 +58,8 @@ struct DamageCards {
     Place initiation_place;
     std::string evolution;  // ENERGY or DISPLACEMENT; empty: none
     std::string softening = "LINEAR";
-    std::string mixed_mode;  // BK, POWER LAW; empty: none
+    std::string mixed_mode;            // BK, POWER LAW, TABULAR; empty: none
+    std::string mix_ratio = "ENERGY";  // of a TABULAR mixed_mode, or TRACTION
     double power = 0;
     std::vector<Numbers> values;
     Place evolution_place;
@@ -63,6 +69,7 @@ struct MaterialCards {
     std::string name;
     std::string elastic;  // TYPE of *ELASTIC; empty: none
     Numbers constants;
+    Place elastic_place{};
     Numbers expansion{};  // one value, or one for each axis; empty: none
     DamageCards damage{};
     Place place;
@@ -71,7 +78,9 @@ struct MaterialCards {
 struct Section {
     std::string material;
     std::string orientation;
-    double angle = 0;         // of the one ply of a composite, degrees about its normal
+    double angle = 0;    // of the one ply of a composite, degrees about its normal
+    bool plies = false;  // a composite of several, whose cells the mesh splits
+    bool turned_plies = false;
     std::string thickness{};  // of cohesive elements: SPECIFIED or GEOMETRY
     double value = 1;         // the specified thickness
     double width = 1;         // out of the plane
@@ -84,6 +93,7 @@ struct InteractionCards {
     std::string name;
     bool cohesive = false;
     Numbers stiffness;
+    Place stiffness_place{};
     std::string eligibility;
     DamageCards damage;
     Place place;
@@ -153,6 +163,7 @@ struct Step {
     double period = 1;
     bool ramp = true;  // loads without an amplitude grow over the step
     bool new_boundaries = false, new_forces = false, new_distributed = false;  // those before end
+    Place renewed{};                                                           // *BOUNDARY, OP=NEW
     bool riks = false;
     std::vector<LoadLine> boundaries, forces, temperatures;
     Place place;
@@ -200,6 +211,16 @@ private:
 // The names that sets of nodes and surfaces have in the scene; "": there is none.
 std::string node_set_name(const Model& model, const Entry& raw);
 std::string surface_name(const Model& model, const Entry& raw);
+
+// A cohesive element by the nodes of its lower face in the mesh. Null: there is none.
+struct CohesiveElement {
+    const Part* scope = nullptr;
+    const Element* element = nullptr;
+};
+CohesiveElement cohesive_element(const Model& model, const std::vector<std::int64_t>& lower);
+
+// The line before a table of the scene that says which card it comes from; import_deck makes a comment of it.
+std::string origin_line(const Place& place);
 
 // 1 to `most`. Throws SceneFailure at `place`.
 int degree_of_freedom(const std::string& field, int most, const Place& place);

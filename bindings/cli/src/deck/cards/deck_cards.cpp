@@ -18,7 +18,8 @@ namespace {
 
 // Requests for output, settings of a solver, and what quasi-static steps without temperatures do not need.
 const std::set<std::string> not_needed{"CONDUCTIVITY",    "CONTACT CONTROLS",
-                                       "CONTACT FILE",    "CONTACT OUTPUT",
+                                       "CONTACT FILE",    "CONTACT FORMULATION",
+                                       "CONTACT OUTPUT",  "CONTOUR INTEGRAL",
                                        "CONTACT PRINT",   "CONTROLS",
                                        "DAMPING",         "DENSITY",
                                        "EL FILE",         "EL PRINT",
@@ -36,11 +37,16 @@ const std::set<std::string> not_needed{"CONDUCTIVITY",    "CONTACT CONTROLS",
 const std::set<std::string> of_mesh{
     "NODE",         "ELEMENT",  "NSET",         "ELSET", "SURFACE", "PART",  "END PART",     "ASSEMBLY",
     "END ASSEMBLY", "INSTANCE", "END INSTANCE", "TIE",   "NGEN",    "ELGEN", "DISTRIBUTION", "DISTRIBUTION TABLE"};
+constexpr const char* contact_at_start =
+    "*CONTACT INITIALIZATION DATA: no faces are moved; those that lie on each other are in contact";
 // Keywords whose effect the scene has in another way; each is reported once.
 const std::pair<const char*, const char*> otherwise[] = {
     {"DAMAGE STABILIZATION", "*DAMAGE STABILIZATION: no viscosity; jumps of the crack are found by energy"},
+    {"CONTACT INITIALIZATION ASSIGNMENT", contact_at_start},
+    {"CONTACT INITIALIZATION DATA", contact_at_start},
     {"FRICTION", "*FRICTION: contact without friction"},
     {"SURFACE BEHAVIOR", "*SURFACE BEHAVIOR: contact is exact, without a penalty"},
+    {"SURFACE PROPERTY ASSIGNMENT", "*SURFACE PROPERTY ASSIGNMENT: surfaces are the sides of cells as they are meshed"},
 };
 
 class DeckReader {
@@ -70,6 +76,10 @@ private:
             left_.insert(word);
             return;
         }
+        if (card.has("INTERFERENCE FIT") || card.has("INITIAL CLEARANCE"))
+            throw SceneFailure(card.place,
+                               "faces that are pressed or parted at the start are imported as they are meshed: "
+                               "give the nodes their distance, or ADJUST= of *CONTACT PAIR");
         for (const auto& [keyword, text] : otherwise)
             if (word == keyword) return say_once(deck_.changed, text);
         if (steps_.take(card)) return;
@@ -107,7 +117,7 @@ private:
     }
 
     void take_material(const InpCard& card) {
-        deck_.materials.push_back({card.required("NAME"), "", {}, {}, {}, card.place});
+        deck_.materials.push_back({card.required("NAME"), "", {}, {}, {}, {}, card.place});
         damage_of_ = &DeckReader::damage_of_material;
     }
 
@@ -158,6 +168,7 @@ private:
             }
         if (count == 0) card.refuse("TYPE", type, "ISOTROPIC, ORTHOTROPIC, ENGINEERING CONSTANTS, LAMINA or TRACTION");
         m.constants = card.row();
+        m.elastic_place = card.place;
         // A temperature may follow, and another row would be for another temperature.
         if (m.constants.size() < count || m.constants.size() > count + 1)
             throw SceneFailure(card.place, fmt::format("{} numbers: {} constants, at one temperature, are expected",
@@ -214,19 +225,24 @@ private:
         const bool table = d.mixed_mode == "TABULAR";
         if (!d.mixed_mode.empty() && d.mixed_mode != "BK" && d.mixed_mode != "POWER LAW" && !table)
             card.refuse("MIXED MODE BEHAVIOR", d.mixed_mode, "BK, POWER LAW or TABULAR");
-        if (card.has("MODE MIX RATIO") && upper(card.required("MODE MIX RATIO")) != "ENERGY")
-            card.refuse("MODE MIX RATIO", card.required("MODE MIX RATIO"),
-                        "ENERGY, by which the toughnesses of the modes are mixed,");
-        if (table && d.softening == "TABULAR")
+        if (card.has("MODE MIX RATIO")) d.mix_ratio = upper(card.required("MODE MIX RATIO"));
+        if (d.mix_ratio != "ENERGY" && d.mix_ratio != "TRACTION")
+            card.refuse("MODE MIX RATIO", d.mix_ratio, "ENERGY or, with MIXED MODE BEHAVIOR=TABULAR, TRACTION");
+        if (d.mix_ratio == "TRACTION" && !table)
             throw SceneFailure(card.place,
-                               "MIXED MODE BEHAVIOR=TABULAR is imported with SOFTENING=LINEAR or EXPONENTIAL");
+                               "MODE MIX RATIO=TRACTION belongs to MIXED MODE BEHAVIOR=TABULAR: BK and POWER LAW mix "
+                               "energies; write MODE MIX RATIO=ENERGY, or leave it out");
+        if (table && (d.softening == "TABULAR" || (d.softening != "LINEAR" && d.evolution == "DISPLACEMENT")))
+            throw SceneFailure(card.place,
+                               "MIXED MODE BEHAVIOR=TABULAR is imported with SOFTENING=LINEAR or, with TYPE=ENERGY, "
+                               "EXPONENTIAL");
         if (!d.mixed_mode.empty() && !table) {
             d.power = inp_number(card.required("POWER"), card.place);
             if (!(d.power > 0)) throw SceneFailure(card.place, fmt::format("POWER={}: must be > 0", d.power));
         }
         if (card.has("DEGRADATION") && upper(card.required("DEGRADATION")) != "MAXIMUM")
             card.refuse("DEGRADATION", card.required("DEGRADATION"), "MAXIMUM");
-        if (d.evolution == "DISPLACEMENT" && !d.mixed_mode.empty())
+        if (d.evolution == "DISPLACEMENT" && !d.mixed_mode.empty() && !table)
             throw SceneFailure(card.place, "MIXED MODE BEHAVIOR=" + d.mixed_mode + " needs TYPE=ENERGY");
         if (d.softening != "TABULAR" && !table) require_one_line(card);
         (void)card.first_line();
@@ -244,6 +260,7 @@ private:
         interaction.cohesive = true;
         interaction.eligibility = upper(card.parameter("ELIGIBILITY"));
         interaction.stiffness = card.row();
+        interaction.stiffness_place = card.place;
         if (interaction.stiffness.empty()) return;  // that of contact
         if (interaction.stiffness.size() < 2) throw SceneFailure(card.place, "Knn, Kss, Ktt are expected, or no line");
         interaction.stiffness.resize(3, interaction.stiffness[1]);
@@ -263,18 +280,11 @@ private:
                 !card.lines[0].fields[0].empty())
                 section.width = positive_number(card.lines[0].fields[0], card.lines[0].place);
         } else {
-            if (card.has("STACK DIRECTION") && card.required("STACK DIRECTION") != "3")
-                card.refuse("STACK DIRECTION", card.required("STACK DIRECTION"), "3");
-            if (card.lines.size() != 1)
-                throw SceneFailure(card.place,
-                                   fmt::format("a composite of {} plies: one ply in each element is imported; "
-                                               "give the plies elements of their own",
-                                               card.lines.size()));
-            const InpLine& line = card.lines[0];
-            if (line.fields.size() < 3) throw SceneFailure(line.place, "thickness, points, material are expected");
-            section.material = line.fields[2];
-            if (line.fields.size() > 3 && !line.fields[3].empty())
-                section.angle = inp_number(line.fields[3], line.place);
+            const Laminate laminate = laminate_of(card);
+            section.material = laminate.material;
+            section.plies = laminate.plies.angles.size() > 1;
+            section.turned_plies = section.plies && laminate.turns();
+            if (!section.plies) section.angle = laminate.plies.angles[0];
         }
         deck_.sections.push_back(std::move(section));
     }

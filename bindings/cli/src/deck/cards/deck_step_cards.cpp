@@ -144,7 +144,10 @@ bool StepReader::renews(const InpCard& card) {
 
 void StepReader::take_boundary(const InpCard& card) {
     card.only({"AMPLITUDE", "OP", "TYPE", "FIXED"});
-    if (renews(card)) step(card).new_boundaries = true;
+    if (renews(card)) {
+        step(card).new_boundaries = true;
+        step(card).renewed = card.place;
+    }
     const std::string type = card.has("TYPE") ? upper(card.required("TYPE")) : "DISPLACEMENT";
     if (type != "DISPLACEMENT" && type != "VELOCITY") card.refuse("TYPE", type, "DISPLACEMENT or VELOCITY");
     const bool rate = type == "VELOCITY";
@@ -233,6 +236,11 @@ void StepReader::take_pressures(const InpCard& card) {
     if (renews(card)) step(card).new_distributed = true;
     require_displacements(card);
     for (const InpLine& line : card.lines) {
+        const std::string kind = line.fields.size() > 1 ? upper(line.fields[1]) : "";
+        if (kind == "GRAV" || kind == "CENTRIF" || kind == "CENT" || kind.starts_with("B"))
+            throw SceneFailure(line.place, "\"" + line.fields[1] +
+                                               "\" is not imported: pressures on sides, P1 .. P6, are; forces on the "
+                                               "volume stay out, give their sum to a surface (*DSLOAD, TRVEC)");
         if (line.fields.size() != 3)
             throw SceneFailure(line.place,
                                "an element or a set of them, a side (P1 .. P6) and a pressure are expected");

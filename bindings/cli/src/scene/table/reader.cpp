@@ -43,11 +43,11 @@ std::string joined(const std::string& path, std::string_view key) {
     return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
 }
 
-// The place of a value: in the file, or in a setting of the command line.
-Place place_of(const toml::node& node, const std::string& file, const std::string& path) {
+// The place of a value in the object at `of`, or in a setting of the command line.
+Place place_of(const toml::node& node, const Place& of, const std::string& path) {
     const toml::source_path_ptr& source = node.source().path;
     if (source != nullptr && *source == setting_source) return {*source, path, 0};
-    return {file, path, static_cast<int>(node.source().begin.line)};
+    return {of.file, path, of.whole ? of.line : static_cast<int>(node.source().begin.line), of.whole};
 }
 
 double checked_number(const toml::node& node, const Place& where, const Range& range) {
@@ -112,14 +112,14 @@ std::vector<Value> checked_list(const toml::node& node, const Place& where, cons
     std::vector<Value> out;
     for (std::size_t i = 0; i < list->size(); ++i) {
         const toml::node& entry = *list->get(i);
-        out.push_back(check(entry, place_of(entry, where.file, fmt::format("{}[{}]", where.path, i))));
+        out.push_back(check(entry, place_of(entry, where, fmt::format("{}[{}]", where.path, i))));
     }
     return out;
 }
 }  // namespace
 
-Table::Table(const toml::table& table, Place place, const KeyTable& keys, Scenes scenes)
-    : table_(&table), place_(std::move(place)), keys_(&keys), scenes_(scenes) {
+Table::Table(const toml::table& table, Place place, const KeyTable& keys, Scenes scenes, const Origins* origins)
+    : table_(&table), place_(std::move(place)), keys_(&keys), scenes_(scenes), origins_(origins) {
     if (keys.row("schema") != nullptr) (void)whole("schema");  // another version has other keys
     check_keys();
     for (const KeyRule& rule : keys.rules)
@@ -206,10 +206,18 @@ const KeyRow& Table::row(std::string_view key) const {
     return *found;
 }
 
+Place Table::placed(const toml::node& node, const std::string& path) const {
+    Place place = place_of(node, place_, path);
+    if (origins_ == nullptr || place.file != place_.file) return place;
+    const auto origin = origins_->find(place.line);
+    if (origin == origins_->end()) return place;
+    return {origin->second.file, origin->second.path + ": " + path, origin->second.line, true};
+}
+
 Place Table::place(std::string_view key) const {
     const toml::node* node = table_->get(key);
     const std::string path = joined(place_.path, key);
-    return node != nullptr ? place_of(*node, place_.file, path) : Place{place_.file, path, place_.line};
+    return node != nullptr ? placed(*node, path) : Place{place_.file, path, place_.line, place_.whole};
 }
 
 void Table::fail(std::string_view key, const std::string& text) const { throw SceneFailure(place(key), text); }
@@ -363,7 +371,7 @@ std::vector<Table> Table::tables(std::string_view key) const {
     std::vector<Table> out;
     for (std::size_t i = 0; i < list->size(); ++i) {
         const toml::node& entry = *list->get(i);
-        const Place where = place_of(entry, place_.file, fmt::format("{}[{}]", joined(place_.path, key), i));
+        const Place where = placed(entry, fmt::format("{}[{}]", joined(place_.path, key), i));
         if (!entry.is_table()) throw SceneFailure(where, fmt::format("{}: a table is expected", shown(entry)));
         out.emplace_back(*entry.as_table(), where, scene_table(row(key).content), scenes_);
     }

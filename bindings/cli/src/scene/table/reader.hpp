@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,10 +16,14 @@
 
 namespace cli {
 
+// Where tables of a scene come from, by the lines at which they begin.
+using Origins = std::map<int, Place>;
+
 class Table {
 public:
-    // Checks the keys and the rules; types and ranges are checked where a value is read.
-    Table(const toml::table& table, Place place, const KeyTable& keys, Scenes scenes);
+    // Checks the keys and the rules; types and ranges are checked where a value is read. origins: of tables in this
+    // one, which have their places; null: they stand where they are written.
+    Table(const toml::table& table, Place place, const KeyTable& keys, Scenes scenes, const Origins* origins = nullptr);
 
     [[nodiscard]] bool has(std::string_view key) const { return table_->contains(key); }
     [[nodiscard]] const Place& place() const { return place_; }
@@ -59,11 +64,13 @@ private:
     [[nodiscard]] bool is_one_of(const std::string& key, const std::vector<std::string>& values, bool otherwise) const;
     [[nodiscard]] const KeyRow& row(std::string_view key) const;
     [[nodiscard]] const toml::node& need(std::string_view key) const;
+    [[nodiscard]] Place placed(const toml::node& node, const std::string& path) const;
 
     const toml::table* table_;
     Place place_;
     const KeyTable* keys_;
     Scenes scenes_;
+    const Origins* origins_;
 };
 
 }  // namespace cli

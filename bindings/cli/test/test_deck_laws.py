@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Tables over the mode mix in decks, which follow from a curve of Benzeggagh and Kenane: the scene must have its numbers
+again. And what the law of an interface has one value for."""
+import math
+import re
+
+from support import delam, expect, expect_error, finish, write
+
+NORMAL, SHEAR, ETA = 0.02, 0.05, 1.6  # toughnesses and exponent
+K_N, K_S, S_N, S_S = 1000.0, 400.0, 1.5, 2.0  # stiffnesses and strengths
+HEAD = "*DAMAGE EVOLUTION, TYPE=ENERGY, MIXED MODE BEHAVIOR=TABULAR, MODE MIX RATIO=TRACTION\n"
+
+
+def deck(evolution, stiffness=f"{K_N}, {K_S}, {K_S}", strengths=f"{S_N}, {S_S}, {S_S}", initiation="QUADS", solid=False):
+    text = "*HEADING\ntwo blocks\n*NODE\n"
+    corners = [(x, y) for y in (0.0, 1.0) for x in (0.0, 1.0)]
+    for first, z in ((1, 0.0), (5, 1.0), (11, 1.0), (15, 2.0)):
+        for i, (x, y) in enumerate(corners):
+            if solid:
+                text += f"{first + i}, {x}, {y}, {z}\n"
+            elif y == 0.0:
+                text += f"{first + i}, {x}, {z}\n"
+    kinds = ("C3D8", "COH3D8", "1, 2, 4, 3, 5, 6, 8, 7", "11, 12, 14, 13, 15, 16, 18, 17", "5, 6, 8, 7, 11, 12, 14, 13")
+    if not solid:
+        kinds = ("CPE4", "COH2D4", "1, 2, 6, 5", "11, 12, 16, 15", "5, 6, 12, 11")
+    cell, cohesive, low, up, between = kinds
+    text += f"*ELEMENT, TYPE={cell}, ELSET=LOW\n1, {low}\n*ELEMENT, TYPE={cell}, ELSET=UP\n2, {up}\n"
+    text += f"*ELEMENT, TYPE={cohesive}, ELSET=COH\n3, {between}\n"
+    text += "*SOLID SECTION, ELSET=LOW, MATERIAL=M\n*SOLID SECTION, ELSET=UP, MATERIAL=M\n"
+    text += "*COHESIVE SECTION, ELSET=COH, MATERIAL=C, RESPONSE=TRACTION SEPARATION\n1.\n"
+    text += f"*MATERIAL, NAME=M\n*ELASTIC\n1000., 0.3\n*MATERIAL, NAME=C\n*ELASTIC, TYPE=TRACTION\n{stiffness}\n"
+    text += f"*DAMAGE INITIATION, CRITERION={initiation}\n{strengths}\n{evolution}"
+    return text + "*STEP\n*STATIC\n0.5, 1., 1e-5, 0.5\n*BOUNDARY\n1, 1, 3\n2, 2, 3\n*END STEP\n"
+
+
+def law(text):
+    code, scene, said = delam("import", write(text, "deck.inp"))
+    expect(code == 0, f"import: exit {code} {said.strip()[:300]}")
+    keys = ("normal_toughness", "tangential_toughness", "toughness_exponent")
+    return [float(re.search(rf"^{key} = (\S+)", scene, re.M).group(1)) if code == 0 else 0.0 for key in keys], said
+
+
+def expect_curve(what, text, allowed=0.01):
+    (normal, shear, exponent), said = law(text)
+    expect(math.isclose(normal, NORMAL, rel_tol=1e-12) and math.isclose(shear, SHEAR, rel_tol=1e-12),
+           f"{what}: toughnesses {normal}, {shear}")
+    expect(math.isclose(exponent, ETA, rel_tol=allowed), f"{what}: exponent {exponent}")
+    off = re.search(r"off by up to (\S+) %", said)
+    expect(off and float(off.group(1)) < 0.3, f"{what}: said {said}")
+
+
+def toughness(share):
+    return NORMAL + (SHEAR - NORMAL) * share ** ETA
+
+
+def share_at(ratio):
+    """The shear's share of the energy where the traction is at `ratio` right angles from the normal."""
+    t_n, t_s = math.cos(ratio * math.pi / 2), math.sin(ratio * math.pi / 2)
+    energy_n, energy_s = t_n * t_n / K_N, t_s * t_s / K_S
+    return energy_s / (energy_n + energy_s)
+
+
+def failure_at(share, largest):
+    """The jump beyond the onset at which a traction that falls linearly has the toughness of this share: along a way of
+    this share, the traction at the onset is that of the criterion."""
+    u_n, u_s = math.sqrt((1 - share) / K_N), math.sqrt(share / K_S)  # the way
+    ratios = (K_N * u_n / S_N, K_S * u_s / S_S)
+    scale = 1 / (max(ratios) if largest else math.hypot(*ratios))
+    onset = scale * math.hypot(u_n, u_s)
+    work = 0.5 * scale * scale * (K_N * u_n * u_n + K_S * u_s * u_s)  # to the onset
+    return (toughness(share) / work - 1) * onset
+
+
+# The corner of MAXS has a row of its own: between two rows the table is straight.
+steps = sorted([k / 40 for k in range(41)] + [math.atan(S_S / S_N) * 2 / math.pi])
+expect_curve("energies over tractions", deck(HEAD + "".join(f"{toughness(share_at(x))!r}, {x}\n" for x in steps)))
+expect_curve("energies over energies", deck(HEAD.replace("TRACTION", "ENERGY") +
+                                            "".join(f"{toughness(x)!r}, {x}\n" for x in steps)))
+displacements = HEAD.replace("TYPE=ENERGY", "TYPE=DISPLACEMENT")
+for initiation in ("QUADS", "MAXS"):
+    rows = "".join(f"{failure_at(share_at(x), initiation == 'MAXS')!r}, {x}\n" for x in steps)
+    expect_curve(f"displacements, {initiation}", deck(displacements + rows, initiation=initiation))
+
+for evolution, pattern in (
+        ("*DAMAGE EVOLUTION, TYPE=ENERGY, MIXED MODE BEHAVIOR=BK, POWER=1.5, MODE MIX RATIO=TRACTION\n1., 2., 2.\n",
+         r"write MODE MIX RATIO=ENERGY"),
+        ("*DAMAGE EVOLUTION, TYPE=DISPLACEMENT, MIXED MODE BEHAVIOR=BK, POWER=1.5\n1., 2., 2.\n", "BK needs TYPE=ENERGY"),
+        (displacements.replace("TABULAR,", "TABULAR, SOFTENING=EXPONENTIAL,") + "1., 0.\n1., 1.\n", "SOFTENING=LINEAR"),
+        (HEAD.replace("TRACTION", "ACCUMULATED ENERGY") + "1., 0.\n1., 1.\n", "ACCUMULATED ENERGY is not imported"),
+        (displacements + "0., 0.\n1., 1.\n", "a displacement > 0")):
+    expect_error(delam("import", write(deck(evolution), "deck.inp")), 2, r"deck\.inp:\d+: \*DAMAGE EVOLUTION: ", pattern)
+
+# Two directions of sliding: the line and the keyword of what differs.
+ONE = "*DAMAGE EVOLUTION, TYPE=ENERGY\n1.,\n"
+for others, keyword in (({"stiffness": "1000., 400., 300."}, "ELASTIC"), ({"strengths": "1.5, 2., 3."}, "DAMAGE INITIATION")):
+    text = deck(ONE, solid=True, **others)
+    line = 1 + text.splitlines().index("*ELASTIC, TYPE=TRACTION" if keyword == "ELASTIC" else
+                                       "*DAMAGE INITIATION, CRITERION=QUADS")
+    expect_error(delam("import", write(text, "deck.inp")), 2,
+                 rf"deck\.inp:{line}: \*{keyword}: .* in the two directions of sliding", "write the same twice")
+    code, _, said = delam("import", write(deck(ONE, **others), "deck.inp"))
+    expect(code == 0, f"in the plane there is one direction: {said}")
+finish()
