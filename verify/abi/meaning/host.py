@@ -9,6 +9,7 @@ A Twist exchanges two neighbours of an array on its way through, or changes a si
 it (../meanings.py --exchange).
 """
 import ctypes
+import math
 from ctypes import c_char, c_char_p, c_double, c_int32, c_int64, c_uint8, c_void_p
 
 SCALARS = {"int32_t": c_int32, "int64_t": c_int64, "double": c_double, "uint8_t": c_uint8, "char": c_char}
@@ -44,8 +45,11 @@ class Twist:
         return function == self.function and parameter == self.parameter and (self.key is None or key == self.key)
 
     def turn(self, numbers):
-        if self.index + 1 < len(numbers) and numbers[self.index] != numbers[self.index + 1]:
-            one, other = numbers[self.index:self.index + 2]
+        if self.index + 1 >= len(numbers):
+            return
+        one, other = numbers[self.index:self.index + 2]
+        size = max((abs(n) for n in numbers if math.isfinite(n)), default=0.0)
+        if one != other and not abs(one - other) <= 1e-13 * size:  # rounding is no difference
             numbers[self.index:self.index + 2] = [other, one if self.ordered else other]
             self.done = True
 
