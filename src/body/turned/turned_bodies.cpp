@@ -116,13 +116,16 @@ void TurnedBodies::set_tangent(std::int32_t body, TurnedCell::Stresses stresses,
         const std::size_t size = nodes.size() * dim;
         own.resize(size * size);
         cells_[index(c)].tangent(own, stresses, pulls[index(c)]);
-        for (std::size_t r = 0; r < size; ++r) {
-            const auto row = index(place_[index(nodes[r / dim])]) * dim + r % dim;
+        // The rows of a node have the same columns.
+        for (std::size_t a = 0; a < nodes.size(); ++a) {
+            const auto row = index(place_[index(nodes[a])]) * dim;
             const auto begin = k.column.begin() + k.start[row], end = k.column.begin() + k.start[row + 1];
             for (std::size_t b = 0; b < nodes.size(); ++b) {
                 const std::int64_t column = place_[index(nodes[b])] * static_cast<std::int64_t>(dim);
-                const auto at = std::lower_bound(begin, end, column) - k.column.begin();
-                for (std::size_t j = 0; j < dim; ++j) k.value[index(at) + j] += own[r * size + b * dim + j];
+                const auto offset = std::lower_bound(begin, end, column) - begin;
+                for (std::size_t i = 0; i < dim; ++i)
+                    for (std::size_t j = 0; j < dim; ++j)
+                        k.value[index(k.start[row + i] + offset) + j] += own[(a * dim + i) * size + b * dim + j];
             }
         }
     }

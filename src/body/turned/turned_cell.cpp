@@ -30,16 +30,19 @@ Vector3 plus(const Vector3& a, double factor, const Vector3& b) {
     return {a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]};
 }
 
-std::vector<Vector3> centred(std::size_t dimension, std::span<const double> places) {
-    std::vector<Vector3> z(places.size() / dimension, Vector3{});
+// Sets the places of nodes [nodes][dimension] from their mean.
+void set_centred(std::size_t dimension, std::span<const double> places, std::vector<Vector3>& z) {
+    z.assign(places.size() / dimension, Vector3{});
     Vector3 mean{};
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        z[i / dimension][i % dimension] = places[i];
-        mean[i % dimension] += places[i] / static_cast<double>(z.size());
-    }
+    for (std::size_t n = 0, i = 0; n < z.size(); ++n)
+        for (std::size_t k = 0; k < dimension; ++k, ++i) {
+            z[n][k] = places[i];
+            mean[k] += places[i] / static_cast<double>(z.size());
+        }
     for (Vector3& p : z) p = plus(p, -1.0, mean);
-    return z;
 }
+
+constexpr std::size_t most_displacements = 81;  // of a cell
 
 }  // namespace
 
@@ -105,15 +108,14 @@ Matrix3 spin_inverse(const Matrix3& stretch) {
 TurnedCell::TurnedCell(std::size_t dimension, std::span<const double> coordinates, std::span<const double> stiffness)
     : dimension_(dimension),
       coordinates_(coordinates.begin(), coordinates.end()),
-      stiffness_(stiffness.begin(), stiffness.end()),
-      reference_(centred(dimension, coordinates)) {
+      stiffness_(stiffness.begin(), stiffness.end()) {
+    set_centred(dimension, coordinates, reference_);
     for (const Vector3& z : reference_) size_ += dot(z, z) / static_cast<double>(nodes());
 }
 
-std::vector<Vector3> TurnedCell::stiffness_times(const std::vector<Vector3>& d) const {
-    std::vector<Vector3> q(nodes(), Vector3{});
-    constexpr std::size_t most = 81;  // displacements of a cell
-    std::array<double, most> flat;
+void TurnedCell::stiffness_times(std::span<const Vector3> d, std::vector<Vector3>& q) const {
+    q.assign(nodes(), Vector3{});
+    std::array<double, most_displacements> flat;
     const std::size_t size = nodes() * dimension_;
     for (std::size_t n = 0, i = 0; n < nodes(); ++n)
         for (std::size_t k = 0; k < dimension_; ++k) flat[i++] = d[n][k];
@@ -124,27 +126,27 @@ std::vector<Vector3> TurnedCell::stiffness_times(const std::vector<Vector3>& d) 
             for (std::size_t c = 0; c < size; ++c) sum += row[c] * flat[c];
             q[n][k] = sum;
         }
-    return q;
 }
 
 bool TurnedCell::move(std::span<const double> displacement) {
-    std::vector<double> x = coordinates_;
-    for (std::size_t i = 0; i < x.size(); ++i) x[i] += displacement[i];
-    place_ = centred(dimension_, x);
+    std::array<double, most_displacements> x;
+    const std::size_t size = coordinates_.size();
+    for (std::size_t i = 0; i < size; ++i) x[i] = coordinates_[i] + displacement[i];
+    set_centred(dimension_, std::span(x).first(size), place_);
     const double share = 1.0 / static_cast<double>(nodes());
     Matrix3 a{};
     for (std::size_t n = 0; n < nodes(); ++n)
-        for (std::size_t i = 0; i < 3; ++i)
-            for (std::size_t j = 0; j < 3; ++j) a[i * 3 + j] += share * place_[n][i] * reference_[n][j];
+        for (std::size_t i = 0; i < dimension_; ++i)
+            for (std::size_t j = 0; j < dimension_; ++j) a[i * 3 + j] += share * place_[n][i] * reference_[n][j];
     if (dimension_ == 2) a[8] = 0.5 * size_;  // any positive number: nothing turns out of the plane
     if (!polar_decomposition(a, rotation_, stretch_)) return false;
     inverse_ = spin_inverse(stretch_);
-    strain_ = place_;
+    strain_.resize(nodes());
     for (std::size_t n = 0; n < nodes(); ++n) {
         place_[n] = transposed_times(rotation_, place_[n]);
         strain_[n] = plus(place_[n], -1.0, reference_[n]);
     }
-    pull_ = stiffness_times(strain_);
+    stiffness_times(strain_, pull_);
     balance(pull_, couple_, force_);
     return true;
 }
@@ -159,7 +161,7 @@ void TurnedCell::balance(const std::vector<Vector3>& pull, Vector3& couple, std:
 }
 
 std::vector<Vector3> TurnedCell::pull_along(std::span<const double> displacement) const {
-    std::vector<Vector3> v(nodes(), Vector3{});
+    std::vector<Vector3> v(nodes(), Vector3{}), change;
     Vector3 turn{};
     for (std::size_t n = 0; n < nodes(); ++n) {
         std::copy_n(&displacement[n * dimension_], dimension_, v[n].begin());
@@ -168,7 +170,8 @@ std::vector<Vector3> TurnedCell::pull_along(std::span<const double> displacement
     }
     turn = times(inverse_, turn);
     for (std::size_t n = 0; n < nodes(); ++n) v[n] = plus(v[n], -1.0, cross(turn, place_[n]));
-    return stiffness_times(v);
+    stiffness_times(v, change);
+    return change;
 }
 
 double TurnedCell::energy() const {
@@ -184,70 +187,108 @@ void TurnedCell::add_force(std::span<double> force) const {
     }
 }
 
-// Column by column: the change of the force in the frame as one node moves along one of its axes. A motion of all nodes
-// together has no force, so that S dd is a column of S and what the turning of the frame adds.
+// With w = G v, dd = P v and P = I + Y G, where the rows of Y are [y_n]x, the stiffness alone gives P^T S P. The
+// stresses q add w x f to the force, and to the moment v_m x q_m + sum (y_n x w) x q_n + (du - tr(du)) a, where U
+// changes by du = 1/n v z^T - w x U. A motion of all nodes together has no force.
 void TurnedCell::tangent(std::span<double> matrix, Stresses stresses, const std::vector<Vector3>& pull) const {
-    Vector3 own_couple{};
-    std::vector<Vector3> own_force;
-    balance(pull, own_couple, own_force);
-    const std::size_t size = nodes() * dimension_;
+    const std::size_t size = nodes() * dimension_, first = dimension_ == 2 ? 2 : 0;
     const double share = 1.0 / static_cast<double>(nodes());
-    std::vector<double> local(size * size);
-    std::array<std::vector<Vector3>, 3> turning;  // S (y x e) for each axis e
-    for (std::size_t axis = dimension_ == 2 ? 2 : 0; axis < 3; ++axis) {
-        Vector3 e{};
-        e[axis] = 1.0;
-        std::vector<Vector3> turned;
-        for (const Vector3& y : place_) turned.push_back(cross(y, e));
-        turning[axis] = stiffness_times(turned);
-    }
-    std::vector<Vector3> moved(nodes()), pulled(nodes());
+    std::array<Vector3, most_displacements> turn, resisted;  // columns of G; rows of S Y
     for (std::size_t column = 0; column < size; ++column) {
         Vector3 v{};
-        v[column % dimension_] = 1.0;
-        const Vector3& z = reference_[column / dimension_];
-        Vector3 w = times(inverse_, cross(z, v));
-        for (double& c : w) c *= share;
-        Matrix3 du{};  // of U: R^T dA - w x U
-        for (std::size_t j = 0; j < 3; ++j) {
-            const Vector3 turned = cross(w, {stretch_[j], stretch_[3 + j], stretch_[6 + j]});
-            for (std::size_t i = 0; i < 3; ++i) du[i * 3 + j] = share * v[i] * z[j] - turned[i];
-        }
+        v[column % dimension_] = share;
+        turn[column] = times(inverse_, cross(reference_[column / dimension_], v));
+    }
+    for (std::size_t row = 0; row < size; ++row) {
+        resisted[row] = {};
         for (std::size_t n = 0; n < nodes(); ++n) {
-            moved[n] = plus(cross(place_[n], w), n == column / dimension_ ? 1.0 - share : -share, v);
-            pulled[n] = {};
-            for (std::size_t k = 0; k < dimension_; ++k)
-                pulled[n][k] = stiffness_[(n * dimension_ + k) * size + column];
-            for (std::size_t axis = dimension_ == 2 ? 2 : 0; axis < 3; ++axis)
-                pulled[n] = plus(pulled[n], w[axis], turning[axis][n]);
-        }
-        const double stressed = stresses == Stresses::count ? 1.0 : 0.0;
-        Vector3 moment{};
-        for (std::size_t n = 0; n < nodes(); ++n)
-            moment = plus(plus(moment, stressed, cross(moved[n], pull[n])), 1.0, cross(place_[n], pulled[n]));
-        moment = plus(plus(moment, -stressed * trace(du), own_couple), stressed, times(du, own_couple));
-        const Vector3 couple = times(inverse_, moment);
-        for (std::size_t n = 0; n < nodes(); ++n) {
-            const Vector3 f =
-                plus(plus(pulled[n], -share, cross(couple, reference_[n])), stressed, cross(w, own_force[n]));
-            for (std::size_t k = 0; k < dimension_; ++k) local[(n * dimension_ + k) * size + column] = f[k];
+            Vector3 s{};
+            std::copy_n(&stiffness_[row * size + n * dimension_], dimension_, s.begin());
+            resisted[row] = plus(resisted[row], 1.0, cross(s, place_[n]));
         }
     }
-    // R K R^T, block by block; the mean with the transpose removes rounding.
+    Matrix3 both{};  // Y^T S Y
+    for (std::size_t n = 0; n < nodes(); ++n)
+        for (std::size_t axis = first; axis < 3; ++axis) {
+            Vector3 s{};
+            for (std::size_t k = 0; k < dimension_; ++k) s[k] = resisted[n * dimension_ + k][axis];
+            const Vector3 sum = cross(s, place_[n]);
+            for (std::size_t i = first; i < 3; ++i) both[i * 3 + axis] += sum[i];
+        }
+    for (std::size_t column = 0; column < size; ++column) {
+        const Vector3 moved = plus(resisted[column], 1.0, times(both, turn[column]));
+        for (std::size_t row = 0; row < size; ++row) {
+            double sum = stiffness_[row * size + column];
+            for (std::size_t i = first; i < 3; ++i) sum += resisted[row][i] * turn[column][i] + turn[row][i] * moved[i];
+            matrix[row * size + column] = sum;
+        }
+    }
+    if (stresses == Stresses::count) add_stresses(std::span(turn).first(size), pull, matrix);
+    turn_blocks(matrix);
+}
+
+// turn: the columns of G.
+void TurnedCell::add_stresses(std::span<const Vector3> turn, const std::vector<Vector3>& pull,
+                              std::span<double> matrix) const {
+    Vector3 couple{};
+    std::vector<Vector3> force;
+    balance(pull, couple, force);
+    const std::size_t size = turn.size(), first = dimension_ == 2 ? 2 : 0;
+    const double share = 1.0 / static_cast<double>(nodes());
+    double along = 0.0;
+    Matrix3 across{};  // sum y q^T
+    for (std::size_t n = 0; n < nodes(); ++n) {
+        along += dot(place_[n], pull[n]);
+        for (std::size_t i = 0; i < dimension_; ++i)
+            for (std::size_t j = 0; j < dimension_; ++j) across[i * 3 + j] += place_[n][i] * pull[n][j];
+    }
+    const Vector3 stretched = times(stretch_, couple);
+    for (std::size_t column = 0; column < size; ++column) {
+        const std::size_t node = column / dimension_, axis = column % dimension_;
+        const Vector3 &w = turn[column], &z = reference_[node];
+        Vector3 v{};
+        v[axis] = 1.0;
+        Vector3 moment = plus(cross(v, pull[node]), along, w);
+        moment = plus(plus(moment, -1.0, times(across, w)), -share * z[axis], couple);
+        moment = plus(plus(moment, share * dot(z, couple), v), -1.0, cross(w, stretched));
+        for (std::size_t n = 0; n < nodes(); ++n) {
+            const Vector3 turned = cross(w, force[n]);
+            for (std::size_t k = 0; k < dimension_; ++k) {
+                double sum = turned[k];
+                for (std::size_t i = first; i < 3; ++i) sum -= turn[n * dimension_ + k][i] * moment[i];
+                matrix[(n * dimension_ + k) * size + column] += sum;
+            }
+        }
+    }
+}
+
+// R K R^T, block by block; the mean with the transpose removes rounding.
+void TurnedCell::turn_blocks(std::span<double> matrix) const {
+    const std::size_t size = nodes() * dimension_;
     for (std::size_t a = 0; a < nodes(); ++a)
-        for (std::size_t b = 0; b < nodes(); ++b)
+        for (std::size_t b = 0; b <= a; ++b) {
+            Matrix3 block{}, half{};  // K, K R^T
+            for (std::size_t i = 0; i < dimension_; ++i)
+                for (std::size_t j = 0; j < dimension_; ++j)
+                    block[i * 3 + j] = 0.5 * (matrix[(a * dimension_ + i) * size + b * dimension_ + j] +
+                                              matrix[(b * dimension_ + j) * size + a * dimension_ + i]);
+            for (std::size_t i = 0; i < dimension_; ++i)
+                for (std::size_t j = 0; j < dimension_; ++j)
+                    for (std::size_t k = 0; k < dimension_; ++k)
+                        half[i * 3 + j] += block[i * 3 + k] * rotation_[j * 3 + k];
             for (std::size_t i = 0; i < dimension_; ++i)
                 for (std::size_t j = 0; j < dimension_; ++j) {
                     double sum = 0.0;
-                    for (std::size_t k = 0; k < dimension_; ++k)
-                        for (std::size_t l = 0; l < dimension_; ++l)
-                            sum += rotation_[i * 3 + k] * rotation_[j * 3 + l] *
-                                   local[(a * dimension_ + k) * size + b * dimension_ + l];
+                    for (std::size_t k = 0; k < dimension_; ++k) sum += rotation_[i * 3 + k] * half[k * 3 + j];
                     matrix[(a * dimension_ + i) * size + b * dimension_ + j] = sum;
+                    matrix[(b * dimension_ + j) * size + a * dimension_ + i] = sum;
                 }
-    for (std::size_t r = 0; r < size; ++r)
-        for (std::size_t c = 0; c < r; ++c)
-            matrix[r * size + c] = matrix[c * size + r] = 0.5 * (matrix[r * size + c] + matrix[c * size + r]);
+            if (a != b) continue;
+            for (std::size_t i = 0; i < dimension_; ++i)
+                for (std::size_t j = 0; j < i; ++j)
+                    matrix[(a * dimension_ + i) * size + a * dimension_ + j] =
+                        matrix[(a * dimension_ + j) * size + a * dimension_ + i];
+        }
 }
 
 void TurnedCell::add_couple(const Vector3& couple, std::span<double> force) const {

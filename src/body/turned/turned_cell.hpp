@@ -66,7 +66,10 @@ private:
     std::size_t nodes() const { return reference_.size(); }
     // a and f of these forces.
     void balance(const std::vector<Vector3>& pull, Vector3& couple, std::vector<Vector3>& force) const;
-    std::vector<Vector3> stiffness_times(const std::vector<Vector3>& d) const;
+    void stiffness_times(std::span<const Vector3> d, std::vector<Vector3>& q) const;
+    // Parts of the tangent.
+    void add_stresses(std::span<const Vector3> turn, const std::vector<Vector3>& pull, std::span<double> matrix) const;
+    void turn_blocks(std::span<double> matrix) const;
 
     std::size_t dimension_;
     std::vector<double> coordinates_, stiffness_;
