@@ -11,18 +11,16 @@ namespace delam {
 
 namespace {
 
-// Pairs on a front that a part dissipates, over path_step, and at most: where the process zone has few pairs, this is the
-// accuracy of a path, and goes with the option. (Measured by verify/bench/constants.py with verify/bench/analyses.py: in
-// five whole steps of mixed mode, half moves the dissipated energy by 0.9 % and the work by 3.5 % at most, with up to
-// twice the solves; twice by 1.0 % and 5 %, with 0.4 times as many. The test few_pairs_follow_path_step shows what
-// path_step does.)
+// Pairs on a front that a part dissipates, over path_step, and at most: where the process zone has few pairs, this is
+// the accuracy of a path, and goes with the option. (Measured by verify/bench/constants.py with
+// verify/bench/analyses.py: in five whole steps of mixed mode, half moves the dissipated energy by 0.9 % and the work
+// by 3.5 % at most, with up to twice the solves; twice by 1.0 % and 5 %, with 0.4 times as many. The test
+// few_pairs_follow_path_step shows what path_step does.)
 constexpr double pairs_per_path_step = 5.0, most_pairs_of_part = 0.5;
 
 }  // namespace
 
-double pairs_of_part(double path_step) {
-    return std::min(most_pairs_of_part, pairs_per_path_step * path_step);
-}
+double pairs_of_part(double path_step) { return std::min(most_pairs_of_part, pairs_per_path_step * path_step); }
 
 double advance_of_part(double path_step, double row, double zone) {
     return std::max(pairs_of_part(path_step) * row, path_step * zone);
