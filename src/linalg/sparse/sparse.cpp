@@ -144,25 +144,4 @@ SparseMatrix congruence(const SparseMatrix& k, const SparseMatrix& t, const Poll
     return m;
 }
 
-void set_congruence(const SparseMatrix& k, const SparseMatrix& t, SparseMatrix& m, const Poll& poll) {
-    const SparseMatrix tt = transpose(t);
-    std::vector<std::int64_t> place(index(m.columns));
-    for (std::size_t i = 0; i < index(tt.rows); ++i) {
-        if (i % 4096 == 0) call_if_set(poll);
-        for (auto e = index(m.start[i]); e < index(m.start[i + 1]); ++e) {
-            place[index(m.column[e])] = static_cast<std::int64_t>(e);
-            m.value[e] = 0.0;
-        }
-        for (auto s = index(tt.start[i]); s < index(tt.start[i + 1]); ++s) {
-            const std::size_t r = index(tt.column[s]);
-            for (auto e = index(k.start[r]); e < index(k.start[r + 1]); ++e) {
-                const double value = tt.value[s] * k.value[e];
-                const std::size_t c = index(k.column[e]);
-                for (auto j = index(t.start[c]); j < index(t.start[c + 1]); ++j)
-                    m.value[index(place[index(t.column[j])])] += value * t.value[j];
-            }
-        }
-    }
-}
-
 }  // namespace delam

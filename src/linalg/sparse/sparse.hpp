@@ -39,7 +39,5 @@ SparseMatrix transpose(const SparseMatrix& a);
 
 // T^T K T of a symmetric K with both triangles stored.
 SparseMatrix congruence(const SparseMatrix& k, const SparseMatrix& t, const Poll& poll = {});
-// Sets the numbers of the same, whose pattern m has, or more.
-void set_congruence(const SparseMatrix& k, const SparseMatrix& t, SparseMatrix& m, const Poll& poll = {});
 
 }  // namespace delam

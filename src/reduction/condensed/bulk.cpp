@@ -20,19 +20,17 @@ Bulk::Bulk(const Problem& problem, Monitor& monitor) : problem_(problem) {
     call_if_set(analysing);
     superelements_ = std::make_unique<Superelements>(transformed_, variables(), problem_, analysing);
     if (!problem_.renewed) return;
-    const auto places = [](const SparseMatrix& m) {
-        return Places{{m.start.begin(), m.start.end()}, {m.column.begin(), m.column.end()}};
-    };
-    analysed_ = {places(stiffness()), places(variables().transform), transformed_};
+    analysed_.start = transformed_.start;
+    analysed_.column = transformed_.column;
 }
 
 bool Bulk::renew(Renewed what, Monitor& monitor) {
     const Poll condensing = monitor.poll_at("condense", 0, 0);
     system_->renew(what, condensing);
     if (what == Renewed::all) {
-        if (!analysed_.stiffness.same(stiffness()) || !analysed_.transform.same(variables().transform)) return false;
-        system_->transform(analysed_.transformed, condensing);
-        superelements_->renew(analysed_.transformed);
+        transformed_ = system_->transformed(condensing);
+        if (transformed_.start != analysed_.start || transformed_.column != analysed_.column) return false;
+        superelements_->renew(transformed_);
     }
     equations_ = TrailingEquations(variables(), static_cast<std::int64_t>(problem_.patterns.size()), *superelements_);
     if (what == Renewed::all) factorise(condensing);

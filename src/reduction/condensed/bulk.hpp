@@ -105,18 +105,7 @@ private:
     const Problem& problem_;
     std::unique_ptr<BodySystem> system_;
     SparseMatrix transformed_;
-    // Where a matrix has entries.
-    struct Places {
-        LargeVector<std::int64_t> start, column;
-        bool same(const SparseMatrix& m) const {
-            return std::ranges::equal(start, m.start) && std::ranges::equal(column, m.column);
-        }
-    };
-    struct Analysed {
-        Places stiffness, transform;
-        SparseMatrix transformed;
-    };
-    Analysed analysed_;  // of a problem that is renewed: K, T and T^T K T
+    SparseMatrix analysed_;  // of a problem that is renewed: the pattern
     std::unique_ptr<Superelements> superelements_;
     TrailingEquations equations_;
     std::unique_ptr<Elimination> bonded_;  // all jumps at rest, those in equations left

@@ -112,10 +112,9 @@ std::vector<std::uint8_t> ZoneChoice::grown(std::vector<std::uint8_t> set, std::
     return set;
 }
 
-// Margins about what changes, so that a front may advance for a while before the zone has to follow. What stays in
-// every zone has none: with three anchors in each of 32 fibres, most of the margin would be about them.
+// Margins, so that a front may advance for a while before the zone has to follow.
 void ZoneChoice::choose(const Springs& springs, std::span<const std::uint8_t> wanted, bool tight) {
-    std::vector<std::uint8_t> set(always_.size(), 0);
+    std::vector<std::uint8_t> set(always_);
     std::vector<double> now = springs_of(springs);
     for (std::size_t i = 0; i < now.size(); ++i) {
         age_[i] = wanted[i] != 0 ? std::uint8_t{0}
@@ -125,11 +124,11 @@ void ZoneChoice::choose(const Springs& springs, std::span<const std::uint8_t> wa
         if (kept || (now[i] > 0.0 && now[i] < weakest_hold * body)) set[i] = 1;
     }
     if (!expected_.empty() && floats_unless_held(expected_, now)) expected_.clear();
-    const std::size_t changing = count(set);
-    if (expected_.empty() && (!tight || changing + count(always_) <= index(limits_.zone_small)))
-        set = grown(std::move(set), changing + std::max<std::size_t>(16, changing / 5));
-    for (std::size_t i = 0; i < set.size(); ++i)
-        if (always_[i] != 0 || (!expected_.empty() && expected_[i] != 0)) set[i] = 1;
+    const std::size_t needed = count(set);
+    if (expected_.empty() && (!tight || needed <= index(limits_.zone_small)))
+        set = grown(std::move(set), needed + std::max<std::size_t>(16, needed / 5));
+    for (std::size_t i = 0; i < expected_.size(); ++i)
+        if (expected_[i] != 0) set[i] = 1;
     spring_ = std::move(now);
     inside_ = std::move(set);
 }

@@ -32,10 +32,6 @@ public:
     void renew(Renewed what, const Poll& poll);
     // T^T K T; the diagonal entries of all trailing variables exist.
     SparseMatrix transformed(const Poll& poll) const;
-    // Sets its numbers, where the patterns of K and T have stayed the same since.
-    void transform(SparseMatrix& transformed, const Poll& poll) const {
-        set_congruence(stiffness_, variables_.transform, transformed, poll);
-    }
     // Computes the forces of all patterns. The forces in the result have been taken out of it.
     StrainLoads find_loads();
     // [patterns][mesh DOFs], empty: none; dead forces and those of eigenstrains
