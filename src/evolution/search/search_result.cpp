@@ -50,9 +50,9 @@ double LeftOut::bound(const PathCosts& path) const {
 }
 
 double SearchResult::bound(const PathCosts& path) const {
-    double lowest = infinite;
-    for (const LeftOut& own : left_out) lowest = std::min(lowest, own.bound(path));
-    return lowest;
+    double least = infinite;
+    for (const LeftOut& own : left_out) least = std::min(least, own.bound(path));
+    return least;
 }
 
 }  // namespace delam

@@ -70,7 +70,6 @@ void Bulk::rest(const Poll& condensing) {
     if (variables().kept == 0 && !equations_.any()) return;
     resting_ = std::make_unique<Elimination>(*superelements_, trailing_load_);
     resting_->update(equations_.states(std::vector<double>(index(unknowns()), Elimination::held)), condensing);
-    resting_->forget_energies();
     resting_energy_ = std::make_unique<ZoneEnergy>(zone_energy(*resting_, condensing));
 }
 
@@ -93,7 +92,6 @@ void Bulk::factorise(const Poll& poll) {
         fail(DELAM_ERROR_NUMERICAL,
              "the stiffness of the bonded structure is not positive definite: check supports, materials and the shapes "
              "of cells");
-    bonded_->forget_energies();
     const std::int64_t kept = equations_.kept();
     if (kept == 0) return;
     const ReducedEnergy reduced(equations_, *superelements_, *bonded_);

@@ -62,14 +62,6 @@ void Elimination::update(std::span<const double> state, const Poll& poll) {
     interrupted_ = false;
 }
 
-void Elimination::forget_energies() {
-    for (auto* fronts : {&below_, &outside_})
-        for (TreeFront& front : *fronts) {
-            front.energy = DenseEnergy();
-            front.made = -1;
-        }
-}
-
 // Down from the root as long as all of the zone lies below one child.
 std::int64_t Elimination::lowest_with_the_zone() const {
     const std::vector<Superelements::Node>& nodes = bodies_.nodes();

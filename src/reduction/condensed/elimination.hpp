@@ -35,8 +35,6 @@ public:
     // state: [places]; 0 for displacements. Throws Error(DELAM_ERROR_NUMERICAL) if nothing holds what is eliminated;
     // then nothing is left that could be used.
     void update(std::span<const double> state, const Poll& poll);
-    // Frees what only another update() would use: the energies that nodes have left to others, most of the memory.
-    void forget_energies();
     // Energy of the kept displacements, then the jumps of the zone, in ascending order.
     const DenseEnergy& energy() const { return last_.energy; }
     const std::vector<std::int64_t>& places() const { return last_.left; }
