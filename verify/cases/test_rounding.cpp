@@ -92,8 +92,12 @@ LOOP_TEST(slender, 0, 4) {
         if (found.status == DELAM_OK) cases::expect_below(found.balance, 5e-3, where);
         if (ratio >= (opened ? 3e3 : 3e4)) {
             cases::expect(found.status == DELAM_NOT_CONVERGED || found.status == DELAM_ERROR_NUMERICAL, where);
-            const char* words = found.status == DELAM_NOT_CONVERGED ? "out of balance" : "not positive definite";
-            cases::expect(found.words.find(words) != std::string::npos, where);
+            // Rounding decides which test fails first: of the balance, of the contact, or of the factor.
+            const auto says = [&](const char* words) { return found.words.find(words) != std::string::npos; };
+            cases::expect(found.status == DELAM_NOT_CONVERGED
+                              ? says("out of balance") || says("the contact set still changes")
+                              : says("not positive definite"),
+                          where);
         }
     }
 }

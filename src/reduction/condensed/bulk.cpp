@@ -46,9 +46,7 @@ void Bulk::condense(Monitor& monitor) {
     equations_ = TrailingEquations(variables(), static_cast<std::int64_t>(problem_.patterns.size()), *superelements_);
     factorise(condensing);
     take_loads(0, condensing);
-    if (problem_.renewed) return;
-    closed_.clear();
-    stressed_.clear();
+    if (!problem_.renewed) stressed_.clear();
 }
 
 void Bulk::take_loads(std::size_t first, const Poll& condensing) {
@@ -150,7 +148,7 @@ void Bulk::find_pattern_stiffness(std::size_t first, const StrainLoads& strained
     for (std::size_t p = first; p < patterns; ++p) {
         std::vector<double> unit(patterns, 0.0);
         unit[p] = 1.0;
-        if (variables().kept > 0 || equations_.any()) closed_[p] = displacement(unit, closed);
+        if (variables().kept > 0 || equations_.any()) closed_[p] = displacement_from_lift(unit, closed);
         multiply(stiffness(), closed_[p], nodal);
         stressed_[p] = nodal;
         const std::vector<double> left = carried(unit, closed_[p]);
@@ -208,7 +206,39 @@ std::vector<double> Bulk::solve_bonded(std::span<const double> forces) const {
     return v;
 }
 
+// u = sum_p theta_p u_p + T v, where v has the jumps and what they move: with the leaves condensed to S, the cuts at
+// S_cc v_c = -S_ct v_t, then the leaves at A_ll v_l = -A_ls v_s. Each leaf is solved once.
 std::vector<double> Bulk::displacement(std::span<const double> theta, std::span<const double> unknowns) const {
+    if (equations_.kept() > 0) return displacement_from_lift(theta, unknowns);
+    std::vector<double> u(index(system_->dofs()), 0.0);
+    for (std::size_t p = 0; p < theta.size(); ++p) add_scaled(theta[p], closed_[p], u);
+    poll_cancel("recover", system_->dofs() / 64);
+    system_->add_variables(moved_by_jumps(unknowns), u);
+    poll_cancel("recover", system_->dofs() / 64);
+    return u;
+}
+
+std::vector<double> Bulk::moved_by_jumps(std::span<const double> unknowns) const {
+    const std::vector<double> unloaded(problem_.patterns.size(), 0.0);
+    std::vector<double> v = equations_.variables_at(unloaded, unknowns);
+    const std::vector<std::int64_t>& skeleton = superelements_->variable();
+    std::vector<double> moved(skeleton.size()), cuts(skeleton.size(), 0.0);
+    std::vector<std::uint8_t> is_cut(skeleton.size());
+    for (std::size_t p = 0; p < skeleton.size(); ++p) {
+        moved[p] = v[index(skeleton[p])];
+        is_cut[p] = superelements_->kind(static_cast<std::int64_t>(p)) == Superelements::Kind::cut ? 1 : 0;
+    }
+    superelements_->subtract_image(moved, is_cut, cuts);
+    bonded_->solve_cuts(cuts);
+    for (std::size_t p = 0; p < skeleton.size(); ++p)
+        if (is_cut[p] != 0) v[index(skeleton[p])] = cuts[p];
+    superelements_->solve_inside(std::vector<double>(v.size(), 0.0), v);
+    return v;
+}
+
+// u = u_0 + G (f theta - K u_0) from the lift and the jumps, u_0, with G of reading(), below.
+std::vector<double> Bulk::displacement_from_lift(std::span<const double> theta,
+                                                 std::span<const double> unknowns) const {
     std::vector<double> u = system_->lift(theta);
     system_->add_variables(equations_.variables_at(theta, unknowns), u);
     poll_cancel("recover", system_->dofs() / 64);
@@ -233,7 +263,7 @@ std::vector<double> Bulk::moved_bonded(std::span<const double> nodal) const {
     return moved;
 }
 
-// displacement(), transposed. With G = T S T^T its stages are
+// displacement_from_lift(), transposed. With G = T S T^T its stages are
 //
 //     u_0 = U theta + T E x,   u_1 = u_0 + G (f theta - K u_0),
 //     y = A^-1 D^T T^T (f theta - K u_1),   u_2 = u_1 + T D y,   u = u_2 + G (f theta - K u_2),

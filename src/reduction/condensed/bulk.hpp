@@ -95,6 +95,9 @@ private:
     std::vector<double> solve_bonded(std::span<const double> forces) const;
     // T S T^T of nodal forces, where S is what solve_bonded() does.
     std::vector<double> moved_bonded(std::span<const double> nodal) const;
+    std::vector<double> displacement_from_lift(std::span<const double> theta, std::span<const double> unknowns) const;
+    // Returns the variables that the unknowns determine, with all loads at zero.
+    std::vector<double> moved_by_jumps(std::span<const double> unknowns) const;
     std::vector<double> carried(std::span<const double> theta, std::span<const double> displacement) const;
     void condense_loads(std::size_t first, const Poll& poll);
     void find_pattern_stiffness(std::size_t first, const StrainLoads& strained, const Poll& poll);
@@ -116,7 +119,7 @@ private:
     std::int64_t factorisations_ = 0;
     DenseMatrix trailing_load_;  // [skeleton][patterns], with all trailing variables at rest
     DenseMatrix load_;
-    // [patterns][mesh DOFs] displacements at factor 1 with all jumps at rest, and their forces, as long as needed.
+    // [patterns][mesh DOFs] displacements at factor 1 with all jumps at rest; and their forces, as long as needed.
     std::vector<std::vector<double>> closed_, stressed_;
     DenseMatrix pattern_stiffness_;
     std::vector<double> left_over_;  // [patterns] work of the forces that solve_bonded() left, with random signs
