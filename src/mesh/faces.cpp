@@ -3,6 +3,10 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
+#include <numeric>
+#include <string>
+#include <vector>
 
 #include "base/cancel_scope.hpp"
 #include "base/error.hpp"
@@ -172,6 +176,163 @@ std::vector<BoundaryFace> boundary_faces(const Mesh& mesh, std::int32_t body) {
             if (table.neighbour[i * index(FaceTable::stride) + f] < 0) faces.push_back(face_of(mesh, cells[i], f));
     }
     return faces;
+}
+
+namespace {
+
+// Originals of nodes, each once and ascending: what tells a face.
+using Key = std::vector<std::int64_t>;
+
+Key key_of(const Mesh& mesh, std::span<const std::int64_t> nodes) {
+    Key key;
+    for (const std::int64_t node : nodes) key.push_back(mesh.node_origin(node));
+    std::sort(key.begin(), key.end());
+    key.erase(std::unique(key.begin(), key.end()), key.end());
+    return key;
+}
+
+std::string listed(std::span<const std::int64_t> nodes) {
+    std::string text;
+    for (const std::int64_t node : nodes) text += (text.empty() ? "" : ", ") + std::to_string(node);
+    return text;
+}
+
+// The given faces, by their keys, and whether cells have them.
+class GivenFaces {
+public:
+    GivenFaces(const Mesh& mesh, std::span<const std::int64_t> faces, std::size_t per_face)
+        : mesh_(mesh), faces_(faces), per_face_(per_face), on_face_(index(mesh.node_count()), 0) {
+        for (std::size_t i = 0; i < faces.size(); ++i)
+            if (faces[i] < 0 || faces[i] >= mesh.node_count())
+                fail(DELAM_ERROR_ARGUMENT, "face ", i / per_face, ": node ", faces[i], ": must be in 0..",
+                     mesh.node_count() - 1);
+        for (std::size_t f = 0; f < count(); ++f) {
+            Key key = key_of(mesh, nodes(f));
+            for (const std::int64_t node : key) on_face_[index(node)] = 1;
+            known_.emplace(std::move(key), f);
+        }
+        met_.assign(count(), 0);
+    }
+
+    // True if the node, or the one it was doubled from, is one of a face.
+    bool has(std::int64_t node) const { return on_face_[index(mesh_.node_origin(node))] != 0; }
+    // True if the face is one of them, which is then met.
+    bool meet(const BoundaryFace& face) {
+        for (const std::span<const std::int64_t> listed : {face.corner(), face.all()}) {
+            const auto found = known_.find(key_of(mesh_, listed));
+            if (found == known_.end()) continue;
+            met_[found->second] = 1;
+            return true;
+        }
+        return false;
+    }
+    void require_all_met() const {
+        for (const auto& [key, f] : known_)
+            if (met_[f] == 0)
+                fail(DELAM_ERROR_MESH, "face ", f, " with nodes ", listed(nodes(f)),
+                     ": no two cells of one body share it");
+    }
+
+private:
+    std::size_t count() const { return faces_.size() / per_face_; }
+    std::span<const std::int64_t> nodes(std::size_t f) const { return faces_.subspan(f * per_face_, per_face_); }
+
+    const Mesh& mesh_;
+    std::span<const std::int64_t> faces_;
+    std::size_t per_face_;
+    std::map<Key, std::size_t> known_;
+    std::vector<std::uint8_t> on_face_;  // [nodes] of originals
+    std::vector<std::uint8_t> met_;      // [faces]
+};
+
+// The cells at a cut, and which of their faces belong to it.
+class CellsAtCut {
+public:
+    CellsAtCut(const Mesh& mesh, GivenFaces& given) : mesh_(mesh) {
+        for (std::int64_t c = 0; c < mesh.cell_count(); ++c) {
+            poll_cancel("mesh");
+            const auto nodes = mesh.cell(c);
+            if (std::any_of(nodes.begin(), nodes.end(), [&](std::int64_t n) { return given.has(n); }))
+                cells_.push_back(c);
+        }
+        table_ = match_faces(mesh, cells_);
+        cut_.assign(table_.neighbour.size(), 0);
+        for (std::size_t i = 0; i < cells_.size(); ++i)
+            for (std::size_t f = 0; f < faces_of(i); ++f) {
+                const BoundaryFace face = face_of(mesh, cells_[i], f);
+                const std::size_t at = i * index(FaceTable::stride) + f;
+                if (table_.neighbour[at] < 0 || !given.meet(face)) continue;
+                cut_[at] = 1;
+                for (const std::int64_t node : face.all()) around_[node];
+            }
+        for (std::size_t i = 0; i < cells_.size(); ++i)
+            for (const std::int64_t node : mesh.cell(cells_[i]))
+                if (const auto at = around_.find(node); at != around_.end()) at->second.push_back(i);
+    }
+
+    // Returns which cells take a copy of which node.
+    std::vector<DoubledNode> copies() const {
+        std::vector<DoubledNode> made;
+        for (const auto& [node, around] : around_) {
+            poll_cancel("mesh");
+            const std::vector<std::size_t> before = parts(node, around, false), after = parts(node, around, true);
+            std::map<std::size_t, std::size_t> copy_of;  // of a part: its place in `made`
+            for (std::size_t i = 0; i < around.size(); ++i) {
+                if (after[i] == before[i]) continue;  // the part of the first cell keeps the node
+                const auto [part, first] = copy_of.try_emplace(after[i], made.size());
+                if (first) made.push_back({node, {}});
+                made[part->second].cells.push_back(cells_[around[i]]);
+            }
+        }
+        return made;
+    }
+
+private:
+    std::size_t faces_of(std::size_t i) const { return index(topology(mesh_.cell_type(cells_[i])).faces); }
+
+    // Returns for each cell around a node the first one, in this list, to which it is connected across faces with this
+    // node; opened: but not across those of the cut.
+    std::vector<std::size_t> parts(std::int64_t node, const std::vector<std::size_t>& around, bool opened) const {
+        std::vector<std::size_t> first(around.size());
+        std::iota(first.begin(), first.end(), std::size_t{0});
+        const auto root = [&](std::size_t i) {
+            while (first[i] != i) i = first[i];
+            return i;
+        };
+        for (std::size_t i = 0; i < around.size(); ++i)
+            for (std::size_t f = 0; f < faces_of(around[i]); ++f) {
+                const std::size_t at = around[i] * index(FaceTable::stride) + f;
+                if (table_.neighbour[at] < 0 || (opened && cut_[at] != 0)) continue;
+                const BoundaryFace face = face_of(mesh_, cells_[around[i]], f);
+                if (std::find(face.all().begin(), face.all().end(), node) == face.all().end()) continue;
+                const auto other = std::lower_bound(around.begin(), around.end(), index(table_.neighbour[at]));
+                const std::size_t a = root(i), b = root(index(other - around.begin()));
+                first[std::max(a, b)] = std::min(a, b);
+            }
+        for (std::size_t i = 0; i < first.size(); ++i) first[i] = root(i);
+        return first;
+    }
+
+    const Mesh& mesh_;
+    std::vector<std::int64_t> cells_;
+    FaceTable table_;                                          // of cells_
+    std::vector<std::uint8_t> cut_;                            // like it: 1 on faces of the cut
+    std::map<std::int64_t, std::vector<std::size_t>> around_;  // of each node on a cut face: the cells, ascending
+};
+
+}  // namespace
+
+std::int64_t cut(Mesh& mesh, std::span<const std::int64_t> faces, std::size_t per_face) {
+    if (faces.empty()) fail(DELAM_ERROR_ARGUMENT, "faces: a cut needs at least one");
+    GivenFaces given(mesh, faces, per_face);
+    const CellsAtCut at(mesh, given);
+    given.require_all_met();
+    const std::vector<DoubledNode> copies = at.copies();
+    if (copies.empty())
+        fail(DELAM_ERROR_MESH,
+             "the faces open nothing: around each of their nodes the cells stay connected across other faces");
+    mesh.double_nodes(copies);
+    return static_cast<std::int64_t>(copies.size());
 }
 
 }  // namespace delam

@@ -51,4 +51,11 @@ double shortest_edge(const Mesh& mesh, std::span<const std::int64_t> cells);
 // Box around the nodes of a face, widened on all sides.
 Box box_of(const Mesh& mesh, const BoundaryFace& face, double widened);
 
+// Doubles the nodes of faces that two cells of one body share, so that both sides are outer faces there: a seam
+// (pairing/seams.hpp). A node around which the cells stay connected across other faces, as at the tip of a crack, stays
+// one. faces: [count][per_face] nodes of each face, its corners or all of them, in any order; one may occur twice, and
+// the original of a copy stands for it. Returns the number of new nodes, which are copies (Mesh::node_origin). On an
+// error the mesh is unchanged.
+std::int64_t cut(Mesh& mesh, std::span<const std::int64_t> faces, std::size_t per_face);
+
 }  // namespace delam

@@ -68,6 +68,7 @@ std::vector<std::int32_t> Mesh::joined_labels() const {
     for (const InterfaceGeometry& i : interfaces_)
         for (const std::int32_t body : {i.body_a, i.body_b})
             if (body >= 0) joined.push_back(body_label(body));
+    joined.insert(joined.end(), cut_labels_.begin(), cut_labels_.end());
     std::sort(joined.begin(), joined.end());
     return joined;
 }
@@ -78,7 +79,7 @@ void Mesh::check_label(std::int32_t label, std::span<const std::int32_t> joined,
         fail(DELAM_ERROR_MESH, "cell ", number, ": body ", label, " was made without cells (delam_mesh_add_host_body)");
     if (std::binary_search(joined.begin(), joined.end(), label))
         fail(DELAM_ERROR_STATE, "cell ", number, ": body ", label,
-             " has an interface already; add all of its cells first");
+             " has an interface already, or is cut; add all of its cells first");
 }
 
 void Mesh::take_node(std::int64_t node, std::int32_t label, std::size_t number, std::vector<std::int64_t>& taken) {
@@ -253,6 +254,36 @@ void Mesh::add_conforming_cells(CellType type, std::span<const std::int64_t> con
             if (next >= before) next = -1;
         throw;
     }
+}
+
+void Mesh::double_nodes(std::span<const DoubledNode> copies) {
+    std::set<std::int32_t> labels;
+    for (const DoubledNode& copy : copies) labels.insert(node_label_[index(copy.node)]);
+    for (const InterfaceGeometry& i : interfaces_)
+        for (const std::int32_t body : {i.body_a, i.body_b})
+            if (body >= 0 && labels.contains(body_label(body)))
+                fail(DELAM_ERROR_STATE, "body ", body_label(body), " has an interface already; cut it before");
+    const std::size_t count = copies.size();
+    make_room(nodes_, count * index(dimension_));
+    make_room(node_label_, count);
+    make_room(node_origin_, count);
+    make_room(next_copy_, count);
+    make_room(cut_labels_, labels.size());
+
+    // Nothing below can fail.
+    for (const DoubledNode& copy : copies) {
+        const std::int64_t made = node_count();
+        for (int k = 0; k < dimension_; ++k) nodes_.push_back(nodes_[index(copy.node * dimension_ + k)]);
+        node_label_.push_back(node_label_[index(copy.node)]);
+        node_origin_.push_back(node_origin_[index(copy.node)]);
+        next_copy_.push_back(next_copy_[index(copy.node)]);
+        next_copy_[index(copy.node)] = made;
+        for (const std::int64_t cell : copy.cells) {
+            const auto begin = connectivity_.begin() + cell_offset_[index(cell)];
+            std::replace(begin, connectivity_.begin() + cell_offset_[index(cell) + 1], copy.node, made);
+        }
+    }
+    cut_labels_.insert(cut_labels_.end(), labels.begin(), labels.end());
 }
 
 void Mesh::add_host_body(std::int32_t label, std::span<const std::int64_t> nodes) {

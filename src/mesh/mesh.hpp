@@ -20,6 +20,12 @@ struct NodeTie {
     std::vector<std::pair<std::int64_t, double>> of;
 };
 
+// A node that some cells of a body, at least one, take instead of one of the body's.
+struct DoubledNode {
+    std::int64_t node;
+    std::vector<std::int64_t> cells;
+};
+
 class Mesh {
 public:
     Mesh(int dimension, std::span<const double> nodes);
@@ -85,7 +91,12 @@ private:
     }
     // Moves pairs of an interface into a new one (pairing/interfaces.hpp).
     friend std::int64_t split_interface(Mesh& mesh, std::int64_t interface, std::span<const std::int64_t> pairs);
-    // Labels of the bodies that have an interface, ascending.
+    // Doubles the nodes of faces within a body (faces.hpp).
+    friend std::int64_t cut(Mesh& mesh, std::span<const std::int64_t> faces, std::size_t per_face);
+    // Appends a copy of each of these nodes and gives it to its cells. The bodies, which must have no interface yet,
+    // take no more cells.
+    void double_nodes(std::span<const DoubledNode> copies);
+    // Labels of the bodies that have an interface or are cut, ascending.
     std::vector<std::int32_t> joined_labels() const;
     // Check cell `number`: check_label refuses a label that takes no more cells; take_node refuses a node that the
     // label cannot have, and lists in `taken` the nodes that had no body.
@@ -103,6 +114,7 @@ private:
     std::vector<std::int64_t> connectivity_;
     std::vector<std::int32_t> labels_;       // distinct labels, ascending
     std::vector<std::int32_t> host_labels_;  // of bodies without cells, ascending
+    std::vector<std::int32_t> cut_labels_;   // of bodies whose nodes were doubled
     static constexpr std::int32_t reserved = -2;
     std::vector<std::int32_t> node_label_;  // -1: none; reserved: tied, or the control node of an obstacle
     std::vector<std::int64_t> node_origin_;
