@@ -229,6 +229,18 @@ DELAM_API int32_t delam_experimental_solver_eigenstrains(delam_solver *solver, i
 
 /* ---- interfaces ------------------------------------------------------------------------------------------------- */
 
+/* Cuts a body open along faces between its cells, as for a crack that ends within it. The nodes of these faces are
+ * doubled, so that both sides are outer faces that lie on each other: a seam for delam_mesh_add_seams. A node around
+ * which the cells stay connected across other faces, as at the tip of the crack, stays one.
+ *   faces  [face_count][nodes_per_face] nodes of each face, its corners or all of them, in any order
+ * A triangle among quadrilaterals repeats a node, and the original of a copied node stands for the copy.
+ * The copies are appended to the mesh. *out_nodes receives their number, and delam_mesh_node_origins returns their
+ * originals. Cells of the body cannot be added any more. Cuts come before the interfaces of the body.
+ * DELAM_ERROR_MESH: no two cells of one body share a face, or the faces open nothing. DELAM_ERROR_STATE: the body has
+ * an interface already.
+ * [null none; status cancelled, argument, mesh, state; source none; since 0.2] */
+DELAM_API int32_t delam_experimental_mesh_cut(delam_mesh *mesh, int64_t face_count, int32_t nodes_per_face,
+                                              const int64_t *faces, int32_t index_base, int64_t *out_nodes);
 /* Moves pairs [count] of an interface into a new one between the same two bodies, so that both have laws or bonds of
  * their own. An example are bodies that share nodes on one part of their common surface and are glued on the rest.
  * *out_interface receives the index of the new interface. The pairs of both keep their order, weights and frames, and

@@ -10,6 +10,8 @@
 
 #include "capi/handle/handles.hpp"
 #include "evolution/analysis/solver.hpp"
+#include "mesh/cell_type.hpp"
+#include "mesh/faces.hpp"
 #include "mesh/pairing/interfaces.hpp"
 #include "scene/engine.hpp"
 #include "scene/part.hpp"
@@ -150,6 +152,21 @@ int32_t delam_experimental_solver_eigenstrains(delam_solver* solver, int64_t cap
             if (eigenstrains != nullptr) std::copy_n(strains[index(b)].begin(), 6, eigenstrains + 6 * b);
         }
         if (count != nullptr) *count = needed;
+    });
+}
+
+int32_t delam_experimental_mesh_cut(delam_mesh* mesh, int64_t face_count, int32_t nodes_per_face, const int64_t* faces,
+                                    int32_t index_base, int64_t* out_nodes) {
+    return guard_build(mesh, [&] {
+        Mesh& core = *mesh->core;
+        require_pointer(out_nodes, "out_nodes");
+        require_count(face_count, "face_count", 1);
+        if (find_face_row(core.dimension(), nodes_per_face) == nullptr)
+            fail(DELAM_ERROR_ARGUMENT, "nodes_per_face = ", nodes_per_face, ": must be ", face_sizes(core.dimension()));
+        require_base(index_base);
+        *out_nodes =
+            cut(core, require_indices(faces, face_count * nodes_per_face, core.node_count(), index_base, "faces"),
+                index(nodes_per_face));
     });
 }
 

@@ -435,6 +435,13 @@ inline const Call calls[] = {
      [](const Asked& a) { return watched(a.world, a.in, [&] { return follow(a.in, a.solver); }); }},
     {"delam_experimental_solver_sensitivity", Subject::solver, may::argument | may::state,
      [](const Asked& a) { return sensitivity(a.in, a.solver); }},
+    {"delam_experimental_mesh_cut", Subject::mesh, may::cancelled | may::argument | may::mesh | may::state,
+     [](const Asked& a) {
+         std::int64_t made = -1;
+         const std::int64_t faces[] = {a.in.index(6), a.in.index(6), a.in.index(6), a.in.index(6)};
+         return IN_ORDER(delam_experimental_mesh_cut, a.mesh, a.in.flag() ? 1 : 2, a.in.flag() ? 2 : 4, faces, 0,
+             a.in.seldom() ? nullptr : &made);
+     }},
     {"delam_experimental_mesh_split_interface", Subject::mesh, may::argument,
      [](const Asked& a) {
          std::int64_t index = -1;
