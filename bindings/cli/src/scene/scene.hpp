@@ -94,6 +94,7 @@ struct InterfaceData {
     bool open = false;  // distances of the faces count
     double adjust = 0;  // smaller ones do not
     double tolerance = 0;
+    std::string cut;  // of a body with itself: the set of faces along which its nodes are doubled; empty: none
     bool shared_bonded = false;  // pairs of nodes that both bodies have in the file are bonded, whatever the law
     std::string name;
     bool bonded = false;

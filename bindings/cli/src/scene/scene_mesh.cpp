@@ -155,6 +155,14 @@ void read_gaps(const Table& table, InterfaceData& interface) {
     interface.adjust = table.number("adjust", 0.0);
 }
 
+std::string read_cut(const Table& table, const InterfaceData& interface, const Scene& scene) {
+    if (!interface.within()) table.fail("cut", "is for the same body as a and b");
+    std::string name = set_name(table, "cut", scene);
+    if (!scene.mesh->face_sets.contains(name))
+        table.fail("cut", fmt::format("\"{}\" is a set of nodes; a set of faces is needed", name));
+    return name;
+}
+
 void read_mesh_interfaces(const Table& root, Scene& scene) {
     const BodyIndex index = index_of(scene.mesh->body_names);
     for (const Table& table : root.tables("interfaces")) {
@@ -179,6 +187,7 @@ void read_mesh_interfaces(const Table& root, Scene& scene) {
         interface.shared_bonded = table.text("shared", "law") == "bonded";
         if (interface.shared_bonded && (all || interface.within() || is_pattern(interface.a + interface.b)))
             table.fail("shared", "\"bonded\" needs two bodies by name");
+        if (table.has("cut")) interface.cut = read_cut(table, interface, scene);
         interface.bonded = table.flag("bonded");
         interface.contact = table.flag("contact");
         read_gaps(table, interface);

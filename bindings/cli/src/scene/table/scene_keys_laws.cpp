@@ -220,6 +220,8 @@ KeyTable interface_table() {
             .says(
                 "nodes that both bodies have in the file: part of the interface with its law, or bonded, whatever the "
                 "law of the rest"),
+        text_key("cut").in_mesh().says(
+            "with the same body as a and b: a set of faces within it, along which its nodes are doubled"),
         tables_key("notch", "notch").says("parts without adhesion from the start"),
         tables_key("adhesion", "adhesion").says("parts with an adhesion of their own"),
     };
@@ -245,6 +247,7 @@ KeyTable interface_table() {
         {excludes, {"bonded"}, {"initial_gap", "adjust"}, {}, "bonded faces have no gap", Scenes::mesh},
         {excludes, {"shared"}, {"projected"}, {}, "is for meshes that match", Scenes::mesh},
         {excludes, {"projected"}, {"all"}, {}, "needs two bodies by name", Scenes::mesh},
+        {excludes, {"cut"}, {"all"}, {}, "is for the same body as a and b", Scenes::mesh},
     };
     return table;
 }
