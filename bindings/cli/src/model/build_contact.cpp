@@ -8,12 +8,14 @@
 #include <map>
 #include <numeric>
 #include <set>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "delam/experimental.h"
 #include "model/call.hpp"
 
 namespace cli {
@@ -83,6 +85,82 @@ std::size_t next_body(const Model& model, const Place& place) {
     return static_cast<std::size_t>(body);
 }
 
+// Originals of the nodes on side b of the next interface that the mesh has and the model has not.
+std::vector<std::int64_t> next_nodes(const Model& model, const Place& place) {
+    const delam_context* context = model.context.get();
+    const delam_mesh* mesh = model.mesh.get();
+    const auto index = static_cast<std::int64_t>(model.interfaces.size());
+    std::int64_t pairs = 0, nodes = 0;
+    call(context, delam_mesh_interface_size(mesh, index, nullptr, nullptr, &pairs, nullptr, nullptr), place);
+    call(context, delam_mesh_size(mesh, nullptr, &nodes, nullptr, nullptr, nullptr), place);
+    std::vector<std::int64_t> node_b(static_cast<std::size_t>(pairs)), origins(static_cast<std::size_t>(nodes));
+    call(context, delam_mesh_interface_pairs(mesh, index, nullptr, node_b.data(), nullptr, nullptr), place);
+    call(context, delam_mesh_node_origins(mesh, nodes, origins.data()), place);
+    for (std::int64_t& node : node_b) node = origins[static_cast<std::size_t>(node)];
+    return node_b;
+}
+
+std::span<const std::int64_t> nodes_of(const std::array<std::int64_t, 9>& face) {
+    return {face.begin(), std::find(face.begin(), face.end(), -1)};
+}
+
+// The entries of interfaces within bodies: those of cuts, and one of each body for its other seams.
+class SeamEntries {
+public:
+    explicit SeamEntries(const Scene& scene) {
+        for (const InterfaceData& data : scene.interfaces) {
+            if (!data.within()) continue;
+            if (first_ == nullptr) first_ = &data;
+            if (data.tolerance != first_->tolerance)
+                throw SceneFailure(data.place, fmt::format("tolerance is {}, that of {} {}: the seams share one",
+                                                           data.tolerance, first_->place.path, first_->tolerance));
+            if (data.cut.empty() && !others_.emplace(data.a, &data).second)
+                throw SceneFailure(data.place, "there is another interface within this body");
+            if (data.cut.empty()) continue;
+            std::set<std::int64_t> nodes;
+            for (const auto& face : scene.mesh->face_sets.at(data.cut))
+                nodes.insert(nodes_of(face).begin(), nodes_of(face).end());
+            cuts_.emplace_back(&data, std::move(nodes));
+        }
+    }
+
+    // Returns nullptr if no interface is within a body.
+    [[nodiscard]] const InterfaceData* first() const { return first_; }
+
+    // Returns the entry of a seam through these nodes of the file: the cut on which all of them lie, else that of the
+    // body's other seams, else nullptr.
+    [[nodiscard]] const InterfaceData* of(const std::string& body, const std::vector<std::int64_t>& seam) const {
+        const InterfaceData* partly = nullptr;
+        for (const auto& [data, nodes] : cuts_) {
+            if (data->a != body) continue;
+            const auto on = std::count_if(seam.begin(), seam.end(),
+                                          [&, &own = nodes](std::int64_t node) { return own.contains(node); });
+            if (on == static_cast<std::ptrdiff_t>(seam.size())) return data;
+            if (on > 0) partly = data;
+        }
+        if (partly != nullptr)
+            throw SceneFailure(partly->place, fmt::format("cut = \"{}\": its seam goes on beyond this set; one set of "
+                                                          "faces is needed for the whole seam",
+                                                          partly->cut));
+        const auto found = others_.find(body);
+        return found != others_.end() ? found->second : nullptr;
+    }
+
+    void require_used(const std::set<const InterfaceData*>& used) const {
+        for (const auto& [name, entry] : others_)
+            if (!used.contains(entry))
+                throw SceneFailure(entry->place,
+                                   fmt::format("\"{}\" is a and b, and this body has no {}seam: none of its outer "
+                                               "faces lie on each other with nodes of their own",
+                                               name, cuts_.empty() ? "" : "other "));
+    }
+
+private:
+    const InterfaceData* first_ = nullptr;
+    std::map<std::string, const InterfaceData*> others_;                         // by body
+    std::vector<std::pair<const InterfaceData*, std::set<std::int64_t>>> cuts_;  // with the nodes of their faces
+};
+
 // Adds as many interfaces of bodies with themselves as the mesh has got.
 void push_own(Model& model, const Scene& scene, std::int64_t count, const InterfaceData& data) {
     for (; count > 0; --count) {
@@ -142,27 +220,39 @@ bool apart(const Model& model, const Scene& scene, std::int64_t index) {
 
 }  // namespace
 
-void add_seams(Model& model, const Scene& scene) {
-    std::map<std::string, const InterfaceData*> entries;  // by body
-    const InterfaceData* first = nullptr;
+void cut_bodies(Model& model, const Scene& scene) {
     for (const InterfaceData& data : scene.interfaces) {
-        if (!data.within()) continue;
-        if (first == nullptr) first = &data;
-        if (data.tolerance != first->tolerance)
-            throw SceneFailure(data.place, fmt::format("tolerance is {}, that of {} {}: the seams share one",
-                                                       data.tolerance, first->place.path, first->tolerance));
-        if (!entries.emplace(data.a, &data).second)
-            throw SceneFailure(data.place, "there is another interface within this body");
+        if (data.cut.empty()) continue;
+        const auto& faces = scene.mesh->face_sets.at(data.cut);
+        std::size_t per_face = 0;
+        for (const auto& face : faces) per_face = std::max(per_face, nodes_of(face).size());
+        std::vector<std::int64_t> nodes;
+        for (const auto& face : faces) {
+            const std::span<const std::int64_t> own = nodes_of(face);
+            nodes.insert(nodes.end(), own.begin(), own.end());
+            nodes.insert(nodes.end(), per_face - own.size(), own.back());  // a triangle among quadrilaterals
+        }
+        std::int64_t doubled = 0;
+        call(model.context.get(),
+             delam_experimental_mesh_cut(model.mesh.get(), static_cast<std::int64_t>(faces.size()),
+                                         static_cast<std::int32_t>(per_face), nodes.data(), 0, &doubled),
+             data.place);
     }
+}
+
+void add_seams(Model& model, const Scene& scene) {
+    const SeamEntries entries(scene);
+    const InterfaceData* first = entries.first();
     if (first == nullptr) return;
     std::int64_t count = 0;
     call(model.context.get(), delam_mesh_add_seams(model.mesh.get(), first->tolerance, &count), first->place);
-    std::set<std::string> found;
+    std::set<const InterfaceData*> used;
+    std::set<std::size_t> without;
     for (; count > 0; --count) {
         const std::size_t body = next_body(model, first->place);
         const std::string& name = scene.layers[body].name;
-        const auto entry = entries.find(name);
-        if (found.insert(name).second && entry == entries.end() && !scene.general_contact)
+        const InterfaceData* entry = entries.of(name, next_nodes(model, first->place));
+        if (entry == nullptr && without.insert(body).second && !scene.general_contact)
             model.said.push_back(
                 fmt::format("body \"{}\" has a seam and no entry for it: its sides are in contact; a = "
                             "\"{}\", b = \"{}\" with a law makes them adhere",
@@ -170,14 +260,10 @@ void add_seams(Model& model, const Scene& scene) {
         InterfaceData contact;
         contact.contact = true;
         contact.place = first->place;
-        push_interface(model, scene, entry != entries.end() ? *entry->second : contact, body, body);
+        push_interface(model, scene, entry != nullptr ? *entry : contact, body, body);
+        used.insert(entry);
     }
-    for (const auto& [name, entry] : entries)
-        if (!found.contains(name))
-            throw SceneFailure(entry->place,
-                               fmt::format("\"{}\" is a and b, and this body has no seam: none of its outer "
-                                           "faces lie on each other with nodes of their own",
-                                           name));
+    entries.require_used(used);
 }
 
 void add_general_contact(Model& model, const Scene& scene,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Seams within bodies, and contact that needs more than an entry: wherever outer faces have no interface, across gaps.
+// Cuts and seams within bodies, and contact that needs more than an entry: wherever outer faces have no interface,
+// across gaps.
 #pragma once
 
 #include <cstddef>
@@ -8,6 +9,9 @@
 #include "model/model.hpp"
 
 namespace cli {
+
+// Doubles the nodes of bodies along the sets of faces that entries name (cut), before any interface is made.
+void cut_bodies(Model& model, const Scene& scene);
 
 // Adds the interfaces of seams within bodies for which the scene has entries, in all bodies; seams of others are in
 // contact.

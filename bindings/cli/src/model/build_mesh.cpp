@@ -241,6 +241,7 @@ void build_from(Model& model, const Scene& scene) {
              place);
     for (const CellBlock& block : data.blocks)
         model.partitions.insert(model.partitions.end(), block.partitions.begin(), block.partitions.end());
+    cut_bodies(model, scene);
     add_named_interfaces(model, scene);
     add_seams(model, scene);
     if (scene.general_contact)
