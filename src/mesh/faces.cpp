@@ -218,8 +218,8 @@ public:
     bool has(std::int64_t node) const { return on_face_[index(mesh_.node_origin(node))] != 0; }
     // True if the face is one of them, which is then met.
     bool meet(const BoundaryFace& face) {
-        for (const std::span<const std::int64_t> listed : {face.corner(), face.all()}) {
-            const auto found = known_.find(key_of(mesh_, listed));
+        for (const std::span<const std::int64_t> own : {face.corner(), face.all()}) {
+            const auto found = known_.find(key_of(mesh_, own));
             if (found == known_.end()) continue;
             met_[found->second] = 1;
             return true;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A body that is cut along faces within it: both sides have nodes of their own but for the edge of the cut, and the
-// seam has the pairs and weights of two bodies that touch there.
+// seam has their pairs and, where the cut has no edge within the body, the area of its faces.
 #include <cmath>
 #include <functional>
 #include <set>
@@ -88,7 +88,7 @@ TEST(to_a_tip) {
         }
 }
 
-// Through the block: the seam is the interface of two bodies.
+// Through the block: the seam has the whole area.
 TEST(through) {
     for (const CellType type : all_types) {
         Mesh mesh = block(type);

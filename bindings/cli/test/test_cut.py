@@ -10,9 +10,9 @@ from support import delam, expect, expect_error, folder, finish, write
 LENGTH, WIDTH, HEIGHT, CELLS = 60.0, 4.0, 6.0, (60, 2, 4)
 
 
-def block(dimension, halves, ends):
-    """Returns a Gmsh file (MSH 2.2): one body `beam`, or two, `lower` and `upper`, and groups of the faces in their
-    middle, in order along x: {name: x at its end}."""
+def block(dimension, halves, ends, height=CELLS[2] // 2):
+    """Returns a Gmsh file (MSH 2.2): one body `beam`, or two, `lower` and `upper`, and groups of the faces on a row of
+    cells, that of the middle, in order along x: {name: x at its end}."""
     along, across, up = CELLS
     rows = across + 1 if dimension == 3 else 1
 
@@ -35,7 +35,7 @@ def block(dimension, halves, ends):
         for j in range(rows if dimension == 2 else across):
             square = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)] if dimension == 3 else [(i, 0), (i + 1, 0)]
             if tag:
-                cells.append(f"{3 if dimension == 3 else 1} 2 {tag} {tag} " + " ".join(str(node(*c, middle)) for c in square))
+                cells.append(f"{3 if dimension == 3 else 1} 2 {tag} {tag} " + " ".join(str(node(*c, height)) for c in square))
             for k in range(up):
                 body = 2 if halves and k >= middle else 1
                 if dimension == 3:
@@ -133,6 +133,10 @@ for interfaces, words in (
         (['a = "lower"\nb = "lower"\ncut = "midd"\nlaw = "glue"'], '"midd": no such set.*it has: mid')):
     write(block(2, True, {"mid": LENGTH}), "two.msh", place)
     expect_error(delam("check", write(scene(2, "two.msh", interfaces), "wrong.toml", place)), 2, words)
+write(block(2, True, {"high": LENGTH}, 3), "high.msh", place)
+other = ['a = "lower"\nb = "lower"\ncut = "high"\nlaw = "glue"', 'a = "lower"\nb = "upper"\nlaw = "glue"']
+expect_error(delam("check", write(scene(2, "high.msh", other), "other.toml", place)), 2,
+             'lie within body "upper", and a and b are "lower"')
 write(block(2, False, {"mid": LENGTH}), "one.msh", place)
 twice = [OWN + 'cut = "mid"\nlaw = "glue"'] * 2
 expect_error(delam("check", write(scene(2, "one.msh", twice), "twice.toml", place)), 2, "no two cells of one body share it")

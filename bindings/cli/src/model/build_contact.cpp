@@ -85,7 +85,7 @@ std::size_t next_body(const Model& model, const Place& place) {
     return static_cast<std::size_t>(body);
 }
 
-// Originals of the nodes on side b of the next interface that the mesh has and the model has not.
+// Returns the originals of the nodes on side b of the next interface that the mesh has and the model has not.
 std::vector<std::int64_t> next_nodes(const Model& model, const Place& place) {
     const delam_context* context = model.context.get();
     const delam_mesh* mesh = model.mesh.get();
@@ -100,6 +100,7 @@ std::vector<std::int64_t> next_nodes(const Model& model, const Place& place) {
     return node_b;
 }
 
+// Returns the nodes of a face of a set, without what fills its row.
 std::span<const std::int64_t> nodes_of(const std::array<std::int64_t, 9>& face) {
     return {face.begin(), std::find(face.begin(), face.end(), -1)};
 }
@@ -132,11 +133,16 @@ public:
     [[nodiscard]] const InterfaceData* of(const std::string& body, const std::vector<std::int64_t>& seam) const {
         const InterfaceData* partly = nullptr;
         for (const auto& [data, nodes] : cuts_) {
-            if (data->a != body) continue;
             const auto on = std::count_if(seam.begin(), seam.end(),
                                           [&, &own = nodes](std::int64_t node) { return own.contains(node); });
-            if (on == static_cast<std::ptrdiff_t>(seam.size())) return data;
-            if (on > 0) partly = data;
+            const bool whole = on == static_cast<std::ptrdiff_t>(seam.size());
+            if (whole && data->a != body)
+                throw SceneFailure(data->place,
+                                   fmt::format("cut = \"{}\": faces of this set lie within body \"{}\", and "
+                                               "a and b are \"{}\"",
+                                               data->cut, body, data->a));
+            if (whole) return data;
+            if (on > 0 && data->a == body) partly = data;
         }
         if (partly != nullptr)
             throw SceneFailure(partly->place, fmt::format("cut = \"{}\": its seam goes on beyond this set; one set of "
