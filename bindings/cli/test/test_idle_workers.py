@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""No thread of the BLAS spins beside a small analysis, with no variable set: the program, a host in C and one in Python
-take the processor time that they take with one thread. Times of other programs do not enter."""
+"""No worker of the BLAS lives beside a small analysis, with no variable set: it would spin. The program, a host in C and
+one in Python have one thread when they write their results."""
+import fcntl
 import os
-import resource
 import subprocess
 import sys
+import time
 
 from support import DELAM, expect, finish, folder
 
@@ -12,27 +13,54 @@ UNSET = {key: value for key, value in os.environ.items() if not key.startswith((
 BIN, EXAMPLES = os.path.dirname(DELAM), os.environ["DELAM_EXAMPLES"]
 UNSET["DELAM_LIBRARY"] = os.path.join(os.path.dirname(BIN), "lib", "libdelam.so")
 UNSET["PYTHONPATH"] = os.path.join(os.path.dirname(EXAMPLES), "bindings", "python", "src")
-ONE = dict(UNSET, OPENBLAS_NUM_THREADS="1")
-PROGRAMS = {"the program": [DELAM, "run", os.path.join(EXAMPLES, "enf", "enf.toml"), "--set", "output.fields=[]", "--out"],
+# NumPy alone, whose BLAS starts its workers and keeps them: what the others are told apart from.
+NUMPY = [sys.executable, "-c", "import numpy; print(numpy.ones(3).sum())"]
+PROGRAMS = {"the program": [DELAM, "run", os.path.join(EXAMPLES, "enf", "enf.toml"), "--set", "output.fields=[]", "--out",
+                            os.path.join(folder(), "out")],
             "a host in C": [os.path.join(BIN, "enf")],
             "a host in Python": [sys.executable, os.path.join(EXAMPLES, "enf", "enf.py")]}
 
 
-def processor_time(words, environment):
-    """Of the quickest of five runs, in seconds."""
-    times = []
-    for _ in range(5):
-        before = resource.getrusage(resource.RUSAGE_CHILDREN)
-        subprocess.run([*words, os.path.join(folder(), "out")], env=environment, check=True, stdout=subprocess.DEVNULL,
-                       stderr=subprocess.DEVNULL)
-        after = resource.getrusage(resource.RUSAGE_CHILDREN)
-        times.append(after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)
-    return min(times)
+def full_pipe():
+    """Its two ends; who writes to it waits."""
+    reading, writing = os.pipe()
+    fcntl.fcntl(writing, fcntl.F_SETFL, os.O_NONBLOCK)
+    try:
+        while True:
+            os.write(writing, b"\n" * 4096)
+    except BlockingIOError:
+        fcntl.fcntl(writing, fcntl.F_SETFL, 0)
+    return reading, writing
 
 
-if len(os.sched_getaffinity(0)) < 2:
-    sys.exit(77)
+def wait_for_output(process):
+    """Returns once the process has slept for a tenth of a second without processor time, or has ended."""
+    before, still = None, 0
+    while still < 10 and process.poll() is None:
+        with open(f"/proc/{process.pid}/stat") as file:
+            state, *values = file.read().rpartition(")")[2].split()
+        now = state, values[10], values[11]
+        still = still + 1 if now == before and state == "S" else 0
+        before = now
+        time.sleep(0.01)
+
+
+def threads(words):
+    """Number of threads of a program while it waits to write its first results; None: it has written nothing."""
+    reading, writing = full_pipe()
+    process = subprocess.Popen(words, env=UNSET, stdout=writing, stderr=subprocess.DEVNULL)
+    os.close(writing)
+    wait_for_output(process)
+    count = len(os.listdir(f"/proc/{process.pid}/task")) if process.poll() is None else None
+    with open(reading, "rb") as file:
+        written = file.read().strip()
+    expect(process.wait() == 0, f"{words[0]} ends with {process.returncode}")
+    return count if written else None
+
+
+if (threads(NUMPY) or 1) < 2:
+    sys.exit(77)  # one processor, or a BLAS without threads of its own
 for name, words in PROGRAMS.items():
-    unset, one = processor_time(words, UNSET), processor_time(words, ONE)
-    expect(unset < 1.3 * one, f"{name}: {1e3 * unset:.0f} ms of processors, with one thread {1e3 * one:.0f} ms")
+    count = threads(words)
+    expect(count == 1, f"{name}: {count} threads when it writes its results, expected one")
 finish()
