@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The birth certificates of the numbers that steer Newton's method, restarts, renewals, patches and zones
 // (scene/limits.inc, base/restarts.inc): analyses with half and twice of each give the same results as with the number
-// itself, at another cost. With DELAM_LIMITS=FILE in the environment, the table of digits and costs is written there.
+// itself, at another cost. With DELAM_LIMITS=FILE in the environment, the table of digits and costs is written there;
+// with DELAM_LIMIT=NAME, only that number is changed.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -153,7 +154,9 @@ TEST(test_limits) {
     std::FILE* table = std::getenv("DELAM_LIMITS") != nullptr ? std::fopen(std::getenv("DELAM_LIMITS"), "w") : nullptr;
     if (table != nullptr) std::fputs(heading, table);
     std::string wrong;
+    const char* const only = std::getenv("DELAM_LIMIT");
     for (const Row& row : rows()) {
+        if (only != nullptr && row.name != only) continue;
         std::string line = "| `" + row.name + "` | " + row.value + " | " + row.reason + " |";
         for (const double factor : {0.5, 2.0}) {
             Limits limits;

@@ -67,7 +67,7 @@ private:
     }
     Point start() const;
     Point point(std::vector<double> unknowns) const;
-    Point halfway(const Point& from, const Point& to) const;
+    Point between(const Point& from, const Point& to, double part) const;
     // Loads the system with models of the members about a point: their tangents between secant (0) and full (1), one
     // of them debonded (or none: -1).
     void model(const Point& at, std::span<const double> adhesion, double fraction, std::int64_t debonded);
@@ -76,6 +76,9 @@ private:
                   Point& out);
     // A point between `at` and `to` with less energy, at which pairs change one by one if asked for; false: none.
     bool descend(const Point& at, Point& to, bool singly);
+    // Ends the way from `at` to `to` where the energy begins to rise: beyond it lies another equilibrium. False: at
+    // once.
+    bool fall(const Point& at, Point& to) const;
     // True if at most one pair breaks between the points and, if one does, no pair that was at rest begins to soften.
     bool one_by_one(const Point& from, const Point& to) const;
     std::int64_t weakest(const Point& at) const;
@@ -157,10 +160,10 @@ Descent::Point Descent::point(std::vector<double> unknowns) const {
     return at;
 }
 
-Descent::Point Descent::halfway(const Point& from, const Point& to) const {
-    std::vector<double> between(from.unknowns);
-    for (std::size_t i = 0; i < between.size(); ++i) between[i] += 0.5 * (to.unknowns[i] - from.unknowns[i]);
-    return point(std::move(between));
+Descent::Point Descent::between(const Point& from, const Point& to, double part) const {
+    std::vector<double> unknowns(from.unknowns);
+    for (std::size_t i = 0; i < unknowns.size(); ++i) unknowns[i] += part * (to.unknowns[i] - from.unknowns[i]);
+    return point(std::move(unknowns));
 }
 
 void Descent::model(const Point& at, std::span<const double> adhesion, double fraction, std::int64_t debonded) {
@@ -211,10 +214,26 @@ bool Descent::descend(const Point& at, Point& to, bool singly) {
     const double rounding = zone_.energy_rounding() * (std::abs(at.energy) + std::abs(to.energy));
     for (std::int64_t n = 0; n < limits_.newton_halvings; ++n) {
         halved_ = n > 0;
-        if (n > 0) to = halfway(at, to);
+        if (n > 0) to = between(at, to, 0.5);
         if (to.energy <= at.energy + rounding && (!singly || one_by_one(at, to))) return true;
     }
     return false;
+}
+
+bool Descent::fall(const Point& at, Point& to) const {
+    const std::int64_t parts = limits_.newton_parts_of_move;
+    Point least = at;
+    for (std::int64_t n = 1; n <= parts; ++n) {
+        const double part = static_cast<double>(n) / static_cast<double>(parts);
+        Point next = n < parts ? between(at, to, part) : std::move(to);
+        if (!(next.energy < least.energy)) {
+            to = std::move(least);
+            return n > 1;
+        }
+        least = std::move(next);
+    }
+    to = std::move(least);
+    return true;
 }
 
 // The softening pair nearest to complete debonding: the one that plain steps would break next.
@@ -254,8 +273,8 @@ Descent::Move Descent::step(const Point& at) {
     if (!move.taken && !(soft && *soft < limits_.newton_own_branch) && move_backoff_.try_now()) {
         closed_ = before;
         const std::int64_t pair = weakest(at);
-        move.taken = move_backoff_.report(pair >= 0 && minimise(at, at.adhesion, 0.0, pair, move.to) &&
-                                          move.to.energy < at.energy);
+        move.taken =
+            move_backoff_.report(pair >= 0 && minimise(at, at.adhesion, 0.0, pair, move.to) && fall(at, move.to));
         if (move.taken) {
             ++state_.effort.debond_moves;
             move.carried[index(pair)] = 0.0;
@@ -324,7 +343,7 @@ Descent::Move Descent::damped_step(const Point& at, double softening, const std:
     move.taken =
         minimise(at, at.adhesion, fraction, -1, move.to) && descend(at, move.to, true) && move.to.energy < at.energy;
     for (std::int64_t n = 0; n < limits_.newton_halvings && move.taken; ++n) {
-        Point nearer = halfway(at, move.to);
+        Point nearer = between(at, move.to, 0.5);
         if (!(nearer.energy < move.to.energy)) break;
         move.to = std::move(nearer);
         halved_ = true;
