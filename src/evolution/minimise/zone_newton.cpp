@@ -76,11 +76,15 @@ private:
                   Point& out);
     // A point between `at` and `to` with less energy, at which pairs change one by one if asked for; false: none.
     bool descend(const Point& at, Point& to, bool singly);
-    // Ends the way from `at` to `to` where the energy begins to rise: beyond it lies another equilibrium. False: at
-    // once.
-    bool fall(const Point& at, Point& to) const;
-    // True if at most one pair breaks between the points and, if one does, no pair that was at rest begins to soften.
+    // Pairs that break, and pairs at rest that begin to soften, from one point to another.
+    struct Changes {
+        std::int64_t broken = 0, begun = 0;
+    };
+    Changes changes(const Point& from, const Point& to) const;
     bool one_by_one(const Point& from, const Point& to) const;
+    // Ends the way from `at` to `to` before the energy rises or a pair at rest begins to soften: another equilibrium,
+    // in which plain steps would end, may lie there. False: at once.
+    bool fall(const Point& at, Point& to) const;
     std::int64_t weakest(const Point& at) const;
     Move step(const Point& at);
     Move staggered_step(const Point& at, const std::vector<std::uint8_t>& closed);
@@ -200,14 +204,20 @@ bool Descent::minimise(const Point& at, std::span<const double> adhesion, double
     return true;
 }
 
-bool Descent::one_by_one(const Point& from, const Point& to) const {
-    std::int64_t broken = 0, begun = 0;
+Descent::Changes Descent::changes(const Point& from, const Point& to) const {
+    Changes found;
     for (std::size_t i = 0; i < members_.size(); ++i) {
         const double whole = increment_.adhesion_before()[members_[i].pair];
-        if (from.adhesion[i] > 0.0 && !(to.adhesion[i] > 0.0)) ++broken;
-        if (!(from.adhesion[i] < whole) && to.adhesion[i] < whole) ++begun;
+        if (from.adhesion[i] > 0.0 && !(to.adhesion[i] > 0.0)) ++found.broken;
+        if (!(from.adhesion[i] < whole) && to.adhesion[i] < whole) ++found.begun;
     }
-    return broken == 0 || (broken == 1 && begun == 0);
+    return found;
+}
+
+// True if at most one pair breaks and, if one does, no pair that was at rest begins to soften.
+bool Descent::one_by_one(const Point& from, const Point& to) const {
+    const Changes found = changes(from, to);
+    return found.broken == 0 || (found.broken == 1 && found.begun == 0);
 }
 
 bool Descent::descend(const Point& at, Point& to, bool singly) {
@@ -226,7 +236,7 @@ bool Descent::fall(const Point& at, Point& to) const {
     for (std::int64_t n = 1; n <= parts; ++n) {
         const double part = static_cast<double>(n) / static_cast<double>(parts);
         Point next = n < parts ? between(at, to, part) : std::move(to);
-        if (!(next.energy < least.energy)) {
+        if (!(next.energy < least.energy) || changes(at, next).begun > 0) {
             to = std::move(least);
             return n > 1;
         }
