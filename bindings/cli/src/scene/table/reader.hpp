@@ -16,7 +16,7 @@
 
 namespace cli {
 
-// Where tables of a scene come from, by the lines at which they begin.
+// Maps the line at which a table of a scene begins to the place that the table comes from.
 using Origins = std::map<int, Place>;
 
 class Table {
