@@ -82,9 +82,9 @@ private:
     };
     Changes changes(const Point& from, const Point& to) const;
     bool one_by_one(const Point& from, const Point& to) const;
-    // Ends the way from `at` to `to` before the energy rises or a pair at rest begins to soften: another equilibrium,
-    // in which plain steps would end, may lie there. False: at once.
-    bool fall(const Point& at, Point& to) const;
+    // Ends the way from `at` to `to` before the energy rises and, if the member does not break on it, before a pair at
+    // rest begins to soften: another equilibrium, in which plain steps would end, may lie there. False: at once.
+    bool fall(const Point& at, Point& to, std::size_t member) const;
     std::int64_t weakest(const Point& at) const;
     Move step(const Point& at);
     Move staggered_step(const Point& at, const std::vector<std::uint8_t>& closed);
@@ -230,13 +230,14 @@ bool Descent::descend(const Point& at, Point& to, bool singly) {
     return false;
 }
 
-bool Descent::fall(const Point& at, Point& to) const {
+bool Descent::fall(const Point& at, Point& to, std::size_t member) const {
     const std::int64_t parts = limits_.newton_parts_of_move;
+    const bool breaks = !(to.adhesion[member] > 0.0);
     Point least = at;
     for (std::int64_t n = 1; n <= parts; ++n) {
         const double part = static_cast<double>(n) / static_cast<double>(parts);
         Point next = n < parts ? between(at, to, part) : std::move(to);
-        if (!(next.energy < least.energy) || changes(at, next).begun > 0) {
+        if (!(next.energy < least.energy) || (!breaks && changes(at, next).begun > 0)) {
             to = std::move(least);
             return n > 1;
         }
@@ -283,8 +284,8 @@ Descent::Move Descent::step(const Point& at) {
     if (!move.taken && !(soft && *soft < limits_.newton_own_branch) && move_backoff_.try_now()) {
         closed_ = before;
         const std::int64_t pair = weakest(at);
-        move.taken =
-            move_backoff_.report(pair >= 0 && minimise(at, at.adhesion, 0.0, pair, move.to) && fall(at, move.to));
+        move.taken = move_backoff_.report(pair >= 0 && minimise(at, at.adhesion, 0.0, pair, move.to) &&
+                                          fall(at, move.to, index(pair)));
         if (move.taken) {
             ++state_.effort.debond_moves;
             move.carried[index(pair)] = 0.0;

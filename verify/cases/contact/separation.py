@@ -5,7 +5,7 @@ Crosses of four blocks, one of them pulled away across two interfaces or along b
 Each scene with every reduction, local and energetic. After each step
 
 - it has converged, its contact set after few changes, its damage after few iterations;
-- energies and dissipation are those of the other reductions, reactions those of the interfaces;
+- energies and dissipation are those of the other reductions, and for local strips of plain alternate minimisation;
 - an analysis that goes on from a saved state takes the same step.
 
     separation.py [--whole] [--only WORDS]
@@ -19,6 +19,7 @@ import numpy as np
 import delam
 
 REDUCTIONS = ("condensed", "iterated", "feti")
+PLAIN = "plain"
 # Damage is told apart to 1e-10 of the toughness: what reductions differ by is theirs.
 TOLERANCES = {"damage_tolerance": 1e-10, "linear_tolerance": 1e-13}
 
@@ -124,32 +125,34 @@ def analyse(problem, steps):
 
 def compare(name, builder, solution, steps):
     wrong, by = [], {}
-    for reduction in REDUCTIONS:
+    ways = {reduction: {"reduction": reduction} for reduction in REDUCTIONS}
+    # A cross breaks as a whole within two steps: from seven cells on, plain steps come by other states on the way.
+    if solution == "local" and name.startswith("strip"):
+        ways[PLAIN] = {"reduction": "condensed", "minimisation": "alternate"}
+    for way, options in ways.items():
         problem = builder()
-        problem.options["reduction"] = reduction
-        problem.options["solution"] = solution
-        problem.options["step_control"] = "fixed"  # the iterations are those of one minimisation
-        for key, value in TOLERANCES.items():
+        # The iterations are those of one minimisation.
+        for key, value in {**TOLERANCES, **options, "solution": solution, "step_control": "fixed"}.items():
             problem.options[key] = value
         rows, failed = analyse(problem, steps)
-        by[reduction] = rows
-        wrong += [f"{name}, {solution}, {reduction}: {words}" for words in failed]
+        by[way] = rows
+        wrong += [f"{name}, {solution}, {way}: {words}" for words in failed]
         for time, row in zip(steps, rows):
             changes, iterations = row["contact_iterations_max"], row["am_iterations"]
-            if changes > 40 or iterations > 40:
-                wrong.append(f"{name}, {solution}, {reduction}: time {time:g}: {changes:.0f} active-set steps in one "
-                             f"solve, {iterations:.0f} iterations")
+            if changes > 40 or (iterations > 40 and way != PLAIN):
+                wrong.append(f"{name}, {solution}, {way}: time {time:g}: {changes:.0f} active-set steps in one solve, "
+                             f"{iterations:.0f} iterations")
     scale = max((row["stored_bulk"] + row["dissipated"] for row in by["condensed"]), default=1.0)
     worst = {}
-    for other in ("iterated", "feti"):
+    for other in [way for way in ways if way != "condensed"]:
         apart = [(abs(a[key] - b[key]) / scale, time, key, a[key], b[key])
                  for time, a, b in zip(steps, by["condensed"], by[other]) for key in KEYS]
         worst[other] = max((off for off, *_ in apart), default=0.0)
         for _, time, key, a, b in [words for words in apart if words[0] > 1e-8][:1]:
             wrong.append(f"{name}, {solution}: time {time:g}: {key} {a:.10g} condensed, {b:.10g} {other}")
-    most = {r: max((row["am_iterations"] for row in rows), default=0) for r, rows in by.items()}
-    print(f"{name}, {solution}:", ", ".join(f"{r} {most[r]:.0f} iterations" for r in REDUCTIONS), "; apart by",
-          ", ".join(f"{r} {o:.1e}" for r, o in worst.items()), flush=True)
+    most = {way: max((row["am_iterations"] for row in rows), default=0) for way, rows in by.items()}
+    print(f"{name}, {solution}:", ", ".join(f"{way} {most[way]:.0f} iterations" for way in ways), "; apart by",
+          ", ".join(f"{way} {off:.1e}" for way, off in worst.items()), flush=True)
     return wrong
 
 
