@@ -279,7 +279,8 @@ class Model:
                    "let the values of its [[patterns]] go on to there")
         with open(self.files[which], encoding="utf-8", errors="replace") as file:
             if file.read(len(OF_NEW)) == OF_NEW:
-                farther = "write the scene with a larger growth of the crack (`delam new .. --growth`)"
+                farther = ("write the scene with a larger growth of the crack (`delam new .. --growth`) or, if that is not "
+                           "allowed, with a larger toughness")
         raise Trouble(said + farther + ", or leave out the points behind it; are the units the same? Else --x-scale is a "
                       "factor on it")
 
@@ -289,6 +290,9 @@ class Model:
             ratio = data.slope_over(curve)
             if ratio is None or 1 / DIFFERS < ratio < DIFFERS:
                 continue
+            if ratio < 0:
+                raise Trouble(f"{data.path}: its loads and the {self.y_name} of {path} have opposite signs: a --scale below 0 "
+                              "makes the loads negative")
             length, force = units_of_scene(scene, self.common)
             flat = scene.get("geometry", {}).get("dimension", 2) == 2
             unit = data.force_unit if kind_of(data.force_unit)[0] == "force" else ""

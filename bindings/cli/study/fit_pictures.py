@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The picture of a fit: data and model, and beneath them the residuals."""
 import os
+import textwrap
 
 from look import BLUE, GREY, RED, axis, plt, save, units_of
+
+TITLE = 100  # letters in a line of the title: what the width of the picture holds
 
 
 def draw_fit(out, which, model, curve, history, jumps, about, found):
@@ -17,7 +20,8 @@ def draw_fit(out, which, model, curve, history, jumps, about, found):
         above.axvline(x, color=RED, linewidth=0.8, linestyle=":", label="jump" if k == 0 else None)
     above.set_ylabel(axis(model.y_name, force if model.y_name.startswith("reaction") else ""))
     above.legend()
-    above.set_title("\n".join([os.path.basename(model.files[which]), *found]), fontsize=9)
+    lines = [line for words in found for line in textwrap.wrap(words, TITLE)]
+    above.set_title("\n".join([os.path.basename(model.files[which]), *lines]), fontsize=9)
     below.axhline(0.0, color=GREY, linewidth=0.8)
     below.plot(data.x, curve - data.y, "o", color=BLUE, markersize=3)
     below.set_ylabel("model - data")

@@ -111,6 +111,9 @@ def fits():
                        "--out", fit)
         expect((answer[0] == 2) == (code == 2) and re.search(r"its loads begin to rise [\d.]+ times as steeply as the reaction", answer[2]),
                f"loads times {scale}: {answer[0]} {answer[2]}")
+    # Loads against those of the scene.
+    code, shown, error = start("fit", scene, "--data", data, "--scale=-50", "--parameters", "laws.0.normal_toughness", "--out", fit)
+    expect(code == 2 and "opposite signs: a --scale below 0" in error, f"loads times -50: {code} {error}")
 
 
 def rise(rows):

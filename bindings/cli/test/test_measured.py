@@ -64,6 +64,13 @@ def variants():
         expect(all(word in data.said for word in words), f"{name}: {data.said}")
         expect(len(data.x) == 31 and np.allclose(data.x, X / 1e3, atol=1e-8) and np.allclose(data.y, Y, rtol=1e-3, atol=1e-3),
                f"{name}: its numbers {data.x[:3]} {data.y[:3]}")
+    for x, words in ((-X - 1.0, ("x is negative", "y is negative")), (X + 1.0, ("y is negative",))):
+        data = CurveData(file_of("Weg [mm];Kraft [N]\n" + rows(";", x=x, y=-Y)), SimpleNamespace(**{**vars(GIVEN), "slack": "none"}),
+                         ("m", "N"))
+        expect(all(word in data.said for word in words) and np.all(data.x > 0) and np.allclose(data.y, Y, rtol=1e-3, atol=1e-3),
+               f"negative loads, displacements from {x[0]:g} mm on: {data.said}")
+    data = CurveData(file_of("Weg [mm];Kraft [N]\n" + rows(";")), SimpleNamespace(**{**vars(GIVEN), "scale": -1.0}), ("m", "N"), -1.0)
+    expect("turned" not in data.said and np.all(data.y <= 0), f"--scale -1 keeps its signs: {data.said}")
     plain = CurveData(FILES["a German machine"][0], GIVEN, ("", ""))
     expect(np.allclose(plain.x, X) and np.allclose(plain.y, Y * 1e-3) and plain.named_units == ["mm", "kN"],
            "without units of the scene the numbers stay")

@@ -75,7 +75,7 @@ class CurveData:
             self._require_numbers(self.names[which], points[which], "")
             points[which] = points[which] * factor
             self._require_numbers(self.names[which], points[which], f" times {name} {factor:g}")
-        points = self._upright(points, said)
+        points = self._upright(points, (given.x_scale, scale), said)
         # The compliance of the machine counts for the whole load, before it is divided by the width.
         points = self._of_specimen(points, given, (length, force), given.scale / scale, said)
         self.rows = len(points[0])
@@ -83,10 +83,10 @@ class CurveData:
         self.said = f"{path}: {'; '.join(said)}"
 
     @staticmethod
-    def _upright(points, said):
-        """A test in compression is often written with negative signs."""
+    def _upright(points, factors, said):
+        """A test in compression is often written with negative signs. A negative factor keeps its signs."""
         for which, name in enumerate("xy"):
-            if np.max(-points[which]) > 2 * max(np.max(points[which]), 0.0) and np.max(-points[0]) >= 0:
+            if factors[which] > 0 and np.max(-points[which]) > 2 * max(np.max(points[which]), 0.0):
                 points[which] = -points[which]
                 said.append(f"{name} is negative, its sign is turned")
         return points
@@ -157,9 +157,10 @@ class CurveData:
 
     def slope_over(self, curve):
         """How much more steeply the data begin to rise than a curve at their x: the ratio of the slopes of straight
-        lines through the points before both reach half of their largest value. None: these are too few."""
+        lines through the points before both reach half of their largest value; below 0 if one of them falls. None: these
+        are too few."""
         count = min(self._rising(self.y, 0.5), self._rising(curve, 0.5))
         if count < 2 or not np.ptp(self.x[:count]) > 0:
             return None
         lines = [np.polyfit(self.x[:count], y[:count], 1)[0] for y in (self.y, curve)]
-        return lines[0] / lines[1] if lines[0] * lines[1] > 0 else None
+        return lines[0] / lines[1] if lines[0] * lines[1] != 0 else None
