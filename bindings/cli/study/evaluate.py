@@ -208,8 +208,9 @@ def at_points(answers, points, path):
         table[answer.name] = {p.name: answer.at(p, points.zero) for p in points.points}
         for name, rate in table[answer.name].items():
             if not rate > 0:
-                raise Trouble(f"{path}: {answer.name}: {rate:.4g} J/m2 at {name}, which no toughness is: "
-                              + ", ".join(answer.words()) + ": another column, unit, --notch or --span?")
+                words = [", ".join(answer.words())] if answer.words() else []
+                raise Trouble(": ".join([f"{path}: {answer.name}: {rate:.4g} J/m2 at {name}, which no toughness is", *words,
+                                         "another column, unit, --notch or --span?"]))
     return table
 
 

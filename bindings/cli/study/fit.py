@@ -336,11 +336,12 @@ def text_of(row, search, level, digits=6, between=" "):
         return f"{low:.{digits}g} to {high:.{digits}g}{unit}"
 
     text = f"{row['key']} = {row['value']:.{digits}g}{unit}, {100 * level:g} % interval {ends('interval')}"
-    if any(row.get("of_held", [])):
-        text += ", of this {:.2g} below and {:.2g} above for parameters that are held".format(*row["of_held"])
+    of_held = (" (of this {:.2g} below and {:.2g} above for parameters that are held)".format(*row["of_held"])
+               if any(row.get("of_held", [])) else "")
     if "interval_with_held" in row:
-        text += f" from the curve alone,{between}{ends('interval_with_held')} with errors of {100 * search.part:g} % in each number that is held"
-    return text
+        return (f"{text} from the curve alone{of_held},{between}{ends('interval_with_held')} with errors of "
+                f"{100 * search.part:g} % in each number that is held")
+    return text + of_held
 
 
 def say_rows(rows, search, level):
