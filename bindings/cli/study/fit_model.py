@@ -299,7 +299,7 @@ class Model:
             said = (f"{data.path}: its loads begin to rise {ratio:.4g} times as steeply as the {self.y_name} of {path}, which is "
                     + (f"in {force}{f' per {length} of width' if flat else ''}: " if length and force else
                        f"a force{' per width' if flat else ''}: ")
-                    + ("is the width of the specimen right (--width 25mm), " if flat else "is it a part of the specimen, ")
+                    + ("is the width of the specimen right (for example --width 25mm), " if flat else "is it a part of the specimen, ")
                     + (f"are the loads in {unit}" if unit else "are the loads in the unit of the scene (the file names none)")
                     + ", and the displacements in its unit? Else --scale and --x-scale are factors on the data")
             if not 1 / STIFFER < ratio < STIFFER:

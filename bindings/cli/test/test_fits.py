@@ -349,7 +349,7 @@ def untold():
         expect(not strength["told"] and strength["value"] == 30.0 and strength["interval"] == [None, None], f"the strength: {strength}")
         expect(fitted["marches"] <= 12 and fitted["converged"], f"analyses: {fitted['marches']}")
     code, _, error = start("fit", scene, "--data", raw, "--out", os.path.join(here, "wide"), "--parameters", "laws.0.normal_toughness")
-    expect(code == 2 and re.search(r"begin to rise 2[0-9.]+ times .* which is in N per mm of width: is the width .* right \(--width 25mm\), are the loads in kN", error),
+    expect(code == 2 and re.search(r"begin to rise 2[0-9.]+ times .* which is in N per mm of width: is the width .* right \(for example --width 25mm\), are the loads in kN", error),
            f"without its width: {error}")
 
 

@@ -88,6 +88,7 @@ def refusals():
         expect(pattern in said, f"{text[:30]!r}: {said}")
 
     refused("only text\nand more\n", "there are no numbers")
+    refused("\n \n", "the file is empty")
     refused("a;b\n1;2\n2;x\n3;4\n", 'row 2 of the numbers (line 3) has "x"')
     refused("a;b\n1;2\n2;3;4\n3;4\n", "row 2 of the numbers (line 3) has 3 columns, 2 are expected")
     refused("a;b\n1;2\n2;3\n", 'there is no column "weg"; it has: a, b', columns=["weg", "b"])

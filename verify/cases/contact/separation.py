@@ -89,7 +89,7 @@ def scenes(whole):
         # Not along the diagonal: a symmetric scene has two solutions, which need not have the same energy.
         yield f"cross {cells}, across", lambda: cross(cells, (1.0, 0.9))
         yield f"cross {cells}, along", lambda: cross(cells, (0.7, -0.72))
-    # With 20 cells and no contraction, a pair that has nearly broken holds the front back.
+    # A pair that has nearly broken holds the front back in a strip of 20 cells without contraction.
     several = [(cells, part) for cells in range(10, 61, 10) for part in range(8)]
     for cells, part in several if whole else [(10, 3), (20, 0)]:
         for poisson in (0.0, 0.3):

@@ -153,6 +153,8 @@ def read_table(path):
     text, encoding = decoded(path)
     every = [(k + 1, line) for k, line in enumerate(text.replace("\r\n", "\n").replace("\r", "\n").split("\n"))]
     lines = [(number, line) for number, line in every if line.strip()]
+    if not lines:
+        raise Trouble(f"{path}: the file is empty: rows with at least 2 numbers are expected")
     way = _way([line for _, line in lines[:TRIED]])
     if way is None:
         raise Trouble(f"{path}: there are no numbers: rows with at least 2 of them are expected")
