@@ -285,14 +285,14 @@ class Model:
                       "factor on it")
 
     def compare_slopes(self, curves):
-        """After the first analysis: data in other units are noticed by how they begin to rise."""
+        """After the first analysis: data of another sign are refused, and those in other units noticed by how they begin to rise."""
         for data, curve, path, scene in zip(self.data, curves, self.files, self.scenes):
+            if data.opposes(curve):
+                raise Trouble(f"{data.path}: its loads and the {self.y_name} of {path} have opposite signs: a --scale below 0 "
+                              "makes the loads negative")
             ratio = data.slope_over(curve)
             if ratio is None or 1 / DIFFERS < ratio < DIFFERS:
                 continue
-            if ratio < 0:
-                raise Trouble(f"{data.path}: its loads and the {self.y_name} of {path} have opposite signs: a --scale below 0 "
-                              "makes the loads negative")
             length, force = units_of_scene(scene, self.common)
             flat = scene.get("geometry", {}).get("dimension", 2) == 2
             unit = data.force_unit if kind_of(data.force_unit)[0] == "force" else ""

@@ -5,7 +5,7 @@ import textwrap
 
 from look import BLUE, GREY, RED, axis, plt, save, units_of
 
-TITLE = 100  # letters in a line of the title: what the width of the picture holds
+TITLE = 88  # letters in a line of the title: what the width of the picture holds
 
 
 def draw_fit(out, which, model, curve, history, jumps, about, found):

@@ -157,10 +157,13 @@ class CurveData:
 
     def slope_over(self, curve):
         """How much more steeply the data begin to rise than a curve at their x: the ratio of the slopes of straight
-        lines through the points before both reach half of their largest value; below 0 if one of them falls. None: these
-        are too few."""
+        lines through the points before both reach half of their largest value. None: these are too few."""
         count = min(self._rising(self.y, 0.5), self._rising(curve, 0.5))
         if count < 2 or not np.ptp(self.x[:count]) > 0:
             return None
         lines = [np.polyfit(self.x[:count], y[:count], 1)[0] for y in (self.y, curve)]
-        return lines[0] / lines[1] if lines[0] * lines[1] != 0 else None
+        return lines[0] / lines[1] if lines[0] * lines[1] > 0 else None
+
+    def opposes(self, curve):
+        """Whether most of the data have the other sign than a curve at their x; noise does not decide it."""
+        return np.dot(self.y, curve) < 0
