@@ -177,7 +177,7 @@ def wrong_words():
         refused(pattern, "fit", scene, "--data", data, "--parameters", *(words or ["laws.0.normal_toughness"]))
 
     good = "load,force\n0.001,1\n0.002,2\n"
-    with_data("", "no numbers")
+    with_data("", "the file is empty")
     with_data("load,force\n0.001,1\n", "at least 2 points")
     with_data("load,force\n0.002,1\n0.001,2\n", "\"load\" must increase")
     with_data("load,force\n0.001,1\n0.002,x\n", "row 2 of the numbers")
