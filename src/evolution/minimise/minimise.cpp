@@ -126,7 +126,7 @@ bool Minimiser::accelerate(State& state, StepRule& increment, bool displaced) co
     // Newton's method eliminates the damage pair by pair, which a gradient term forbids.
     Zones* const zones = increment.pairs().gradient.empty() ? op.zones() : nullptr;
     const ZoneNewton newton{
-        op, zones, contact, monitor, limits, tolerance, std::min(limits.minimise_newton_steps, limit)};
+        op, zones, contact, monitor, limits, tolerance, std::min(limits.minimise_newton_steps, limit), lowest};
     ZoneProgress progress(zones != nullptr ? zones->zone_traits().rounding : 0.0);
     AtRest at_rest(tolerance, limits.minimise_most_idle);
     bool ahead = false;

@@ -24,6 +24,7 @@ struct Minimiser {
     double tolerance;      // of the tractions (Increment::change)
     std::int64_t limit;    // of alternations
     PlacesBefore* places;  // of the state before the load step
+    bool lowest;           // the lowest state is sought, not the one that the load reaches first
 
     // Displacements and contact at the state's adhesion and theta; effort is added up. cold: the contact set at hand
     // says nothing. False: a limit of the linear or contact iteration was met.

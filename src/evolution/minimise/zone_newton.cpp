@@ -83,7 +83,8 @@ private:
     Changes changes(const Point& from, const Point& to) const;
     bool one_by_one(const Point& from, const Point& to) const;
     // Ends the way from `at` to `to` before the energy rises and, if the member does not break on it, before a pair at
-    // rest begins to soften: another equilibrium, in which plain steps would end, may lie there. False: at once.
+    // rest begins to soften: another equilibrium, in which plain steps would end, may lie there. Where the lowest state
+    // is sought, the end is enough. False: at once.
     bool fall(const Point& at, Point& to, std::size_t member) const;
     std::int64_t weakest(const Point& at) const;
     Move step(const Point& at);
@@ -231,6 +232,7 @@ bool Descent::descend(const Point& at, Point& to, bool singly) {
 }
 
 bool Descent::fall(const Point& at, Point& to, std::size_t member) const {
+    if (newton_.lowest) return to.energy < at.energy;
     const std::int64_t parts = limits_.newton_parts_of_move;
     const bool breaks = !(to.adhesion[member] > 0.0);
     Point least = at;

@@ -90,7 +90,8 @@ Minimiser Stepper::minimiser() {
             options.limits,
             options.damage_tolerance,
             options.minimisation_limit,
-            places_ ? &*places_ : nullptr};
+            places_ ? &*places_ : nullptr,
+            options.solution == "energetic"};
 }
 
 std::unique_ptr<StepRule> Stepper::increment(const State& before, std::span<const double> mixity) const {
