@@ -190,6 +190,35 @@ TEST(dead_load_tears_a_ply_off) {
     cases::expect(solver.field("displacement") == u, "the committed state is what is left");
 }
 
+// A block slides under one that is held, driven along its upper face. It may fall and turn, and nothing strains it. The
+// least change of its places, int |u|^2 dV, turns it about one of its upper corners so that its lower face goes half
+// as far: a = 1/2 minimises 2 (1 - a)^2 + 2 a^2. Its contact forces are rounding of the forces within the block, which
+// the two normal jumps alone do not show: the block resists neither.
+LOOP_TEST(driven_block, 0, 6) {
+    constexpr const char* reductions[] = {"condensed", "iterated", "feti"};
+    const double slide = loop % 2 == 0 ? 0.0104 : -0.0037;
+    Scene scene(2, {1.0}, {1}, {1.0, 1.0}, {1, 1}, DELAM_QUAD4);
+    scene.interface(0, 1);
+    scene.begin();
+    scene.elastic(-1, 17.0, 0.31);
+    scene.contact(0);
+    scene.text("reduction", reductions[loop / 2]);
+    const auto held = scene.find(1, {0.0, 1.0}, {1.0, 2.0}), driven = scene.find(0, {0.0, 1.0}, {1.0, 1.0});
+    for (int k = 0; k < 2; ++k) scene.hold(held, axis(2, k));
+    scene.drive(driven, axis(2, 0), scene.pattern("slide", {0.0, 1.0}, {0.0, slide}), {1.0, 1.0});
+    Solver solver(scene, 0.0);
+    solver.step(1.0);
+    const std::vector<double> u = solver.field("displacement");
+    const double size = std::abs(slide);
+    std::vector<double> rise;
+    for (const auto node : driven) rise.push_back(u[static_cast<std::size_t>(2 * node + 1)]);
+    const auto [falls, stays] = std::minmax(rise[0], rise[1]);
+    cases::expect_near(falls, -0.5 * size, 1e-9, size, "the corner that falls");
+    cases::expect_near(stays, 0.0, 1e-9, size, "the corner that stays");
+    for (const auto node : scene.find(0, {0.0, 0.0}, {1.0, 0.0}))
+        cases::expect_near(u[static_cast<std::size_t>(2 * node)], 0.5 * slide, 1e-9, size, "the lower face");
+}
+
 // Intact triple layers with two interfaces, one perfectly bonded or both compliant, bent: against the reference.
 LOOP_TEST(bent_layers, 0, 4) {
     const int d = loop / 2 == 0 ? 2 : 3;

@@ -213,6 +213,41 @@ LOOP_TEST(continues_bit_for_bit, 0, runs) {
     }
 }
 
+// Four blocks around a point, one of them held: the jumps of the last interface follow from those of the others, and
+// free blocks resist some jumps by nothing. The stiffness against a row is still that of the nodes which it moves.
+LOOP_TEST(rows_have_the_stiffness_of_their_nodes, 0, 3) {
+    std::vector<double> nodes;
+    std::vector<std::int64_t> cells;
+    for (int block = 0; block < 4; ++block)
+        for (const auto& [x, y] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}}) {
+            cells.push_back(static_cast<std::int64_t>(nodes.size() / 2));
+            nodes.push_back(x + block % 2);
+            nodes.push_back(y + block / 2);
+        }
+    auto mesh = std::make_shared<Mesh>(2, nodes);
+    mesh->add_cells(CellType::quad4, cells, std::vector<std::int32_t>{0, 1, 2, 3});
+    ck_assert_int_eq(add_all_interfaces(*mesh, 0.0), 4);
+    Problem problem(mesh);
+    for (auto& material : problem.material) material = Elastic{30.0, 0.2};
+    for (auto& interface : problem.interfaces) {
+        interface.contact = true;
+        std::fill(interface.adhesion.begin(), interface.adhesion.end(), 0.0);
+    }
+    for (std::int64_t dof = 0; dof < 8; ++dof) problem.constraints.push_back({{dof}, {1.0}, {}});
+    unit::Reference condensed(problem);
+    const SparseMatrix& k = condensed.bulk->system().stiffness();
+    double nodal = 0.0;  // equal for all
+    for (std::int64_t e = k.start[0]; e < k.start[1]; ++e)
+        if (k.column[index(e)] == 0) nodal = k.value[index(e)];
+    std::vector<double> stiffness = condensed->row_stiffness();
+    if (loop == 1) stiffness = Iterated(problem, condensed.monitor).row_stiffness();
+    if (loop == 2) stiffness = Feti(problem, condensed.monitor).row_stiffness();
+    ck_assert_uint_eq(stiffness.size(), index(problem.jump_count()));
+    for (std::size_t r = 0; r < stiffness.size(); ++r)
+        ck_assert_msg(stiffness[r] >= 0.5 * nodal && stiffness[r] <= 4.0 * nodal, "row %d: %.3e, a node has %.3e",
+                      static_cast<int>(r), stiffness[r], nodal);
+}
+
 // FETI: another zone first, a solve between, another operator: the same bits.
 LOOP_TEST(feti_does_not_depend_on_the_past, 0, 7) {
     const unit::LayerCase& c = unit::layer_cases[loop < 6 ? loop : 15];

@@ -60,10 +60,10 @@ struct ActiveSet {
 // verify/bench/constants.py on 250 random scenes: half and twice decide alike.)
 inline constexpr double contact_rounding = 1e-11;
 // Forces below this part of the forces of which they are the difference are rounding, too. (Measured with
-// verify/cases/contact/random_scenes.py: 2e-14 to 1e-13 decide alike; with 1e-14 rounding holds blocks that are free,
-// seeds 44 and 232, condensed. Arms 100 times longer than thick, case d-slender of the report, keep pulls of 1.5e-9 of
-// the largest traction, with 1e-13 of 1.2e-8.)
-inline constexpr double force_rounding = 4e-14;
+// verify/cases/contact/random_scenes.py --hard: half and twice decide alike; with 1e-14 rounding holds blocks that are
+// free, seeds 9438 and 9813. Arms 100 times longer than thick, delam_harness stability --quick --subject slender, keep
+// pulls of 1.5e-9 of the largest traction, with half 1.7e-9, with twice 8.6e-9; the report allows 1e-8.)
+inline constexpr double force_rounding = 3e-14;
 
 // Answers of an iteration: error() is what the last one leaves open. rough(): a set cannot end with such an answer.
 // tighten(): the next ones leave less open; false: they cannot. guesses: so many sets may follow from signs that are in

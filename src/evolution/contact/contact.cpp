@@ -127,6 +127,10 @@ public:
     ContactSolve solve(const std::vector<std::uint8_t>& closed) {
         for (std::size_t i = 0; i < closed.size(); ++i) springs_.held[rows_.row[i]] = closed[i];
         jump_before_ = response_.jump;
+        // Forces of stiff springs are millions of times larger than those of bodies: what starts there keeps their
+        // rounding.
+        if (gave_way_) response_.multipliers.clear();
+        gave_way_ = false;
         op_.solve(springs_, theta_, response_);
         if (!response_.balanced) {
             response_.jump = jump_before_;
@@ -172,6 +176,7 @@ private:
     ContactResult& result_;
     PlacesBefore* before_;
     std::vector<double> jump_before_;  // the last solve; empty: there was none
+    bool gave_way_ = false;            // the response is one with stiff springs in place of contacts
     Accuracy accuracy_ = Accuracy::usual;
 };
 
@@ -214,6 +219,7 @@ void OperatorSystem::give_way(const std::vector<std::uint8_t>& closed) {
     if (!(most > noticed * max_abs(op_.displacement(theta_, given)))) return;
     given.iterations = response_.iterations;
     response_ = std::move(given);
+    gave_way_ = true;
 }
 
 std::vector<std::size_t> OperatorSystem::settle(const ContactRows& rows, std::vector<std::uint8_t>& closed,
@@ -232,16 +238,26 @@ std::vector<std::size_t> OperatorSystem::settle(const ContactRows& rows, std::ve
         add_scaled(-1.0, now, change);
     }
     const PlaceChanges places = parts.changes(free);
-    std::vector<double> pull;
-    for (const std::vector<double>& moved : places.moved) pull.push_back(parts.product(moved, change));
     const DenseMatrix jumps = multiply(parts.motions().jumps(), free);
-    const LeastMotion found = loose.keep_apart(places.gram, pull, jumps, response_.jump, least.jump);
-    std::vector<double> combination(index(free.rows)), jump(index(jumps.rows)), displacement(now.size(), 0.0);
-    multiply(free, found.motion, combination);
-    multiply(jumps, found.motion, jump);
-    for (std::size_t c = 0; c < places.moved.size(); ++c) add_scaled(found.motion[c], places.moved[c], displacement);
-    op_.move(displacement, combination, jump, response_);
-    return loose.settled(found, closed, response_.jump, response_.force, least.jump);
+    double least_jump = least.jump;
+    // A part may come from far away. What the rounding of that motion leaves is penetration once the jumps are small: a
+    // second motion takes it back.
+    for (int pass = 0; true; ++pass) {
+        std::vector<double> pull;
+        for (const std::vector<double>& moved : places.moved) pull.push_back(parts.product(moved, change));
+        const LeastMotion found = loose.keep_apart(places.gram, pull, jumps, response_.jump, least_jump);
+        std::vector<double> combination(index(free.rows)), jump(index(jumps.rows)), displacement(now.size(), 0.0);
+        multiply(free, found.motion, combination);
+        multiply(jumps, found.motion, jump);
+        for (std::size_t c = 0; c < places.moved.size(); ++c)
+            add_scaled(found.motion[c], places.moved[c], displacement);
+        op_.move(displacement, combination, jump, response_);
+        const double present = least_of_contact(*this, response_.error).jump;
+        if (pass > 0 || !found.blocked.empty() || !(present < LooseRows::left * least_jump))
+            return loose.settled(found, closed, response_.jump, response_.force, least_jump);
+        add_scaled(-1.0, displacement, change);
+        least_jump = present;
+    }
 }
 
 std::vector<std::size_t> OperatorSystem::caught(const ContactRows& rows,

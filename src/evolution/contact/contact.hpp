@@ -60,8 +60,9 @@ struct ContactScene {
     std::vector<double> prescribed_most{};
     // Parts that may float; null: none. It outlives the scene.
     const FreeParts* parts = nullptr;
-    // The bodies' stiffness against each row [rows], and the forces K u of displacements that the patterns cause at
-    // factor 1 [patterns]: forces below force_rounding times these sizes are rounding. Empty: not known.
+    // The nodes' stiffness against each row [rows], and the largest of the dead forces and of the forces K u of
+    // displacements that the patterns cause at factor 1 [patterns]: forces below force_rounding times these sizes are
+    // rounding. Empty: not known.
     std::vector<double> row_stiffness{}, carried_force{};
     // True if the pair is neither bonded nor prescribed in its normal row. prescribed: [rows].
     bool may_close(std::size_t pair, std::span<const std::uint8_t> prescribed) const {

@@ -51,7 +51,7 @@ LeastMotion LooseRows::keep_apart(const DenseMatrix& gram, std::span<const doubl
             if (const double n = jumps(static_cast<std::int64_t>(contact_.row[rows[k]]), c); std::abs(n) > rounding)
                 normals(static_cast<std::int64_t>(k), c) = n;
     }
-    return least_motion(gram, pull, normals, gap, 0.5 * least_jump);
+    return least_motion(gram, pull, normals, gap, left * least_jump);
 }
 
 std::vector<std::size_t> LooseRows::stopping(const DenseMatrix& gram, std::span<const double> pull,

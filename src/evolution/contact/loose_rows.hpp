@@ -20,6 +20,8 @@ public:
 
     // Positions in the contact rows.
     std::vector<std::size_t> rows;
+    // The part of least_jump by which keep_apart() may leave rows violated.
+    static constexpr double left = 0.5;
 
     // Rows that hold, [rows of the system]: what is held, but for these rows, and what has a spring.
     std::vector<std::uint8_t> active(std::span<const std::uint8_t> held, std::span<const double> spring) const;

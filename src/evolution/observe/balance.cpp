@@ -24,7 +24,8 @@ double Balance::reaction() const {
 double Balance::left(std::span<const double> displacement) const {
     if (without_strain(problem_, displacement)) return 0.0;
     const double left = op_.equilibrium_defect(state_.theta, state_.response);
-    return left > contact_.rounding_of_forces(state_.theta, state_.response.jump) ? left : 0.0;
+    const bool moves = std::any_of(state_.free_since.begin(), state_.free_since.end(), [](auto k) { return k >= 0; });
+    return !moves || left > contact_.rounding_of_forces(state_.theta, state_.response.jump) ? left : 0.0;
 }
 
 // Parts that have come off move without strain, energy or reaction, so that everything there is rounding. Otherwise the

@@ -24,8 +24,8 @@ public:
     // Largest reaction, F, or the floor of forces where that is larger (stresses of eigenstrains may need no
     // reactions).
     double reaction() const;
-    // Largest unbalanced force, F; 0 where it is rounding, as if the displacements [mesh DOFs] are rigid motions of all
-    // pieces.
+    // Largest unbalanced force, F; 0 where the displacements [mesh DOFs] are rigid motions of all pieces, or where parts
+    // move freely and it is no more than the rounding of their motions.
     double left(std::span<const double> displacement) const;
     // Largest unbalanced force over the largest reaction; 0 if the operator's estimate gives no reason to compute it,
     // which takes no time.

@@ -83,6 +83,8 @@ double carried_force(const Problem& problem, const JumpOperator& op, const Conta
     for (const GapRow& gap : problem.gap_rows())
         if (theta[index(gap.pattern)] != 0.0) size = std::max(size, std::abs(response.force[index(gap.row)]));
     if (contact.parts == nullptr) return size;
+    for (const NodalForce& dead : problem.forces)
+        size = std::max(size, std::abs(dead.value * theta[index(dead.pattern)]));
     const auto dim = index(contact.dimension);
     const std::vector<double> u = op.displacement(theta, response);
     std::size_t pair = 0;

@@ -22,7 +22,8 @@ std::vector<std::shared_ptr<const GradientTerm>> gradient_terms(const Problem& p
 ContactScene contact_scene(const Problem& problem, const FreeParts& parts);
 
 // Returns ContactScene::carried_force of one pattern, whose bonded response this is: its displacements times the
-// stiffness of the rows there, and the forces that close its gaps. 0 where it has none and no part may float.
+// stiffness of the rows there, its dead forces, and the forces that close its gaps. Where no part may float, only gaps
+// count.
 double carried_force(const Problem& problem, const JumpOperator& op, const ContactScene& contact,
                      std::span<const double> theta, const Response& response);
 

@@ -51,6 +51,10 @@ public:
     const DenseMatrix& load() const { return load_; }  // L, [unknowns][patterns]
     // An upper bound of the diagonal of S, of its size: with everything else at rest.
     double diagonal(std::int64_t unknown) const { return superelements_->diagonal()[index(equations_.place(unknown))]; }
+    // The same with every displacement at rest, within the bodies too.
+    double assembled_diagonal(std::int64_t unknown) const {
+        return superelements_->assembled_diagonal()[index(equations_.place(unknown))];
+    }
     const DenseMatrix& pattern_stiffness() const { return pattern_stiffness_; }
     // Jumps of the rigid motions that the supports leave free, [unknowns][motions], orthonormal.
     const DenseMatrix& rigid() const { return rigid_; }

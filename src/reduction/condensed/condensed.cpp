@@ -322,8 +322,9 @@ double Condensed::rounding_energy(std::span<const double> theta, const Response&
 
 std::vector<double> Condensed::row_stiffness() const {
     std::vector<double> stiffness(bulk_->rows().size(), 0.0);
-    for (std::int64_t i = 0; i < bulk_->unknowns(); ++i)
-        stiffness[index(bulk_->row_of_unknown()[index(i)])] = bulk_->diagonal(i);
+    for (std::size_t r = 0; r < stiffness.size(); ++r)
+        for (const auto& [i, n] : bulk_->rows()[r].unknowns)
+            stiffness[r] = std::max(stiffness[r], n * n * bulk_->assembled_diagonal(i));
     return stiffness;
 }
 

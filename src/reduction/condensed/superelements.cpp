@@ -71,7 +71,13 @@ Superelements::Superelements(const SparseMatrix& stiffness, const JumpVariables&
 
 // Entries of the cuts, each at the node that eliminates the first of its two variables.
 void Superelements::take_entries(const SparseMatrix& stiffness) {
-    diagonal_.assign(variable_.size(), 0.0);
+    assembled_diagonal_.assign(variable_.size(), 0.0);
+    for (std::size_t p = 0; p < variable_.size(); ++p) {
+        const std::int64_t v = variable_[p];
+        for (std::int64_t e = stiffness.start[index(v)]; e < stiffness.start[index(v) + 1]; ++e)
+            if (stiffness.column[index(e)] == v) assembled_diagonal_[p] = stiffness.value[index(e)];
+    }
+    diagonal_ = assembled_diagonal_;
     for (Node& node : nodes_) {
         node.entries.clear();
         const auto take = [&](std::span<const std::int64_t> own) {
@@ -80,7 +86,6 @@ void Superelements::take_entries(const SparseMatrix& stiffness) {
                 for (std::int64_t e = stiffness.start[index(v)]; e < stiffness.start[index(v) + 1]; ++e) {
                     const std::int64_t q = place(stiffness.column[index(e)]);
                     if (q >= p) node.entries.push_back({q, p, stiffness.value[index(e)]});
-                    if (q == p) diagonal_[index(p)] = stiffness.value[index(e)];
                 }
             }
         };

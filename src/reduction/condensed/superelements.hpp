@@ -67,6 +67,8 @@ public:
     void subtract_image(std::span<const double> x, std::span<const std::uint8_t> wanted, std::span<double> y) const;
     // The stiffness of a jump with all else of the skeleton at rest, [places].
     const std::vector<double>& diagonal() const { return diagonal_; }
+    // The same before anything is condensed: of T^T K T.
+    const std::vector<double>& assembled_diagonal() const { return assembled_diagonal_; }
 
     std::size_t leaves() const { return leaves_.size(); }
     std::size_t pieces() const { return pieces_.size(); }
@@ -105,7 +107,7 @@ private:
     std::vector<Leaf> leaves_;
     std::vector<Piece> pieces_;
     std::vector<Kind> kind_;
-    std::vector<double> diagonal_;
+    std::vector<double> diagonal_, assembled_diagonal_;
     std::vector<std::int64_t> local_;  // scratch of matrix_of(), [variables]
     bool apart_;                       // no two leaves share a piece
 };

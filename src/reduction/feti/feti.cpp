@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "base/cancel_scope.hpp"
 #include "base/error.hpp"
@@ -129,10 +130,20 @@ void Feti::move(std::span<const double> displacement, std::span<const double> co
 }
 
 std::vector<double> Feti::row_stiffness() const {
-    std::vector<double> stiffness(index(dual_.rows().jump_count), 0.0);
-    for (std::size_t r = 0; r < stiffness.size(); ++r)
-        if (const double flexibility = dual_.flexibility_diagonal()[r]; flexibility > 0.0)
-            stiffness[r] = 1.0 / flexibility;
+    const DualRows& rows = dual_.rows();
+    std::vector<double> stiffness(index(rows.jump_count), 0.0);
+    for (std::size_t r = 0; r < stiffness.size(); ++r) {
+        std::map<std::size_t, double> side;  // of each subdomain
+        for (std::int64_t e = rows.b.start[r]; e < rows.b.start[r + 1]; ++e) {
+            const std::int64_t dof = rows.b.column[index(e)];
+            const auto next = std::upper_bound(rows.offset.begin(), rows.offset.end(), dof);
+            const auto s = index(next - rows.offset.begin()) - 1;
+            const double n = rows.b.value[index(e)];
+            const Subdomain& subdomain = parts_.subdomains[s];
+            if (subdomain.body >= 0) side[s] += n * n * subdomain.diagonal[index(dof - rows.offset[s])];
+        }
+        for (const auto& [s, own] : side) stiffness[r] = stiffness[r] > 0.0 ? std::min(stiffness[r], own) : own;
+    }
     return stiffness;
 }
 

@@ -51,8 +51,8 @@ FetiSolve::FetiSolve(const Problem& problem, Monitor& monitor, DualOperator& dua
 
 // Conjugate gradients square forces and jumps: at jumps of 1e-170 all energies would be 0, and no residual would ask
 // for a force. The problem is linear, so it is solved at a load of size 1; powers of two change no digit. A warm start
-// much larger than the load leaves its rounding behind: where that violates the supports, the solve begins with no
-// forces.
+// much larger than the load leaves its rounding behind: where that violates the supports or the balance of parts, the
+// solve begins with no forces.
 void FetiSolve::run(Response& response) {
     std::vector<double> rest(springs_.stiffness.size());
     for (std::size_t i = 0; i < rest.size(); ++i) rest[i] = dual_.compliance()[i] * pulled(springs_, i);
@@ -63,7 +63,7 @@ void FetiSolve::run(Response& response) {
     scale_by_power(response.multipliers, -size);
     const bool warm = !response.multipliers.empty();
     solve_unit(response);
-    if (warm && response.balanced && response.support.violated(problem_.options.linear_tolerance)) {
+    if (warm && (!response.balanced || response.support.violated(problem_.options.linear_tolerance))) {
         response.multipliers.clear();
         solve_unit(response);
     }
@@ -143,8 +143,12 @@ void FetiSolve::find_jumps(std::span<const double> right, std::span<const double
     dual_.flexibility(team_, lambda, f_lambda);
     for (std::size_t i = 0; i < residual.size(); ++i)
         residual[i] = dual_.active(i) ? f_lambda[i] + compliance[i] * lambda[i] - right[i] : 0.0;
+    // The second pass removes the rounding of the first: contacts that hold with a short lever move parts far.
     response.rigid = dual_.coarse().rigid_coefficients(residual);
-    const std::vector<double> rigid_jump = dual_.coarse().apply_transposed(response.rigid);
+    std::vector<double> rigid_jump = dual_.coarse().apply_transposed(response.rigid);
+    for (std::size_t i = 0; i < residual.size(); ++i) residual[i] -= rigid_jump[i];
+    add_scaled(1.0, dual_.coarse().rigid_coefficients(residual), response.rigid);
+    rigid_jump = dual_.coarse().apply_transposed(response.rigid);
     response.jump.assign(springs_.stiffness.size(), 0.0);
     for (std::size_t i = 0; i < response.jump.size(); ++i) {
         // A stiff spring knows its jump best from its force, a soft one (or none) from the bodies.

@@ -56,8 +56,9 @@ public:
                       std::span<const double> jump, Response& response) const {
         for (std::size_t r = 0; r < jump.size(); ++r) response.jump[r] += jump[r];
     }
-    // The bodies' stiffness against the jump of each row alone, F/L; 0: not known. Forces are differences of jumps and
-    // displacements times as much, and have the rounding of these.
+    // The stiffness of the softer body's nodes against each row, F/L, with all other displacements at rest, within the
+    // bodies too; 0: not known. Forces are differences of jumps and displacements times as much, and have the rounding
+    // of these, also where bodies that are free to move resist a jump by less or not at all.
     virtual std::vector<double> row_stiffness() const = 0;
     // The bodies at a response, where their cells turn by any angle; null: rotations are small.
     virtual const TurnedBodies* turned(const Response& /*response*/) const { return nullptr; }

@@ -10,9 +10,12 @@ through several loads. After each one
 - free blocks lie where the least change of their places puts them, which a second program finds;
 - a load that no state balances is told, and the program has no minimum.
 
-    random_scenes.py [--scenes N] [--first SEED] [--reduction condensed,iterated,feti] [--outcomes]
+A step that the library itself reports as not converged is no answer: the scene ends there and is counted apart.
 
---outcomes prints what the library finds, and checks nothing: a line for each load, for verify/bench/constants.py.
+    random_scenes.py [--scenes N] [--first SEED] [--reduction condensed,iterated,feti] [--hard] [--outcomes]
+
+--hard runs scenes that rounding once decided, and allows no failure. --outcomes prints what the library finds, and
+checks nothing: a line for each load, for verify/bench/constants.py.
 """
 import argparse
 import itertools
@@ -294,15 +297,20 @@ def impossible(error):
     return any(words in str(error) for words in ("press two faces", "press faces", "bonded permanently"))
 
 
+not_converged = "not converged"  # an outcome: the library says that it has no answer
+
+
 def check(seed, reduction):
-    """What is wrong with a scene: a list of words. Where CVXOPT gives no answer, the scene's own conditions tell: those
-    of a convex program are sufficient."""
+    """What is wrong with a scene, a list of words, and its outcome. Where CVXOPT gives no answer, the scene's own
+    conditions tell: those of a convex program are sufficient."""
     scene = Scene(seed, reduction)
     program = Program(scene)
     allowed, energies = {"condensed": (1e-10, 1e-8), "feti": (1e-8, 1e-8), "iterated": (1e-6, 1e-6)}[reduction]
     wrong, before = [], np.zeros(scene.whole.shape[0])
     try:
-        solver = delam.Solver(scene.problem, not_converged="ignore")
+        solver = delam.Solver(scene.problem, not_converged="raise")
+    except delam.NotConverged:
+        return wrong, not_converged
     except delam.ProblemError as error:
         if "missing support" not in str(error) and not impossible(error):
             raise
@@ -314,6 +322,8 @@ def check(seed, reduction):
         best = program.solve(theta)
         try:
             solver.advance(time)
+        except delam.NotConverged:
+            return wrong, not_converged
         except delam.LimitReached:
             if not program.runs_away(theta):
                 wrong.append(f"time {time}: no equilibrium was found, but there is one")
@@ -369,6 +379,18 @@ def outcomes(seed, reduction):
         solver.commit()
 
 
+# Scenes that were wrong, by what rounding decided.
+HARD = {
+    # 7219, 9209, 9626: forces of bodies that resist a jump by next to nothing are rounding, and held parts that are free.
+    # 7985: a contact that closes a ring of bodies did not give way to supports.
+    "condensed": (7219, 7985, 9209, 9626),
+    # 9438, 9813: dead forces that supports carry leave rounding in contact. 308, 9949: closed contacts first move a part
+    # a thousand times as far as it then lies. 1960, 6463: the forces of stiff springs in place of contacts are a million
+    # times too large to start from.
+    "feti": (308, 1960, 6463, 9438, 9813, 9949),
+}
+
+
 def print_outcomes(seed, reduction):
     print(f"scene {seed}, {reduction}")
     try:
@@ -384,28 +406,38 @@ def main():
     parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--reduction", default="condensed,iterated,feti")
     parser.add_argument("--outcomes", action="store_true")
+    parser.add_argument("--hard", action="store_true")
     arguments = parser.parse_args()
     failures, kinds = 0, {}
-    for seed in range(arguments.first, arguments.first + arguments.scenes):
-        for reduction in arguments.reduction.split(","):
-            if arguments.outcomes:
-                print_outcomes(seed, reduction)
-                continue
-            try:
-                wrong, kind = check(seed, reduction)
-            except delam.DelamError as error:
-                wrong, kind = [f"{type(error).__name__}: {error}"], "error"
-            kinds[kind] = kinds.get(kind, 0) + 1
-            failures += bool(wrong)
-            for words in wrong[:2]:
-                print(f"scene {seed}, {reduction}: {words}", flush=True)
+    reductions = arguments.reduction.split(",")
+    seeds = range(arguments.first, arguments.first + arguments.scenes)
+    chosen = HARD if arguments.hard else dict.fromkeys(reductions, seeds)
+    for seed, reduction in sorted((seed, reduction) for reduction in reductions for seed in chosen.get(reduction, ())):
+        if arguments.outcomes:
+            print_outcomes(seed, reduction)
+            continue
+        try:
+            wrong, kind = check(seed, reduction)
+        except delam.DelamError as error:
+            wrong, kind = [f"{type(error).__name__}: {error}"], "error"
+        kinds[kind] = kinds.get(kind, 0) + 1
+        failures += bool(wrong)
+        for words in wrong[:2] if wrong or kind != not_converged else [kind]:
+            print(f"scene {seed}, {reduction}: {words}", flush=True)
     if arguments.outcomes:
         return 0
+    if arguments.hard:
+        print(f"hard scenes: {failures} failures;", ", ".join(f"{n} {k}" for k, n in sorted(kinds.items())))
+        return 1 if failures or not_converged in kinds else 0
     print(f"{arguments.scenes} scenes, {failures} failures;", ", ".join(f"{n} {k}" for k, n in sorted(kinds.items())))
     seen = 4 * kinds.get("free", 0) >= arguments.scenes and kinds.get("limit", 0) > 0 and kinds.get("held", 0) > 0
-    # Rounding decides a few in ten thousand of these scenes, others on other processors.
-    allowed = arguments.scenes // 400
-    return 1 if failures > allowed or not (seen or arguments.scenes < 100) else 0
+    # Measured on seeds 5000 to 9999: 3 answers are wrong, by rounding. At a corner of 5505 (condensed, iterated) rows
+    # nearly depend on each other, and their forces have two hundred times the rounding of others. In 6460 the forces
+    # that FETI's tolerance leaves are 1.4 times what counts as rounding. Other processors round other scenes wrongly.
+    right = failures <= arguments.scenes // 1000
+    # There, 5 do not converge, all by FETI: seeds 5792, 6836, 7944, 8793, 9168.
+    right = right and kinds.get(not_converged, 0) <= arguments.scenes // 400
+    return 0 if right and (seen or arguments.scenes < 100) else 1
 
 
 if __name__ == "__main__":
