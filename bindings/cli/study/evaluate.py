@@ -221,6 +221,9 @@ def lines(table, answers, points):
         mean = answer.propagation()
         said += f", propagation {mean[0]:.4g} +- {mean[1]:.2g} of {mean[2]} marks" if mean else ""
         yield f"{answer.name}: {said} J/m2" + (f" ({', '.join(answer.words())})" if answer.numbers else "")
+    if abs(points.zero) > 0.01 * points.displacement[points.top]:
+        yield (f"zero: the initial line begins at a displacement of {1e3 * points.zero:.4g} mm (slack or preload of the fixture), "
+               "from which methods count")
     if any(point.name.startswith("5 % (") for point in points.points):
         yield "5 %: the curve reaches this offset after its largest load, which is taken"
     if points.noise > 1e-3 * points.points[-1].load:

@@ -328,20 +328,20 @@ def right(names):
 
 
 def text_of(row, search, level, digits=6, between=" "):
-    """A parameter with its interval; where other numbers are held, also the interval with errors in these."""
+    """A parameter with its interval; where other numbers are held, the interval with errors in these comes first."""
     unit = unit_of_key(row["key"], search.model.units)
 
     def ends(name):
         low, high = (float("nan") if end is None else end for end in row[name])
         return f"{low:.{digits}g} to {high:.{digits}g}{unit}"
 
-    text = f"{row['key']} = {row['value']:.{digits}g}{unit}, {100 * level:g} % interval {ends('interval')}"
+    text = f"{row['key']} = {row['value']:.{digits}g}{unit}, {100 * level:g} % interval "
     of_held = (" (of this {:.2g} below and {:.2g} above for parameters that are held)".format(*row["of_held"])
                if any(row.get("of_held", [])) else "")
     if "interval_with_held" in row:
-        return (f"{text} from the curve alone{of_held},{between}{ends('interval_with_held')} with errors of "
-                f"{100 * search.part:g} % in each number that is held")
-    return text + of_held
+        return (f"{text}{ends('interval_with_held')} with errors of {100 * search.part:g} % in each number that is held,"
+                f"{between}{ends('interval')} from the curve alone{of_held}")
+    return text + ends("interval") + of_held
 
 
 def say_rows(rows, search, level):
@@ -395,10 +395,14 @@ def claim_folder(out, curves):
     claim(out, names, known)
 
 
+def counted(number, what):
+    return f"{number} {what}{'' if number == 1 else 's'}"
+
+
 def read_all(given):
     """The scenes and their data."""
     if len(given.data) != len(given.scenes):
-        raise Trouble(f"--data: {len(given.data)} curves for {len(given.scenes)} scenes: one for each is expected")
+        raise Trouble(f"--data: {counted(len(given.data), 'curve')} for {counted(len(given.scenes), 'scene')}: one for each is expected")
     for path in given.scenes:
         if path.lower().endswith(".inp"):
             raise Trouble(f"{path}: write the scene of a deck first: delam import {path} --out scene.toml")

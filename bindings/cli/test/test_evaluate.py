@@ -136,6 +136,12 @@ def flexure():
     expect(abs(about["numbers"]["compliance calibration"]["m"] / m - 1) < 1e-5, "the slope of the calibration")
     code, shown, error = start(*words, "--out", out)
     expect(code == 0 and "two more crack lengths; 0 given" in error and "effective crack" in shown, f"without calibration: {error}")
+    expect("zero:" not in shown, "a line that begins at 0 is not told")
+    w, p = bent(0.03, 0.05)
+    slack = raw(os.path.join(here, "slack.csv"), ["Deflection (mm)", "Load (kN)"], (np.concatenate([[0.0], w + 0.3]), np.concatenate([[0.0], p / 1e3])))
+    code, again, error = start(*words[:2], slack, *words[3:], "--out", out)
+    expect(code == 0 and "zero: the initial line begins at a displacement of 0.3 mm" in again
+           and abs(evaluated(out)["toughness"]["effective crack"]["max"] / 700 - 1) < 1e-4, f"slack is told, and counts for nothing: {again} {error}")
 
 
 def mixed():

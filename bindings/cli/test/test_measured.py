@@ -54,6 +54,7 @@ FILES = {
     "the load first": (file_of("Load [N],Displacement [mm]\n" + rows(",", x=Y, y=X)), ('x is "Displacement" in mm',), True),
     "our own": (file_of("load,reaction\n" + rows(",", x=X / 1e3)), ('x is "load", y is "reaction"',), False),
     "blanks": (file_of("# measured\n" + rows("   ", x=X / 1e3)), ("blanks", "column 1"), False),
+    "loads per width": (file_of("Extension (mm),Load (N/mm)\n" + rows(",", y=Y / 1e3)), ("times 1000 is in N/m",), True),
     "compression": (file_of("Weg [mm];Kraft [N]\n" + rows(";", x=-X, y=-Y)), ("x is negative, its sign is turned", "y is negative"), True),
 }
 
@@ -88,6 +89,9 @@ def refusals():
         expect(pattern in said, f"{text[:30]!r}: {said}")
 
     refused("only text\nand more\n", "there are no numbers")
+    swapped = "Weg (mm),Kraft (N)\n0.1,1\n0.2,2\n"
+    refused(swapped, '"Weg" in mm is no y to compare with "reaction" of the scene: a force or a force per length is expected', columns=["Kraft", "Weg"])
+    refused("Zeit (s),Kraft (N)\n0.1,1\n0.2,2\n", '"Zeit" in s is no x to compare with "load"', columns=["Zeit", "Kraft"])
     refused("\n \n", "the file is empty")
     refused("a;b\n1;2\n2;x\n3;4\n", 'row 2 of the numbers (line 3) has "x"')
     refused("a;b\n1;2\n2;3;4\n3;4\n", "row 2 of the numbers (line 3) has 3 columns, 2 are expected")

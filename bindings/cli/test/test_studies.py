@@ -185,6 +185,8 @@ def wrong_words():
     with_data("load,force\n1.0,1\n2.0,2\n", "goes from 1 to 2, .* from 0 to 0.006: let the values .* are the units the same")
     with_data("time,force\n1.0,1\n20,2\n", r'time \("time"\) goes from 1 to 20, .* from 0 to 2: give it a later end .* are the units the same', "laws.0.normal_toughness", "--x", "time")
     with_data(good, "no column \"strain\"", "laws.0.normal_toughness", "--columns", "strain", "force")
+    with_data("Weg (mm),Kraft (N)\n0.1,1\n0.2,2\n", "\"Weg\" in mm is no y to compare with \"reaction\" of the scene: a force or a force per length",
+              "laws.0.normal_toughness", "--columns", "Kraft", "Weg")
     with_data(good, "must be less than the upper", "laws.0.normal_toughness=2:1")
     with_data(good, "not between 300 and 400", "laws.0.normal_toughness=300:400")
     with_data(good, "no number", "solver.damage_tolerance")
@@ -192,7 +194,7 @@ def wrong_words():
     with_data(good, r"laws\[0\].toughness: unknown key .*'normal_toughness'", "laws.0.toughness")
     with_data(good, r"laws\[0\].toughness: unknown key .*'normal_toughness'", "laws.0.toughness@200")
     with_data(good, "laws has 1 entry, counted from 0", "laws.3.normal_toughness")
-    refused("2 curves for 1 scenes", "fit", scene, "--data", data, data, "--parameters", "laws.0.normal_toughness")
+    refused("2 curves for 1 scene:", "fit", scene, "--data", data, data, "--parameters", "laws.0.normal_toughness")
     # Names of columns are known when a march has ended.
     expect_error(start("fit", scene, "--data", data, "--parameters", "laws.0.normal_toughness", "--y", "reactoin", "--out", out), 2,
                  "no column \"reactoin\"")

@@ -2,6 +2,7 @@
 """Measured curves: two columns of a file of a test machine, in the units of a scene, along the way of the test."""
 import numpy as np
 
+from _pictures.input_file import quoted
 from marches import LEAST, MOST
 from command import Trouble
 from measured.columns import choose, label
@@ -64,9 +65,13 @@ class CurveData:
         self.force_unit = table.units[y]
         self.named_units = [unit for unit in (table.units[x], table.units[y]) if kind_of(unit)[0]]
         kind = "time" if given.x == "time" else "length"
+        self._require_kinds(table, x, y, given)
+        # A scene in the plane has loads per width, and so may a table.
+        per_width = kind_of(table.units[y])[0] == "force/length"
+        of_load = (f"{force}/{length}" if force and length else "", "force/length") if per_width else (force, "force")
         there = np.isfinite(table.columns[x]) & np.isfinite(table.columns[y]) | np.isinf(table.columns[x] + table.columns[y])
         points = [in_units(table, x, table.units[x], "" if kind == "time" else length, kind, said)[there],
-                  in_units(table, y, table.units[y], force, "force", said)[there]]
+                  in_units(table, y, table.units[y], *of_load, said)[there]]
         if not there.all():
             said.append(f"{int((~there).sum())} rows without both are left out")
         if len(points[0]) < 2:
@@ -81,6 +86,16 @@ class CurveData:
         self.rows = len(points[0])
         self._follow(points, given.loops == "follow", said)
         self.said = f"{path}: {'; '.join(said)}"
+
+    @staticmethod
+    def _require_kinds(table, x, y, given):
+        """A column in mm is no force, also where --columns takes it. The load of a scene is a displacement or a dead force."""
+        allowed = {"load": ("length", "force"), "time": ("time",), "reaction": ("force", "force/length")}
+        for option, column, name in (("x", x, given.x), ("y", y, given.y)):
+            kind, expected = kind_of(table.units[column])[0], allowed.get(name.split(":")[0])
+            if kind and expected and kind not in expected:
+                raise Trouble(f"{table.path}: {label(table, column)} is no {option} to compare with {quoted(name)} of the scene: "
+                              f"a {' or a '.join(one.replace('/', ' per ') for one in expected)} is expected (--columns X Y)")
 
     @staticmethod
     def _upright(points, factors, said):
