@@ -234,6 +234,12 @@ def drawing():
     expect("$" not in right.get_ylabel() and "J/m²" in right.get_ylabel(), f"the unit is text: {right.get_ylabel()}")
     expect(all(line.get_linestyle() == "None" for line in right.lines), "three values at one crack are points, no line")
     expect(right.get_ylim()[0] < -5 and right.get_ylim()[1] > 400, f"all values are in sight: {right.get_ylim()}")
+    answer = Answer("calibration", np.linspace(0.0, 1e-3, 50), np.full(50, 0.03), np.linspace(0.0, 1e9, 50), lambda d, p, a: 70.0 * p, {})
+    points.zero = 0.0
+    pictures.draw("nowhere", types.SimpleNamespace(displacement=np.arange(3.0), load=np.arange(3.0)), [answer], points, [])
+    column = kept[1].axes[1].lines[0]
+    expect(column.get_ydata().tolist() == 3 * [700.0] and column.get_linestyle() == "None" and kept[1].axes[1].get_ylim()[1] < 1e3,
+           f"a calibration has its values at the points, not all of the load: {column.get_ydata()}")
     sizes = [line.get_markersize() for line in kept[0].axes[0].lines[1:]]
     expect(len(set(sizes)) == 3, f"points that coincide are told apart: {sizes}")
 

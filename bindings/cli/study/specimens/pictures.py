@@ -22,17 +22,23 @@ def draw(out, curve, answers, points, bands):
     left.set_ylabel("load (N)")
     left.legend()
     marks = iter((("o", BLUE), ("s", ORANGE), ("^", RED), ("v", GREY)))
+    drawn = []
     for answer in answers:
-        style, colour = ("-", GREY) if len(answer.where) >= CURVE else next(marks)
-        style = style if np.ptp(answer.crack) > 0 or len(answer.where) < CURVE else "."
-        right.plot(1e3 * answer.crack, answer.rate, style, color=colour, label=answer.name, fillstyle="none")
+        crack, rate = answer.crack, answer.rate
+        # A method for one crack length has no curve over lengths: its values at the points of the standard.
+        if len(rate) >= CURVE and not np.ptp(crack) > 0:
+            rate = np.array([answer.at(point, points.zero) for point in points.points])
+            crack = np.full(len(rate), crack[0])
+        style, colour = ("-", GREY) if len(rate) >= CURVE else next(marks)
+        right.plot(1e3 * crack, rate, style, color=colour, label=answer.name, fillstyle="none")
+        drawn.append(rate)
     for key, value, low, high in bands:
         if low == low and high == high:
             right.axhspan(low, high, color=BLUE, alpha=0.15, label=f"fit: {key}")
         right.axhline(value, color=BLUE, linewidth=0.8, label=None if low == low and high == high else f"fit: {key}")
     right.set_xlabel("crack length (mm)")
     right.set_ylabel("toughness (J/m²)")
-    rates = np.concatenate([answer.rate for answer in answers] + [[end] for band in bands for end in band[1:] if end == end])
+    rates = np.concatenate(drawn + [[end] for band in bands for end in band[1:] if end == end])
     right.set_ylim(min(0.0, 1.05 * np.min(rates)), 1.15 * max(np.max(rates), 0.0))
     right.legend(fontsize="small")
     save(figure, os.path.join(out, "evaluate.png"))
