@@ -83,8 +83,7 @@ LOOP_TEST(slender, 0, 6) {
     for (const double ratio : {10.0, 100.0, 1e3, 3e3, 1e4, 3e4}) {
         const Found found = analyse(plies(dimension, ratio, opened, both));
         const std::string where = std::to_string(dimension) + "D, " + (opened ? "opened, " : "bent, ") +
-                                  (both ? "" : "the upper one may float, ") +
-                                  std::to_string(static_cast<int>(ratio)) +
+                                  (both ? "" : "the upper one may float, ") + std::to_string(static_cast<int>(ratio)) +
                                   " times longer than thick: " + delam_status_name(found.status) + " " + found.words;
         if (ratio <= 100.0) {
             cases::expect(found.status == DELAM_OK, where);

@@ -125,7 +125,7 @@ void Solver::adopt(Chosen next) noexcept {
 }
 
 void Solver::judge_balance(const State& state, Outcome& outcome) {
-    const double off = Balance(problem_, stepper_.op(), stepper_.contact(), state).off();
+    const double off = Balance(problem_, stepper_.op(), stepper_.contact(), stepper_.pairs(), state).off();
     if (!(off > poor_balance)) return;
     const std::string what =
         text("step ", state.step, " at time ", state.time, ": nodal forces are out of balance by ", off,

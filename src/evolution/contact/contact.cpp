@@ -336,6 +336,14 @@ std::vector<std::uint8_t> held_rows(const ContactScene& scene, std::span<const s
     return held;
 }
 
+bool held_by_contact_alone(const ContactScene& scene, std::span<const double> stiffness) {
+    if (scene.parts == nullptr) return false;
+    std::vector<std::uint8_t> active = held_rows(scene, std::vector<std::uint8_t>(scene.bonded.size(), 0));
+    for (std::size_t r = 0; r < active.size(); ++r)
+        if (stiffness[r] != 0.0) active[r] = 1;
+    return scene.parts->free(active).columns > 0;
+}
+
 ContactResult solve_contact(JumpOperator& op, const ContactScene& scene, std::span<const double> stiffness,
                             std::span<const double> theta, std::vector<std::uint8_t>& closed, Response& response,
                             bool cold, std::span<const double> row_force, PlacesBefore* before) {

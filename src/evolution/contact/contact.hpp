@@ -85,6 +85,8 @@ private:
 
 // Springs::held of a contact set: every row of a bonded pair and the normal row of a closed one. closed: [pairs].
 std::vector<std::uint8_t> held_rows(const ContactScene& scene, std::span<const std::uint8_t> closed);
+// True if some part is held by contact alone, or by nothing. stiffness: of the springs, [rows].
+bool held_by_contact_alone(const ContactScene& scene, std::span<const double> stiffness);
 
 // stiffness: [rows] of the springs. closed: [pairs], on entry the warm start, on return the contact set. row_force:
 // Springs::force. cold: searches the set from coarse levels to fine ones, with all pairs open at first. Throws

@@ -248,7 +248,7 @@ bool Observer::recover_in_engine() {
 }
 
 double Observer::equilibrium_defect(const State& state) {
-    const Balance balance(problem_, op_, contact_, state);
+    const Balance balance(problem_, op_, contact_, pairs_, state);
     const double left = balance.left(displacement(state)), reaction = balance.reaction();
     return reaction > 0.0 ? left / reaction : left;
 }
