@@ -14,8 +14,8 @@ namespace delam {
 namespace {
 
 constexpr double doubtful = 1e-7;  // of the energies: forces are summed if the estimated rounding exceeds this
-// Jumps are gaps and what bodies move, as one number of 16 digits: of displacements below this part of the jumps, too
-// few are left for a balance of forces. Between 1e-15 and 1e-9 no scene of the tests has displacements.
+// Jumps are gaps and what bodies move, as one number of 16 digits: of displacements below this part of the jumps at
+// most four are left, too few for the balance that is asked for.
 constexpr double lost = 1e-12;
 constexpr double tiny = std::numeric_limits<double>::min();
 
