@@ -60,8 +60,8 @@ def when(report: dict, cases: list[dict]) -> str:
 
 
 def whole(report: dict) -> str:
-    """The command that makes all of the cases; that of the report may have renewed some of them."""
-    return report["command"].split(" --only")[0]
+    """The command that makes all of the cases; that of the report may have renewed some of them, or their pasts."""
+    return report["command"].split(" --only")[0].removesuffix(" --accept")
 
 
 def gather(report: dict, figures=None, pictures=None) -> dict:
