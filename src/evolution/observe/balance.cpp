@@ -14,9 +14,9 @@ namespace delam {
 namespace {
 
 constexpr double doubtful = 1e-7;  // of the energies: forces are summed if the estimated rounding exceeds this
-// Jumps are gaps and what bodies move, as one number of 16 digits: of displacements below this part of the jumps at
-// most four are left, too few for the balance that is asked for.
-constexpr double lost = 1e-12;
+// Jumps are gaps and what bodies move, as one number: displacements below this part of the jumps have not as many
+// digits as the balance asks for.
+constexpr double lost = std::numeric_limits<double>::epsilon() / no_balance;
 constexpr double tiny = std::numeric_limits<double>::min();
 
 }  // namespace
