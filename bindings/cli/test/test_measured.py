@@ -91,6 +91,7 @@ def refusals():
     refused("only text\nand more\n", "there are no numbers")
     swapped = "Weg (mm),Kraft (N)\n0.1,1\n0.2,2\n"
     refused(swapped, '"Weg" in mm is no y to compare with "reaction" of the scene: a force or a force per length is expected', columns=["Kraft", "Weg"])
+    refused("Weg (mm),Kraft (N/mm)\n0.1,1\n0.2,2\n", '"Kraft" in N/mm is a load per width already', width="25mm")
     refused("Zeit (s),Kraft (N)\n0.1,1\n0.2,2\n", '"Zeit" in s is no x to compare with "load"', columns=["Zeit", "Kraft"])
     refused("\n \n", "the file is empty")
     refused("a;b\n1;2\n2;x\n3;4\n", 'row 2 of the numbers (line 3) has "x"')

@@ -68,6 +68,8 @@ class CurveData:
         self._require_kinds(table, x, y, given)
         # A scene in the plane has loads per width, and so may a table.
         per_width = kind_of(table.units[y])[0] == "force/length"
+        if per_width and given.width:
+            raise Trouble(f"{path}: {self.names[1]} is a load per width already: --width would divide it again")
         of_load = (f"{force}/{length}" if force and length else "", "force/length") if per_width else (force, "force")
         there = np.isfinite(table.columns[x]) & np.isfinite(table.columns[y]) | np.isinf(table.columns[x] + table.columns[y])
         points = [in_units(table, x, table.units[x], "" if kind == "time" else length, kind, said)[there],
