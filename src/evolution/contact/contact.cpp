@@ -298,6 +298,9 @@ DenseMatrix free_motions(const JumpOperator& op, const ContactScene& scene, std:
                          std::span<const double> theta, std::span<const std::uint8_t> closed,
                          const Response& response) {
     if (scene.parts == nullptr) return {};
+    // Contact can only hold more than adhesion does.
+    const std::vector<std::uint8_t> none(closed.size(), 0);
+    if (scene.parts->connected(with_springs(held_rows(scene, none), stiffness))) return {};
     const ContactRows rows = contact_rows(scene, op.prescribed_rows(), false);
     std::vector<std::uint8_t> set;
     for (const std::size_t row : rows.row) set.push_back(closed[row / index(scene.dimension)]);

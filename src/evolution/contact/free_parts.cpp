@@ -125,8 +125,6 @@ FreeParts::FreeParts(const Problem& problem)
         }
 }
 
-// True if pairs that hold in all directions join all pieces that could move to one, or to what supports hold. False: it
-// takes the exact test.
 bool FreeParts::connected(std::span<const std::uint8_t> active) const {
     const auto dim = index(dimension_);
     Components components(places_);

@@ -28,6 +28,9 @@ public:
     // False: the supports hold every part by themselves.
     bool any() const { return motions_.jumps().columns > 0; }
     const RigidMotions& motions() const { return motions_; }
+    // True if pairs that hold in all directions join all pieces that could move to one, or to what supports hold.
+    // False: only free() can tell. active: [jump rows].
+    bool connected(std::span<const std::uint8_t> active) const;
     // Combinations of the motions that no active row resists, [motions][combinations]. active: [jump rows].
     DenseMatrix free(std::span<const std::uint8_t> active) const;
     // Tells how bodies move in these combinations, [bodies][2D: x, y, turning; 3D: x, y, z, turning about x, y, z], 1
@@ -42,8 +45,6 @@ public:
     double product(std::span<const double> u, std::span<const double> v) const;
 
 private:
-    bool connected(std::span<const std::uint8_t> active) const;
-
     std::int64_t dimension_;
     RigidMotions motions_;
     std::vector<std::int32_t> body_;                      // [pieces]

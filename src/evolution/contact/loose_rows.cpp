@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "base/numbers.hpp"
 
@@ -23,6 +24,12 @@ constexpr double farther = 1e3;
 
 }  // namespace
 
+std::vector<std::uint8_t> with_springs(std::vector<std::uint8_t> held, std::span<const double> spring) {
+    for (std::size_t r = 0; r < held.size(); ++r)
+        if (spring[r] != 0.0) held[r] = 1;
+    return held;
+}
+
 LooseRows::LooseRows(const ContactRows& contact, std::span<const std::uint8_t> closed, std::span<const double> force,
                      std::uint8_t level, double least_force)
     : contact_(contact) {
@@ -35,9 +42,7 @@ LooseRows::LooseRows(const ContactRows& contact, std::span<const std::uint8_t> c
 std::vector<std::uint8_t> LooseRows::active(std::span<const std::uint8_t> held, std::span<const double> spring) const {
     std::vector<std::uint8_t> active(held.begin(), held.end());
     for (const std::size_t i : rows) active[contact_.row[i]] = 0;
-    for (std::size_t r = 0; r < active.size(); ++r)
-        if (spring[r] != 0.0) active[r] = 1;
-    return active;
+    return with_springs(std::move(active), spring);
 }
 
 LeastMotion LooseRows::keep_apart(const DenseMatrix& gram, std::span<const double> pull, const DenseMatrix& jumps,

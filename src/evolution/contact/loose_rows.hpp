@@ -12,6 +12,9 @@
 
 namespace delam {
 
+// Returns the rows that hold, [rows of the system]: what is held, and what has a spring.
+std::vector<std::uint8_t> with_springs(std::vector<std::uint8_t> held, std::span<const double> spring);
+
 class LooseRows {
 public:
     // force: of all rows of the system; no force beyond least_force presses.
@@ -22,8 +25,7 @@ public:
     std::vector<std::size_t> rows;
     // The part of least_jump by which keep_apart() may leave rows violated: from least_jump on they count as violated,
     // and half of it is left for the rounding of the motion. (Measured by verify/cases/contact/random_scenes.py --hard
-    // and
-    // --scenes 120: half and twice decide alike.)
+    // and --scenes 120: half and twice decide alike.)
     static constexpr double left = 0.5;
 
     // Rows that hold, [rows of the system]: what is held, but for these rows, and what has a spring.

@@ -65,12 +65,14 @@ std::vector<EdgeChain> chains(const CrackedInterface& interface) {
     Edges edges(interface);
     std::vector<EdgeChain> found;
     const auto walk = [&](std::int64_t first) {
+        std::int64_t p = edges.take(first);
+        if (p < 0) return false;
         EdgeChain chain{{first}, {}, false};
-        for (std::int64_t p = edges.take(first); p >= 0; p = edges.take(p)) {
+        chain.pair.reserve(index(count) + 1);
+        for (; p >= 0; p = edges.take(p)) {
             chain.pair.push_back(p);
             if (edges.degree(index(p)) != 2) break;
         }
-        if (chain.pair.size() == 1) return false;
         chain.ring = chain.pair.size() > 2 && chain.pair.back() == first;
         found.push_back(std::move(chain));
         return true;
@@ -91,6 +93,7 @@ std::vector<EdgeChain> chains(const CrackedInterface& interface) {
             chain.pair.push_back(chain.pair.front());
         }
         double arc = 0.0;
+        chain.arc.reserve(chain.pair.size());
         for (std::size_t k = 0; k < chain.pair.size(); ++k) {
             if (k > 0) arc += distance(place_of(interface, chain.pair[k - 1]), place_of(interface, chain.pair[k]));
             chain.arc.push_back(arc);
