@@ -63,6 +63,10 @@ double Law::least_onset() const {
     return std::min(modes.normal, modes.tangential);
 }
 
+double Law::onset_bound() const {
+    return host() != nullptr ? 0.0 : least_toughness(criterion_of_onset(), onset_modes());
+}
+
 double Law::least_total() const { return host() != nullptr ? 0.0 : least_toughness(criterion, total_modes()); }
 
 double Law::dissipated(const Toughness& t, double zeta) const {

@@ -77,6 +77,7 @@ struct Law {
     Toughness toughness(double mixity) const;
     ToughnessSlope toughness_slope(double mixity) const;  // where infinite, cut off: toughness_slope_at
     double least_onset() const;                           // min Go of the pure modes
+    double onset_bound() const;                           // at most Go at any mixity; 0: of a law of the host
     double least_total() const;                           // least_toughness of Gc; 0: the host gives the law
 
     // Energies per unit area, F/L, of one point; `t` at the mixity that holds, 0 <= zeta <= 1.

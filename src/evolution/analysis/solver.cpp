@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <string_view>
 #include <utility>
 
 #include "base/error.hpp"
@@ -266,7 +267,8 @@ void Solver::record(const std::string& key) {
 std::vector<double> Solver::values(const State& state, const std::vector<std::string>& keys) {
     std::vector<double> values = values_of(observer_, state, keys);
     for (std::size_t i = 0; i < keys.size(); ++i)
-        if (value_key(keys[i]) == rotation_key) warnings_.judge_rotation(state, values[i]);
+        if (const ValueInfo* info = find_value(keys[i]); info != nullptr && info->key == std::string_view(rotation_key))
+            warnings_.judge_rotation(state, values[i]);
     return values;
 }
 

@@ -67,8 +67,11 @@ double process_zone(const CrackedInterface& interface) {
 std::vector<PairPiece> pair_pieces(const InterfaceGeometry& geometry, int dimension) {
     const auto per_face = index(geometry.nodes_per_face);
     std::vector<PairPiece> pieces;
+    if (geometry.face.empty()) return pieces;
+    const auto of_a_face = face_pieces(dimension, per_face);
+    pieces.reserve(geometry.face.size() / per_face * of_a_face.size());
     for (std::size_t f = 0; f + per_face <= geometry.face.size(); f += per_face)
-        for (const FacePiece& piece : face_pieces(dimension, per_face)) {
+        for (const FacePiece& piece : of_a_face) {
             PairPiece own{0, {}};
             for (int k = 0; k < piece.nodes; ++k) {
                 const std::int64_t pair = geometry.face[f + index(piece.node[index(k)])];

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <string_view>
+#include <unordered_map>
 #include <variant>
 
 #include "base/error.hpp"
@@ -376,13 +378,24 @@ constexpr Row table[] = {
                 [](const Reading& r, std::int64_t p) { return r.state().response.conjugate[index(p)]; }),
 };
 
-const Row* find_row(const std::string& key) {
-    const std::string name = key.substr(0, key.find(':'));
-    for (const Row& row : table) {
-        if (row.info.scope == ValueScope::whole ? key == row.info.key : name == row.info.key) return &row;
-        if (*row.info.alias != '\0' && name == row.info.alias) return &row;
+// Rows by key and alias; a row of a part of the scene also by KEY before a colon.
+struct RowIndex {
+    std::unordered_map<std::string_view, const Row*> by_key, by_alias;
+    RowIndex() {
+        for (const Row& row : table) {
+            by_key.emplace(row.info.key, &row);
+            if (*row.info.alias != '\0') by_alias.emplace(row.info.alias, &row);
+        }
     }
-    return nullptr;
+};
+
+const Row* find_row(std::string_view key) {
+    static const RowIndex rows;
+    const std::string_view name = key.substr(0, key.find(':'));
+    const auto own = rows.by_key.find(name);
+    if (own != rows.by_key.end() && (own->second->info.scope != ValueScope::whole || key == name)) return own->second;
+    const auto other = rows.by_alias.find(name);
+    return other == rows.by_alias.end() ? nullptr : other->second;
 }
 
 // Finds the interface or pattern of KEY:I or KEY:NAME; -1: KEY alone. False: no interface or pattern has this name.

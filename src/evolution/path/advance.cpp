@@ -28,9 +28,14 @@ constexpr double of_the_most = 0.5;
 std::vector<double> spent_shares(const PairLaws& pairs, const State& state) {
     std::vector<double> share(state.adhesion.size(), 0.0);
     for (std::size_t p = 0; p < share.size(); ++p) {
-        if (pairs.law[p] == nullptr) continue;
+        const double adhesion = state.adhesion[p];
+        if (pairs.law[p] == nullptr || !(adhesion < 1.0)) continue;
+        if (!(adhesion > 0.0)) {
+            share[p] = 1.0;
+            continue;
+        }
         const Toughness t = pairs.toughness(p, state.mixity[p]);
-        share[p] = state.adhesion[p] > 0.0 ? pairs.law[p]->dissipated(t, state.adhesion[p]) / t.total : 1.0;
+        share[p] = pairs.law[p]->dissipated(t, adhesion) / t.total;
     }
     return share;
 }

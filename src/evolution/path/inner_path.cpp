@@ -45,14 +45,23 @@ bool InnerPath::one_mode(const State& at, std::span<const double> mixity, const 
         least[0] = std::min(least[0], t.onset), most[0] = std::max(most[0], t.onset);
         least[1] = std::min(least[1], t.total), most[1] = std::max(most[1], t.total);
     };
+    const Law* law = nullptr;
+    double least_onset = 0.0;  // of this law
     for (std::size_t p = 0; p < at.adhesion.size(); ++p) {
         if (!pairs_.mixed(p)) continue;
-        const Toughness t = pairs_.toughness(p, mixity[p]);
+        if (law != pairs_.law[p]) {
+            law = pairs_.law[p];
+            least_onset = law->onset_bound();
+        }
         const Driving y = driving_energy(pairs_, p, at.response.jump);
         const bool damaged = before != nullptr && at.adhesion[p] < before->adhesion[p];
         const bool partly = at.adhesion[p] > 0.0 && at.adhesion[p] < 1.0;
-        const bool nearly = at.adhesion[p] > 0.0 && y.total() > nearly_loaded_share * t.onset;
-        if (!damaged && !partly && !nearly) continue;
+        const auto nearly = [&](double onset) {
+            return at.adhesion[p] > 0.0 && y.total() > nearly_loaded_share * onset;
+        };
+        if (!damaged && !partly && !nearly(least_onset)) continue;
+        const Toughness t = pairs_.toughness(p, mixity[p]);
+        if (!damaged && !partly && !nearly(t.onset)) continue;
         any = true;
         add(t);
         if (damaged && tells_mixity(*pairs_.law[p], y, 0.0))
@@ -101,7 +110,11 @@ double InnerPath::bound(const State& at, std::span<const double> mixity) const {
     std::int64_t interfaces = 0;
     for (std::size_t p = 0; p < at.adhesion.size(); ++p) {
         interfaces = std::max(interfaces, graph_.interface_of(p) + 1);
-        if (pairs_.law[p] == nullptr) continue;
+        if (pairs_.law[p] == nullptr || !(at.adhesion[p] < 1.0)) continue;
+        if (!(at.adhesion[p] > 0.0)) {
+            broken[p] = 1;
+            continue;
+        }
         const Toughness t = pairs_.toughness(p, mixity[p]);
         const double share = pairs_.law[p]->dissipated(t, at.adhesion[p]) / t.total;
         broken[p] = share >= 1.0 - softening ? 1 : 0;
