@@ -12,6 +12,7 @@
 #include "api.hpp"
 #include "delam/experimental.h"
 #include "direct.hpp"
+#include "front_points.hpp"
 #include "support.hpp"
 
 namespace {
@@ -169,6 +170,7 @@ Scene make_beam(const Beam& beam) {
 
 struct History {
     std::vector<double> force, dissipated, adhesion;
+    std::array<double, 3> rate{};  // mean energy release rate of the front in modes I, II, III, J/m2
 };
 
 History analysed(const Beam& beam) {
@@ -181,6 +183,11 @@ History analysed(const Beam& beam) {
         out.force.push_back(solver.value("reaction:press"));
         out.dissipated.push_back(solver.value("dissipated") * beam.unit);
     }
+    const auto fronts = cases::crack_fronts(solver);
+    cases::expect(fronts.size() == 1, "the beam has one front");
+    for (const auto& point : fronts[0].points)
+        for (std::size_t mode = 0; mode < 3; ++mode)
+            out.rate[mode] += point.rate[mode] / beam.unit / static_cast<double>(fronts[0].points.size());
     // In the order of the nodes: that of the pairs follows their places.
     const std::vector<double> adhesion = solver.field("adhesion");
     const std::vector<std::int64_t> node = scene.pairs(0).node_a;
@@ -204,6 +211,9 @@ double apart(const History& a, const History& b) {
 void expect_same(const History& a, const History& b, double tolerance, const std::string& what) {
     cases::expect_below(apart(a, b), tolerance, what + ": forces");
     cases::expect_near(a.dissipated.back(), b.dissipated.back(), tolerance, b.dissipated.back(), what + ": dissipated");
+    for (std::size_t mode = 0; mode < 3; ++mode)
+        cases::expect_near(a.rate[mode], b.rate[mode], tolerance, b.rate[1],
+                           what + ": energy release rate in mode " + std::to_string(mode + 1));
     for (std::size_t p = 0; p < a.adhesion.size(); ++p)
         cases::expect_near(a.adhesion[p], b.adhesion[p], tolerance, 1.0, what + ": adhesion");
 }
@@ -251,6 +261,14 @@ TEST(as_the_direct_reference) {
     for (const double j : jump) size = std::max(size, std::abs(j));
     for (std::size_t r = 0; r < jump.size(); ++r)
         cases::expect_near(jump[r], found.jump[r], 1e-7, size, "jump " + std::to_string(r));
+}
+
+// Two numbers that are nearly one, along axes between those of the beam: the modes of the front are those of one
+// number.
+TEST(nearly_one_number) {
+    const History one = analysed({0.0, 30.0 * degree, 125e9, 125e9});
+    expect_same(analysed({0.0, 30.0 * degree, 125e9, 125e9 * (1.0 + 1e-9)}), one, 1e-6, "nearly one number");
+    cases::expect(one.rate[1] > 10.0, "the front releases nothing: nothing was tested");
 }
 
 // Digits, and saved states, are those of a law that has one number.
