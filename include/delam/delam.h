@@ -510,6 +510,9 @@ DELAM_API int32_t delam_mesh_find_patch(const delam_mesh *mesh, int32_t body, co
  *   host              callbacks of the host: delam_law_create_host (delam_law_create refuses this kind)
  * Numbers are set by key with delam_law_set; delam_law_parameter_info lists those of each kind:
  *   normal_stiffness, tangential_stiffness  F/L3  > 0       k_n, k_t
+ *   second_tangential_stiffness             F/L3  > 0       k_t along the second tangent of a pair in space, where
+ *                                                           tangential_stiffness is along the first; not given: the
+ *                                                           same along both
  *   normal_onset, tangential_onset          F/L   > 0       Go at B = 0, at B = 1
  *   normal_strength, tangential_strength    F/L2  > 0       peak s of the traction of that mode, in the place of its
  *                                                           onset: Go is s^2/(2 k_n) or s^2/(2 k_t)
@@ -598,7 +601,8 @@ typedef int32_t (*delam_dissipation_callback)(double mixity, double adhesion, do
  * and Gc = g at adhesion 0. name, which must not be empty, identifies the callbacks in messages and in
  * delam_problem_hash. The callbacks and user must stay valid as long as the law is used, and as long as any problem or
  * solver that took it exists. If such an object is destroyed during a call, the callbacks and user must stay valid
- * until that call ends. The keys are `normal_stiffness`, `tangential_stiffness` and `gradient`. delam_law_check and
+ * until that call ends. The keys are `normal_stiffness`, `tangential_stiffness`,
+ * `second_tangential_stiffness` and `gradient`. delam_law_check and
  * delam_problem_set_law test at samples whether the two callbacks belong to the same g. If they do not, the message
  * names the first such sample.
  * [null user; owns out caller, callbacks and user: the host, as long as problems and solvers that took the law; status

@@ -170,6 +170,29 @@ int32_t delam_experimental_mesh_cut(delam_mesh* mesh, int64_t face_count, int32_
     });
 }
 
+int32_t delam_experimental_mesh_set_tangents(delam_mesh* mesh, int64_t interface_index, int64_t count,
+                                             const double* directions) {
+    return guard_build(mesh, [&] {
+        Mesh& core = *mesh->core;
+        const auto interfaces = static_cast<std::int64_t>(core.interfaces().size());
+        const std::int64_t own = require_index(interface_index, interfaces, 0, "interface_index");
+        const std::int64_t pairs = core.interfaces()[index(own)].pair_count();
+        if (core.dimension() != 3)
+            fail(DELAM_ERROR_ARGUMENT, "directions: a pair in the plane has one tangent; this mesh has dimension ",
+                 core.dimension());
+        if (count != 1 && count != pairs)
+            fail(DELAM_ERROR_ARGUMENT, "count = ", count, ", must be 1 or the number of pairs, ", pairs);
+        require_array(directions, 3 * count, "directions");
+        require_finite(directions, 3 * count, "directions");
+        for (std::int64_t i = 0; i < count; ++i) {
+            const double* given = directions + 3 * i;
+            if (!(std::hypot(given[0], given[1], given[2]) > 0.0))
+                fail(DELAM_ERROR_ARGUMENT, "directions[", i, "] has length 0");
+        }
+        set_tangents(core, own, {directions, index(3 * count)});
+    });
+}
+
 int32_t delam_experimental_mesh_split_interface(delam_mesh* mesh, int64_t interface_index, int64_t count,
                                                 const int64_t* pairs, int32_t index_base, int64_t* out_interface) {
     return guard_build(mesh, [&] {

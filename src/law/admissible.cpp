@@ -119,6 +119,7 @@ void validate(const Law& law) {
         if (!applies(p, law) || p.type != std::string("real")) continue;
         const double value = p.value != nullptr ? law.*p.value : p.read(law.softening);
         if (p.instead_of != nullptr && value == 0.0 && law.*p.instead_of != 0.0) continue;
+        if (p.like != nullptr && value == 0.0) continue;
         if (!p.range.allows(value)) fail(DELAM_ERROR_PROBLEM, "law: ", p.key, " ", value, ": must be ", p.range.words);
     }
     std::visit(
@@ -127,6 +128,10 @@ void validate(const Law& law) {
                 if (const char* what = shape.missing()) fail(DELAM_ERROR_PROBLEM, "law: ", what);
         },
         law.softening);
+    if (law.two_shears() && law.tangential_strength > 0.0)
+        fail(DELAM_ERROR_PROBLEM, "law: tangential_strength ", law.tangential_strength, ": with the stiffnesses ",
+             law.tangential_stiffness, " and ", law.second_tangential_stiffness,
+             " along both tangents, a law has one onset but two strengths, sqrt(2 k onset): give tangential_onset");
     if (const HostSoftening* given = law.host())
         require_consistent(*given);
     else

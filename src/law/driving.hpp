@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The driving energies of one point of an interface: Y_n = k_n u_n^2 / 2 and Y_t = k_t u_t^2 / 2.
+// The driving energies of one point of an interface: Y_n = k_n u_n^2 / 2 and Y_t = k_t u_t^2 / 2; with two
+// stiffnesses in shear Y_t = (k_1 u_1^2 + k_2 u_2^2) / 2 along the tangents of a pair.
 #pragma once
 
 #include <span>

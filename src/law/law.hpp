@@ -26,9 +26,10 @@
 namespace delam {
 
 struct Law {
-    double normal_stiffness = 0.0;      // k_n, F/L3
-    double tangential_stiffness = 0.0;  // k_t
-    double normal_onset = 0.0;          // G^o_n, F/L; none of Griffith's law, nor of one that the host gives
+    double normal_stiffness = 0.0;             // k_n, F/L3
+    double tangential_stiffness = 0.0;         // k_t, in space of the first tangent of a pair
+    double second_tangential_stiffness = 0.0;  // of the second one; 0: k_t
+    double normal_onset = 0.0;                 // G^o_n, F/L; none of Griffith's law, nor of one that the host gives
     double tangential_onset = 0.0;
     double normal_strength = 0.0;  // s_n, F/L2: instead of the onset, G^o_n = s_n^2/(2 k_n); 0: the onset is given
     double tangential_strength = 0.0;
@@ -68,7 +69,14 @@ struct Law {
     }
     const HostSoftening* host() const { return std::get_if<HostSoftening>(&softening); }
     // k of a component of a local jump, the normal one first.
-    double stiffness(std::size_t component) const { return component == 0 ? normal_stiffness : tangential_stiffness; }
+    double stiffness(std::size_t component) const {
+        if (component == 0) return normal_stiffness;
+        return component == 2 && two_shears() ? second_tangential_stiffness : tangential_stiffness;
+    }
+    // True if the stiffness depends on the direction of sliding, so that the tangents of a pair are axes of its law.
+    bool two_shears() const {
+        return second_tangential_stiffness > 0.0 && second_tangential_stiffness != tangential_stiffness;
+    }
     // Go and Gc as the criterion needs them; not for laws given by the host.
     Modes onset_modes() const;
     Modes total_modes() const;

@@ -35,6 +35,10 @@ constexpr LawParameter instead(LawParameter row, double Law::*other) {
     row.instead_of = other;
     return row;
 }
+constexpr LawParameter like(LawParameter row, double Law::*first) {
+    row.like = first;
+    return row;
+}
 constexpr LawParameter of_onset(LawParameter row) {
     row.of_onset = true;
     return row;
@@ -64,6 +68,10 @@ constexpr LawParameter common[] = {
            &Law::normal_stiffness),
     number("tangential_stiffness", "F/L3", "", "k_t: traction over slip before any damage", any, any,
            &Law::tangential_stiffness),
+    like(number("second_tangential_stiffness", "F/L3", "that of tangential_stiffness",
+                "k_t along the second tangent of a pair in space; tangential_stiffness is then that along the first",
+                any, any, &Law::second_tangential_stiffness),
+         &Law::tangential_stiffness),
     instead(number("normal_onset", "F/L", "", "G^o_n: driving energy at which damage begins in opening", softens, any,
                    &Law::normal_onset),
             &Law::normal_strength),

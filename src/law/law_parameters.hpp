@@ -22,6 +22,7 @@ struct LawParameter {
     double Law::*value = nullptr;                // null: it belongs to the shape
     double Law::*second = nullptr;               // set along with it
     double Law::*instead_of = nullptr;           // one of the two is given, the other is 0
+    double Law::*like = nullptr;                 // takes its place where it is 0, not given
     bool of_onset = false;                       // the criterion is that of the onset
     double (*read)(const Softening&) = nullptr;  // of a number of the shape
     void (*write)(Softening&, double) = nullptr;

@@ -114,7 +114,10 @@ void add_law(Fnv& fnv, const Law& law) {
         const bool strength = parameter.instead_of != nullptr && *parameter.initial != '\0';
         const bool other = parameter.instead_of != nullptr && law.*parameter.instead_of > 0.0;
         if ((strength || other) && !(law.*parameter.value > 0.0)) continue;
-        if (strength) fnv.add(std::string(parameter.key));
+        // A number that is not given, or equal to the one that takes its place, makes the same law.
+        const double own = parameter.like != nullptr ? law.*parameter.value : 0.0;
+        if (parameter.like != nullptr && (own == 0.0 || own == law.*parameter.like)) continue;
+        if (strength || parameter.like != nullptr) fnv.add(std::string(parameter.key));
         add(parameter.value);
         add(parameter.second);
     }

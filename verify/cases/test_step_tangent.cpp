@@ -24,6 +24,7 @@ struct Setting {
     double gradient;
     double asymmetry;  // smallest relative asymmetry that must appear; 0: symmetric
     const char* control = "fixed";
+    double second = 0.0;  // stiffness of the second shear; the axes are turned by 30 degrees from the load
 };
 
 constexpr Setting settings[] = {
@@ -40,6 +41,9 @@ constexpr Setting settings[] = {
     {"gradient, space", 3, "condensed", "frozen", 2e-3, 0.0},
     {"along the load", 2, "condensed", "converged", 0.0, 1e-6, "load"},
     {"along the load, space", 3, "condensed", "converged", 0.0, 1e-6, "load"},
+    {"two shears", 3, "condensed", "converged", 0.0, 1e-6, "fixed", 3e12},
+    {"two shears, variational", 3, "condensed", "variational", 0.0, 0.0, "fixed", 6e12},
+    {"two shears, iterated", 3, "iterated", "frozen", 0.0, 0.0, "fixed", 3e12},
 };
 constexpr int setting_count = static_cast<int>(std::size(settings));
 
@@ -51,6 +55,8 @@ Scene strip(const Setting& s) {
     Scene scene = space ? Scene(3, {0.03, 0.004}, {15, 2}, {1e-3, 1e-3}, {1, 1}, DELAM_HEX8)
                         : Scene(2, {0.03}, {30}, {1e-3, 1e-3}, {1, 1}, DELAM_QUAD4);
     scene.interface(0, 1);
+    const double axis[] = {std::sqrt(0.75), 0.5, 0.0};
+    if (s.second > 0.0) REQUIRE(scene, delam_experimental_mesh_set_tangents, scene.mesh(), 0, 1, axis);
     scene.begin();
     scene.elastic(-1, 70e9, 0.3);
     // The loads are chosen so that standard hex8 soften in every setting.
@@ -59,6 +65,7 @@ Scene strip(const Setting& s) {
     if (std::string(s.rule) == "variational")  // this rule allows only a weak dependence on the mode
         law.normal_onset = 60.0, law.tangential_onset = 80.0, law.tangential_toughness = 210.0;
     law.gradient = s.gradient;
+    law.second_tangential_stiffness = s.second;
     scene.law(0, law);
     const auto pairs = scene.pairs(0);
     std::vector<std::int64_t> notch;

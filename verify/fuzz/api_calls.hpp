@@ -449,6 +449,11 @@ inline const Call calls[] = {
          return IN_ORDER(delam_experimental_mesh_split_interface, a.mesh, a.in.index(2), a.in.flag() ? 1 : 2, pairs, 0,
              a.in.seldom() ? nullptr : &index);
      }},
+    {"delam_experimental_mesh_set_tangents", Subject::mesh, may::cancelled | may::argument | may::mesh,
+     [](const Asked& a) {
+         const double direction[] = {a.in.signed_real(), a.in.signed_real(), a.in.signed_real()};
+         return IN_ORDER(delam_experimental_mesh_set_tangents, a.mesh, a.in.index(2), 1, direction);
+     }},
     {"delam_solver_destroy", Subject::solver, may::usual,
      [](const Asked& a) {
          a.world.solver.put(static_cast<std::size_t>(a.in.below(slots)), nullptr, nullptr);

@@ -118,7 +118,7 @@ Acceptance accept(const Scene& scene, const Fields& fields, const Exported& expo
                         std::max(result.gap_displacement, relative(-opening - rounding, between_size));
                 }
                 if (stiffness.bonded || (closed && c == 0)) continue;
-                const double spring = zeta * (c == 0 ? stiffness.normal : stiffness.tangential);
+                const double spring = zeta * stiffness.of(static_cast<int>(c));
                 result.law = std::max(result.law, relative(std::abs(traction[at] - spring * jump[at]), traction_size));
             }
             if (stiffness.bonded || !closed) continue;

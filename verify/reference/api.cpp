@@ -142,8 +142,10 @@ void Scene::law(std::int64_t interface_index, const LawData& data) {
     set("toughness_exponent_1", data.exponent);
     set("toughness_exponent_2", data.exponent);
     if (data.gradient > 0.0) set("gradient", data.gradient);
+    if (data.second_tangential_stiffness > 0.0) set("second_tangential_stiffness", data.second_tangential_stiffness);
     require(delam_problem_set_law(problem(), interface_index, raw), "delam_problem_set_law");
-    stiffness_[static_cast<std::size_t>(interface_index)] = {data.normal_stiffness, data.tangential_stiffness, false};
+    stiffness_[static_cast<std::size_t>(interface_index)] = {data.normal_stiffness, data.tangential_stiffness, false,
+                                                             data.second_tangential_stiffness};
 }
 
 void Scene::bonded(std::int64_t interface_index) {

@@ -45,6 +45,7 @@ struct LawData {
     double normal_toughness, tangential_toughness;
     double exponent = 2.0;
     double gradient = 0.0;
+    double second_tangential_stiffness = 0.0;  // 0: that of the first tangent
 };
 
 // The properties of an interface that matter in a displacement step.
@@ -52,6 +53,11 @@ struct InterfaceStiffness {
     double normal = 0.0;
     double tangential = 0.0;
     bool bonded = false;
+    double second = 0.0;  // along the second tangent in space; 0: the same
+    double of(int component) const {
+        if (component == 0) return normal;
+        return component == 2 && second > 0.0 ? second : tangential;
+    }
 };
 
 // Pairs of one interface as the library exports them.

@@ -146,7 +146,7 @@ void DirectReference::choose_unknowns() {
 
 double DirectReference::spring(std::size_t pair, int component, const std::vector<double>& adhesion) const {
     const InterfaceStiffness& s = scene_->stiffness()[pairs_[pair].interface_index];
-    return s.bonded ? 0.0 : adhesion[pair] * (component == 0 ? s.normal : s.tangential);
+    return s.bonded ? 0.0 : adhesion[pair] * s.of(component);
 }
 
 State DirectReference::solve_linear(const std::vector<double>& values, const std::vector<double>& force,

@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tables over the mode mix in decks, which follow from a curve of Benzeggagh and Kenane: the scene must have its numbers
 again. And what the law of an interface has one value for."""
+import csv
 import math
+import os
 import re
 
-from support import delam, expect, expect_error, finish, write
+from support import delam, expect, expect_error, finish, folder, write
 
 NORMAL, SHEAR, ETA = 0.02, 0.05, 1.6  # toughnesses and exponent
 K_N, K_S, S_N, S_S = 1000.0, 400.0, 1.5, 2.0  # stiffnesses and strengths
@@ -92,12 +94,41 @@ for evolution, pattern in (
 
 # Two directions of sliding: the line and the keyword of what differs.
 ONE = "*DAMAGE EVOLUTION, TYPE=ENERGY\n1.,\n"
-for others, keyword in (({"stiffness": "1000., 400., 300."}, "ELASTIC"), ({"strengths": "1.5, 2., 3."}, "DAMAGE INITIATION")):
+SHEARS = "1000., 400., 225."  # with strengths 2 and 1.5, damage begins at the same energy in both
+for others, why in (({"stiffness": SHEARS}, "begin at the same energy"), ({"strengths": "1.5, 2., 3."}, "write the same twice")):
     text = deck(ONE, solid=True, **others)
-    line = 1 + text.splitlines().index("*ELASTIC, TYPE=TRACTION" if keyword == "ELASTIC" else
-                                       "*DAMAGE INITIATION, CRITERION=QUADS")
+    line = 1 + text.splitlines().index("*DAMAGE INITIATION, CRITERION=QUADS")
     expect_error(delam("import", write(text, "deck.inp")), 2,
-                 rf"deck\.inp:{line}: \*{keyword}: .* in the two directions of sliding", "write the same twice")
+                 rf"deck\.inp:{line}: \*DAMAGE INITIATION: .* in the two directions of sliding", why)
     code, _, said = delam("import", write(deck(ONE, **others), "deck.inp"))
     expect(code == 0, f"in the plane there is one direction: {said}")
+
+# Stiffnesses of both shears become keys of the law, whose first shear is along x as in the deck.
+TWICE = deck(ONE, stiffness=SHEARS, strengths="1.5, 2., 1.5", solid=True)
+code, scene, said = delam("import", write(TWICE, "deck.inp"))
+expect(code == 0, f"two stiffnesses in shear: {said}")
+for key, value in (("tangential_stiffness", 400.0), ("second_tangential_stiffness", 225.0), ("tangential_onset", 0.005)):
+    found = re.search(rf"^{key} = (\S+)", scene, re.M)
+    expect(found and math.isclose(float(found.group(1)), value, rel_tol=1e-12), f"{key} in\n{scene}")
+expect("shear_axis = [1, 0, 0]" in scene, f"the axis of the first shear in\n{scene}")
+# The upper block slides between both shears, beyond the onset.
+ENERGY, ONSET, TOUGHNESS = 0.02, 0.005, 1.0  # Y = (Kss u_s^2 + Ktt u_t^2)/2
+slip = math.sqrt(2 * ENERGY / (400 * 0.36 + 225 * 0.64))
+moved = "".join(f"{node}, 1, 3\n" for node in range(1, 9)) + "".join(
+    f"{node}, 1, 1, {0.6 * slip!r}\n{node}, 2, 2, {0.8 * slip!r}\n{node}, 3, 3\n" for node in range(11, 19))
+where, out = os.path.join(folder(), "scene.toml"), os.path.join(folder(), "out")
+sliding = TWICE.replace("*BOUNDARY\n1, 1, 3\n2, 2, 3\n", "*BOUNDARY\n" + moved)
+for words in (("import", write(sliding, "deck.inp"), "--out", where), ("run", where, "--out", out)):
+    code, _, said = delam(*words)
+    expect(code == 0, f"{words[0]}: {said}")
+with open(os.path.join(out, "history.csv"), encoding="utf-8", newline="") as file:
+    last = list(csv.DictReader(file))[-1]
+zeta = (TOUGHNESS * math.sqrt(ONSET / ENERGY) - ONSET) / (TOUGHNESS - ONSET)
+spent = TOUGHNESS * ONSET * (1 - zeta) / (ONSET + (TOUGHNESS - ONSET) * zeta)
+for column, value in (("stored_interface", zeta * ENERGY), ("dissipated", spent)):
+    expect(math.isclose(float(last[column]), value, rel_tol=1e-9), f"{column} {last[column]} instead of {value}")
+for evolution, section in (("*DAMAGE EVOLUTION, TYPE=DISPLACEMENT\n1.,\n", ""), (ONE, ", ORIENTATION=TURNED")):
+    text = deck(evolution, stiffness=SHEARS, strengths="1.5, 2., 1.5", solid=True)
+    text = text.replace("RESPONSE=TRACTION SEPARATION", "RESPONSE=TRACTION SEPARATION" + section)
+    expect_error(delam("import", write(text, "deck.inp")), 2, r"deck\.inp:\d+: ", "two stiffnesses in shear")
 finish()

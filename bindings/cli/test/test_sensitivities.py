@@ -96,6 +96,9 @@ compare("by strengths", MIXED.replace("normal_onset = 20.0", "normal_strength = 
     "tangential_onset = 40.0", "tangential_strength = 2.5e7"), ["normal_strength", "tangential_strength"])
 compare("FETI", MIXED, TOUGH[:1], ["solver.reduction=feti", "solver.linear_tolerance=1e-14"])
 compare("in space", SPACE, TOUGH[:2])
+SHEARED = SPACE.replace("\ntangential_stiffness = 1e13", "\ntangential_stiffness = 1e13\nsecond_tangential_stiffness = 3e12")
+SHEARED = SHEARED.replace('law = "glue"\n', 'law = "glue"\nshear_axis = [0.8, 0.6, 0]\n')
+compare("two shears", SHEARED, ["tangential_stiffness", "second_tangential_stiffness", "tangential_toughness"])
 compare("sliding", changed("end = 2.0\nsteps = 20", "end = 2.0\nsteps = 20\n[solver]\ndamage_tolerance = 1e-11"),
         ["tangential_toughness", "tangential_onset"], jumps=True)
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/numbers.hpp"
+#include "law/driving.hpp"
 #include "law/mixity.hpp"
 #include "mesh/box_tree.hpp"
 #include "mesh/faces.hpp"
@@ -21,8 +22,11 @@ double mixity_of(const CrackedInterface& interface, std::int64_t pair) {
     const SpaceJump jump = jump_of(interface, pair);
     double shear = 0.0;
     for (const double component : jump.tangential) shear += component * component;
-    return mode_mixity(0.5 * interface.law.normal_stiffness * jump.normal * jump.normal,
-                       0.5 * interface.law.tangential_stiffness * shear);
+    const double normal = 0.5 * interface.law.normal_stiffness * jump.normal * jump.normal;
+    if (!interface.law.two_shears()) return mode_mixity(normal, 0.5 * interface.law.tangential_stiffness * shear);
+    const std::size_t dim = index(interface.mesh.dimension());
+    const std::span<const double> local = interface.jump.subspan(index(pair) * dim, dim);
+    return mode_mixity(normal, driving_energy(interface.law, local).tangential);
 }
 
 }  // namespace
@@ -93,10 +97,13 @@ Vector3 place_of(const CrackedInterface& interface, std::int64_t pair) {
 SpaceJump jump_of(const CrackedInterface& interface, std::int64_t pair) {
     const std::size_t dim = index(interface.mesh.dimension());
     const double* frame = &interface.geometry.frame[index(pair) * dim * dim];
-    SpaceJump jump{interface.jump[index(pair) * dim], {}};
+    SpaceJump jump{interface.jump[index(pair) * dim], {}, {}};
     for (std::size_t t = 1; t < dim; ++t)
-        for (std::size_t i = 0; i < dim; ++i)
-            jump.tangential[i] += frame[t * dim + i] * interface.jump[index(pair) * dim + t];
+        for (std::size_t i = 0; i < dim; ++i) {
+            const double part = frame[t * dim + i] * interface.jump[index(pair) * dim + t];
+            jump.tangential[i] += part;
+            jump.pull[i] += interface.law.stiffness(t) * part;
+        }
     return jump;
 }
 

@@ -109,6 +109,7 @@ Vector3 place_of(const CrackedInterface& interface, std::int64_t pair);
 struct SpaceJump {
     double normal;
     Vector3 tangential;
+    Vector3 pull;  // the traction along the interface that belongs to it while the pair is whole, F/L2
 };
 SpaceJump jump_of(const CrackedInterface& interface, std::int64_t pair);
 

@@ -244,8 +244,15 @@ public:
             const double change = interface_.adhesion[index(q)] - interface_.adhesion[index(p)];
             const double c = area_ / 6.0 * change * dot(gradient_[(i + 1) % 3] - gradient_[i], n);
             const SpaceJump u = jump_of(interface_, p), v = jump_of(interface_, q);
-            const double ahead = dot(u.tangential, n) * dot(v.tangential, n);
             rate[0] += c * interface_.law.normal_stiffness * u.normal * v.normal;
+            if (interface_.law.two_shears()) {
+                const double ahead =
+                    0.5 * (dot(u.pull, n) * dot(v.tangential, n) + dot(v.pull, n) * dot(u.tangential, n));
+                rate[1] += c * ahead;
+                rate[2] += c * (0.5 * (dot(u.pull, v.tangential) + dot(v.pull, u.tangential)) - ahead);
+                continue;
+            }
+            const double ahead = dot(u.tangential, n) * dot(v.tangential, n);
             rate[1] += c * interface_.law.tangential_stiffness * ahead;
             rate[2] += c * interface_.law.tangential_stiffness * (dot(u.tangential, v.tangential) - ahead);
         }

@@ -11,6 +11,7 @@
 #include "base/numbers.hpp"
 #include "delam/delam.h"
 #include "mesh/faces.hpp"
+#include "mesh/pairing/interfaces.hpp"
 #include "mesh/pairing/nodal_rule.hpp"
 #include "mesh/points.hpp"
 
@@ -218,6 +219,35 @@ InterfaceGeometry assemble_interface(const Mesh& mesh, std::span<const NodePair>
     const std::vector<Point> area = lay_pairs(mesh, faces, known, result.node_a, result);
     write_frames(mesh, area, result.node_a, result);
     return result;
+}
+
+namespace {
+
+// Part of a direction that must lie in the face: what is left of a direction with 16 digits then has 10 of them.
+constexpr double least_part = 1e-6;
+
+}  // namespace
+
+void set_tangents(Mesh& mesh, std::int64_t interface, std::span<const double> directions) {
+    const InterfaceGeometry& geometry = mesh.interfaces()[index(interface)];
+    std::vector<double> frames = geometry.frame;
+    for (std::size_t p = 0; p < geometry.weight.size(); ++p) {
+        const std::span<const double> given = directions.size() == 3 ? directions : directions.subspan(3 * p, 3);
+        const double size = std::hypot(given[0], given[1], given[2]);
+        const Point along{given[0] / size, given[1] / size, given[2] / size};
+        double* rows = &frames[9 * p];
+        const Point n{rows[0], rows[1], rows[2]};
+        const double across = dot(along, n);
+        const Point t{along[0] - across * n[0], along[1] - across * n[1], along[2] - across * n[2]};
+        const double part = length(t);
+        if (!(part > least_part))
+            fail(DELAM_ERROR_MESH, "directions: (", given[0], ", ", given[1], ", ", given[2], ") of pair ", p, " at ",
+                 place(mesh, geometry.node_b[p]), " is the normal there: a direction along the interface is expected");
+        const Point first{t[0] / part, t[1] / part, t[2] / part}, second = cross(n, first);
+        std::copy(first.begin(), first.end(), rows + 3);
+        std::copy(second.begin(), second.end(), rows + 6);
+    }
+    turn_frames(mesh, index(interface), std::move(frames));
 }
 
 Point require_normal(int dimension, std::span<const double> normals, std::size_t pair) {

@@ -40,6 +40,10 @@ std::int64_t add_pairs(Mesh& mesh, std::int32_t label_a, std::int32_t label_b, s
 // pairs are; one with pairs of both is left out, and its weight stays with its pairs.
 std::int64_t split_interface(Mesh& mesh, std::int64_t interface, std::span<const std::int64_t> pairs);
 
+// Turns the frames of an interface in space about their normals: the first tangent along the projection of a direction,
+// [3] for all pairs or [pairs][3], any length > 0. Throws Error(DELAM_ERROR_MESH) where one is along the normal.
+void set_tangents(Mesh& mesh, std::int64_t interface, std::span<const double> directions);
+
 // Returns the body indices of two labels that differ and have no interface.
 std::pair<std::int32_t, std::int32_t> require_unjoined(const Mesh& mesh, std::int32_t label_a, std::int32_t label_b);
 // Throws Error(DELAM_ERROR_MESH) where a body has no faces.

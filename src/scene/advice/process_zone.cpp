@@ -108,7 +108,8 @@ ProcessZone predicted_process_zone(const Problem& problem, std::int64_t interfac
     for (const Arm& arm : arms_of(problem, interface))
         for (const Mode mode : modes) {
             const Toughness toughness = properties.law->toughness(mode.mixity);
-            const double k = properties.law->stiffness(mode.component);
+            const Law& law = *properties.law;
+            const double k = mode.component == 0 ? law.stiffness(0) : std::max(law.stiffness(1), law.stiffness(2));
             zone.length =
                 std::min(zone.length, zone_of(mode, arm.modulus * toughness.total / (2.0 * k * toughness.onset), arm));
         }

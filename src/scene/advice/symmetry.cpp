@@ -45,6 +45,7 @@ struct Pair {
     std::uint64_t kind;  // law, bond or contact
     Weights a, b;        // nodes of bodies and control nodes
     Point normal;        // from a to b
+    Point axis;          // the first tangent where the law tells it from the second, else 0
     double gap;
 };
 
@@ -61,7 +62,8 @@ private:
     bool constraints(const Involution& involution, const NodeImages& to) const;
     bool forces(const Involution& involution, const NodeImages& to) const;
     bool eigenstrains(const Involution& involution, const NodeImages& to) const;
-    bool same_pair(std::size_t p, std::size_t q, const Weights& a, const Weights& b, const Point& normal) const;
+    bool same_pair(std::size_t p, std::size_t q, const Weights& a, const Weights& b, const Point& normal,
+                   const Point& axis) const;
 
     const Problem& problem_;
     const Mesh& mesh_;
@@ -91,9 +93,11 @@ SymmetryCheck::SymmetryCheck(const Problem& problem)
         const InterfaceProperties& own = problem.interfaces[i];
         const std::uint64_t kind = own.law ? hash(*own.law) : own.bonded ? 1 : 0;
         for (std::size_t p = 0; p < geometry.weight.size(); ++p) {
-            Point normal{};
+            Point normal{}, axis{};
             for (std::size_t k = 0; k < dim_; ++k) normal[k] = geometry.frame[p * dim_ * dim_ + k];
-            pair_.push_back({i, p, kind, nodes(geometry.node_a[p]), nodes(geometry.node_b[p]), normal,
+            if (own.law && own.law->two_shears())
+                for (std::size_t k = 0; k < dim_; ++k) axis[k] = geometry.frame[(p * dim_ + 1) * dim_ + k];
+            pair_.push_back({i, p, kind, nodes(geometry.node_a[p]), nodes(geometry.node_b[p]), normal, axis,
                              own.gap.empty() ? 0.0 : own.gap[p]});
             for (const Weights* face : {&pair_.back().a, &pair_.back().b})
                 pairs_at_[face->begin()->first].push_back(pair_.size() - 1);
@@ -119,12 +123,13 @@ bool SymmetryCheck::pairs_have_places(const Involution& involution) const {
 }
 
 // Compares pair q with the image of pair p, which has these faces.
-bool SymmetryCheck::same_pair(std::size_t p, std::size_t q, const Weights& a, const Weights& b,
-                              const Point& normal) const {
+bool SymmetryCheck::same_pair(std::size_t p, std::size_t q, const Weights& a, const Weights& b, const Point& normal,
+                              const Point& axis) const {
     const Pair &from = pair_[p], &to = pair_[q];
     const InterfaceProperties &mine = problem_.interfaces[from.interface], &other = problem_.interfaces[to.interface];
     const double weight = mesh_.interfaces()[from.interface].weight[from.local];
     return to.kind == from.kind && equal(to.a, a) && equal(to.b, b) && length(to.normal - normal) <= same &&
+           std::min(length(to.axis - axis), length(to.axis - Point{-axis[0], -axis[1], -axis[2]})) <= same &&
            equal(mesh_.interfaces()[to.interface].weight[to.local], weight, weight) &&
            equal(other.adhesion[to.local], mine.adhesion[from.local], 1.0) && other.gap_pattern == mine.gap_pattern &&
            std::abs(to.gap - from.gap) <= tolerance_;
@@ -141,12 +146,13 @@ std::optional<std::vector<std::int64_t>> SymmetryCheck::pairs(const Involution& 
     for (std::size_t p = 0; p < pair_.size(); ++p) {
         const Weights a = moved(pair_[p].a), b = moved(pair_[p].b);
         const Point along = involution.turned(pair_[p].normal), against{-along[0], -along[1], -along[2]};
+        const Point axis = involution.turned(pair_[p].axis);
         std::int64_t found = -1;
         for (const std::int64_t first : {a.begin()->first, b.begin()->first}) {
             const auto there = pairs_at_.find(first);
             if (there == pairs_at_.end() || found >= 0) continue;
             for (const std::size_t q : there->second)
-                if (same_pair(p, q, a, b, along) || same_pair(p, q, b, a, against))
+                if (same_pair(p, q, a, b, along, axis) || same_pair(p, q, b, a, against, axis))
                     found = static_cast<std::int64_t>(q);
         }
         if (found < 0) return std::nullopt;

@@ -83,6 +83,10 @@ void check_interfaces(const Problem& problem) {
             fail(DELAM_ERROR_PROBLEM, "interface ", i,
                  ": no law (delam_problem_set_law, delam_problem_set_bonded or delam_problem_set_contact)");
         } else {
+            if (interface.law->two_shears() && problem.mesh->dimension() == 2)
+                fail(DELAM_ERROR_PROBLEM, "interface ", i, ": second_tangential_stiffness ",
+                     interface.law->second_tangential_stiffness, " of its law is not tangential_stiffness ",
+                     interface.law->tangential_stiffness, ", but a plane mesh has one direction of sliding");
             try {
                 validate(*interface.law);
             } catch (const Error& e) {

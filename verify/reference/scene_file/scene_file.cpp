@@ -42,6 +42,7 @@ SceneFile read_scene_file(const std::string& path, const std::vector<std::string
         if (!data.bonded && !data.contact) {
             own.normal = parameter(scene.laws[data.law], "normal_stiffness");
             own.tangential = parameter(scene.laws[data.law], "tangential_stiffness");
+            own.second = cli::law_number(scene.laws[data.law], "second_tangential_stiffness");
         }
         stiffness.push_back(own);
     }

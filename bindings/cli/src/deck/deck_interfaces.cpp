@@ -227,6 +227,9 @@ private:
                                                           "thick: one law has one stiffness; give a section to each",
                                                           least, most));
         const std::string law = cohesive_law(material, thickness);
+        if (!section.orientation.empty() && sheared_.contains(law))
+            throw SceneFailure(section.place,
+                               "ORIENTATION with two stiffnesses in shear is not imported: give shear_axis");
         for (const auto& [bodies, gap] : gaps) {
             const bool apart = gap > 1e-6 * edge_;
             if (apart)
@@ -246,9 +249,8 @@ private:
 
     std::string cohesive_law(const MaterialCards& material, double thickness) {
         if (material.elastic != "TRACTION")
-            throw SceneFailure(material.place, fmt::format("material \"{}\" of cohesive elements needs *ELASTIC, "
-                                                           "TYPE=TRACTION",
-                                                           material.name));
+            throw SceneFailure(material.place,
+                               "material \"" + material.name + "\" of cohesive elements needs *ELASTIC, TYPE=TRACTION");
         Numbers stiffness = material.constants;
         for (double& k : stiffness) k /= thickness;
         return new_law("material", material.name, stiffness, thickness, material.damage, material.elastic_place);
@@ -262,6 +264,7 @@ private:
         const std::size_t alike = ++laws_of_name_[name];
         if (alike > 1) known->second = fmt::format("{} ({})", name, alike);
         laws_ += law_text(known->second, stiffness, thickness, damage, mesh_.dimension, place, deck_.changed) + "\n";
+        if (two_shears(stiffness, mesh_.dimension)) sheared_.insert(known->second);
         return known->second;
     }
 
@@ -460,6 +463,7 @@ private:
         out += held.bonded        ? "bonded = true\n"
                : held.law.empty() ? "contact = true\n"
                                   : fmt::format("law = {}\n", toml_text(held.law));
+        if (sheared_.contains(held.law)) out += "shear_axis = [1, 0, 0]  # x projected: axis 1 of the deck\n";
         if (held.shared) out += "shared = \"bonded\"\n";
         if (!held.matching) out += "projected = true\n";
         if (held.gap > 0) out += fmt::format("gap = {}\n", toml_number(held.gap));
@@ -479,6 +483,7 @@ private:
     SectionIndex cohesive_sections_;
     std::map<std::pair<std::int32_t, std::int32_t>, BodyPair> touching_;
     std::vector<std::vector<std::int32_t>> neighbours_;  // by body: those that touch it, ascending
+    std::set<std::string> sheared_;                      // laws with two stiffnesses in shear
     std::vector<Held> held_;
     std::map<std::pair<std::int32_t, std::int32_t>, std::size_t> held_by_;  // by bodies
     std::map<std::string, std::set<std::int32_t>> bodies_of_;               // by surface

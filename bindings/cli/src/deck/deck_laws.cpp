@@ -258,7 +258,34 @@ std::string kind_of(const std::string& name, const DamageCards& damage, std::vec
     return "exponential";
 }
 
+// In space the law of a deck may have two stiffnesses in shear, but the energies of onset and of toughness are one.
+void require_one_shear(const Numbers& stiffness, const DamageCards& cards, std::int32_t dimension) {
+    if (!two_shears(stiffness, dimension))
+        return require_isotropic(cards.strengths, cards.initiation.c_str(), dimension, cards.initiation_place);
+    const bool strains = cards.initiation.back() == 'E';
+    const auto onset = [&](std::size_t m) {
+        const double peak = cards.strengths[m] * (strains ? stiffness[m] : 1.0);
+        return peak / stiffness[m] * peak / 2;
+    };
+    const double first = onset(1), second = cards.strengths.size() > 2 ? onset(2) : HUGE_VAL;
+    if (!(std::abs(second - first) <= 1e-9 * first))
+        throw SceneFailure(
+            cards.initiation_place,
+            fmt::format("{}: with the stiffnesses {} and {} in the two directions of sliding, damage has "
+                        "to begin at the same energy s^2/(2 K) in both: the law of an interface has one",
+                        cards.initiation, stiffness[1], stiffness[2]));
+    if (cards.evolution != "ENERGY" || cards.mixed_mode == "TABULAR")
+        throw SceneFailure(cards.evolution_place,
+                           "two stiffnesses in shear are imported with TYPE=ENERGY and without a "
+                           "table of modes");
+}
+
 }  // namespace
+
+bool two_shears(const Numbers& stiffness, std::int32_t dimension) {
+    return dimension == 3 && stiffness.size() > 2 &&
+           std::abs(stiffness[1] - stiffness[2]) > 1e-9 * std::abs(stiffness[1]);
+}
 
 std::string law_text(const std::string& name, const Numbers& stiffness, double thickness, const DamageCards& cards,
                      std::int32_t dimension, const Place& place, std::vector<std::string>& changed) {
@@ -267,10 +294,10 @@ std::string law_text(const std::string& name, const Numbers& stiffness, double t
                            fmt::format("\"{}\" has no {}: an interface that stays whole is no law; bodies that "
                                        "share nodes are bonded",
                                        name, cards.initiation.empty() ? "*DAMAGE INITIATION" : "*DAMAGE EVOLUTION"));
-    require_positive(stiffness, 2, "stiffness", place);
-    require_isotropic(stiffness, "stiffness", dimension, place);
+    const bool sheared = two_shears(stiffness, dimension);
+    require_positive(stiffness, sheared ? 3 : 2, "stiffness", place);
     require_positive(cards.strengths, 2, cards.initiation.c_str(), cards.initiation_place);
-    require_isotropic(cards.strengths, cards.initiation.c_str(), dimension, cards.initiation_place);
+    require_one_shear(stiffness, cards, dimension);
     const bool strains = cards.initiation.back() == 'E';
     Mode modes[2];
     for (std::size_t m = 0; m < 2; ++m)
@@ -284,8 +311,12 @@ std::string law_text(const std::string& name, const Numbers& stiffness, double t
     if (kind != "piecewise-linear") out += fmt::format("kind = \"{}\"\n", kind);
     for (std::size_t m = 0; m < 2; ++m)
         out += fmt::format("{}_stiffness = {}\n", m == 0 ? "normal" : "tangential", toml_number(stiffness[m]));
+    if (sheared) out += fmt::format("second_tangential_stiffness = {}\n", toml_number(stiffness[2]));
     for (std::size_t m = 0; m < 2; ++m)
-        out += fmt::format("{}_strength = {}\n", m == 0 ? "normal" : "tangential", toml_number(modes[m].strength));
+        if (m == 1 && sheared)
+            out += fmt::format("tangential_onset = {}\n", toml_number(modes[m].strength * modes[m].at_onset() / 2));
+        else
+            out += fmt::format("{}_strength = {}\n", m == 0 ? "normal" : "tangential", toml_number(modes[m].strength));
     for (std::size_t m = 0; m < 2; ++m)
         out += fmt::format("{}_toughness = {}\n", m == 0 ? "normal" : "tangential", toml_number(toughness[m]));
     const bool maximum = damage.initiation.rfind("MAX", 0) == 0;

@@ -139,6 +139,7 @@ extern "C" void on_build_log(std::int32_t level, const char* text, void* said) {
 void fill(Model& model, const Scene& scene) {
     const delam_context* owner = model.context.get();
     build_mesh(model, scene);
+    set_tangents(model, scene);
     delam_problem* handle = nullptr;
     const std::int32_t status = delam_problem_create(model.context.get(), model.mesh.get(), &handle);
     model.problem.reset(handle);
@@ -150,10 +151,7 @@ void fill(Model& model, const Scene& scene) {
         const Material& material = scene.materials[scene.layers[i].material];
         set_material(owner, problem, static_cast<std::int32_t>(i), material, scene.layers[i]);
         set_plies(model, scene, i);
-        const auto& along = material.expansion;
-        const bool directed = !std::holds_alternative<Isotropic>(material.elastic) ||
-                              (along && ((*along)[0] != (*along)[1] || (*along)[0] != (*along)[2]));
-        if (scene.mesh && directed && !scene.layers[i].axes && !scene.mesh->orientation.empty())
+        if (has_cell_axes(scene, i))
             set_cell_axes(owner, problem, static_cast<std::int32_t>(i), *scene.mesh, scene.layers[i].place);
     }
     set_interfaces(model, scene);

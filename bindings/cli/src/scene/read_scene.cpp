@@ -143,7 +143,7 @@ void read_interfaces(const Table& root, Scene& scene) {
         for (const InterfaceData& other : scene.interfaces)
             if (other.lower == interface.lower) table.fail("lower", "there is another interface between these layers");
         interface.bonded = table.flag("bonded");
-        if (!interface.bonded) interface.law = find_named(table, "law", table.text("law"), scene.laws, "law");
+        if (!interface.bonded) read_law_of(table, interface, scene);
         for (const Table& notch : table.tables("notch"))
             interface.regions.push_back(read_region(notch, scene.geometry, false));
         for (const Table& part : table.tables("adhesion"))

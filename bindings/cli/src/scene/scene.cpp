@@ -21,6 +21,11 @@ double law_number(const LawData& law, std::string_view key) {
     return 0;
 }
 
+bool two_shears(const LawData& law) {
+    const double second = law_number(law, "second_tangential_stiffness");
+    return second > 0 && second != law_number(law, "tangential_stiffness");
+}
+
 double law_peak(const LawData& law, const std::string& mode) {
     const double strength = law_number(law, mode + "_strength");
     if (strength > 0) return strength;

@@ -70,6 +70,8 @@ struct LawData {
 
 // Returns a number of a law by its key; 0: the law does not give it.
 double law_number(const LawData& law, std::string_view key);
+// True if the law has two stiffnesses in shear.
+bool two_shears(const LawData& law);
 // Returns the peak of the traction in a mode, "normal" or "tangential"; 0: the law has none, or does not give it.
 double law_peak(const LawData& law, const std::string& mode);
 
@@ -100,6 +102,7 @@ struct InterfaceData {
     bool bonded = false;
     bool contact = false;  // alone, no adhesion
     std::size_t law = 0;
+    std::optional<std::array<double, 3>> shear_axis;  // direction of the first tangent of its pairs
     std::vector<Region> regions;
     Place place;
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Interface laws. The library lists the kinds and keys, and checks the conditions on their combination itself.
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,16 @@ void read_laws(const Table& root, Scene& scene) {
         law.place = table.place();
         scene.laws.push_back(std::move(law));
     }
+}
+
+void read_law_of(const Table& table, InterfaceData& interface, const Scene& scene) {
+    interface.law = find_named(table, "law", table.text("law"), scene.laws, "law");
+    if (!table.has("shear_axis")) return;
+    if (scene.geometry.dimension == 2)
+        table.fail("shear_axis", "is for 3D: a plane scene has one direction of sliding");
+    const std::vector<double> axis = table.numbers("shear_axis");
+    if (!(std::hypot(axis[0], axis[1], axis[2]) > 0)) table.fail("shear_axis", "has length 0");
+    interface.shear_axis = {axis[0], axis[1], axis[2]};
 }
 
 }  // namespace cli

@@ -191,7 +191,7 @@ void read_mesh_interfaces(const Table& root, Scene& scene) {
         interface.bonded = table.flag("bonded");
         interface.contact = table.flag("contact");
         read_gaps(table, interface);
-        if (table.has("law")) interface.law = find_named(table, "law", table.text("law"), scene.laws, "law");
+        if (table.has("law")) read_law_of(table, interface, scene);
         for (const Table& notch : table.tables("notch")) interface.regions.push_back(read_region(notch, scene, false));
         for (const Table& part : table.tables("adhesion")) interface.regions.push_back(read_region(part, scene, true));
         scene.interfaces.push_back(std::move(interface));

@@ -21,6 +21,8 @@ void read_mesh_interfaces(const Table& root, Scene& scene);
 // The name of a set of the mesh, which must exist.
 std::string set_name(const Table& table, std::string_view key, const Scene& scene);
 std::string read_formulation(const Table& table);
+// Reads the law of an interface, and the direction of its first tangent.
+void read_law_of(const Table& table, InterfaceData& interface, const Scene& scene);
 void read_laws(const Table& root, Scene& scene);
 void read_patterns(const Table& root, Scene& scene);
 void read_supports_and_loads(const Table& root, Scene& scene);

@@ -303,6 +303,7 @@ private:
             say_once(deck_.changed,
                      "CONTROLS of cohesive elements: no viscosity; jumps of the crack are found by energy");
         Section section;
+        section.orientation = card.has("ORIENTATION") ? card.required("ORIENTATION") : "";
         section.material = card.required("MATERIAL");
         section.thickness = card.has("THICKNESS") ? upper(card.required("THICKNESS")) : "SPECIFIED";
         if (section.thickness != "SPECIFIED" && section.thickness != "GEOMETRY")

@@ -192,6 +192,11 @@ KeyTable interface_table() {
             "name of a body; the jump is its displacement relative to a. The same as a: the seams within this body"),
         flag_key("all").in_mesh().says("instead of a and b: all touching bodies without an entry of their own"),
         text_key("law").says("name of a law"),
+        numbers_key("shear_axis")
+            .entries(3, 3)
+            .otherwise("axis 1 of the material of a (of the lower layer), or x")
+            .says("direction of the first tangent, along which tangential_stiffness acts beside a "
+                  "second_tangential_stiffness; 3D"),
         flag_key("bonded").says("instead of a law: bonded perfectly and permanently"),
         flag_key("contact").in_mesh().says("instead of a law: contact without adhesion"),
         flag_key("projected").in_mesh().says("for meshes that do not match: projects b's nodes onto a's faces"),
@@ -234,7 +239,7 @@ KeyTable interface_table() {
          {},
          "give one of law = \"NAME\", bonded = true and contact = true",
          Scenes::mesh},
-        {needs, {"notch", "adhesion"}, {"law"}, {}, "is for interfaces with a law"},
+        {needs, {"notch", "adhesion", "shear_axis"}, {"law"}, {}, "is for interfaces with a law"},
         {at_least_one, {"a", "all"}, {}, {}, "give either a and b or all = true", Scenes::mesh},
         {excludes, {"all"}, {"a", "b"}, {}, "give either a and b or all = true", Scenes::mesh},
         {needs, {"a"}, {"b"}, {}, "is missing: the name of a body is expected", Scenes::mesh},
