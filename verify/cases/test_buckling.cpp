@@ -205,6 +205,38 @@ TEST(strut_buckles_like_an_elastica) {
     }
 }
 
+// The same strut, 2 mm wide, on both realisations of the jump operator.
+LOOP_TEST(strut_in_space_buckles, 0, 2) {
+    const Strut strut;
+    constexpr double width = 2.0;
+    Scene scene = cases::make_blocks(3, {{{0.0, 0.0, 0.0}, {strut.length, strut.height, width}, {40, 2, 1}}}, nullptr);
+    scene.begin();
+    scene.elastic(-1, strut.young, 0.0);
+    scene.text("kinematics", "corotational");
+    scene.text("reduction", loop == 0 ? "condensed" : "iterated");
+    const double last = 2.0 * strut.critical();
+    const auto load = scene.pattern("load", {0.0, 1.0}, {0.0, last});
+    const auto end = [&](double x) {
+        return cases::nodes_where(scene, 0, [x](const double* p) { return std::abs(p[0] - x) < 1e-6; });
+    };
+    for (int k = 0; k < 3; ++k) {
+        hold(scene, end(0.0), cases::unit(3, k));
+        if (k > 0) hold(scene, end(strut.length), cases::unit(3, k));
+    }
+    drive(scene, end(strut.length), cases::unit(3, 0, -1.0), load);
+    Solver solver(scene, 0.0);
+    double modes = 0.0, buckled = 0.0;
+    for (const Step& step : run(solver, 6)) {
+        modes += step.modes;
+        buckled += step.buckled * last;
+        cases::expect_near(step.stored, step.work, 1e-3, step.work, "balance");
+    }
+    cases::expect(modes == 1.0, "it buckles once");
+    cases::expect_near(buckled, strut.critical(), 1e-2, strut.critical(), "critical shortening");
+    const double force = width * strut.elastica(last).force;
+    cases::expect_near(solver.value("reaction:load"), force, 1e-2, force, "force");
+}
+
 // A quarter of a turn, the mirror image, and another unit of length.
 TEST(branches_are_invariant) {
     const Strut strut;
