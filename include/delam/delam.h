@@ -1104,6 +1104,10 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  *                                      away from the fronts of cracks
  *   mesh_error_fronts         -        the same in the cells at fronts, where stresses are singular
  *   mesh_excess               -        part of that energy that incompatible modes would take off standard cells
+ *   buckling_modes            -        number of modes along which the step has left states in balance that are not
+ *                                      stable (`kinematics = corotational`)
+ *   buckling_time             -        time at which the first of these states began to buckle
+ *   buckling_released         F L      part of `released` that is set free where the bodies snap through
  * Values of the fronts of all interfaces with a law or, with :I appended (crack_length:0), of interface I:
  *   crack_length              L or L2  initially open part, plus sum of w (1 - zeta) over the pairs with initial
  *                                      adhesion > 0

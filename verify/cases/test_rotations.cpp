@@ -223,29 +223,6 @@ TEST(dead_force_keeps_its_direction) {
                        "work");
 }
 
-// A strut between clamps buckles at the strain pi^2 h^2 / (3 L^2); the step that would pass it is refused by name.
-TEST(buckling_is_refused_by_name) {
-    const Beam beam{20.0, 0.5, 0.0, 40, 2};
-    Scene scene = beam.mesh(1);
-    scene.begin();
-    scene.elastic(-1, 1000.0, 0.0);
-    scene.text("kinematics", "corotational");
-    constexpr double critical = 9.869604401089358 / 3.0 * 0.5 * 0.5 / 20.0;
-    const auto load = scene.pattern("load", {0.0, 2.0}, {0.0, 2.0 * critical});
-    for (const double y : {0.0, 0.25, 0.5}) {
-        for (int k = 0; k < 2; ++k) scene.hold(beam.nodes(scene, 0, 0.0, y), cases::unit(2, k));
-        scene.hold(beam.nodes(scene, 0, 20.0, y), cases::unit(2, 1));
-        drive(scene, beam.nodes(scene, 0, 20.0, y), {-1.0, 0.0}, load);
-    }
-    Solver solver(scene, 0.0);
-    for (const double part : {0.5, 0.9, 0.97}) {
-        solver.step(part);
-        solver.commit();
-    }
-    cases::expect(solver.advance(1.03) == DELAM_LIMIT, "beyond the critical load");
-    cases::expect(std::string(delam_context_message(scene.context())).find("buckle") != std::string::npos, "message");
-}
-
 // Two beams on each other, bonded beyond 30 mm, slide along the rest and press on each other where they turn. Numbers
 // of a shooting method for beams.
 TEST(flexure_specimen_stiffens) {

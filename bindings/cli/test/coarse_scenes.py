@@ -262,6 +262,19 @@ def elastica(points):
     return check
 
 
+def blisters(name, run):
+    """Flat up to the critical strain, then on the branch that leaves it, and no growth before that of a clamped blister."""
+    h, length = run.history, 0.054
+    steps = np.flatnonzero(h["buckling_modes"])
+    critical = h["buckling_time"][steps[0]] * h["load"][-1] / h["time"][-1] / length
+    expect(len(steps) == 1 and abs(critical / 9.139e-4 - 1) < 0.03, f"{name}: buckles in steps {steps} at {critical:.4g}")
+    stored = h["stored_bulk"] + h["stored_interface"]
+    open_by = np.abs(stored + h["dissipated"] + np.cumsum(h["released"]) - h["work"]).max()
+    expect(open_by < 1e-3 * h["work"].max(), f"{name}: the balance is open by {open_by:.3g}")
+    grown = np.interp([0.97 * 2.793e-3, 1.03 * 2.793e-3], h["load"] / length, h["dissipated"]) / 200.0
+    expect(grown[0] < 1.5e-3 and grown[1] > 5e-3, f"{name}: grown by {grown} m about the strain of growth")
+
+
 def shortened(length, divisions):
     """A cantilever clamped closer to the crack, which never comes near the clamp: cells as small as those of the whole one."""
     return [f"geometry.length={length}", f"geometry.divisions={divisions}", f"supports[0].box.lower=[{length}, 0.0]",
@@ -281,6 +294,7 @@ COARSE = {
     "dcb-elastica": ([], [grows, softens, mirrored,
                          elastica([(0.02, 988.58, 5e-3), (0.025, 895.58, 5e-3), (0.03, 828.20, 5e-3)])]),
     "peel": (["time.end=0.667", "time.steps=40"], [grows, elastica([(0.005, 582.69, 1e-2), (0.01, 511.68, 1e-2)])]),
+    "blister": ([], [blisters]),
     "dcb-abaqus": ([], [grows, softens, mirrored, pays_its_toughness]),
     "dcb-double": (["geometry.divisions=120"], [grows, softens, both_open]),
     "dcb-3d": (["geometry.divisions=[40, 6]", "time.steps=28"], [grows, softens, mirrored, ahead_in_the_middle]),

@@ -25,7 +25,8 @@ constexpr std::uint64_t magic = 0x31305453'4d4c4544;  // "DELMST01" in memory on
 // released energy in the ledger. 10: another zone of the condensed operator, which begins anew after an older version.
 // 11: energies of candidates for the next search. 12: since when bodies are free. 13: how the growth of a step went on.
 // 14: what its single pairs released. 15: whether its steps are taken whole. 16: jumps before the last part of a step.
-constexpr std::uint32_t version = 16, oldest = 5;
+// 17: where the bodies of a step have buckled.
+constexpr std::uint32_t version = 17, oldest = 5;
 constexpr std::int64_t most_steps = std::int64_t{1} << 53;
 // Hash and checksum of a larger file are compared piece by piece, before memory is taken for all of it.
 constexpr std::uint64_t largest_unchecked = std::uint64_t{1} << 20;

@@ -189,6 +189,7 @@ Outcome Solver::advance(double time) {
     warnings_.judge_front(observer_, committed, pending.state);
     warnings_.judge_ledger(pending.state, options);
     warnings_.judge_symmetry(graph_, committed, pending.state);
+    warnings_.tell_buckling(pending.state);
     Outcome outcome;
     if (!result.converged)
         outcome = {DELAM_NOT_CONVERGED, text("step ", pending.state.step, " at time ", time,

@@ -113,6 +113,20 @@ struct JumpWithin {
     std::vector<double> conjugate_before, conjugate_after;  // [patterns] dE/dtheta at this load
 };
 
+// Tells where the bodies of a step have buckled: they were in balance, but another state was lower at the same loads.
+struct Buckling {
+    std::int64_t modes = 0;  // along which the step has left states that were not stable
+    double time = 0.0;  // at which the first of these states became so, between those of the states around the step
+    std::int64_t node = -1;  // that moves most in its mode
+    double released = 0.0;   // energy that the way to the stable state sets free, F L
+
+    void add(const Buckling& later) {
+        if (modes == 0) time = later.time, node = later.node;
+        modes += later.modes;
+        released += later.released;
+    }
+};
+
 // Outcome of a step.
 struct StepOutcome {
     double damage_change = 0.0;    // change that a further damage step would make to an adhesion
@@ -126,6 +140,7 @@ struct StepOutcome {
     std::int64_t pops = 0;    // pairs that came apart one by one at one load, because the mesh resolves no zone
     double popped = 0.0;      // part of `released` that they set free, F L
     double turned_off = 0.0;  // unbalanced force over the load that linearisations of rotating bodies leave
+    Buckling buckling;
 };
 
 // Tells the parts of the next step how the growth of this one went on (step/load_path.hpp).

@@ -27,6 +27,10 @@ inline constexpr auto saved_fields<JumpWithin> = saved_since(unsaved,
     &JumpWithin::interface, &JumpWithin::conjugate_before, &JumpWithin::conjugate_after);
 
 template <>
+inline constexpr auto saved_fields<Buckling> =
+    saved_since(17, &Buckling::modes, &Buckling::time, &Buckling::node, &Buckling::released);
+
+template <>
 inline constexpr auto saved_fields<Sensitivity> = saved_since(unsaved,
     &Sensitivity::conjugate, &Sensitivity::adhesion, &Sensitivity::mixity, &Sensitivity::unknown);
 
@@ -128,7 +132,9 @@ inline constexpr auto saved_fields<State> = std::tuple_cat(
     saved_since(15,
         member_of(&State::growth, &Growth::way)),
     saved_since(16,
-        any_size(&State::jump_before)));
+        any_size(&State::jump_before)),
+    saved_since(17,
+        member_of(&State::outcome, &StepOutcome::buckling)));
 // clang-format on
 
 static_assert(complete<Response>(saved_fields<Response>) && complete<Ledger>(saved_fields<Ledger>) &&

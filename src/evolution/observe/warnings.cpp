@@ -119,6 +119,18 @@ void Warnings::judge_rotation(const State& state, double largest) {
     told_of_rotation_ = true;
 }
 
+void Warnings::tell_buckling(const State& state) {
+    const Buckling& buckling = state.outcome.buckling;
+    if (buckling.modes == 0) return;
+    std::string place;
+    for (const double x : problem_.mesh->node(buckling.node)) place += text(place.empty() ? "" : ", ", x);
+    const std::string freed =
+        buckling.released > 0.0 ? text(" and snap through, which releases ", buckling.released) : "";
+    monitor_.log(1, text("step ", state.step, ": the bodies buckle at time ", buckling.time, ", most at (", place, ")",
+                         freed, "; the state has left the balance that is not stable, along ", buckling.modes,
+                         buckling.modes == 1 ? " mode" : " modes"));
+}
+
 void Warnings::report_balance(const std::string& what) {
     if (told_of_balance_) return;
     monitor_.log(1, text(what, "; later steps are not reported"));

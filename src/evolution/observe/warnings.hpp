@@ -27,6 +27,8 @@ public:
     void judge_front(const Observer& observer, const State& before, const State& after);
     // Warns of cells whose rotation, in rad, is large for strains that are linear in the displacements.
     void judge_rotation(const State& state, double largest);
+    // Says in which step the bodies buckle, and where.
+    void tell_buckling(const State& state);
     // Warns of nodal forces that are poorly balanced.
     void report_balance(const std::string& what);
 

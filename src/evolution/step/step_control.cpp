@@ -180,6 +180,7 @@ void Parts::accept(Goal goal) {
     done_.push_back({next.time, 0.0});
     searched_ += goal.reached->searched;
     outcome_.released += next.outcome.released;
+    outcome_.buckling.add(next.outcome.buckling);
     at_ = std::move(next);
     --at_.step;  // the parts of a step share its number
     // Goals that were reached from the start of this part are invalid from its end.

@@ -9,12 +9,24 @@
 #include "base/error.hpp"
 #include "base/numbers.hpp"
 #include "delam/delam.h"
+#include "evolution/contact/contact.hpp"
 #include "evolution/increment/step_account.hpp"
 #include "linalg/dense/dense.hpp"
 
 namespace delam {
 
 namespace {
+
+// A step leaves at most so many unstable states one after another: bodies that buckle have one or two.
+constexpr std::int64_t most_modes = 8;
+// A factor as near to 1 is critical at this very load: the energy falls by its square, which is rounding.
+constexpr double neutral = 1e-6;
+// Beyond this share of its fall, what the energy falls by more than on a branch from the critical load is the release
+// of a snap-through. (A strut in 15 steps leaves 0.002, a blister in 60, whose root softens, less than nothing.)
+constexpr double snaps = 0.1;
+
+// Gaps that are smaller than this part of the scene are rounding: faces touch.
+constexpr double rounding_gap = 1e-9;
 
 // The state as one of a linearised scene, whose additional pattern has had no factor so far: its loads are never in
 // proportion to those before.
@@ -42,6 +54,15 @@ std::vector<double> difference(std::span<const double> a, std::span<const double
     for (std::size_t i = 0; i < d.size(); ++i) d[i] -= b[i];
     return d;
 }
+
+// Returns the node that moves most along a mode, [mesh DOFs].
+std::int64_t most_moved(std::span<const double> mode, int dimension) {
+    const auto most = std::ranges::max_element(mode, {}, [](double x) { return std::abs(x); });
+    return (most - mode.begin()) / dimension;
+}
+
+// Returns what a linear step lowers, F L.
+double energy_of(const State& state) { return state.ledger.energy() + state.ledger.dissipated; }
 
 // True if a stiffness that is not definite may be the reason.
 bool unstable(const Error& error) { return error.status() == DELAM_ERROR_NUMERICAL || error.status() == DELAM_LIMIT; }
@@ -88,14 +109,19 @@ Stepper& TurnedSteps::linearise(const TurnedPoint& about, std::span<const double
     linear.about = {};
     if (!turned) op_.turn(linear.scene, about);
     op_.load(linear.scene, at, row_force);
-    if (!linear.stepper || !linear.stepper->renew(turned ? Renewed::loads : Renewed::all)) {
-        linear.stepper.reset();
-        linear.stepper = std::make_unique<Stepper>(linear.scene.problem, monitor_, Stepper::Checks::made_before);
-    }
+    renewed(turned ? Renewed::loads : Renewed::all);
     linear.about = about;
     linear.at.assign(at.begin(), at.end());
     linear.row_force.assign(row_force.begin(), row_force.end());
     return *linear.stepper;
+}
+
+Stepper& TurnedSteps::renewed(Renewed what) const {
+    if (!linear_->stepper || !linear_->stepper->renew(what)) {
+        linear_->stepper.reset();
+        linear_->stepper = std::make_unique<Stepper>(linear_->scene.problem, monitor_, Stepper::Checks::made_before);
+    }
+    return *linear_->stepper;
 }
 
 // Where stresses make a linear scene unstable, as on the way of a large step, they are left out of its stiffness.
@@ -124,7 +150,8 @@ std::vector<double> TurnedSteps::tangent_about(const TurnedPoint& about, const S
 // definite. Faces that touch without a force hold nothing: a flat strip would stay flat. Where nothing but they holds a
 // part, whatever the stresses, they do.
 TurnedSteps::Known TurnedSteps::know(const State& state) const {
-    Known known{state.response.multipliers, state.response.force, state.adhesion, state.closed, point_of(state), {}};
+    Known known{
+        state.response.multipliers, state.response.force, state.adhesion, state.closed, point_of(state), {}, {}};
     State at = extended(state, problem_.patterns.size());
     at.theta.back() = 1.0;
     State open = at;
@@ -132,14 +159,17 @@ TurnedSteps::Known TurnedSteps::know(const State& state) const {
     const auto dim = index(problem_.mesh->dimension());
     for (std::size_t p = 0; p < open.closed.size(); ++p)
         if (!(-state.response.force[p * dim] > problem_.options.limits.turned_balance * load)) open.closed[p] = 0;
+    known.held = open.closed;
     if (known.about.stresses == Stresses::count) known.tangent = tangent_about(known.about, state, open);
     if (!known.tangent.empty()) return known;
     known.about = {state.response.multipliers, {}, {}};
     known.tangent = tangent_about(known.about, state, open);
     if (!known.tangent.empty()) return known;
     const TurnedPoint unstressed{state.response.multipliers, {}, {}, Stresses::left_out};
-    if (open.closed != at.closed && tangent_about(unstressed, state, open).empty())
+    if (open.closed != at.closed && tangent_about(unstressed, state, open).empty()) {
+        known.held = at.closed;
         known.tangent = tangent_about(known.about, state, at);
+    }
     if (known.tangent.empty()) known.about = unstressed;
     return known;
 }
@@ -147,7 +177,7 @@ TurnedSteps::Known TurnedSteps::know(const State& state) const {
 [[noreturn]] void TurnedSteps::refuse_buckling(double time) {
     fail(DELAM_LIMIT, "time ", time,
          ": the bodies are in balance, but buckle: their stiffness under their stresses is ",
-         "not positive definite, and kinematics = corotational does not follow them there");
+         "not positive definite, and no stable state has been found from there");
 }
 
 void TurnedSteps::make_true(State& state) const {
@@ -167,32 +197,58 @@ void TurnedSteps::make_true(State& state) const {
     state.ledger.initial_linear += state.ledger.energy_linear() - linear_energy;
 }
 
+TurnedSteps::Begin TurnedSteps::begin(const State& before) const {
+    constexpr double none = std::numeric_limits<double>::infinity();
+    const bool first = before.memory.empty();
+    Begin from{before.response.multipliers, before.response.force, {}, first, none, none};
+    from.displacement.resize(op_.dofs(), 0.0);
+    from.row_force.resize(index(problem_.jump_count()), 0.0);
+    from.about = first ? TurnedPoint{from.displacement, {}, {}} : point_of(before);
+    return from;
+}
+
+// Where faces pass through each other, the energy is too low to be a limit, and lower along every way through them.
+TurnedSteps::Begin TurnedSteps::begin_at(const EnergyFall& fall, const State& state) const {
+    constexpr double none = std::numeric_limits<double>::infinity();
+    State at = state;
+    op_.complete(at.theta, fall.displacement, at.response);
+    const double level = fall.penetrates ? none : fall.energy + state.ledger.dissipated;
+    return {fall.displacement,
+            state.response.force,
+            {fall.displacement, {}, {}, Stresses::left_out},
+            false,
+            level,
+            op_.unbalanced(at.theta, at.response).off,
+            !fall.penetrates};
+}
+
 // The first linear step is one about where the step before was linearised. The result is where this step is linearised,
 // once, and again wherever the stiffness of there brings the forces no nearer to their balance.
-Stepper::Result TurnedSteps::iterate(const State& before, const Solve& solve) const {
+Stepper::Result TurnedSteps::iterate(const State& before, Begin from, const Solve& solve, bool& definite) const {
     const Limits& limits = problem_.options.limits;
-    std::vector<double> at = before.response.multipliers, row_force = before.response.force;
-    at.resize(op_.dofs(), 0.0);
-    row_force.resize(index(problem_.jump_count()), 0.0);
-    TurnedPoint about = before.memory.empty() ? TurnedPoint{at, {}, {}} : point_of(before);
-    bool own = before.memory.empty();  // linearised in this step
+    std::vector<double> at = std::move(from.displacement), row_force = std::move(from.row_force);
+    TurnedPoint about = std::move(from.about);
+    bool own = from.own;  // linearised in this step
     Effort effort;
     State start = extended(before, problem_.patterns.size()), lowest;
     Balanced at_rest(limits.turned_balance, limits.minimise_most_idle);
     bool rested = false;
-    double level = std::numeric_limits<double>::infinity(), off_before = level, least = level;
+    double level = from.level, off_before = from.off, least = std::numeric_limits<double>::infinity();
     for (std::int64_t n = 1;; ++n) {
         monitor_.progress("rotate", n, 0);
         if (n > limits.turned_free && std::isfinite(least)) start = extended(lowest, problem_.patterns.size());
         Stepper::Result next = solve_about(about, at, row_force, start, solve);
-        const bool definite = about.stresses == Stresses::count;
+        definite = about.stresses == Stresses::count;
         effort.add(next.state.effort);
         effort.linearisations = n;
         make_true(next.state);
         next.state.effort = effort;
         const auto [off, rounding] = op_.unbalanced(next.state.theta, next.state.response);
-        const bool still = at_rest(off, rounding), balanced = still && definite;
-        if (still && !definite && std::exchange(rested, true)) refuse_buckling(next.state.time);
+        const double energy = energy_of(next.state), noise = limits.minimise_energy_rounding * std::abs(level);
+        // Forces that balance without the stresses get another linear step in which these count. Next to a critical
+        // load, forces that let the energy fall are small.
+        const bool falls_on = from.falls && energy < level - noise;
+        const bool balanced = at_rest(off, rounding) && (definite || (std::exchange(rested, true) && !falls_on));
         next.state.outcome.turned_off = balanced ? 0.0 : off;
         // The next step begins with this stiffness, unless that of the result differs.
         const bool near = own && definite && off < limits.turned_kept * off_before;
@@ -201,33 +257,139 @@ Stepper::Result TurnedSteps::iterate(const State& before, const Solve& solve) co
             next.converged = next.converged && balanced;
             return next;
         }
-        const double energy = next.state.ledger.energy() + next.state.ledger.dissipated;
         if (n > 1 && energy < least) {
             least = energy;
             lowest = next.state;
         }
-        const bool rises = energy > level + limits.minimise_energy_rounding * std::abs(level) && off > off_before;
+        const bool rises = energy > level + noise && (off > off_before || from.falls);
         const bool kept = own && !rises && definite && off < limits.turned_kept * off_before && keeps_stiffness();
-        const std::vector<double> from = at;
+        const std::vector<double> origin = at;
         std::vector<double>& image = next.state.response.multipliers;
         row_force = next.state.response.force;
-        if (rises) {
+        // On its way from a state that is not stable, a step goes as far along a move as the energy falls: linear
+        // steps without stresses are short, those whose stiffness is nearly singular long.
+        if (from.falls && (rises || !definite)) {
+            const std::vector<double> move = difference(image, at);
+            add_scaled(lowest_share(op_, pairs_, next.state, at, move), move, at);
+        } else if (rises) {
             for (std::size_t i = 0; i < at.size(); ++i) at[i] = 0.5 * (at[i] + image[i]);
         } else {
             at = std::move(image);
+        }
+        if (!rises) {
             level = energy;
             off_before = off;
         }
         if (kept) continue;
-        about = {at, from, std::move(about.displacement)};
+        about = {at, origin, std::move(about.displacement)};
         own = true;
     }
 }
 
 bool TurnedSteps::keeps_stiffness() const { return linear_->stepper->op().traits().renewable; }
 
+// Factors are compared at the stresses of both states, with the energy of the mode that they soften taken as equal:
+// along a way on which stresses grow in proportion, this is exact.
+double TurnedSteps::critical_share(const State& before, const BucklingMode& mode, const State& state) const {
+    const auto softened = [&](const State& of) {
+        const std::vector<SparseMatrix> soft = op_.softening(of.response.multipliers);
+        return dot(op_.multiply_bodies(soft, mode.displacement), mode.displacement);
+    };
+    const double share_before = softened(before) / softened(state);  // of the factor
+    const double share = (1.0 / mode.factor - share_before) / (1.0 - share_before);
+    return std::isfinite(share) ? std::clamp(share, 0.0, 1.0) : 1.0;
+}
+
+BucklingMode TurnedSteps::mode_of(const State& state, std::span<const std::uint8_t> held) const {
+    const std::vector<double>& place = state.response.multipliers;
+    Linear& linear = (linearise({place, {}, {}, Stresses::left_out}, place, state.response.force), *linear_);
+    linear.at.clear();
+    const std::vector<SparseMatrix> soft = op_.softening(place);
+    const Springs springs{spring_stiffness(pairs_, state.adhesion), held_rows(linear.stepper->contact(), held)};
+    std::vector<double> theta(problem_.patterns.size() + 1, 0.0);
+    theta.back() = 1.0;
+    const auto solve = [&](std::span<const double> force) {
+        op_.load_forces(linear.scene, force);
+        JumpOperator& op = renewed(Renewed::loads).op();
+        op.recall({});
+        Response response;
+        op.solve(springs, theta, response);
+        if (!response.balanced || !response.converged)
+            fail(DELAM_LIMIT, "time ", state.time, ": the mode in which the bodies buckle has not been found");
+        return op.displacement(theta, response);
+    };
+    return buckling_mode(op_.dofs(), solve, [&](std::span<const double> v) { return op_.multiply_bodies(soft, v); });
+}
+
+// Faces that touch without a force count as open, until a way along the mode has led back: then they hold the bodies.
+bool TurnedSteps::held_by_faces(const State& state, Known& known) const {
+    State at = extended(state, problem_.patterns.size());
+    at.theta.back() = 1.0;
+    const ContactScene& contact = linear_->stepper->contact();
+    const double touching = rounding_gap * scene_size(*problem_.mesh);
+    const auto dim = index(problem_.mesh->dimension());
+    for (std::size_t p = 0; p < at.closed.size(); ++p)
+        if (contact.may_close(p, op_.prescribed_rows()) && state.response.jump[p * dim] < touching) at.closed[p] = 1;
+    const TurnedPoint about{state.response.multipliers, {}, {}};
+    known.tangent = tangent_about(about, state, at);
+    if (known.tangent.empty()) return false;
+    known.about = about;
+    known.held = at.closed;
+    return true;
+}
+
+double TurnedSteps::leave_unstable(const State& before, const Solve& solve, Stepper::Result& result,
+                                   Known& known) const {
+    const Limits& limits = problem_.options.limits;
+    const State first = result.state;
+    const std::vector<double> d = difference(first.theta, before.theta);
+    double share = 1.0;
+    bool definite = false;
+    Buckling buckling;
+    while (!known.stable()) {
+        const State& top = result.state;
+        const BucklingMode mode = mode_of(top, known.held);
+        if (std::abs(mode.factor - 1.0) < neutral) break;  // only a later load makes it unstable
+        if (buckling.modes == most_modes || !(mode.factor > 1.0)) refuse_buckling(top.time);
+        if (buckling.modes == 0) share = critical_share(before, mode, top);
+        const std::optional<EnergyFall> fall = energy_fall(op_, pairs_, top, mode.displacement);
+        Stepper::Result lower;
+        if (fall) lower = iterate(before, begin_at(*fall, top), solve, definite);
+        const double level = energy_of(top), rounding = limits.minimise_energy_rounding * std::abs(level);
+        if (!fall || (lower.converged && !(energy_of(lower.state) < level - rounding))) {
+            if (!held_by_faces(top, known)) refuse_buckling(top.time);
+            break;
+        }
+        if (buckling.modes == 0) {
+            buckling.time = before.time + share * (top.time - before.time);
+            buckling.node = most_moved(mode.displacement, problem_.mesh->dimension());
+        }
+        ++buckling.modes;
+        Effort effort = top.effort;
+        effort.displacement_solves += mode.solves;
+        effort.add(lower.state.effort);
+        result = std::move(lower);
+        result.state.effort = effort;
+        if (!result.converged) break;
+        known = know(result.state);
+    }
+    const State& next = result.state;
+    // Where the branch begins at the critical load, what the energy falls by is the work that it does not take. What
+    // else it falls by, at a load at which the bodies snap through, is released.
+    const double saved = 0.5 * (1.0 - share) * (dot(d, first.response.conjugate) - dot(d, next.response.conjugate));
+    const double drop = energy_of(first) - energy_of(next);
+    if (drop - saved > snaps * drop) buckling.released = drop - saved;
+    result.state.outcome.buckling = buckling;
+    return buckling.modes == 0 ? 0.5 * (dot(d, before.response.conjugate) + dot(d, next.response.conjugate))
+                               : 0.5 * (dot(d, before.response.conjugate) + dot(d, first.response.conjugate)) - saved;
+}
+
 Stepper::Result TurnedSteps::initial(double time) const {
-    return iterate({}, [&](Stepper& stepper, const State&) { return stepper.initial(time); });
+    bool definite = false;
+    Stepper::Result result = iterate(
+        {}, begin({}), [&](Stepper& stepper, const State&) { return stepper.initial(time); }, definite);
+    if (result.converged && !definite) refuse_buckling(time);
+    return result;
 }
 
 // The work of the reactions by the trapezoidal rule. The estimate follows from the true energy: with R = dE/dtheta and
@@ -238,14 +400,15 @@ Stepper::Result TurnedSteps::step(const State& before, double time, double strid
     Known known = known_ && known_->of(before) ? std::move(*known_) : know(before);
     known_.reset();
     const double upper_change = half_square(known.tangent, d);
-    Stepper::Result result =
-        iterate(before, [&](Stepper& stepper, const State& from) { return stepper.step(from, time, {}, stride); });
+    const Solve solve = [&](Stepper& stepper, const State& from) { return stepper.step(from, time, {}, stride); };
+    bool definite = false;
+    Stepper::Result result = iterate(before, begin(before), solve, definite);
+    known = know(result.state);
+    double work = 0.5 * (dot(d, before.response.conjugate) + dot(d, result.state.response.conjugate));
+    if (result.converged && !known.stable()) work = leave_unstable(before, solve, result, known);
     State& next = result.state;
-    known = know(next);
-    if (known.about.stresses == Stresses::left_out && result.converged) refuse_buckling(time);
     next.memory = known.about.numbers();
     const double lower_change = half_square(known.tangent, d);
-    const double work = 0.5 * (dot(d, before.response.conjugate) + dot(d, next.response.conjugate));
     const std::unique_ptr<StepRule> rule = linear_->stepper->increment(before, before.mixity);
     next.step = before.step + 1;
     next.history.revised_from = next.step;
@@ -257,7 +420,10 @@ Stepper::Result TurnedSteps::step(const State& before, double time, double strid
     ledger.lower = dot(d, next.response.conjugate) - lower_change;
     ledger.upper = dot(d, before.response.conjugate) + upper_change;
     if (next.adhesion == before.adhesion) ledger.lower = ledger.upper = ledger.increment;
-    next.outcome.released = damages_abruptly(*rule, next.adhesion) ? std::max(0.0, work - ledger.increment) : 0.0;
+    // The tangent after the step is that of another branch.
+    if (next.outcome.buckling.modes > 0) ledger.lower = ledger.increment;
+    next.outcome.released = damages_abruptly(*rule, next.adhesion) ? std::max(0.0, work - ledger.increment)
+                                                                   : next.outcome.buckling.released;
     ledger.work = before.ledger.work + work;
     ledger.released = before.ledger.released + next.outcome.released;
     known_ = std::move(known);
@@ -266,8 +432,11 @@ Stepper::Result TurnedSteps::step(const State& before, double time, double strid
 
 Stepper::Result TurnedSteps::equilibrate(const State& before, double time, std::span<const double> adhesion) const {
     const State own = extended(before, problem_.patterns.size());
-    Stepper::Result result =
-        iterate(before, [&](Stepper& stepper, const State&) { return stepper.equilibrate(own, time, adhesion); });
+    bool definite = false;
+    Stepper::Result result = iterate(
+        before, begin(before), [&](Stepper& stepper, const State&) { return stepper.equilibrate(own, time, adhesion); },
+        definite);
+    if (result.converged && !definite) refuse_buckling(time);
     // The cumulative columns count from the state that is set.
     Ledger& ledger = result.state.ledger;
     ledger.initial = before.ledger.initial + ledger.energy() - before.ledger.energy();

@@ -8,6 +8,10 @@
 // Every such step begins at the adhesion before the load step, so that nothing of an iterate is irreversible; only
 // where the iterates do not come to rest (pairs of an unresolved process zone, which break in one and hold in the
 // next), later ones begin at the damage of the lowest. Where the true energy rises, half of the way is taken.
+//
+// A balance whose stiffness under its stresses is not positive definite is no minimum: the bodies buckle. The step then
+// goes on along the mode that the stresses soften most, to where the true energy has fallen, and comes to its balance
+// from there. (M. Crisfield, Non-linear Finite Element Analysis 2, 1997, section 21.10, on branches.)
 #pragma once
 
 #include <functional>
@@ -17,6 +21,8 @@
 #include <vector>
 
 #include "base/monitor.hpp"
+#include "evolution/minimise/buckling_mode.hpp"
+#include "evolution/minimise/energy_fall.hpp"
 #include "evolution/step/stepper.hpp"
 #include "reduction/turned/turned_operator.hpp"
 #include "scene/problem.hpp"
@@ -48,6 +54,8 @@ private:
         std::vector<std::uint8_t> closed;
         TurnedPoint about;
         std::vector<double> tangent;
+        std::vector<std::uint8_t> held;  // [pairs] the contact that counts
+        bool stable() const { return about.stresses == Stresses::count; }
         bool of(const State& state) const {
             return displacement == state.response.multipliers && row_force == state.response.force &&
                    adhesion == state.adhesion && closed == state.closed && !displacement.empty();
@@ -59,7 +67,29 @@ private:
     }
     // Returns the tangent of a state at another contact set, in the scene about a point; empty: there is none.
     std::vector<double> tangent_about(const TurnedPoint& about, const State& state, const State& at) const;
-    Stepper::Result iterate(const State& before, const Solve& solve) const;
+    // Says where linear steps begin: displacements and forces of rows, the energy that they shall not exceed, with what
+    // is dissipated, and the unbalanced force over the load.
+    struct Begin {
+        std::vector<double> displacement, row_force;
+        TurnedPoint about;
+        bool own;  // the stiffness is of this step
+        double level, off;
+        bool falls = false;  // from a state that is not stable, with faces apart
+    };
+    Begin begin(const State& before) const;
+    Begin begin_at(const EnergyFall& fall, const State& state) const;
+    // definite: out, whether the stiffness of the last linear step has all stresses.
+    Stepper::Result iterate(const State& before, Begin from, const Solve& solve, bool& definite) const;
+    // Leads a result that is in balance, but not stable, to a stable one. known: in, out; of the result. Returns the
+    // work of the reactions on the way, F L.
+    double leave_unstable(const State& before, const Solve& solve, Stepper::Result& result, Known& known) const;
+    BucklingMode mode_of(const State& state, std::span<const std::uint8_t> held) const;
+    // The share of a step, from a stable state to one that buckles along this mode, at which the bodies begin to.
+    double critical_share(const State& before, const BucklingMode& mode, const State& state) const;
+    // True if the faces that touch make a state stable, which is then known as such.
+    bool held_by_faces(const State& state, Known& known) const;
+    // Returns the stepper of the linearised scene, whose numbers have changed.
+    Stepper& renewed(Renewed what) const;
     // Returns the linear scene with the stiffness and frames of a point, and with the forces and jumps of
     // displacements.
     Stepper& linearise(const TurnedPoint& about, std::span<const double> at, std::span<const double> row_force) const;

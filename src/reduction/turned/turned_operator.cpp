@@ -23,6 +23,23 @@ std::vector<BodyModel> models_of(const Problem& problem) {
     return models;
 }
 
+// force += K u, K over the nodes of a body.
+void add_product(const SparseMatrix& k, std::span<const std::int64_t> nodes, std::size_t dim,
+                 std::span<const double> displacement, std::span<double> force) {
+    std::vector<double> u(index(k.rows)), f(u.size());
+    for (std::size_t i = 0; i < u.size(); ++i) u[i] = displacement[index(nodes[i / dim]) * dim + i % dim];
+    multiply(k, u, f);
+    for (std::size_t i = 0; i < u.size(); ++i) force[index(nodes[i / dim]) * dim + i % dim] += f[i];
+}
+
+// Adds these forces to the dead ones, as the last pattern of the scene.
+void add_forces(const Problem& problem, std::span<const double> force, LinearScene& scene) {
+    scene.problem.forces = problem.forces;
+    const auto pattern = static_cast<std::int64_t>(problem.patterns.size());
+    for (std::size_t i = 0; i < force.size(); ++i)
+        if (force[i] != 0.0) scene.problem.forces.push_back({pattern, static_cast<std::int64_t>(i), force[i]});
+}
+
 }  // namespace
 
 std::vector<double> TurnedPoint::numbers() const {
@@ -111,20 +128,38 @@ void TurnedOperator::load(LinearScene& scene, std::span<const double> displaceme
     jumps_->add_pulls(row_force, force);
     jumps_->subtract_pulls(*scene.mesh, row_force, force);
     for (double& f : force) f = -f;
-    for (std::size_t b = 0; b < scene.stiffness.size(); ++b) {
-        const HostStiffness& given = *scene.stiffness[b];
-        const std::vector<std::int64_t>& nodes = given.pieces.front().nodes;
-        std::vector<double> u(index(given.matrix.rows)), f(u.size());
-        for (std::size_t i = 0; i < u.size(); ++i) u[i] = displacement[index(nodes[i / dim]) * dim + i % dim];
-        multiply(given.matrix, u, f);
-        for (std::size_t i = 0; i < u.size(); ++i) force[index(nodes[i / dim]) * dim + i % dim] += f[i];
+    for (const auto& given : scene.stiffness)
+        add_product(given->matrix, given->pieces.front().nodes, dim, displacement, force);
+    add_forces(problem_, force, scene);
+    scene.problem.jump_offset = jumps_->beyond(*scene.mesh);
+}
+
+void TurnedOperator::load_forces(LinearScene& scene, std::span<const double> force) const {
+    add_forces(problem_, force, scene);
+    scene.problem.jump_offset.assign(index(problem_.jump_count()), 0.0);
+}
+
+std::vector<SparseMatrix> TurnedOperator::softening(std::span<const double> displacement) const {
+    const TurnedBodies& bodies = at(displacement);
+    const TurnedBodies::Pulls pulls = bodies.pulls();
+    std::vector<SparseMatrix> soft(index(problem_.mesh->body_count()));
+    for (std::size_t b = 0; b < soft.size(); ++b) {
+        const auto body = static_cast<std::int32_t>(b);
+        SparseMatrix stressed;
+        bodies.set_tangent(body, TurnedCell::Stresses::left_out, pulls, soft[b]);
+        bodies.set_tangent(body, TurnedCell::Stresses::count, pulls, stressed);
+        for (std::size_t e = 0; e < soft[b].value.size(); ++e) soft[b].value[e] -= stressed.value[e];
     }
-    Problem& about = scene.problem;
-    about.forces = problem_.forces;
-    const auto pattern = static_cast<std::int64_t>(problem_.patterns.size());
-    for (std::size_t i = 0; i < force.size(); ++i)
-        if (force[i] != 0.0) about.forces.push_back({pattern, static_cast<std::int64_t>(i), force[i]});
-    about.jump_offset = jumps_->beyond(*scene.mesh);
+    return soft;
+}
+
+std::vector<double> TurnedOperator::multiply_bodies(std::span<const SparseMatrix> of_bodies,
+                                                    std::span<const double> displacement) const {
+    std::vector<double> force(displacement.size(), 0.0);
+    for (std::size_t b = 0; b < of_bodies.size(); ++b)
+        add_product(of_bodies[b], problem_.mesh->body_nodes(static_cast<std::int32_t>(b)),
+                    index(problem_.mesh->dimension()), displacement, force);
+    return force;
 }
 
 void TurnedOperator::complete(std::span<const double> theta, std::vector<double> displacement,

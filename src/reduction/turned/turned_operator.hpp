@@ -46,6 +46,7 @@ public:
     // `problem` must outlive it.
     TurnedOperator(const Problem& problem, const Poll& poll);
 
+    const Problem& problem() const { return problem_; }
     std::size_t dofs() const { return index(bodies_->dofs()); }
     // A scene that stays linear: frames of pairs turned, a stiffness given for each body, and a pattern more, whose
     // factor is always 1, with the forces and the parts of jumps that make up for it. Without numbers yet.
@@ -55,6 +56,14 @@ public:
     // Sets its loads, so that at these displacements, which need not be those of turn(), and forces of the rows,
     // forces on nodes and jumps are the true ones. Couples are held as they are.
     void load(LinearScene& scene, std::span<const double> displacement, std::span<const double> row_force) const;
+    // Sets its loads to these forces on the nodes alone, [mesh DOFs], in the additional pattern.
+    void load_forces(LinearScene& scene, std::span<const double> force) const;
+    // Returns by how much their stresses soften the bodies at displacements, each body over its nodes: the stiffness
+    // without stresses less that with them.
+    std::vector<SparseMatrix> softening(std::span<const double> displacement) const;
+    // Returns the forces of such matrices at displacements, [mesh DOFs].
+    std::vector<double> multiply_bodies(std::span<const SparseMatrix> of_bodies,
+                                        std::span<const double> displacement) const;
     // Sets what belongs to the displacements: jumps, energies, unknowns. The forces of rows stay.
     void complete(std::span<const double> theta, std::vector<double> displacement, Response& response) const;
     // The largest unbalanced force, and the rounding of such forces, both over the load: the largest reaction or dead

@@ -90,6 +90,17 @@ Json load_drops_json(const LoadDrops& drops) {
               {"to", drops.to}}}};
 }
 
+Json buckling_json(const std::vector<BuckledStep>& steps) {
+    Json out = Json::array();
+    for (const BuckledStep& step : steps)
+        out.push_back({{"step", step.step},
+                       {"modes", step.modes},
+                       {"time", step.time},
+                       {"load", step.load},
+                       {"released", step.released}});
+    return out;
+}
+
 Json free_bodies_json(const std::vector<FreeBody>& bodies) {
     Json out = Json::array();
     for (const FreeBody& body : bodies)
@@ -199,6 +210,7 @@ std::string result_text(const Model& model, delam_solver* solver, const Scene& s
         {"energy_balance", balance_json(outcome.closing.balance)},
         {"mixity_error", mixity_error_json(outcome.closing.mixity_error)},
         {"load_drops", load_drops_json(outcome.closing.load_drops)},
+        {"buckling", buckling_json(outcome.closing.buckled)},
         {"search", search_json(outcome.closing.search)},
         {"estimate_violated", outcome.closing.estimate_violated},
         {"estimate_hollow", outcome.closing.estimate_inconclusive},

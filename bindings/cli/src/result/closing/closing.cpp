@@ -23,6 +23,7 @@ Closing closing_of(const Model& model, delam_solver* solver, const Scene& scene,
     out.estimate_inconclusive = inconclusive_steps(rows);
     out.front_unresolved = unresolved_steps(rows, model, scene);
     out.pops = pops_of(rows);
+    out.buckled = buckled_steps(rows, scene);
     out.free_bodies = free_bodies_of(model, solver, scene);
     out.bulk = bulk;
     return out;
@@ -30,6 +31,7 @@ Closing closing_of(const Model& model, delam_solver* solver, const Scene& scene,
 
 std::vector<std::string> closing_lines(const Closing& closing, const Scene& scene) {
     std::vector<std::string> out = jump_lines(closing.jumps, scene);
+    out.push_back(buckling_line(closing.buckled, scene));
     out.push_back(closing.follows_load ? energies_line(closing.balance, closing.jumps.size(), scene)
                                        : balance_line(closing.balance, scene));
     out.push_back(estimate_line(closing.estimate_violated, closing.estimate_tolerance));

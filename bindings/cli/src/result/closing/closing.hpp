@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "result/closing/balance.hpp"
+#include "result/closing/buckling.hpp"
 #include "result/closing/free_bodies.hpp"
 #include "result/closing/load_drops.hpp"
 #include "result/closing/mesh_error.hpp"
@@ -28,6 +29,7 @@ struct Closing {
     MixityError mixity_error;
     SearchLimits search;
     LoadDrops load_drops;
+    std::vector<BuckledStep> buckled;
     std::vector<std::int64_t> estimate_violated, estimate_inconclusive;
     double estimate_tolerance = 0;
     std::vector<std::int64_t> front_unresolved;  // steps in which a crack grew with too few pairs in its process zone

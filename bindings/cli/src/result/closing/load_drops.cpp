@@ -27,6 +27,7 @@ LoadDrops load_drops_of(const Rows& rows, const std::vector<Jump>& jumps, const 
     double most = 0.0;
     for (std::size_t i = 1; i < rows.size(); ++i) {
         const auto step = static_cast<std::int64_t>(number_of(rows[i], "step"));
+        if (number_of(rows[i], "buckling_modes") > 0.0) jumped.insert(step);
         bool dropped = false;
         for (std::size_t p = 0; p < scene.patterns.size(); ++p) {
             const std::string load = load_title(scene, p), reaction = reaction_title(scene, p);

@@ -22,7 +22,8 @@ struct LoadDrops {
 };
 
 // A drop: |reaction| of a pattern falls by more than 2 % of its largest value so far while |factor| of that pattern
-// grows. Falls under a factor that shrinks or rests, while other loads change, say nothing.
+// grows, in a step without a jump in which no body buckles. Falls under a factor that shrinks or rests, while other
+// loads change, say nothing.
 LoadDrops load_drops_of(const Rows& rows, const std::vector<Jump>& jumps, const Scene& scene);
 // "" if there is none.
 std::string load_drops_line(const LoadDrops& drops);

@@ -31,6 +31,9 @@ constexpr const char* of_cracks_in_space[] = {"crack_area", "energy_release_rate
 // Columns of pairs that came apart one by one, in steps that follow their load.
 constexpr const char* of_pops[] = {"pops", "popped"};
 
+// Columns of bodies that may buckle, because they rotate.
+constexpr const char* of_buckling[] = {"buckling_modes", "buckling_time", "buckling_released"};
+
 constexpr const char* unknown_title = "sensitivities_unknown";
 
 }  // namespace
@@ -114,6 +117,9 @@ History::History(const Model& model, const Scene& scene, const delam_solver* sol
     if (cracks && control == "load")
         for (const char* key : of_pops)
             if (knows(key) && !has(key)) add(key, key);
+    if (solver != nullptr && option_text(solver, "kinematics") == "corotational")
+        for (const char* key : of_buckling)
+            if (knows(key) && !has(key)) add(key, key);
 }
 
 bool History::has(const std::string& key) const {
@@ -132,7 +138,9 @@ std::string History::header() const {
 
 void History::go_on_under(std::string_view header) {
     const auto later = [](const std::string& key) {
-        return std::ranges::count(of_cracks_in_space, key) + std::ranges::count(of_pops, key) > 0;
+        return std::ranges::count(of_cracks_in_space, key) + std::ranges::count(of_pops, key) +
+                   std::ranges::count(of_buckling, key) >
+               0;
     };
     History older = *this;
     while (older.header() != header && !older.columns_.empty() && later(older.columns_.back().key))
