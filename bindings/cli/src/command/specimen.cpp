@@ -48,6 +48,7 @@ const SheetRow rows[] = {
     {"fibre-young", &mpa, "74GPa", "fibre: modulus of the fibre"},
     {"fibre-poisson", &none, "0.2", "fibre: Poisson's ratio of the fibre"},
     {"ply", &mm, "0.25mm", "laminate: thickness of a ply"},
+    {"cell", &mm, "0.1mm", "laminate: length of the cells along x and y (default: the thickness of a ply)"},
     {"flaw", &mm, "4mm", "laminate: length along x of a flaw, where two plies do not adhere"},
     {"flaw-width", &mm, "4mm", "laminate: width of the flaw (default: the whole width)"},
     {"flaw-at", &mm, "10mm", "laminate: x of the middle of the flaw (default: half of the length)"},
