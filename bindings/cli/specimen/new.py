@@ -19,9 +19,11 @@ if __name__ == "__main__":
     command.begin("delam: new")
 
 import beams  # noqa: E402
+import plausible  # noqa: E402
 import proposals  # noqa: E402
 import scenes  # noqa: E402
 import standards  # noqa: E402
+from specimens.thickness import taken_for_arm  # noqa: E402
 
 # What a kind needs, and its title. The rest of a sheet has the defaults below.
 PLY, BEAM = ("E1", "E2", "G12", "nu12", "nu23"), ("width", "arm", "notch")
@@ -65,7 +67,8 @@ PAST = 1.15  # of the displacement at the end of the growth: the march ends afte
 option = proposals.option
 
 # Names of standards for a number that a kind has by another name: kinds, name, what it is taken for, and the factor.
-OTHER_NAMES = ((("enf", "mmb", "slb"), "span", "half-span", 0.5), (tuple(KINDS), "G13", "G12", 1.0))
+OTHER_NAMES = ((("enf", "mmb", "slb"), "span", "half-span", 0.5), (tuple(KINDS), "G13", "G12", 1.0),
+               (("dcb", "enf", "4enf", "mmb", "slb"), "thickness", "arm", 0.5))
 
 
 def one_name(given):
@@ -102,9 +105,20 @@ def unused(given):
     return [f"{kind} does not take {', '.join(other)}: not used"] if other else []
 
 
+def warn(line):
+    print(command.printable(f"warning: {line}"), file=sys.stderr)
+
+
 def sheet_of(given):
     """All that scenes and theories read, by the names of Python; what the sheet leaves out is derived."""
     required(given)
+    mistaken = taken_for_arm(given["kind"], given["sheet"].get("arm", 0.0), given["texts"])
+    if mistaken:
+        raise command.Trouble(mistaken)
+    # At once: they may be the reason why no scene can be made.
+    odd = plausible.warnings(given["kind"], given["sheet"], given["texts"])
+    for line in odd:
+        warn(line)
     numbers = {**DEFAULTS, **given["sheet"]}
     keys = ("width length arm lower-arm notch half-span span inner-span lever growth E1 E2 G12 nu12 nu23 young poisson GIc "
             "GIIc eta normal-strength shear-strength radius fraction fibre-young fibre-poisson ply strain cell").split() + list(FLAW)
@@ -117,7 +131,7 @@ def sheet_of(given):
         of.e1 = of.e2 = of.young
         of.g12 = of.young / (2 * (1 + of.poisson))
     of.g13 = of.g12
-    of.said, of.proposals = [], []  # warnings of the specimen; what the sheet does not have
+    of.said, of.odd, of.proposals = [], odd, []  # warnings of the specimen; what the sheet does not have
     of.both_modes = of.gic is not None and of.giic is not None
     of.gic = of.giic if of.gic is None else of.gic
     of.giic = of.gic if of.giic is None else of.giic
@@ -313,9 +327,10 @@ def main():
     of.proposals = proposals.sentences(of, given)
     write(scenes.scene(of), given["out"], given["replace"])
     said = standards.warnings(of) if of.kind in beams.THEORY else []
-    # The program has chosen mm and N itself: other units are no hint.
-    for line in unused(given) + proposals.warnings(of, given) + said + of.said + [re.sub(r"; the numbers suggest .*", "", one) for one in found["warnings"]]:
-        print(command.printable(f"warning: {line}"), file=sys.stderr)
+    # The program has chosen mm and N itself: other units are no hint, and an odd number of the sheet is told by its name.
+    hints = [re.sub(r"; the numbers suggest .*", "", one) for one in found["warnings"] if not (of.odd and one.startswith("[units]"))]
+    for line in unused(given) + proposals.warnings(of, given) + said + of.said + hints:
+        warn(line)
     if given["out"]:
         print(f"zone      {'; '.join(found['process_zones'])}")
         print(f"mesh      {found['unknowns']['primal']} displacements, {of.steps} steps")

@@ -101,7 +101,7 @@ def flaws():
     scene, _, error = made("laminate", [*sheet, *flaw])
     about = tomllib.loads(read(scene).decode())
     expect(about["interfaces"][0]["notch"] == [{"lower": [6.0, 2.5], "upper": [10.0, 5.5]}] and "law" in about["interfaces"][0]
-           and not any("notch" in one for one in about["interfaces"][1:]) and "flaw" not in error, f"where it lies: {error}")
+           and not any("notch" in one for one in about["interfaces"][1:]) and "the flaw" not in error, f"where it lies: {error}")
     rows, _ = rows_of(scene, "--set", "time.steps=1", "--set", "output.columns=['crack_area']")
     # The pairs within, and half of those of its border at most, lie in it.
     expect(0.7 * 12 < float(rows[0]["crack_area"]) < 12 * 1.3, f"its area: {rows[0]['crack_area']}")
@@ -172,8 +172,24 @@ def places():
     good = [*PLY, *KINDS["dcb"][0].split()]
     _, _, error = made("dcb", [*good, "--normal-strength", "57MPa", "--growth", "30mm"])
     expect("between two pairs" not in error, f"the notch ends at a pair: {error}")
-    _, _, error = made("dcb", [*good[:-1], "250kJ/m2"])
-    expect("250 kJ/m" in error and "suggest" not in error, f"a toughness of another unit: {error}")
+    for toughness, value in (("250kJ/m2", "2.5e+05 J/m2"), ("0.25J/m2", "0.25 J/m2")):
+        _, _, error = delam("new", "dcb", *good[:-1], toughness)
+        expect(f"--GIc {toughness} is {value}, and specimens have 40 to 6000 J/m2: 250J/m2 may be meant" in error and "[units]" not in error,
+               f"a toughness of another unit: {error}")
+    _, _, error = delam("new", "dcb", *(word if word != "140GPa" else "140MPa" for word in good))
+    expect("--E1 140MPa is 0.14 GPa" in error and ": 140GPa may be meant" in error, f"a modulus: {error}")
+    for kind, sheet in {**{kind: [*PLY, *one[0].split()] for kind, one in KINDS.items()},
+                        **{kind: one.split() for kind, one in OTHERS.items()}}.items():
+        _, _, error = made(kind, sheet, "--replace")
+        expect("may be meant" not in error and "specimens have" not in error, f"{kind}: usual numbers are not told: {error}")
+    thick = [word if word != "1.5mm" else "3mm" for word in good]
+    expect_error(delam("new", "dcb", *thick), 2, "--arm 3mm is one arm, which makes a specimen of 6 mm; .* --thickness 3mm if that is the whole")
+    whole = [{"--arm": "--thickness", "1.5mm": "3mm"}.get(word, word) for word in good]
+    texts = [delam("new", "dcb", *sheet)[1].split("\n", 1)[1] for sheet in (good, whole)]
+    expect(texts[0] and texts[0] == texts[1], "the whole thickness instead of that of an arm")
+    thick = [{"--arm": "--thickness", "1.5mm": "6mm"}.get(word, word) for word in good]
+    code, _, error = delam("new", "dcb", *thick)
+    expect(code == 0 and "it is 6 mm" in error, f"a thick specimen that is meant: {error}")
     _, text, _ = made("mmb", [*PLY, *KINDS["mmb"][0].split()])
     expect("toughness 372.2 J/m2" in text, f"the toughness of a mixed test: {text}")
 

@@ -23,6 +23,7 @@ const SheetRow rows[] = {
     {"width", &mm, "25mm", "width of the specimen"},
     {"length", &mm, "150mm", "length of the specimen (default: what the crack needs)"},
     {"arm", &mm, "1.5mm", "thickness of an arm, half of the specimen's; of adcb the upper one"},
+    {"thickness", &mm, "3mm", "thickness of both arms together, instead of --arm"},
     {"lower-arm", &mm, "2mm", "adcb: thickness of the lower arm"},
     {"notch", &mm, "50mm", "length of the notch, from the load (dcb, adcb, mmb) or the support (enf, 4enf, slb)"},
     {"half-span", &mm, "50mm", "enf, mmb, slb: half of the distance of the supports, L in the standards"},
