@@ -101,12 +101,15 @@ export class Chart {
       .attr('y', height - 6)
       .attr('text-anchor', 'middle')
       .text(this.xLabel);
-    svg
+    const upright = svg
       .append('text')
       .attr('class', 'name')
       .attr('text-anchor', 'middle')
       .attr('transform', `translate(12,${(height - margin.bottom + margin.top) / 2}) rotate(-90)`)
       .text(this.yLabel);
+    // A long name, such as that of a conjugate, would pass the ends of the axis.
+    const room = (height - margin.bottom - margin.top) / upright.node().getComputedTextLength();
+    if (room < 1) upright.style('font-size', `${13.5 * room}px`);
     for (const { x, y, colour, dash, path = y.map((value, i) => [x[i], value]) } of this.curves) {
       svg
         .append('path')

@@ -91,7 +91,8 @@ export function loadCurves(result, units) {
     const reaction = result.column(`reaction${suffix}`);
     const curve = { name, suffix, force: drives === 'force' };
     const axes = (x, xName, xScales, y, yName, yScales) => {
-      const [across, up] = [scaled(xName, xScales, x), scaled(yName, yScales, y)];
+      // The upright axis is short: the reading below says of what it is the conjugate.
+      const [across, up] = [scaled(xName, xScales, x), scaled(yName.replace(' of the factor', ''), yScales, y)];
       return {
         ...curve,
         x: across.lists[0],
