@@ -19,8 +19,11 @@ if __name__ == "__main__":
     command.begin("delam: new")
 
 import beams  # noqa: E402
+import plausible  # noqa: E402
+import proposals  # noqa: E402
 import scenes  # noqa: E402
 import standards  # noqa: E402
+from specimens.thickness import taken_for_arm  # noqa: E402
 
 # What a kind needs, and its title. The rest of a sheet has the defaults below.
 PLY, BEAM = ("E1", "E2", "G12", "nu12", "nu23"), ("width", "arm", "notch")
@@ -38,7 +41,7 @@ KINDS = {
 # What a kind takes besides.
 FLAW = ("flaw", "flaw-width", "flaw-at", "flaw-across", "flaw-interface")
 ELASTIC, LAW = PLY + ("young", "poisson"), ("GIc", "GIIc", "eta", "normal-strength", "shear-strength")
-TAKEN = {kind: ("eta",) if kind == "fibre" else ELASTIC + LAW + (FLAW if kind == "laminate" else ("length", "growth"))
+TAKEN = {kind: ("eta",) if kind == "fibre" else ELASTIC + LAW + (FLAW + ("cell",) if kind == "laminate" else ("length", "growth"))
          for kind in KINDS}
 DEFAULTS = {"nu12": 0.3, "nu23": 0.45, "eta": 2.0}
 FACTORS = {"dcb": "The factor is the opening between both arms: the reaction is the force of the machine.",
@@ -49,6 +52,7 @@ FACTORS = {"dcb": "The factor is the opening between both arms: the reaction is 
 # (adcb), 0.969 (enf), 1.000 (4enf), 0.968 (mmb), 0.976 (slb). With half of the cells they change by 0.9 % at most (slb), with
 # twice as many by 0.3 % (`test_specimen.py pairs`).
 PAIRS, CELLS_PER_NOTCH = 8.0, 400.0
+PAIRS_OF_LAMINATE = 4.0  # one more than `delam check` asks for (src/result/closing/resolution.cpp)
 HIGHEST_STRENGTH = 60.0  # MPa: a resin has no more; with half of it the peak of a DCB sinks by 1 % (choosing.md)
 SHEAR_RATIO = 5 / 3  # of the strengths where the sheet has the toughness of one mode alone, which then decides
 STIFFNESS_FACTOR = 50.0  # E3 over the thickness of the layer next to the interface (A. Turon et al. 2007)
@@ -60,12 +64,11 @@ NEAR = 0.9
 PAST = 1.15  # of the displacement at the end of the growth: the march ends after it
 
 
-def option(key):
-    return "--" + key
-
+option = proposals.option
 
 # Names of standards for a number that a kind has by another name: kinds, name, what it is taken for, and the factor.
-OTHER_NAMES = ((("enf", "mmb", "slb"), "span", "half-span", 0.5), (tuple(KINDS), "G13", "G12", 1.0))
+OTHER_NAMES = ((("enf", "mmb", "slb"), "span", "half-span", 0.5), (tuple(KINDS), "G13", "G12", 1.0),
+               (("dcb", "enf", "4enf", "mmb", "slb"), "thickness", "arm", 0.5))
 
 
 def one_name(given):
@@ -102,12 +105,23 @@ def unused(given):
     return [f"{kind} does not take {', '.join(other)}: not used"] if other else []
 
 
+def warn(line):
+    print(command.printable(f"warning: {line}"), file=sys.stderr)
+
+
 def sheet_of(given):
     """All that scenes and theories read, by the names of Python; what the sheet leaves out is derived."""
     required(given)
+    mistaken = taken_for_arm(given["kind"], given["sheet"].get("arm", 0.0), given["texts"])
+    if mistaken:
+        raise command.Trouble(mistaken)
+    # At once: they may be the reason why no scene can be made.
+    odd = plausible.warnings(given["kind"], given["sheet"], given["texts"])
+    for line in odd:
+        warn(line)
     numbers = {**DEFAULTS, **given["sheet"]}
     keys = ("width length arm lower-arm notch half-span span inner-span lever growth E1 E2 G12 nu12 nu23 young poisson GIc "
-            "GIIc eta normal-strength shear-strength radius fraction fibre-young fibre-poisson ply strain").split() + list(FLAW)
+            "GIIc eta normal-strength shear-strength radius fraction fibre-young fibre-poisson ply strain cell").split() + list(FLAW)
     of = types.SimpleNamespace(**{key.lower().replace("-", "_"): numbers.get(key) for key in keys})
     of.kind, of.steps, of.layup = given["kind"], given["steps"], given["layup"]
     of.title, of.command = KINDS[of.kind][0], printable_command(given["command"])
@@ -117,7 +131,7 @@ def sheet_of(given):
         of.e1 = of.e2 = of.young
         of.g12 = of.young / (2 * (1 + of.poisson))
     of.g13 = of.g12
-    of.said = []  # warnings of the specimen
+    of.said, of.odd, of.proposals = [], odd, []  # warnings of the specimen; what the sheet does not have
     of.both_modes = of.gic is not None and of.giic is not None
     of.gic = of.giic if of.gic is None else of.gic
     of.giic = of.gic if of.giic is None else of.giic
@@ -183,12 +197,15 @@ def propose_interface(of, wanted):
     """Strengths at which the process zone has the length `wanted`, as far as the sheet leaves them out: the ratio of both
     is that at which both modes soften alike, and the zone follows a power of them, which the last two zones tell."""
     of.stiffness = float(f"{STIFFNESS_FACTOR * of.e2 / (of.ply if of.kind == 'laminate' else of.arm):.3g}")
-    ratio = math.sqrt(of.giic / of.gic) if of.both_modes else SHEAR_RATIO
-    if of.normal_strength is None and of.shear_strength is None:
+    of.highest, of.ratio = HIGHEST_STRENGTH, math.sqrt(of.giic / of.gic) if of.both_modes else SHEAR_RATIO
+    ratio = of.ratio
+    of.proposed_strengths = of.normal_strength is None and of.shear_strength is None
+    if of.proposed_strengths:
         strength, power, before = HIGHEST_STRENGTH, 2.0, None
         for _ in range(8):
             of.normal_strength, of.shear_strength = strength, strength * ratio
             zone = process_zone(of)
+            of.highest_zone = zone if before is None else of.highest_zone
             if abs(zone / wanted - 1) < 0.05 or (strength == HIGHEST_STRENGTH and zone > wanted):
                 break
             if before:
@@ -212,7 +229,7 @@ def divide(of, size, given):
 
 
 def mesh_beam(of, given):
-    of.cells_across = 4
+    of.cells_across, of.zone_pairs = 4, PAIRS
     size = of.notch / CELLS_PER_NOTCH
     divide(of, size, given)
     propose_interface(of, PAIRS * size)
@@ -222,7 +239,7 @@ def mesh_beam(of, given):
 def mesh_fibre(of):
     around = 2 * math.pi * of.radius
     of.e2, of.arm = of.young, of.radius
-    of.cells = 96
+    of.cells, of.zone_pairs = 96, PAIRS
     propose_interface(of, math.inf)
     of.cells = min(1000, max(96, 8 * math.ceil(PAIRS * around / min(process_zone(of), around) / 8)))
 
@@ -234,11 +251,12 @@ def mesh_laminate(of):
         raise command.Trouble(f"--layup {of.layup}: angles with / between them are expected, like 0/45/-45/90") from None
     if len(of.angles) < 2:
         raise command.Trouble(f"--layup {of.layup}: two plies at least are expected")
-    size = of.ply
+    size = of.cell = of.cell or of.ply
+    of.zone_pairs = PAIRS_OF_LAMINATE
     place_flaw_between(of)
     of.cells, of.cells_width = max(4, round(of.length / size)), max(8, round(of.width / size))
     place_flaw(of)
-    propose_interface(of, 4 * size)
+    propose_interface(of, PAIRS_OF_LAMINATE * size)
 
 
 def place_flaw_between(of):
@@ -272,7 +290,7 @@ def place_flaw(of):
                            f"{whole:g} mm: it is cut off there")
         found = [pairs * round(end / pairs) for end in meant]
         if found[1] - found[0] < pairs / 2:
-            raise command.Trouble(f"{option_of} {size:g} mm is too short: pairs are {pairs:g} mm apart along {name}, a ply's thickness")
+            raise command.Trouble(f"{option_of} {size:g} mm is too short: pairs are {pairs:g} mm apart along {name} (--cell)")
         if max(abs(a - b) for a, b in zip(found, meant)) > 1e-6 * pairs:
             of.said.append(f"the flaw from {name} = {meant[0]:g} to {meant[1]:g} mm ends between pairs, which are {pairs:g} mm apart: "
                            f"in the scene it lies from {found[0]:g} to {found[1]:g} mm")
@@ -306,16 +324,22 @@ def main():
         size_beam(of)
         mesh_beam(of, "length" in given["sheet"])
     found = checked(of)
+    of.proposals = proposals.sentences(of, given)
     write(scenes.scene(of), given["out"], given["replace"])
     said = standards.warnings(of) if of.kind in beams.THEORY else []
-    # The program has chosen mm and N itself: other units are no hint.
-    for line in unused(given) + said + of.said + [re.sub(r"; the numbers suggest .*", "", one) for one in found["warnings"]]:
-        print(command.printable(f"warning: {line}"), file=sys.stderr)
+    # The program has chosen mm and N itself: other units are no hint, and an odd number of the sheet is told by its name.
+    hints = [re.sub(r"; the numbers suggest .*", "", one) for one in found["warnings"] if not (of.odd and one.startswith("[units]"))]
+    for line in unused(given) + proposals.warnings(of, given) + said + of.said + hints:
+        warn(line)
     if given["out"]:
         print(f"zone      {'; '.join(found['process_zones'])}")
         print(f"mesh      {found['unknowns']['primal']} displacements, {of.steps} steps")
+        for name, sentence in proposals.lines(of, given):
+            print(proposals.wrapped(sentence, f"{name:<10}", 10 * " "))
         if of.kind in beams.THEORY:
             print(scenes.theory(of).replace("# ", "theory    ", 1).replace("# ", "          ").rstrip())
+            if standards.remarks(of):
+                print(proposals.wrapped(standards.remarks(of), "growth    ", 10 * " "))
         print(f"wrote     {given['out']}: read it, then run it with delam run {given['out']} --out FOLDER")
     return command.DONE
 

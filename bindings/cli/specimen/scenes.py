@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The text of the scene of a specimen, in mm and N. x runs along the specimen, from the notched end."""
 import beams
+import proposals
+import standards
 
 ROLLER = 1.0  # mm: width over which a roller or a nose presses; forces are means over it
 
@@ -119,12 +121,19 @@ class Beam:
 # what a fit finds for a whole curve of that theory: .2503 for .25 (dcb), .7515 and .7497 for .75 (enf, notches of 0.6 and 0.72 of
 # the half span), .2712 for .25 with the toughness of mode II held (mmb, where .358 N/mm are dissipated instead of .372):
 # the last blocks of bindings/site/pages/tests/dcb.md, enf.md and mmb.md, with other starts.
-ZONE = "Peaks are {} % below\n# beam theory, because the interface softens ahead of the tip{}. Larger strengths, on a finer mesh, are closer to it."
-WHOLE = "; a fit to a whole curve\n# meets the toughness of beam theory within 0.3 %"
+ZONE = ("With these strengths peaks are {} % below beam theory, because the interface softens ahead of the tip{}. Larger strengths, "
+        "on a finer mesh, are closer to it.")
+WHOLE = "; a fit to a whole curve meets the toughness of beam theory within 0.3 %"
 PEAKS = {"dcb": ZONE.format(1, WHOLE), "adcb": ZONE.format(1, ""), "enf": ZONE.format(3, WHOLE), "slb": ZONE.format(2, ""),
-         "mmb": ZONE.format("3 to 4", " at mixities that\n# differ from that of the whole, which takes 4 % less energy: a fit to a whole "
-                                      "curve finds a G_Ic that is 8 % larger\n# than that of beam theory"),
-         "4enf": "Loads of growth hardly depend on them."}
+         "mmb": ZONE.format("3 to 4", " at mixities that differ from that of the whole, which takes 4 % less energy: a fit to a whole "
+                                      "curve finds a G_Ic that is 8 % larger than that of beam theory"),
+         "4enf": "Loads of growth hardly depend on the strengths."}
+OWN = "Peaks are below beam theory, because the interface softens ahead of the tip, the less the larger the strengths are."
+
+
+def interface_comment(of):
+    peaks = PEAKS[of.kind] if of.proposed_strengths or of.kind == "4enf" else OWN
+    return proposals.wrapped(f"The stiffness is 50 E2 over the thickness of an arm. {peaks}", "# ", "# ") + "\n"
 
 
 def laws(of):
@@ -153,19 +162,24 @@ def theory(of):
     return "\n".join(out) + "\n"
 
 
+def remarks(of):
+    text = standards.remarks(of)
+    return proposals.wrapped(text[0].upper() + text[1:] + ".", "# ", "# ") + "\n" if text else ""
+
+
 def beam_scene(of):
     beam = Beam(of)
     layers = "\n".join(table("[[layers]]", name=quoted(name), thickness=thickness, divisions=of.cells_across,
                              material='"ply"') for name, thickness in arms_of(of))
     return "\n".join([
         f"# {of.command}\n# In mm and N: forces are in N per mm of width, so that those of the specimen are {of.width:g} times "
-        "as large.\n" + theory(of) +
+        "as large.\n" + theory(of) + remarks(of) +
+        proposals.comments(of) +
         f'schema = 1\ntitle = {quoted(of.title)}\n',
         "# The beam is narrow, as in the formulas of the standard; the cells are an eighth of the process zone, or less.\n" +
         table("[geometry]", dimension=2, plane='"plane-stress"', length=of.length, divisions=of.cells),
         materials(of), layers,
-        "# Toughnesses of the sheet. The stiffness is 50 E2 over the thickness of an arm, and strengths that the sheet does\n"
-        f"# not give are those at which the process zone has eight pairs. {PEAKS[of.kind]}\n" + laws(of),
+        interface_comment(of) + laws(of),
         table("[[interfaces]]", lower='"lower"', upper='"upper"', law='"resin"',
               notch=f"[{{ from = 0.0, to = {number(of.overhang + of.notch)} }}]"),
         f"# {of.factor}\n" +
@@ -180,7 +194,7 @@ def beam_scene(of):
 def fibre_scene(of):
     return "\n".join([
         f"# {of.command}\n# In mm and N; a periodic cell of one fibre, pulled across. Forces and energies are per mm of "
-        'depth.\nschema = 1\ntitle = "Fibre under transverse tension"\n',
+        f'depth.\n{proposals.comments(of)}schema = 1\ntitle = "Fibre under transverse tension"\n',
         table("[mesh]", generator='"fibre-cell"', arrangement='"square"', fraction=of.fraction, radius=of.radius,
               cells_around=of.cells, cell='"quad4"', plane='"plane-strain"'),
         table("[[materials]]", name='"matrix"', young=of.young, poisson=of.poisson),
@@ -216,10 +230,10 @@ def laminate_scene(of):
     top = of.ply * len(plies)
     return "\n".join([
         f"# {of.command}\n# In mm and N: a laminate pulled along x, which may delaminate from its free edges, at y = 0 and "
-        f'{of.width:g} mm.\nschema = 1\ntitle = {quoted("Laminate " + of.layup)}\n',
+        f'{of.width:g} mm.\n{proposals.comments(of)}schema = 1\ntitle = {quoted("Laminate " + of.layup)}\n',
         table("[geometry]", dimension=3, cell='"hex8"', length=of.length, width=of.width,
               divisions=f"[{of.cells}, {of.cells_width}]"),
-        materials(of), layers, laws(of), "# Plies of one direction stay together"
+        materials(of), layers, "# The stiffness is 50 E2 over the thickness of a ply.\n" + laws(of), "# Plies of one direction stay together"
         + ("" if of.flaw is None else ", but around the flaw, which is the notch") + ".\n" + joints,
         table("[[supports]]", name='"grip at rest"', fix='["x"]',
               box=f"{{ lower = [0.0, 0.0, 0.0], upper = [0.0, {number(of.width)}, {number(top)}] }}"),

@@ -58,6 +58,8 @@ class Curve:
         if way.averaged:
             said.append(f"x jitters: {int(there.sum())} points are averaged to {len(way.x)}")
         self.path, self.displacement, self.load = path, way.x, way.y
+        # The whole way of the machine, where its unloadings are cut: for the picture.
+        self.whole = (columns[0][there], columns[1][there]) if way.loops else None
         self.read_as = " and ".join(f"{label(table, k).removesuffix(' in ' + table.units[k])} in {name}"
                                     for k, name in zip((x, y), self.names))
         self.marks = self._marks(table, given, columns, there, said)
@@ -110,7 +112,7 @@ def evaluate_dcb(curve, sheet, given):
     """Answers of the methods, and the points."""
     points = Points(curve.displacement, curve.load, curve.path)
     marks = marked(curve, points, sheet, given)
-    require_modulus(methods.dcb_modulus(points.compliance, sheet)[0], points.compliance, sheet, curve)
+    require_modulus(lambda one: methods.dcb_modulus(points.compliance, one)[0], points.compliance, sheet, curve)
     answers, offset = [], 0.0
     if len(marks) >= LEAST_MARKS:
         d, p, a = marks[:, 0] - points.zero, marks[:, 1], marks[:, 2]
@@ -164,7 +166,7 @@ def calibrated(curve, points, sheet, given):
 
 def evaluate_enf(curve, sheet, given):
     points = Points(curve.displacement, curve.load, curve.path)
-    require_modulus(methods.enf_modulus(points.compliance, sheet)[0], points.compliance, sheet, curve)
+    require_modulus(lambda one: methods.enf_modulus(points.compliance, one)[0], points.compliance, sheet, curve)
     answers = calibrated(curve, points, sheet, given)
     if "G13" not in sheet:
         complain("warning: effective crack: without --G13 the shear of the beam counts as crack if --E1 is given (these values are "
@@ -183,7 +185,7 @@ def evaluate_mmb(curve, sheet, given):
     marks = marked(curve, points, sheet, given)
     chi = methods.chi(sheet["E1"], sheet["E2"], sheet["G13"])
     modulus = methods.mmb_modulus(points.compliance, chi, sheet)
-    require_modulus(modulus, points.compliance, sheet, curve)
+    require_modulus(lambda one: methods.mmb_modulus(points.compliance, chi, one), points.compliance, sheet, curve)
     if len(marks):
         points.add_visual(marks[np.flatnonzero(marks[:, 2] > sheet["notch"])[0]])
     points.place_cracks(sheet["notch"], marks)

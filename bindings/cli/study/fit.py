@@ -143,7 +143,7 @@ class Search:
 
     def say_left_out(self, reasons, at):
         for k in sorted(reasons):
-            say(f"{self.names[k]} is not told by the data and stays at {self.misfit.values(at)[k]:.6g}{self.units[k]}: "
+            say(f"{self.names[k]} is not told by the data and stays at {self.misfit.values(at)[k]:.4g}{self.units[k]}: "
                 f"{reasons[k]}")
 
     def _descend(self, slopes, begin, kept):
@@ -349,7 +349,7 @@ def say_rows(rows, search, level):
         if row["told"]:
             say(text_of(row, search, level) + (" (at its bound)" if row["at_bound"] else ""))
         else:
-            say(f"{row['key']} is not told by the data: {row['value']:.6g}{unit_of_key(row['key'], search.model.units)} is its start")
+            say(f"{row['key']} is not told by the data: {row['value']:.4g}{unit_of_key(row['key'], search.model.units)} is its start")
 
 
 def finer(scene):

@@ -160,7 +160,7 @@ class Sweep:
 
     def words(self, number):
         row = self.rows[number]
-        return row["message"] or f"peak {row['peak_reaction']:.6g}"
+        return row["message"] or f"peak {row['peak_reaction']:.4g}"
 
     def row(self, number, code):
         row = dict.fromkeys(RESULTS, "")

@@ -45,9 +45,13 @@ expect(lines == about["closing"], "result.json has the closing lines")
 told = [line for line in lines if line.startswith("jump at ")]
 
 
+def four_digits(value):
+    return f"{value:.0f}" if 1e3 <= abs(value) < 1e7 else f"{value:.4g}"
+
+
 def fall_of(jump):
     before, after = float(jump["reaction_before"]), float(jump["reaction_after"])
-    return f", reaction {before:.6g} to {after:.6g}" if abs(after - before) > 0.02 * abs(before) else ""
+    return f", reaction {four_digits(before)} to {four_digits(after)}" if abs(after - before) > 0.02 * abs(before) else ""
 
 
 wanted = [f'jump at time {float(j["time"]):.6g} (load {float(j["load"]):.6g}): interface "lower-upper" debonded by '

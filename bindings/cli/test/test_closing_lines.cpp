@@ -38,6 +38,7 @@ cli::Scene scene_of(int dimension, const std::vector<std::string>& patterns) {
 }
 
 // The energy that was there before any work, 1, is no part of the ledger; step 2 releases what it does not dissipate.
+// Energies of a run have one unit, that of its work.
 void balance() {
     const char* head =
         "step,time,stored_bulk,stored_interface,dissipated,work,released,stored_interface_slides,"
@@ -61,11 +62,11 @@ void balance() {
                 "open is 67 % of the dissipated energy at most (2 J/m in step 2, time 1)");
     const cli::Balance nearly = cli::balance_of(cli::rows_of(head + start + "2,1,2,1,3,8,2.996,2,3,0\n"), false);
     expect_line(cli::balance_line(nearly, space),
-                "energy balance: off by 0.05 % of the work (stored + dissipated + released - work is -4 mJ in step "
+                "energy balance: off by 0.05 % of the work (stored + dissipated + released - work is -0.004 J in step "
                 "2, time 1; the work is up to 8 J)");
     expect_line(cli::energies_line(nearly, 2, space),
-                "energy balance: work 8 J = stored 2 J + dissipated 3 J + released in 2 jumps 3 J + open 4 mJ; open "
-                "is 0.13 % of the dissipated energy at most (4 mJ in step 2, time 1)");
+                "energy balance: work 8 J = stored 2 J + dissipated 3 J + released in 2 jumps 3 J + open 0.004 J; open "
+                "is 0.13 % of the dissipated energy at most (0.004 J in step 2, time 1)");
     expect_line(
         cli::balance_line(cli::balance_of(cli::rows_of(head + std::string("0,0,0,0,0,0,0,0,0,0\n")), false), flat),
         "energy balance: no work was done");
@@ -89,10 +90,10 @@ void mixity() {
     const cli::MixityError error = cli::mixity_error_of(cli::rows_of(rows));
     expect(error.step == 2 && error.relative == 0.12 && error.dissipated == 0.5,
            "the worst step and what it dissipates");
-    expect_line(cli::mixity_error_line(error, flat),
+    expect_line(cli::mixity_error_line(error, flat, 9),
                 "warning: mode mixity: an error of up to 12 % of the energy that a step dissipates (step 2, time 1, "
                 "which dissipates 0.5 J/m); smaller steps reduce it");
-    expect_line(cli::mixity_error_line(cli::mixity_error_of(cli::rows_of(rows.substr(0, rows.find("2,1,")))), flat),
+    expect_line(cli::mixity_error_line(cli::mixity_error_of(cli::rows_of(rows.substr(0, rows.find("2,1,")))), flat, 9),
                 "");
 }
 
@@ -101,13 +102,13 @@ void search() {
     const std::string head = "step,time,stored_bulk,stored_interface,work,search_gap,search_margin\n0,0,0,0,0,0,0\n";
     const std::string quiet = "1,0.5,10,0,9,0.09,-1e-12\n";
     const auto lines = [&](const std::string& rows) {
-        return cli::search_lines(cli::search_limits_of(cli::rows_of(head + rows), 0.01), flat);
+        return cli::search_lines(cli::search_limits_of(cli::rows_of(head + rows), 0.01), flat, 20);
     };
     expect(lines("1,0.5,10,0,9,1e-6,-1e-12\n").empty(), "rounding is not mentioned");
     expect(lines(quiet).size() == 1, "a gap within search_tolerance is stated as a bound");
     expect_line(lines("1,0.5,10,0,9,0.08,0\n" + quiet + "2,1,10,0,20,0.1,0\n").front(),
                 "search: no position of a front, with the other fronts in their places, has less energy than the state "
-                "kept by more than 90 mJ/m (0.9 % of the energy; step 1, time 0.5)");
+                "kept by more than 0.09 J/m (0.9 % of the energy; step 1, time 0.5)");
     const std::vector<std::string> told = lines(quiet + "2,1,10,0,20,0.5,-0.2\n3,2,10,0,20,0.3,-0.3\n");
     expect(told.size() == 2, "a gap and a lower state: a line each");
     expect_line(told.front(),
@@ -165,7 +166,7 @@ void jumps() {
         jump.name = "a \"b\", c";
         all.push_back(jump);
     }
-    const std::vector<std::string> lines = cli::jump_lines(all, space);
+    const std::vector<std::string> lines = cli::jump_lines(all, space, 100);
     expect(lines.size() == 11, fmt::format("ten largest and the rest: {} lines", lines.size()));
     expect_line(lines.front(),
                 "jump at time 0.1 (load_a 0, load_b 0): interface \"a \"b\", c\" debonded by 0.5 m², 20 J "
@@ -173,7 +174,7 @@ void jumps() {
     expect(lines[1].starts_with("jump at time 0.3 "), "in the order of time, but for the smallest");
     expect_line(lines.back(), "2 smaller jumps debonded by 1 m² and released 6 J in all (jumps.csv)");
     all.resize(10);
-    expect(cli::jump_lines(all, space).size() == 10, "ten jumps are all told");
+    expect(cli::jump_lines(all, space, 100).size() == 10, "ten jumps are all told");
     const std::string table = cli::jumps_text({all[1]}, space);
     expect_line(table,
                 "step,before,time,stored,dissipated,released,debonded,interface,first_pair,last_pair,load_a,"
@@ -182,8 +183,13 @@ void jumps() {
     expect_line(cli::jumps_text({}, scene_of(2, {"press"})),
                 "step,before,time,stored,dissipated,released,debonded,"
                 "interface,first_pair,last_pair,load,reaction_before,reaction_after,name\n");
+    all[0].reaction_before[0] = 3.14159265;
+    expect(cli::jump_lines({all[0]}, space, 1e5).front().find("0.02 kJ released, reaction_a 3.142 to 2.5") !=
+               std::string::npos,
+           "in the unit of the work, with four digits");
     all[0].first = -1;
-    expect(cli::jump_lines({all[0]}, space).front().find(": no interface changed, 20 J released") != std::string::npos,
+    expect(cli::jump_lines({all[0]}, space, 100).front().find(": no interface changed, 20 J released") !=
+               std::string::npos,
            "a jump of contact alone");
 }
 

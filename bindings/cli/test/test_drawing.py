@@ -44,7 +44,9 @@ _, _, without = drawn(changed("notch = [{ from = 0.0, to = 0.030 }]\n", ""))
 told("an interface without a notch has none", b"notch of" not in without and b"law ductile" in without)
 _, _, in_mm = drawn(SCENE + '[units]\nlength = "m"\nforce = "N"\n')
 told("0.12 m are drawn in mm", b"<!-- extent 120" in in_mm or b"<!-- extent 0.12" in in_mm)
-told("the axes have the unit of the scene", b"m] -->" in in_mm)
+told("dimension lines have the lengths of the scene: notch, span, thickness", all(
+    f"<!-- {text} -->".encode() in in_mm for text in ("120 mm", "30", "60", "3")))
+told("without units they are numbers", b"<!-- 0.12 -->" in without and b"<!-- 0.03 -->" in picture)
 told("PNG", drawn(SCENE, "scene.png")[2].startswith(b"\x89PNG"))
 
 # ---- an equation of two parallel displacements is a lever, whose load has its place by their factors
@@ -100,6 +102,27 @@ for number, trial in itertools.product((1, 3, 8, 20), range(20)):
     told(f"{number} labels, trial {trial}: none over another", not clashes, clashes)
     told(f"{number} labels, trial {trial}: none is cut off",
            all(one.left >= 0 and one.left + one.width <= 9.25 for one in some))
+
+# ---- dimension lines of layers, which other bodies have not; symbols that keep apart
+
+
+def layers(second_from):
+    """What the program finds of two layers of 10 x 1, the upper one from `second_from` on."""
+    points = [[0, 0, 0], [10, 0, 0], [10, 1, 0], [0, 1, 0], [second_from, 1, 0], [10, 1, 0], [10, 2, 0], [second_from, 2, 0]]
+    return {"dimension": 2, "title": "layers", "scales": [[1.0, "mm"]], "remarks": [], "points": points, "offsets": [0, 4, 8],
+            "faces": list(range(8)), "body": [0, 1], "bodies": [{"name": "a", "material": "m"}, {"name": "b", "material": "m"}],
+            "interfaces": [], "marks": [{"kind": "support", "text": "roller: uy = 0", "directions": [[0, 1]],
+                                         "points": [[x, 0, 0] for x in np.linspace(3.95, 4.05, 15)]}]}
+
+
+for second_from in (0, 2):
+    figure = drawing.scene_figure(layers(second_from))
+    texts = {text.get_text() for text in figure.texts}
+    told(f"layers from {second_from} have dimensions", ({"4", "6", "10 mm", "1"} <= texts) == (second_from == 0), texts)
+    marks = [line for line in figure.axes[0].lines if line.get_marker() not in ("None", "o", "", None)]
+    told("fifteen nodes under a roller are one symbol, in their middle",
+         len(marks) == 1 and len(marks[0].get_xdata()) == 1 and abs(marks[0].get_xdata()[0] - 4) < 0.05)
+told("supports above the bodies are drawn above them", drawing.outwards(np.array([[4.0, 2.0]]), np.zeros(2), np.array([10.0, 2.0])) == 180)
 
 # ---- two cubes on one another in space
 

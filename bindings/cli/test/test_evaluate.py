@@ -227,17 +227,24 @@ def drawing():
     from specimens.points import Point
     kept = []
     pictures.save = lambda figure, path: kept.append(figure)
-    answer = Answer("method", np.array([1e-3, 2e-3, 3e-3]), np.full(3, 0.03), np.array([-5.0, 300.0, 400.0]), None, {})
-    points = types.SimpleNamespace(points=[Point("NL", 1, 1e-3, 10.0), Point("5 %", 1, 1e-3, 10.0), Point("max", 1, 1e-3, 10.0)])
-    pictures.draw("nowhere", types.SimpleNamespace(displacement=np.arange(3.0), load=np.arange(3.0)), [answer], points, [])
+    answer = Answer("method", np.array([1e-3, 2e-3, 3e-3]), np.full(3, 0.03), np.array([-5.0, 300.0, 400.0]), lambda d, p, a: p, {})
+    points = types.SimpleNamespace(points=[Point("NL", 1, 1e-3, -5.0), Point("5 %", 1, 1e-3, 300.0), Point("max", 1, 1e-3, 400.0)], zero=0.0)
+    curve = types.SimpleNamespace(displacement=np.arange(3.0), load=np.arange(3.0), whole=None)
+    pictures.draw("nowhere", curve, [answer], points, [])
     right = kept[0].axes[1]
+    expect([text.get_text() for text in right.get_xticklabels()] == ["NL", "5 %", "max"] and right.lines[0].get_ydata().tolist() == [-5, 300, 400]
+           and right.get_xlabel().endswith("crack 30 mm"), "toughnesses of one crack stand over the points")
     expect("$" not in right.get_ylabel() and "J/m²" in right.get_ylabel(), f"the unit is text: {right.get_ylabel()}")
     expect(all(line.get_linestyle() == "None" for line in right.lines), "three values at one crack are points, no line")
     expect(right.get_ylim()[0] < -5 and right.get_ylim()[1] > 400, f"all values are in sight: {right.get_ylim()}")
     answer = Answer("calibration", np.linspace(0.0, 1e-3, 50), np.full(50, 0.03), np.linspace(0.0, 1e9, 50), lambda d, p, a: 70.0 * p, {})
-    points.zero = 0.0
-    pictures.draw("nowhere", types.SimpleNamespace(displacement=np.arange(3.0), load=np.arange(3.0)), [answer], points, [])
+    points.points = [Point("NL", 1, 1e-3, 10.0), Point("5 %", 1, 1e-3, 10.0), Point("max", 1, 1e-3, 10.0)]
+    grows = Answer("effective crack", np.array([1e-3, 2e-3]), np.array([0.03, 0.04]), np.array([700.0, 710.0]), lambda d, p, a: 70.0 * p, {})
+    curve.whole = np.array([0.0, 1.0, 0.2, 3.0]), np.array([0.0, 1.0, 0.1, 3.0])
+    pictures.draw("nowhere", curve, [answer, grows], points, [])
     column = kept[1].axes[1].lines[0]
+    expect(kept[1].axes[1].get_xlabel() == "crack length (mm)" and kept[1].axes[1].lines[1].get_xdata().tolist() == [30, 40], "else over the crack")
+    expect(kept[1].axes[0].lines[0].get_xdata().tolist() == [0, 1000, 200, 3000], "unloadings are drawn")
     expect(column.get_ydata().tolist() == 3 * [700.0] and column.get_linestyle() == "None" and kept[1].axes[1].get_ylim()[1] < 1e3,
            f"a calibration has its values at the points, not all of the load: {column.get_ydata()}")
     sizes = [line.get_markersize() for line in kept[0].axes[0].lines[1:]]
@@ -313,6 +320,19 @@ def implausible():
     expect_error(start(*words, "--calibration", f"30mm={files[0.03]}", "--calibration", f"40mm={files[0.04]}"), 2,
                  "30 mm is the length of --notch, too")
     expect_error(start("evaluate", "dcb", files[0.03], "--notch", "50mm", *dcb), 2, "1 to 1000 GPa are expected")
+    # The whole thickness for that of an arm, by the standards and by the modulus; the whole span for its half.
+    for sheet, wanted in ((["--arm", "3mm"], "--arm 3mm is one arm, .* give --thickness 3mm if that is the whole specimen, --thickness 6mm"),
+                          (["--thickness", "6mm", "--E1", "140GPa"], "would agree if --arm is that of the whole specimen"),
+                          (["--thickness", "3mm", "--arm", "2mm"], "contradict each other")):
+        expect_error(start("evaluate", "dcb", path, "--notch", "50mm", "--width", "25mm", *sheet, "--out", out), 2, wanted)
+    expect_error(start(*words[:5], "--half-span", "100mm", *dcb, "--E1", "140GPa"), 2, "would agree if --half-span is the whole span")
+    found = []
+    for sheet in (["--arm", "1.5mm"], ["--thickness", "3mm"]):
+        code, _, error = start("evaluate", "dcb", path, "--notch", "50mm", "--width", "25mm", *sheet, "--out", out)
+        expect(code == 0, error)
+        with open(os.path.join(out, "evaluate.json"), encoding="utf-8") as file:
+            found.append(json.load(file)["toughness"])
+    expect(found[0] == found[1], "both thicknesses are the same specimen")
     expect_error(start(*words, "--span", "90mm"), 2, "contradict each other")
     expect_error(start(*words, "--halfspan", "90mm"), 2, "--halfspan: `delam evaluate` has no such option .did you mean '--half-span'")
     expect_error(start("evaluate", "dcb", path, "--notch", "50mm", "--width", "25mm", "--arm", "-1.5mm", "--out", out), 2,

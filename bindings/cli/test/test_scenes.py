@@ -148,7 +148,7 @@ soft, _ = proposals(SCENE)
 expect(len(soft) == 1 and soft[0]["law"] == "ductile" and soft[0]["interfaces"] == ["lower-upper"], f"a proposal: {soft}")
 keys = soft[0]["keys"]
 expect(abs(keys["normal_stiffness"] - 50 * 75e9 / 0.003) < 1e-9 * 1.25e15 and abs(keys["normal_strength"] - 5e6) < 1, f"{keys}")
-expect("propose     law \"ductile\", normal_stiffness = 1.250e+15" in delam("check", write(SCENE))[1], "the same for people")
+expect("propose     law \"ductile\", normal_stiffness = 1.25e+15" in delam("check", write(SCENE))[1], "the same for people")
 
 
 def pasted(text, keys):

@@ -101,7 +101,7 @@ def flaws():
     scene, _, error = made("laminate", [*sheet, *flaw])
     about = tomllib.loads(read(scene).decode())
     expect(about["interfaces"][0]["notch"] == [{"lower": [6.0, 2.5], "upper": [10.0, 5.5]}] and "law" in about["interfaces"][0]
-           and not any("notch" in one for one in about["interfaces"][1:]) and "flaw" not in error, f"where it lies: {error}")
+           and not any("notch" in one for one in about["interfaces"][1:]) and "the flaw" not in error, f"where it lies: {error}")
     rows, _ = rows_of(scene, "--set", "time.steps=1", "--set", "output.columns=['crack_area']")
     # The pairs within, and half of those of its border at most, lie in it.
     expect(0.7 * 12 < float(rows[0]["crack_area"]) < 12 * 1.3, f"its area: {rows[0]['crack_area']}")
@@ -172,24 +172,69 @@ def places():
     good = [*PLY, *KINDS["dcb"][0].split()]
     _, _, error = made("dcb", [*good, "--normal-strength", "57MPa", "--growth", "30mm"])
     expect("between two pairs" not in error, f"the notch ends at a pair: {error}")
-    _, _, error = made("dcb", [*good[:-1], "250kJ/m2"])
-    expect("250 kJ/m" in error and "suggest" not in error, f"a toughness of another unit: {error}")
+    for toughness, value in (("250kJ/m2", "2.5e+05 J/m2"), ("0.25J/m2", "0.25 J/m2")):
+        _, _, error = delam("new", "dcb", *good[:-1], toughness)
+        expect(f"--GIc {toughness} is {value}, and specimens have 40 to 6000 J/m2: 250J/m2 may be meant" in error and "[units]" not in error,
+               f"a toughness of another unit: {error}")
+    _, _, error = delam("new", "dcb", *(word if word != "140GPa" else "140MPa" for word in good))
+    expect("--E1 140MPa is 0.14 GPa" in error and ": 140GPa may be meant" in error, f"a modulus: {error}")
+    for kind, sheet in {**{kind: [*PLY, *one[0].split()] for kind, one in KINDS.items()},
+                        **{kind: one.split() for kind, one in OTHERS.items()}}.items():
+        _, _, error = made(kind, sheet, "--replace")
+        expect("may be meant" not in error and "specimens have" not in error, f"{kind}: usual numbers are not told: {error}")
+    thick = [word if word != "1.5mm" else "3mm" for word in good]
+    expect_error(delam("new", "dcb", *thick), 2, "--arm 3mm is one arm, which makes a specimen of 6 mm; .* --thickness 3mm if that is the whole")
+    whole = [{"--arm": "--thickness", "1.5mm": "3mm"}.get(word, word) for word in good]
+    texts = [delam("new", "dcb", *sheet)[1].split("\n", 1)[1] for sheet in (good, whole)]
+    expect(texts[0] and texts[0] == texts[1], "the whole thickness instead of that of an arm")
+    thick = [{"--arm": "--thickness", "1.5mm": "6mm"}.get(word, word) for word in good]
+    code, _, error = delam("new", "dcb", *thick)
+    expect(code == 0 and "it is 6 mm" in error, f"a thick specimen that is meant: {error}")
     _, text, _ = made("mmb", [*PLY, *KINDS["mmb"][0].split()])
     expect("toughness 372.2 J/m2" in text, f"the toughness of a mixed test: {text}")
 
 
+def proposals():
+    """What the sheet leaves out and the scene has is said, in the scene and on the terminal, with its value; what the sheet has
+    is not. Strengths of a laminate decide when its edges delaminate: a warning says so, and what it advises is resolved."""
+    good = [*PLY, *KINDS["dcb"][0].split()]
+    scene, text, error = made("dcb", [word for word in good if word not in ("--nu12", "0.3", "--nu23", "0.45")])
+    about, comments = tomllib.loads(read(scene).decode()), " ".join(read(scene).decode().replace("\n# ", " ").split())
+    strength = about["laws"][0]["normal_strength"]
+    for said in (" ".join(text.split()), comments):
+        expect("nu12 = 0.3, nu23 = 0.45, the toughness of mode II is that of mode I, 0.25 N/mm: not in the sheet (--nu12, --nu23, --GIIc)"
+               in said and f"{strength:g} MPa in opening" in said and "eta" not in said, f"what is proposed: {said}")
+    whole = [*good, "--GIIc", "0.7N/mm", "--eta", "2", "--normal-strength", "30MPa", "--shear-strength", "50MPa"]
+    scene, text, error = made("dcb", whole, "--replace")
+    expect("Proposed" not in read(scene).decode() and "not in the sheet" not in text + error, f"nothing is: {text}")
+    sheet = ("--layup 0/90/90/0 --ply 0.5mm --width 6mm --length 2mm --E1 126GPa --E2 11GPa --G12 6.6GPa --GIc 220J/m2 --GIIc 600J/m2 "
+             "--strain 1%").split()
+    scene, _, error = made("laminate", sheet)
+    law = tomllib.loads(read(scene).decode())["laws"][0]
+    said = f"strengths of {law['normal_strength']:g} MPa in opening and {law['tangential_strength']:g} MPa in shear are proposed"
+    expect("warning: " + said in error and said in " ".join(read(scene).decode().replace("\n# ", " ").split()), f"a laminate: {error}")
+    advice = re.search(r"for example (--normal-strength \S+ --shear-strength \S+ --cell [\d.]+mm)", error)[1].split()
+    scene, _, error = made("laminate", [*sheet, *advice], "--replace")
+    expect("proposed" not in error and "shorter than" not in error, f"what it advises is resolved: {error}")
+
+
 def standards():
-    """Each sheet breaks one rule, and the good one none."""
+    """Each sheet breaks one rule, and the good one none: no rules exclude each other."""
     for kind, changes, wanted in (
             ("dcb", {}, None), ("dcb", {"--arm": "1mm"}, "a thickness of 3 to 5 mm"), ("dcb", {"--notch": "30mm"}, "a notch of about"),
-            ("dcb", {"--GIc": "5kJ/m2"}, "a thickness of at least"), ("enf", {"--half-span": "60mm"}, "a half span of 50 mm"),
-            ("mmb", {}, None), ("mmb", {"--lever": "20mm"}, "a share of mode II"), ("4enf", {"--notch": "22mm"}, "a notch that ends between the noses"),
+            ("dcb", {"--GIc": "5kJ/m2"}, "a thickness of 3.7 to 5 mm"),
+            ("dcb", {"--GIc": "15kJ/m2"}, "a thickness of 5.3 mm at least"), ("dcb", {"--GIc": "15kJ/m2", "--arm": "2.7mm"}, None),
+            ("enf", {}, None), ("enf", {"--notch": "36mm"}, "a notch of 30 mm from the support; it is 36 mm, from which the crack grows stably"),
+            ("enf", {"--notch": "25mm"}, "a notch of 30 mm from the support; it is 25 mm"),
+            ("mmb", {"--half-span": "60mm", "--notch": "20mm"}, "a notch of about half of the half span, 24 to 36 mm; it is 20 mm"), ("enf", {"--half-span": "60mm"}, "a half span of 50 mm"),
+            ("mmb", {}, None), ("mmb", {"--lever": "20mm"}, "a share of mode II"), ("4enf", {"--notch": "22mm"}, "a notch that ends between the noses and a thickness away from them, from 24 to 76 mm; it is 22 mm"),
             ("slb", {"--growth": "30mm"}, "a crack shorter than the half span")):
         words = [*PLY, *KINDS[kind][0].split()]
         for key, value in changes.items():
             words = words + [key, value] if key not in words else [
                 value if i and words[i - 1] == key else word for i, word in enumerate(words)]
-        _, _, error = made(kind, words)
+        _, text, error = made(kind, words)
+        expect(("the crack jumps at the peak" in text) == (kind == "enf" and changes.get("--notch") != "36mm"), f"{kind} {changes}: {text}")
         asks = [line for line in error.splitlines() if "asks for" in line]
         expect(not asks if wanted is None else any(wanted in line for line in asks), f"{kind} {changes}: {asks}")
 
@@ -210,6 +255,7 @@ else:
     units()
     flaws()
     places()
+    proposals()
     standards()
     peaks()
 finish()

@@ -61,7 +61,9 @@ for out, text in ((plain, changed("steps = 20", "steps = 4")), (named, changed("
 expect(read(os.path.join(plain, "history.csv")) == read(os.path.join(named, "history.csv")), "names change no number")
 balance = {out: next(line for line in lines[out].splitlines() if "energy balance" in line) for out in lines}
 expect(not re.search(r"[0-9] [nµmk]?J/m", balance[plain]) and re.search(r"[0-9] [mk]?J/m", balance[named]), str(balance))
+expect(len(set(re.findall(r"[0-9] ([nµmk]?J/m)", balance[named]))) == 1, f"one unit for the energies of a run: {balance[named]}")
 units = json.loads(read(os.path.join(named, "result.json")))["units"]
+expect([one["name"] for one in units["scales"]["release_rate"]] == ["J/m²"], f"toughness: {units['scales']['release_rate']}")
 scales = {one["name"]: one["factor"] for one in units["scales"]["length"]}
 expect(abs(scales["mm"] - 1e3) < 1e-9 and scales["m"] == 1 and units["scales"]["stress"], f"units to choose from: {scales}")
 finish()

@@ -72,5 +72,38 @@ class Pictures(unittest.TestCase):
             delam.plot.bodies(solver)
 
 
+@unittest.skipUnless(importlib.util.find_spec("matplotlib"), "matplotlib is not installed")
+class Units(unittest.TestCase):
+    """Quantities that are compared have one unit in the pictures of a result, whatever part of them a picture shows."""
+
+    def result(self, dimension, drives):
+        from delam._pictures.result import Result
+        of = Result.__new__(Result)
+        powers = [{"factor": factor, "name": name} for factor, name in ((1e6, "u"), (1e3, "m"), (1, ""), (1e-3, "k"))]
+        keys = ("length", "area", "force", "line_force", "energy", "line_energy", "release_rate", "stress")
+        scales = {key: [{**one, "name": one["name"] + key} for one in powers] for key in keys}
+        of.about = {"units": {"scales": scales, "time": "s"}, "scene": {"dimension": dimension},
+                    "patterns": [{"name": name, "drives": kind} for name, kind in drives.items()]}
+        of.cell, suffix = None, {name: f"_{name}" if len(drives) > 1 else "" for name in drives}
+        of.history = {"stored_bulk": np.array([0.0, 5e3]), "stored_interface": np.array([0.0, 2e-5]),
+                      "dissipated": np.array([0.0, 1.0]), "work": np.array([0.0, 4e3]),
+                      "energy_release_rate": np.array([0.0, 0.01])}
+        for (name, kind), largest in zip(drives.items(), (3e4, 1e7)):
+            of.history["reaction" + suffix[name]] = np.array([0.0, -largest])
+        of.name_units()
+        return of
+
+    def test_one_unit(self):
+        for dimension, line in ((2, "line_"), (3, "")):
+            of = self.result(dimension, {"pull": "displacement", "swell": "strain"})
+            self.assertEqual([of.text(value, "force") for value in (3e4, 20.0)],
+                             [f"30 k{line}force", f"0.02 k{line}force"])
+            self.assertEqual([of.unit("energy", value) for value in (1e-9, 1.0, 1e9)], [f"k{line}energy"] * 3)
+            self.assertEqual(of.text(1e7, "energy"), f"10000 k{line}energy")
+            self.assertEqual(of.text(0.002, "release_rate"), "2 mrelease_rate")
+            self.assertEqual([of.unit("length", value) for value in (0.01, 1.0)], ["mlength", "length"])
+            self.assertEqual(of.text(0.01, "length", largest=1.0), "0.01 length")
+
+
 if __name__ == "__main__":
     support.main()

@@ -210,7 +210,7 @@ void say_lines_of(const Found& found) {
     for (const Found& proposal : found["proposals"]) {
         std::vector<std::string> keys;
         for (const auto& [key, value] : proposal["keys"].items())
-            keys.push_back(fmt::format("{} = {:.3e}", key, value.get<double>()));
+            keys.push_back(fmt::format("{} = {:.4g}", key, value.get<double>()));
         const std::string line = fmt::format("propose     law \"{}\", {}: {}", text(proposal, "law"),
                                              fmt::join(keys, ", "), text(proposal, "reason"));
         say("{}\n", wrapped(line, plan_width));

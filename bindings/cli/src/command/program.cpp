@@ -286,6 +286,7 @@ void add_evaluate(CLI::App& app, Arguments& into, Commands& of) {
     };
     for (const Entry& entry :
          {Entry{"width", "width of the specimen with its unit, e.g. 25mm"}, Entry{"arm", "thickness of one arm"},
+          Entry{"thickness", "thickness of both arms together, instead of --arm"},
           Entry{"notch", "length of the starter crack, from the line of load (dcb, mmb) or the support (enf)"},
           Entry{"span", "distance of the outer supports, of enf and mmb"},
           Entry{"half-span", "half of it, instead of --span"},

@@ -135,6 +135,7 @@ std::string composed(const Naming& naming, const UnitNames& names) {
 }
 
 constexpr double least_shown = 0.2, most_shown = 2000;  // of the unit that the scene names
+constexpr double most_whole = 1e6;                      // larger numbers have an exponent
 
 }  // namespace
 
@@ -181,8 +182,12 @@ std::vector<Scale> scales_of(Quantity quantity, const UnitNames& names) {
         const double factor = own / std::pow(prefix.factor, naming.power);
         const bool is_own = std::abs(factor - 1) < 1e-9;
         has_own = has_own || is_own;
-        out.push_back(
-            {is_own ? 1.0 : factor, prefix.name + std::string(naming.symbol) + power_text(naming.power) + below});
+        const std::string name = prefix.name + std::string(naming.symbol) + power_text(naming.power) + below;
+        // A toughness is written in J/m², or in the units of the scene (N/mm); no other prefix.
+        if (naming.per_metre == 0 || prefix.factor == 1.0)
+            out.push_back({is_own ? 1.0 : factor, name});
+        else if (is_own)
+            out.push_back({1.0, composed(naming, names)});
     }
     if (!has_own) return {{1.0, composed(naming, names)}};  // e.g. cm
     return out;
@@ -203,12 +208,13 @@ const Scale& suiting(const std::vector<Scale>& scales, double largest) {
     return *best;
 }
 
-std::string with_unit(double number, Quantity quantity, const UnitNames& names) {
+std::string with_unit(double number, Quantity quantity, const UnitNames& names, double largest) {
     const std::vector<Scale> scales = scales_of(quantity, names);
-    const Scale& scale = suiting(scales, number);
+    const Scale& scale = suiting(scales, std::max(std::abs(number), largest));
     const double shown = number * scale.factor;
-    const int digits = !scale.name.empty() && std::abs(shown) >= 1000 && std::abs(shown) < most_shown ? 4 : 3;
-    return fmt::format("{:.{}g}{}{}", shown, digits, scale.name.empty() ? "" : " ", scale.name);
+    const bool whole = !scale.name.empty() && std::abs(shown) >= 999.5 && std::abs(shown) < most_whole;
+    return fmt::format("{}{}{}", whole ? fmt::format("{:.0f}", shown) : fmt::format("{:.3g}", shown),
+                       scale.name.empty() ? "" : " ", scale.name);
 }
 
 }  // namespace cli

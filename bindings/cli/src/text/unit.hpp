@@ -48,7 +48,7 @@ std::vector<Scale> scales_of(Quantity quantity, const UnitNames& names);
 // Returns the scale for numbers up to `largest` in size: that with factor 1 where they are neither tiny nor huge.
 const Scale& suiting(const std::vector<Scale>& scales, double largest);
 
-// "5.08 mm" for 0.00508 in a scene in m.
-std::string with_unit(double number, Quantity quantity, const UnitNames& names);
+// "5.08 mm" for 0.00508 in a scene in m; in the unit that suits `largest` where numbers up to it stand beside this one.
+std::string with_unit(double number, Quantity quantity, const UnitNames& names, double largest = 0);
 
 }  // namespace cli

@@ -101,7 +101,7 @@ class Misfit:
         key = (self.model.fine, np.asarray(at).tobytes())
         if key not in self.known:
             found, text = self._evaluate(at, not self.known)
-            shown = "  ".join(f"{p.path} {v:.6g}" for p, v in zip(self.model.parameters, self.values(at)))
+            shown = "  ".join(f"{p.path} {v:.4g}" for p, v in zip(self.model.parameters, self.values(at)))
             coarse = self.model.begins_coarse
             say(f"analysis {self.count}{' with coarse steps' if coarse else ''}: {text}  {shown}")
             self.known[key] = found

@@ -8,11 +8,16 @@ from look import BLUE, GREY, ORANGE, RED, plt, save
 
 # Below this number of places a method has points, not a curve; marks are drawn as they are.
 CURVE = 40
+LIGHT = "#b9bec6"
+MARKS = (("o", BLUE), ("s", ORANGE), ("^", RED), ("v", GREY))
 
 
 def draw(out, curve, answers, points, bands):
     """Lengths in mm, loads in N, toughnesses in J/m2. bands: those of a fit with their intervals."""
     figure, (left, right) = plt.subplots(1, 2, figsize=(10, 4.2), constrained_layout=True)
+    if curve.whole:
+        x, y = curve.whole
+        left.plot(1e3 * x, y, color=LIGHT, linewidth=0.8, label="with unloadings")
     left.plot(1e3 * curve.displacement, curve.load, color=GREY, linewidth=0.8)
     # Points may coincide: the later ones are smaller.
     for point, (marker, size) in zip(points.points, (("o", 11), ("s", 8), ("D", 6), ("^", 4))):
@@ -21,8 +26,38 @@ def draw(out, curve, answers, points, bands):
     left.set_xlabel("displacement (mm)")
     left.set_ylabel("load (N)")
     left.legend()
-    marks = iter((("o", BLUE), ("s", ORANGE), ("^", RED), ("v", GREY)))
-    drawn = []
+    drawn = at_points(right, answers, points) if one_crack(answers) else along_crack(right, answers, points)
+    for key, value, low, high in bands:
+        if low == low and high == high:
+            right.axhspan(low, high, color=BLUE, alpha=0.15, label=f"fit: {key}")
+        right.axhline(value, color=BLUE, linewidth=0.8, label=None if low == low and high == high else f"fit: {key}")
+    right.set_ylabel("toughness (J/m²)")
+    rates = np.concatenate(drawn + [[end] for band in bands for end in band[1:] if end == end])
+    right.set_ylim(min(0.0, 1.05 * np.min(rates)), 1.15 * max(np.max(rates), 0.0))
+    right.legend(fontsize="small")
+    save(figure, os.path.join(out, "evaluate.png"))
+
+
+def one_crack(answers):
+    """True if all toughnesses belong to one crack length: there is no R-curve."""
+    return np.ptp(np.concatenate([answer.crack for answer in answers])) <= 0
+
+
+def at_points(ax, answers, points):
+    """Draws the toughness at the points of the standard; returns the toughnesses of each method."""
+    names = [point.name.partition(" (")[0] for point in points.points]
+    rates = [np.array([answer.at(point, points.zero) for point in points.points]) for answer in answers]
+    for answer, rate, (marker, colour) in zip(answers, rates, MARKS):
+        ax.plot(range(len(names)), rate, marker, color=colour, label=answer.name, fillstyle="none")
+    ax.set_xticks(range(len(names)), names)
+    ax.set_xlim(-0.5, len(names) - 0.5)
+    ax.set_xlabel(f"point of the curve, crack {1e3 * answers[0].crack[0]:g} mm")
+    return rates
+
+
+def along_crack(ax, answers, points):
+    """Draws the toughness over the crack length; returns the toughnesses of each method."""
+    marks, drawn = iter(MARKS), []
     for answer in answers:
         crack, rate = answer.crack, answer.rate
         # A method for one crack length has no curve over lengths: its values at the points of the standard.
@@ -30,15 +65,7 @@ def draw(out, curve, answers, points, bands):
             rate = np.array([answer.at(point, points.zero) for point in points.points])
             crack = np.full(len(rate), crack[0])
         style, colour = ("-", GREY) if len(rate) >= CURVE else next(marks)
-        right.plot(1e3 * crack, rate, style, color=colour, label=answer.name, fillstyle="none")
+        ax.plot(1e3 * crack, rate, style, color=colour, label=answer.name, fillstyle="none")
         drawn.append(rate)
-    for key, value, low, high in bands:
-        if low == low and high == high:
-            right.axhspan(low, high, color=BLUE, alpha=0.15, label=f"fit: {key}")
-        right.axhline(value, color=BLUE, linewidth=0.8, label=None if low == low and high == high else f"fit: {key}")
-    right.set_xlabel("crack length (mm)")
-    right.set_ylabel("toughness (J/m²)")
-    rates = np.concatenate(drawn + [[end] for band in bands for end in band[1:] if end == end])
-    right.set_ylim(min(0.0, 1.05 * np.min(rates)), 1.15 * max(np.max(rates), 0.0))
-    right.legend(fontsize="small")
-    save(figure, os.path.join(out, "evaluate.png"))
+    ax.set_xlabel("crack length (mm)")
+    return drawn

@@ -4,16 +4,17 @@ import re
 
 from command import Trouble, complain
 from measured.units import kind_of, quantity
+from specimens.thickness import taken_for_arm
 
 # key: its kind, and an example.
-SHEET = {"width": ("length", "25mm"), "arm": ("length", "1.5mm"), "notch": ("length", "50mm"), "span": ("length", "100mm"),
+SHEET = {"width": ("length", "25mm"), "arm": ("length", "1.5mm"), "thickness": ("length", "3mm"), "notch": ("length", "50mm"), "span": ("length", "100mm"),
          "half-span": ("length", "50mm"), "lever": ("length", "41.3mm"), "block-pin": ("length", "5mm"),
          "block-length": ("length", "10mm"), "E1": ("stress", "140GPa"), "E2": ("stress", "10GPa"), "G13": ("stress", "5GPa"),
          "G12": ("stress", "5GPa"), "compliance": ("length/force", "2e-5mm/N")}
 NEEDED = {"dcb": ("width", "arm", "notch"), "enf": ("width", "arm", "notch", "span"),
           "mmb": ("width", "arm", "notch", "span", "lever", "E1", "E2", "G13")}
-# Two names of one number, and the factor: `delam new` has the second of each.
-SAME = (("span", "half-span", 2.0), ("G13", "G12", 1.0))
+# Two names of one number, and the factor.
+SAME = (("span", "half-span", 2.0), ("G13", "G12", 1.0), ("arm", "thickness", 0.5))
 # The modulus that the initial compliance has over E1: bending tests give 0.8 to 1.1 of that of tension, so that beyond the
 # first pair something else is likely wrong, and beyond the second certain: units differ by factors of ten. Half of these
 # distances would complain of soft fixtures, twice of them would miss the whole span taken for its half.
@@ -38,6 +39,9 @@ def sheet_of(given):
             if abs(sheet.get(key, value) / value - 1) > 1e-6:
                 raise Trouble(f"--{key} {given.sheet[key]} and --{other} {given.sheet[other]} contradict each other: give one of them")
             sheet[key] = value
+    mistaken = taken_for_arm(given.test, 1e3 * sheet.get("arm", 0.0), given.sheet)
+    if mistaken:
+        raise Trouble(mistaken)
     missing = [f"--{key}" for key in NEEDED[given.test] if key not in sheet]
     if missing:
         raise Trouble(f"{given.test} needs {', '.join(missing)}")
@@ -48,8 +52,23 @@ def sheet_of(given):
     return sheet
 
 
-def require_modulus(modulus, compliance, sheet, curve):
-    """Refuses a bending modulus that no specimen has, and warns of an unlikely one."""
+# Mistakes that change the modulus, the factor that makes up for each, and what was likely given.
+MISTAKES = (("arm", 0.5, "--arm is that of the whole specimen (--thickness)"), ("span", 2.0, "--span is half of the span (--half-span)"),
+            ("span", 0.5, "--half-span is the whole span (--span)"))
+MADE_UP = (0.7, 1.3)  # modulus over --E1 without the mistake: bending tests give 0.8 to 1.1, and a compliance has an error
+
+
+def mistake(modulus_of, sheet):
+    """What was likely taken for something else, because the modulus would be --E1 without that mistake; nothing if none."""
+    for key, factor, what in MISTAKES:
+        if key in sheet and MADE_UP[0] < modulus_of({**sheet, key: factor * sheet[key]}) / sheet["E1"] < MADE_UP[1]:
+            return what
+    return ""
+
+
+def require_modulus(modulus_of, compliance, sheet, curve):
+    """Refuses a bending modulus, a function of the sheet, that no specimen has, and warns of an unlikely one."""
+    modulus = modulus_of(sheet)
     said = (f"{curve.path}: the initial compliance of {1e3 * compliance:.4g} mm/N ({curve.read_as}) gives a bending modulus of "
             f"{modulus / 1e9:.4g} GPa")
     advice = "units of the file (--units), another test, or a wrong --notch, --arm, --width or --span are likely"
@@ -57,6 +76,9 @@ def require_modulus(modulus, compliance, sheet, curve):
         ratio, wanted = modulus / sheet["E1"], f", --E1 is {sheet['E1'] / 1e9:g} GPa"
     else:
         ratio, wanted = None, f": {MODULI[0] / 1e9:g} to {MODULI[1] / 1e9:g} GPa are expected"
+    what = mistake(modulus_of, sheet) if ratio is not None and not LIKELY[0] < ratio < LIKELY[1] else ""
+    if what:
+        raise Trouble(f"{said}{wanted}, and would agree if {what}")
     if not (CERTAIN[0] < ratio < CERTAIN[1] if ratio is not None else MODULI[0] < modulus < MODULI[1]):
         raise Trouble(f"{said}{wanted}: {advice}")
     if ratio is not None and not LIKELY[0] < ratio < LIKELY[1]:

@@ -27,7 +27,7 @@ function extent(lists) {
 }
 
 export class Chart {
-  // curves: {name, x, y, colour, dash, path: points that are drawn instead, [x, y]}; jumps: {x0, y0, x1, y1}, or {x} across the chart; failed: rows that are marked.
+  // curves: {name, x, y, colour, dash, path: points that are drawn instead, [x, y], with null where the curve jumps}; jumps: {x0, y0, x1, y1}, or {x} across the chart; failed: rows that are marked.
   // near: 'x', or 'both' where a curve may turn back. onRow: called with the row that was chosen.
   constructor(parent, { title, xLabel, yLabel, curves, jumps = [], failed = [], near = 'x', onRow }) {
     Object.assign(this, { title, xLabel, yLabel, curves, jumps, failed, near, onRow, row: 0 });
@@ -76,7 +76,7 @@ export class Chart {
     const height = Math.max(170, Math.min(240, 0.55 * width));
     svg.attr('height', height).attr('viewBox', `0 0 ${width} ${height}`);
     svg.selectAll('*').remove();
-    const drawn = this.curves.flatMap(({ path = [] }) => path);
+    const drawn = this.curves.flatMap(({ path = [] }) => path.filter((point) => point !== null));
     const jumpX = this.jumps.flatMap(({ x, x0, x1 }) => (x === undefined ? [x0, x1] : [x])).concat(drawn.map(([x]) => x));
     const jumpY = this.jumps.flatMap(({ y0, y1 }) => (y0 === undefined ? [] : [y0, y1])).concat(drawn.map(([, y]) => y));
     const format = (value) => number(value, 3);
@@ -101,13 +101,15 @@ export class Chart {
       .attr('y', height - 6)
       .attr('text-anchor', 'middle')
       .text(this.xLabel);
-    svg
+    const upright = svg
       .append('text')
       .attr('class', 'name')
       .attr('text-anchor', 'middle')
       .attr('transform', `translate(12,${(height - margin.bottom + margin.top) / 2}) rotate(-90)`)
       .text(this.yLabel);
-    this.drawJumps(svg, height);
+    // A long name, such as that of a conjugate, would pass the ends of the axis.
+    const room = (height - margin.bottom - margin.top) / upright.node().getComputedTextLength();
+    if (room < 1) upright.style('font-size', `${13.5 * room}px`);
     for (const { x, y, colour, dash, path = y.map((value, i) => [x[i], value]) } of this.curves) {
       svg
         .append('path')
@@ -119,9 +121,10 @@ export class Chart {
           line(
             (point) => this.x(point[0]),
             (point) => this.y(point[1]),
-          )(path),
+          ).defined((point) => point !== null)(path),
         );
     }
+    this.drawJumps(svg, height);
     const arm = 4;
     for (const row of this.failed) {
       const [x, y] = [this.x(this.curves[0].x[row]), this.y(this.curves[0].y[row])];

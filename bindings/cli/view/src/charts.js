@@ -21,12 +21,13 @@ function jumpAlong(curve, jump) {
     : [{ step, x0: load * xFactor, y0: before * yFactor, x1: load * xFactor, y1: after * yFactor }];
 }
 
-// The points of a load curve and, within their steps, those between which it jumps: the peaks are on the curve.
+// The points of a load curve and, within their steps, those between which it jumps: the peaks are on the curve. Jumps that
+// are marked are no part of it.
 function path(curve, steps, jumps) {
   const points = [];
   steps.forEach((step, row) => {
     for (const jump of jumps.filter((one) => one.step === step))
-      points.push([jump.x0, jump.y0], [jump.x1, jump.y1]);
+      points.push([jump.x0, jump.y0], ...(jump.marked ? [null] : []), [jump.x1, jump.y1]);
     points.push([curve.x[row], curve.y[row]]);
   });
   return points;
@@ -45,7 +46,8 @@ export function makeCharts(parent, result, units, onRow) {
   const failed = steps.flatMap((step, row) => (bad.has(step) ? [row] : []));
   const jumps = largerJumps(result);
   for (const curve of loadCurves(result, units).slice(0, mostPatterns)) {
-    const along = result.jumps.flatMap((jump) => jumpAlong(curve, jump));
+    const marked = (jump) => jumps.includes(jump);
+    const along = result.jumps.flatMap((jump) => jumpAlong(curve, jump).map((one) => ({ ...one, marked: marked(jump) })));
     out.push(
       new Chart(parent, {
         title: curve.name ? `Load and displacement, ${curve.name}` : 'Load and displacement',
@@ -55,7 +57,7 @@ export function makeCharts(parent, result, units, onRow) {
         failed,
         onRow,
         curves: [{ name: '', x: curve.x, y: curve.y, path: path(curve, steps, along), colour: 'blue' }],
-        jumps: jumps.flatMap((jump) => jumpAlong(curve, jump)),
+        jumps: along.filter((one) => one.marked),
       }),
     );
   }

@@ -46,7 +46,7 @@ function drawTriad(camera) {
 class Page {
   constructor() {
     this.result = new Result(document);
-    this.units = new Units(this.result.about);
+    this.units = new Units(this.result);
     this.index = this.result.steps.length - 1;
     sayResult(this.result, this.units);
     this.charts = makeCharts(byId('charts'), this.result, this.units, (row) => this.show(this.result.stepOfRow(row)));

@@ -79,8 +79,17 @@ function readings(result, units, row, sums) {
   add('dissipated', 'dissipated', at('dissipated'), units.energy);
   add('work', 'work', at('work'), units.energy);
   const flat = result.about.scene.dimension === 2;
-  add('debonded', flat ? 'debonded length' : 'debonded area', at('debonded_length'), units.debonded);
-  add('crack_length', flat ? 'crack length' : 'crack area', at('crack_length'), units.debonded);
+  // Three measures, each with what it counts: on a stiff interface the adhesion, a stiffness, is nearly gone long before the
+  // toughness is.
+  const extent = flat ? 'length' : 'area';
+  add('debonded', `debonded ${extent}, without notches`, at('debonded_length'), units.debonded);
+  add('crack_area', `crack ${extent}, to the middle of the process zone`, at('crack_area'), units.debonded);
+  add(
+    'crack_length',
+    `${flat ? 'crack length' : 'softened area'} with notches, 1 − adhesion summed up`,
+    at('crack_length'),
+    units.debonded,
+  );
   add('energy_release_rate', 'energy release rate', at('energy_release_rate'), units.energyRate);
   add('displacement', 'largest displacement', sums.displacement, units.length);
   sums.adhesion.forEach((one, i) => {
@@ -124,7 +133,7 @@ const mostTones = 9;
 // field: title, unit and range of the colours of the bodies; null: they have their own.
 export function sayColours({ result, colours, field, adhesion }) {
   const parts = [];
-  if (adhesion) parts.push(bar('adhesion', colours.adhesion, ['0 debonded', '0.5', '1 intact']));
+  if (adhesion) parts.push(bar('adhesion (stiffness left)', colours.adhesion, ['0 debonded', '0.5', '1 intact']));
   if (field) {
     const { low, high } = field.range;
     parts.push(

@@ -18,6 +18,7 @@ const [leastShown, mostShown] = [0.2, 2000];
 
 // {factor, name} of the unit for numbers up to `largest`; scales: from the smallest unit to the largest (result.json).
 export function suiting(scales, largest) {
+  if (scales.length === 1) return scales[0];
   const own = scales.find(({ factor }) => factor === 1) ?? { factor: 1, name: '' };
   const size = Math.abs(largest);
   if (!(size > 0) || !Number.isFinite(size) || (size >= leastShown && size < mostShown)) return own;
@@ -28,8 +29,12 @@ export function suiting(scales, largest) {
 const largestOf = (values) =>
   values.reduce((most, value) => (Number.isFinite(value) ? Math.max(most, Math.abs(value)) : most), 0);
 
+// The scales of a quantity that has one unit on the whole page: that which suits the largest of these numbers.
+const one = (scales, ...lists) => [suiting(scales, Math.max(0, ...lists.map(largestOf)))];
+
 export class Units {
-  constructor(about) {
+  constructor(result) {
+    const { about } = result;
     const { length = '', force = '', time = '', scales = {} } = about.units ?? {};
     const flat = about.scene.dimension === 2;
     const known = Boolean(force && length);
@@ -42,6 +47,18 @@ export class Units {
     this.debonded = of(flat ? 'length' : 'area', length && !flat ? `${length}²` : length);
     this.energyRate = of('release_rate', known ? `${force}/${length}` : '');
     this.stress = of('stress', known ? `${force}/${length}²` : '');
+    // Energies, forces and toughnesses are compared with each other; lengths reach from displacements to specimens.
+    const columns = (...names) => names.map((name) => result.column(name));
+    const several = (about.patterns ?? []).length > 1;
+    const reactions = (about.patterns ?? []).map(({ name, drives }) => ({ of: several ? `reaction_${name}` : 'reaction', drives }));
+    const within = Boolean(about.cell);
+    this.force = one(this.force, ...columns(...reactions.filter(({ drives }) => drives === 'displacement').map(({ of: key }) => key)));
+    this.energy = one(
+      this.energy,
+      ...columns('stored_bulk', 'stored_interface', 'dissipated', 'work', 'load_potential'),
+      ...columns(...reactions.filter(({ drives }) => within || drives === 'strain').map(({ of: key }) => key)),
+    );
+    this.energyRate = one(this.energyRate, result.column('energy_release_rate'));
     this.none = [{ factor: 1, name: '' }];
   }
 }
@@ -74,7 +91,8 @@ export function loadCurves(result, units) {
     const reaction = result.column(`reaction${suffix}`);
     const curve = { name, suffix, force: drives === 'force' };
     const axes = (x, xName, xScales, y, yName, yScales) => {
-      const [across, up] = [scaled(xName, xScales, x), scaled(yName, yScales, y)];
+      // The upright axis is short: the reading below says of what it is the conjugate.
+      const [across, up] = [scaled(xName, xScales, x), scaled(yName.replace(' of the factor', ''), yScales, y)];
       return {
         ...curve,
         x: across.lists[0],

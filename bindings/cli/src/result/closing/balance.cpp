@@ -59,37 +59,44 @@ Balance balance_of(const Rows& rows, bool slides) {
 
 namespace {
 
+// Energies beside each other have the unit of the work.
+auto in_one_unit(const Balance& balance, const Scene& scene) {
+    return [&balance, &scene](double energy) { return energy_text(energy, scene, balance.work); };
+}
+
 // Returns what is said where there is no work to compare with; empty: there is.
 std::string without_work(const Balance& balance, const Scene& scene) {
+    const auto energy = in_one_unit(balance, scene);
     if (balance.work == 0.0 && balance.defect == 0.0) return "energy balance: no work was done";
     if (balance.work > least_work * std::abs(balance.defect)) return "";
     return fmt::format(
         "warning: energy balance: no work was done, and stored + dissipated + released is {} in {}: the steps are too "
         "long to follow the load",
-        energy_text(balance.defect, scene), instant_text(balance.step, balance.time));
+        energy(balance.defect), instant_text(balance.step, balance.time));
 }
 
 }  // namespace
 
 std::string balance_line(const Balance& balance, const Scene& scene) {
+    const auto energy = in_one_unit(balance, scene);
     if (std::string none = without_work(balance, scene); !none.empty()) return none;
     return fmt::format(
         "{}energy balance: off by {} of the work (stored + dissipated + released - work is {} in {}; the "
         "work is up to {})",
-        balance.relative() <= noticeable ? "" : "warning: ", percent_text(balance.relative()),
-        energy_text(balance.defect, scene), instant_text(balance.step, balance.time), energy_text(balance.work, scene));
+        balance.relative() <= noticeable ? "" : "warning: ", percent_text(balance.relative()), energy(balance.defect),
+        instant_text(balance.step, balance.time), energy(balance.work));
 }
 
 std::string energies_line(const Balance& balance, std::size_t jumps, const Scene& scene) {
+    const auto energy = in_one_unit(balance, scene);
     if (std::string none = without_work(balance, scene); !none.empty()) return none;
     const std::string in = jumps > 0 ? fmt::format(" in {} {}", jumps, jumps == 1 ? "jump" : "jumps") : "";
     return fmt::format(
         "{}energy balance: work {} = stored {} + dissipated {} + released{} {} + open {}; open is {} of the {} at most "
         "({} in {})",
-        balance.open() <= noticeable ? "" : "warning: ", energy_text(balance.last_work, scene),
-        energy_text(balance.stored, scene), energy_text(balance.dissipated, scene), in,
-        energy_text(balance.released, scene), energy_text(-balance.last_defect, scene), percent_text(balance.open()),
-        balance.dissipated > 0.0 ? "dissipated energy" : "work", energy_text(-balance.defect, scene),
+        balance.open() <= noticeable ? "" : "warning: ", energy(balance.last_work), energy(balance.stored),
+        energy(balance.dissipated), in, energy(balance.released), energy(-balance.last_defect),
+        percent_text(balance.open()), balance.dissipated > 0.0 ? "dissipated energy" : "work", energy(-balance.defect),
         instant_text(balance.step, balance.time));
 }
 

@@ -28,11 +28,11 @@ std::vector<BuckledStep> buckled_steps(const Rows& rows, const Scene& scene) {
     return out;
 }
 
-std::string buckling_line(const std::vector<BuckledStep>& steps, const Scene& scene) {
+std::string buckling_line(const std::vector<BuckledStep>& steps, const Scene& scene, double work) {
     if (steps.empty()) return "";
     const BuckledStep& first = steps.front();
     const std::string freed =
-        first.released > 0 ? " and snap through, which releases " + energy_text(first.released, scene) : "";
+        first.released > 0 ? " and snap through, which releases " + energy_text(first.released, scene, work) : "";
     const std::string more =
         steps.size() > 1
             ? fmt::format("; later again in {}", counted(static_cast<std::int64_t>(steps.size()) - 1, "step"))

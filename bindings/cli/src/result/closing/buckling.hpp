@@ -21,6 +21,6 @@ struct BuckledStep {
 
 std::vector<BuckledStep> buckled_steps(const Rows& rows, const Scene& scene);
 // One line for all of them; empty: there are none.
-std::string buckling_line(const std::vector<BuckledStep>& steps, const Scene& scene);
+std::string buckling_line(const std::vector<BuckledStep>& steps, const Scene& scene, double work);
 
 }  // namespace cli

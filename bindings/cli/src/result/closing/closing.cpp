@@ -30,16 +30,17 @@ Closing closing_of(const Model& model, delam_solver* solver, const Scene& scene,
 }
 
 std::vector<std::string> closing_lines(const Closing& closing, const Scene& scene) {
-    std::vector<std::string> out = jump_lines(closing.jumps, scene);
-    out.push_back(buckling_line(closing.buckled, scene));
+    const double work = closing.balance.work;  // whose unit all energies have
+    std::vector<std::string> out = jump_lines(closing.jumps, scene, work);
+    out.push_back(buckling_line(closing.buckled, scene, work));
     out.push_back(closing.follows_load ? energies_line(closing.balance, closing.jumps.size(), scene)
                                        : balance_line(closing.balance, scene));
     out.push_back(estimate_line(closing.estimate_violated, closing.estimate_tolerance));
     out.push_back(inconclusive_line(closing.estimate_inconclusive));
-    out.push_back(mixity_error_line(closing.mixity_error, scene));
+    out.push_back(mixity_error_line(closing.mixity_error, scene, work));
     // Along the load, growth and jumps are told apart: what falls without a jump falls steadily.
     if (!closing.follows_load) out.push_back(load_drops_line(closing.load_drops));
-    for (std::string& line : search_lines(closing.search, scene)) out.push_back(std::move(line));
+    for (std::string& line : search_lines(closing.search, scene, work)) out.push_back(std::move(line));
     for (std::string& line : free_body_lines(closing.free_bodies, scene)) out.push_back(std::move(line));
     out.push_back(unresolved_line(closing.front_unresolved));
     out.push_back(pops_line(closing.pops));

@@ -24,12 +24,12 @@ MixityError mixity_error_of(const Rows& rows) {
     return out;
 }
 
-std::string mixity_error_line(const MixityError& error, const Scene& scene) {
+std::string mixity_error_line(const MixityError& error, const Scene& scene, double work) {
     if (!(error.relative > told_error)) return "";
     return fmt::format(
         "warning: mode mixity: an error of up to {} of the energy that a step dissipates ({}, which "
         "dissipates {}); smaller steps reduce it",
-        percent_text(error.relative), instant_text(error.step, error.time), energy_text(error.dissipated, scene));
+        percent_text(error.relative), instant_text(error.step, error.time), energy_text(error.dissipated, scene, work));
 }
 
 }  // namespace cli

@@ -19,6 +19,6 @@ struct MixityError {
 
 MixityError mixity_error_of(const Rows& rows);
 // "" if the error is below 1 %.
-std::string mixity_error_line(const MixityError& error, const Scene& scene);
+std::string mixity_error_line(const MixityError& error, const Scene& scene, double work);
 
 }  // namespace cli

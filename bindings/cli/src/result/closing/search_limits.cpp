@@ -51,7 +51,7 @@ SearchLimits search_limits_of(const Rows& rows, double tolerance) {
     return out;
 }
 
-std::vector<std::string> search_lines(const SearchLimits& limits, const Scene& scene) {
+std::vector<std::string> search_lines(const SearchLimits& limits, const Scene& scene, double work) {
     std::vector<std::string> out;
     const auto in_steps = [](const std::vector<std::int64_t>& steps) {
         return counted(static_cast<std::int64_t>(steps.size()), "step");
@@ -65,19 +65,19 @@ std::vector<std::string> search_lines(const SearchLimits& limits, const Scene& s
         out.push_back(
             fmt::format("warning: search: in {} a state that it left out may have less energy than the one "
                         "kept, by up to {} ({}; search_tolerance allows {})",
-                        in_steps(limits.gap_steps), energy_text(limits.gap, scene),
-                        instant_text(limits.gap_step, limits.gap_time), energy_text(limits.gap_allowed, scene)));
+                        in_steps(limits.gap_steps), energy_text(limits.gap, scene, work),
+                        instant_text(limits.gap_step, limits.gap_time), energy_text(limits.gap_allowed, scene, work)));
     else if (limits.bound_share > least_share)
         out.push_back(fmt::format(
             "search: no position of a front, with the other fronts in their places, has less energy than the "
             "state kept by more than {} ({:.2g} % of the energy; {})",
-            energy_text(limits.bound, scene), 100.0 * limits.bound_share,
+            energy_text(limits.bound, scene, work), 100.0 * limits.bound_share,
             instant_text(limits.bound_step, limits.bound_time)));
     if (!limits.margin_steps.empty())
         out.push_back(
             fmt::format("warning: search: in {} a state of lower energy was seen and not kept, lower by up "
                         "to {} ({})",
-                        in_steps(limits.margin_steps), energy_text(-limits.margin, scene),
+                        in_steps(limits.margin_steps), energy_text(-limits.margin, scene, work),
                         instant_text(limits.margin_step, limits.margin_time)));
     return out;
 }

@@ -29,6 +29,6 @@ struct SearchLimits {
 
 // tolerance: option search_tolerance.
 SearchLimits search_limits_of(const Rows& rows, double tolerance);
-std::vector<std::string> search_lines(const SearchLimits& limits, const Scene& scene);
+std::vector<std::string> search_lines(const SearchLimits& limits, const Scene& scene, double work);
 
 }  // namespace cli

@@ -54,7 +54,7 @@ std::string reactions_text(const Jump& jump, const Scene& scene) {
     for (std::size_t p = 0; p < jump.loads.size(); ++p) {
         const double before = jump.reaction_before[p], after = jump.reaction_after[p];
         if (std::abs(after - before) > worth_telling * std::abs(before))
-            out += fmt::format(", {} {:.6g} to {:.6g}", reaction_title(scene, p), before, after);
+            out += fmt::format(", {} {} to {}", reaction_title(scene, p), short_number(before), short_number(after));
     }
     return out;
 }
@@ -123,7 +123,7 @@ std::vector<Jump> largest_jumps(const std::vector<Jump>& jumps) {
     return out;
 }
 
-std::vector<std::string> jump_lines(const std::vector<Jump>& jumps, const Scene& scene) {
+std::vector<std::string> jump_lines(const std::vector<Jump>& jumps, const Scene& scene, double work) {
     const auto sum = [](const std::vector<Jump>& of, double Jump::*member) {
         return std::accumulate(of.begin(), of.end(), 0.0, [&](double all, const Jump& j) { return all + j.*member; });
     };
@@ -134,13 +134,13 @@ std::vector<std::string> jump_lines(const std::vector<Jump>& jumps, const Scene&
                                                  : fmt::format("interface \"{}\" debonded by {}", jump.name,
                                                                extent_text(jump.debonded, scene));
         out.push_back(fmt::format("jump at time {:.6g}{}: {}, {} released{}", jump.time, loads_text(jump, scene), grown,
-                                  energy_text(jump.released, scene), reactions_text(jump, scene)));
+                                  energy_text(jump.released, scene, work), reactions_text(jump, scene)));
     }
     if (shown.size() < jumps.size())
         out.push_back(fmt::format("{} debonded by {} and released {} in all (jumps.csv)",
                                   counted(static_cast<std::int64_t>(jumps.size() - shown.size()), "smaller jump"),
                                   extent_text(sum(jumps, &Jump::debonded) - sum(shown, &Jump::debonded), scene),
-                                  energy_text(sum(jumps, &Jump::released) - sum(shown, &Jump::released), scene)));
+                                  energy_text(sum(jumps, &Jump::released) - sum(shown, &Jump::released), scene, work)));
     return out;
 }
 

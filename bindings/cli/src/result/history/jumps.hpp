@@ -36,6 +36,6 @@ std::string jumps_text(const std::vector<Jump>& jumps, const Scene& scene);
 // The jumps that get a line of their own: those that release most energy, at most ten, ordered by time.
 std::vector<Jump> largest_jumps(const std::vector<Jump>& jumps);
 // A line for each of these, and one for all others.
-std::vector<std::string> jump_lines(const std::vector<Jump>& jumps, const Scene& scene);
+std::vector<std::string> jump_lines(const std::vector<Jump>& jumps, const Scene& scene, double work);
 
 }  // namespace cli

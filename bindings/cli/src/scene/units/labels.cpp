@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/units/labels.hpp"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 namespace cli {
 
-std::string energy_text(double energy, const Scene& scene) {
+std::string energy_text(double energy, const Scene& scene, double largest) {
     return with_unit(energy, scene.geometry.dimension == 2 ? Quantity::line_energy : Quantity::energy,
-                     scene.units.names);
+                     scene.units.names, largest);
 }
 
 std::string extent_text(double extent, const Scene& scene) {
@@ -16,6 +18,12 @@ std::string extent_text(double extent, const Scene& scene) {
 
 std::string length_text(double length, const Scene& scene) {
     return with_unit(length, Quantity::length, scene.units.names);
+}
+
+std::string short_number(double number) {
+    constexpr double least = 1e3, most = 1e7;
+    const double size = std::abs(number);
+    return size >= least && size < most ? fmt::format("{:.0f}", number) : fmt::format("{:.4g}", number);
 }
 
 std::string percent_text(double fraction) {

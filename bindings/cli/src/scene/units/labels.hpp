@@ -9,10 +9,13 @@
 namespace cli {
 
 // "1.98 J/m", in 3D "1.98 J"; with a prefix where the number is tiny or huge, and alone where nothing is named.
-std::string energy_text(double energy, const Scene& scene);
+// Energies of one run have the prefix of the largest one, its work.
+std::string energy_text(double energy, const Scene& scene, double largest);
 // A part of an interface: "11.3 mm", in 3D "11.3 mm²".
 std::string extent_text(double extent, const Scene& scene);
 std::string length_text(double length, const Scene& scene);
+// Four digits without an exponent: "3.142", "10045".
+std::string short_number(double number);
 // "0.04 %" for 4e-4.
 std::string percent_text(double fraction);
 // "step 7, time 0.35".

@@ -110,7 +110,7 @@ def energies_figure(result):
                         label="lower .. upper bound")
     bottom.plot(t, increment - middle, color="black", label="stored + dissipated")
     bottom.axhline(0, color=ORANGE, linestyle="--", linewidth=1.2, label="work, (lower + upper)/2")
-    name_axis(bottom.yaxis, "cumulated, minus work", result.scales("energy"))
+    name_axis(bottom.yaxis, "cumulated − work", result.scales("energy"))
     bottom.set_xlabel(axis("time", result.time))
     bottom.legend(loc="upper left", bbox_to_anchor=(0, -0.2), ncols=3, fontsize=8)
     # The run has judged the estimate: the picture must not disagree with its closing line.

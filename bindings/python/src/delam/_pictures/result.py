@@ -64,6 +64,8 @@ def suiting(scales, largest):
     """(factor, name) of the unit in which numbers up to `largest` are shown: that of the scene (factor 1) where they
     are neither tiny nor huge, else one with another prefix. scales: a list of result.json, from the smallest unit to
     the largest, which the program makes of its table of units (bindings/cli/src/text/unit.hpp)."""
+    if len(scales) == 1:
+        return scales[0]
     own = next((scale for scale in scales if scale[0] == 1), (1.0, ""))
     usual = LEAST_SHOWN <= largest < MOST_SHOWN
     if not scales or usual or not np.isfinite(largest) or largest * scales[0][0] < LEAST_SHOWN:
@@ -179,8 +181,26 @@ class Result:
         self.flat = self.about["scene"]["dimension"] == 2
         scales = units.get("scales") or _plain_scales(units["length"], units["force"])
         self._scales = {key: [(float(one["factor"]), one["name"]) for one in list_] for key, list_ in scales.items()}
+        self._one_unit()
         self.time = units["time"]
         self.length, self.force, self.energy = (self.unit(key) for key in ("length", "force", "energy"))
+
+    def _one_unit(self):
+        """Chooses one unit for all pictures of a result, that which suits the largest, for energies, forces and energy
+        release rates, which are compared with each other. Lengths reach from displacements to specimens, and stresses
+        differ by step."""
+        patterns, line = self.about["patterns"], "line_" if self.flat else ""
+        suffixes = {p["name"]: f"_{p['name']}" if len(patterns) > 1 else "" for p in patterns}
+        within = [p["name"] for p in patterns if self.cell or p["drives"] in WITHIN]
+        outside = [p["name"] for p in patterns if p["name"] not in within and p["drives"] == "displacement"]
+        columns = {line + "energy": ["stored_bulk", "stored_interface", "dissipated", "work", "load_potential",
+                                     *("reaction" + suffixes[name] for name in within)],
+                   line + "force": ["reaction" + suffixes[name] for name in outside],
+                   "release_rate": ["energy_release_rate"]}
+        for key, names in columns.items():
+            there = [np.abs(self.history[name]) for name in names if name in self.history]
+            largest = max((np.nanmax(column, initial=0.0) for column in there), default=0.0)
+            self._scales[key] = [suiting(self._scales[key], largest)]
 
     def scales(self, quantity):
         """Returns the scales of "length", "area", "force", "energy", "release_rate" or "stress"; forces and energies of
@@ -190,9 +210,9 @@ class Result:
     def unit(self, quantity, largest=1.0):
         return suiting(self.scales(quantity), largest)[1]
 
-    def text(self, value, quantity, digits=4):
-        """"5.08 mm" for 0.00508 in a scene in m."""
-        factor, unit = suiting(self.scales(quantity), abs(value))
+    def text(self, value, quantity, digits=4, largest=0.0):
+        """"5.08 mm" for 0.00508 in a scene in m; in the unit of numbers up to `largest` if they stand together."""
+        factor, unit = suiting(self.scales(quantity), max(abs(value), largest))
         return f"{four_digits(value * factor, digits)} {unit}".rstrip()
 
     def jump_times(self):

@@ -32,7 +32,8 @@ def load_text(result, time):
     _, drives, load, reaction = result.patterns()[0]
     if drives == "force":
         return f"load {four_digits(result.history[load][row])}"
-    return (f"load {result.text(result.history[load][row], 'length')}, "
+    loads = result.history[load]
+    return (f"load {result.text(loads[row], 'length', largest=np.abs(loads).max())}, "
             f"reaction {result.text(result.history[reaction][row], 'force')}")
 
 
