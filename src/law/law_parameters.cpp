@@ -68,7 +68,7 @@ constexpr LawParameter common[] = {
            &Law::normal_stiffness),
     number("tangential_stiffness", "F/L3", "", "k_t: traction over slip before any damage", any, any,
            &Law::tangential_stiffness),
-    like(number("second_tangential_stiffness", "F/L3", "that of tangential_stiffness",
+    like(number("second_tangential_stiffness", "F/L3", "equal to tangential_stiffness",
                 "k_t along the second tangent of a pair in space; tangential_stiffness is then that along the first",
                 any, any, &Law::second_tangential_stiffness),
          &Law::tangential_stiffness),

@@ -61,7 +61,7 @@ OVERHANG = 5.0  # mm beyond a roller: half and twice of it change no load, since
 # notches of more than 0.82 of the half span. Half of it shows less of the curve; at 1 the process zone would lie below
 # the load.
 NEAR = 0.9
-PAST = 1.15  # of the displacement at the end of the growth: the march ends after it
+PAST = 1.15  # of the displacement at the end of the growth: the analysis ends after it
 
 
 option = proposals.option

@@ -20,7 +20,7 @@ require("numpy", "matplotlib")
 import numpy as np  # noqa: E402
 
 from command import complain, loading, say  # noqa: E402
-from marches import DONE, Trouble, given_words, hold, run_study  # noqa: E402
+from analyses import DONE, Trouble, given_words, hold, run_study  # noqa: E402
 from measured.columns import choose, found, label, named  # noqa: E402
 from measured.loops import Way  # noqa: E402
 from measured.table_file import read_table  # noqa: E402

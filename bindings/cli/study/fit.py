@@ -32,7 +32,7 @@ from fitting.identify import TOLD, held_ranges, noise_of, told  # noqa: E402
 from fitting.misfit import Misfit, Slopes  # noqa: E402
 from fitting.profiles import Profile, shifts_of_held  # noqa: E402
 from fitting.regression import refine  # noqa: E402
-from marches import DONE, NUMERICAL, Trouble, given_words, hold, make_folder, read_about, refuse_set, run_study, value_at  # noqa: E402
+from analyses import DONE, NUMERICAL, Trouble, given_words, hold, make_folder, read_about, refuse_set, run_study, value_at  # noqa: E402
 from measured.curve_data import CurveData, scale_of  # noqa: E402
 from measured.units import unit_of_key  # noqa: E402
 from own_files import claim, write_file  # noqa: E402
@@ -79,7 +79,7 @@ class Search:
         count = len(self.names)
         self.most = ANALYSES + OF_MANY * max(0, count - 2)
         self.for_held = 0  # analyses
-        self.marches_of_search = 0
+        self.analyses_of_search = 0
         self.noise = max(noise_of(data, np.max(np.abs(data.y))) for data in model.data)
 
     def left(self):
@@ -199,7 +199,7 @@ class Search:
             outcome.converged, outcome.message = False, "the data do not tell what is fitted where the search has ended"
         outcome, intervals, profile = self._intervals(slopes, outcome, kept)
         shifts = shifts_of_held(self.misfit, outcome, kept, held_ranges(self.misfit, outcome.point.at))
-        self.marches_of_search = self.model.marches
+        self.analyses_of_search = self.model.analyses
         others = moved_by_held(self.model, self.misfit, outcome, kept, self.part) if self.part > 0 else []
         return Solution(outcome, kept, reasons, intervals, profile, shifts, others)
 
@@ -287,7 +287,7 @@ def report(search, found, given):
     rms = float(np.sqrt(np.mean(residual ** 2)))
     jumps = [sorted(set(map(float, history[model.x_name][history["jumps"] > 0]))) for history in answer.histories]
     about = {"parameters": rows, "confidence": given.confidence, "correlation": correlations(search, found), "rms": rms,
-             "points": len(misfit.y), "marches": search.marches_of_search, "converged": found.outcome.converged,
+             "points": len(misfit.y), "analyses": search.analyses_of_search, "converged": found.outcome.converged,
              "message": found.outcome.message, "scenes": model.files, "data": [d.path for d in model.data],
              "read": [d.said for d in model.data], "units": list(model.units), "jumps": jumps, "unknown_pairs": model.unknown, "doubted": doubted,
              "held_larger_by": search.part, "held": held_rows(search, found)}
@@ -317,8 +317,8 @@ def held_rows(search, found):
 
 def analyses(search):
     """How many there were, those of the search apart from those with what is held."""
-    more = search.model.marches - search.marches_of_search
-    return f"{search.marches_of_search} analyses" + (f" and {more} of what is held" if more else "")
+    more = search.model.analyses - search.analyses_of_search
+    return f"{search.analyses_of_search} analyses" + (f" and {more} of what is held" if more else "")
 
 
 def right(names):
@@ -364,7 +364,7 @@ def warn(search, found, doubted, jumps):
     there = dict(zip(search.names, search.misfit.values(found.outcome.point.at)))
     if not found.outcome.converged:
         words = " ".join(f"{word_of(name)}@{there[name]:.6g}" for name in there)
-        say(f"warning: {search.marches_of_search} analyses have not found the least misfit ({found.outcome.message}): begin from there, "
+        say(f"warning: {search.analyses_of_search} analyses have not found the least misfit ({found.outcome.message}): begin from there, "
             f"--parameters {words}")
     if doubted:
         one = len(doubted) == 1
@@ -391,7 +391,7 @@ def claim_folder(out, curves):
     if os.path.lexists(before):
         with contextlib.suppress(Unreadable):
             about = read_json(before, MOST_RESULT)
-            known = isinstance(about, dict) and {"parameters", "rms", "marches"} <= set(about)
+            known = isinstance(about, dict) and {"parameters", "rms"} <= set(about) and bool({"analyses", "marches"} & set(about))
     claim(out, names, known)
 
 

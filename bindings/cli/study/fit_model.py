@@ -11,7 +11,7 @@ import numpy as np
 
 from _pictures.input_file import MOST_SCENE, quoted, read_text
 from command import complain
-from marches import (DONE, INTERRUPTED, NOT_CONVERGED, NUMERICAL, WRONG, Check, Trouble, finish, last_words, number_in,
+from analyses import (DONE, INTERRUPTED, NOT_CONVERGED, NUMERICAL, WRONG, Check, Trouble, finish, last_words, number_in,
                      path_of, read_history, setting, start, value_at)
 from measured.units import kind_of
 
@@ -168,7 +168,7 @@ class Model:
         self.files, self.scenes, self.data, self.parameters = files, scenes, data, parameters
         self.common, self.work, self.jobs = given.set, os.path.join(given.out, "work"), given.jobs
         self.x_name, self.y_name = given.x, given.y
-        self.marches = 0
+        self.analyses = 0
         self.fine = False
         self.jumps = [np.zeros(0)] * len(files)
         self.unknown = [0.0] * len(files)  # pairs that the derivatives leave out
@@ -309,14 +309,14 @@ class Model:
 
     # ---- analyses
 
-    def _march(self, which, name, settings):
+    def _analyse(self, which, name, settings):
         out = os.path.join(self.work, f"{which + 1}-{name}")
         code = finish(start(self.files[which], out, settings))
-        self.marches += 1
+        self.analyses += 1
         if code == INTERRUPTED:
             raise KeyboardInterrupt
         if code < 0:
-            raise Trouble(f"{self.files[which]}: the march was ended by signal {-code}", NUMERICAL)
+            raise Trouble(f"{self.files[which]}: the analysis was ended by signal {-code}", NUMERICAL)
         if code not in (DONE, NOT_CONVERGED, WRONG, NUMERICAL):
             raise Trouble(f"{self.files[which]}: {last_words(out)}", code)
         if code not in (DONE, NOT_CONVERGED):
@@ -343,7 +343,7 @@ class Model:
         """The curve of one scene at the parameters and with other numbers of the scene, by key; Infeasible where there is
         no answer. It has no derivatives, and is none of the points of the search."""
         settings = self._settings(values) + [setting(key, float(value)) for key, value in more.items()] + self._coarser(which)
-        history = self._march(which, name, settings)
+        history = self._analyse(which, name, settings)
         return self._at_data(which, history, self._column(history, self.y_name, which))
 
     def _curve(self, job):
@@ -352,7 +352,7 @@ class Model:
         settings = self._settings(values) + self._coarser(which)
         followed = [p.path for p in self.parameters if p.of_law]
         asked = [f"output.sensitivities={followed}"] if followed and self.y_name.startswith("reaction") else []
-        history = self._march(which, "at", settings + asked)
+        history = self._analyse(which, "at", settings + asked)
         y = self._at_data(which, history, self._column(history, self.y_name, which))
         self.jumps[which] = self._column(history, self.x_name, which)[history["jumps"] > 0]
         self.unknown[which] = float(history["sensitivities_unknown"][-1]) if asked else 0.0

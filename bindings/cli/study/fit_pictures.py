@@ -3,7 +3,7 @@
 import os
 import textwrap
 
-from look import BLUE, GREY, RED, axis, plt, save, units_of
+from picture_style import BLUE, GREY, RED, axis, plt, save, units_of
 
 TITLE = 88  # letters in a line of the title: what the width of the picture holds
 

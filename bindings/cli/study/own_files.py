@@ -3,7 +3,7 @@
 import os
 import subprocess
 
-from marches import OUTPUT, Trouble, program
+from analyses import OUTPUT, Trouble, program
 
 NEW = os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW | os.O_CLOEXEC
 

@@ -27,7 +27,7 @@ import numpy as np  # noqa: E402
 
 from _pictures.input_file import MOST_MESH, MOST_SCENE, MOST_SWEEP, Unreadable, read_bytes, read_json  # noqa: E402
 from command import complain, loading, on_interrupt, say  # noqa: E402
-from marches import (DONE, INTERRUPTED, NOT_CONVERGED, WRONG, Check, Trouble, end_all, finish,  # noqa: E402
+from analyses import (DONE, INTERRUPTED, NOT_CONVERGED, WRONG, Check, Trouble, end_all, finish,  # noqa: E402
                      given_words, hold, last_words, read_about, read_history, refuse_foreign_log,  # noqa: E402
                      refuse_set, run_study, setting, start)
 from own_files import claim, discard, write_file  # noqa: E402

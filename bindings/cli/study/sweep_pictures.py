@@ -4,7 +4,7 @@ import os
 
 import numpy as np
 
-from look import colours_of, name_axis, plt, save, scales_of
+from picture_style import colours_of, name_axis, plt, save, scales_of
 
 
 def numbers(sweep, which):

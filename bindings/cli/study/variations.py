@@ -6,7 +6,7 @@ import tomllib
 
 from _pictures.input_file import quoted
 from command import loading
-from marches import Trouble, number_in, path_of
+from analyses import Trouble, number_in, path_of
 from packages import require
 
 

@@ -27,7 +27,7 @@ class Run:
 
 
 def coarse_run(scene, settings):
-    """None, and a failure noted, where the march does not come to its end with every step converged."""
+    """None, and a failure noted, where the analysis does not come to its end with every step converged."""
     out = os.path.join(folder(), "result")
     words = [word for setting in settings for word in ("--set", setting)]
     code, _, error = delam("run", scene, "--out", out, *words)

@@ -36,7 +36,7 @@ jumping = changed("steps = 20", "steps = 20\n[solver]\njump_tolerance = 1e-3\n[o
 scene, out = write(jumping), folder()
 code, text, error = delam("run", scene, "--out", out)
 about, jumps, rows = about_of(out), table(out, "jumps.csv"), table(out, "history.csv")
-expect(code == 0 and len(jumps) > 0, f"a march with {len(jumps)} jumps {error}")
+expect(code == 0 and len(jumps) > 0, f"an analysis with {len(jumps)} jumps {error}")
 expect(read(os.path.join(out, "jumps.csv")).decode().splitlines()[0] == COLUMNS + LOADS + ",name", "columns of jumps.csv")
 expect(all(abs(float(j["load"]) - 0.003 * float(j["time"])) < 1e-16 for j in jumps), "load: the factor at the instant")
 expect(all(j["name"] == "lower-upper" for j in jumps), "name of the interface")
@@ -83,7 +83,7 @@ bad = folder()
 code, text, _ = delam("run", stopped, "--out", bad, "--set", "solver.step_control=fixed")
 expect(code == 1 and sum(line.startswith("two-sided estimate violated in steps: ") for line in closing(text)) == 1 and
        about_of(bad)["jumps"]["released"] > 0 and about_of(bad)["energy_balance"]["relative"] < 0.01,
-       f"a march of steps that stop early says so {closing(text)}")
+       f"an analysis of steps that stop early says so {closing(text)}")
 
 # A mixed mode in coarse steps: frozen, the library warns once, and the closing line has the worst step.
 mixed = changed('fix = ["y"]', 'layer = "upper"\nfix = ["y"]', changed("[0.0, 0.0]", "[0.0, 0.003]"))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a march ends with, found in made-up rows of history.csv and jumps, and the lines that tell it.
+// What an analysis ends with, found in made-up rows of history.csv and jumps, and the lines that tell it.
 #include <cmath>
 #include <cstdint>
 #include <cstdio>

@@ -84,7 +84,7 @@ def fits():
     for row in found["parameters"]:
         truth = TRUTH[row["key"]]
         expect(abs(row["value"] - truth) < 1e-5 * truth, f"{row['key']} is found: {row}")
-    expect(found["marches"] <= 12, f"few analyses, for they have derivatives: {found['marches']}")
+    expect(found["analyses"] <= 12, f"few analyses, for they have derivatives: {found['analyses']}")
     expect("95 % interval" in shown and os.path.getsize(os.path.join(fit, "fit.png")) > 5000, "words and a picture")
     residuals = [float(row["residual"]) for row in table(os.path.join(fit, "fit.csv"))]
     expect(len(residuals) == 20 and max(map(abs, residuals)) < 1e-2 * max(float(r["reaction"]) for r in rows),
@@ -130,11 +130,11 @@ class Made:
         noise = 0.05 * np.random.default_rng(3).standard_normal(40)
         x = np.arange(40.0)
         self.data = [SimpleNamespace(x=x, at=x, y=4 + np.log(1.6) * self.slopes + noise, turns=None)]
-        self.marches, self.x_name, self.y_name, self.units = 0, "x", "reaction", ("", "")
+        self.analyses, self.x_name, self.y_name, self.units = 0, "x", "reaction", ("", "")
 
     def evaluate(self, values):
         p = float(np.log(values[0]))
-        self.marches += 1
+        self.analyses += 1
         moved = p + self.ripple * (np.sin(40 * p) - np.sin(40 * np.log(1.6)))
         slope = (1 + 40 * self.ripple * np.cos(40 * p)) / values[0]
         return Answer([4 + moved * self.slopes], [slope * self.slopes], [0.0], [None])
@@ -155,7 +155,7 @@ class Toothed(Made):
                            for name, most in (("p", 5.0), ("q", 2.0))[:count]]
 
     def evaluate(self, values):
-        self.marches += 1
+        self.analyses += 1
         moved = np.log(values[0]) + (0.5 * np.log(values[1]) if len(values) > 1 else 0.0)
         slopes = [self.part * part * self.slopes / value for part, value in zip((1.0, 0.5), values)]
         return Answer([4 + moved * self.slopes], slopes, self.rough, [None])
@@ -168,7 +168,7 @@ def teeth():
         model = Toothed(1, 0.1, part)
         found = quietly(study.Search(model, "curve", 0.95).run)
         expect(found.outcome.converged and found.intervals[0].trusted and abs(np.exp(found.outcome.point.at[0]) - 1.6) < 0.05
-               and model.marches <= 8, f"one parameter is found in {model.marches} analyses: {found.outcome.message}")
+               and model.analyses <= 8, f"one parameter is found in {model.analyses} analyses: {found.outcome.message}")
     search = study.Search(Toothed(2, 0.9), "curve", 0.95)
     found = quietly(search.run)
     first, second = study.rows_of(search, found)
@@ -194,7 +194,7 @@ class Late(Made):
         return (1 + 0.01 * p) * x - 1.5 * np.maximum(0.0, x - p)
 
     def evaluate(self, values):
-        self.marches += 1
+        self.analyses += 1
         x, p = self.data[0].x, float(values[0])
         return Answer([self.curve(x, p)], [0.01 * x + 1.5 * (x > p)], [0.0], [None])
 
@@ -205,8 +205,8 @@ def late():
         model = Late(start_at)
         found = quietly(study.Search(model, "curve", 0.95).run)
         value, interval = start_at * float(np.exp(found.outcome.point.at[0])), found.intervals[0]
-        expect(abs(value - 0.8) < 0.01 and value * np.exp(-interval.below) < 0.8 < value * np.exp(interval.above) and model.marches <= 12,
-               f"from {start_at}: {value}, {interval}, {model.marches} analyses")
+        expect(abs(value - 0.8) < 0.01 and value * np.exp(-interval.below) < 0.8 < value * np.exp(interval.above) and model.analyses <= 12,
+               f"from {start_at}: {value}, {interval}, {model.analyses} analyses")
 
 
 def quietly(work):
@@ -229,7 +229,7 @@ def rugged():
         expect(sure != doubted and (doubted or abs(value - 1.6) < 0.05),
                f"ripples of {ripple}: p = {value}, {found.intervals}")
         # The most of one parameter, and fewer where the curve is as its derivatives say.
-        expect(model.marches <= (12 if doubted else 8), f"{model.marches} analyses for one parameter")
+        expect(model.analyses <= (12 if doubted else 8), f"{model.analyses} analyses for one parameter")
 
 
 def alike():
@@ -347,7 +347,7 @@ def untold():
         expect(toughness["interval"][0] < 0.31 < toughness["interval"][1] and abs(toughness["value"] - 0.31) < 0.02,
                f"the toughness is in its interval: {toughness}")
         expect(not strength["told"] and strength["value"] == 30.0 and strength["interval"] == [None, None], f"the strength: {strength}")
-        expect(fitted["marches"] <= 12 and fitted["converged"], f"analyses: {fitted['marches']}")
+        expect(fitted["analyses"] <= 12 and fitted["converged"], f"analyses: {fitted['analyses']}")
     code, _, error = start("fit", scene, "--data", raw, "--out", os.path.join(here, "wide"), "--parameters", "laws.0.normal_toughness")
     expect(code == 2 and re.search(r"begin to rise 2[0-9.]+ times .* which is in N per mm of width: is the width .* right \(for example --width 25mm\), are the loads in kN", error),
            f"without its width: {error}")
@@ -410,7 +410,7 @@ def told_of_beams(trials=100):
         low, high = found[0]["interval"]
         covered += low < toughness < high
         said += not found[1]["told"]
-        most = max(most, search.model.marches)
+        most = max(most, search.model.analyses)
     return covered, said, most
 
 
@@ -532,7 +532,7 @@ def vary(names):
         holds = [low < truth[row["key"]] < high for name, _, truth in fits_of for row in now[name][1]
                  if row["key"] in truth and row["told"] and None not in (row["interval"]) for low, high in [row["interval"]]]
         worst = max(moved, key=moved.get)
-        counts = [found[0].model.marches for found in now.values()]
+        counts = [found[0].model.analyses for found in now.values()]
         return (f"moves {moved[worst]:.2f} standard errors at most ({worst}), {told_now} parameters told, {sum(holds)} of "
                 f"{len(holds)} intervals hold the truth, {sum(counts)} analyses, {max(counts)} at most")
 
@@ -557,7 +557,7 @@ def outcomes():
         for row in rows:
             ends = " to ".join("none" if end is None else f"{end:.6g}" for end in row["interval"])
             print(f"{name}, {row['key']}: " + (f"{row['value']:.6g}, {ends}" if row["told"] else "not told"))
-        print(f"cost {name}, analyses: {search.model.marches}", flush=True)
+        print(f"cost {name}, analyses: {search.model.analyses}", flush=True)
 
 
 if sys.argv[1:] == ["whole"]:

@@ -54,7 +54,7 @@ def held():
                               for line in read(os.path.join(out, "history.csv")).strip().split(b"\n")))
     about, shown = fitted(scene, data, "--set", "solver.damage_tolerance=1e-9")
     changes = {row["key"]: row["changes"][TOUGH] for row in about["held"]}
-    expect(about["held_larger_by"] == 0.1 and about["marches"] <= 12, f"analyses of the search: {about['marches']}")
+    expect(about["held_larger_by"] == 0.1 and about["analyses"] <= 12, f"analyses of the search: {about['analyses']}")
     expect(set(changes) >= {"laws[0].normal_strength", "laws[0].tangential_toughness", "materials[0].young", "materials[0].poisson"}
            and TOUGH not in changes, f"all numbers of the law and the elastic constants: {changes}")
     expect(max(changes, key=lambda key: abs(changes[key])) == "materials[0].young" and abs(changes["materials[0].young"]) > 0.01,

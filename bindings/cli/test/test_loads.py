@@ -51,7 +51,7 @@ end = 1.0
 steps = 11
 '''
 rows, error, about = run(dead, 1)
-expect("limit" in error.lower(), f"the march says so: {error.strip().splitlines()[-1:]}")
+expect("limit" in error.lower(), f"the analysis says so: {error.strip().splitlines()[-1:]}")
 expect(about.get("status") == "incomplete" and len(rows) == 10, f"the {len(rows) - 1} steps up to 5e6 N/m2 are kept")
 
 # The end of a stack, pulled as one: a patch over two layers that are bonded is that of one layer as thick, in the plane and in space, and so is a force on it.

@@ -162,7 +162,7 @@ expect(json.loads(read(os.path.join(stiff, "result.json")))["not_converged"], "t
 # As root every folder is writable, but nothing can be below a file.
 expect_error(delam("run", scene, "--out", scene + "/out"), 3, "cannot write .*scene.toml/out")
 
-# A full disk, small enough to fail in the march and then while the result is put together; the earlier result stays.
+# A full disk, small enough to fail in the analysis and then while the result is put together; the earlier result stays.
 before = {name: read(os.path.join(out, name)) for name in os.listdir(out)}
 largest = max(len(b) for b in before.values())
 for limit in (1000, 20000, largest - 1000):

@@ -22,7 +22,7 @@ def table(out):
 
 whole = folder()
 code, shown, error = delam("run", scene, "--out", whole, *on)
-expect(code == 0, f"a march that returns {error}")
+expect(code == 0, f"an analysis that returns {error}")
 rows = table(whole)
 returning = [int(row["step"]) for row in rows if row["backtracks"] > 0]
 replaced = [int(row["step"]) for row in rows if row["revisions"] > 0]

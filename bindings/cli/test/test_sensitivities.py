@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""[output] sensitivities: the derivatives of the reactions by numbers of the laws are those of whole marches whose laws
+"""[output] sensitivities: the derivatives of the reactions by numbers of the laws are those of whole analyses whose laws
 are a little different."""
 import csv
 import os
@@ -49,10 +49,10 @@ SPACE = SPACE.replace("divisions = 2\nmaterial", "divisions = 1\nmaterial").repl
     "component = [\"x\"]")
 
 
-def march(text, settings=()):
+def analysis(text, settings=()):
     out = os.path.join(folder(), "out")
     code, _, error = delam("run", write(text), "--out", out, *sum((["--set", s] for s in settings), []))
-    expect(code == 0, f"the march converges: {error}")
+    expect(code == 0, f"the analysis converges: {error}")
     with open(os.path.join(out, "history.csv"), encoding="utf-8", newline="") as file:
         return list(csv.DictReader(file))
 
@@ -63,12 +63,12 @@ def number(text, key):
 
 
 def compare(what, text, keys, settings=(), step=1e-5, jumps=False):
-    """Each derivative against central differences; relative to the largest of the march. jumps: it has some, and
-    what follows them does not depend on them here. Where the rounding of a march, at whose end the damage comes to rest a
+    """Each derivative against central differences; relative to the largest of the analysis. jumps: it has some, and
+    what follows them does not depend on them here. Where the rounding of an analysis, at whose end the damage comes to rest a
     little earlier or later, hides the derivative, differences of three times the length decide."""
     allowed = 1e-6
     paths = [f"laws[0].{key}" for key in keys]
-    history = march(text, [*settings, "output.sensitivities=" + str(paths)])
+    history = analysis(text, [*settings, "output.sensitivities=" + str(paths)])
     expect(any(float(row["jumps"]) for row in history) == jumps, f"{what}: jumps: {jumps}")
     expect(all(float(row["sensitivities_unknown"]) == 0 for row in history), f"{what}: all adhesions are known")
     expect(any(0 < float(row["dissipated"]) for row in history), f"{what}: something is damaged")
@@ -76,7 +76,7 @@ def compare(what, text, keys, settings=(), step=1e-5, jumps=False):
         value = number(text, key)
         exact = [float(row["reaction/" + path]) for row in history]
         for length in (step, 3 * step):
-            ends = [march(text, [*settings, f"{path}={value * (1 + sign * length)!r}"]) for sign in (1, -1)]
+            ends = [analysis(text, [*settings, f"{path}={value * (1 + sign * length)!r}"]) for sign in (1, -1)]
             differences = [(float(a["reaction"]) - float(b["reaction"])) / (2 * length * value) for a, b in zip(*ends)]
             largest = max(map(abs, differences))
             worst = max(abs(a - b) for a, b in zip(exact, differences)) / largest
@@ -91,7 +91,7 @@ compare("mixed mode, unloaded", MIXED.replace("end = 1.0\nsteps = 12", "end = 1.
 compare("the mixity of the step before", MIXED, TOUGH, ["solver.mixity_rule=frozen"], jumps=True)
 compare("exponential", MIXED.replace('name = "glue"', 'name = "glue"\nkind = "exponential"'), TOUGH[:2])
 compare("trapezoidal", MIXED.replace('name = "glue"', 'name = "glue"\nkind = "trapezoidal"\nplateau = 0.3'),
-        [*TOUGH[:2], "plateau"], step=1e-4)  # smaller differences show the rounding of the march
+        [*TOUGH[:2], "plateau"], step=1e-4)  # smaller differences show the rounding of the analysis
 compare("by strengths", MIXED.replace("normal_onset = 20.0", "normal_strength = 2e7").replace(
     "tangential_onset = 40.0", "tangential_strength = 2.5e7"), ["normal_strength", "tangential_strength"])
 compare("FETI", MIXED, TOUGH[:1], ["solver.reduction=feti", "solver.linear_tolerance=1e-14"])

@@ -195,7 +195,7 @@ def wrong_words():
     with_data(good, r"laws\[0\].toughness: unknown key .*'normal_toughness'", "laws.0.toughness@200")
     with_data(good, "laws has 1 entry, counted from 0", "laws.3.normal_toughness")
     refused("2 curves for 1 scene:", "fit", scene, "--data", data, data, "--parameters", "laws.0.normal_toughness")
-    # Names of columns are known when a march has ended.
+    # Names of columns are known when an analysis has ended.
     expect_error(start("fit", scene, "--data", data, "--parameters", "laws.0.normal_toughness", "--y", "reactoin", "--out", out), 2,
                  "no column \"reactoin\"")
 

@@ -201,7 +201,7 @@ def texts():
 
 
 def interrupts():
-    """At any time: while the interpreter starts, while modules load, while marches run."""
+    """At any time: while the interpreter starts, while modules load, while analyses run."""
     scene = write(changed("h = 0.0015", "h = 0.0005", changed("steps = 20", "steps = 2000")))
     curve = file_of(GOOD)  # times the scale, it rises like the scene
     seen, wrong = set(), []

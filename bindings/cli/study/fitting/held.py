@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fit_model import Infeasible, numbers_of_laws
-from marches import path_of, value_at
+from analyses import path_of, value_at
 
 ELASTIC = r"young|poisson|E[123]|G\d\d|nu\d\d"
 # Changes of a parameter below this part of it are listed together: three digits are what people know of a toughness. Half

@@ -3,7 +3,7 @@
 import numpy as np
 
 from _pictures.input_file import quoted
-from marches import LEAST, MOST
+from analyses import LEAST, MOST
 from command import Trouble
 from measured.columns import choose, label
 from measured.loops import Way

@@ -4,7 +4,7 @@ import os
 
 import numpy as np
 
-from look import BLUE, GREY, ORANGE, RED, plt, save
+from picture_style import BLUE, GREY, ORANGE, RED, plt, save
 
 # Below this number of places a method has points, not a curve; marks are drawn as they are.
 CURVE = 40

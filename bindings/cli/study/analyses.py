@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the studies share: marches of `delam run` with settings of their own, and how parameters are written."""
+"""What the studies share: analyses of `delam run` with settings of their own, and how parameters are written."""
 import fcntl
 import json
 import os
@@ -77,19 +77,19 @@ def value_at(scene, path):
     return number_in(repr(at), path)
 
 
-running = []  # marches that a signal must end
+running = []  # analyses that a signal must end
 lock = threading.Lock()
 
 
 def end_all():
-    """Every march keeps its finished steps."""
+    """Every analysis keeps its finished steps."""
     with lock:
         for child in running:
             child.send_signal(signal.SIGTERM)
 
 
 def finish(child):
-    """The exit code of a march."""
+    """The exit code of an analysis."""
     code = child.wait()
     with lock:
         running.remove(child)
@@ -128,7 +128,7 @@ LOG_BEGINS = "delam "  # also of those that older versions have written
 
 
 def refuse_foreign_log(path):
-    """Refuses what is no log of a march, where one is written or removed."""
+    """Refuses what is no log of an analysis, where one is written or removed."""
     if not os.path.lexists(path):
         return
     if os.path.islink(path) or not os.path.isfile(path):
@@ -177,7 +177,7 @@ class Check:
 
 
 def last_words(out):
-    """The last message of a march."""
+    """The last message of an analysis."""
     lines = read_end(out + ".log", LAST_WORDS).decode("utf-8", "surrogateescape").split("\n")
     lines = [line for line in lines if line.startswith("delam: ")]
     return lines[-1] if lines else "no message"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How the pictures of studies look: as those of results (_pictures)."""
+"""The style of pictures of studies, which is that of results (_pictures)."""
 import numpy as np
 
 import command  # noqa: F401, finds _pictures
