@@ -56,7 +56,7 @@ public:
     std::optional<std::vector<std::int64_t>> pairs_under(const Involution& involution) const;
 
 private:
-    bool pairs_have_places(const Involution& involution) const;
+    bool may_exchange_pairs(const Involution& involution) const;
     std::optional<std::vector<std::int64_t>> pairs(const Involution& involution, const NodeImages& to) const;
     bool materials(const Involution& involution, const NodeImages& to) const;
     bool constraints(const Involution& involution, const NodeImages& to) const;
@@ -107,19 +107,23 @@ SymmetryCheck::SymmetryCheck(const Problem& problem)
     places_ = PlaceIndex(place_);
 }
 
-// Rejects most candidates without a pass over the cells.
-bool SymmetryCheck::pairs_have_places(const Involution& involution) const {
+// False if a pair has no place to go to, or if each stays where it is: most candidates need no pass over the cells.
+bool SymmetryCheck::may_exchange_pairs(const Involution& involution) const {
+    bool moves = false;
     for (std::size_t p = 0; p < pair_.size(); ++p) {
-        const std::vector<std::int64_t> there = places_.at(involution.moved(place_[p]), tolerance_);
         const double adhesion = problem_.interfaces[pair_[p].interface].adhesion[pair_[p].local];
-        if (std::none_of(there.begin(), there.end(), [&](std::int64_t q) {
-                const Pair& other = pair_[index(q)];
-                return other.kind == pair_[p].kind &&
-                       equal(problem_.interfaces[other.interface].adhesion[other.local], adhesion, 1.0);
-            }))
-            return false;
+        bool stays = false, goes = false;
+        for (const std::int64_t q : places_.at(involution.moved(place_[p]), tolerance_)) {
+            const Pair& other = pair_[index(q)];
+            if (other.kind != pair_[p].kind ||
+                !equal(problem_.interfaces[other.interface].adhesion[other.local], adhesion, 1.0))
+                continue;
+            (index(q) == p ? stays : goes) = true;
+        }
+        if (!stays && !goes) return false;
+        moves = moves || goes;
     }
-    return true;
+    return moves;
 }
 
 // Compares pair q with the image of pair p, which has these faces.
@@ -256,7 +260,7 @@ bool SymmetryCheck::eigenstrains(const Involution& involution, const NodeImages&
 }
 
 std::optional<std::vector<std::int64_t>> SymmetryCheck::pairs_under(const Involution& involution) const {
-    if (!pairs_have_places(involution)) return std::nullopt;
+    if (!may_exchange_pairs(involution)) return std::nullopt;
     std::optional<NodeImages> to = images(mesh_, involution, tolerance_);
     if (!to) return std::nullopt;
     // A control node is nowhere: its translation turns.
