@@ -12,6 +12,7 @@ import delam
 
 if importlib.util.find_spec("matplotlib"):
     import matplotlib
+    import matplotlib.figure
     matplotlib.use("Agg")
 
 
@@ -103,6 +104,18 @@ class Units(unittest.TestCase):
             self.assertEqual(of.text(0.002, "release_rate"), "2 mrelease_rate")
             self.assertEqual([of.unit("length", value) for value in (0.01, 1.0)], ["mlength", "length"])
             self.assertEqual(of.text(0.01, "length", largest=1.0), "0.01 length")
+
+    def test_axes_have_a_prefix_and_no_power_of_ten(self):
+        from delam._pictures.result import name_axis
+        for largest, unit, shown in ((8e6, "kN", "8000"), (8e-3, "mN", "8")):
+            ax = matplotlib.figure.Figure().add_subplot()
+            ax.plot([0.0, 1.0], [0.0, largest])
+            ax.set_yticks([0.0, largest])
+            name_axis(ax.yaxis, "reaction", [(1e3, "mN"), (1.0, "N"), (1e-3, "kN")])
+            ax.figure.draw_without_rendering()
+            self.assertEqual(ax.get_ylabel(), f"reaction [{unit}]")
+            self.assertEqual([text.get_text() for text in ax.get_yticklabels()], ["0", shown])
+            self.assertEqual(ax.yaxis.get_offset_text().get_text(), "")
 
 
 if __name__ == "__main__":

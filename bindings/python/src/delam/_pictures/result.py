@@ -86,7 +86,8 @@ class _Scaled(matplotlib.ticker.ScalarFormatter):
     """Numbers times a factor, which is a power of ten: ticks stay round."""
 
     def __init__(self, factor):
-        super().__init__()
+        super().__init__(useOffset=False)
+        self.set_scientific(False)  # else its power of ten stands beside the prefix of the unit
         self._factor = factor
 
     def __call__(self, x, pos=None):
