@@ -21,7 +21,7 @@ using reference::Solver;
 constexpr double pi = 3.141592653589793;
 using Place = std::array<double, 3>;
 
-// Where a scene lies and in which unit: a quarter of a turn takes one state of a symmetric pair to the other.
+// Tells where a scene lies and in which unit: a quarter of a turn takes one state of a symmetric pair to the other.
 struct View {
     double angle = 0.0, unit = 1.0;  // unit: of length; that of force stays
     Place at(const Place& x) const {
@@ -172,7 +172,7 @@ double opening(const Solver& solver) {
 
 }  // namespace
 
-// Without an imperfection.
+// The strut has no imperfection.
 TEST(strut_buckles_like_an_elastica) {
     const Strut strut;
     const double last = 4.0 * strut.critical();

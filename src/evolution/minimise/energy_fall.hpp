@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the energy of bodies that buckle falls to along a mode, at fixed loads and adhesion.
+// Tells where the energy of bodies that buckle falls to along a mode, at fixed loads and adhesion.
 //
 // The mode has two directions. Faces decide first: the bodies go where faces that touch open. Else the energy does,
 // where it falls further. Where it falls alike (a symmetric scene, which has two states of equal energy), the sign of

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the bodies of an analysis have buckled, from the rows of history.csv.
+// Tells where the bodies of an analysis have buckled, from the rows of history.csv.
 #pragma once
 
 #include <cstdint>
