@@ -89,8 +89,8 @@ std::string turned(const Layer& layer) {
     std::vector<std::string> angles;
     for (const auto& axes : plies) {
         if (std::abs(axes[2]) > 1e-9) return "";
-        const double degrees = std::atan2(axes[1], axes[0]) * 180 / std::acos(-1.0);
-        angles.push_back(fmt::format("{:g}", std::round(10 * degrees) / 10 + 0.0));
+        const double angle = std::atan2(axes[1], axes[0]) * 180 / std::acos(-1.0);
+        angles.push_back(fmt::format("{:g}", std::round(10 * angle) / 10 + 0.0));
     }
     return fmt::format(", {}°", fmt::join(angles, "/"));
 }
